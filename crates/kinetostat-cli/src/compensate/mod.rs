@@ -11,6 +11,7 @@ mod correction_table;
 
 use std::path::{Path, PathBuf};
 
+use kinetostat_formats::Language;
 use kinetostat_model::Model;
 
 use crate::compensate::arguments::CompensateArgs;
@@ -211,14 +212,26 @@ fn in_other_language(
     for_run(job, flags, (setting, template, word), source)
 }
 
-/// G-code and APT say where the tool goes, not how it is turned.
+/// G-code and APT say where the tool goes, not how it is turned; programs of robots say both, and keep how it is turned.
 fn refuse_turn_without_words(setting: &Setting) -> Answer<()> {
     match setting.free_turn {
         FreeTurnWord::AsStated => Ok(()),
+        _ if states_turn(setting) => Err(setting.within(Failure::input(
+            "the program states how the tool is turned about its own axis, and a corrected one keeps that: write it as a new program, with --to krl, rapid or ls (to = \"krl\" under [robot]); `kinetostat deflect --free-turn` shows what the turn is worth",
+        ))),
         FreeTurnWord::Choose | FreeTurnWord::Stiff => Err(setting.within(Failure::input(
             "this language has no words for the turn of a tool about its own axis, so that what is chosen could not be written: write the program for the robot, with --to krl, rapid or ls (to = \"krl\" under [robot]); `kinetostat deflect --free-turn` shows what the turn is worth",
         ))),
     }
+}
+
+/// Whether the language of the program states how the tool is turned about its own axis.
+fn states_turn(setting: &Setting) -> bool {
+    let language = setting.robot.as_ref().map(|robot| robot.language);
+    matches!(
+        language,
+        Some(Language::Krl | Language::Rapid | Language::FanucLs | Language::Poses)
+    )
 }
 
 fn writing(args: &CompensateArgs) -> WritingFlags<'_> {

@@ -396,3 +396,16 @@ fn programs_of_controls_with_loops_are_run_once_and_compensated_flat() {
         );
     }
 }
+
+/// The reason is that of the language: RAPID states the turn of the tool, and a corrected program keeps it.
+#[test]
+fn a_program_that_states_the_turn_of_its_tool_keeps_it() {
+    let here = place(SLOT);
+    let said = run(here.path(), &words(&format!("{RUN} --free-turn")));
+    let text = said.err.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(
+        text.contains("the program states how the tool is turned about its own axis"),
+        "{said:?}"
+    );
+    assert!(!text.contains("no words"), "{said:?}");
+}

@@ -5,13 +5,18 @@ use std::ops::Range;
 use nalgebra::{Isometry3, Translation3};
 
 use crate::krl::aggregate::{Position, literal_index, position_of};
-use crate::krl::assigned_frames::{Assignment, Given};
+use crate::krl::assigned_frames::{Assignment, Given, Standing, of_element};
 use crate::krl::lex::TokenFile;
 use crate::krl::role::Role;
 use crate::krl::symbols::Meaning;
 use crate::krl::values::{Values, key};
 use crate::model::frame::{Frame, FrameUse};
 use crate::model::orientation::OrientationText;
+
+/// Why an element is not the same everywhere.
+fn changed() -> String {
+    "the program gives it another value while it runs".to_owned()
+}
 
 /// The pose of six numbers.
 pub(crate) fn isometry(numbers: [f64; 6]) -> Option<Isometry3<f64>> {
@@ -40,6 +45,21 @@ impl Values<'_> {
     /// `TOOL_DATA[n]` or `BASE_DATA[n]`; number 0 is the flange or the world.
     pub(crate) fn numbered(&self, role: Role, number: u32, given: &Given) -> FrameUse {
         let name = format!("{}[{number}]", role.array());
+        match self.standing(role, number, given) {
+            Standing::One => {}
+            Standing::Held(frame) => {
+                let frame = Frame::Known(frame);
+                return FrameUse { name, frame };
+            }
+            Standing::Apart(words) => {
+                let known = self.known(role, number, given);
+                let reason = known.err().unwrap_or_else(changed);
+                return FrameUse {
+                    name: format!("{name} {words}"),
+                    frame: Frame::Unknown { reason },
+                };
+            }
+        }
         if let Some(stated) = self.stated(&name) {
             return stated;
         }
@@ -48,6 +68,43 @@ impl Values<'_> {
             Err(reason) => Frame::Unknown { reason },
         };
         FrameUse { name, frame }
+    }
+
+    /// What an element is in the statement that is walked.
+    fn standing(&self, role: Role, number: u32, given: &Given) -> Standing {
+        let assigned = &self.symbols.frames_assigned;
+        given.standing((role, number), assigned, |one| self.value(one))
+    }
+
+    /// The numbers of a statement that gives an element a value.
+    fn value(&self, one: &Assignment) -> Option<Isometry3<f64>> {
+        self.literal_frame(one.routine, one.value.as_ref()?)
+    }
+
+    /// Statements that give an element other numbers than the caller states for it: the element, their files and lines.
+    pub(crate) fn contradicted(&self) -> Vec<(String, usize, usize)> {
+        let mut found = Vec::new();
+        for ((role, number), all) in &self.symbols.frames_assigned {
+            let Some(number) = number else {
+                continue;
+            };
+            let name = format!("{}[{number}]", role.array());
+            let Some(stated) = self.stated.get(&name) else {
+                continue;
+            };
+            for one in all {
+                let differs = self.value(one).is_some_and(|own| {
+                    let apart = own.inv_mul(stated);
+                    // What stated numbers lose where they are written down.
+                    apart.translation.vector.norm() > 1e-6 || apart.rotation.angle() > 1e-8
+                });
+                if differs {
+                    let file = self.symbols.routines[one.routine].file;
+                    found.push((name.clone(), file, one.line));
+                }
+            }
+        }
+        found
     }
 
     /// The same with an index that is no literal number.
@@ -67,23 +124,24 @@ impl Values<'_> {
         number: u32,
         given: &Given,
     ) -> Option<Result<Isometry3<f64>, String>> {
-        let of = |number: Option<u32>| self.symbols.frames_assigned.get(&(role, number));
-        let mut all = of(Some(number)).into_iter().chain(of(None)).flatten();
-        let first = all.next()?;
-        let literal = |one: &Assignment| self.literal_frame(one.routine, one.value.as_ref()?);
+        let all: Vec<_> = of_element(&self.symbols.frames_assigned, (role, number)).collect();
+        let first = *all.first()?;
+        if let Some(frame) = given.held((role, number), &all, |one| self.value(one)) {
+            return Some(Ok(frame));
+        }
         let line = first.line;
-        let Some(frame) = literal(first) else {
+        let Some(frame) = self.value(first) else {
             return Some(Err(format!(
                 "it is assigned while the program runs, in line {line}, and not in numbers"
             )));
         };
-        if let Some(other) = all.find(|own| literal(own) != Some(frame)) {
+        if let Some(other) = (all.iter()).find(|own| self.value(own) != Some(frame)) {
             return Some(Err(format!(
                 "it is assigned while the program runs, in lines {line} and {}, and not the same in both",
                 other.line
             )));
         }
-        Some(match given.numbers.contains(&(role, number)) {
+        Some(match given.numbers.contains_key(&(role, number)) {
             true => Ok(frame),
             false => Err(format!(
                 "it is assigned while the program runs, in line {line}, and whether that ran before is not certain"
@@ -115,13 +173,13 @@ impl Values<'_> {
     pub(crate) fn frame(&self, routine: usize, tokens: &Range<usize>, given: &Given) -> FrameUse {
         let file = self.file(routine);
         let name = key(&file.text(tokens));
-        if let Some(stated) = self.stated(&name) {
-            return stated;
-        }
         for role in [Role::Tool, Role::Base] {
             if let Some(number) = self.number_in(file, role, tokens) {
                 return self.numbered(role, number, given);
             }
+        }
+        if let Some(stated) = self.stated(&name) {
+            return stated;
         }
         let mut frame = Isometry3::identity();
         let mut at = tokens.start;
@@ -178,15 +236,32 @@ impl Values<'_> {
         *given.data.get(&index).filter(|_| given.is_certain)?
     }
 
+    /// The value in braces that a statement of the same routine gave a datum before, for certain: nothing else may change it.
+    pub(crate) fn assigned_end(
+        &self,
+        routine: usize,
+        tokens: &Range<usize>,
+        given: &Given,
+    ) -> Option<Range<usize>> {
+        let index = self.own_datum(routine, tokens)?;
+        let (home, value) = given.ends.get(&index)?.clone()?;
+        (home == routine && given.is_certain).then_some(value)
+    }
+
     /// The name of a frame that is not known: with its line, where a datum gets several values and each use may be another frame.
     fn named_apart(&self, routine: usize, tokens: &Range<usize>, name: String) -> String {
         let file = self.file(routine);
         let all = tokens.clone().filter_map(|at| file.name(at));
+        let mut arrays = all.clone().filter_map(|name| Role::of_array(&name));
+        let is_array = arrays.any(|role| {
+            let assigned = self.symbols.frames_assigned.keys();
+            assigned.clone().any(|(of, _)| *of == role)
+        });
         let mut data = all.filter_map(|name| match self.symbols.meaning(routine, &name)? {
             Meaning::Datum(index) => self.symbols.data.get(index),
             Meaning::Parameter => None,
         });
-        match data.any(|datum| datum.assignments > 1) {
+        match is_array || data.any(|datum| datum.assignments > 1) {
             true => {
                 let line = file.source.line_of(file.span(tokens).start);
                 format!("{name} of line {line}")
@@ -217,13 +292,16 @@ impl Values<'_> {
         if tokens.len() == 1 && (name.is("$NULLFRAME") || name.is("$WORLD")) {
             return Ok(Isometry3::identity());
         }
-        if let Some(stated) = self.stated.get(&key(&file.text(tokens))) {
-            return Ok(*stated);
-        }
         for role in [Role::Tool, Role::Base] {
             if let Some(number) = self.number_in(file, role, tokens) {
-                return self.known(role, number, given);
+                return match self.numbered(role, number, given).frame {
+                    Frame::Known(frame) => Ok(frame),
+                    Frame::Unknown { reason } => Err(reason),
+                };
             }
+        }
+        if let Some(stated) = self.stated.get(&key(&file.text(tokens))) {
+            return Ok(*stated);
         }
         if let Some(frame) = self.held(routine, tokens, given) {
             return Ok(frame);

@@ -74,7 +74,7 @@ pub(crate) fn follow(
             (Some(step), by_step())
         }
         _ => {
-            let found = targets.find(values, routine, &end_tokens);
+            let found = targets.find(values, (routine, &settings.given), &end_tokens);
             (None, left(found, unknown)?)
         }
     };
@@ -82,7 +82,10 @@ pub(crate) fn follow(
         Ends::Linear | Ends::Step => (MotionKind::Linear, None, None),
         Ends::Joint => (MotionKind::Joint, None, None),
         Ends::Circular => {
-            let via = left(targets.find(values, routine, &ends[0]), unknown)?;
+            let via = left(
+                targets.find(values, (routine, &settings.given), &ends[0]),
+                unknown,
+            )?;
             // With the comma and the blanks up to the end.
             let span = file.span(&ends[0]).start..file.span(&end_tokens).start;
             (

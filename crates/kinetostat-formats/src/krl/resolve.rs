@@ -52,6 +52,16 @@ pub(crate) fn resolve(walker: Walker<'_, '_>, main: Option<usize>) -> Resolved {
         beyond: Vec::with_capacity(motions.len()),
         done: Vec::with_capacity(motions.len()),
     };
+    for (name, file, line) in values.contradicted() {
+        let message = format!(
+            "`{name}` gets other numbers here than those that are stated for it: where the program has several values for it, its own count, else those that are stated"
+        );
+        resolver.findings.push(Finding {
+            file,
+            line,
+            message,
+        });
+    }
     let mut folds: Vec<Option<Vec<Option<usize>>>> = values.files.iter().map(|_| None).collect();
     for followed in motions {
         let state = followed.state.in_call(entry[followed.routine]);

@@ -6,6 +6,7 @@ use std::ops::Range;
 use nalgebra::{Isometry3, Translation3};
 
 use crate::krl::aggregate::{Position, position_of};
+use crate::krl::assigned_frames::Given;
 use crate::krl::frames::isometry;
 use crate::krl::symbols::Datum;
 use crate::krl::values::{Reason, Values, WRITE_IT};
@@ -83,7 +84,7 @@ impl Targets {
     pub(crate) fn find(
         &mut self,
         values: &Values<'_>,
-        routine: usize,
+        (routine, given): (usize, &Given),
         tokens: &Range<usize>,
     ) -> Result<End, Reason> {
         let file = values.file(routine);
@@ -91,7 +92,7 @@ impl Targets {
             return Err(("the motion has no end".to_owned(), "write its target"));
         }
         if let Some(colon) = file.find(tokens.clone(), b':') {
-            return self.sum(values, routine, tokens, colon);
+            return self.sum(values, (routine, given), tokens, colon);
         }
         if file.is(tokens.start, b'{') {
             let position =
@@ -115,6 +116,9 @@ impl Targets {
                 open,
                 external,
             });
+        }
+        if let Some(value) = values.assigned_end(routine, tokens, given) {
+            return assigned(values, routine, (tokens, &value));
         }
         let (datum, stated) = values.datum(routine, tokens)?;
         let home = &values.files[datum.file];
@@ -169,7 +173,7 @@ impl Targets {
     fn sum(
         &mut self,
         values: &Values<'_>,
-        routine: usize,
+        (routine, given): (usize, &Given),
         tokens: &Range<usize>,
         colon: usize,
     ) -> Result<End, Reason> {
@@ -180,7 +184,7 @@ impl Targets {
                 "write the motion with a target of its own",
             ));
         }
-        let base = self.find(values, routine, &(tokens.start..colon))?;
+        let base = self.find(values, (routine, given), &(tokens.start..colon))?;
         let (Target::Pose(base_pose), None) = (&base.target, &base.open) else {
             return Err((
                 "what is added to has not all of X, Y, Z, A, B, C".to_owned(),
@@ -244,6 +248,37 @@ impl Targets {
             external: base.external,
         })
     }
+}
+
+/// The end that a statement before gave to a name, in numbers.
+fn assigned(
+    values: &Values<'_>,
+    routine: usize,
+    (tokens, value): (&Range<usize>, &Range<usize>),
+) -> Result<End, Reason> {
+    let file = values.file(routine);
+    let position = position_of(file, value)
+        .map_err(|reason| (format!("`{}`: {reason}", file.text(tokens)), WRITE_IT))?;
+    if let Some(values_deg) = joints_of(&position)? {
+        return Ok(joints(values_deg, &position));
+    }
+    let (pose, open) = pose_of(&position);
+    if open.is_some() {
+        let line = file.source.line_of(file.span(value).start);
+        return Err((
+            format!(
+                "`{}` gets only some of X, Y, Z, A, B and C in line {line}",
+                file.text(tokens)
+            ),
+            "write all of them there",
+        ));
+    }
+    Ok(End {
+        target: Target::Pose(pose),
+        site: TargetSite::Fixed("a statement before it assigns its end"),
+        open: None,
+        external: position.external_values(),
+    })
 }
 
 fn joints(values_deg: Vec<f64>, position: &Position) -> End {

@@ -134,9 +134,13 @@ fn of_table(files: &[(String, Vec<u8>)]) -> Result<Vec<ReadMotion>, MakeError> {
         .map(|(_, bytes)| String::from_utf8_lossy(bytes))
         .unwrap_or_default();
     let rows = text.lines().enumerate();
-    let rows = rows.filter(|(_, line)| !line.starts_with('#')).skip(1);
+    let mut rows = rows.filter(|(_, line)| !line.starts_with('#'));
+    let head = rows.next().map_or("", |(_, head)| head);
+    let tool = head.split(',').position(|name| name == "tool");
     rows.map(|(index, row)| {
-        let values: Option<Vec<f64>> = row.split(',').map(|part| part.parse().ok()).collect();
+        let cells = row.split(',').enumerate();
+        let numbers = cells.filter(|(cell, _)| Some(*cell) != tool);
+        let values: Option<Vec<f64>> = numbers.map(|(_, part)| part.parse().ok()).collect();
         let (place, turn, speed) = match values.as_deref() {
             Some(&[x, y, z, speed, _]) => (Vector3::new(x, y, z), None, speed),
             Some(&[x, y, z, w, i, j, k, speed, _]) => (

@@ -127,12 +127,13 @@ pub fn joint_table(
                 table.text += line;
                 table.text.push('\n');
             }
-            Some("qw,qx,qy,qz,speed_mm_per_s,rapid") => {
+            Some(rest @ (ONE_TOOL | SEVERAL_TOOLS)) => {
                 head_is_read = true;
                 for joint in 1..=arm.arm.joint_count() {
                     table.text += &format!("joint_{joint}_deg,");
                 }
-                table.text += "speed_mm_per_s,rapid\n";
+                let behind = rest.trim_start_matches(TURN);
+                table.text += &format!("{behind}\n");
             }
             Some(_) => {
                 return Err(JointTableError::at(
@@ -150,6 +151,11 @@ pub fn joint_table(
         departure: table.departure,
     })
 }
+
+/// The columns of a table behind the places.
+const TURN: &str = "qw,qx,qy,qz,";
+const ONE_TOOL: &str = "qw,qx,qy,qz,speed_mm_per_s,rapid";
+const SEVERAL_TOOLS: &str = "qw,qx,qy,qz,speed_mm_per_s,tool,rapid";
 
 /// A table as it grows.
 struct Table<'a> {

@@ -10,8 +10,9 @@ use crate::making::crowded::crowded;
 use crate::making::events::SourceEvent;
 use crate::making::fault::{MakeError, MakeFinding};
 use crate::making::limits::MakeLanguage;
-use crate::making::names::checked;
+use crate::making::names::{checked, parts_checked};
 use crate::making::numbers::short;
+use crate::making::parts::parts;
 use crate::making::plan::plan;
 use crate::making::stated::is_number_zero;
 use crate::making::step::{MadeMotion, Step, Way};
@@ -127,6 +128,7 @@ pub(crate) fn make_along(
     let most = language.limits().points.map_or(usize::MAX, |(usual, _)| {
         template.most_points.unwrap_or(usual)
     });
+    parts_checked(&name, parts(steps, most).len(), language).map_err(|fault| vec![fault])?;
     let files = match language {
         MakeLanguage::Krl => krl::files(steps, &name, most, template, MADE_BY),
         MakeLanguage::Rapid => rapid::files(steps, &name, most, template, MADE_BY),

@@ -5,7 +5,8 @@
 //! before a motion and behind it),
 //! [`course`] says in which order all of it runs ([`robot_course`], [`routines`], [`block_order`]: of robots' programs, [`of_tools`]: their tools, [`configurations`], [`reconfigured`], [`stated_configurations`]: their
 //! postures), [`plan`] makes steps
-//! of moves and events ([`pieces`] divides what the other side has no curve for), one file for each language writes them, [`again`] reads what was written, and [`compare`]
+//! (where [`tools_told`] finds every tool of the program in the template, and [`tool_edges`] its edges)
+//! of moves and events ([`pieces`] divides what the other side has no curve for, [`turned_pieces`] what it turns otherwise), one file for each language writes them, [`again`] reads what was written, and [`compare`]
 //! holds it against the path. [`template`] is what the caller states of the cell.
 
 pub(crate) mod action;
@@ -59,5 +60,8 @@ pub(crate) mod statements;
 pub(crate) mod step;
 pub(crate) mod stops;
 pub(crate) mod template;
+pub(crate) mod tool_edges;
+pub(crate) mod tools_told;
+pub(crate) mod turned_pieces;
 pub(crate) mod turning;
 pub(crate) mod words;

@@ -2,17 +2,17 @@
 
 use crate::making::fault::MakeError;
 use crate::making::limits::MakeLanguage;
-
-/// Room for the number of a part behind a name: `_999`.
-const PART: usize = 4;
+use crate::making::rapid::{base_name, name_of_tool};
+use crate::making::template::{StatedFrame, StatedTool, Template};
+use crate::rapid::table::{motion_row, row};
+use crate::text::name::Name;
 
 /// The name of the program where controllers take it.
 pub(crate) fn checked(name: &str, language: MakeLanguage) -> Result<String, MakeError> {
     let most = language.limits().name;
-    let most = match language.limits().points {
-        Some(_) => most - PART,
-        None => most,
-    };
+    if matches!(language, MakeLanguage::Csv | MakeLanguage::Gcode) {
+        return of_file(name, most);
+    }
     let name = match language {
         MakeLanguage::FanucLs => name.to_ascii_uppercase(),
         _ => name.to_owned(),
@@ -26,6 +26,107 @@ pub(crate) fn checked(name: &str, language: MakeLanguage) -> Result<String, Make
         false => Ok(name),
     }
 }
+
+/// The name of a file that no controller calls by it.
+fn of_file(name: &str, most: usize) -> Result<String, MakeError> {
+    let strange = |c: char| c.is_control() || matches!(c, '/' | '\\');
+    let shown: String = name.chars().take(80).filter(|c| !c.is_control()).collect();
+    let found = match name.chars().count() {
+        0 => "nothing".to_owned(),
+        count if count > most => format!("`{shown}`, has {count} characters, {most} are allowed"),
+        _ if name.contains(strange) => format!("`{shown}`, and no file is called so"),
+        _ => return Ok(name.to_owned()),
+    };
+    Err(MakeError::of_template(
+        format!("the name of the program is {found}"),
+        NAMED_SO,
+    ))
+}
+
+/// The longest name of a program in so many parts is one that controllers take, too.
+pub(crate) fn parts_checked(
+    name: &str,
+    parts: usize,
+    language: MakeLanguage,
+) -> Result<(), MakeError> {
+    let Some(last) = parts.checked_sub(1).filter(|last| *last > 0) else {
+        return Ok(());
+    };
+    // The module of a part is called otherwise than its routine.
+    let module = match language {
+        MakeLanguage::Rapid => "m",
+        _ => "",
+    };
+    let last = format!("{module}{}", of_part(name, last));
+    let what = format!("the program becomes {parts} parts, and the name of the last");
+    is_identifier(&last, language.limits().name, &what)
+}
+
+/// Names of a template that a module in RAPID cannot declare: words of the language, those of the module itself, and one for two things.
+pub(crate) fn words_taken(template: &Template) -> Vec<MakeError> {
+    let mut faults = Vec::new();
+    let base = base_name(&template.base);
+    let numbered = template
+        .tools
+        .iter()
+        .map(|(number, tool)| (Some(*number), tool));
+    // Of several tools, the one before the first change where it is stated.
+    let is_told = template.tools.is_empty() || template.tool != StatedTool::default();
+    let tools = numbered.chain(is_told.then_some((None, &template.tool)));
+    let of_tools = tools.map(|(number, tool)| (name_of_tool(number, tool), &tool.frame));
+    let tools: Vec<(String, &StatedFrame)> = of_tools.collect();
+    let of_base = [(base.clone(), &template.base)];
+    let mut named: Vec<&str> = Vec::new();
+    for (name, frame) in tools.iter().chain(&of_base) {
+        if named.iter().any(|known| known.eq_ignore_ascii_case(name)) {
+            continue;
+        }
+        named.push(name);
+        if frame.name.is_some() && is_taken(name) {
+            faults.push(MakeError::of_template(
+                format!("`{name}` is a word of RAPID, or a name of the controller or the module"),
+                "give tool or base another name",
+            ));
+        }
+        if frame.pose.is_some() && name.eq_ignore_ascii_case(&template.program_name) {
+            faults.push(MakeError::of_template(
+                format!("the module is called `{name}`, as a tool or the base that it declares"),
+                "name the program otherwise (its output, or program_name), or the tool or base",
+            ));
+        }
+    }
+    if tools
+        .iter()
+        .any(|(name, _)| name.eq_ignore_ascii_case(&base))
+    {
+        faults.push(MakeError::of_template(
+            format!("a tool and the base are both called `{base}`"),
+            "give each of them a name of its own",
+        ));
+    }
+    faults
+}
+
+/// Whether a name is no one's to declare: words and instructions of RAPID, data that every controller has, and what made modules declare.
+fn is_taken(name: &str) -> bool {
+    let letters = name.as_bytes();
+    let known = Name::of(letters);
+    let is_instruction =
+        known.is_some_and(|name| motion_row(&name).is_some() || row(&name).is_some());
+    let capitals = name.to_ascii_uppercase();
+    let behind = |start: &str| {
+        let rest = capitals.strip_prefix(start);
+        rest.is_some_and(|rest| !rest.is_empty() && rest.bytes().all(|b| b.is_ascii_digit()))
+    };
+    // v100 and z10 are data of every controller.
+    let is_datum = ["V", "Z", "VFEED"].into_iter().any(behind);
+    let is_own = ["VRAPID", "VJOINT", "VMAX", "FINE", "LOAD0"].contains(&capitals.as_str());
+    is_reserved(name, MakeLanguage::Rapid) || is_instruction || is_datum || is_own
+}
+
+/// What to do about a name.
+const NAMED_SO: &str =
+    "name it so: a program is called as its output, or as program_name in the template says";
 
 /// Words that no program of an arm has for a name, ...
 const OF_ALL: &str = "DEF END MAIN MODULE PROC TOOL0 WOBJ0";
@@ -67,7 +168,7 @@ pub(crate) fn is_identifier(name: &str, most: usize, what: &str) -> Result<(), M
             format!(
                 "{what} is `{shown}`, and controllers take letters, digits and _, a letter first"
             ),
-            "name it so: a program is called as its output, or as program_name in the template says",
+            NAMED_SO,
         ));
     }
     if name.len() > most {

@@ -124,6 +124,10 @@ pub fn make_of_robot(
     ) {
         made.findings.extend(zones(program));
     }
+    if language == MakeLanguage::Csv {
+        made.findings
+            .extend(robot.work_object.as_ref().and_then(unnamed_frame));
+    }
     made.findings.extend(outside_calls(program, robot.file));
     made.findings.extend(external_axes(program));
     made.findings.extend(dynamics(program, robot.file));
@@ -227,6 +231,21 @@ pub fn base_of_robot(program: &RobotProgram, robot: &RobotPath) -> Option<Stated
         number: Some(0),
         pose: Some(nalgebra::Isometry3::identity()),
         ..StatedFrame::default()
+    })
+}
+
+/// The work object in whose axes the places of a table are.
+fn unnamed_frame(frame: &FrameUse) -> Option<MakeFinding> {
+    // That of tables and machines without one.
+    let is_named = !["part", "PART"].contains(&frame.name.as_str());
+    is_named.then(|| {
+        MakeFinding::of(
+            None,
+            format!(
+                "the places are in axes of the work object `{}` of the source, which the table does not name",
+                frame.name
+            ),
+        )
     })
 }
 

@@ -18,6 +18,9 @@ use crate::making::speed_remedy::speed_remedy;
 use crate::making::step::{MadeMotion, Step, Way};
 use crate::making::stops::stops;
 use crate::making::template::{PlacesUnknown, Rapids, Template};
+use crate::making::tool_edges::other_edges;
+use crate::making::tools_told::told;
+use crate::making::turned_pieces::Turned;
 
 /// Steps, and what a person should know of them.
 pub(crate) struct Planned {
@@ -49,11 +52,15 @@ pub(crate) fn plan(
         faults: Vec::new(),
         findings: Vec::new(),
         otherwise: Otherwise::default(),
+        turned: Turned::default(),
         tool: None,
         last_tool: None,
         begun: false,
     };
-    planner.tools();
+    let told = told(path, course, template, language);
+    planner.faults.extend(told.faults);
+    planner.faults.extend(other_edges(path, course, language));
+    planner.findings.extend(told.findings);
     planner.walk();
     planner.end()
 }
@@ -68,6 +75,7 @@ struct Planner<'p> {
     faults: Vec<MakeError>,
     findings: Vec<MakeFinding>,
     otherwise: Otherwise,
+    turned: Turned,
     tool: Option<u32>,
     /// Tool of the last motion.
     last_tool: Option<u32>,
@@ -77,38 +85,6 @@ struct Planner<'p> {
 impl Planner<'_> {
     fn fault(&mut self, line: usize, reason: impl Into<String>, remedy: impl Into<String>) {
         self.faults.push(MakeError::at(line, reason, remedy));
-    }
-
-    /// Several tools need to be stated where a controller needs to know their tips.
-    fn tools(&mut self) {
-        if !self.language.is_of_an_arm() {
-            return;
-        }
-        let of_moves = self.path.moves.iter().enumerate();
-        let used: BTreeSet<u32> = of_moves
-            .filter_map(|(index, motion)| {
-                self.course.tool_at(self.course.of_move(index, motion.line))
-            })
-            .collect();
-        if used.len() < 2 {
-            return;
-        }
-        for number in used
-            .iter()
-            .filter(|number| !self.template.tools.contains_key(number))
-        {
-            let line = self
-                .path
-                .tool_changes
-                .iter()
-                .find(|change| change.number == *number);
-            let line = line.map_or(1, |change| change.line);
-            self.fault(
-                line,
-                format!("the program takes the tool {number}, one of several, and where its tip is, is not stated"),
-                "state each of them in the template under [[tools]], or write one program for each tool",
-            );
-        }
     }
 
     fn walk(&mut self) {
@@ -328,14 +304,19 @@ impl Planner<'_> {
             pieces.shape = Shape::Line;
             pieces.followed = None;
         }
+        let rapid = motion.kind == MoveKind::Rapid;
+        let by_joints = !self.begun || reconfigures;
+        let is_joint = by_joints || (rapid && self.template.rapids == Rapids::Joint);
+        if !is_joint || pieces.shape != Shape::Line {
+            let law = (self.language, &path.tool_axis);
+            self.turned.divide(motion, &mut pieces, law);
+        }
         if let Some(followed) = pieces.followed {
             self.otherwise
                 .follow(followed, motion.line, pieces.ends.len());
         }
         self.last_tool = self.tool;
-        let rapid = motion.kind == MoveKind::Rapid;
         let other_speeds = self.course.other_speeds.get(index).and_then(Option::as_ref);
-        let by_joints = !self.begun || reconfigures;
         let mut from = 0.0;
         for to in pieces.ends {
             let via = 0.5 * (from + to);
@@ -348,9 +329,7 @@ impl Planner<'_> {
                     centre: centre(motion),
                     clockwise,
                 },
-                Shape::Line if by_joints || (rapid && self.template.rapids == Rapids::Joint) => {
-                    Way::Joint
-                }
+                Shape::Line if is_joint => Way::Joint,
                 Shape::Line => Way::Line,
             };
             let axis = match motion.orientation(to) {
@@ -387,6 +366,7 @@ impl Planner<'_> {
             .otherwise
             .findings(self.language, self.template.tolerance_mm);
         self.findings.extend(otherwise);
+        self.findings.extend(self.turned.findings());
         self.findings.extend(further_axes(self.path));
         Ok(Planned {
             steps: self.steps,

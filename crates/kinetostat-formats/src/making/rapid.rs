@@ -2,7 +2,7 @@
 //!
 //! Source: ABB, Technical reference manual, RAPID Instructions, Functions and Data types (3HAC050917).
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use nalgebra::{Isometry3, UnitQuaternion, Vector3};
 
@@ -12,7 +12,7 @@ use crate::making::numbers::{angles, coordinates, fixed, short};
 use crate::making::parts::parts;
 use crate::making::stated::is_number_zero;
 use crate::making::step::{MadeMotion, Step, Way};
-use crate::making::template::{StatedTool, Template};
+use crate::making::template::{StatedFrame, StatedTool, Template};
 use crate::model::orientation::OrientationText;
 
 /// Most speeds that get a name; further ones stand in line.
@@ -101,6 +101,8 @@ struct Writer<'t> {
     /// Names of speeds by their data as written.
     speeds: BTreeMap<String, String>,
     tool: Option<u32>,
+    /// Some motion goes with the tool of the template that has no number in the program.
+    uses_tool: bool,
     /// Whether joint motions go to the configuration that they state (`ConfJ\On`); none where the program has not said it yet.
     follows_configuration: Option<bool>,
 }
@@ -111,8 +113,16 @@ impl<'t> Writer<'t> {
             template,
             speeds: BTreeMap::new(),
             tool: None,
+            uses_tool: true,
             follows_configuration: None,
         };
+        // What goes to the joint values at the beginning has the tool of the first motion.
+        let first = steps.iter().take_while(|step| step.motion().is_none());
+        writer.tool = first.fold(None, |tool, step| match step {
+            Step::Tool(number) => Some(*number),
+            _ => tool,
+        });
+        writer.uses_tool = uses_tool(steps, template);
         let rapid = writer.speed_data(template.rapid_speed_mm_per_s, None);
         writer.speeds.insert(rapid, "vRapid".to_owned());
         for motion in steps.iter().filter_map(Step::motion) {
@@ -138,18 +148,20 @@ impl<'t> Writer<'t> {
 
     fn declarations(&self) -> String {
         let mut text = String::new();
-        let mut tools: Vec<(Option<u32>, &StatedTool)> = vec![(None, &self.template.tool)];
-        if !self.template.tools.is_empty() {
-            tools = (self.template.tools.iter())
-                .map(|(number, tool)| (Some(*number), tool))
-                .collect();
-        }
-        for (number, tool) in tools {
+        let own = self.uses_tool.then_some((None, &self.template.tool));
+        let numbered = self.template.tools.iter();
+        let numbered = numbered.map(|(number, tool)| (Some(*number), tool));
+        let mut declared = BTreeSet::new();
+        for (number, tool) in own.into_iter().chain(numbered) {
             // Nobody declares tool0 and wobj0.
             let Some(pose) = (tool.frame.pose.as_ref()).filter(|_| !is_number_zero(&tool.frame))
             else {
                 continue;
             };
+            // Two of one name are one.
+            if !declared.insert(name_of_tool(number, tool).to_ascii_uppercase()) {
+                continue;
+            }
             let mass = short(tool.mass_kg.unwrap_or(1.0), 6);
             // A centre of mass at the flange itself is refused by controllers.
             let centre = tool
@@ -187,9 +199,7 @@ impl<'t> Writer<'t> {
     }
 
     fn base_name(&self) -> String {
-        let base = &self.template.base;
-        let numbered = || format!("wobj{}", base.number.unwrap_or(1));
-        base.name.clone().unwrap_or_else(numbered)
+        base_name(&self.template.base)
     }
 
     fn tool_name(&self) -> String {
@@ -312,8 +322,26 @@ impl<'t> Writer<'t> {
     }
 }
 
-fn name_of_tool(number: Option<u32>, tool: &StatedTool) -> String {
-    let number = number.or(tool.frame.number).unwrap_or(1);
+/// Whether a motion goes with the tool of the template that has no number in the program.
+fn uses_tool(steps: &[Step], template: &Template) -> bool {
+    let mut is_own = true;
+    steps.iter().any(|step| {
+        if let Step::Tool(number) = step {
+            is_own = !template.tools.contains_key(number);
+        }
+        is_own && step.motion().is_some()
+    })
+}
+
+/// The name of a base.
+pub(crate) fn base_name(base: &StatedFrame) -> String {
+    let numbered = || format!("wobj{}", base.number.unwrap_or(1));
+    base.name.clone().unwrap_or_else(numbered)
+}
+
+/// The name of a tool, with its number in the program.
+pub(crate) fn name_of_tool(in_program: Option<u32>, tool: &StatedTool) -> String {
+    let number = tool.frame.number.or(in_program).unwrap_or(1);
     tool.frame
         .name
         .clone()

@@ -63,24 +63,32 @@ pub(crate) fn running_lines(program: &RobotProgram, file: usize) -> Option<Vec<R
     let names = whole.iter().enumerate().rev();
     let names = names.map(|(index, routine)| (routine.name.as_str(), index));
     let names: BTreeMap<&str, usize> = names.collect();
-    (0..whole.len().min(MOST_TRIED)).find_map(|first| {
-        let mut walk = Walk {
-            language: program.language,
-            source,
-            routines: &whole,
-            names: &names,
-            seen: vec![false; whole.len()],
-            lines: (outside.iter())
-                .map(|line| Running {
-                    line: *line,
-                    is_certain: false,
-                    part: Part::Rest,
-                })
-                .collect(),
-        };
-        walk.routine(first, true, 0);
-        is_order(&walk.lines).then_some(walk.lines)
-    })
+    // RAPID begins with main, wherever it stands; it calls what runs of the others.
+    let is_main =
+        |index: &usize| program.language == Language::Rapid && whole[*index].name == "MAIN";
+    let main = (0..whole.len()).find(is_main);
+    let others = (0..whole.len()).filter(|index| Some(*index) != main);
+    main.into_iter()
+        .chain(others)
+        .take(MOST_TRIED)
+        .find_map(|first| {
+            let mut walk = Walk {
+                language: program.language,
+                source,
+                routines: &whole,
+                names: &names,
+                seen: vec![false; whole.len()],
+                lines: (outside.iter())
+                    .map(|line| Running {
+                        line: *line,
+                        is_certain: false,
+                        part: Part::Rest,
+                    })
+                    .collect(),
+            };
+            walk.routine(first, true, 0);
+            is_order(&walk.lines).then_some(walk.lines)
+        })
 }
 
 fn routines_of(language: Language, source: &SourceFile, lines: Range<usize>) -> Vec<Routine> {

@@ -5,7 +5,7 @@ use nalgebra::Isometry3;
 use crate::ls::configuration::is_configuration;
 use crate::making::fault::MakeError;
 use crate::making::limits::MakeLanguage;
-use crate::making::names::is_identifier;
+use crate::making::names::{is_identifier, words_taken};
 use crate::making::template::{StatedFrame, StatedTool, Template};
 
 /// Beyond this a base is no place in a plant, mm.
@@ -90,6 +90,9 @@ pub(crate) fn faults(template: &Template, language: MakeLanguage) -> Vec<MakeErr
         faults.extend(of_tool(tool, language));
     }
     faults.extend(of_frame(&template.base, "base", language));
+    if language == MakeLanguage::Rapid {
+        faults.extend(words_taken(template));
+    }
     faults.extend(of_configuration(template, language));
     faults
 }
@@ -113,7 +116,8 @@ pub(crate) fn is_mass(mass_kg: f64) -> bool {
 pub(crate) fn of_frame(frame: &StatedFrame, what: &str, language: MakeLanguage) -> Vec<MakeError> {
     let mut faults = Vec::new();
     if let Some(name) = &frame.name {
-        faults.extend(is_identifier(name, 32, &format!("the name of the {what}")).err());
+        let most = MakeLanguage::Rapid.limits().name;
+        faults.extend(is_identifier(name, most, &format!("the name of the {what}")).err());
         if language != MakeLanguage::Rapid {
             faults.push(MakeError::of_template(
                 format!("the {what} has a name, which RAPID alone has"),

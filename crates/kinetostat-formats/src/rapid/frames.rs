@@ -7,6 +7,7 @@ use nalgebra::Isometry3;
 use crate::model::frame::{Frame, FrameUse};
 use crate::model::motion::Zone;
 use crate::options::ReadOptions;
+use crate::rapid::assigned_speeds::AssignedSpeeds;
 use crate::rapid::expression::{Expression, Value, expression_of};
 use crate::rapid::literals::{frame_of, values};
 use crate::rapid::symbols::{Meaning, Symbols};
@@ -25,6 +26,7 @@ pub(crate) struct Values<'p> {
     frames: BTreeMap<usize, Result<FrameUse, Reason>>,
     speeds: BTreeMap<usize, Option<[f64; 4]>>,
     zones: BTreeMap<usize, Zone>,
+    pub assigned_speeds: AssignedSpeeds,
 }
 
 /// Tool or work object.
@@ -53,6 +55,7 @@ impl<'p> Values<'p> {
             frames: BTreeMap::new(),
             speeds: BTreeMap::new(),
             zones: BTreeMap::new(),
+            assigned_speeds: AssignedSpeeds::default(),
         }
     }
 
@@ -90,7 +93,7 @@ impl<'p> Values<'p> {
                 let index = self.datum(routine, name)?;
                 let node = self.symbols.data[index].node;
                 let fixed = node.change == Change::Constant && node.type_name.is("NUM");
-                match fixed.then(|| self.initial(index))??.value {
+                match fixed.then(|| self.in_numbers(routine, expression))??.value {
                     Value::Number(value) => Some(value),
                     _ => None,
                 }
@@ -176,7 +179,7 @@ impl<'p> Values<'p> {
     pub(crate) fn speed(&mut self, routine: usize, expression: &Expression) -> Option<[f64; 4]> {
         let name = match &expression.value {
             Value::Word(name) => name,
-            _ => return values(expression),
+            _ => return values(&self.in_numbers(routine, expression)?),
         };
         match self.symbols.meaning(routine, name) {
             None => predefined_speed(name),
@@ -185,12 +188,19 @@ impl<'p> Values<'p> {
                 if let Some(known) = self.speeds.get(&index) {
                     return *known;
                 }
-                let fixed = self.symbols.is_fixed(index);
-                let found = fixed.then(|| values(&self.initial(index)?)).flatten();
+                if !self.symbols.is_fixed(index) {
+                    return self.assigned_speeds.held(&self.symbols, (routine, index));
+                }
+                let found = self.first_speed(index);
                 self.speeds.insert(index, found);
                 found
             }
         }
+    }
+
+    /// The speed with which a datum is declared.
+    pub(crate) fn first_speed(&self, index: usize) -> Option<[f64; 4]> {
+        values(&self.initial(index)?)
     }
 
     /// A zone.

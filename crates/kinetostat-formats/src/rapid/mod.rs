@@ -7,7 +7,9 @@
 //! Source: ABB, Technical reference manual - RAPID kernel, and - RAPID Instructions, Functions and Data types (3HAC050917).
 
 pub(crate) mod arguments;
+mod assigned_speeds;
 pub(crate) mod calls;
+mod constants;
 pub(crate) mod expression;
 pub(crate) mod frames;
 mod functions;

@@ -8,14 +8,31 @@ use crate::rapid::tree::{
 };
 use crate::text::name::Name;
 
+/// Where a name stands.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Scope {
+    /// An index over all modules.
+    Module(usize),
+    /// An index of the routines.
+    Routine(usize),
+}
+
 /// A datum of the program.
 #[derive(Debug)]
 pub(crate) struct Datum<'p> {
     pub node: &'p DatumNode,
     /// An index of the files.
     pub file: usize,
+    /// Where it is declared.
+    pub scope: Scope,
     /// File and line of an assignment, or of a call that may change it.
     pub assigned: Option<(usize, usize)>,
+    /// The routine whose statements alone assign it; none where there are several.
+    pub assigned_in: Option<usize>,
+    /// Something else than an assignment, or a trap at any time, may change it.
+    pub is_changed_otherwise: bool,
+    /// More of a speed than that of the tip (`s.v_tcp:=20;`) is assigned.
+    pub is_assigned_beside_tip: bool,
     /// Something else than the motions that end there rests on its value.
     pub keeps_value: bool,
 }
@@ -64,7 +81,7 @@ impl<'p> Symbols<'p> {
         for (module, (file, content)) in modules.iter().enumerate() {
             let mut own = BTreeMap::new();
             for node in &content.data {
-                let index = all.add(*file, node);
+                let index = all.add(*file, node, Scope::Module(module));
                 let names = match node.sight {
                     Sight::Module => &mut own,
                     Sight::Everywhere => &mut all.everywhere,
@@ -95,7 +112,8 @@ impl<'p> Symbols<'p> {
                     locals.insert(parameter.name, Meaning::Parameter);
                 }
                 for node in &routine.data {
-                    let index = all.add(*file, node);
+                    let scope = Scope::Routine(all.routines.len() - 1);
+                    let index = all.add(*file, node, scope);
                     if locals.insert(node.name, Meaning::Datum(index)).is_some() {
                         note(faults, || twice(&files[*file], node.name_at));
                     }
@@ -109,11 +127,15 @@ impl<'p> Symbols<'p> {
         all
     }
 
-    fn add(&mut self, file: usize, node: &'p DatumNode) -> usize {
+    fn add(&mut self, file: usize, node: &'p DatumNode, scope: Scope) -> usize {
         self.data.push(Datum {
             node,
             file,
+            scope,
             assigned: None,
+            assigned_in: None,
+            is_changed_otherwise: false,
+            is_assigned_beside_tip: false,
             keeps_value: false,
         });
         self.data.len() - 1
@@ -127,6 +149,18 @@ impl<'p> Symbols<'p> {
             let found = module.get(name).or_else(|| self.everywhere.get(name));
             found.map(|index| Meaning::Datum(*index))
         })
+    }
+
+    /// What a name means where it stands.
+    pub(crate) fn meaning_in(&self, scope: Scope, name: &Name) -> Option<Meaning> {
+        match scope {
+            Scope::Routine(routine) => self.meaning(routine, name),
+            Scope::Module(module) => {
+                let own = self.in_module.get(module)?.get(name);
+                let found = own.or_else(|| self.everywhere.get(name))?;
+                Some(Meaning::Datum(*found))
+            }
+        }
     }
 
     /// Something rests on all data of this name.

@@ -51,6 +51,19 @@ impl Targets {
         self.find_nested(values, routine, expression, 0)
     }
 
+    /// The end that constants are, where the expression itself has no number that could be written otherwise.
+    fn of_constants(values: &Values<'_>, routine: usize, expression: &Expression) -> Option<Found> {
+        let file = &values.files[values.symbols.routines[routine].file];
+        let numbers = values.in_numbers(routine, expression)?;
+        let (_, mut pose) = target_of(file, &numbers).ok()?;
+        let parts = pose.configuration.numbers.iter().map(f64::to_string);
+        pose.configuration.text = format!("[{}]", parts.collect::<Vec<String>>().join(","));
+        Some(Found {
+            pose,
+            site: TargetSite::Fixed("its numbers are those of constants"),
+        })
+    }
+
     fn find_nested(
         &mut self,
         values: &Values<'_>,
@@ -61,15 +74,22 @@ impl Targets {
         let file = &values.files[values.symbols.routines[routine].file];
         match &expression.value {
             Value::List(_) => {
-                let literal = target_of(file, expression);
-                let (text, pose) = literal.map_err(|reason| (reason.to_owned(), IN_NUMBERS))?;
+                let (text, pose) = match target_of(file, expression) {
+                    Ok(literal) => literal,
+                    Err(reason) => {
+                        let found = Self::of_constants(values, routine, expression);
+                        return found.ok_or_else(|| (reason.to_owned(), IN_NUMBERS));
+                    }
+                };
                 Ok(Found {
                     pose,
                     site: TargetSite::Literal(text),
                 })
             }
             Value::Word(name) => {
-                self.declared(values, routine, name, &[], file.span(&expression.tokens))
+                let span = file.span(&expression.tokens);
+                let found = self.declared(values, routine, name, &[], span);
+                found.or_else(|fault| Self::of_constants(values, routine, expression).ok_or(fault))
             }
             Value::Element(name, indices) => {
                 let index = |part: &Expression| {
@@ -253,7 +273,6 @@ impl Targets {
         ];
         let turn = turn(values, routine, arguments).ok_or_else(computed)?;
         let by = Vector3::from([0, 1, 2].map(|axis: usize| arguments_text[axis].value));
-        let literal = self.literal_of(&base.site).ok_or_else(computed)?;
         let mut pose = base.pose.clone();
         match axes {
             OffsetAxes::WorkObject => pose.position_mm += by,
@@ -262,6 +281,10 @@ impl Targets {
                 pose.orientation *= turn;
             }
         }
+        let Some(literal) = self.literal_of(&base.site) else {
+            let site = TargetSite::Fixed("its numbers are those of constants");
+            return Ok(Found { pose, site });
+        };
         let site = TargetSite::Offset {
             call,
             arguments: Box::new(arguments_text),

@@ -6,7 +6,7 @@ use crate::rapid::functions::leaves_arguments;
 use crate::rapid::lex::Kind;
 use crate::rapid::symbols::{Meaning, Symbols};
 use crate::rapid::table::{Ends, motion_row, row};
-use crate::rapid::tree::{Change, Statement, TokenFile};
+use crate::rapid::tree::{Change, RoutineKind, Statement, TokenFile};
 use crate::table::Treatment;
 use crate::text::name::Name;
 
@@ -54,7 +54,11 @@ impl Notes<'_, '_, '_, '_> {
         for statement in block {
             match statement {
                 Statement::Assignment { tokens, assign } => {
-                    self.assign(tokens.start);
+                    self.assign(tokens.start, false);
+                    let is_tip = (self.file.word(tokens.start + 2)).eq_ignore_ascii_case(b"v_tcp");
+                    if let (false, Some(index)) = (is_tip, self.datum(tokens.start)) {
+                        self.symbols.data[index].is_assigned_beside_tip = true;
+                    }
                     self.keep(tokens.start + 1..*assign);
                     self.functions(tokens.clone());
                     self.keep(*assign..tokens.end);
@@ -94,15 +98,26 @@ impl Notes<'_, '_, '_, '_> {
         }
     }
 
-    fn assign(&mut self, at: usize) {
+    /// An assignment, or something else by which a datum may change.
+    fn assign(&mut self, at: usize, otherwise: bool) {
         if let Some(index) = self.datum(at) {
+            let is_trap = self.symbols.routines[self.routine].routine.kind == RoutineKind::Trap;
             let datum = &mut self.symbols.data[index];
             if datum.node.change != Change::Constant {
                 let line = self
                     .file
                     .source
                     .line_of(self.file.span(&(at..at + 1)).start);
+                let is_first = datum.assigned.is_none();
                 datum.assigned.get_or_insert((self.file.index, line));
+                datum.is_changed_otherwise |= otherwise || is_trap;
+                match is_first {
+                    true => datum.assigned_in = Some(self.routine),
+                    false => {
+                        let routine = self.routine;
+                        datum.assigned_in = datum.assigned_in.filter(|known| *known == routine);
+                    }
+                }
             }
         }
     }
@@ -149,7 +164,7 @@ impl Notes<'_, '_, '_, '_> {
                 Some(Kind::Symbol(b')' | b']')) if open == 0 => return,
                 Some(Kind::Symbol(b')' | b']')) => open -= 1,
                 // What stands deeper is computed with.
-                _ if open == 0 && self.is_whole_argument(at) => self.assign(at),
+                _ if open == 0 && self.is_whole_argument(at) => self.assign(at, true),
                 _ => {}
             }
         }

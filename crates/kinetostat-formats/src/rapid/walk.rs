@@ -79,6 +79,7 @@ pub(crate) fn walk(
         active: Vec::new(),
         called_again: 0,
     };
+    walker.speeds_begin();
     for routine in main.into_iter().chain(0..count) {
         if !walker.summaries[routine].begun {
             walker.root(routine, Some(routine) == main);
@@ -179,7 +180,12 @@ impl Walker<'_, '_> {
     fn statement(&mut self, statement: &Statement, place: Place) -> Place {
         match statement {
             Statement::Call { tokens } => self.call(tokens, place, Choice::OneOfAll),
-            Statement::Assignment { tokens, .. } => self.behind_functions(tokens.clone(), place),
+            Statement::Assignment { tokens, assign } => {
+                let place = self.behind_functions(tokens.clone(), place);
+                self.speeds_are_certain();
+                self.assigns_speed(tokens, *assign);
+                place
+            }
             Statement::Label { .. } => {
                 // A jump from anywhere in the routine leads here.
                 self.now.modes = self.now.modes.met(self.anywhere);
@@ -257,6 +263,7 @@ impl Walker<'_, '_> {
         let file = self.file();
         let name = Name::of(file.word(tokens.start));
         if let Some(row) = name.as_ref().and_then(motion_row) {
+            self.speeds_are_certain();
             return self.motion_by(row, tokens, (place, choice));
         }
         let routine = self.now.routine;
@@ -290,8 +297,10 @@ impl Walker<'_, '_> {
             });
             return Place::Unknown;
         }
+        self.speeds_of_call(called);
         if !self.summaries[called].begun {
             self.routine(called, now.depth + 1);
+            self.speeds_of_call(called);
         } else {
             // It was walked with what held at its first call, and may change what holds.
             self.modes_of_another_call(called);

@@ -4,10 +4,12 @@ use std::ops::Range;
 
 use crate::krl::motion::{Statement as MotionStatement, follow};
 use crate::krl::state::{Slot, State, Thing};
-use crate::krl::table::MotionRow;
+use crate::krl::table::{Ends, MotionRow};
+use crate::krl::usage::ends_of;
 use crate::krl::walking::walker::Walker;
 use crate::krl::with_list::with;
 use crate::model::motion::Zone;
+use crate::model::program::Finding;
 use crate::text::name::Name;
 
 impl Walker<'_, '_> {
@@ -70,6 +72,28 @@ impl Walker<'_, '_> {
         }
     }
 
+    /// `PTP $AXIS_ACT`, `PTP $POS_ACT`: to where the arm is. It stops there, with which the way to the first point of a program begins.
+    fn goes_nowhere(&mut self, row: &MotionRow, tokens: &Range<usize>) -> bool {
+        let file = self.file();
+        let ends = ends_of(file, tokens, row.ends);
+        let (Ends::Joint | Ends::Linear, [end]) = (row.ends, ends.as_slice()) else {
+            return false;
+        };
+        let name = file.name(end.start).filter(|_| end.len() == 1);
+        let is_actual = name.is_some_and(|name| name.is("$AXIS_ACT") || name.is("$POS_ACT"));
+        if is_actual {
+            let shown = file.text(end);
+            self.findings.push(Finding {
+                file: file.index,
+                line: file.source.line_of(file.span(tokens).start),
+                message: format!(
+                    "`{shown}` is where the arm is: the motion stops there and goes nowhere, it is carried"
+                ),
+            });
+        }
+        is_actual
+    }
+
     /// Notes a motion with what is in force as it runs.
     pub(super) fn moves(
         &mut self,
@@ -87,6 +111,9 @@ impl Walker<'_, '_> {
                 ),
             );
             state.set(Thing::Place, Slot::Unknown);
+            return state;
+        }
+        if !in_spline && self.goes_nowhere(row, tokens) {
             return state;
         }
         let statement = MotionStatement {

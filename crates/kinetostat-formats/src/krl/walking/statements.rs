@@ -51,14 +51,33 @@ impl Walker<'_, '_> {
                 true => self.values.literal_frame(routine, &value),
                 false => None,
             };
-            self.settings.given.data.insert(datum, frame);
+            let end = (is_whole && self.is_certain()).then_some((routine, value));
+            let given = &mut self.settings.given;
+            given.data.insert(datum, frame);
+            given.ends.insert(datum, end);
         }
-        let (Some(role), true) = (Role::of_array(name), self.is_certain()) else {
+        let Some(role) = Role::of_array(name) else {
             return;
         };
         let (place, element) = place_of(self.file(), tokens.start, equals);
-        if let (Some(number), true) = (element, place == (tokens.start..equals)) {
-            self.settings.given.numbers.insert((role, number));
+        let Some(number) = element else {
+            return;
+        };
+        let is_whole = place == (tokens.start..equals);
+        let frame =
+            (is_whole).then(|| (self.values).literal_frame(routine, &(equals + 1..tokens.end)));
+        let is_certain = self.is_certain();
+        let numbers = &mut self.settings.given.numbers;
+        match (is_whole && is_certain, numbers.get(&(role, number))) {
+            (true, _) => {
+                numbers.insert((role, number), frame.flatten());
+            }
+            // Whether it ran or not, the same value stands there.
+            (false, Some(before)) if frame == Some(*before) => {}
+            (false, None) => {}
+            (false, Some(_)) => {
+                numbers.insert((role, number), None);
+            }
         }
     }
 

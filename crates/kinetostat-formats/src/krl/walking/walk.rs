@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use crate::krl::role::Role;
 use crate::krl::state::{State, Things};
 use crate::krl::table::{OPERATORS, motion_row, row};
 use crate::krl::tree::{Least, Statement};
@@ -124,13 +125,14 @@ impl<'p> Walker<'_, 'p> {
     fn simple(&mut self, line: usize, state: State) -> State {
         let file = self.file();
         let tokens = file.lines[line].tokens.clone();
-        self.settings.given.is_certain = self.is_certain();
+        self.stands_at(&tokens);
         let Some(name) = file.name(tokens.start) else {
             self.unknown_statement(&tokens);
             return state;
         };
         if let Some(row) = motion_row(&name) {
             let state = self.functions(tokens.start + 1..tokens.end, state);
+            self.stands_at(&tokens);
             return self.moves(row, &tokens, state);
         }
         if name.is("SPLINE") || name.is("ENDSPLINE") {
@@ -152,11 +154,28 @@ impl<'p> Walker<'_, 'p> {
         }
         let mut state = self.functions(tokens.clone(), state);
         // What is called was looked at above.
+        self.stands_at(&tokens);
+        let is_array = |at| (file.name(at)).is_some_and(|name| Role::of_array(&name).is_some());
+        if tokens.clone().any(is_array) {
+            let given = &mut self.settings.given;
+            given.note_changes(&self.values.symbols.frames_assigned);
+        }
         self.gives_frame(&name, &tokens);
         if self.puts_in_force(&name, &tokens, &mut state) || file.is(tokens.start + 1, b'(') {
             return state;
         }
         self.by_table(&name, &tokens, state)
+    }
+
+    /// What frames are, they are at this statement.
+    fn stands_at(&mut self, tokens: &Range<usize>) {
+        let file = self.file();
+        let line = file.source.line_of(file.span(tokens).start);
+        let is_certain = self.is_certain();
+        let is_repeated = self.now.runs == Runs::Repeatedly;
+        let given = &mut self.settings.given;
+        given.at = (self.now.routine, line);
+        (given.is_certain, given.is_repeated) = (is_certain, is_repeated);
     }
 
     /// After what is called in these tokens.

@@ -31,6 +31,13 @@ fn a_literal_counts_from_where_it_is_assigned() {
             "TOOL_DATA[4]={X 0,Y 0,Z 180,A 0,B 0,C 0}\n",
             format!("$TOOL=TOOL_DATA[4]\n{HERE}"),
         ),
+        // The last one counts.
+        (
+            "",
+            format!(
+                "TOOL_DATA[4]={{X 0,Y 0,Z 190,A 0,B 0,C 0}}\n{FOUR}\n$TOOL=TOOL_DATA[4]\n{HERE}"
+            ),
+        ),
         // What was in the file before does not matter behind it.
         (
             "DECL FRAME TOOL_DATA[16]\nTOOL_DATA[4]={X 0,Y 0,Z 5,A 0,B 0,C 0}\n",
@@ -67,9 +74,9 @@ fn what_is_not_certain_stays_unknown_with_its_line() {
         ),
         (
             format!(
-                "{FOUR}\nTOOL_DATA[4]={{X 0,Y 0,Z 190,A 0,B 0,C 0}}\n$TOOL=TOOL_DATA[4]\n{HERE}"
+                "{FOUR}\nIF $IN[1] THEN\nTOOL_DATA[4]={{X 0,Y 0,Z 190,A 0,B 0,C 0}}\nENDIF\n$TOOL=TOOL_DATA[4]\n{HERE}"
             ),
-            "in lines 2 and 3, and not the same in both",
+            "in lines 2 and 4, and not the same in both",
         ),
         (
             format!("{FOUR}\nTOOL_DATA[4].Z=190\n$TOOL=TOOL_DATA[4]\n{HERE}"),
@@ -153,4 +160,141 @@ fn two_values_of_a_name_are_not_one_frame() {
             .reason
             .contains("is not known, and the program has another one")
     );
+}
+
+/// An element of an array is taken as it is where the frame is set: two values of it are two frames, each followed where it is certain.
+#[test]
+fn an_element_that_changes_is_another_frame() {
+    let places = |statements: &str, options: &ReadOptions| {
+        let source = format!("DEF part()\n$TOOL=$NULLFRAME\n{statements}\nEND\n");
+        let files = vec![SourceFile::new("part.src", source)];
+        let program = read_krl(files, options).unwrap_or_else(|errors| panic!("{errors:#?}"));
+        let all = program.motions.iter().map(|motion| {
+            let base = &motion.work_object;
+            let place = base.known().map(|frame| frame.translation.vector.into());
+            (base.name.clone(), place)
+        });
+        let all: Vec<(String, Option<[f64; 3]>)> = all.collect();
+        (all, program)
+    };
+    let given = |y: f64| format!("BASE_DATA[1]={{X 1800,Y {y},Z 900,A 0,B 0,C 0}}");
+    let used = format!("$TOOL=$NULLFRAME\n$BASE=BASE_DATA[1]\n{HERE}");
+    let twice = format!("{}\n{used}\n{}\n{used}", given(0.0), given(100.0));
+    let mut options = ReadOptions::default();
+    let (found, _) = places(&twice, &options);
+    let values = [0.0, 100.0].map(|y| Some([1800.0, y, 900.0]));
+    assert_eq!([found[0].1, found[1].1], values);
+    // What the caller states for the element cannot be both: the program counts, and says so.
+    options.frames.insert(
+        "BASE_DATA[1]".into(),
+        nalgebra::Isometry3::translation(1800.0, 0.0, 900.0),
+    );
+    let (found, program) = places(&twice, &options);
+    assert_eq!([found[0].1, found[1].1], values);
+    let findings: Vec<usize> = (program.findings.iter())
+        .filter(|finding| finding.message.contains("gets other numbers here"))
+        .map(|finding| finding.line)
+        .collect();
+    assert_eq!(findings, [7]);
+    // What is not certain is refused where the other one is used, with what is stated for the element and without it.
+    for change in [
+        "BASE_DATA[1].Y=100".to_owned(),
+        format!("IF $IN[1] THEN\n{}\nENDIF", given(100.0)),
+        "BASE_DATA[1]=BASE_DATA[1]:{X 0,Y 100,Z 0,A 0,B 0,C 0}".to_owned(),
+        "MEASURE(BASE_DATA[1])".to_owned(),
+        "N=1\nBASE_DATA[N]=$NULLFRAME".to_owned(),
+    ] {
+        for options in [&ReadOptions::default(), &options] {
+            let (found, program) = places(&format!("{used}\n{change}\n{used}"), options);
+            assert_eq!(found[0].0, "BASE_DATA[1]", "{change}");
+            assert!(found[1].1.is_none(), "{change}: {found:?}");
+            assert_ne!(found[0].0, found[1].0, "{change}");
+            let faults = path_of(&program, &PathOptions::default()).unwrap_err();
+            let said = faults.iter().any(|fault| {
+                (fault.reason).contains("is not known, and the program has another one")
+            });
+            assert!(said, "{change}: {faults:?}");
+        }
+    }
+    // In a routine that is called between them.
+    let sub = format!(
+        "{}\n{used}\nshift()\n{used}\nEND\nDEF shift()\n{}",
+        given(0.0),
+        given(100.0)
+    );
+    let (found, _) = places(&sub, &options);
+    assert_ne!(found[0].0, found[1].0);
+    // Parts that are given before the first use are one frame, which the caller may state.
+    let parts = format!(
+        "BASE_DATA[1].X=1\nBASE_DATA[1].Y=SHIFT\n{used}\n{used}\n$BASE=BASE_DATA[1]\n{HERE}"
+    );
+    let (found, _) = places(&parts, &options);
+    assert!(
+        found.iter().all(|one| one.1 == Some([1800.0, 0.0, 900.0])),
+        "{found:?}"
+    );
+}
+
+/// `HOME={AXIS: A1 0, ..}` before `PTP HOME`, as programs of CAM systems begin.
+#[test]
+fn ends_that_are_assigned_before_are_followed() {
+    let home = "{AXIS: A1 5,A2 -90,A3 90,A4 0,A5 45,A6 0}";
+    let read = |statements: &str| {
+        let source = format!(
+            "DEF part()\nDECL AXIS HOME\nDECL FRAME P1\nDECL BOOL ready\n$TOOL=$NULLFRAME\n$BASE=$NULLFRAME\n{statements}\nEND\nDEF sub()\nEND\n"
+        );
+        read_krl(
+            vec![SourceFile::new("part.src", source)],
+            &ReadOptions::default(),
+        )
+    };
+    let point = "P1={X 10,Y 20,Z 30,A 10,B 20,C 30}";
+    let program = read(&format!("HOME={home}\nPTP HOME\n{point}\nLIN P1\nP1={{X 1,Y 2,Z 3,A 0,B 0,C 0}}\nLIN P1:{{X 0,Y 0,Z 5,A 0,B 0,C 0}}")).unwrap();
+    let Target::Joints { values_deg } = &program.motions[0].target else {
+        panic!("{:?}", program.motions[0]);
+    };
+    assert_eq!(values_deg, &[5.0, -90.0, 90.0, 0.0, 45.0, 0.0]);
+    let places = program.motions[1..].iter().map(|motion| {
+        let place: [f64; 3] = motion.target.pose().unwrap().position_mm.into();
+        place
+    });
+    let places: Vec<[f64; 3]> = places.collect();
+    assert_eq!(places[0], [10.0, 20.0, 30.0]);
+    assert_eq!(places[1], [1.0, 2.0, 8.0]);
+    for statements in [
+        format!("PTP HOME\nHOME={home}"),
+        format!("IF ready THEN\nHOME={home}\nENDIF\nPTP HOME"),
+        format!("HOME={home}\nHOME.A1=7\nPTP HOME"),
+        format!("HOME={home}\nLOOP\nPTP HOME\nHOME.A1=HOME.A1+7\nENDLOOP"),
+        format!("HOME={home}\nsub(HOME)\nPTP HOME"),
+        "P1={X 10}\nLIN P1".to_owned(),
+    ] {
+        assert!(read(&statements).is_err(), "{statements}");
+    }
+}
+
+/// `PTP $AXIS_ACT` goes to where the arm is: nowhere.
+#[test]
+fn motions_to_where_the_arm_is_go_nowhere() {
+    let program = main_with(
+        "",
+        "$TOOL=$NULLFRAME\n$BASE=$NULLFRAME\nPTP $AXIS_ACT\nLIN {X 1,Y 2,Z 3,A 10,B 20,C 30}\nPTP $POS_ACT\nLIN {X 5}",
+    );
+    assert_eq!(program.motions.len(), 2);
+    let last = program.motions[1].target.pose().unwrap();
+    assert_eq!(<[f64; 3]>::from(last.position_mm), [5.0, 2.0, 3.0]);
+    let lines = program
+        .findings
+        .iter()
+        .filter(|finding| finding.message.contains("goes nowhere"));
+    assert_eq!(
+        lines.map(|finding| finding.line).collect::<Vec<usize>>(),
+        [4, 6]
+    );
+    // Other values of the run are not known.
+    let files = vec![SourceFile::new(
+        "part.src",
+        "DEF part()\nPTP $AXIS_ACT_MEAS\nEND\n",
+    )];
+    assert!(read_krl(files, &ReadOptions::default()).is_err());
 }

@@ -68,10 +68,10 @@ fn statements_that_move_the_tool_otherwise_are_refused_by_line() {
             "depends on all of them; write the block with SLIN and SCIRC",
         ),
         (
-            "PTP $POS_ACT",
+            "PTP $POS_RET",
             "computed while the program runs; write the motion with a literal",
         ),
-        ("PTP $AXIS_ACT", "computed while the program runs"),
+        ("PTP $AXIS_RET", "computed while the program runs"),
         (
             "LIN XP9",
             "no `XP9` is declared in these files; give the .dat file",
@@ -280,7 +280,7 @@ fn interrupts_that_move_are_refused_and_external_axes_that_move() {
 fn unknown_ends_stay_as_written_where_that_is_asked() {
     let mut options = ReadOptions::default();
     options.unknown_targets = UnknownTargets::LeftAsWritten;
-    let text = format!("DEF a()\nPTP $POS_ACT\nLIN {T}\nLIN XP9 C_DIS\nLIN {{Z 5}}\nEND");
+    let text = format!("DEF a()\nPTP $POS_RET\nLIN {T}\nLIN XP9 C_DIS\nLIN {{Z 5}}\nEND");
     let program = read_krl(vec![SourceFile::new("a.src", text.as_str())], &options).unwrap();
     let unknown = |index: usize| matches!(program.motions[index].target, Target::Unknown { .. });
     assert_eq!([0, 1, 2, 3].map(unknown), [true, false, true, true]);

@@ -259,3 +259,62 @@ fn external_axes_that_are_left_out_are_named() {
         }
     }
 }
+
+/// Every controller turns the tool from point to point by its own law: it stands as in the source between the points, too, or the angle is
+/// named.
+#[test]
+fn the_tool_turns_as_in_the_source_between_points() {
+    let krl = "DEF ori()\n$BASE={X 1800,Y 50,Z 900,A 0,B 0,C 0}\n$TOOL={X 0,Y 0,Z 180,A 0,B 0,C 0}\n$VEL.CP=0.15\n\
+        PTP {X 0,Y 0,Z 10,A 0,B 0,C 180}\nLIN {X 100,Y 0,Z 10,A 70,B 30,C -160}\nLIN {X 100,Y 50,Z 10,A 0,B -20,C 150}\nEND\n";
+    let rapid = "MODULE M\nPROC main()\n\
+        MoveJ [[0,0,50],[0,1,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v500,fine,tool0;\n\
+        MoveL [[9,0,0],[0.2,0.8,-0.55,0.13],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v20,z1,tool0;\n\
+        MoveL [[9,0,40],[0.3,0.7,0.5,-0.4],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v20,fine,tool0;\n\
+        ENDPROC\nENDMODULE\n"
+        .replace("[0.2,0.8,-0.55,0.13]", "[0.2012,0.8048,-0.5533,0.0704]")
+        .replace("[0.3,0.7,0.5,-0.4]", "[0.3,0.7071,0.5,-0.3999]");
+    for (from, text) in [(Language::Krl, krl), (Language::Rapid, rapid.as_str())] {
+        let files = vec![SourceFile::new("source", text)];
+        let program = read(from, files, &ReadOptions::default()).unwrap();
+        let source = path_of(&program, &PathOptions::default()).unwrap().path;
+        for (into, language) in ROBOTS {
+            let made = super::of_robot(from, text, into);
+            let again = read_made(&made, language);
+            let made_path = path_of(&again, &PathOptions::default()).unwrap().path;
+            assert_eq!(made.parts.len(), made_path.moves.len());
+            let mut worst = Worst::default();
+            for (motion, (index, [from, to])) in made_path.moves.iter().zip(&made.parts).skip(1) {
+                for share in [0.0, 0.1, 0.3, 0.5, 0.7, 0.9, 1.0] {
+                    let own = motion.orientation(share).unwrap();
+                    let wanted = source.moves[*index].orientation(from + (to - from) * share);
+                    worst.add(own.angle_to(&wanted.unwrap()).to_degrees());
+                }
+            }
+            // 0.01 deg is stated; some of the digits.
+            assert!(worst.value() < 0.0101, "{from:?} {into:?}: {worst:?}");
+            let same = (from == Language::Krl) == (language == Language::Krl);
+            assert_eq!(made_path.moves.len() == 3, same, "{from:?} {into:?}");
+            assert_eq!(
+                super::found(&made, "2 moves, here first, are divided into"),
+                !same
+            );
+        }
+    }
+    // A circle stays one, and what it has otherwise is named with its line.
+    let circle = krl.replace(
+        "LIN {X 100,Y 0,Z 10,A 70,B 30,C -160}",
+        "CIRC {X 50,Y 30,Z 10,A 0,B 0,C 180},{X 100,Y 0,Z 10,A 70,B 30,C -160}",
+    );
+    let made = super::of_robot(Language::Krl, &circle, MakeLanguage::Rapid);
+    let named = made.findings.iter().find(|finding| {
+        finding
+            .message
+            .starts_with("between the points the tool stands up to ")
+    });
+    assert_eq!(
+        named.and_then(|finding| finding.line),
+        Some(6),
+        "{:?}",
+        made.findings
+    );
+}

@@ -110,17 +110,17 @@ fn names_too_long_or_strange() {
         (
             long,
             MakeLanguage::Krl,
-            "has 33 characters, 20 are allowed here",
+            "has 33 characters, 24 are allowed here",
         ),
         (
             long,
             MakeLanguage::Rapid,
-            "has 33 characters, 28 are allowed here",
+            "has 33 characters, 32 are allowed here",
         ),
         (
             long,
             MakeLanguage::FanucLs,
-            "has 33 characters, 28 are allowed here",
+            "has 33 characters, 32 are allowed here",
         ),
         (
             "1part",
@@ -129,7 +129,16 @@ fn names_too_long_or_strange() {
         ),
         ("part-2", MakeLanguage::Rapid, "is `part-2`"),
         ("", MakeLanguage::Krl, "a letter first"),
-        ("a\nb", MakeLanguage::Csv, "is `ab`"),
+        (
+            "a\nb",
+            MakeLanguage::Csv,
+            "is `ab`, and no file is called so",
+        ),
+        (
+            "a/b",
+            MakeLanguage::Gcode,
+            "is `a/b`, and no file is called so",
+        ),
         (
             "main",
             MakeLanguage::Rapid,
@@ -321,4 +330,75 @@ fn g_code_cannot_lean() {
             .starts_with("line 4: the tool's axis is not z of the part here"),
         "{found:?}"
     );
+}
+
+#[test]
+fn names_that_a_module_cannot_declare() {
+    let refused = |change: &dyn Fn(&mut Template)| {
+        let mut template = cell();
+        template.tool.frame.pose = Some(Isometry3::translation(1.0, 2.0, 180.0));
+        template.base.pose = Some(Isometry3::translation(1.0, 2.0, 3.0));
+        change(&mut template);
+        faults(LINE, &template, MakeLanguage::Rapid)
+    };
+    for name in ["MoveL", "main", "IF", "vFeed1", "v100", "fine", "SetDO"] {
+        let found = refused(&|template| template.tool.frame.name = Some(name.into()));
+        assert!(
+            found[0].contains("is a word of RAPID, or a name of the controller"),
+            "{name}"
+        );
+    }
+    let found = refused(&|template| {
+        template.tool.frame.name = Some("mill".into());
+        template.base.name = Some("Mill".into());
+    });
+    assert!(
+        found[0].contains("a tool and the base are both called `Mill`"),
+        "{found:?}"
+    );
+    let found = refused(&|template| {
+        template.tool.frame.number = Some(7);
+        template.program_name = "tool7".into();
+    });
+    assert!(
+        found[0].contains("the module is called `tool7`"),
+        "{found:?}"
+    );
+}
+
+/// The limit is that of the longest name that is written.
+#[test]
+fn names_of_parts_count() {
+    let (_, path) = gcode("G21 G90\nG0 X0 Y0 Z0\nG1 X10 F60\nG1 X20\nG1 X30\nG1 X40\n");
+    for (name, language, several) in [
+        (
+            "a_name_of_twenty_4_chars",
+            MakeLanguage::Krl,
+            "24 are allowed",
+        ),
+        (
+            "a_name_of_twenty_4_chars_and_31",
+            MakeLanguage::Rapid,
+            "32 are allowed",
+        ),
+        (
+            "a_name_of_twenty_4_chars_and_31x",
+            MakeLanguage::FanucLs,
+            "32 are allowed",
+        ),
+    ] {
+        let mut template = cell();
+        template.program_name = name.into();
+        make(&path, &[], &template, language).unwrap();
+        template.most_points = Some(2);
+        let fault = make(&path, &[], &template, language).unwrap_err();
+        assert!(fault[0].reason.contains("becomes 3 parts"), "{fault:?}");
+        assert!(fault[0].reason.contains(several), "{fault:?}");
+    }
+    // No controller calls a table by its name.
+    let mut template = cell();
+    template.program_name = "part-1.2".into();
+    for language in [MakeLanguage::Csv, MakeLanguage::Gcode] {
+        make(&path, &[], &template, language).unwrap();
+    }
 }

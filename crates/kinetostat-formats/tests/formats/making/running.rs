@@ -375,3 +375,21 @@ fn a_spindle_stops_behind_the_motion() {
         ],
     );
 }
+
+/// What `main` calls is followed, also where it stands above main.
+#[test]
+fn a_call_that_is_followed_is_not_left_out() {
+    let motion = |x: u32| {
+        format!(
+            "MoveL [[{x},0,50],[0,1,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v50,fine,tool0;\n"
+        )
+    };
+    let text = format!(
+        "MODULE M\nPROC Path_10()\n{}SetDO do1,1;\n{}ENDPROC\nPROC main()\nPath_10;\nENDPROC\nENDMODULE\n",
+        motion(1),
+        motion(2)
+    );
+    let made = super::of_robot(Language::Rapid, &text, MakeLanguage::Krl);
+    assert!(!super::found(&made, "left out"), "{:?}", made.findings);
+    assert!(super::text_of(&made, 0).contains("; line 4: SetDO do1,1"));
+}

@@ -156,3 +156,169 @@ fn loads_of_krl_are_those_of_rapid() {
         );
     }
 }
+
+/// Moves, another tool, and moves with that.
+const TWO_TOOLS: &str =
+    "G21 G90\nG0 X0 Y0 Z5\nG1 Z-1 F300\nG0 Z50\nT2 M6\nG0 X3 Y0\nG0 Z5\nG1 Z-1 F300\nM30\n";
+
+fn tip(number: Option<u32>, z: f64) -> StatedTool {
+    let mut tool = StatedTool::default();
+    tool.frame.number = number;
+    tool.frame.pose = Some(nalgebra::Isometry3::translation(10.0, -20.0, z));
+    tool.mass_kg = Some(2.0);
+    tool
+}
+
+/// The tip of every motion of a made program, as its reader finds it.
+fn tips(made: &Made, language: Language) -> Vec<f64> {
+    let files = made.files.iter();
+    let files = files.map(|(name, bytes)| SourceFile::new(name.clone(), bytes.clone()));
+    let mut options = ReadOptions::default();
+    for (number, z) in [(2, 180.0), (4, 120.0)] {
+        let frame = nalgebra::Isometry3::translation(10.0, -20.0, z);
+        options.frames.insert(format!("UT:{number}"), frame);
+    }
+    let program = read(language, files.collect(), &options).unwrap();
+    let tips = program.motions.iter().map(|motion| {
+        let tool = motion.tool.known();
+        tool.unwrap_or_else(|| panic!("{:?}", motion.tool))
+            .translation
+            .z
+    });
+    tips.collect()
+}
+
+/// Every motion goes with the tip of the tool that is in the spindle, and RAPID declares each.
+#[test]
+fn the_tool_before_the_first_change_keeps_its_tip() {
+    for number in [None, Some(1), Some(2), Some(7)] {
+        let mut template = super::cell();
+        template.tool = tip(number, 180.0);
+        template.tools.insert(2, tip(Some(4), 120.0));
+        template.start_joints_deg = Some(vec![0.0, -90.0, 90.0, 0.0, 45.0, 0.0]);
+        for (made_in, language) in super::ROBOTS {
+            if language == Language::FanucLs && number != Some(2) {
+                continue;
+            }
+            let made = super::made(TWO_TOOLS, &template, made_in);
+            let found = tips(&made, language);
+            let wanted = [180.0, 180.0, 180.0, 180.0, 120.0, 120.0, 120.0];
+            let apart = found
+                .iter()
+                .zip(wanted)
+                .map(|(one, other)| (one - other).abs());
+            assert_eq!(found.len(), wanted.len(), "{language:?}");
+            assert!(apart.fold(0.0, f64::max) < 1e-9, "{language:?}: {found:?}");
+            if language == Language::Rapid {
+                let text = text_of(&made, 0);
+                let own = format!("PERS tooldata tool{}:=", number.unwrap_or(1));
+                assert!(
+                    text.contains(&own) && text.contains("PERS tooldata tool4:="),
+                    "{text}"
+                );
+            }
+        }
+    }
+}
+
+/// Each of them is refused, with its line where it has one.
+#[test]
+fn tools_that_a_template_does_not_tell_are_refused() {
+    let refused = |text: &str, template: &Template, language: MakeLanguage| {
+        let (program, path) = super::gcode(text);
+        let faults = make(&path, &events_of_gcode(&program, &path), template, language);
+        let faults = faults.expect_err("it is refused");
+        (faults[0].line, faults[0].reason.clone())
+    };
+    let mut own = super::cell();
+    own.tool = tip(Some(2), 180.0);
+    let mut numbered = super::cell();
+    numbered.tools.insert(1, tip(Some(4), 120.0));
+    numbered.tools.insert(2, tip(Some(4), 120.0));
+    for (language, _) in super::ROBOTS {
+        let (line, reason) = refused(TWO_TOOLS, &own, language);
+        assert_eq!(line, Some(5));
+        assert!(
+            reason.contains("takes the tool 2 after moves at feed"),
+            "{reason}"
+        );
+        let (line, reason) = refused(TWO_TOOLS, &numbered, language);
+        assert_eq!(line, Some(2));
+        assert!(reason.contains("has taken no tool here"), "{reason}");
+        let (line, reason) = refused(&TWO_TOOLS.replace("G21", "T5 M6\nG21"), &numbered, language);
+        assert_eq!(line, Some(1));
+        assert!(
+            reason.contains("takes the tool 5, one of several"),
+            "{reason}"
+        );
+    }
+    // Rapids before it: the finding says which tip they go with.
+    let rapids = TWO_TOOLS.replace("G1 Z-1 F300\nG0 Z50", "G0 Z50");
+    let made = super::made(&rapids, &own, MakeLanguage::Krl);
+    assert!(
+        found(&made, "takes the tool 2 here after rapids"),
+        "{:?}",
+        made.findings
+    );
+    // Two tips under one number.
+    let mut alike = own.clone();
+    alike.tools.insert(2, tip(Some(2), 120.0));
+    for language in [MakeLanguage::Rapid, MakeLanguage::FanucLs] {
+        let (_, reason) = refused(TWO_TOOLS, &alike, language);
+        assert!(
+            reason.contains("[tool] and in_program = 2 under [[tools]] are both"),
+            "{reason}"
+        );
+    }
+    assert!(
+        tips(
+            &super::made(TWO_TOOLS, &alike, MakeLanguage::Krl),
+            Language::Krl
+        )
+        .len()
+            == 6
+    );
+}
+
+/// Another edge of a tool has a tip of its own.
+#[test]
+fn another_edge_is_refused_by_line() {
+    let text = "G90 G71 G17 G54\nT1 D1 M6\nG0 X0 Y0 Z10\nG1 X10 F100\nD2\nG0 X0 Y0 Z10\nG1 X20 F100\nM30\n";
+    let made = |text: &str| {
+        let files = vec![SourceFile::new("edges.mpf", text)];
+        let program = read(Language::Siemens, files, &ReadOptions::default()).unwrap();
+        let robot = path_of(&program, &PathOptions::default()).unwrap();
+        make_of_robot(&program, &robot, &super::cell(), MakeLanguage::Krl)
+    };
+    let faults = made(text).unwrap_err();
+    assert_eq!((faults.len(), faults[0].line), (1, Some(5)));
+    assert!(
+        faults[0]
+            .reason
+            .starts_with("D2 is another edge of the tool than D1 before")
+    );
+    made(&text.replace("D2", "D1")).unwrap();
+    made(&text.replace("D2", "; D2")).unwrap();
+}
+
+/// A table of several tools names them in a column, which readers follow, and says whose axes the places are in.
+#[test]
+fn tables_name_several_tools() {
+    let krl = "DEF a( )\n$BASE=BASE_DATA[3]\n$VEL.CP=0.02\n$TOOL=TOOL_DATA[5]\nPTP {X 0,Y 9,Z 20,A 0,B 180,C 0}\nLIN {X 4,Y 9,Z 20,A 0,B 180,C 0}\n\
+        $TOOL=TOOL_DATA[1]\nPTP {X 5,Y 0,Z 20,A 0,B 180,C 0}\nLIN {X 8,Y 9,Z 20,A 0,B 180,C 0}\nEND\n";
+    let tools = |text: &str| {
+        let made = of_robot(Language::Krl, text, MakeLanguage::Csv);
+        assert!(
+            found(&made, "in axes of the work object `BASE_DATA[3]`"),
+            "{:?}",
+            made.findings
+        );
+        let files = vec![SourceFile::new("part.csv", made.files[0].1.clone())];
+        let again = read(Language::Poses, files, &ReadOptions::default()).unwrap();
+        let tools = again.motions.iter().map(|motion| motion.tool.name.clone());
+        tools.collect::<Vec<String>>()
+    };
+    assert_eq!(tools(krl), ["5", "5", "1", "1"]);
+    // One tool has no column.
+    assert_eq!(tools(&krl.replace("[5]", "[1]")), ["tool"; 4]);
+}

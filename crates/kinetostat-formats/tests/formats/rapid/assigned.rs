@@ -125,18 +125,19 @@ fn data_that_are_set_by_texts_are_refused_by_line() {
     }
 }
 
-/// What of speed and zone is known is known of no datum that changes.
+/// A zone is known of no datum that changes, and a speed where it is assigned in numbers before.
 #[test]
 fn speeds_and_zones_that_change_are_not_known() {
-    for statement in [
-        "speed1.v_tcp := 70;",
-        "speed1 := v100;",
-        "Incr speed1.v_tcp;",
+    for (statement, known) in [
+        ("speed1.v_tcp := 70;", Some(70.0)),
+        ("speed1 := v100;", Some(100.0)),
+        ("speed1.v_tcp := n;\nn:=n+1;", None),
+        ("Incr speed1.v_tcp;", None),
     ] {
         let (found, _) = read_with(statement, "");
         assert_eq!(
             found.unwrap().motions[1].speed.mm_per_s,
-            None,
+            known,
             "{statement}"
         );
     }
@@ -144,4 +145,147 @@ fn speeds_and_zones_that_change_are_not_known() {
     let program = found.unwrap();
     assert_eq!(program.motions[1].zone, Zone::Unstated);
     assert_eq!(program.motions[1].speed.mm_per_s, Some(50.0));
+}
+
+/// Speeds, mm/s, of the motions of a program in RAPID.
+fn speeds(text: &str) -> Vec<Option<f64>> {
+    let text = format!(
+        "MODULE M\nCONST robtarget a:=[[1,2,3],[0,1,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];\n{text}\nENDMODULE\n"
+    );
+    let files = vec![SourceFile::new("m.mod", text)];
+    let program = read_rapid(files, &ReadOptions::default()).unwrap();
+    program
+        .motions
+        .iter()
+        .map(|motion| motion.speed.mm_per_s)
+        .collect()
+}
+
+#[test]
+fn speeds_that_are_assigned_in_straight_lines_are_followed() {
+    let move_s = "MoveL a,s,fine,tool0;";
+    let s = "VAR speeddata s:=[500,501,502,503];\n";
+    let text = format!(
+        "{s}PROC main()\n{move_s}\ns.v_tcp:=20;\n{move_s}\ns:=[200,30,502,503];\n{move_s}\ns:=v50;\n{move_s}\ns.v_ori:=9;\n{move_s}\nENDPROC"
+    );
+    assert_eq!(speeds(&text), [500.0, 20.0, 200.0, 50.0, 50.0].map(Some));
+    // Every routine of a program that sets the speed of the tip itself.
+    let parts = format!(
+        "{s}PROC main()\none;\ntwo;\nENDPROC\nPROC one()\ns.v_tcp:=20;\n{move_s}\nENDPROC\nPROC two()\ns.v_tcp:=30;\n{move_s}\nENDPROC"
+    );
+    assert_eq!(speeds(&parts), [20.0, 30.0].map(Some));
+    // What stands behind a call, in a loop or on a condition, in another routine, or in a trap is not.
+    for (body, known) in [
+        ("IF ok s.v_tcp:=20;\nMOVE", None),
+        (
+            "s.v_tcp:=20;\nWHILE ok DO\nMOVE\ns.v_tcp:=30;\nENDWHILE",
+            None,
+        ),
+        (
+            "s.v_tcp:=20;\nsub;\nMOVE\nENDPROC\nPROC sub()\ns.v_tcp:=30;",
+            None,
+        ),
+        ("s.v_tcp:=20;\nsub;\nENDPROC\nPROC sub()\nMOVE", None),
+        ("s.v_tcp:=n;\nMOVE", None),
+        (
+            "s.v_tcp:=20;\nsub s;\nMOVE\nENDPROC\nPROC sub(INOUT speeddata p)\np.v_tcp:=30;",
+            None,
+        ),
+        (
+            "s.v_tcp:=20;\nMOVE\nENDPROC\nTRAP t\ns.v_tcp:=30;\nENDTRAP\nPROC other()",
+            None,
+        ),
+        ("s.v_tcp:=20;\nMOVE", Some(20.0)),
+    ] {
+        let body = body.replace("MOVE", move_s);
+        let text = format!("{s}VAR bool ok;\nVAR num n;\nPROC main()\n{body}\nENDPROC");
+        assert_eq!(speeds(&text), [known], "{body}");
+    }
+    // A controller may hold another value of a PERS as the program begins.
+    let pers = format!(
+        "PERS speeddata s:=[500,501,502,503];\nPROC main()\n{move_s}\ns.v_tcp:=20;\n{move_s}\ns:=v80;\n{move_s}\nENDPROC"
+    );
+    assert_eq!(speeds(&pers), [None, None, Some(80.0)]);
+}
+
+/// Constants stand for numbers and their lists.
+#[test]
+fn constants_are_followed() {
+    let read = |data: &str, motion: &str| {
+        let text = format!("MODULE M\n{data}\nPROC main()\n{motion}\nENDPROC\nENDMODULE\n");
+        read_rapid(
+            vec![SourceFile::new("m.mod", text)],
+            &ReadOptions::default(),
+        )
+    };
+    let none = "[9E9,9E9,9E9,9E9,9E9,9E9]";
+    let data = format!(
+        "CONST num cz:=5;\nCONST num dz:=cz;\nVAR num v:=7;\nCONST pos place:=[1,2,cz];\nCONST orient down:=[0,1,0,0];\nCONST confdata c:=[0,-1,0,1];\n\
+         CONST extjoint no:={none};\nCONST robtarget p1:=[[1,2,dz],[0,1,0,0],[0,-1,0,1],{none}];\nCONST robtarget p2:=p1;\nPERS num q:=5;"
+    );
+    for end in [
+        format!("[[1,2,cz],[0,1,0,0],[0,-1,0,1],{none}]"),
+        format!("[[1,2,dz],down,[0,-1,0,1],{none}]"),
+        "[place,down,c,no]".to_owned(),
+        "p1".to_owned(),
+        "p2".to_owned(),
+        "Offs(p2,0,0,dz)".to_owned(),
+        "RelTool([place,down,c,no],0,0,-cz)".to_owned(),
+        format!("[[1,2,5],OrientZYX(0,0,180),c,{none}]"),
+    ] {
+        let end = end.replace("-cz", "-5");
+        let program = read(&data, &format!("MoveL {end},v100,fine,tool0;"));
+        let program = program.unwrap_or_else(|errors| panic!("{end}: {errors:?}"));
+        let pose = program.motions[0].target.pose().unwrap();
+        let z = if end.starts_with("Offs") || end.starts_with("Rel") {
+            10.0
+        } else {
+            5.0
+        };
+        let place: [f64; 3] = pose.position_mm.into();
+        assert!(
+            place
+                .iter()
+                .zip([1.0, 2.0, z])
+                .all(|(one, other)| (one - other).abs() < 1e-12),
+            "{end}: {place:?}"
+        );
+        assert_eq!(pose.configuration.numbers, [0.0, -1.0, 0.0, 1.0], "{end}");
+        let down = nalgebra::UnitQuaternion::from_axis_angle(
+            &nalgebra::Vector3::x_axis(),
+            std::f64::consts::PI,
+        );
+        assert!(pose.orientation.angle_to(&down) < 1e-12, "{end}");
+    }
+    // About z, then the new y, then the new x: the new x of the tool is that of the first two turns.
+    let end = format!("[place,OrientZYX(90,30,20),c,{none}]");
+    let program = read(&data, &format!("MoveL {end},v100,fine,tool0;")).unwrap();
+    let turn = program.motions[0].target.pose().unwrap().orientation;
+    let x = turn * nalgebra::Vector3::x();
+    let (sine, cosine) = 30_f64.to_radians().sin_cos();
+    assert!(
+        (x - nalgebra::Vector3::new(0.0, cosine, -sine)).norm() < 1e-12,
+        "{x}"
+    );
+    let y = turn * nalgebra::Vector3::y();
+    // The new y lay along -x; it is raised by 20 deg towards the z of before.
+    assert!((y.x + 20_f64.to_radians().cos()).abs() < 1e-12, "{y}");
+    for end in [
+        format!("[[1,2,q],[0,1,0,0],[0,0,0,0],{none}]"),
+        format!("[[1,2,v],[0,1,0,0],[0,0,0,0],{none}]"),
+        format!("[[1,2,cz*2],[0,1,0,0],[0,0,0,0],{none}]"),
+        "[place,OrientZYX(1,2),c,no]".to_owned(),
+        "[place,down,c]".to_owned(),
+    ] {
+        let program = read(&data, &format!("v:=v+1;\nMoveL {end},v100,fine,tool0;"));
+        assert!(program.is_err(), "{end}");
+    }
+    // A constant that names itself ends.
+    assert!(
+        read(
+            "CONST num a:=b;\nCONST num b:=a;",
+            &format!("MoveL [[1,2,a],[0,1,0,0],[0,0,0,0],{none}],v100,fine,tool0;")
+        )
+        .is_err()
+    );
 }

@@ -1,0 +1,163 @@
+//! Whether a template tells every tool that a program takes, and each by a name or a number of its own.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use kinetostat_program::{Knowledge, MoveKind, Path};
+use nalgebra::Isometry3;
+
+use crate::making::course::Course;
+use crate::making::fault::{MakeError, MakeFinding};
+use crate::making::limits::MakeLanguage;
+use crate::making::rapid;
+use crate::making::template::{StatedTool, Template};
+
+/// What is wrong with the tools of a program and a template, and what is taken for granted of them.
+#[derive(Debug, Default)]
+pub(crate) struct Told {
+    pub faults: Vec<MakeError>,
+    pub findings: Vec<MakeFinding>,
+}
+
+/// Of a program for the controller of an arm, which needs to know where the tips are.
+pub(crate) fn told(
+    path: &Path,
+    course: &Course,
+    template: &Template,
+    language: MakeLanguage,
+) -> Told {
+    let mut told = Told::default();
+    if !language.is_of_an_arm() {
+        return told;
+    }
+    let used = Used::of(path, course);
+    // One tool that [[tools]] does not have is that of [tool].
+    let is_single = used.numbered.len() + usize::from(used.first_unnamed.is_some()) < 2;
+    let is_told = template.tool != StatedTool::default() || template.tools.is_empty();
+    for (number, line) in &used.numbered {
+        let is_known = template.tools.contains_key(number);
+        let is_only_change = template.tools.is_empty() && used.numbered.len() < 2;
+        if is_known || is_only_change || (is_single && is_told) {
+            continue;
+        }
+        told.faults.push(MakeError::at(
+            *line,
+            format!("the program takes the tool {number}, one of several, and where its tip is, is not stated"),
+            "state each of them in the template under [[tools]], or write one program for each tool",
+        ));
+    }
+    if let Some(line) = used.first_unnamed {
+        told.unnamed(line, &used, template, is_told);
+    }
+    told.faults.extend(alike(&used, template, language));
+    told
+}
+
+/// The tools of the moves that are written.
+struct Used {
+    /// By their numbers, with the line from which each is used first.
+    numbered: BTreeMap<u32, usize>,
+    /// Line of the first move before the program takes any.
+    first_unnamed: Option<usize>,
+    /// One of those cuts.
+    cuts_unnamed: bool,
+}
+
+impl Used {
+    fn of(path: &Path, course: &Course) -> Self {
+        let mut used = Self {
+            numbered: BTreeMap::new(),
+            first_unnamed: None,
+            cuts_unnamed: false,
+        };
+        let changes: BTreeMap<u32, usize> = (path.tool_changes.iter().rev())
+            .map(|change| (change.number, change.line))
+            .collect();
+        for (index, motion) in path.moves.iter().enumerate() {
+            if motion.known == Knowledge::Nothing {
+                continue;
+            }
+            match course.tool_at(course.of_move(index, motion.line)) {
+                Some(number) => {
+                    let line = changes.get(&number).copied().unwrap_or(motion.line);
+                    used.numbered.entry(number).or_insert(line);
+                }
+                None => {
+                    used.first_unnamed.get_or_insert(motion.line);
+                    used.cuts_unnamed |= motion.kind == MoveKind::Feed;
+                }
+            }
+        }
+        used
+    }
+}
+
+impl Told {
+    /// Moves before the program takes a tool.
+    fn unnamed(&mut self, line: usize, used: &Used, template: &Template, is_told: bool) {
+        if !is_told {
+            self.faults.push(MakeError::at(
+                line,
+                "the program has taken no tool here, and the template tells those under [[tools]] alone",
+                "state the one with which the program begins as [tool] in the template",
+            ));
+            return;
+        }
+        let change = used.numbered.iter().min_by_key(|(_, line)| **line);
+        let Some((number, line)) = change.filter(|_| template.tools.is_empty()) else {
+            return;
+        };
+        if used.cuts_unnamed {
+            self.faults.push(MakeError::at(
+                *line,
+                format!("the program takes the tool {number} after moves at feed with the one before, and the template tells one tool"),
+                format!("state the other one in the template under [[tools]] with in_program = {number} ([tool] is the one before), or write one program for each tool"),
+            ));
+        } else {
+            self.findings.push(MakeFinding::of(
+                *line,
+                format!("the program takes the tool {number} here after rapids with the one before: all moves go with the tip of [tool]"),
+            ));
+        }
+    }
+}
+
+/// Tools of other tips that would be one on the controller.
+fn alike(used: &Used, template: &Template, language: MakeLanguage) -> Vec<MakeError> {
+    let mut known: BTreeMap<String, (Option<Isometry3<f64>>, String)> = BTreeMap::new();
+    let mut faults = Vec::new();
+    let numbered = template
+        .tools
+        .iter()
+        .map(|(number, tool)| (Some(*number), tool));
+    let is_used = used.first_unnamed.is_some()
+        || (used.numbered.keys()).any(|number| !template.tools.contains_key(number));
+    let own = is_used.then_some((None, &template.tool));
+    let mut seen: BTreeSet<String> = BTreeSet::new();
+    for (in_program, tool) in own.into_iter().chain(numbered) {
+        let number = tool.frame.number.or(in_program).unwrap_or(1);
+        let name = match language {
+            MakeLanguage::Rapid => rapid::name_of_tool(in_program, tool),
+            MakeLanguage::FanucLs => format!("UTOOL_NUM={number}"),
+            // KRL writes the poses themselves.
+            _ if tool.frame.pose.is_some() => continue,
+            _ => format!("TOOL_DATA[{number}]"),
+        };
+        let place = match in_program {
+            Some(number) => format!("in_program = {number} under [[tools]]"),
+            None => "[tool]".to_owned(),
+        };
+        let key = name.to_ascii_uppercase();
+        let Some((pose, other)) = known.get(&key) else {
+            known.insert(key, (tool.frame.pose, place));
+            continue;
+        };
+        // Without poses it is left to the controller whether two are one.
+        if *pose != tool.frame.pose && seen.insert(key) {
+            faults.push(MakeError::of_template(
+                format!("{other} and {place} are both {name} on the controller, and their poses are not the same"),
+                "give each of them a number (RAPID: or a name) of its own",
+            ));
+        }
+    }
+    faults
+}
