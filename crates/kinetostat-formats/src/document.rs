@@ -79,7 +79,7 @@ pub fn expand(
 ) -> Result<Option<FlatText>, Vec<ProgramError>> {
     let done = match language {
         Language::Heidenhain => run_heidenhain(&files, options),
-        Language::Siemens => run_siemens(&files),
+        Language::Siemens => run_siemens(&files, options),
         _ => return Ok(None),
     };
     done.map(Some).map_err(|refused| {

@@ -98,8 +98,8 @@ pub use model::program::{Finding, Language, RobotProgram};
 pub use model::stated_arm::StatedArm;
 pub use model::target::{Configuration, PoseTarget, Target};
 pub use options::{
-    CutterCompensation, ExactStops, ExternalAxes, LengthUnit, ReadOptions, UnknownTargets,
-    WriteOptions,
+    CutterCompensation, ExactStops, ExternalAxes, LengthUnit, ReadOptions, SlashBlocks,
+    UnknownTargets, WriteOptions,
 };
 pub use path::all_faults::{ProgramFault, all_faults};
 pub use path::axis_turns::TurnAboutAxis;
