@@ -66,6 +66,7 @@ mod text;
 mod turned_axis;
 mod writing;
 
+pub use apt::flat::expand::expand_apt;
 pub use apt::reader::read_apt;
 pub use apt::table::APT_STATEMENTS;
 pub use document::{called_files, expand, read, write};
