@@ -2,6 +2,7 @@
 
 use std::collections::BTreeSet;
 
+use crate::apt::flat::expand::expand_apt;
 use crate::apt::reader::read_apt;
 use crate::apt::write::write_apt;
 use crate::error::{ProgramError, WriteError};
@@ -19,6 +20,7 @@ use crate::poses::reader::read_poses;
 use crate::poses::write::write_poses;
 use crate::rapid::reader::read_rapid;
 use crate::rapid::write::RapidSyntax;
+use crate::refused_run::RefusedRun;
 use crate::siemens::flat::run_or_refused as run_siemens;
 use crate::siemens::flat::unresolved::called as called_by_siemens;
 use crate::siemens::reader::read_siemens;
@@ -79,7 +81,8 @@ pub fn expand(
 ) -> Result<Option<FlatText>, Vec<ProgramError>> {
     let done = match language {
         Language::Heidenhain => run_heidenhain(&files, options),
-        Language::Siemens => run_siemens(&files),
+        Language::Siemens => run_siemens(&files, options),
+        Language::Apt => expand_apt(&files).map_err(RefusedRun::from),
         _ => return Ok(None),
     };
     done.map(Some).map_err(|refused| {

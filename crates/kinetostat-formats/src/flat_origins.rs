@@ -55,6 +55,8 @@ fn is_block(language: Language, text: &[u8]) -> bool {
             let ends = matches!(first, b"BEGIN" | b"END") && second == Some(b"PGM");
             first.is_empty() || first.starts_with(b"*") || ends || text.ends_with(b"~")
         }
+        // `;` begins no comment there.
+        Language::Apt => true,
         _ => text.is_empty() || text.starts_with(b"%"),
     };
     !own && text.len() <= LONGEST && !text.contains(&b';')

@@ -66,6 +66,7 @@ mod text;
 mod turned_axis;
 mod writing;
 
+pub use apt::flat::expand::expand_apt;
 pub use apt::reader::read_apt;
 pub use apt::table::APT_STATEMENTS;
 pub use document::{called_files, expand, read, write};
@@ -99,8 +100,8 @@ pub use model::program::{Finding, Language, RobotProgram};
 pub use model::stated_arm::StatedArm;
 pub use model::target::{Configuration, PoseTarget, Target};
 pub use options::{
-    CutterCompensation, ExactStops, ExternalAxes, LengthUnit, ReadOptions, UnknownTargets,
-    WriteOptions,
+    CutterCompensation, ExactStops, ExternalAxes, LengthUnit, ReadOptions, SlashBlocks,
+    UnknownTargets, WriteOptions,
 };
 pub use path::all_faults::{ProgramFault, all_faults};
 pub use path::axis_turns::TurnAboutAxis;

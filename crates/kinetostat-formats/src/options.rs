@@ -37,6 +37,18 @@ pub enum CutterCompensation {
     CentrePath,
 }
 
+/// What becomes of blocks behind a slash (SINUMERIK: `/N50`, `/0` to `/9`), which a switch at the machine skips.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum SlashBlocks {
+    /// They are refused with their lines, but for those that change neither places nor what follows.
+    #[default]
+    Refused,
+    /// They run, with a finding.
+    Run,
+    /// They are carried as they are written, and do nothing, with a finding.
+    Skipped,
+}
+
 /// What lengths of a list of poses are.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum LengthUnit {
@@ -70,6 +82,8 @@ pub struct ReadOptions {
     pub external_axes: ExternalAxes,
     /// Paths that the controller moves aside.
     pub cutter_compensation: CutterCompensation,
+    /// Blocks of SINUMERIK behind a slash.
+    pub slash_blocks: SlashBlocks,
     /// Unit of the lengths of a list of poses that does not state it; none where it must.
     pub length_unit: Option<LengthUnit>,
     /// Letters of the machine's rotary axes whose words are followed (SINUMERIK under `TRAORI`, Heidenhain with `M128`): those of

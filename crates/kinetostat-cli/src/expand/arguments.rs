@@ -15,7 +15,7 @@ use crate::job::expansion::arguments::ExpansionArgs;
 #[derive(Debug, Args)]
 #[command(after_long_help = HELP)]
 pub(crate) struct ExpandArgs {
-    /// Program in G-code, of SINUMERIK (.mpf) or Heidenhain (.h)
+    /// Program in G-code, of SINUMERIK (.mpf) or Heidenhain (.h), or in APT (.apt, .cls)
     #[arg(value_name = "PROGRAM")]
     pub(crate) program: PathBuf,
     /// File for the flat program; without it, it is printed

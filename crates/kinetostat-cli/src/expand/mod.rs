@@ -20,7 +20,7 @@ use crate::job::robot::called_files::with_called_files;
 use crate::job::robot::flat::{flat_text, notes_of};
 use crate::job::robot::read_once::Reading;
 use crate::job::robot::settings::settings as robot_settings;
-use crate::job::robot::source::RobotSource;
+use crate::job::robot::source::{RobotSource, slash_blocks};
 use crate::job::robot_arguments::RobotArgs;
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::layout::{item, wrapped};
@@ -89,6 +89,7 @@ fn of_control(args: &ExpandArgs, language: Language, bytes: Vec<u8>) -> Answer<(
         settings: robot_settings(None, &RobotArgs::default(), (language, Vector3::z()))?,
     };
     let called = with_called_files(&mut source, &args.program, &folders)?;
+    source.settings.reading.slash_blocks = slash_blocks(None, &args.reading);
     let (text, flat) = flat_text(&source, false)?;
     let Some(out) = &args.out else {
         return print_bytes(text.file.bytes());

@@ -34,6 +34,7 @@ mod figures;
 mod five_axes;
 mod force;
 mod force_fit;
+mod holes_and_slashes;
 mod identical;
 mod implausible;
 mod import;

@@ -38,6 +38,7 @@ pub(crate) struct Reader<'r, 'o> {
 }
 
 pub(crate) const POINTS: &str = "let the CAM system write points: GOTO/x,y,z or GOTO/x,y,z,i,j,k";
+pub(crate) const HOLES: &str = "let the holes be written as motions (--expand), leave them as written (unknown_targets = \"left_as_written\" under [robot] in a job file), or let the CAM system write points";
 pub(crate) const LEAVE: &str = "leave such motions as written (unknown_targets = \"left_as_written\" under [robot] in a job file), or let the CAM system write points";
 
 impl Reader<'_, '_> {

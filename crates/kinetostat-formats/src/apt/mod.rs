@@ -2,7 +2,7 @@
 //!
 //! From statements ([`lines`]) to their numbers ([`numbers`], [`places`]), arcs ([`arc`]) and motions ([`reader`]: the
 //! statements of a file, [`statements`], those that move, [`motions`], and what is in force between them, [`state`]). What
-//! each word is taken for stands in [`table`]; which system wrote the file, [`dialect`] says.
+//! each word is taken for stands in [`table`]; which system wrote the file, [`dialect`] says. Holes of cycles become motions in [`flat`].
 //!
 //! Source: ISO 3592 and ISO 4343 (CLDATA), ANSI X3.37 (APT), Siemens NX manual "CLSF", Dassault CATIA V5 "APT formats", and
 //! 20 public files (docs/robot-programs.csv).
@@ -10,6 +10,7 @@
 pub(crate) mod arc;
 pub(crate) mod dialect;
 pub(crate) mod file_reader;
+pub(crate) mod flat;
 pub(crate) mod lines;
 pub(crate) mod motions;
 pub(crate) mod numbers;

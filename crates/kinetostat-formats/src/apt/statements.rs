@@ -24,7 +24,8 @@ impl Reader<'_, '_> {
         if !is_motion {
             self.end_circle();
         }
-        let understood = row(&word).is_some_and(|row| row.treatment == Treatment::Understood);
+        let understood = word == b"CYCLE"
+            || row(&word).is_some_and(|row| row.treatment == Treatment::Understood);
         if understood
             && !statement.slash
             && !statement.arguments.is_empty()

@@ -29,6 +29,10 @@ const THREAD: Treatment = Refused {
     reason: "its motion is the controller's own cycle",
     remedy: "take it into a file of its own",
 };
+const HOLES: Treatment = Refused {
+    reason: "its motions are the controller's cycle",
+    remedy: "let its holes be written as motions: --expand",
+};
 
 /// What is done with each word of APT and CLDATA. A word that is not here is refused with its line; words that begin with
 /// `CSI_` are carried.
@@ -43,7 +47,7 @@ pub const APT_STATEMENTS: &[StatementRow] = &[
     line("UNIT", Understood, SW),
     line("UNITS", Understood, APT),
     line("CIRCLE", Understood, APT),
-    line("CYCLE", Understood, ISO),
+    line("CYCLE", HOLES, ISO),
     line("CUTCOM", Understood, ISO),
     line("TLCOMP", Understood, ISO),
     line("MULTAX", Understood, APT),

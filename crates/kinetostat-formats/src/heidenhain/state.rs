@@ -36,6 +36,10 @@ pub(crate) struct State {
     /// F of the last TOOL CALL.
     pub tool_feed: Option<f64>,
     pub per_turn: bool,
+    /// S of the last TOOL CALL that states one, rpm.
+    pub turns_per_minute: Option<f64>,
+    /// M3, M4, M13 or M14.
+    pub spindle_on: bool,
     pub tool: String,
     /// The control's preset by its name.
     pub preset: String,
@@ -75,6 +79,8 @@ impl State {
             feed_text: String::new(),
             tool_feed: None,
             per_turn: false,
+            turns_per_minute: None,
+            spindle_on: false,
             tool: "TOOL".to_owned(),
             preset: "PRESET".to_owned(),
             datum: Datum::none(),
@@ -174,9 +180,16 @@ impl State {
             true => 1.0,
             false => unit_mm / 10.0,
         };
-        let value = self.feed.filter(|_| !self.per_turn);
+        let per_minute = match self.per_turn {
+            false => Some(per_unit),
+            // What M136 counts in where the unit is inches is not followed.
+            true => self
+                .turns_per_minute
+                .filter(|_| self.spindle_on && unit_mm == 1.0),
+        };
+        let value = self.feed.zip(per_minute);
         Speed {
-            mm_per_s: value.map(|feed| feed * per_unit / 60.0),
+            mm_per_s: value.map(|(feed, per_minute)| feed * per_minute / 60.0),
             text: self.feed_text.clone(),
         }
     }

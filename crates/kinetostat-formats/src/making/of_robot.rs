@@ -18,6 +18,7 @@ use crate::model::frame::FrameUse;
 use crate::model::motion::{Motion, Zone};
 use crate::model::program::{Language, RobotProgram};
 use crate::model::site::TargetSite;
+use crate::path::axis_turns::at_z;
 use crate::path::of_program::RobotPath;
 use crate::path::tools::same_frame;
 use crate::rapid::loads::object_frames;
@@ -112,6 +113,7 @@ pub fn make_of_robot(
             "the program has several work objects: the places are those in the robot's base, and are written so",
         ));
     }
+    made.findings.extend(orientation_not_used(robot, &template));
     if given != StatedFrame::default() && given.pose != template.base.pose {
         made.findings.push(MakeFinding::of(
             None,
@@ -145,6 +147,21 @@ pub fn make_of_robot(
     made.findings
         .extend(lost_configurations(program, &template, language));
     Ok(made)
+}
+
+/// Orientations nearer to one another are one, rad.
+const SAME_TURN_RAD: f64 = 1e-6;
+
+/// That a template says otherwise how the tool stands than a source that states its axis.
+fn orientation_not_used(robot: &RobotPath, template: &Template) -> Option<MakeFinding> {
+    let stated = template.tool_orientation.filter(|_| robot.axis_alone)?;
+    let same = stated.angle_to(&at_z(robot.path.tool_axis)) < SAME_TURN_RAD;
+    (!same).then(|| {
+        MakeFinding::of(
+            None,
+            "tool_orientation of the template is not used: the program says along which axis the tool lies (z of its work object where it states none), and turn_about_axis how it is turned about it",
+        )
+    })
 }
 
 /// A tool of the template with what the source says of it and the template does not.

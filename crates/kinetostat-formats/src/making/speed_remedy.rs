@@ -6,10 +6,10 @@ use crate::model::program::Language;
 pub(crate) fn speed_remedy(language: Option<Language>) -> &'static str {
     match language {
         None | Some(Language::Siemens) => {
-            "write an F above zero (with G95 the speed of the spindle, too), or state unstated_feed_mm_per_s in the template"
+            "write an F above zero (with G95 the speed of the spindle, S with M3 or M4, too), or state unstated_feed_mm_per_s in the template"
         }
         Some(Language::Heidenhain) => {
-            "write F as a number of mm/min (FZ, FU, FT and F AUTO state none), or state unstated_feed_mm_per_s in the template"
+            "write F as a number of mm/min (FZ, FU, FT and F AUTO state none; with M136 S in TOOL CALL and M3, too), or state unstated_feed_mm_per_s in the template"
         }
         Some(Language::Apt) => {
             "state FEDRAT as a number (and SPINDL, where it is by turns), or state unstated_feed_mm_per_s in the template"

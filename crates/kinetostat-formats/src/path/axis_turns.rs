@@ -51,7 +51,7 @@ pub enum TurnAboutAxis {
 }
 
 /// Axes nearer to z of the part than this are z: the program is one of positions.
-const ALONG_Z: f64 = 1e-9;
+pub(crate) const ALONG_Z: f64 = 1e-9;
 
 /// Directions that lie nearer than this to the axis say no turn about it (1.1 degrees).
 const ALONG_AXIS: f64 = 0.02;
@@ -85,6 +85,17 @@ pub(crate) fn first_leaning(program: &RobotProgram) -> Option<&Motion> {
     motions.find(|motion| axis_of(program, motion).is_some_and(leans))
 }
 
+/// The first motion whose tool leans from z of the robot's base, where the axis alone is stated, or nothing: z of its work object then.
+///
+/// In axes of the base the tool does not lie along z for that: the path of a program with several work objects is in these axes.
+pub(crate) fn first_leaning_in_base(program: &RobotProgram) -> Option<&Motion> {
+    let leans = |motion: &&Motion| {
+        let axis = axis_of(program, motion).zip(motion.work_object.known());
+        axis.is_some_and(|(axis, frame)| (frame * axis - Vector3::z()).norm() > ALONG_Z)
+    };
+    program.motions.iter().find(leans)
+}
+
 /// The orientation that takes the tool's axis to a direction, and a direction of the tool as near as possible to another one; none
 /// where one of these lies along its axis.
 fn standing(
@@ -104,7 +115,7 @@ fn standing(
 }
 
 /// Where the tool's axis points along z of the part.
-fn at_z(tool_axis: Vector3<f64>) -> UnitQuaternion<f64> {
+pub(crate) fn at_z(tool_axis: Vector3<f64>) -> UnitQuaternion<f64> {
     let z = (Vector3::z(), Vector3::x());
     let by_x = standing((tool_axis, Vector3::x()), z);
     let made = by_x.or_else(|| standing((tool_axis, Vector3::y()), z));

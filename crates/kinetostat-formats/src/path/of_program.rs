@@ -8,7 +8,7 @@ use crate::model::frame::FrameUse;
 use crate::model::motion::{Motion, Runs};
 use crate::model::program::{Language, RobotProgram};
 use crate::model::stated_axes::AxesStated;
-use crate::path::axis_turns::first_leaning;
+use crate::path::axis_turns::{first_leaning, first_leaning_in_base};
 use crate::path::fault::{PathError, fault_at};
 use crate::path::maker::Maker;
 use crate::path::motion_faults::{faults_of_motions, has_one_work_object, motions_to_poses};
@@ -35,8 +35,8 @@ pub struct RobotPath {
     pub tools: Vec<FrameUse>,
     /// The file with the motions, an index of [`RobotProgram::files`].
     pub file: usize,
-    /// The program states the direction of the tool's axis alone, and it is not z throughout: about it the tool is turned by
-    /// [`PathOptions::turn_about_axis`].
+    /// The program states the direction of the tool's axis alone, and in axes of the path it is not z throughout (also where work objects
+    /// turn it): about it the tool is turned by [`PathOptions::turn_about_axis`].
     pub axis_alone: bool,
     /// Rotary axes of the machine turn the tool: about it they may stand otherwise where the tool lies along one of them.
     pub(crate) by_axes: bool,
@@ -83,7 +83,10 @@ pub fn path_of(program: &RobotProgram, options: &PathOptions) -> Result<RobotPat
     let work_object = poses.first().map(|motion| motion.work_object.clone());
     let tools = tools_of(&poses);
     let file = program.motions.first().map_or(0, |motion| motion.file);
-    let leaning = first_leaning(program);
+    let leaning = match one {
+        true => first_leaning(program),
+        false => first_leaning(program).or_else(|| first_leaning_in_base(program)),
+    };
     let angled = first_with_angles(program);
     let letters = options.rotary.iter().flat_map(|rotary| &rotary.axes);
     let same = letters

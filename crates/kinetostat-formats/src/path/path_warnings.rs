@@ -8,7 +8,7 @@ use crate::model::orientation::OrientationText;
 use crate::model::program::{Language, RobotProgram};
 use crate::model::site::TargetSite;
 use crate::path::axis_angles::on_great_circle;
-use crate::path::axis_turns::TurnAboutAxis;
+use crate::path::axis_turns::{ALONG_Z, TurnAboutAxis, axis_of};
 use crate::path::options::PathOptions;
 
 /// So many places say whether a program is small, ...
@@ -108,10 +108,16 @@ pub(crate) fn by_rule(
         TurnAboutAxis::Least => "as little as possible from pose to pose (`turn_about_axis`)",
         TurnAboutAxis::Towards { .. } => "towards the direction that is stated (`turn_about_axis`)",
     };
+    let axis = axis_of(program, leaning);
+    // A work object may turn it.
+    let z = match axis.is_some_and(|axis| (axis - Vector3::z()).norm() > ALONG_Z) {
+        true => "z",
+        false => "z of the robot's base",
+    };
     let mut warnings = vec![Warning {
         line: leaning.line,
         text: format!(
-            "the program states the tool's axis alone, here first another one than z: about it the tool is taken to turn {rule}"
+            "the program states the tool's axis alone, here first another one than {z}: about it the tool is taken to turn {rule}"
         ),
     }];
     let unstated = |motion: &Motion| matches!(&motion.site.target, TargetSite::Literal(text) if text.convention == OrientationText::Unstated);

@@ -119,9 +119,16 @@ impl Reader<'_> {
             }
             90 => state.steps = false,
             91 => state.steps = true,
-            93 => state.feed_mode = FeedMode::Inverse,
-            94 | 961 | 971 => state.feed_mode = FeedMode::PerMinute,
-            95..=97 => state.feed_mode = FeedMode::PerTurn,
+            94 => state.feed_mode = FeedMode::PerMinute,
+            95 => state.feed_mode = FeedMode::PerTurn,
+            96 | 97 => {
+                state.feed_mode = FeedMode::PerTurn;
+                state.spindle.count(number == 96);
+            }
+            961 | 971 => {
+                state.feed_mode = FeedMode::PerMinute;
+                state.spindle.count(number == 961);
+            }
             _ => self.by_table(&format!("G{number}"), item),
         }
     }

@@ -1,8 +1,8 @@
 //! Definitions of variables: `DEF REAL A, B=1, C[3]`.
 
-use crate::siemens::expression::Cursor;
+use crate::siemens::expression::{Cursor, Expression};
 use crate::siemens::tokens::{Broken, Kind, Token};
-use crate::siemens::values::{Type, Value, Variable, Variables};
+use crate::siemens::values::{Type, Variable, Variables, whole};
 
 /// Types whose variables say which axis moves, or where.
 const OTHER_TYPES: [&str; 2] = ["AXIS", "FRAME"];
@@ -97,14 +97,15 @@ pub(crate) fn define(
             remedy: "make the arrays smaller",
         })?;
         if cursor.takes(b'=') {
+            let span = cursor.place();
             let value = cursor.expression()?;
-            if let Ok(value) = variables.value(bytes, &value) {
-                let value = match (kind, value) {
-                    (Type::Int, Value::Number(value)) => Value::Number((value + 0.5).floor()),
-                    (_, value) => value,
-                };
-                made.values.fill(value);
-            }
+            begin_with(&mut made, &value, (bytes, variables)).map_err(|(reason, remedy)| {
+                Broken {
+                    span,
+                    reason,
+                    remedy,
+                }
+            })?;
         }
         variables.own.insert(name, made);
         if cursor.peek().is_none() {
@@ -118,4 +119,97 @@ pub(crate) fn define(
             ));
         }
     }
+}
+
+/// Gives a variable the values of its declaration: one, or those of an array by SET and REP; what they do not name is zero.
+/// [SINUMERIK, job planning: Definition and initialization of array variables (DEF, SET, REP)]
+///
+/// A single value that only the machine knows is none: the variable is refused where it is used.
+fn begin_with(
+    made: &mut Variable,
+    value: &Expression,
+    (bytes, variables): (&[u8], &Variables),
+) -> Result<(), (&'static str, &'static str)> {
+    let is = |name: &std::ops::Range<usize>, word: &str| {
+        bytes
+            .get(name.clone())
+            .is_some_and(|text| text.eq_ignore_ascii_case(word.as_bytes()))
+    };
+    let known = |made: &Variable, value: &Expression| {
+        let value = variables.value(bytes, value).ok();
+        let value = value.ok_or((
+            "a value of the array is not known here",
+            "write it as a number",
+        ))?;
+        made.taken(value).map_err(|_| {
+            (
+                "its value is of another type",
+                "write one of the variable's type",
+            )
+        })
+    };
+    let more = (
+        "it has more values than the array has elements",
+        "take those behind out",
+    );
+    match value {
+        Expression::Call { name, arguments } if is(name, "SET") && !made.sizes.is_empty() => {
+            if arguments.len() > made.values.len() {
+                return Err(more);
+            }
+            for (index, value) in arguments.iter().enumerate() {
+                made.values[index] = known(made, value)?;
+            }
+        }
+        Expression::Call { name, arguments } if is(name, "REP") && !made.sizes.is_empty() => {
+            let (value, count) = match arguments.as_slice() {
+                [value] => (value, made.values.len()),
+                [value, count] => {
+                    let count = variables.number(bytes, count).ok().and_then(whole);
+                    let count = count.ok_or((
+                        "how many elements REP fills, is no whole number",
+                        "write it as one",
+                    ))?;
+                    (value, count as usize)
+                }
+                _ => {
+                    return Err((
+                        "REP has a value, and how many elements it fills",
+                        "write REP(value) or REP(value, count)",
+                    ));
+                }
+            };
+            if count > made.values.len() {
+                return Err(more);
+            }
+            let value = known(made, value)?;
+            made.values[..count].fill(value);
+        }
+        Expression::Call { name, .. } if is(name, "SET") || is(name, "REP") => {
+            return Err((
+                "SET and REP are for arrays, and this is a single variable",
+                "write its value",
+            ));
+        }
+        _ if !made.sizes.is_empty() => {
+            return Err((
+                "an array begins with one value, and which elements have it is not sure",
+                "write SET(values), or REP(value) for all elements",
+            ));
+        }
+        _ => match variables.value(bytes, value) {
+            Ok(value) => {
+                let value = made.taken(value);
+                let value = value.map_err(|_| {
+                    (
+                        "its value is of another type",
+                        "write one of the variable's type",
+                    )
+                })?;
+                made.values.fill(value);
+            }
+            Err(_) => made.values.clear(),
+        },
+    }
+    Ok(())
 }

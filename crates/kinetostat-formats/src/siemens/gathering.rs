@@ -66,6 +66,7 @@ impl Reader<'_> {
                 self.state.ended = true;
             }
             "CYCLE800" if matches!(&item.what, What::Call(arguments) if arguments.is_empty()) => {}
+            "FGROUP" => self.feed_group(item),
             "SCALE" | "MIRROR" if words.axes.iter().all(Option::is_none) => {}
             _ if name.len() > 1
                 && name.starts_with('L')
@@ -75,6 +76,30 @@ impl Reader<'_> {
             }
             _ => self.by_table(name, item),
         }
+    }
+
+    /// FGROUP names the axes whose way F counts; without names they are those of the machine's own setting [SINUMERIK, fundamentals,
+    /// FGROUP]. X, Y and Z, or none: the way of the tool's tip, as F is taken.
+    fn feed_group(&mut self, item: &Item) {
+        let What::Call(arguments) = &item.what else {
+            return self.by_table("FGROUP", item);
+        };
+        let names: Vec<String> = (arguments.iter())
+            .map(|argument| self.name(&argument.span).trim().to_owned())
+            .collect();
+        let of_tip = ["X", "Y", "Z"]
+            .iter()
+            .all(|axis| names.iter().any(|name| name == axis));
+        if names.is_empty() || of_tip && names.len() == 3 {
+            return;
+        }
+        self.finding(
+            &item.span,
+            format!(
+                "F counts the way of the axes {} here (FGROUP), and is taken as that of the tool's tip: where others move, too, the cut is faster or slower",
+                names.join(", ")
+            ),
+        );
     }
 
     fn assign(&mut self, item: &Item, indices: &[Expression], value: &Expression) {
@@ -207,11 +232,22 @@ impl Reader<'_> {
                 };
                 words.corner = Some((item.span.clone(), cut));
             }
-            "S" => self.not_below_zero(item, value, "S"),
+            "S" => {
+                self.not_below_zero(item, value, "S");
+                if words.purpose == Purpose::Motion {
+                    let speed = self.variables.number(self.file.bytes(), value).ok();
+                    self.state.spindle.state(speed);
+                }
+            }
             "H" => {}
-            _ if numbered && first == b'S' => self.not_below_zero(item, value, "S"),
+            // Which spindle cuts is not known with numbers.
+            _ if numbered && first == b'S' => {
+                self.not_below_zero(item, value, "S");
+                self.state.spindle.state(None);
+            }
             _ if numbered && first == b'M' => {
                 self.whole_number(item, value);
+                self.state.spindle.state(None);
             }
             _ if numbered && first == b'H' => {}
             _ if numbered && first == b'T' => self.tool(item, value),
@@ -232,6 +268,7 @@ impl Reader<'_> {
 
     fn m_word(&mut self, item: &Item, value: &Expression, words: &mut Words) {
         match self.whole_number(item, value) {
+            Some(number @ (3..=5 | 19 | 70)) => self.state.spindle.on = matches!(number, 3 | 4),
             Some(6) => words.changes_tool = true,
             Some(2 | 17 | 30) => {
                 words.at_end.push(item.span.clone());

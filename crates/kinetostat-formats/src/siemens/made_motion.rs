@@ -121,10 +121,14 @@ impl Reader<'_> {
         let state = &self.state;
         let rapid = state.code == Code::Rapid;
         let feed = state.feed.as_ref().filter(|_| !rapid);
-        let per_minute = state.feed_mode == FeedMode::PerMinute;
+        // Feeds in a minute.
+        let feeds = match state.feed_mode {
+            FeedMode::PerMinute => Some(1.0),
+            FeedMode::PerTurn => state.spindle.in_force(),
+        };
         Speed {
-            mm_per_s: (feed.filter(|_| per_minute))
-                .map(|feed| feed.value * state.feed_unit_mm / 60.0),
+            mm_per_s: (feed.zip(feeds))
+                .map(|(feed, feeds)| feed.value * feeds * state.feed_unit_mm / 60.0),
             text: match rapid {
                 true => "G0".to_owned(),
                 false => feed.map_or(String::new(), |feed| feed.text.clone()),

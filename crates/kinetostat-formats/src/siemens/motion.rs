@@ -6,7 +6,7 @@ use crate::model::motion::MotionKind;
 use crate::siemens::block::Block;
 use crate::siemens::frames::Change;
 use crate::siemens::made_motion::Known;
-use crate::siemens::state::{Code, FeedMode};
+use crate::siemens::state::Code;
 use crate::siemens::walker::Reader;
 use crate::siemens::words::{Purpose, Words};
 
@@ -175,13 +175,6 @@ impl Reader<'_> {
                 &block.span,
                 "a centre or a radius is stated, and no arc is in force",
                 "write G2, G3 or CIP, or take them out",
-            );
-        }
-        if self.state.code != Code::Rapid && self.state.feed_mode == FeedMode::Inverse {
-            self.fault(
-                &block.span,
-                "the feed is one over the time of each block (G93)",
-                "let the CAM system write feeds in mm/min (G94)",
             );
         }
         if self.state.code != Code::Rapid {

@@ -6,7 +6,7 @@ use std::ops::Range;
 use nalgebra::Isometry3;
 
 use crate::axis_count::{CountShown, shown_by_both};
-use crate::options::ReadOptions;
+use crate::options::{ReadOptions, SlashBlocks};
 use crate::siemens::block::{Block, What};
 use crate::siemens::declarations::define;
 use crate::siemens::files::whole_file;
@@ -20,6 +20,11 @@ use crate::siemens::walker::{Corners, Reader, Scan};
 use crate::standing::Standing;
 use crate::table::Treatment;
 use crate::text::source::{BEHIND_END, SourceFile};
+
+/// Why a block behind a slash is refused, and what to do.
+pub(super) const SLASHED: &str = "whether the block runs, depends on a switch at the machine (/)";
+pub(super) const SLASHED_REMEDY: &str =
+    "say it (--block-delete run or skip), or take the slash out, or the block";
 
 /// Reads all files, each for itself.
 pub(crate) fn scan(files: &[SourceFile], options: &ReadOptions) -> Scan {
@@ -121,12 +126,18 @@ impl Reader<'_> {
         let Some(first) = block.items.first() else {
             return;
         };
-        if block.skip && !self.is_harmless(block) {
-            return self.fault(
-                &block.span.clone(),
-                "whether the block runs, depends on a switch at the machine (/)",
-                "take the slash out, or the block",
-            );
+        if block.skip {
+            match self.options.slash_blocks {
+                SlashBlocks::Refused if self.is_harmless(block) => {}
+                SlashBlocks::Refused => {
+                    return self.fault(&block.span.clone(), SLASHED, SLASHED_REMEDY);
+                }
+                SlashBlocks::Run => self.slashed(block, "runs"),
+                SlashBlocks::Skipped => {
+                    self.slashed(block, "does not run");
+                    return;
+                }
+            }
         }
         let statement = block.items.iter().find(|item| item.what == What::Statement);
         if let Some(item) = statement {
@@ -148,6 +159,17 @@ impl Reader<'_> {
             return;
         }
         self.act(block, words, (code, feed));
+    }
+
+    /// Names the first block behind a slash, and what becomes of all of them.
+    fn slashed(&mut self, block: &Block, does: &str) {
+        let known = std::mem::replace(&mut self.state.slash_remarked, true);
+        if !known {
+            self.finding(
+                &block.span,
+                format!("the block behind a slash {does}, and so all of them, of whatever level (/0 to /9)"),
+            );
+        }
     }
 
     /// Whether a block changes neither places nor what follows.

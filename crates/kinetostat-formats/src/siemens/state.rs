@@ -59,8 +59,37 @@ pub(crate) enum FeedMode {
     PerMinute,
     /// G95, G96.
     PerTurn,
-    /// G93.
-    Inverse,
+}
+
+/// How the master spindle turns, as far as the program says it.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(crate) struct Turning {
+    /// S, rpm; none where it is not known.
+    pub rpm: Option<f64>,
+    /// M3 or M4.
+    pub on: bool,
+    /// S is a cutting speed: G96, G961.
+    pub by_cutting_speed: bool,
+}
+
+impl Turning {
+    /// S.
+    pub(crate) fn state(&mut self, speed: Option<f64>) {
+        self.rpm = speed.filter(|speed| *speed > 0.0 && !self.by_cutting_speed);
+    }
+
+    /// G96 and the like, or back to turns.
+    pub(crate) fn count(&mut self, by_cutting_speed: bool) {
+        if self.by_cutting_speed != by_cutting_speed {
+            self.rpm = None;
+        }
+        self.by_cutting_speed = by_cutting_speed;
+    }
+
+    /// The turns in a minute, where it turns and they are known.
+    pub(crate) fn in_force(&self) -> Option<f64> {
+        self.rpm.filter(|_| self.on)
+    }
 }
 
 /// A feed as it was written.
@@ -109,6 +138,7 @@ pub(crate) struct State {
     pub steps: bool,
     pub feed_mode: FeedMode,
     pub feed: Option<Feed>,
+    pub spindle: Turning,
     /// G60.
     pub exact: bool,
     /// Programmable frame: from its axes to those of the part, mm.
@@ -128,6 +158,8 @@ pub(crate) struct State {
     pub even_axes: Option<bool>,
     /// It was remarked that neither is stated.
     pub law_remarked: bool,
+    /// Blocks behind a slash were remarked.
+    pub slash_remarked: bool,
     /// The machine's rotary axes whose words are followed.
     pub standing: Standing,
     /// Direction of the tool in the part's axes, where it was stated.
@@ -160,6 +192,7 @@ impl State {
             steps: false,
             feed_mode: FeedMode::PerMinute,
             feed: None,
+            spindle: Turning::default(),
             exact: false,
             frame: Isometry3::identity(),
             work_object: "PART".to_owned(),
@@ -171,6 +204,7 @@ impl State {
             machine_orientation: false,
             even_axes: None,
             law_remarked: false,
+            slash_remarked: false,
             standing,
             direction: None,
             place: [None; 3],

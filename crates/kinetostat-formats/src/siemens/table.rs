@@ -71,6 +71,10 @@ const PASSED: Treatment = Refused {
     reason: "how fast the tool goes between the ends is not known",
     remedy: "write FNORM, and feeds by G94",
 };
+const INVERSE: Treatment = Refused {
+    reason: "the feed is one over the time of each block (G93)",
+    remedy: "let the CAM system write feeds in mm/min (G94)",
+};
 
 /// What is done with each word of a SINUMERIK program. A word that is not here is refused with its line; M, H and S words and
 /// variables are carried.
@@ -106,7 +110,7 @@ pub const SIEMENS_STATEMENTS: &[StatementRow] = &[
     line("G710", Understood, FUNDAMENTALS),
     line("G90", Understood, FUNDAMENTALS),
     line("G91", Understood, FUNDAMENTALS),
-    line("G93", Understood, FUNDAMENTALS),
+    line("G93", INVERSE, FUNDAMENTALS),
     line("G94", Understood, FUNDAMENTALS),
     line("G95", Understood, FUNDAMENTALS),
     line("F", Understood, FUNDAMENTALS),
@@ -196,6 +200,8 @@ pub const SIEMENS_STATEMENTS: &[StatementRow] = &[
     line("WAITS", Carried, FUNDAMENTALS),
     line("DIAMOF", Carried, FUNDAMENTALS),
     line("FNORM", Carried, WORK),
+    line("FGROUP", Understood, FUNDAMENTALS),
+    line("FGREF", Carried, FUNDAMENTALS),
     line("CFC", Carried, FUNDAMENTALS),
     line("CFTCP", Carried, FUNDAMENTALS),
     line("CFIN", Carried, FUNDAMENTALS),

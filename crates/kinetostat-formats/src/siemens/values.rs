@@ -29,6 +29,7 @@ pub(crate) struct Variable {
     pub kind: Type,
     /// None for one value.
     pub sizes: Vec<usize>,
+    /// Empty for one that was declared with a value that is not known.
     pub values: Vec<Value>,
 }
 
@@ -50,6 +51,20 @@ impl Variable {
             kind,
             sizes,
             values: vec![value; count],
+        })
+    }
+
+    /// A value as the variable holds it.
+    ///
+    /// # Errors
+    /// It is of another type.
+    pub(crate) fn taken(&self, value: Value) -> Result<Value, Why> {
+        Ok(match (self.kind, value) {
+            (Type::Real, Value::Number(value)) => Value::Number(value),
+            (Type::Int, Value::Number(value)) => Value::Number((value + 0.5).floor()),
+            (Type::Bool, Value::Number(value)) => truth(value != 0.0),
+            (Type::Text, Value::Text(text)) => Value::Text(text),
+            _ => return Err("its value is of another type".to_owned()),
         })
     }
 
@@ -201,16 +216,13 @@ impl Variables {
         let Some(variable) = self.own.get_mut(&capitals) else {
             return Err(format!("`{}` is not declared", shown(name)));
         };
-        let value = match (variable.kind, value) {
-            (Type::Real, Value::Number(value)) => Value::Number(value),
-            (Type::Int, Value::Number(value)) => Value::Number((value + 0.5).floor()),
-            (Type::Bool, Value::Number(value)) => truth(value != 0.0),
-            (Type::Text, Value::Text(text)) => Value::Text(text),
-            _ => return Err("its value is of another type".to_owned()),
-        };
+        let value = variable.taken(value)?;
         let place = variable.place(indices);
         let place = place.ok_or_else(|| "its index is outside the array".to_owned())?;
-        variable.values[place] = value;
+        match variable.values.get_mut(place) {
+            Some(held) => *held = value,
+            None => variable.values = vec![value],
+        }
         Ok(())
     }
 

@@ -37,4 +37,5 @@ mod refused_runs;
 mod refusing;
 mod siemens;
 mod starts_alone;
+mod turned_work_objects;
 mod turns_in_place;

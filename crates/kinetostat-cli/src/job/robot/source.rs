@@ -3,12 +3,13 @@
 use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 
-use kinetostat_formats::{Language, SourceFile, endings_of, language_of, odd_program};
+use kinetostat_formats::{Language, SlashBlocks, SourceFile, endings_of, language_of, odd_program};
 use nalgebra::Vector3;
 
 use crate::files::input_files::InputFiles;
 use crate::files::origin;
-use crate::job::arguments::ProgramArgs;
+use crate::job::arguments::{ProgramArgs, ReadingArgs};
+use crate::job::format::BlockDeleteWord;
 use crate::job::job_file::JobFile;
 use crate::job::robot::divided::Divided;
 use crate::job::robot::parquet;
@@ -91,13 +92,14 @@ pub(crate) fn robot_source(
             _ => Ok(None),
         };
     };
-    refuse_unfit(job, program)?;
+    refuse_unfit(job, program, language)?;
     if language == Language::Krl && is_data(path) {
         return Err(Failure::input(format!(
             "'{name}' holds data of a program: give its .src as the program; the .dat of the same name is read with it"
         )));
     }
-    let settings = settings(job, flags, (language, usual_axis(language)))?;
+    let mut settings = settings(job, flags, (language, usual_axis(language)))?;
+    settings.reading.slash_blocks = slash_blocks(job, &program.reading);
     let text = parquet::as_text(name, bytes)?;
     let mut source = RobotSource {
         language,
@@ -132,6 +134,16 @@ pub(crate) fn robot_source(
         }
     }
     Ok(Some((source, read)))
+}
+
+/// What becomes of blocks behind a slash, as options or the job file say.
+pub(crate) fn slash_blocks(job: Option<&JobFile>, flags: &ReadingArgs) -> SlashBlocks {
+    let in_job = job.and_then(|j| j.job.reading.block_delete);
+    match flags.block_delete.or(in_job) {
+        Some(BlockDeleteWord::Run) => SlashBlocks::Run,
+        Some(BlockDeleteWord::Skip) => SlashBlocks::Skipped,
+        None => SlashBlocks::Refused,
+    }
 }
 
 /// The usual endings of all languages: `.mod, .src, ...`.

@@ -1,5 +1,6 @@
 //! Options and keys that are for G-code alone, where the program is one of a robot.
 
+use kinetostat_formats::Language;
 use serde_spanned::Spanned;
 
 use crate::job::arguments::ProgramArgs;
@@ -8,7 +9,13 @@ use crate::job::job_file::JobFile;
 use crate::ui::failure::{Answer, Failure};
 
 /// Refuses what would have no effect.
-pub(crate) fn refuse_unfit(job: Option<&JobFile>, flags: &ProgramArgs) -> Answer<()> {
+pub(crate) fn refuse_unfit(
+    job: Option<&JobFile>,
+    flags: &ProgramArgs,
+    language: Language,
+) -> Answer<()> {
+    // A control has the switch for blocks behind a slash, as G-code has.
+    let has_switch = language == Language::Siemens;
     let refuse = |what: &str, why: &str| {
         Err(Failure::input(format!(
             "{what} is for G-code; {why}: leave it out"
@@ -20,7 +27,10 @@ pub(crate) fn refuse_unfit(job: Option<&JobFile>, flags: &ProgramArgs) -> Answer
         ("--units", reading.units.is_some()),
         ("--arc-tolerance", reading.arc_tolerance.is_some()),
         ("--work-offset", !reading.work_offset.is_empty()),
-        ("--block-delete", reading.block_delete.is_some()),
+        (
+            "--block-delete",
+            reading.block_delete.is_some() && !has_switch,
+        ),
         ("--axes-stand-still", reading.axes_stand_still),
         ("--tool-centre-point", reading.tool_centre_point),
         ("--start-position-mm", reading.start_position_mm.is_some()),
@@ -36,7 +46,7 @@ pub(crate) fn refuse_unfit(job: Option<&JobFile>, flags: &ProgramArgs) -> Answer
     let given = table.is_some_and(|table| {
         table.units.is_some()
             || table.arc_tolerance_mm.is_some()
-            || table.block_delete.is_some()
+            || table.block_delete.is_some() && !has_switch
             || table.axes_stand_still.is_some()
             || table.tool_centre_point.is_some()
             || table.start_position_mm.is_some()

@@ -1,5 +1,7 @@
 //! A program run once and written flat.
 
+use std::collections::BTreeMap;
+
 use crate::error::ProgramError;
 use crate::heidenhain::expand::corners::written_out;
 use crate::heidenhain::expand::program::Program;
@@ -100,6 +102,8 @@ fn run_within(
         steps: 0,
         silent: 0,
         most_blocks,
+        back_to: BTreeMap::new(),
+        is_endless: false,
         cycle_refused: false,
         faults: FaultsOfRun::default(),
     };
@@ -108,8 +112,13 @@ fn run_within(
         output,
         origins,
         faults,
+        is_endless,
         ..
     } = run;
+    if is_endless {
+        // To read millions of blocks of a loop takes gigabytes, and says nothing more.
+        return Err(faults.into_faults().into());
+    }
     let changed = output != main.file.bytes();
     let file = SourceFile::new(main.file.name(), output);
     let flat = FlatText {

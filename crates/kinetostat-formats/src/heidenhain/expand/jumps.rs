@@ -160,6 +160,9 @@ impl Run<'_> {
             }
         };
         let to = self.label(at, words.get(goes + 1))?;
+        if is_true {
+            self.goes_back(at.0, at.1, to);
+        }
         Ok(match is_true {
             true => Next::At(at.0, to),
             false => Next::Block,

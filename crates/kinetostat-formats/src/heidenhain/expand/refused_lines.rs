@@ -13,7 +13,7 @@ impl Run<'_> {
 
     /// What stands behind a block that is refused: the same as without it, unless it says what runs or what a parameter is.
     pub(crate) fn behind(&self, at: (usize, usize)) -> Behind {
-        if self.frames.len() >= DEEPEST || self.origins.len() >= self.most_blocks {
+        if self.is_endless || self.frames.len() >= DEEPEST {
             return Behind::Nothing;
         }
         let program = &self.programs[at.0];

@@ -1,5 +1,7 @@
 //! What the run of a program knows: where it is, what it has written, what is in force.
 
+use std::collections::BTreeMap;
+
 use crate::error::ProgramError;
 use crate::heidenhain::expand::program::Program;
 use crate::heidenhain::expand::values::{Local, Values};
@@ -53,6 +55,10 @@ pub(crate) struct Run<'p> {
     pub steps: usize,
     pub silent: usize,
     pub most_blocks: usize,
+    /// Blocks that were jumped back to by their files, each with the last block from where.
+    pub back_to: BTreeMap<(usize, usize), usize>,
+    /// It reached the most blocks or bytes: what it wrote is not the program.
+    pub is_endless: bool,
     /// The definition of the cycle in force is refused: nothing is said of its calls.
     pub cycle_refused: bool,
     pub faults: FaultsOfRun,
@@ -83,6 +89,52 @@ impl Run<'_> {
         ProgramError::at(program.file, text, reason, remedy)
     }
 
+    /// Notes a jump, where it goes back.
+    pub(crate) fn goes_back(&mut self, file: usize, from: usize, to: usize) {
+        if to <= from {
+            let last = self.back_to.entry((file, to)).or_insert(from);
+            *last = from.max(*last);
+        }
+    }
+
+    /// Why a run ends that does not end by itself: at the block that jumps back to the beginning of the loop, where one runs.
+    pub(crate) fn endless(&mut self, at: (usize, usize), reason: &str) -> Fault {
+        self.is_endless = true;
+        // From the block that runs to the one in the first program that led there.
+        let mut runs = vec![at];
+        let mut file = at.0;
+        for frame in self.frames.iter().rev() {
+            let block = match frame {
+                Frame::Sub { caller } => *caller,
+                Frame::Again { by, .. } => *by,
+                Frame::Program {
+                    file: calls,
+                    caller,
+                    ..
+                } => {
+                    file = *calls;
+                    *caller
+                }
+            };
+            runs.push((file, block));
+        }
+        let last = runs.into_iter().rev().find_map(|(file, block)| {
+            let loops = self.back_to.iter();
+            let around =
+                loops.filter(|((of, from), to)| *of == file && (*from..=**to).contains(&block));
+            let widest = around.max_by_key(|((_, from), to)| **to - from);
+            widest.map(|(_, to)| (file, *to))
+        });
+        match last {
+            Some(last) => self.fault(
+                last,
+                format!("the loop that jumps back here does not end: {reason}"),
+                "check its condition, or divide the program",
+            ),
+            None => self.fault(at, reason, "repeat fewer times, or divide the program"),
+        }
+    }
+
     /// Bytes as they are, with their line ends.
     pub(crate) fn raw(&mut self, bytes: &[u8], at: (usize, usize)) -> Result<(), Fault> {
         let program = &self.programs[at.0];
@@ -91,10 +143,9 @@ impl Run<'_> {
         let lines = lines + usize::from(!bytes.ends_with(b"\n"));
         let full = self.origins.len() + lines > self.most_blocks;
         if full || self.output.len() + bytes.len() > MOST_BYTES {
-            return Err(self.fault(
+            return Err(self.endless(
                 at,
                 "the flat program has more than 5 million blocks, or 256 MiB",
-                "repeat fewer times, or divide the program",
             ));
         }
         self.output.extend_from_slice(bytes);

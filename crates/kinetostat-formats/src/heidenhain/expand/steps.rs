@@ -39,10 +39,9 @@ impl Run<'_> {
             self.silent += 1;
             let fewer = self.most_blocks.saturating_mul(4);
             if self.steps > MOST_STEPS.min(fewer) || self.silent > MOST_SILENT {
-                return Err(self.fault(
+                return Err(self.endless(
                     at,
                     "the program runs more than a million blocks that write nothing, or 20 million in all",
-                    "end the loop",
                 ));
             }
             if at.1 >= programs[at.0].blocks.len() {

@@ -94,6 +94,12 @@ impl Reader<'_> {
         let mut acts = Acts::default();
         for (at, number) in &parsed.functions {
             let span = words[*at].span.clone();
+            match number {
+                3 | 4 | 13 | 14 => self.state.spindle_on = true,
+                // At the end of its block, and no cut follows in it.
+                0 | 2 | 5 | 6 | 30 => self.state.spindle_on = false,
+                _ => {}
+            }
             match function(*number) {
                 Function::AtStart => self.axis_function(*number),
                 Function::AtEnd => acts.ends |= matches!(number, 2 | 30),

@@ -59,6 +59,9 @@ impl Reader<'_> {
             self.state.feed = Some(feed);
             self.state.feed_text = format!("F{feed}");
         }
+        if let Some(speed) = words.iter().find(|word| word.is("S")).and_then(Word::value) {
+            self.state.turns_per_minute = Some(speed).filter(|speed| *speed > 0.0);
+        }
         let name = match &call.value {
             Value::Number(number) => format!("TOOL:{}", number.value),
             Value::Text(text) => {

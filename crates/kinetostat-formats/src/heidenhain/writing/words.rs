@@ -160,7 +160,9 @@ pub(crate) fn number_text(
 
 /// A feed with at most three decimals, as the control takes it.
 pub(crate) fn feed_text(feed: f64) -> String {
-    let text = format!("{feed:.3}");
+    // Feeds of a turn are small.
+    let decimals = if feed < 1.0 { 6 } else { 3 };
+    let text = format!("{feed:.decimals$}");
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 

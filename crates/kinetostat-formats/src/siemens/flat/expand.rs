@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use crate::error::ProgramError;
+use crate::options::{ReadOptions, SlashBlocks};
 use crate::refused_run::{RefusedRun, with_corners};
 use crate::siemens::block::{Block, What};
 use crate::siemens::files::whole_file;
@@ -45,20 +46,26 @@ const FLOW: [&str; 26] = [
 /// What cannot be run, in the order of files and lines. Behind a line that is refused the run goes on, unless what runs, or a value,
 /// depends on it.
 pub fn expand_siemens(files: &[SourceFile]) -> Result<FlatText, Vec<ProgramError>> {
-    expand_within(files, MOST_STEPS)
+    run_within(files, (MOST_STEPS, SlashBlocks::Refused)).map_err(|refused| refused.faults)
 }
 
 /// The same by so many lines at most.
 pub fn expand_within(files: &[SourceFile], most_steps: u64) -> Result<FlatText, Vec<ProgramError>> {
-    run_within(files, most_steps).map_err(|refused| refused.faults)
+    run_within(files, (most_steps, SlashBlocks::Refused)).map_err(|refused| refused.faults)
 }
 
 /// The same; of a program that is refused what was written all the same.
-pub(crate) fn run_or_refused(files: &[SourceFile]) -> Result<FlatText, RefusedRun> {
-    run_within(files, MOST_STEPS)
+pub(crate) fn run_or_refused(
+    files: &[SourceFile],
+    options: &ReadOptions,
+) -> Result<FlatText, RefusedRun> {
+    run_within(files, (MOST_STEPS, options.slash_blocks))
 }
 
-fn run_within(files: &[SourceFile], most_steps: u64) -> Result<FlatText, RefusedRun> {
+fn run_within(
+    files: &[SourceFile],
+    (most_steps, slash_blocks): (u64, SlashBlocks),
+) -> Result<FlatText, RefusedRun> {
     let is_main = |file: &&SourceFile| file.name().to_ascii_lowercase().ends_with(".mpf");
     let main = files.iter().position(|file| is_main(&file)).unwrap_or(0);
     let Some(file) = files.get(main) else {
@@ -93,14 +100,19 @@ fn run_within(files: &[SourceFile], most_steps: u64) -> Result<FlatText, Refused
     if !faults.is_empty() && !units.iter().all(|unit| unit.runs) {
         return Err(faults.into());
     }
-    let runner = Runner::new(files, &units, names, main);
+    let runner = Runner::new(files, &units, names, (main, slash_blocks));
     let Written {
         output,
         origins,
         faults: of_run,
         findings,
+        is_endless,
     } = runner.run(most_steps);
     faults.extend(of_run);
+    if is_endless {
+        // To read millions of blocks of a loop takes gigabytes, and says nothing more.
+        return Err(faults.into());
+    }
     let flat = FlatText {
         file: SourceFile::new(file.name(), output),
         origins,

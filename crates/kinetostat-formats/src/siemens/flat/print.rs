@@ -1,5 +1,6 @@
 //! The blocks of a program as they run: numbers in place of expressions, without labels and assignments.
 
+use crate::options::SlashBlocks;
 use crate::siemens::block::{Block, Item, What};
 use crate::siemens::expression::Expression;
 use crate::siemens::flat::frames::is_frame;
@@ -7,6 +8,7 @@ use crate::siemens::flat::holes::drilling_of;
 use crate::siemens::flat::numbers::number;
 use crate::siemens::flat::runner::{Fault, Runner};
 use crate::siemens::flat::structure::Line;
+use crate::siemens::scan::{SLASHED, SLASHED_REMEDY};
 use crate::siemens::values::Value;
 use crate::text::edits::Edits;
 
@@ -34,6 +36,14 @@ impl Runner<'_> {
                 self.write_line(&text);
             }
             return Ok(true);
+        }
+        let acts = |item: &Item| self.is_assignment(&item.name, &item.what);
+        if line.block.skip && self.slash_blocks == SlashBlocks::Refused {
+            // What stays in the flat program is for the reader to say.
+            let runs = items.iter().any(acts) || self.call(items)?.is_some();
+            if runs || !matches!(self.end(items)?, End::No) {
+                return Err(self.fault(&line.block.span, SLASHED, SLASHED_REMEDY));
+            }
         }
         if let Some(call) = self.call(items)? {
             if call.times == 0 {

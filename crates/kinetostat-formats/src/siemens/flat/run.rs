@@ -2,6 +2,8 @@
 
 use std::ops::Range;
 
+use crate::error::ProgramError;
+use crate::options::SlashBlocks;
 use crate::refused_run::Behind;
 use crate::siemens::declarations::define;
 use crate::siemens::expression::Expression;
@@ -22,6 +24,7 @@ impl<'r> Runner<'r> {
     /// Runs it to its end, by so many lines at most.
     pub(super) fn run(mut self, most_steps: u64) -> Written {
         let mut steps = 0_u64;
+        let mut is_endless = false;
         while let Some(level) = self.levels.last() {
             let (unit, line) = (level.unit, level.line);
             let written = self.origins.len();
@@ -34,6 +37,7 @@ impl<'r> Runner<'r> {
             let Err(fault) = done else {
                 continue;
             };
+            is_endless = ends;
             let behind = match ends {
                 true => Behind::Nothing,
                 false => self.behind(unit, line),
@@ -49,24 +53,48 @@ impl<'r> Runner<'r> {
             origins: self.origins,
             faults: self.faults.into_faults(),
             findings: self.doubts.into_findings(),
+            is_endless,
         }
     }
 
     fn is_bounded(&self, steps: u64, most_steps: u64) -> Result<(), Fault> {
         let is_full = self.origins.len() > MOST_BLOCKS || self.output.len() > MOST_BYTES;
         match steps > most_steps || is_full {
-            true => Err(self.fault(
-                &self.span(),
-                "the program has run 20 million lines, or written 5 million blocks or 256 MiB, and has not ended",
-                "check the conditions of its loops and jumps, or divide it",
-            )),
+            true => Err(self.endless()),
             false => Ok(()),
         }
+    }
+
+    /// At the line that goes back to the beginning of the loop, where one runs.
+    fn endless(&self) -> Fault {
+        let most = "20 million lines, or written 5 million blocks or 256 MiB";
+        let Some((unit, line)) = self.loop_in_force() else {
+            return self.fault(
+                &self.span(),
+                format!("the program has run {most}, and has not ended"),
+                "divide it",
+            );
+        };
+        let unit = &self.units[unit];
+        let span = unit.lines[line].block.span.clone();
+        Box::new(ProgramError::at(
+            &self.files[unit.file],
+            span,
+            format!("the loop that goes back here does not end: the program has run {most}"),
+            "check its condition, or divide the program",
+        ))
     }
 
     fn line(&mut self, unit: usize, line: usize) -> Result<(), Fault> {
         let units = self.units;
         let at = &units[unit].lines[line];
+        if at.block.skip && self.slash_blocks == SlashBlocks::Skipped {
+            // The reader does not run it, either.
+            let text = self.file().part(&at.block.line).to_vec();
+            self.write_line(&text);
+            self.arrive(line + 1, false);
+            return Ok(());
+        }
         let mut next = line + 1;
         let mut jumped = false;
         match &at.control {

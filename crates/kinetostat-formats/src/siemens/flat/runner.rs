@@ -5,6 +5,7 @@ use std::ops::Range;
 
 use crate::error::ProgramError;
 use crate::model::program::Finding;
+use crate::options::SlashBlocks;
 use crate::refused_run::FaultsOfRun;
 use crate::siemens::block::What;
 use crate::siemens::expression::Expression;
@@ -27,6 +28,8 @@ pub(super) struct Written {
     pub origins: Vec<(usize, usize)>,
     pub faults: Vec<ProgramError>,
     pub findings: Vec<Finding>,
+    /// It reached the most lines or bytes: what it wrote is not the program.
+    pub is_endless: bool,
 }
 
 /// A section that is run again.
@@ -47,6 +50,8 @@ pub(super) struct Level {
     pub line: usize,
     /// Last values of FOR by lines.
     pub limits: BTreeMap<usize, f64>,
+    /// Lines that were gone back to, each with the last line from where.
+    pub back_to: BTreeMap<usize, usize>,
     pub sections: Vec<Section>,
     /// Variables of the program that called it, and what is given back to them.
     pub caller: BTreeMap<Vec<u8>, Variable>,
@@ -64,6 +69,7 @@ impl Level {
             unit,
             line: 0,
             limits: BTreeMap::new(),
+            back_to: BTreeMap::new(),
             sections: Vec::new(),
             caller: BTreeMap::new(),
             back: Vec::new(),
@@ -91,6 +97,7 @@ pub(super) struct Runner<'r> {
     pub drilling: Option<Drilling>,
     pub faults: FaultsOfRun,
     pub doubts: Doubts,
+    pub slash_blocks: SlashBlocks,
 }
 
 impl<'r> Runner<'r> {
@@ -98,9 +105,10 @@ impl<'r> Runner<'r> {
         files: &'r [SourceFile],
         units: &'r [Unit],
         names: BTreeMap<Vec<u8>, usize>,
-        main: usize,
+        (main, slash_blocks): (usize, SlashBlocks),
     ) -> Self {
         Self {
+            slash_blocks,
             ending: files.get(main).map_or(b"\n", SourceFile::line_ending),
             files,
             units,
@@ -175,7 +183,21 @@ impl<'r> Runner<'r> {
             next = section.behind;
             level.sections.pop();
         }
+        if next <= level.line {
+            let from = level.back_to.entry(next).or_insert(level.line);
+            *from = level.line.max(*from);
+        }
         level.line = next;
+    }
+
+    /// The loop in which the program is, as the file and the line that goes back to its beginning: the outermost one.
+    pub(super) fn loop_in_force(&self) -> Option<(usize, usize)> {
+        self.levels.iter().find_map(|level| {
+            let loops = level.back_to.iter();
+            let around = loops.filter(|(from, to)| (**from..=**to).contains(&level.line));
+            let widest = around.max_by_key(|(from, to)| *to - *from);
+            widest.map(|(_, to)| (level.unit, *to))
+        })
     }
 
     /// Gives a variable a value.

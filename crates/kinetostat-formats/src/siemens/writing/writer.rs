@@ -123,7 +123,9 @@ impl Writer<'_> {
             let text = feed.text.clone();
             return Ok(Some(text));
         }
-        let number = format!("{wanted:.4}");
+        // Feeds of a turn are small.
+        let decimals = if wanted < 1.0 { 6 } else { 4 };
+        let number = format!("{wanted:.decimals$}");
         let number = number.trim_end_matches('0').trim_end_matches('.');
         Ok(Some(format!("F{number}")))
     }

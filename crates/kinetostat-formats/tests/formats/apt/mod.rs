@@ -5,6 +5,7 @@ mod broken;
 mod corrections;
 mod creo;
 mod feeds;
+mod holes;
 mod properties;
 mod random;
 mod zero_change;

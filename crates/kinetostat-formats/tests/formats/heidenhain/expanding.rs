@@ -361,3 +361,53 @@ fn cycles_that_are_not_followed_stay_where_that_is_asked_for() {
     let program = read_heidenhain(vec![flat.file], &options).unwrap();
     assert!(program.motions[0].target.pose().is_none());
 }
+
+#[test]
+fn an_endless_loop_is_named_by_the_jump_back_and_nothing_is_read_of_it() {
+    let within = |body: &str| {
+        let files = vec![SourceFile::new("a.h", text(body))];
+        internal::expand_heidenhain_within(files, &ReadOptions::default(), 1000).unwrap_err()
+    };
+    for (body, line) in [
+        ("LBL 1\nL IX+1 F100\nFN 9: IF +0 EQU +0 GOTO LBL 1\n", 4),
+        // What runs in it and is called there is not meant.
+        (
+            "LBL 1\nLBL 3\nL IX+1 F100\nCALL LBL 3 REP 2\nCALL LBL 2\nFN 9: IF +0 EQU +0 GOTO LBL 1\nL M30\nLBL 2\nL IY+1\nLBL 0\n",
+            7,
+        ),
+        // Nothing is written.
+        ("LBL 1\nQ1 = 2\nFN 9: IF +0 EQU +0 GOTO LBL 1\n", 4),
+    ] {
+        let found = within(body);
+        assert_eq!(found.len(), 1, "{found:?}");
+        assert_eq!(found[0].line, line, "{found:?}");
+        let said = found[0].to_string();
+        assert!(
+            said.contains("the loop that jumps back here does not end"),
+            "{said}"
+        );
+    }
+    // A repeat that is too long ends.
+    let found = within("LBL 1\nL IX+1 F100\nCALL LBL 1 REP 65000\n");
+    assert!(
+        found[0].to_string().contains("repeat fewer times"),
+        "{found:?}"
+    );
+}
+
+#[test]
+fn a_feed_by_turns_is_known_while_the_spindle_turns() {
+    let body = "TOOL CALL 1 Z S5000\nL X+0 Y+0 Z+10 R0 FMAX M3\nL Y+10 M136 F0.12\nTOOL CALL S250\nL Y+20\nL Y+30 M137 F600\nL Y+40 M136 F0.12 M5\nL Y+50\n";
+    let program = program(&text(body));
+    let found: Vec<Option<f64>> = program
+        .motions
+        .iter()
+        .map(|one| one.speed.mm_per_s)
+        .collect();
+    let near = |index: usize, speed: f64| (found[index].unwrap() - speed).abs() < 1e-12;
+    assert!(
+        near(1, 0.12 * 5000.0 / 60.0) && near(2, 0.12 * 250.0 / 60.0) && near(3, 10.0),
+        "{found:?}"
+    );
+    assert!(found[4].is_none() && found[5].is_none(), "{found:?}");
+}

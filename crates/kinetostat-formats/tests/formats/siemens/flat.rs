@@ -218,9 +218,17 @@ fn what_cannot_be_run_is_refused_by_line() {
     let cases = [
         (
             "LOOP\nR1=1\nENDLOOP\n",
-            "has not ended; check the conditions",
+            "line 3: `ENDLOOP`: the loop that goes back here does not end",
         ),
-        ("AA:\nX1\nGOTOB AA\n", "has not ended"),
+        (
+            "AA:\nX1\nGOTOB AA\n",
+            "line 3: `GOTOB AA`: the loop that goes back here does not end",
+        ),
+        // The outer one, and not what runs in it, or is called there.
+        (
+            "X1\nLOOP\nFOR R1=1 TO 3\nX=R1\nENDFOR\nENDLOOP\n",
+            "line 6: `ENDLOOP`",
+        ),
         ("IF R1==1\nX1\n", "line 1: `IF R1==1`: it is not closed"),
         ("ENDWHILE\n", "nothing that it closes is open"),
         (

@@ -1,5 +1,6 @@
 //! SINUMERIK 840D.
 
+mod arrays;
 mod broken;
 mod broken_forms;
 mod corrections;
@@ -10,6 +11,7 @@ mod properties;
 mod random;
 mod real;
 mod saved;
+mod spindle_feeds;
 mod zero_change;
 
 use kinetostat_formats::*;

@@ -54,9 +54,21 @@ pub(crate) fn cycle(
         );
     };
     refuse_other_words(block, normal)?;
+    if code == 870 && dialect == Dialect::Fanuc {
+        return wrong(
+            "G87 bores from the back on Fanuc's controllers (its R lies below its depth), with a shift that a parameter of the control says: it is not followed",
+            "write its moves as G0 and G1 blocks",
+        );
+    }
     let incremental = place.incremental;
-    let mut cycle = words_of(code, block, before, (letters[2], height, incremental))?;
-    let same = before.filter(|cycle| cycle.code == code);
+    let mut cycle = words_of(
+        code,
+        block,
+        before,
+        (letters[2], height, incremental),
+        dialect,
+    )?;
+    let same = before.filter(|cycle| cycle.code == code || dialect == Dialect::Fanuc);
     let repeats = repeats_of(code, block, dialect)?;
     cycle.levels = levels_of(&cycle, same, (block, letters[2]), dialect)?;
     let [level, bottom] = cycle.levels;
@@ -141,10 +153,13 @@ fn words_of(
     block: &MotionBlock,
     before: Option<Cycle>,
     (depth_letter, height, incremental): (u8, f64, bool),
+    dialect: Dialect,
 ) -> Result<Cycle, Wrong> {
     let same = before.filter(|cycle| cycle.code == code);
+    // Fanuc keeps R, the depth, P and Q from one cycle to another until G80 (Operator's Manual B-63534EN, section 13.1).
+    let held = before.filter(|_| same.is_some() || dialect == Dialect::Fanuc);
     let kept = |letter: u8, of: fn(&Cycle) -> f64, what: &'static str| {
-        let own = block.value(letter).or(same.as_ref().map(of));
+        let own = block.value(letter).or(held.as_ref().map(of));
         own.ok_or((
             format!(
                 "the cycle G{} has no {what} ({})",
@@ -155,6 +170,9 @@ fn words_of(
         ))
     };
     let optional = |letter: u8, of: fn(&Cycle) -> Option<f64>| {
+        block.value(letter).or(held.as_ref().and_then(of))
+    };
+    let shift = |letter: u8, of: fn(&Cycle) -> Option<f64>| {
         block.value(letter).or(same.as_ref().and_then(of))
     };
     if let Some(time) = block.value(b'P').filter(|time| *time < 0.0) {
@@ -173,9 +191,9 @@ fn words_of(
         dwell: optional(b'P', |c| c.dwell),
         peck: optional(b'Q', |c| c.peck),
         shift: [
-            optional(b'I', |c| c.shift[0]),
-            optional(b'J', |c| c.shift[1]),
-            optional(b'K', |c| c.shift[2]),
+            shift(b'I', |c| c.shift[0]),
+            shift(b'J', |c| c.shift[1]),
+            shift(b'K', |c| c.shift[2]),
         ],
         initial: before.map_or(height, |cycle| cycle.initial),
         incremental,

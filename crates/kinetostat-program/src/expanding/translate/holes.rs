@@ -135,12 +135,6 @@ impl Hole {
             760 if self.dialect == Dialect::Fanuc => {
                 self.fine_bore(spindle, dwell(false)?, go, &mut all)?
             }
-            870 if self.dialect == Dialect::Fanuc => {
-                return Err((
-                    "the shift of the cycle G87 is a parameter of Fanuc's controllers".to_owned(),
-                    "write its moves as G0 and G1 blocks",
-                ));
-            }
             870 => self.back_bore(spindle, go, &mut all)?,
             880 => {
                 return Err((

@@ -150,3 +150,25 @@ fn a_slash_with_a_number_is_a_block_to_skip() {
         assert!(run(&format!("{line}\n"), Dialect::Fanuc).is_err(), "{line}");
     }
 }
+
+#[test]
+fn drilling_data_hold_for_the_next_cycle_until_g80() {
+    let begin = "G99 G81 X1. Z-3. R1. F100\n";
+    let made = fanuc(&format!("{begin}G82 X2. P500\nG83 X3. Q2.\nG81 X4. Z-5.\n"));
+    // R and the depth of the first, at each of them.
+    for place in ["G0 X2\nG1 Z-3\n", "G0 X4\nG1 Z-5\nG0 Z1\n"] {
+        assert!(made.contains(place), "{place}: {made}");
+    }
+    assert!(made.contains("G0 X3\nG1 Z-1\n"), "{made}");
+    let error = run(&format!("{begin}G80\nG82 X2. P500\n"), Dialect::Fanuc).unwrap_err();
+    assert!(error.reason.contains("no retract level"), "{error}");
+    let error = run(&format!("{begin}G82 X2. P500\n"), Dialect::LinuxCnc).unwrap_err();
+    assert!(error.reason.contains("no retract level"), "{error}");
+}
+
+#[test]
+fn fanuc_bores_from_the_back_by_g87() {
+    let error = run("G98 M3 S500\nG87 X1. Z-3. R-8. Q1. F100\n", Dialect::Fanuc).unwrap_err();
+    assert!(error.reason.contains("bores from the back"), "{error}");
+    assert!(!error.remedy.contains("correct R"), "{error}");
+}

@@ -1,0 +1,246 @@
+//! What a CYCLE says: `CYCLE/DRILL,DEPTH,10,MMPM,150,CLEAR,3`, `CYCLE/DRILL,RAPTO,3,FEDTO,-10,RTRCTO,AUTO,MMPM,250`.
+//!
+//! Depth, feed and clearance are numbers in this order where no word names them [ISO 4343, CYCLE; the postprocessors of Autodesk
+//! and the CLSF of Siemens NX name them]. Lengths count from the place of a GOTO along the tool's axis.
+
+use crate::apt::dialect::Dialect;
+use crate::apt::lines::Statement;
+use crate::apt::numbers::{Argument, arguments_of};
+use crate::text::source::SourceFile;
+
+/// How the tool comes out of a hole, and what it does at the bottom.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Kind {
+    /// By rapid: DRILL, FACE, CSINK.
+    Drill,
+    /// By rapid behind each step: DEEP.
+    Deep,
+    /// By rapid, and behind each step a little: BRKCHP.
+    Break,
+    /// At feed: BORE, REAM.
+    Bore,
+    /// At feed with the spindle turning back: TAP.
+    Tap,
+}
+
+/// Where the tool goes behind a hole, from its place along the axis.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Retract {
+    /// To where its rapid ends.
+    Clear,
+    To(f64),
+    /// To the height that it came with before the cycle.
+    Auto,
+}
+
+/// A cycle; lengths in the unit of the file.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Cycle {
+    pub kind: Kind,
+    /// Below the place of the hole, above zero.
+    pub depth: f64,
+    /// The text of its FEDRAT; none where that in force counts.
+    pub feed: Option<String>,
+    /// Where the rapid to the hole ends, above its place.
+    pub rapid_to: f64,
+    /// The least height between holes.
+    pub clear: f64,
+    pub retract: Retract,
+    /// Seconds, as written.
+    pub dwell: Option<String>,
+    pub step: Option<f64>,
+}
+
+/// Why a cycle is not followed, and what to do.
+pub(crate) type Wrong = (String, &'static str);
+
+const POINTS: &str = "let the CAM system write its motions as points (GOTO)";
+
+/// What a CYCLE statement does.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum Said {
+    Off,
+    On(Result<Cycle, Wrong>),
+}
+
+fn wrong<T>(reason: impl Into<String>, remedy: &'static str) -> Result<T, Wrong> {
+    Err((reason.into(), remedy))
+}
+
+/// Words and numbers of a cycle.
+#[derive(Default)]
+struct Words {
+    kind: Option<Kind>,
+    /// Numbers that no word names.
+    bare: Vec<(f64, String)>,
+    depth: Option<f64>,
+    /// FEDTO of NX counts upwards.
+    fedto: Option<f64>,
+    clear: Option<f64>,
+    rapid_to: Option<f64>,
+    retract: Option<Retract>,
+    dwell: Option<String>,
+    step: Option<f64>,
+    unit: Option<String>,
+    unit_is_last: bool,
+}
+
+/// What a CYCLE statement of a file says.
+pub(crate) fn said(file: &SourceFile, statement: &Statement, dialect: Dialect) -> Said {
+    let arguments = arguments_of(file.bytes(), &statement.arguments);
+    let text = |argument: &Argument| match argument {
+        Argument::Number(number) => String::from_utf8_lossy(file.part(&number.span))
+            .trim()
+            .to_owned(),
+        Argument::Word(word) => String::from_utf8_lossy(file.part(word)).to_ascii_uppercase(),
+    };
+    let texts: Vec<(String, Option<f64>)> = arguments
+        .iter()
+        .map(|argument| (text(argument), argument.number().map(|number| number.value)))
+        .collect();
+    if matches!(texts.first(), Some((word, _)) if matches!(word.as_str(), "OFF" | "INIT" | "NOMORE"))
+    {
+        return Said::Off;
+    }
+    Said::On(words_of(&texts).and_then(|words| words.cycle(dialect)))
+}
+
+fn words_of(texts: &[(String, Option<f64>)]) -> Result<Words, Wrong> {
+    let mut words = Words::default();
+    let mut rest = texts.iter().peekable();
+    while let Some((word, number)) = rest.next() {
+        if let Some(number) = number {
+            words.bare.push((*number, word.clone()));
+            words.unit_is_last = false;
+            continue;
+        }
+        let mut value = || {
+            let value = rest.next_if(|(_, number)| number.is_some());
+            let value = value.and_then(|(text, number)| Some(((*number)?, text.clone())));
+            value.ok_or((format!("no number stands behind {word}"), "state it"))
+        };
+        let kind = match word.as_str() {
+            "DRILL" | "FACE" | "CSINK" => Some(Kind::Drill),
+            "DEEP" => Some(Kind::Deep),
+            "BRKCHP" => Some(Kind::Break),
+            "BORE" | "REAM" => Some(Kind::Bore),
+            "TAP" => Some(Kind::Tap),
+            _ => None,
+        };
+        match (kind, word.as_str()) {
+            // `DRILL,DEEP`: the second says more.
+            (Some(kind), _) if matches!(words.kind, None | Some(Kind::Drill)) => {
+                words.kind = Some(kind)
+            }
+            (_, "DEPTH") => words.depth = Some(value()?.0),
+            (_, "FEDTO") => words.fedto = Some(value()?.0),
+            (_, "CLEAR") => words.clear = Some(value()?.0),
+            (_, "RAPTO") => words.rapid_to = Some(value()?.0),
+            (_, "RTRCTO" | "RETURN") => {
+                let auto = rest.next_if(|(word, _)| word == "AUTO").is_some();
+                words.retract = Some(match auto {
+                    true => Retract::Auto,
+                    false => {
+                        let height = rest.next_if(|(_, number)| number.is_some());
+                        let height = height.and_then(|(_, number)| *number);
+                        Retract::To(height.ok_or((
+                            format!("no height stands behind {word}"),
+                            "state it, or AUTO",
+                        ))?)
+                    }
+                });
+            }
+            (_, "DWELL") => words.dwell = Some(value()?.1),
+            (_, "STEP" | "INCR" | "PECK") => words.step = Some(value()?.0),
+            (_, "MMPM" | "IPM" | "MMPR" | "IPR" | "PERMIN" | "PERREV") => {
+                words.unit = Some(word.clone());
+                words.unit_is_last = true;
+            }
+            (_, "") => {}
+            _ => {
+                return wrong(
+                    format!("what {word} says of the cycle is not followed"),
+                    POINTS,
+                );
+            }
+        }
+    }
+    Ok(words)
+}
+
+impl Words {
+    fn cycle(self, dialect: Dialect) -> Result<Cycle, Wrong> {
+        let Some(kind) = self.kind else {
+            return wrong(
+                "which cycle it is, is not known",
+                "state one of DRILL, FACE, DEEP, BRKCHP, BORE, REAM, TAP; others are not followed",
+            );
+        };
+        // What the PP table of CATIA's machine says.
+        if dialect == Dialect::Catia && self.bare.len() > 1 {
+            return wrong(
+                "which of its numbers are depth, feed and clearance, a table of CATIA says",
+                "let the postprocessor table name them: DEPTH, CLEAR, and the unit before the feed",
+            );
+        }
+        let mut bare = self.bare.into_iter();
+        let depth = match (self.depth, self.fedto) {
+            (Some(depth), None) => depth.abs(),
+            (None, Some(to)) if dialect == Dialect::Nx && to > 0.0 => {
+                return wrong(
+                    "FEDTO lies above the place of the hole",
+                    "state it below zero",
+                );
+            }
+            (None, Some(to)) => to.abs(),
+            (Some(_), Some(_)) => return wrong("DEPTH and FEDTO both state its depth", "keep one"),
+            (None, None) => bare.next().map_or(0.0, |(depth, _)| depth.abs()),
+        };
+        if depth <= 0.0 {
+            return wrong("its depth is not stated, or zero", "state DEPTH or FEDTO");
+        }
+        let feed = bare.next();
+        if feed.as_ref().is_some_and(|(feed, _)| *feed <= 0.0) {
+            return wrong("its feed is not above zero", "state one");
+        }
+        let feed = feed.map(|(_, feed)| match &self.unit {
+            Some(unit) => format!("FEDRAT/{feed},{unit}"),
+            None => format!("FEDRAT/{feed}"),
+        });
+        let clear = self.clear.or_else(|| bare.next().map(|(clear, _)| clear));
+        if bare.next().is_some() {
+            return wrong(
+                "it has more numbers than depth, feed and clearance",
+                "name them: DEPTH, CLEAR, RAPTO, STEP, DWELL",
+            );
+        }
+        let Some(rapid_to) = self.rapid_to.or(clear) else {
+            return wrong(
+                "where the rapid to the hole ends, is not stated",
+                "state CLEAR or RAPTO",
+            );
+        };
+        if rapid_to <= -depth {
+            return wrong(
+                "its rapid ends below its depth",
+                "correct RAPTO, or the depth",
+            );
+        }
+        let clear = f64::max(clear.unwrap_or(rapid_to), rapid_to);
+        if matches!(kind, Kind::Deep | Kind::Break) && self.step.is_none_or(|step| step <= 0.0) {
+            return wrong("by which steps it drills, is not stated", "state STEP");
+        }
+        Ok(Cycle {
+            kind,
+            depth,
+            feed,
+            rapid_to,
+            clear,
+            retract: self.retract.unwrap_or(Retract::Clear),
+            dwell: self.dwell,
+            step: self
+                .step
+                .filter(|_| matches!(kind, Kind::Deep | Kind::Break)),
+        })
+    }
+}
