@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import dataclasses
+import math
 from collections.abc import Mapping, Sequence
+from fractions import Fraction
 from typing import Any, Literal, TypeAlias
 
 import sympy as sp
@@ -21,6 +23,11 @@ DIRECTIONS = ("x", "y", "z", "rx", "ry", "rz")
 Kind: TypeAlias = Literal["revolute", "prismatic"]
 Expression: TypeAlias = Any
 """A SymPy formula, a number, or text that names a symbol."""
+_SIGNS = frozenset("+-*/^()[]{}<>=,;!")
+"""What formulas have, and names of symbols do not."""
+_ROUNDING = 1e-12
+"""How far a unit vector that is written in decimals may be off."""
+_LARGEST_DENOMINATOR = 10_000
 
 
 @dataclasses.dataclass(frozen=True)
@@ -36,7 +43,14 @@ class _Motion:
 
 def _formula(value: Expression) -> sp.Expr:
     """A symbol by its name, or a formula as it is; lengths and stiffnesses are taken as real."""
-    return sp.Symbol(value, real=True) if isinstance(value, str) else sp.sympify(value)
+    if not isinstance(value, str):
+        return sp.sympify(value)
+    if not value or value[0].isdigit() or set(value) & _SIGNS:
+        raise ArgumentError(
+            f"{value!r} is no name of a symbol: text names one symbol; write numbers as numbers, and formulas with SymPy, as in "
+            "2 * sympy.Symbol('L', real=True)"
+        )
+    return sp.Symbol(value, real=True)
 
 
 def _axis(axis: str | Sequence[Expression]) -> sp.Matrix:
@@ -46,9 +60,32 @@ def _axis(axis: str | Sequence[Expression]) -> sp.Matrix:
             raise ArgumentError(f"axis is {axis!r}, expected x, y, z, -x, -y, -z or three entries")
         return sign * sp.Matrix([int(letter == other) for other in "xyz"])
     found = sp.Matrix([_formula(a) for a in axis])
-    if found.shape != (3, 1) or sp.simplify(found.dot(found)) != 1:
-        raise ArgumentError("axis has to be three entries of a unit vector")
-    return found
+    if found.shape != (3, 1):
+        raise ArgumentError(f"axis has {len(found)} entries, expected three of a unit vector")
+    if sp.simplify(found.dot(found)) == 1:
+        return found
+    near = _exact(found)
+    if near is None:
+        raise ArgumentError(
+            f"axis is {list(found)}, whose length is not 1: expected three entries of a unit vector, as [0, 0, 1] or "
+            "[sympy.sqrt(2) / 2, 0, sympy.sqrt(2) / 2]; divide by the length"
+        )
+    return near
+
+
+def _exact(axis: sp.Matrix) -> sp.Matrix | None:
+    """A unit vector that was rounded: with roots of fractions where it is one of these, else as it is; none where its length is not 1."""
+    if axis.free_symbols or not all(entry.is_real for entry in axis):
+        return None
+    numbers = [float(entry) for entry in axis]
+    if not abs(math.hypot(*numbers) - 1) <= _ROUNDING:
+        return None
+    squares = [Fraction(x * x).limit_denominator(_LARGEST_DENOMINATOR) for x in numbers]
+    if sum(squares) == 1 and all(abs(math.sqrt(s) - abs(x)) <= _ROUNDING for s, x in zip(squares, numbers, strict=True)):
+        return sp.Matrix(
+            [sp.sqrt(sp.Rational(s.numerator, s.denominator)) * (-1 if x < 0 else 1) for s, x in zip(squares, numbers, strict=True)]
+        )
+    return axis
 
 
 def neat(entry: sp.Expr) -> sp.Expr:
@@ -188,7 +225,7 @@ class Chain:
         >>> Chain().passive("q", "prismatic", "x").end.T
         Matrix([[q, 0, 0]])
         """
-        self._joint(name, kind, axis, name if at is None else at, True)
+        self._joint(name, kind, axis, sp.Symbol(name, real=True) if at is None else at, True)
         return self
 
     def actuator(
@@ -207,7 +244,7 @@ class Chain:
         >>> Chain().actuator("q", "revolute", "z", stiffness="k").move("L").end.T
         Matrix([[L*cos(q), L*sin(q), 0]])
         """
-        where = name if at is None else at
+        where = sp.Symbol(name, real=True) if at is None else at
         if stiffness is None:
             _axis(axis)
             return self.turn(axis, where) if kind == "revolute" else self._slide(axis, where)
