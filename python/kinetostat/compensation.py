@@ -11,7 +11,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from kinetostat import commands
 from kinetostat._arrays import Floats
-from kinetostat._asking import bare, numbers_or_nan, triple, wrenches
+from kinetostat._asking import bare, no_option_of, numbers_or_nan, triple, wrenches
+from kinetostat._running import arguments
 
 if TYPE_CHECKING:
     from kinetostat.machine import Machine
@@ -110,23 +111,31 @@ def compensate(
     """
     import tempfile
 
+    no_option_of(
+        options,
+        part_origin_mm="part_origin, m",
+        tolerance_um="tolerance, m",
+        tool_length_mm="a machine with its tool, as machine.with_tool(length=0.1) makes one, m",
+        model="the machine itself",
+    )
     model, length = bare(machine)
     # A job names its model by a file.
     with tempfile.TemporaryDirectory(prefix="kinetostat-") as folder:
         path = os.path.join(folder, "model.toml")
         with open(path, "w", encoding="utf-8", newline="\n") as file:
             file.write(model.text)
-        answer = commands.compensate(
-            model=path,
-            program=program,
-            out=out,
-            tool_length_mm=length,
-            force=triple("force", force),
-            moment=triple("moment", moment),
-            part_origin_mm=triple("part_origin", part_origin, 1e3),
-            tolerance_um=None if tolerance is None else 1e6 * tolerance,
-            **({"all_points": True} | options),
-        )
+        with arguments(part_origin_mm="part_origin (in mm)", tolerance_um="tolerance (in um)"):
+            answer = commands.compensate(
+                model=path,
+                program=program,
+                out=out,
+                tool_length_mm=length,
+                force=triple("force", force),
+                moment=triple("moment", moment),
+                part_origin_mm=triple("part_origin", part_origin, 1e3),
+                tolerance_um=None if tolerance is None else 1e6 * tolerance,
+                **({"all_points": True} | options),
+            )
     points = answer["points"]
 
     def vectors(key: str) -> Floats:

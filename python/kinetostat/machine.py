@@ -15,6 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 from kinetostat import _core
 from kinetostat._arrays import Floats, fitting, numbers, one, rows, thread_count
 from kinetostat._document import plain, without_none
+from kinetostat._plausibility import counted, issue, sentences
 from kinetostat._urdf import in_words_of_python, stiffness_table, text_of, with_ratings
 from kinetostat.display import machine_html
 from kinetostat.errors import ArgumentError, ModelError
@@ -229,6 +230,8 @@ class Machine:
             toml, _ = _core.urdf_to_toml(text, file, base, tip, list(passive), stands, single, table)
         except ModelError as wrong:
             raise ModelError(in_words_of_python(str(wrong))) from None
+        # Lines in messages are those of the model, which is its text, not those of the URDF.
+        file = f"model made of {file}"
         made = cls._of(_core.Machine.from_toml(toml, file))
         document = made.to_dict()
         if efforts_are_ratings:
@@ -256,8 +259,12 @@ class Machine:
 
     @property
     def warnings(self) -> list[str]:
-        """What looks wrong in the model although it can be computed."""
-        return self._native.warnings
+        """What looks wrong in the model and its tool although it can be computed."""
+        return [*self._native.warnings, *sentences(self._tool_warnings())]
+
+    def _tool_warnings(self) -> list[tuple[bool, str]]:
+        bare = np.array_equal(self._native.tool(), np.eye(4))
+        return [] if bare else _core.tool_warnings(self._native)
 
     @property
     def actuators(self) -> tuple[Actuator, ...]:
@@ -356,6 +363,11 @@ class Machine:
         length : float, optional
             Instead: a straight tool, its tip so many m along z of the flange.
 
+        Warns
+        -----
+        PlausibilityWarning
+            No tool is so long, or so short. What is only unusual is in :attr:`warnings`.
+
         Examples
         --------
         >>> longer = Machine.preset("heavy_6r").with_tool(length=0.2)
@@ -369,7 +381,9 @@ class Machine:
             pose[2, 3] = float(one("length", length, ()))
         else:
             pose = one("tool", cast(ArrayLike, tool), (4, 4))
-        return self._of(self._native.with_tool(pose[None]))
+        made = self._of(self._native.with_tool(pose[None]))
+        issue(made._tool_warnings())
+        return made
 
     # What it does --------------------------------------------------------------------------------------------------
 
@@ -787,7 +801,7 @@ class Machine:
     def __repr__(self) -> str:
         limbs, actuators = len(self.limbs), len(self._native.actuators())
         counts = f"{limbs} limb{'s' * (limbs != 1)}, {actuators} actuator{'s' * (actuators != 1)}"
-        return f"<Machine '{self.name}' ({self.file}): {counts}>"
+        return f"<Machine '{self.name}' ({self.file}): {counts}{counted(self._tool_warnings())}>"
 
 
 def _restored(text: str, file: str, tool: Floats) -> Machine:
