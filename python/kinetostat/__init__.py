@@ -18,6 +18,7 @@ from kinetostat.errors import (
     ArgumentError,
     KinetostatError,
     ModelError,
+    PlausibilityWarning,
     ToleranceMissedWarning,
     UnansweredError,
 )
@@ -55,6 +56,7 @@ __all__ = [
     "MachineBuilder",
     "ModelEquilibria",
     "ModelError",
+    "PlausibilityWarning",
     "Posture",
     "Status",
     "Stiffness",

@@ -53,6 +53,13 @@ def handed_on(own: dict[str, Any], further: Mapping[str, Any]) -> dict[str, Any]
     return {**own, **further}
 
 
+def no_option_of(options: Mapping[str, Any], **arguments: str) -> None:
+    """Refuses options of the command that are arguments of the typed question under another name, or its own business."""
+    for name, instead in arguments.items():
+        if name in options:
+            raise ArgumentError(f"{name} is no argument here: give {instead}")
+
+
 def bare(machine: Machine) -> tuple[Machine, float | None]:
     """The machine without its tool, and the length of a straight one in mm; another tool becomes part of the model."""
     from kinetostat.machine import Machine

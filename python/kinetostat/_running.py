@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import contextlib
 import dataclasses
 import json
 import os
 import re
 import tempfile
 import warnings
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextvars import ContextVar
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
@@ -60,6 +63,32 @@ def run(words: Sequence[str | os.PathLike[str]], progress: Callable[[int, int, s
     >>> run(["model", "list"]).code
     0
     """
+    return Completed(*_core.run_command([os.fspath(word) for word in words], progress))
+
+
+_ARGUMENTS: ContextVar[Mapping[str, str]] = ContextVar("arguments of a typed question, by options", default=MappingProxyType({}))
+
+
+@contextlib.contextmanager
+def arguments(**names: str) -> Iterator[None]:
+    """Messages of commands within name the arguments of a typed question: ``arguments(displacement_mm="displacement")``."""
+    before = _ARGUMENTS.set(names)
+    try:
+        yield
+    finally:
+        _ARGUMENTS.reset(before)
+
+
+def in_words_of_python(message: str) -> str:
+    """A message of a command with the names of arguments for those of options: with _ for -, or as :func:`arguments` says."""
+
+    def argument(option: re.Match[str]) -> str:
+        name = option[1].replace("-", "_")
+        return _ARGUMENTS.get().get(name, name) + ("=N" if option[2] else "")
+
+    return re.sub(r"(?<![\w-])--([a-z][a-z-]*)( N\b)?", argument, message)
+
+
     if isinstance(words, (str, bytes)) or not isinstance(words, Sequence):
         raise refused("words", words, "a list of words as ['model', 'list']")
     each = [file_path(f"words[{index}]", word) for index, word in enumerate(words)]
@@ -150,8 +179,8 @@ def _done(
     at = message.rfind("error: ")
     reason = message[at + 7 :] if at >= 0 else message
     if done.code == _WRONG_INPUT:
-        # Options have the names of arguments here, with _ for -.
-        raise ArgumentError(re.sub(r"(?<![\w-])--([a-z][a-z-]*)", lambda option: option[1].replace("-", "_"), reason))
+        # What the command line says of its own use is no help here.
+        raise ArgumentError(in_words_of_python(reason.split("\n\nUsage: ")[0].rstrip()))
     if done.code == _TOLERANCE_MISSED:
         warnings.warn(reason, ToleranceMissedWarning, stacklevel=4)
     elif done.code != 0 and not (done.code == _UNANSWERED and done.out.startswith(b"{")):

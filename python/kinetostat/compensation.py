@@ -13,7 +13,8 @@ from kinetostat import commands
 from kinetostat._arguments import or_none
 from kinetostat._arguments import path as file_path
 from kinetostat._arrays import Floats, positive
-from kinetostat._asking import bare, handed_on, numbers_or_nan, triple, wrenches
+from kinetostat._asking import bare, handed_on, no_option_of, numbers_or_nan, triple, wrenches
+from kinetostat._running import arguments
 
 if TYPE_CHECKING:
     from kinetostat.machine import Machine
@@ -112,6 +113,13 @@ def compensate(
     """
     import tempfile
 
+    no_option_of(
+        options,
+        part_origin_mm="part_origin, m",
+        tolerance_um="tolerance, m",
+        tool_length_mm="a machine with its tool, as machine.with_tool(length=0.1) makes one, m",
+        model="the machine itself",
+    )
     model, length = bare(machine)
     program, out = file_path("program", program), file_path("out", out)
     largest = or_none(positive, "tolerance", tolerance)
@@ -130,7 +138,8 @@ def compensate(
             "part_origin_mm": triple("part_origin", part_origin, 1e3),
             "tolerance_um": None if largest is None else 1e6 * largest,
         }
-        answer = commands.compensate(**handed_on(own, {"all_points": True} | options))
+        with arguments(part_origin_mm="part_origin (in mm)", tolerance_um="tolerance (in um)"):
+            answer = commands.compensate(**handed_on(own, {"all_points": True} | options))
     points = answer["points"]
 
     def vectors(key: str) -> Floats:

@@ -13,7 +13,9 @@ from numpy.typing import ArrayLike, NDArray
 from kinetostat import commands
 from kinetostat._arguments import flag
 from kinetostat._arrays import Floats, one, positive
-from kinetostat._asking import coordinates_in_si, handed_on, node_loads, numbers_or_nan, place, triple, wrenches
+from kinetostat._asking import coordinates_in_si, handed_on, no_option_of, node_loads, numbers_or_nan, place, triple, wrenches
+from kinetostat._growing import ends, one_way
+from kinetostat._running import arguments, in_words_of_python
 from kinetostat.errors import ArgumentError
 
 if TYPE_CHECKING:
@@ -23,6 +25,8 @@ if TYPE_CHECKING:
 __all__ = ["Branch", "BranchEnd", "CriticalLoad", "ForceCurve", "Judged", "PointKind", "SpecialPoint", "critical_load", "curve"]
 
 _DEG = np.pi / 180
+_FARTHEST = 1e4
+"""m; the command refuses more."""
 
 
 class PointKind(enum.Enum):
@@ -140,8 +144,8 @@ class Branch:
     """(n,): under prescribed motion."""
     share_to_buckling: Floats
     """(n,): with the tool held; NaN where nothing buckles."""
-    energy: Floats
-    """(n,): of the springs, J."""
+    spring_energy: Floats
+    """(n,): stored in all springs, J."""
     wrench: Floats
     """(n, 6): on the tool, N, N m."""
     position: Floats
@@ -261,7 +265,7 @@ def _branch(found: dict[str, Any], names: Sequence[dict[str, Any]]) -> Branch:
         stable=np.array([p["stable_under_dead_load"] for p in points], dtype=bool),
         stable_when_moved=np.array([p["stable_under_prescribed_motion"] for p in points], dtype=bool),
         share_to_buckling=numbers_or_nan([p["share_to_buckling"] for p in points]),
-        energy=numbers_or_nan([p["spring_energy_j"] for p in points]),
+        spring_energy=numbers_or_nan([p["spring_energy_j"] for p in points]),
         wrench=wrenches(points),
         position=np.array([p["position_mm"] for p in points], dtype=float).reshape(-1, 3) * 1e-3,
         rotation_vector=np.array([p["rotation_vector_deg"] for p in points], dtype=float).reshape(-1, 3) * _DEG,
@@ -333,7 +337,7 @@ def curve(
     force, moment : array_like, shape (3,), optional
         Or the load that grows, N and N m, base axes, over ``factor`` (from, to) times it.
     force_limits : tuple of float, optional
-        The curve ends where the force along the direction leaves these, N or N m.
+        The curve ends where the force along the direction leaves these, the lower and the upper one, N or N m.
     hold, free : str, optional
         Directions in which the tool is held or free, as in ``"x,y,rz"``; also ``all``, ``none``, ``rotations``, ``others``.
     constant_force, constant_moment : array_like, shape (3,), optional
@@ -368,30 +372,40 @@ def curve(
     >>> round(found.special[0].displacement, 6), round(found.special[0].force, 6)
     (-0.110932, -1.033477)
     """
-    if (displacement is not None and direction is None) or (turn is not None and about is None):
-        raise ArgumentError("displacement goes with direction, turn with about")
-    if all(given is None for given in (direction, about, force, moment)):
-        raise ArgumentError("say what shall grow: direction and displacement, about and turn, or force (moment) and factor")
-    answer = commands.curve(
-        **place(posture),
-        direction=triple("direction", direction),
-        displacement_mm=None if displacement is None else (1e3 * one("displacement", displacement, (2,))).tolist(),
-        about=triple("about", about),
-        turn_deg=None if turn is None else (one("turn", turn, (2,)) / _DEG).tolist(),
-        force=triple("force", force),
-        moment=triple("moment", moment),
-        factor=None if factor is None else one("factor", factor, (2,)).tolist(),
-        force_limits=None if force_limits is None else one("force_limits", force_limits, (2,)).tolist(),
-        hold=hold,
-        free=free,
-        constant_force=triple("constant_force", constant_force),
-        constant_moment=triple("constant_moment", constant_moment),
-        load=node_loads(loads),
-        branches=branches,
-        points=points,
-        all=flag("search_all", search_all),
-        progress=progress,
-    )
+    load = None if force is None and moment is None else [triple("force", force), triple("moment", moment)]
+    one_way({"direction": direction, "about": about, "force (moment)": load}, displacement, turn, factor)
+    far = ends("displacement", displacement, "m", _FARTHEST)
+    angles = ends("turn", turn, "rad", np.pi)
+    times = ends("factor", factor, "", np.inf)
+    if load is not None and not np.any([x for part in load for x in part or ()]):
+        raise ArgumentError("force and moment are zero: which load shall grow?")
+    limits = None if force_limits is None else one("force_limits", force_limits, (2,)).tolist()
+    if limits is not None and load is not None:
+        raise ArgumentError("force_limits end a motion, and here a load grows: give its end in factor")
+    if limits is not None and not limits[0] < limits[1]:
+        raise ArgumentError(f"force_limits is {limits}, expected the lower one and then the upper one, N or N m")
+    with arguments(displacement_mm="displacement", turn_deg="turn", load="loads", all="search_all"):
+        answer = commands.curve(
+            **place(posture),
+            direction=triple("direction", direction),
+            displacement_mm=None if far is None else (1e3 * far).tolist(),
+            about=triple("about", about),
+            turn_deg=None if angles is None else (angles / _DEG).tolist(),
+            force=triple("force", force),
+            moment=triple("moment", moment),
+            factor=None if times is None else times.tolist(),
+            force_limits=limits,
+            hold=hold,
+            free=free,
+            constant_force=triple("constant_force", constant_force),
+            constant_moment=triple("constant_moment", constant_moment),
+            load=node_loads(loads),
+            branches=branches,
+            points=points,
+            all=flag("search_all", search_all),
+            progress=progress,
+        )
+        warnings = tuple(in_words_of_python(w["message"]) for w in answer["warnings"])
     names = answer["coordinates"]
     return ForceCurve(
         branches=tuple(_branch(b, names) for b in answer["branches"]),
@@ -399,7 +413,7 @@ def curve(
         critical_loads=tuple(_critical(c) for c in answer["critical_loads"]),
         coordinates=tuple(c["name"] for c in names),
         question=answer["question"],
-        warnings=tuple(w["message"] for w in answer["warnings"]),
+        warnings=warnings,
         answer=answer,
     )
 
@@ -432,5 +446,6 @@ def critical_load(posture: Posture, force: ArrayLike, *, most: float = 10.0, **q
     >>> round(shape.factor, 6), round(shape.linear, 6)
     (1.033477, 1.015104)
     """
+    no_option_of(question, factor="most: the load grows from none to so many times itself")
     own = {"force": force, "factor": (0.0, positive("most", most))}
     return curve(posture, **handed_on(own, question))

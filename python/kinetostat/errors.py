@@ -5,7 +5,7 @@ A physical finding (a free direction, an unstable shape, a joint outside its lim
 
 from __future__ import annotations
 
-__all__ = ["ArgumentError", "KinetostatError", "ModelError", "ToleranceMissedWarning", "UnansweredError"]
+__all__ = ["ArgumentError", "KinetostatError", "ModelError", "PlausibilityWarning", "ToleranceMissedWarning", "UnansweredError"]
 
 
 class KinetostatError(Exception):
@@ -61,6 +61,23 @@ class UnansweredError(KinetostatError, RuntimeError):
     ... except UnansweredError:
     ...     print("out of reach")
     out of reach
+    """
+
+
+class PlausibilityWarning(UserWarning):
+    """A figure beyond what machines have: usually a unit is wrong. A command warns of it too, or refuses a program.
+
+    What is only unusual is not issued; with the others it stands in the ``warnings`` of the result.
+
+    Examples
+    --------
+    >>> import warnings
+    >>> import kinetostat as ks
+    >>> with warnings.catch_warnings(record=True) as found:
+    ...     warnings.simplefilter("always")
+    ...     machine = ks.Machine.preset("heavy_6r").with_tool(length=180)  # mm taken for m
+    >>> found[0].category.__name__, str(found[0].message) in machine.warnings
+    ('PlausibilityWarning', True)
     """
 
 

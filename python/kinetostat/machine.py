@@ -18,6 +18,7 @@ from kinetostat._arguments import path as file_path
 from kinetostat._arguments import text as checked_text
 from kinetostat._arrays import Floats, fitting, numbers, one, real, rows, thread_count
 from kinetostat._document import plain, without_none
+from kinetostat._plausibility import counted, issue, sentences
 from kinetostat._urdf import in_words_of_python, stands_at, stiffness_table, text_of, with_ratings
 from kinetostat.display import machine_html
 from kinetostat.errors import ArgumentError, ModelError
@@ -237,6 +238,8 @@ class Machine:
             toml, _ = _core.urdf_to_toml(text, file, base, tip, idle, stands, single, table)
         except ModelError as wrong:
             raise ModelError(in_words_of_python(str(wrong))) from None
+        # Lines in messages are those of the model, which is its text, not those of the URDF.
+        file = f"model made of {file}"
         made = cls._of(_core.Machine.from_toml(toml, file))
         document = made.to_dict()
         if ratings:
@@ -264,8 +267,12 @@ class Machine:
 
     @property
     def warnings(self) -> list[str]:
-        """What looks wrong in the model although it can be computed."""
-        return self._native.warnings
+        """What looks wrong in the model and its tool although it can be computed."""
+        return [*self._native.warnings, *sentences(self._tool_warnings())]
+
+    def _tool_warnings(self) -> list[tuple[bool, str]]:
+        bare = np.array_equal(self._native.tool(), np.eye(4))
+        return [] if bare else _core.tool_warnings(self._native)
 
     @property
     def actuators(self) -> tuple[Actuator, ...]:
@@ -364,6 +371,11 @@ class Machine:
         length : float, optional
             Instead: a straight tool, its tip so many m along z of the flange.
 
+        Warns
+        -----
+        PlausibilityWarning
+            No tool is so long, or so short. What is only unusual is in :attr:`warnings`.
+
         Examples
         --------
         >>> longer = Machine.preset("heavy_6r").with_tool(length=0.2)
@@ -377,7 +389,9 @@ class Machine:
             pose[2, 3] = real("length", length)
         else:
             pose = one("tool", cast(ArrayLike, tool), (4, 4))
-        return self._of(self._native.with_tool(pose[None]))
+        made = self._of(self._native.with_tool(pose[None]))
+        issue(made._tool_warnings())
+        return made
 
     # What it does --------------------------------------------------------------------------------------------------
 
@@ -806,7 +820,7 @@ class Machine:
     def __repr__(self) -> str:
         limbs, actuators = len(self.limbs), len(self._native.actuators())
         counts = f"{limbs} limb{'s' * (limbs != 1)}, {actuators} actuator{'s' * (actuators != 1)}"
-        return f"<Machine '{self.name}' ({self.file}): {counts}>"
+        return f"<Machine '{self.name}' ({self.file}): {counts}{counted(self._tool_warnings())}>"
 
 
 def _restored(text: str, file: str, tool: Floats) -> Machine:

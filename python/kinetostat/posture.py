@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike
 
 from kinetostat import _core
 from kinetostat._arrays import Floats, one
+from kinetostat._plausibility import counted, issue, sentences
 from kinetostat.display import equilibrium_html, stiffness_html
 from kinetostat.errors import KinetostatError
 from kinetostat.status import DirectionKind, FoundBy, Status
@@ -201,8 +202,21 @@ class Equilibrium:
 
     @property
     def energy(self) -> float | None:
-        """Stored energy, J; none where a load has no potential."""
+        """Of springs, weights and loads of the model, J, without the wrench on the tool; none where a load has no potential.
+
+        Its zero is arbitrary, that of the weights and loads, and the same in all equilibria of a posture: differences count.
+        """
         return self._native.energy
+
+    @property
+    def spring_energy(self) -> float:
+        """Stored in all springs, J."""
+        return self._native.spring_energy
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """What looks wrong in the load and the displacement although it can be computed, as the command ``deflect`` says it."""
+        return sentences(_core.load_warnings(self.posture._native, self._native))
 
     @property
     def found_by(self) -> FoundBy:
@@ -219,7 +233,7 @@ class Equilibrium:
         return getattr(Posture, kind), (self.posture, self._native.wrench.tolist() if value is None else value)
 
     def __repr__(self) -> str:
-        return repr(self._native)
+        return f"{repr(self._native)[:-1]}{counted(self.warnings)}>"
 
     def _repr_html_(self) -> str:
         return equilibrium_html(self)
@@ -327,6 +341,11 @@ class Posture:
         UnansweredError
             No equilibrium was found: how far the load got.
 
+        Warns
+        -----
+        PlausibilityWarning
+            The load is beyond what machining has, or the machine folds over under it.
+
         Examples
         --------
         >>> import kinetostat as ks
@@ -334,7 +353,9 @@ class Posture:
         >>> round(float(loaded.displacement[0]) * 1e6, 1)
         33.3
         """
-        return Equilibrium(self, self._native.deflected_by(wrench), _DEFLECTED)
+        found = self._native.deflected_by(wrench)
+        issue(_core.load_warnings(self._native, found))
+        return Equilibrium(self, found, _DEFLECTED)
 
     def held_at(self, pose: ArrayLike) -> Equilibrium:
         """Equilibrium with the tool held at a pose: the wrench that holds it is part of the answer.

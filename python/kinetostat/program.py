@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 from kinetostat import _core
 from kinetostat._arguments import function, refused
 from kinetostat._arrays import Floats, numbers, positive, whole_number
+from kinetostat._plausibility import issue, sentences
 from kinetostat.errors import ArgumentError
 
 __all__ = ["Corrected", "correct_program"]
@@ -39,6 +40,8 @@ class Corrected:
     """Largest distance of the written program, m."""
     allowed: float
     """What was allowed, m: the tolerance, chords of arcs and rounding."""
+    warnings: tuple[str, ...] = ()
+    """What looks wrong in the corrections, as the command ``compensate`` says it of a table."""
 
     @property
     def text(self) -> str:
@@ -68,7 +71,7 @@ def correct_program(
         G-code; bytes in any encoding in which its words are ASCII (Latin-1 of controllers, UTF-8).
     field : callable
         Positions (n, 3), part axes, m, and directions of motion (n, 3), NaN where there is none, to corrections (n, 3), m; called for
-        many points at once. Equal points must get equal answers.
+        many points at once. It has to be continuous, and equal points must get equal answers each time.
     tolerance : float
         Largest distance of the path from path plus correction, m.
     decimals : int, optional
@@ -83,7 +86,12 @@ def correct_program(
     ArgumentError
         The program cannot be followed (with its line), or the field gives another shape or numbers that are not finite.
     UnansweredError
-        The tolerance cannot be held.
+        The tolerance cannot be held: the field jumps, or is another one each time that it is called.
+
+    Warns
+    -----
+    PlausibilityWarning
+        Corrections are larger than a program may have without being asked: usually they are in mm, not m.
 
     Examples
     --------
@@ -103,7 +111,9 @@ def correct_program(
     function("field", field, "a function of positions and directions")
     digits = None if decimals is None else whole_number("decimals", decimals, 3, 8)
     written, told = _core.correct_program(_bytes(program), called, positive("tolerance", tolerance), digits)
-    return Corrected(written, **told)
+    found = told.pop("warnings")
+    issue(found)
+    return Corrected(written, **told, warnings=sentences(found))
 
 
 def _bytes(program: str | bytes) -> bytes:

@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from kinetostat import commands
 from kinetostat._arrays import Floats
 from kinetostat._asking import coordinates_in_si, node_loads, numbers_or_nan, place, triple, wrenches
+from kinetostat._running import arguments
 
 if TYPE_CHECKING:
     from kinetostat.machine import Progress
@@ -32,7 +33,7 @@ class Shapes:
     """
 
     energy: Floats
-    """(n,): springs and loads up to a constant, J."""
+    """(n,): springs, weights and loads up to a constant, J."""
     stable: NDArray[np.bool_]
     """(n,): under the conditions as prescribed."""
     shape_stable: NDArray[np.bool_]
@@ -111,21 +112,22 @@ def shapes(
     ([True, False], True)
     """
     turn = triple("turned", turned, 180 / np.pi)
-    answer = commands.equilibria(
-        **place(posture),
-        displaced_mm=triple("displaced", displaced, 1e3),
-        turned_deg=turn,
-        force=triple("force", force),
-        moment=triple("moment", moment),
-        hold=hold,
-        free=free,
-        constant_force=triple("constant_force", constant_force),
-        constant_moment=triple("constant_moment", constant_moment),
-        load=node_loads(loads),
-        starts=starts,
-        fruitless=fruitless,
-        progress=progress,
-    )
+    with arguments(displaced_mm="displaced", turned_deg="turned", load="loads"):
+        answer = commands.equilibria(
+            **place(posture),
+            displaced_mm=triple("displaced", displaced, 1e3),
+            turned_deg=turn,
+            force=triple("force", force),
+            moment=triple("moment", moment),
+            hold=hold,
+            free=free,
+            constant_force=triple("constant_force", constant_force),
+            constant_moment=triple("constant_moment", constant_moment),
+            load=node_loads(loads),
+            starts=starts,
+            fruitless=fruitless,
+            progress=progress,
+        )
     each = answer["equilibria"]
     names = answer["coordinates"]
     coordinates = np.array([e["coordinates"] for e in each], dtype=float).reshape(len(each), len(names))

@@ -211,7 +211,7 @@ def machines(
     quantities : sequence of str
         Of ``error``, ``deflection``, ``deviation``, ``compensated``, ``stiffness``.
     correlations : mapping of pairs of names to float, optional
-        Of the numbers' normal scores.
+        Of the numbers' normal scores; not with the text of a file, which states its own.
     draws : int
         Number of machines, 1 to 2**20, rounded up to a multiple of 16.
     seed : int
@@ -226,7 +226,8 @@ def machines(
     Raises
     ------
     ArgumentError
-        For a number of draws, threads or a seed out of range.
+        For a number of draws, threads or a seed out of range, and for more than 200 million results: what they would take is said
+        before anything is computed.
     ModelError
         For an unknown number (with the nearest), a negative spread, contradicting correlations.
     UnansweredError
@@ -291,6 +292,9 @@ def _each(values: ArrayLike, spread: Sequence[Distribution]) -> list[tuple[float
         raise refused("spread", spread, "Distributions, one for each number")
     each = [_distribution(f"spread[{i}]", own) for i, own in enumerate(spread)]
     centre = one("values", values, (len(each),))
+    none = [i for i, (x, own) in enumerate(zip(centre, each, strict=True)) if own.percent and x == 0]
+    if none:
+        raise ArgumentError(f"spread[{none[0]}] is a percentage of a number that is zero, which is zero: state it in the number's own unit")
     return [(float(x), d.word, float(d.spread) * (abs(float(x)) / 100 if d.percent else 1)) for x, d in zip(centre, each, strict=True)]
 
 
@@ -314,7 +318,7 @@ class SobolIndices:
     total_plus_minus: Floats
     """Half widths."""
     unanswered: int
-    """Draws that were left out because the function gave what is no number."""
+    """Draws that were left out because the function gave what is no number: at most 2 % of them, of one output."""
 
 
 def sobol(
@@ -340,7 +344,8 @@ def sobol(
     ArgumentError
         For n out of range: fewer draws give no honest interval.
     UnansweredError
-        If an output has no variance or too few draws with an answer: it has no parts.
+        If an output has no variance: it has no parts. If more than 2 % of the draws have no answer: indices of those that are left
+        are not those of the function, and their scatter does not tell how far they are off.
 
     Examples
     --------
@@ -359,8 +364,15 @@ def sobol(
     found = [_core.sobol_of_answers(column.tolist(), len(each)) for column in outputs]
     table = np.stack([own for own, _ in found])
     still = np.flatnonzero(np.isnan(table).any(axis=(1, 2)))
+    missing = [len(design) - used for _, used in found]
+    worst = int(np.argmax(missing))
+    if missing[worst] > _core.MOST_MISSING * len(design):
+        raise UnansweredError(
+            f"output {worst} of the function is no number in {missing[worst]} of {len(design)} draws, and at most "
+            f"{100 * _core.MOST_MISSING:g} % can be left out: what the others say is not said of the whole; "
+            "narrow the spread to where the function has answers"
+        )
     if still.size:
         raise UnansweredError(f"output {still[0]} of the function does not vary, or too few of its answers are numbers: no Sobol indices")
     first, first_plus_minus, total, total_plus_minus = (table[:, :, k] for k in range(4))
-    unanswered = len(design) - min(used for _, used in found)
-    return SobolIndices(first, first_plus_minus, total, total_plus_minus, unanswered)
+    return SobolIndices(first, first_plus_minus, total, total_plus_minus, missing[worst])

@@ -165,6 +165,7 @@ def test_jacobian_against_differences(posture: ks.Posture) -> None:
     np.testing.assert_allclose(ring, exact, rtol=2e-5, atol=1e-6 * np.abs(exact).max())
 
 
+@pytest.mark.filterwarnings("ignore::kinetostat.PlausibilityWarning")
 def test_a_spring_on_the_tool_is_in_series() -> None:
     machine = ks.Machine.preset("orthoglide")
     places = np.array([[0.0, 0.0, 0.0], POSITION, [-0.04, 0.05, 0.01]])
@@ -243,6 +244,7 @@ def test_force_models_say_what_is_wrong() -> None:
     assert not runaway.converged[0]
 
 
+@pytest.mark.filterwarnings("ignore::kinetostat.PlausibilityWarning")
 def test_program_with_a_field_of_python() -> None:
     program = "G21 G90\nG0 X0 Y0 Z1\nG1 Z-1 F300\nG1 X100\nM2\n"
 

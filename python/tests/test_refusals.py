@@ -92,3 +92,75 @@ def test_what_is_no_number_is_refused_by_name_in_the_builder(
 ) -> None:
     with pytest.raises(ks.ArgumentError, match=rf"^{words} .*{value}.*: give finite numbers$"):
         built(fill, value)
+
+
+BENDING = ks.Machine.preset("three_link_z").posture()
+ALONG = [1, 0, 0]
+
+
+@pytest.mark.parametrize(
+    ("question", "words"),
+    [
+        ({"direction": ALONG}, r"direction needs displacement=\(from, to\), m, as in displacement=\(0, 0\.02\)"),
+        ({"about": ALONG}, r"about needs turn=\(from, to\), rad"),
+        ({"force": ALONG}, r"force \(moment\) needs factor=\(from, to\)"),
+        ({"direction": ALONG, "displacement": (0, 0.1), "force": ALONG, "factor": (0, 2)}, "direction and force .* one of them can grow"),
+        ({"direction": ALONG, "displacement": (0, 0.1), "factor": (0, 2)}, "factor goes with force"),
+        ({"direction": ALONG, "displacement": (0.1, 0.1)}, r"displacement is \[0\.1, 0\.1\]: there is nothing between equal ends"),
+        ({"direction": ALONG, "displacement": (0, 2e4)}, "displacement is .* m, expected from -10000 to 10000 m"),
+        ({"about": [0, 0, 1], "turn": (0, 4)}, "turn is .* rad, expected from -3.14159 to 3.14159 rad"),
+        (
+            {"direction": ALONG, "displacement": (0, 0.1), "force_limits": (5, -5)},
+            r"force_limits is \[5\.0, -5\.0\], expected the lower one",
+        ),
+        ({"force": ALONG, "factor": (0, 2), "force_limits": (-5, 5)}, "force_limits end a motion"),
+        ({"moment": [0, 0, 0], "factor": (0, 2)}, "which load shall grow"),
+        ({"direction": ALONG, "displacement": (0, 0.1), "loads": {"none": ALONG}}, "^loads 'none=1.0,0.0,0.0'"),
+    ],
+)
+def test_a_curve_names_its_own_arguments(question: dict[str, Any], words: str) -> None:
+    with pytest.raises(ks.ArgumentError, match=words) as refused:
+        BENDING.curve(**question)
+    assert not any(other in str(refused.value) for other in ("_mm", "_deg", "grow NODE", "Usage", "--"))
+
+
+def test_warnings_of_a_curve_name_its_own_arguments() -> None:
+    found = BENDING.curve(direction=ALONG, displacement=(0, -0.2), points=10)
+    assert any("points=N allows more, force_limits" in said for said in found.warnings)
+
+
+def test_other_typed_questions_name_their_own_arguments() -> None:
+    with pytest.raises(ks.ArgumentError, match="factor is no argument here: give most"):
+        ks.curves.critical_load(BENDING, [-1, 0, 0], factor=(0, 3))
+    with pytest.raises(ks.ArgumentError, match="part_origin_mm is no argument here: give part_origin, m"):
+        ORTHOGLIDE.compensate("in.ngc", "out.ngc", part_origin_mm=[0, 0, 0])
+    with pytest.raises(ks.ArgumentError, match="tool_length_mm is no argument here: give a machine with its tool"):
+        ORTHOGLIDE.compensate("in.ngc", "out.ngc", tool_length_mm=100)
+    with pytest.raises(ks.ArgumentError, match=r"^turned: "):
+        BENDING.shapes(turned=[0, 0, 4])
+
+
+def test_commands_do_not_print_the_usage_of_the_command_line() -> None:
+    with pytest.raises(ks.ArgumentError, match="factor") as refused:
+        commands.curve("three_link_z", force=[1, 0, 0])
+    assert "Usage" not in str(refused.value)
+
+
+def test_a_field_that_jumps_or_rolls_dice_is_no_fault_of_the_package() -> None:
+    program = "G21 G90\nG0 X0 Y0 Z1\nG1 Z-1 F300\nG1 X100\nM2\n"
+    dice = np.random.default_rng(1)
+    with pytest.raises(ks.UnansweredError, match="has to be continuous, and to give the same correction at the same place") as refused:
+        ks.correct_program(program, lambda p, d: 1e-4 * dice.normal(size=p.shape))
+    assert "please report" not in str(refused.value)
+
+
+def test_warnings_of_a_urdf_say_that_their_lines_are_those_of_the_model() -> None:
+    urdf = """<robot name="crane"><link name="post"/><link name="boom"/>
+    <joint name="shoulder" type="revolute"><parent link="post"/><child link="boom"/><origin xyz="0 0 1.5"/><axis xyz="0 1 0"/>
+    <limit lower="-1" upper="1" effort="0" velocity="1"/></joint><link name="hook"/><joint name="end" type="fixed">
+    <origin xyz="1000 0 0"/><parent link="boom"/><child link="hook"/></joint></robot>"""
+    crane = ks.Machine.from_urdf(urdf, tip="hook", stiffness=2e5)
+    said = next(w for w in crane.warnings if "reaches over 1000 m" in w)
+    assert "model made of text.urdf:" in said
+    line = int(said.split("text.urdf:")[1].split(":")[0])
+    assert crane.text.splitlines()[line - 1].strip() in said

@@ -424,3 +424,18 @@ def test_mpi_with_three_ranks(tmp_path: Path, serial: dict[str, np.ndarray]) -> 
     assert "ranks that work 2" in run.stdout
     assert sweep.verify(tmp_path / "out").complete
     same_bits(serial, sweep.read(tmp_path / "out"))
+
+
+def test_only_a_fitting_folder_is_written_to(tmp_path: Path) -> None:
+    (tmp_path / "of somebody.txt").write_text("mine")
+    with pytest.raises(ks.ArgumentError, match=r"is not empty and holds no sweep \(it has 'of somebody.txt'"):
+        sweep.to_folder(tmp_path, squares, 10)
+    assert [entry.name for entry in tmp_path.iterdir()] == ["of somebody.txt"]
+    with pytest.raises(ks.ArgumentError, match=r"of somebody\.txt is a file, expected a folder"):
+        sweep.to_folder(tmp_path / "of somebody.txt", squares, 10)
+    # A run that was killed before its manifest was written left these.
+    begun = tmp_path / "begun"
+    (begun / "chunks").mkdir(parents=True)
+    (begun / "journal.jsonl").write_text("")
+    assert sweep.to_folder(begun, squares, 10, chunk=4).computed == 3
+    assert sweep.to_folder(begun, squares, 10, chunk=4).computed == 0

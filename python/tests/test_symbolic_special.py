@@ -214,3 +214,33 @@ def test_printed_steps_at_a_special_value(tmp_path, language, compiler):
     assert r"\begin{cases}" in found.latex()
     free = found.lambdify()(*({"G": 0.7, "K": 1.3, "a": 0.5}[s.name] for s in found.symbols))
     assert np.allclose(free, np.diag([0, 0, 1.3]), atol=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("given", "exact"),
+    [
+        ([0.0, 0.0, 1.0], [0, 0, 1]),
+        ([0.6, 0.0, -0.8], [sp.Rational(3, 5), 0, -sp.Rational(4, 5)]),
+        (np.array([1.0, -1.0, 0.0]) / math.sqrt(2), [sp.sqrt(2) / 2, -sp.sqrt(2) / 2, 0]),
+        (np.ones(3) / math.sqrt(3), [sp.sqrt(3) / 3] * 3),
+    ],
+)
+def test_axes_in_decimals_become_exact(given, exact):
+    jacobian = symbolic.Chain().passive("q", "revolute", given).move("L", "h").jacobian().matrix
+    assert list(jacobian[3:]) == exact
+    assert jacobian == symbolic.Chain().passive("q", "revolute", exact).move("L", "h").jacobian().matrix
+
+
+def test_an_axis_of_no_nice_numbers_stays_what_it_is():
+    axis = np.array([math.sin(1.0), 0.0, math.cos(1.0)])
+    found = symbolic.Chain().passive("q", "revolute", axis).jacobian().matrix[3:, 0]
+    np.testing.assert_allclose(np.array(found, dtype=float).reshape(3), axis, rtol=0, atol=1e-15)
+
+
+def test_what_is_no_unit_vector_or_no_symbol_is_refused():
+    for axis in ([0.0, 0.0, 1.1], [0, 0, 1 + 1e-9], ["a", 0, 0]):
+        with pytest.raises(ks.ArgumentError, match="whose length is not 1: expected three entries of a unit vector"):
+            symbolic.Chain().passive("q", "revolute", axis)
+    for text in ("2*L", "0.5", "", "-L"):
+        with pytest.raises(ks.ArgumentError, match="is no name of a symbol"):
+            symbolic.Chain().move(text)

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import doctest
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 import kinetostat as ks
+from kinetostat import commands
 from kinetostat import tolerance as tol
 
 
@@ -118,3 +120,50 @@ def test_spreads_and_correlations_of_numpy() -> None:
         tol._toml({"a": tol.normal(np.inf)}, {})
     near = np.corrcoef(np.random.default_rng(0).normal(size=(3, 100)))
     assert tol.draws([1, 2, 3], [tol.normal(0.1)] * 3, 64, correlation=near).shape == (64, 3)
+
+
+def test_more_results_than_can_be_kept_are_refused_before_they_are_computed(tmp_path: Path) -> None:
+    machine = ks.Machine.preset("orthoglide")
+    spread = {"chain.leg.q2.length_mm": tol.normal(0.01)}
+    begun = []
+    with pytest.raises(ks.ArgumentError, match=r"39845888000 numbers \(319 GB\), and 200000000 \(1\.6 GB\) can be kept"):
+        tol.machines(machine, spread, np.zeros((2000, 3)), [1, 0, 0, 0, 0, 0], draws=2**20, progress=lambda *now: begun.append(now))
+    assert begun == []
+    file = tmp_path / "spread.toml"
+    file.write_text(tol._toml(spread, {}))
+    with pytest.raises(ks.ArgumentError, match=r"machines 1048576: .* \(1\.6 GB\) can be kept; take fewer places or machines"):
+        commands.tolerance("orthoglide", uncertain=file, at=[[0.1 * k, 1, 2] for k in range(20)], force=[1, 0, 0], machines=2**20)
+    many = [tol.normal(1)] * 200
+    with pytest.raises(ks.ArgumentError, match="can be kept; take fewer"):
+        tol.draws([1.0] * 200, many, 2**20)
+    with pytest.raises(ks.ArgumentError, match="can be kept; take a smaller n"):
+        tol.sobol(lambda x: x[:, 0], [1.0] * 200, many, 2**20)
+
+
+def test_correlations_beside_the_text_of_a_file_are_refused() -> None:
+    text = "schema = 1\n[[uncertain]]\nparameter = 'chain.leg.q2.length_mm'\nnormal = 0.01\n"
+    names = ("chain.leg.q2.length_mm", "stiffness.bar.scale")
+    with pytest.raises(ks.ArgumentError, match=r"\[\[correlation\]\]"):
+        tol.machines(ks.Machine.preset("orthoglide"), text, [[0, 0, 0]], draws=16, correlations={names: 0.9})
+
+
+def test_a_percentage_of_zero_is_refused() -> None:
+    with pytest.raises(ks.ArgumentError, match=r"spread\[1\] is a percentage of a number that is zero"):
+        tol.draws([2.0, 0.0], [tol.normal(5, percent=True)] * 2, 16)
+
+
+def test_sobol_indices_with_missing_answers() -> None:
+    def missing_above(bound: float):
+        def function(x: np.ndarray) -> np.ndarray:
+            return np.where(x.sum(axis=1) > bound, np.nan, x.sum(axis=1))
+
+        return function
+
+    one = [tol.normal(1), tol.normal(1)]
+    for n in (128, 4096):
+        with pytest.raises(ks.UnansweredError, match=rf"is no number in \d+ of {n} draws, and at most 2 % can be left out"):
+            tol.sobol(missing_above(1.0), [0, 0], one, n)
+    # Three standard deviations off in four ways: some are missing, and what is left is nearly the whole.
+    found = tol.sobol(missing_above(4.2), [0, 0], one, 4096)
+    assert 0 < found.unanswered <= 0.02 * 4096
+    np.testing.assert_allclose(found.first[0], [0.5, 0.5], atol=0.05)

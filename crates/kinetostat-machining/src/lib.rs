@@ -32,6 +32,7 @@ mod watch;
 pub use arm_joints::ArmJoints;
 pub use bounds::{Bounds, ToolGiven};
 pub use checks::correction::odd_correction;
+pub use checks::displacement::{folds, folds_at, is_large};
 pub use checks::load::{large_load, unusual_load};
 pub use checks::placement::origin_in_metres;
 pub use checks::refused::of_accounting;

@@ -1,6 +1,7 @@
 //! An equilibrium under load.
 
 use kinetostat::MechanismEquilibrium;
+use kinetostat::continuation::CurveEquilibrium;
 use numpy::{PyArray1, PyArray2};
 use pyo3::prelude::*;
 
@@ -66,10 +67,16 @@ impl Equilibrium {
         self.0.stiffness_against_force()
     }
 
-    /// Stored energy, J; none where a load has no potential.
+    /// Of springs, weights and loads on limbs, J, up to a constant; none where a load has no potential.
     #[getter]
     fn energy(&self) -> Option<f64> {
         self.0.energy
+    }
+
+    /// In all springs, J.
+    #[getter]
+    fn spring_energy(&self) -> f64 {
+        CurveEquilibrium::spring_energy(&self.0)
     }
 
     fn found_by_json(&self) -> PyResult<String> {

@@ -15,6 +15,7 @@ mod equilibrium;
 mod errors;
 mod machine;
 mod map;
+mod plausibility;
 mod posture;
 mod program;
 mod stiffness;
@@ -36,6 +37,8 @@ mod _core {
     #[pymodule_export]
     use crate::map::{evaluate_many, map_variables};
     #[pymodule_export]
+    use crate::plausibility::{load_warnings, tool_warnings};
+    #[pymodule_export]
     use crate::posture::Posture;
     #[pymodule_export]
     use crate::program::correct_program;
@@ -55,4 +58,8 @@ mod _core {
 
     #[pymodule_export]
     const VERSION: &str = env!("CARGO_PKG_VERSION");
+
+    /// Largest share of the draws without an answer of which Sobol indices are still said.
+    #[pymodule_export]
+    const MOST_MISSING: f64 = kinetostat_tolerance::MOST_MISSING;
 }

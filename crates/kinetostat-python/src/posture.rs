@@ -79,11 +79,15 @@ impl Posture {
     fn __repr__(&self) -> String {
         let at = self.0.target().translation.vector;
         format!(
-            "<Posture of '{}', tool at [{:.6}, {:.6}, {:.6}] m>",
+            "<Posture of '{}', tool at [{:.6}, {:.6}, {:.6}] m{}>",
             self.0.mechanism().name(),
             at.x,
             at.y,
-            at.z
+            at.z,
+            match self.0.limit_violations().is_empty() {
+                true => "",
+                false => ", OUTSIDE_LIMITS",
+            }
         )
     }
 }

@@ -3,7 +3,7 @@
 use kinetostat::nalgebra::Vector3;
 use kinetostat_program::{
     Correction, CorrectionField, FieldFailure, Program, ReadOptions, Request, Unwatched,
-    WriteOptions, interpret, verify_against_field, verify_written, write_corrected,
+    WriteError, WriteOptions, interpret, verify_against_field, verify_written, write_corrected,
 };
 use numpy::{PyArrayDyn, PyArrayMethods};
 use pyo3::prelude::*;
@@ -12,6 +12,7 @@ use std::sync::Mutex;
 
 use crate::arrays::{Numbers, array, rows};
 use crate::errors::{Class, error};
+use crate::plausibility::of_corrections;
 
 const MM: f64 = 1000.0;
 
@@ -71,6 +72,16 @@ impl CorrectionField for Function {
     }
 }
 
+/// A program whose last check fails was corrected by a field that is no function of the place, or one that jumps.
+fn of_field(found: &WriteError) -> String {
+    match found {
+        WriteError::Verification { line, what, .. } => format!(
+            "line {line}: the written program does not follow the field: {what}. The field has to be continuous, and to give the same correction at the same place and direction each time that it is called"
+        ),
+        other => other.to_string(),
+    }
+}
+
 /// A G-code program whose path is its own plus the field's correction: its bytes, and what was measured when it was read again.
 #[pyfunction]
 pub fn correct_program<'py>(
@@ -91,13 +102,13 @@ pub fn correct_program<'py>(
         let path = interpret(&program, &reading).map_err(|e| wrong(&e))?;
         let mut writing = WriteOptions::default();
         (writing.tolerance_mm, writing.decimals) = (tolerance * MM, decimals);
-        let unanswered = |e: &dyn std::fmt::Display| error(Class::Unanswered, e.to_string());
+        let unanswered = |e: &WriteError| error(Class::Unanswered, e.to_string());
         let written = write_corrected(&program, &path, &field, &writing, &Unwatched)
             .map_err(|e| unanswered(&e))?;
         verify_written(&program, &path, &written, &reading, &writing)
             .map_err(|e| unanswered(&e))?;
         let check = verify_against_field(&path, &written, &field, &writing, &Unwatched)
-            .map_err(|e| unanswered(&e))?;
+            .map_err(|e| error(Class::Unanswered, of_field(&e)))?;
         Ok::<_, PyErr>((written, check))
     });
     let raised = (field.raised.lock().ok()).and_then(|mut kept| kept.take());
@@ -112,5 +123,6 @@ pub fn correct_program<'py>(
     told.set_item("error_before", before / MM)?;
     told.set_item("error_after", check.after.distance_mm / MM)?;
     told.set_item("allowed", check.allowed_mm / MM)?;
+    told.set_item("warnings", of_corrections(before / MM, tolerance))?;
     Ok((PyBytes::new(py, &written.bytes), told))
 }

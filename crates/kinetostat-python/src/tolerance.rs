@@ -4,7 +4,7 @@ use kinetostat::{Pose, Wrench};
 use kinetostat_machining::RunError;
 use kinetostat_tolerance::{
     Distribution, Draws, Linear, Quantity, Samples, TaskError, Uncertain, UncertainMachine,
-    Uncertainties, UncertaintyFile, design_row, design_rows, linearised, monte_carlo,
+    Uncertainties, UncertaintyFile, can_be_kept, design_row, design_rows, linearised, monte_carlo,
     sobol_indices,
 };
 use numpy::{PyArray2, PyArray3};
@@ -23,6 +23,12 @@ fn of_task(found: &TaskError) -> PyErr {
         TaskError::Core(found) => of_core(found),
         other => error(Class::Unanswered, other.to_string()),
     }
+}
+
+/// Refuses what is too much to be kept, before it is computed.
+fn kept(rows: usize, width: usize, what: &str, instead: &str) -> PyResult<()> {
+    let found = can_be_kept(rows, width);
+    found.map_err(|many| error(Class::Argument, format!("{what}: {many}; {instead}")))
 }
 
 /// Answers of all machines, their linear functions, and the numbers that were drawn.
@@ -54,6 +60,14 @@ pub fn tolerance_of_machine<'py>(
         .into_iter()
         .filter(|q| quantities.iter().any(|w| w == q.word()))
         .collect();
+    let draws = Draws::new(draws, seed);
+    let width: usize = quantities.iter().map(|q| q.columns().len()).sum();
+    kept(
+        draws.len(),
+        places.len().saturating_mul(width),
+        "results of all machines at all places",
+        "take fewer draws, places or quantities, or ask for the places in parts, with the same seed",
+    )?;
     let read =
         UncertaintyFile::read(spread, file, &machine.model, &wrench).map_err(|e| of_model(&e))?;
     let own = UncertainMachine::new(
@@ -65,7 +79,6 @@ pub fn tolerance_of_machine<'py>(
         &quantities,
     )
     .map_err(|e| of_task(&e))?;
-    let draws = Draws::new(draws, seed);
     let columns = own.columns();
     let (count, each) = (places.len(), columns.len());
     let numbers = read.uncertainties.clone();
@@ -178,6 +191,7 @@ pub fn drawn_numbers<'py>(
 ) -> PyResult<Bound<'py, PyArray2<f64>>> {
     let width = each.len();
     let (numbers, draws) = (uncertainties(each, &pairs)?, Draws::new(draws, seed));
+    kept(draws.len(), width, "draws of all numbers", "take fewer")?;
     let all = rows(py, draws.len(), move |i| numbers.drawn(&draws, i))?;
     array(py, all, [draws.len(), width])
 }
@@ -193,6 +207,12 @@ pub fn sobol_design<'py>(
     let width = each.len();
     let (numbers, draws) = (uncertainties(each, &[])?, Draws::new(draws, seed));
     let count = design_rows(&numbers, &draws);
+    kept(
+        count,
+        width,
+        "rows for which the function is asked",
+        "take a smaller n, or fewer numbers",
+    )?;
     let all = rows(py, count, move |row| design_row(&numbers, &draws, row))?;
     array(py, all, [draws.len(), width + 2, width])
 }

@@ -45,11 +45,12 @@ pub use draws::{Draws, MOST_DRAWS, REPLICATES};
 pub use file::{CUTTING_PARTS, Source, UncertaintyFile};
 pub use linear::{ENOUGH, Linear, linear, linear_points, nonlinearity};
 pub use machine::{DependsOnMachine, Quantity, Room, TaskError, UncertainMachine};
-pub use sensitivity::{SobolIndex, design_row, design_rows, sobol_indices};
+pub use sensitivity::{MOST_MISSING, SobolIndex, design_row, design_rows, sobol_indices};
 pub use statistics::{
     CONFIDENCE, Estimate, Quantile, SHARES, Summary, mean_and_deviation, quantile,
 };
 pub use study::{
-    Failures, OutputAnswer, Samples, Verdict, answers, linearised, monte_carlo, sample, sobol,
+    Failures, MOST_NUMBERS, OutputAnswer, Samples, TooManyNumbers, Verdict, answers, can_be_kept,
+    linearised, monte_carlo, sample, sobol,
 };
 pub use uncertain::{Contradiction, Uncertain, Uncertainties};

@@ -9,6 +9,10 @@ use crate::draws::{Draws, REPLICATES};
 use crate::statistics::Estimate;
 use crate::uncertain::Uncertainties;
 
+/// Largest share of the draws that may be left out. The others say nothing of what is missing, nor does their scatter: where the draws of
+/// one corner are missing, indices are those of what is left, and their intervals as narrow as if that were all.
+pub const MOST_MISSING: f64 = 0.02;
+
 /// Which part of the variance a number explains.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct SobolIndex {
@@ -38,7 +42,7 @@ pub fn design_rows(uncertainties: &Uncertainties, draws: &Draws) -> usize {
 }
 
 /// The indices of `numbers` numbers from the answers to the rows of a design, NaN where there is none: what misses one is left out as a
-/// whole. Returns the draws that were used, too.
+/// whole. NaN where more than [`MOST_MISSING`] are left out. Returns the draws that have an answer, too.
 #[must_use]
 pub fn sobol_indices(draws: &Draws, numbers: usize, answers: &[f64]) -> (Vec<SobolIndex>, usize) {
     let whole = |row: &&[f64]| row.iter().all(|x| x.is_finite());
@@ -47,6 +51,17 @@ pub fn sobol_indices(draws: &Draws, numbers: usize, answers: &[f64]) -> (Vec<Sob
         .enumerate()
         .filter(|(_, row)| whole(row))
         .collect();
+    if (used.len() as f64) < (1.0 - MOST_MISSING) * draws.len() as f64 {
+        let unknown = Estimate {
+            value: f64::NAN,
+            plus_minus: f64::NAN,
+        };
+        let index = SobolIndex {
+            first: unknown,
+            total: unknown,
+        };
+        return (vec![index; numbers], used.len());
+    }
     let all = indices(used.iter().map(|(_, row)| *row), numbers);
     let each: Vec<Vec<[f64; 2]>> = (0..REPLICATES)
         .map(|replicate| {

@@ -3,6 +3,7 @@
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
+use kinetostat::number::short;
 use kinetostat_machining::{RunError, Watch};
 use rayon::prelude::*;
 use serde::Serialize;
@@ -19,6 +20,37 @@ const BLOCK: usize = 16;
 
 /// Blocks between two looks at the watch.
 const BLOCKS: usize = 64;
+
+/// Numbers of all machines that are kept at a time: 1.6 GB.
+pub const MOST_NUMBERS: usize = 200_000_000;
+
+/// More numbers than are kept at a time.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error(
+    "these are {count} numbers ({} GB), and {MOST_NUMBERS} ({} GB) can be kept",
+    gigabytes(*count),
+    gigabytes(MOST_NUMBERS)
+)]
+pub struct TooManyNumbers {
+    /// Numbers that were asked for.
+    pub count: usize,
+}
+
+fn gigabytes(numbers: usize) -> String {
+    short(8e-9 * numbers as f64)
+}
+
+/// Whether `rows` answers of `width` numbers each can be kept: asked before anything is computed.
+///
+/// # Errors
+/// [`TooManyNumbers`].
+pub fn can_be_kept(rows: usize, width: usize) -> Result<(), TooManyNumbers> {
+    let count = rows.saturating_mul(width);
+    match count > MOST_NUMBERS {
+        true => Err(TooManyNumbers { count }),
+        false => Ok(()),
+    }
+}
 
 /// What became of draws that have no whole answer. None is dropped in silence.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]

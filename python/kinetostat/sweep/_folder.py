@@ -198,6 +198,7 @@ class Store:
         _parquet.library()
         self.path = Path(file_path("folder", folder))
         self.notes = notes
+        _fit_for_a_sweep(self.path)
         (self.path / "chunks").mkdir(parents=True, exist_ok=True)
         self.lock = lock(self.path / "journal.jsonl")
         self.journal: IO[str] = open(self.path / "journal.jsonl", "a", encoding="utf-8")  # noqa: SIM115, closed by close()
@@ -261,6 +262,18 @@ class Store:
             self.journal.truncate(0)
             self.journal.close()
             unlock(self.lock)
+
+
+def _fit_for_a_sweep(folder: Path) -> None:
+    """Refuses what is no folder, and a folder with other files: only one that is empty, or that holds a sweep, is written to."""
+    if folder.exists() and not folder.is_dir():
+        raise ArgumentError(f"{folder} is a file, expected a folder: one that is not there yet, an empty one, or that of this sweep")
+    if not folder.is_dir() or (folder / "manifest.json").exists():
+        return
+    # What a run leaves that was killed before its manifest was written.
+    others = sorted(entry.name for entry in folder.iterdir() if entry.name not in ("chunks", "journal.jsonl", "manifest.json.part"))
+    if others:
+        raise ArgumentError(f"{folder} is not empty and holds no sweep (it has {others[0]!r}, and no manifest.json): take another folder")
 
 
 def _file(folder: Path, index: int) -> Path:

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import dataclasses
+import math
 from collections.abc import Mapping, Sequence
+from fractions import Fraction
 from typing import Any, Literal, TypeAlias
 
 import sympy as sp
@@ -24,6 +26,9 @@ DIRECTIONS = ("x", "y", "z", "rx", "ry", "rz")
 Kind: TypeAlias = Literal["revolute", "prismatic"]
 Expression: TypeAlias = Any
 """A SymPy formula, a number, or text that names a symbol."""
+_ROUNDING = 1e-12
+"""How far a unit vector that is written in decimals may be off."""
+_LARGEST_DENOMINATOR = 10_000
 
 
 @dataclasses.dataclass(frozen=True)
@@ -44,9 +49,30 @@ def _axis(axis: str | Sequence[Expression]) -> sp.Matrix:
             raise ArgumentError(f"axis is {shown(axis)}, expected x, y, z, -x, -y, -z or three entries")
         return sign * sp.Matrix([int(letter == other) for other in "xyz"])
     found = formulas("axis", axis, 3)
-    if sp.simplify(found.dot(found)) != 1:
-        raise ArgumentError(f"axis is {tuple(found)}, expected a unit vector")
-    return found
+    if sp.simplify(found.dot(found)) == 1:
+        return found
+    near = _exact(found)
+    if near is None:
+        raise ArgumentError(
+            f"axis is {list(found)}, whose length is not 1: expected three entries of a unit vector, as [0, 0, 1] or "
+            "[sympy.sqrt(2) / 2, 0, sympy.sqrt(2) / 2]; divide by the length"
+        )
+    return near
+
+
+def _exact(axis: sp.Matrix) -> sp.Matrix | None:
+    """A unit vector that was rounded: with roots of fractions where it is one of these, else as it is; none where its length is not 1."""
+    if axis.free_symbols or not all(entry.is_real for entry in axis):
+        return None
+    numbers = [float(entry) for entry in axis]
+    if not abs(math.hypot(*numbers) - 1) <= _ROUNDING:
+        return None
+    squares = [Fraction(x * x).limit_denominator(_LARGEST_DENOMINATOR) for x in numbers]
+    if sum(squares) == 1 and all(abs(math.sqrt(s) - abs(x)) <= _ROUNDING for s, x in zip(squares, numbers, strict=True)):
+        return sp.Matrix(
+            [sp.sqrt(sp.Rational(s.numerator, s.denominator)) * (-1 if x < 0 else 1) for s, x in zip(squares, numbers, strict=True)]
+        )
+    return axis
 
 
 def neat(entry: sp.Expr) -> sp.Expr:
@@ -184,7 +210,7 @@ class Chain:
         Matrix([[q, 0, 0]])
         """
         _named(name, kind)
-        self._joint(name, kind, axis, name if at is None else at, True)
+        self._joint(name, kind, axis, sp.Symbol(name, real=True) if at is None else at, True)
         return self
 
     def actuator(
@@ -204,7 +230,7 @@ class Chain:
         Matrix([[L*cos(q), L*sin(q), 0]])
         """
         _named(name, kind)
-        where = formula("at", name if at is None else at)
+        where = sp.Symbol(name, real=True) if at is None else formula("at", at)
         if stiffness is None:
             return self.turn(axis, where) if kind == "revolute" else self.move(*(_axis(axis) * where))
         given = formula("stiffness", stiffness)

@@ -13,12 +13,20 @@ from kinetostat.errors import ArgumentError
 __all__ = ["formula", "formulas", "matrix", "values_by_name"]
 
 _EXPECTED = "a formula of SymPy, a number, or text that names a symbol"
+_SIGNS = frozenset("+-*/^()[]{}<>=,;!")
+"""What formulas have, and names of symbols do not."""
 
 
 def formula(name: str, value: Any, **assumed: bool) -> sp.Expr:
     """A formula as it is, or a symbol by its name, real unless something else is assumed of it."""
     if isinstance(value, str):
-        return sp.Symbol(text(name, value), **(assumed or {"real": True}))
+        symbol = text(name, value)
+        if symbol[:1].isdigit() or set(symbol) & _SIGNS:
+            raise ArgumentError(
+                f"{name} is {shown(value)}, which is no name of a symbol: text names one symbol; write numbers as numbers, and formulas "
+                "with SymPy, as in 2 * sympy.Symbol('L', real=True)"
+            )
+        return sp.Symbol(symbol, **(assumed or {"real": True}))
     try:
         found = sp.sympify(value, strict=True)
     except (sp.SympifyError, TypeError, ValueError, AttributeError, RecursionError):

@@ -4,10 +4,10 @@ use kinetostat::{
     DirectionKind, Mechanism, MechanismEquilibrium, MotionKind, Posture, chain::FoundBy,
 };
 use kinetostat_analysis::instability::InstabilityShares;
-use kinetostat_machining::{NearSingular, Warning, WarningCode, number as formatter};
+use kinetostat_machining::{NearSingular, Warning, WarningCode, folds, number as formatter};
 use serde::Serialize;
 
-use crate::machine::displacement_warnings::{folds, not_stable};
+use crate::machine::displacement_warnings::not_stable;
 use crate::machine::instability;
 use crate::machine::principal_directions::motion_description;
 use crate::machine::unstable_joints::{UnstableJoint, unstable_joints};

@@ -2,13 +2,13 @@
 //! the list is.
 
 use kinetostat::number::{larger, smaller};
-use kinetostat_machining::Warning;
+use kinetostat_machining::{Warning, folds};
 use nalgebra::Vector3;
 use serde::Serialize;
 
 use crate::end_condition::coordinates::CoordinateName;
 use crate::end_condition::holding::Holding;
-use crate::machine::displacement_warnings::{folds, large_reaction, stretches};
+use crate::machine::displacement_warnings::{large_reaction, stretches};
 use crate::place::query::PlaceAnswer;
 use crate::ui::failure::Failure;
 use crate::ui::numbers::number;

@@ -1,4 +1,4 @@
-//! Warnings of displacements that are no deflections any more: the machine folds over, or snaps.
+//! Warnings of displacements that no machine makes, and of machines that snap.
 
 use kinetostat::Wrench;
 use kinetostat::error::LoadLimit;
@@ -7,31 +7,8 @@ use nalgebra::Vector3;
 
 use crate::ui::numbers::{fixed, number, triple};
 
-/// A displacement by this share of the machine's size is no deflection any more.
-const LARGE: f64 = 0.05;
-
 /// A chain that is turned over moves its tip by twice its length: what goes further is stretched.
 const STRETCHED: f64 = 2.5;
-
-/// The tool moves by `far`, which is no deflection any more of a machine of this size, m.
-pub(crate) fn folds(far: f64, size: f64) -> Option<Warning> {
-    folds_at(far, size, "")
-}
-
-/// The same, `places` of a grid in words; empty for one place.
-pub(crate) fn folds_at(far: f64, size: f64, places: &str) -> Option<Warning> {
-    is_large(far, size).then(|| {
-        Warning::new(WarningCode::LargeDisplacement, format!(
-            "the tool moves by {} % of the machine's size{places}: the machine folds over under this load; check the force and the stiffnesses",
-            number(100.0 * far / size, 2)
-        ))
-    })
-}
-
-/// Whether a displacement is no deflection any more of a machine of this size, m.
-pub(crate) fn is_large(far: f64, size: f64) -> bool {
-    far > LARGE * size
-}
 
 /// The machine is not stable under its load, `places` of a grid in words; empty for one place.
 pub(crate) fn not_stable(places: &str) -> Warning {

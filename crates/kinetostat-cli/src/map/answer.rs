@@ -1,11 +1,13 @@
 //! The figures of a map, gathered block by block.
 
 use kinetostat::number::larger;
-use kinetostat_machining::{Grid, MapPlace, PlaceState, Solving, Warning, WarningCode};
+use kinetostat_machining::{
+    Grid, MapPlace, PlaceState, Solving, Warning, WarningCode, folds_at, is_large,
+};
 use nalgebra::Vector3;
 use serde::Serialize;
 
-use crate::machine::displacement_warnings::{folds_at, is_large, not_stable};
+use crate::machine::displacement_warnings::not_stable;
 use crate::map::arguments::Quantity;
 use crate::map::columns::Column;
 

@@ -16,8 +16,8 @@ use kinetostat_model::Model;
 use kinetostat_report::Plot;
 use kinetostat_tolerance::{
     CONFIDENCE, DependsOnMachine, Draws, Failures, Linear, MOST_DRAWS, OutputAnswer, Quantity,
-    Samples, SobolIndex, TaskError, UncertainMachine, UncertaintyFile, answers, linearised,
-    monte_carlo, sobol as sobol_of,
+    Samples, SobolIndex, TaskError, UncertainMachine, UncertaintyFile, answers, can_be_kept,
+    linearised, monte_carlo, sobol as sobol_of,
 };
 
 use crate::files::input_files::InputFiles;
@@ -30,9 +30,6 @@ use crate::ui::csv_table::{cell, written};
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::progress::Progress;
 use crate::ui::{json, threads};
-
-/// Numbers of all machines that are kept at a time, 1.6 GB.
-const MOST_NUMBERS: usize = 200_000_000;
 
 impl From<TaskError> for Failure {
     fn from(error: TaskError) -> Self {
@@ -225,12 +222,11 @@ fn drawn(option: &str, count: usize, args: &ToleranceArgs, width: usize) -> Answ
             "{option} {count}: {least} to {MOST_DRAWS} can be drawn"
         )));
     }
-    if count.saturating_mul(width) > MOST_NUMBERS {
-        return Err(Failure::input(format!(
-            "{option} {count}: with all places and results these are {} numbers, and {MOST_NUMBERS} can be kept; take fewer places or machines, or ask for less with --only",
-            count.saturating_mul(width)
-        )));
-    }
+    can_be_kept(count, width).map_err(|many| {
+        Failure::input(format!(
+            "{option} {count}: with all places and results {many}; take fewer places or machines, or ask for less with --only"
+        ))
+    })?;
     Ok(Draws::new(count, args.seed.unwrap_or(0) as u64))
 }
 

@@ -3,6 +3,7 @@
 use std::fmt::Write;
 
 use kinetostat_machining::number::plus_minus;
+use kinetostat_tolerance::MOST_MISSING;
 
 use crate::tolerance::answer::{ColumnResult, ToleranceAnswer};
 use crate::ui::layout::{columns, item, wrapped};
@@ -100,6 +101,15 @@ pub(crate) fn answer_text(a: &ToleranceAnswer) -> String {
     }
     if let Some(example) = &a.failures.example {
         out.push_str(&item(&format!("the first of them: {example}")));
+    }
+    if let Some(failed) = &a.sobol_failures {
+        let missing = failed.no_machine + failed.no_answer;
+        if missing > 0 {
+            out.push_str(&item(&format!(
+                "{missing} of the machines for Sobol indices have no whole answer: what is said of the others holds for these alone, and nothing is said where more than {} % of the draws are missing",
+                short(100.0 * MOST_MISSING)
+            )));
+        }
     }
     for warning in &a.warnings {
         out.push_str(&item(&warning.message));

@@ -4,6 +4,7 @@
 //! figures that are allowed and unusual. Changes nothing.
 
 pub(crate) mod correction;
+pub(crate) mod displacement;
 pub(crate) mod exceeded;
 pub(crate) mod load;
 pub(crate) mod motion;

@@ -3,8 +3,9 @@
 use std::f64::consts::PI;
 
 use kinetostat_tolerance::{
-    Distribution, Draws, SHARES, Summary, Uncertain, Uncertainties, design_row, design_rows,
-    linear, linear_points, mean_and_deviation, quantile, sobol_indices,
+    Distribution, Draws, MOST_MISSING, MOST_NUMBERS, SHARES, Summary, Uncertain, Uncertainties,
+    can_be_kept, design_row, design_rows, linear, linear_points, mean_and_deviation, quantile,
+    sobol_indices,
 };
 
 fn uncertain(name: &str, value: f64, distribution: Distribution) -> Uncertain {
@@ -252,4 +253,47 @@ fn more_numbers_than_a_sequence_has_dimensions_stay_independent() {
         ),
         (200_000, 0, 15)
     );
+}
+
+#[test]
+fn nothing_is_said_of_parts_where_too_much_is_missing() {
+    // A sum of two numbers: half each. Where its largest values are missing, what is left looks narrow and sure of itself.
+    let two = ["a", "b"].map(|name| uncertain(name, 0.4, Distribution::Normal(1.3)));
+    let two = Uncertainties::independent(two.to_vec());
+    let draws = Draws::new(4096, 11);
+    let parts = |missing_above: f64| {
+        let answer = |row| {
+            let sum: f64 = design_row(&two, &draws, row).iter().sum();
+            if sum > missing_above { f64::NAN } else { sum }
+        };
+        let answers: Vec<f64> = (0..design_rows(&two, &draws)).map(answer).collect();
+        sobol_indices(&draws, 2, &answers)
+    };
+    let (found, used) = parts(1.8);
+    assert!(used < draws.len() / 2, "{used}");
+    for index in found {
+        let said = [index.first, index.total];
+        assert!(
+            said.iter()
+                .all(|e| e.value.is_nan() && e.plus_minus.is_nan())
+        );
+    }
+    let (found, used) = parts(6.3);
+    let missing = 1.0 - used as f64 / draws.len() as f64;
+    assert!(missing > 0.0 && missing <= MOST_MISSING, "{missing}");
+    for index in found {
+        assert!((index.first.value - 0.5).abs() < 0.05, "{index:?}");
+        assert!((index.total.value - 0.5).abs() < 0.05, "{index:?}");
+    }
+}
+
+#[test]
+fn what_cannot_be_kept_is_refused_with_what_it_would_take() {
+    assert!(can_be_kept(MOST_NUMBERS / 19, 19).is_ok());
+    let refused = can_be_kept(1 << 20, 38_000).map_err(|many| many.to_string());
+    assert_eq!(
+        refused,
+        Err("these are 39845888000 numbers (319 GB), and 200000000 (1.6 GB) can be kept".into())
+    );
+    assert!(can_be_kept(usize::MAX, 2).is_err());
 }

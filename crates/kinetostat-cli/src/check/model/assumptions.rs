@@ -8,12 +8,12 @@ use kinetostat_analysis::reference_load::{
     CarriedLoad, ForcesFrom, LoadOutcome, SMALL, reference_forces, under_forces,
 };
 use kinetostat_machining::{
-    NEAR_SINGULAR, NearSingular, Warning, WarningCode, natural_length, near_singular,
+    NEAR_SINGULAR, NearSingular, Warning, WarningCode, folds, natural_length, near_singular,
 };
 use nalgebra::Vector3;
 use serde::Serialize;
 
-use crate::machine::displacement_warnings::{folds, snaps};
+use crate::machine::displacement_warnings::snaps;
 use crate::machine::instability;
 use crate::ui::layout::item;
 use crate::ui::numbers::{fixed, load_triple, number, short, triple};
