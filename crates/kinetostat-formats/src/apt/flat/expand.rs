@@ -47,6 +47,7 @@ pub fn expand_apt(files: &[SourceFile]) -> Result<FlatText, Vec<ProgramError>> {
             file: SourceFile::new("", ""),
             origins: Vec::new(),
             changed: false,
+            findings: Vec::new(),
         });
     };
     if let Some(other) = files.get(1) {
@@ -106,6 +107,7 @@ pub fn expand_apt(files: &[SourceFile]) -> Result<FlatText, Vec<ProgramError>> {
         file: SourceFile::new(file.name(), bytes),
         origins,
         changed,
+        findings: Vec::new(),
     })
 }
 
