@@ -73,16 +73,25 @@ fn holes_are_drilled_by_convert_and_compensate() {
     )
     .answered();
     let written = read(here, "good.apt");
-    // Against 300 N upwards the drill goes deeper than was written.
-    let depths: Vec<f64> = written
-        .lines()
-        .filter(|line| line.starts_with("GOTO/"))
-        .map(|line| line.split(',').nth(2).unwrap().trim().parse().unwrap())
-        .filter(|z: &f64| *z < -9.0)
+    // Drilled at feed to the depths below both places, in the path along which it is compensated.
+    let table = read(here, "p.csv");
+    let mut rows = table.lines().map(|row| row.split(',').collect::<Vec<_>>());
+    let columns = rows.next().unwrap();
+    let column = |name: &str| columns.iter().position(|own| *own == name).unwrap();
+    let [kind, share, x, z] = ["kind", "share", "x_mm", "z_mm"].map(column);
+    let number = |text: &str| text.parse::<f64>().unwrap();
+    let bottoms =
+        rows.filter(|row| row[kind] == "feed" && row[share] == "1" && number(row[z]) < -9.0);
+    let bottoms: Vec<[f64; 2]> = bottoms
+        .map(|row| [x, z].map(|at| number(row[at])))
         .collect();
     assert!(
-        depths.len() == 2 && depths[0] < -10.0 && depths[1] < -11.0,
-        "{written}"
+        bottoms.len() == 2
+            && bottoms
+                .iter()
+                .zip([[10.0, -10.0], [40.0, -11.0]])
+                .all(|(a, b)| { (a[0] - b[0]).abs() < 1e-9 && (a[1] - b[1]).abs() < 1e-9 }),
+        "{table}"
     );
     assert!(!written.contains("CYCLE"), "{written}");
     // The flat program is that of `expand`, in which nothing is left to write out.
@@ -145,9 +154,7 @@ fn an_operation_on_its_side_is_solved_there() {
              [robot.frames]\nPART = {{ position_mm = [1800, 0, 900] }}\n"
         );
         put(&format!("{name}.toml"), &job);
-        let line = format!(
-            "compensate {name}.toml --out {name}-good.cls --points {name}.csv --all-points"
-        );
+        let line = format!("compensate {name}.toml --out {name}-good.cls --points {name}.csv");
         run(here, &words(&line)).answered();
         let text = read(here, &format!("{name}.csv"));
         let mut rows = text.lines();
@@ -158,9 +165,13 @@ fn an_operation_on_its_side_is_solved_there() {
             })
             .collect();
         assert!(!wanted.is_empty(), "{columns:?}");
-        let last = rows.collect::<Vec<_>>();
-        let numbers = last.iter().flat_map(|row| {
-            let cells: Vec<&str> = row.split(',').collect();
+        let share = columns.iter().position(|own| *own == "share").unwrap();
+        // Between the ends the stations are others.
+        let rows = rows.map(|row| row.split(',').collect::<Vec<_>>());
+        let rows: Vec<Vec<&str>> = rows
+            .filter(|row| ["0", "1"].contains(&row[share]))
+            .collect();
+        let numbers = rows.iter().flat_map(|cells| {
             let own = wanted
                 .iter()
                 .map(|index| cells[*index].parse::<f64>().unwrap());

@@ -103,7 +103,7 @@ impl Hole {
             return Ok(vec![bottom()]);
         };
         let count = (cycle.depth / step - SAME).ceil();
-        if !(count < MOST_STEPS as f64) {
+        if !count.is_finite() || count >= MOST_STEPS as f64 {
             return Err((
                 "the hole has more than 10 000 steps".to_owned(),
                 "state a larger STEP",
