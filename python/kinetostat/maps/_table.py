@@ -103,7 +103,7 @@ def to_vtk(found: xarray.Dataset, path: str | os.PathLike[str]) -> None:
     if ending not in _VTK:
         raise ArgumentError(f"path is {path!r}, expected an ending of {', '.join(_VTK)}")
     axes = grid_axes(a_map(found))
-    points = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, 3)
+    points = _points(axes)
     kind, cells = _cells([len(axis) for axis in axes])
     parts = list(grid_values(found))
     data = {part.name: part.values.reshape(len(points), *part.values.shape[3:]) for part in parts}
@@ -196,6 +196,14 @@ def _parts(array: Any, dims: list[str]) -> list[tuple[str, Any]]:
     return parts
 
 
+def _points(axes: list[Any]) -> Any:
+    """(n, 3): all points of a grid, the last axis fastest."""
+    points = np.empty((*map(len, axes), 3))
+    for k, along in enumerate(np.meshgrid(*axes, indexing="ij", sparse=True)):
+        points[..., k] = along
+    return points.reshape(-1, 3)
+
+
 def _cells(counts: list[int]) -> tuple[str, Any]:
     """Lines, quadrilaterals or hexahedra between the points of a grid, the last axis fastest."""
     index = np.arange(int(np.prod(counts))).reshape(counts)
@@ -204,13 +212,14 @@ def _cells(counts: list[int]) -> tuple[str, Any]:
     cube = [(*corner, up) for up in (0, 1) for corner in square]
     shapes: list[list[tuple[int, ...]]] = [[()], [(0,), (1,)], square, cube]
     around = shapes[len(axes)]
-    cells = []
-    for corner in around:
+    cells = np.empty((int(np.prod([counts[k] - 1 for k in axes])), len(around)), index.dtype)
+    # Corner by corner: Ctrl-C waits for numpy.
+    for column, corner in enumerate(around):
         cut = [slice(None)] * 3
         for k, far in zip(axes, corner, strict=True):
             cut[k] = slice(1, None) if far else slice(None, -1)
-        cells.append(index[tuple(cut)].reshape(-1))
-    return ("vertex", "line", "quad", "hexahedron")[len(axes)], np.stack(cells, axis=-1)
+        cells[:, column] = index[tuple(cut)].reshape(-1)
+    return ("vertex", "line", "quad", "hexahedron")[len(axes)], cells
 
 
 def _whole(path: str | os.PathLike[str], write: Callable[[Path], object]) -> None:
