@@ -194,7 +194,8 @@ def machines(
     spread : mapping of str to Distribution, or str
         By path of the model's number, or ``load force_n.x`` .. ``load moment_n_m.z``, ``load factor``; or the text of a file.
     poses : array_like, shape (places, 4, 4) or (places, 3)
-        Where the tool is commanded to, m; positions with the orientation at home.
+        Where the tool is commanded to, m; positions as for :meth:`kinetostat.Machine.stiffness`. Arms are
+        commanded as next to home, be it outside their limits.
     wrench : array_like, shape (6,)
         Force and moment on the tool (N, N m), base axes.
     quantities : sequence of str
@@ -234,7 +235,7 @@ def machines(
     count = whole_number("draws", draws, 1, _MOST_DRAWS)
     threads = thread_count(threads)
     text = spread if isinstance(spread, str) else _toml(spread, correlations or {})
-    places, _ = machine._poses(poses)
+    places, _ = machine._poses(poses, threads)
     load = one("wrench", wrench, (6,))[None]
     found: dict[str, Any] = _core.tolerance_of_machine(
         machine._native, text, "spread", places, load, list(quantities), count, _seed(seed), threads, progress

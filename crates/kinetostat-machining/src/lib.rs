@@ -71,6 +71,7 @@ pub use map::{
 };
 pub use near::{NEAR_SINGULAR, NearKind, NearSingular, natural_length, near_singular};
 pub use placement::Placement;
+pub use postures::configurations::{Configurations, posture_at};
 pub use result::cutting::{CutPlace, CuttingResult};
 pub use result::figures::Figures;
 pub use result::force_band::ForceBand;
