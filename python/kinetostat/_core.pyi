@@ -129,6 +129,7 @@ def evaluate_many(
     threads: int | None = None,
     progress: _Progress | None = None,
 ) -> dict[str, NDArray[Any]]: ...
+def poses_following(machine: Machine, positions: _Floats, threads: int | None = None) -> NDArray[np.float64]: ...
 def targets_of_many(
     machine: Machine,
     poses: _Floats,

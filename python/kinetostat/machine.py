@@ -418,7 +418,8 @@ class Machine:
         joints : array_like, shape (actuators,), optional
             Instead of a place: commands, m or rad.
         near : Posture, optional
-            Where several postures reach the place, the one next to this is taken.
+            Where several postures reach the place, the one next to this is taken. Without it the one next to home, and of an arm that
+            leaves the limits of a joint there the one within all limits whose joints are nearest to home.
 
         Returns
         -------
@@ -466,14 +467,19 @@ class Machine:
             at[:3, :3] = one("rotation", rotation, (3, 3))
         return self._native.posture_at_pose(at[None], near)
 
-    def _poses(self, poses: ArrayLike) -> tuple[Floats, tuple[int, ...]]:
-        """Poses (n, 4, 4) from poses or from positions with the orientation at home."""
+    def _poses(self, poses: ArrayLike, threads: int | None = None, *, follow: bool = True) -> tuple[Floats, tuple[int, ...]]:
+        """Poses (n, 4, 4) from poses or from positions with the orientation at home.
+
+        ``follow``: where the tool turns as the machine moves, with the one nearest to that which the machine takes there.
+        """
         given = numbers("poses", poses)
         if given.shape[-2:] == (4, 4):
             return rows("poses", given, (4, 4))
         if given.shape[-1:] != (3,):
             raise ArgumentError(f"poses has shape {given.shape}, expected (..., 4, 4), or positions (..., 3)")
         places, leading = rows("poses", given, (3,))
+        if follow and self._native.turns_as_it_moves():
+            return _core.poses_following(self._native, places, threads), leading
         out = np.empty((len(places), 4, 4))
         home = self._native.home_pose()
         # In blocks: Ctrl-C waits for numpy, and to fill a gigabyte takes seconds.
@@ -496,7 +502,9 @@ class Machine:
         Parameters
         ----------
         poses : array_like, shape (..., 4, 4) or (..., 3)
-            Poses of the tool, base from tool, or positions with the orientation at home, m.
+            Poses of the tool, base from tool, or positions with the orientation at home, m. Where the tool turns as the machine moves
+            (:attr:`turns_as_it_moves`), positions take the orientation nearest to that at home, as :meth:`posture` does; a pose with
+            an orientation that the machine cannot have there is unsolved.
         joints : array_like, shape (..., actuators)
             Instead, for a serial machine without passive joints: commands, m or rad.
         threads : int, optional
@@ -522,8 +530,9 @@ class Machine:
         >>> machine.stiffness(np.stack([x, 0 * x, 0 * x], axis=-1)).matrix.shape
         (5, 6, 6)
         """
-        places, commands, leading = self._places(poses, joints)
-        found = _core.stiffness_of_many(self._native, places, commands, thread_count(threads), told(progress))
+        threads = thread_count(threads)
+        places, commands, leading = self._places(poses, joints, threads)
+        found = _core.stiffness_of_many(self._native, places, commands, threads, told(progress))
         return Stiffnesses(**{name: _shaped(array, leading) for name, array in found.items()})
 
     def shares(
@@ -555,11 +564,13 @@ class Machine:
 
         return shares(self, position, joints=joints, direction=direction, wrench=wrench, progress=progress)
 
-    def _places(self, poses: ArrayLike | None, joints: ArrayLike | None) -> tuple[Floats | None, Floats | None, tuple[int, ...]]:
+    def _places(
+        self, poses: ArrayLike | None, joints: ArrayLike | None, threads: int | None
+    ) -> tuple[Floats | None, Floats | None, tuple[int, ...]]:
         if (poses is None) == (joints is None):
             raise ArgumentError("give poses or joints")
         if poses is not None:
-            places, leading = self._poses(poses)
+            places, leading = self._poses(poses, threads)
             return places, None, leading
         commands, leading = rows("joints", cast(ArrayLike, joints), (len(self._native.actuators()),))
         return None, commands, leading
@@ -579,7 +590,7 @@ class Machine:
         Parameters
         ----------
         poses : array_like, shape (..., 4, 4) or (..., 3)
-            Commanded poses of the tool, or positions with the orientation at home, m.
+            Commanded poses of the tool, or positions with the orientation at home, m, as for :meth:`stiffness`.
         wrenches : array_like, shape (6,) or (..., 6)
             Force and moment on the tool (N, N m), base axes, about its reference point: one for all, or one for each.
         joints : array_like, shape (..., actuators)
@@ -601,10 +612,11 @@ class Machine:
         (True, (2, 6))
         """
         one_of("details", details, _DETAILS)
-        places, commands, leading = self._places(poses, joints)
+        threads = thread_count(threads)
+        places, commands, leading = self._places(poses, joints, threads)
         loads = self._wrenches(wrenches, leading)
         level = _DETAILS.index(details)
-        found = _core.equilibrium_of_many(self._native, loads, level, places, commands, thread_count(threads), told(progress))
+        found = _core.equilibrium_of_many(self._native, loads, level, places, commands, threads, told(progress))
         stability = found.pop("stability", None)
         arrays: dict[str, Any] = {name: _shaped(array, leading) for name, array in found.items()}
         if stability is not None:
@@ -635,11 +647,12 @@ class Machine:
         Parameters
         ----------
         poses : array_like, shape (..., 4, 4) or (..., 3)
-            Where the tool should be under the load, base from tool, m.
+            Where the tool should be under the load, base from tool, m; positions as for :meth:`stiffness`.
         wrenches : array_like, shape (6,) or (..., 6)
             Force and moment on the tool there (N, N m).
         directions : {"position", "pose"} or sequence of str
-            What is corrected: names of ``x y z rx ry rz``, base axes.
+            What is corrected: names of ``x y z rx ry rz``, base axes. With ``"position"`` the target has the orientation of the pose,
+            or where the tool turns as the machine moves the nearest to it that the machine can have there.
         threads, progress
             As for :meth:`stiffness`.
 
@@ -658,10 +671,12 @@ class Machine:
         names = known.get(directions, ()) if isinstance(directions, str) else directions
         if not isinstance(names, Sequence) or not names or any(name not in _DIRECTIONS for name in names):
             raise refused("directions", directions, f"'position', 'pose' or some of {', '.join(_DIRECTIONS)}")
-        places, leading = self._poses(poses)
-        loads = self._wrenches(wrenches, leading)
+        threads = thread_count(threads)
         wanted = [name in names for name in _DIRECTIONS]
-        found = _core.targets_of_many(self._native, places, loads, wanted, thread_count(threads), told(progress))
+        # Where the position alone is corrected, each target takes the orientation nearest to that at home by itself.
+        places, leading = self._poses(poses, threads, follow=wanted != [True] * 3 + [False] * 3)
+        loads = self._wrenches(wrenches, leading)
+        found = _core.targets_of_many(self._native, places, loads, wanted, threads, told(progress))
         return Targets(**{name: _shaped(array, leading) for name, array in found.items()})
 
     def map(

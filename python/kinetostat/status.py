@@ -19,9 +19,14 @@ class Status(enum.IntEnum):
     SOLVED = 0
     """There is an answer, and all commands are within their limits."""
     OUTSIDE_LIMITS = 1
-    """There is an answer, but an actuator would be outside its limits."""
+    """There is an answer, but an actuator would be outside its limits.
+
+    An arm that leaves its limits in the configuration next to home is tried in others: in all eight of an arm of six axes whose last
+    three meet in one point, and in some of another serial arm. Of other machines, and with ``near``, one posture is tried."""
     UNSOLVED = 2
-    """There is none: the place cannot be reached, or has no equilibrium. Its numbers are NaN."""
+    """There is none: the place cannot be reached, or has no equilibrium. Its numbers are NaN.
+
+    :meth:`kinetostat.Machine.posture` and :meth:`kinetostat.Posture.deflected_by` say of one place why."""
 
 
 class FoundBy(enum.Enum):

@@ -205,7 +205,8 @@ def machines(
     spread : mapping of str to Distribution, or str
         By path of the model's number, or ``load force_n.x`` .. ``load moment_n_m.z``, ``load factor``; or the text of a file.
     poses : array_like, shape (places, 4, 4) or (places, 3)
-        Where the tool is commanded to, m; positions with the orientation at home.
+        Where the tool is commanded to, m; positions as for :meth:`kinetostat.Machine.stiffness`. Arms are
+        commanded as next to home, be it outside their limits.
     wrench : array_like, shape (6,)
         Force and moment on the tool (N, N m), base axes.
     quantities : sequence of str
@@ -253,7 +254,7 @@ def machines(
         stated = text("spread", spread, "the text of a file", longest=None)
     else:
         stated = _toml(mapping("spread", spread, "a dictionary of Distributions by paths of numbers, or the text of a file"), pairs)
-    places, _ = machine._poses(poses)
+    places, _ = machine._poses(poses, threads)
     load = one("wrench", wrench, (6,))[None]
     found: dict[str, Any] = _core.tolerance_of_machine(
         machine._native, stated, "spread", places, load, asked, count, _seed(seed), threads, told(progress)

@@ -73,6 +73,7 @@ pub use map::{
 };
 pub use near::{NEAR_SINGULAR, NearKind, NearSingular, natural_length, near_singular};
 pub use placement::Placement;
+pub use postures::configurations::{Configurations, posture_at};
 pub use result::cutting::{CutPlace, CuttingResult};
 pub use result::feature::{Feature, FeatureResult, feature_results};
 pub use result::figures::Figures;

@@ -6,12 +6,17 @@ use std::sync::Arc;
 use kinetostat::batch::{Batch, BatchEquilibrium, BatchStiffness, Details, Status, Table};
 use kinetostat::spatial::pose_residual;
 use kinetostat::{Directions, Mechanism, Pose, Wrench};
+use kinetostat_machining::Configurations;
 use numpy::PyArray1;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use rayon::prelude::*;
 
-use crate::arrays::{Numbers, array, poses, rows, wrenches};
+use crate::arrays::{Numbers, array, matrix_of, poses, rows, wrenches};
+use crate::elsewhere::{
+    Target, equilibrium_at, in_other_configurations, stiffness_at, target_elsewhere,
+    target_following,
+};
 use crate::errors::{Class, error, of_core};
 use crate::machine::Machine;
 use crate::work::{Course, Manner, away};
@@ -123,6 +128,15 @@ fn put(table: &Table, to: &mut [f64]) {
     });
 }
 
+/// Puts one row of a table into a row of an array.
+fn put_row(table: &Table, row: usize, place: usize, to: &mut [f64]) {
+    let width = table.width();
+    let own = &mut to[width * place..width * (place + 1)];
+    for (number, found) in own.iter_mut().zip(table.row(row)) {
+        *number = found;
+    }
+}
+
 /// Rows of 16 numbers, a 4 x 4 matrix each, from rows of 12: rotation row by row, position.
 fn put_poses(table: &Table, to: &mut [f64]) {
     by_rows(table, 16, to, |numbers, i, row| {
@@ -226,6 +240,19 @@ impl Places {
         }
     }
 
+    /// Places from the first of a block that are solved in another configuration, and the commands there: of poses.
+    fn elsewhere(
+        &self,
+        configurations: &Configurations,
+        first: usize,
+        status: &[u8],
+    ) -> (Vec<usize>, Vec<f64>) {
+        match self {
+            Self::Poses(poses) => in_other_configurations(configurations, &poses[first..], status),
+            Self::Joints(..) => Default::default(),
+        }
+    }
+
     /// Where the tool is commanded to, as drawn, of the rows from one to another.
     fn targets(&self, batch: &Batch, from: usize, to: usize) -> Cow<'_, [Pose]> {
         match self {
@@ -283,6 +310,7 @@ pub fn stiffness_of_many<'py>(
 ) -> PyResult<Bound<'py, PyDict>> {
     let places = Places::of(machine, poses.as_ref(), joints.as_ref(), threads)?;
     let (batch, limits) = (machine.batch(), Limits::of(&machine.mechanism));
+    let configurations = machine.configurations();
     let (count, actuators) = (places.len(), machine.mechanism.actuator_count());
     let manner = Manner { threads, progress };
     let columns = done(py, count, &manner, move |course| {
@@ -296,6 +324,18 @@ pub fn stiffness_of_many<'py>(
                 None => put(&found.commands, out[1]),
             }
             limits.states(&found.status, out[1], status);
+            let elsewhere = places.elsewhere(&configurations, first, status);
+            let Some(again) = stiffness_at(&batch, &elsewhere.1) else {
+                return;
+            };
+            let each = elsewhere.1.chunks_exact(actuators).zip(&elsewhere.0);
+            for (row, (commands, &place)) in each.enumerate() {
+                if again.status[row].is_solved() {
+                    put_row(&again.stiffness, row, place, out[0]);
+                    out[1][actuators * place..actuators * (place + 1)].copy_from_slice(commands);
+                    status[place] = 0;
+                }
+            }
         });
         columns
     })?;
@@ -323,6 +363,7 @@ pub fn equilibrium_of_many<'py>(
 ) -> PyResult<Bound<'py, PyDict>> {
     let places = Places::of(machine, poses.as_ref(), joints.as_ref(), threads)?;
     let (batch, limits) = (machine.batch(), Limits::of(&machine.mechanism));
+    let configurations = machine.configurations();
     let (count, actuators) = (places.len(), machine.mechanism.actuator_count());
     let wrenches = each_wrench(count, &wrenches)?;
     let details = match details {
@@ -371,6 +412,24 @@ pub fn equilibrium_of_many<'py>(
                 put(&found.stiffness, out[4]);
                 put(&found.stability, out[5]);
                 limits.states(&found.status, out[2], status);
+                let elsewhere = places.elsewhere(&configurations, first, status);
+                let Some(again) = equilibrium_at(&batch, &elsewhere, own, details) else {
+                    return;
+                };
+                for (row, &place) in elsewhere.0.iter().enumerate() {
+                    if !again.status[row].is_solved() {
+                        continue;
+                    }
+                    let tool = again.tool_pose(row);
+                    out[0][16 * place..16 * (place + 1)].copy_from_slice(&matrix_of(&tool));
+                    let moved = pose_residual(&tool, &targets[place]);
+                    out[1][6 * place..6 * (place + 1)].copy_from_slice(moved.0.as_slice());
+                    put_row(&again.commands, row, place, out[2]);
+                    put_row(&again.actuator_forces, row, place, out[3]);
+                    put_row(&again.stiffness, row, place, out[4]);
+                    put_row(&again.stability, row, place, out[5]);
+                    status[place] = 0;
+                }
             },
         );
         columns
@@ -392,7 +451,8 @@ pub fn equilibrium_of_many<'py>(
     Ok(answer)
 }
 
-/// Poses to command so that the tool is at `poses` under `wrenches` in the directions that are corrected.
+/// Poses to command so that the tool is at `poses` under `wrenches` in the directions that are corrected. Where the position alone is
+/// and the machine turns its tool as it moves, the orientation is the nearest that it can have.
 #[pyfunction]
 #[pyo3(signature = (machine, poses, wrenches, directions, threads=None, progress=None))]
 pub fn targets_of_many<'py>(
@@ -411,11 +471,21 @@ pub fn targets_of_many<'py>(
     let chosen = (0..6).filter(|k| directions[*k]);
     let directions = chosen.fold(Directions::NONE, Directions::with);
     let batch: Arc<Batch> = batch;
+    let (mechanism, configurations) = (machine.mechanism.clone(), machine.configurations());
+    let follows = directions == Directions::POSITION && machine.turns();
     let manner = Manner { threads, progress };
     let columns = done(py, count, &manner, move |course| {
         let mut columns = Columns::new(count, &[16, 16, actuators]);
         columns.fill(course, |_: &mut (), first, out, status| {
             let end = first + status.len();
+            if follows {
+                for (i, status) in status.iter_mut().enumerate() {
+                    let (pose, wrench) = (&wanted[first + i], &wrenches[first + i]);
+                    let found = target_following(&mechanism, pose, wrench);
+                    *status = put_target(found.ok().as_ref(), i, out);
+                }
+                return;
+            }
             let found =
                 batch.targets_under_load(&wanted[first..end], &wrenches[first..end], directions);
             let Ok(found) = found else {
@@ -424,12 +494,19 @@ pub fn targets_of_many<'py>(
                 return;
             };
             for (row, target) in out[0].chunks_exact_mut(16).zip(&found.targets) {
-                row.copy_from_slice(&crate::arrays::matrix_of(target));
+                row.copy_from_slice(&matrix_of(target));
             }
             let equilibrium = &found.equilibrium;
             put_poses(&equilibrium.tool, out[1]);
             put(&equilibrium.commands, out[2]);
             limits.states(&equilibrium.status, out[2], status);
+            for (i, status) in status.iter_mut().enumerate() {
+                let (pose, wrench) = (&wanted[first + i], &wrenches[first + i]);
+                let found = target_elsewhere(&configurations, pose, wrench, directions, *status);
+                if found.is_some() {
+                    *status = put_target(found.as_ref(), i, out);
+                }
+            }
         });
         columns
     })?;
@@ -441,4 +518,24 @@ pub fn targets_of_many<'py>(
     answer.set_item("commands", array(py, next(), [count, actuators])?)?;
     answer.set_item("status", PyArray1::from_vec(py, columns.status))?;
     Ok(answer)
+}
+
+/// Writes a target under load, where there is one, into a row of targets, tools and commands; its state.
+fn put_target(found: Option<&Target>, row: usize, out: &mut [&mut [f64]]) -> u8 {
+    let [targets, tools, commands] = out else {
+        return 2;
+    };
+    let pose = 16 * row..16 * (row + 1);
+    let Some(found) = found else {
+        targets[pose.clone()].fill(f64::NAN);
+        tools[pose].fill(f64::NAN);
+        let actuators = commands.len() / (targets.len() / 16);
+        commands[actuators * row..actuators * (row + 1)].fill(f64::NAN);
+        return 2;
+    };
+    targets[pose.clone()].copy_from_slice(&matrix_of(found.posture.target()));
+    tools[pose].copy_from_slice(&matrix_of(&found.tool));
+    let own = found.posture.commands();
+    commands[own.len() * row..own.len() * (row + 1)].copy_from_slice(&own);
+    u8::from(found.posture.within_limits().is_err())
 }

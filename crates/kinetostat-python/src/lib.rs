@@ -11,6 +11,7 @@
 mod arrays;
 mod batch;
 mod command;
+mod elsewhere;
 mod equilibrium;
 mod errors;
 mod machine;
@@ -30,6 +31,8 @@ mod _core {
     use crate::batch::{equilibrium_of_many, stiffness_of_many, targets_of_many};
     #[pymodule_export]
     use crate::command::{command_tree, run_as_process, run_command};
+    #[pymodule_export]
+    use crate::elsewhere::poses_following;
     #[pymodule_export]
     use crate::equilibrium::Equilibrium;
     #[pymodule_export]

@@ -8,6 +8,7 @@ use kinetostat::machine::LimbPosture;
 use kinetostat::nalgebra::{UnitQuaternion, Vector3};
 use kinetostat::{Mechanism, MotionKind, Pose, PostureRequest};
 use kinetostat_import::{JointStiffness, UrdfOptions, import_urdf};
+use kinetostat_machining::Configurations;
 use kinetostat_model::Model;
 use numpy::PyArray2;
 use pyo3::prelude::*;
@@ -24,6 +25,8 @@ pub struct Machine {
     pub(crate) tool: Pose,
     pub(crate) mechanism: Mechanism,
     compiled: OnceLock<Arc<Batch>>,
+    configurations: OnceLock<Arc<Configurations>>,
+    turns: OnceLock<bool>,
 }
 
 impl Machine {
@@ -34,6 +37,8 @@ impl Machine {
             tool,
             mechanism,
             compiled: OnceLock::new(),
+            configurations: OnceLock::new(),
+            turns: OnceLock::new(),
         }
     }
 
@@ -46,6 +51,19 @@ impl Machine {
         self.compiled
             .get_or_init(|| Arc::new(Batch::new(&self.mechanism)))
             .clone()
+    }
+
+    pub(crate) fn configurations(&self) -> Arc<Configurations> {
+        self.configurations
+            .get_or_init(|| Arc::new(Configurations::of(&self.mechanism)))
+            .clone()
+    }
+
+    /// The tool turns as the machine moves.
+    pub(crate) fn turns(&self) -> bool {
+        *self
+            .turns
+            .get_or_init(|| self.mechanism.turns_as_it_moves())
     }
 
     /// Rated forces (N) or torques (N m) of the actuators, as far as they are stated.
@@ -170,7 +188,7 @@ impl Machine {
 
     /// The tool turns as the machine moves: it has fewer than six freedoms.
     fn turns_as_it_moves(&self) -> bool {
-        self.mechanism.turns_as_it_moves()
+        self.turns()
     }
 
     /// Smallest and largest coordinates of the workspace that the file states, m.
@@ -187,11 +205,10 @@ impl Machine {
     #[pyo3(signature = (target, near=None))]
     fn posture_at_pose(&self, target: Numbers<'_>, near: Option<&Posture>) -> PyResult<Posture> {
         let target = one_pose("pose", &target)?;
-        let mut request = PostureRequest::pose(&target);
-        if let Some(near) = near {
-            request = request.near(&near.0);
+        match near {
+            None => self.reach(&target),
+            Some(near) => self.ask(PostureRequest::pose(&target).near(&near.0)),
         }
-        self.ask(request)
     }
 
     /// The machine commanded for a position, its orientation as at home; where the tool turns as the machine moves, the one
@@ -206,14 +223,15 @@ impl Machine {
         let position = Vector3::from(position);
         let rotation: UnitQuaternion<f64> = self.home().rotation;
         let pose = Pose::from_parts(position.into(), rotation);
-        let mut request = match follows {
+        let request = match follows {
             true => PostureRequest::position(&position, &rotation),
             false => PostureRequest::pose(&pose),
         };
-        if let Some(near) = near {
-            request = request.near(&near.0);
+        match (follows, near) {
+            (_, Some(near)) => self.ask(request.near(&near.0)),
+            (true, None) => self.ask(request),
+            (false, None) => self.reach(&pose),
         }
-        self.ask(request)
     }
 
     /// A posture that was: nothing is solved.
@@ -237,6 +255,21 @@ impl Machine {
 }
 
 impl Machine {
+    /// Next to home, and of an arm that leaves its limits there in another configuration.
+    fn reach(&self, pose: &Pose) -> PyResult<Posture> {
+        let posture = self.mechanism.posture(pose);
+        let left = posture
+            .as_ref()
+            .map_or(true, |p| p.within_limits().is_err());
+        let posture = match left {
+            true => self.configurations().posture(pose),
+            false => posture,
+        };
+        posture
+            .map(|p| Posture(Arc::new(p)))
+            .map_err(|e| of_core(&e))
+    }
+
     fn ask(&self, request: PostureRequest<'_>) -> PyResult<Posture> {
         let posture = self.mechanism.posture(request);
         posture

@@ -1,6 +1,7 @@
 //! A machine as a function of its uncertain numbers: built as drawn by chance, commanded as the drawing says.
 
 use kinetostat::batch::{Batch, BatchEquilibrium, Commanded, Details};
+use kinetostat::compensation::target_under_load_following;
 use kinetostat::nalgebra::{Matrix6, Matrix6x3, Vector3};
 use kinetostat::{Directions, Mechanism, Pose, Wrench};
 use kinetostat_model::{Model, ModelError, ParametricModel};
@@ -195,9 +196,8 @@ impl UncertainMachine {
         let wrenches = vec![wrench; places.len()];
         let compensated = match quantities.contains(&Quantity::Compensated) {
             true => {
-                let positions = Directions::NONE.with(0).with(1).with(2);
-                let found = batch.targets_under_load(places, &wrenches, positions)?;
-                batch.commanded_under(&found.targets, &wrenches)?
+                let targets = compensating(&drawn, &batch, places, &wrench)?;
+                batch.commanded_under(&targets, &wrenches)?
             }
             false => batch.commanded(&[]),
         };
@@ -226,9 +226,12 @@ impl UncertainMachine {
             let place = at / machine.columns().len();
             let posture = machine.drawn.posture(&places[place]);
             let asked = posture.and_then(|p| p.deflected_by(&wrench));
-            let reason = asked
-                .err()
-                .map_or("it has no stiffness there".to_owned(), |e| e.to_string());
+            let columns = machine.columns();
+            let missing = columns[at % columns.len()];
+            let reason = asked.err().map_or_else(
+                || format!("it stands there under the load, but has no {missing}; leave that out"),
+                |e| e.to_string(),
+            );
             return Err(TaskError::Unanswered {
                 place: place + 1,
                 reason,
@@ -399,6 +402,32 @@ impl DependsOnMachine for UncertainMachine {
         }
         Ok(unstable)
     }
+}
+
+/// Poses to command so that the machine as drawn has its tool at `places` under the load, with the orientation that it can have there
+/// where it turns its tool as it moves; not numbers where there is none.
+fn compensating(
+    drawn: &Mechanism,
+    batch: &Batch,
+    places: &[Pose],
+    wrench: &Wrench,
+) -> kinetostat::Result<Vec<Pose>> {
+    if !drawn.turns_as_it_moves() {
+        let wrenches = vec![*wrench; places.len()];
+        let found = batch.targets_under_load(places, &wrenches, Directions::POSITION)?;
+        return Ok(found.targets);
+    }
+    let target = |place: &Pose| {
+        let near = drawn.posture(place)?;
+        let (position, rotation) = (&place.translation.vector, &place.rotation);
+        let start = near.rest_state();
+        target_under_load_following(&near, position, rotation, wrench, start)
+    };
+    let nowhere = Pose::translation(f64::NAN, f64::NAN, f64::NAN);
+    let found = places.iter().map(target);
+    Ok(found
+        .map(|found| found.map_or(nowhere, |(posture, _)| *posture.target()))
+        .collect())
 }
 
 fn refill(wrenches: &mut Vec<Wrench>, wrench: Wrench, count: usize) {

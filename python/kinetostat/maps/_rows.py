@@ -11,7 +11,6 @@ import numpy as np
 
 from kinetostat import _core
 from kinetostat._arrays import Floats
-from kinetostat.errors import UnansweredError
 from kinetostat.machine import Machine
 from kinetostat.maps._variables import chosen
 from kinetostat.status import Status
@@ -45,7 +44,7 @@ def rows(
     found: dict[str, Any] = {}
     for each in range(len(rotations)) if worst and rotations is not None else [None]:
         turned = None if rotations is None else rotations[turn] if each is None else rotations[each]
-        one = _core.evaluate_many(machine._native, _poses(machine, position, turned), loads, names, threads)
+        one = _core.evaluate_many(machine._native, _poses(machine, position, turned, threads), loads, names, threads)
         found = worse(found, one) if found else dict(one)
     if not places:
         return found
@@ -55,19 +54,13 @@ def rows(
     return {**where, "x": position[:, 0], "y": position[:, 1], "z": position[:, 2], **found}
 
 
-def _poses(machine: Machine, position: Floats, rotations: Floats | None) -> Floats:
+def _poses(machine: Machine, position: Floats, rotations: Floats | None, threads: int | None) -> Floats:
+    if rotations is None:
+        return machine._poses(position, threads)[0]
     poses = np.empty((len(position), 4, 4))
     poses[:] = machine.home
     poses[:, :3, 3] = position
-    if rotations is not None:
-        poses[:, :3, :3] = rotations
-    elif machine.turns_as_it_moves:
-        # The nearest orientation is a question of each place.
-        for pose in poses:
-            try:
-                pose[:] = machine.posture(pose[:3, 3]).target
-            except UnansweredError:
-                continue  # evaluated as it is, it is out of reach, too
+    poses[:, :3, :3] = rotations
     return poses
 
 

@@ -113,7 +113,7 @@ pub(crate) fn answer(assembly: &AssemblyQuery) -> Answer<Assembly> {
     let posture = query.posture()?;
     let drawn = match &query.followed {
         Some(_) => query.standing_in(&assembly.perfect)?,
-        None => assembly.perfect.posture(&query.target)?,
+        None => kinetostat_machining::posture_at(&assembly.perfect, &query.target)?,
     };
     let over = posture.overconstraint();
     let solved = AssembledMachine::solve(posture, &drawn, &query.wrench)?;

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use kinetostat::{Mechanism, Pose, Posture, PostureRequest, Wrench};
 use kinetostat_machining::{
-    NearSingular, Warning, near_singular, odd_tool_length, straight_tool, unusual_load,
+    NearSingular, Warning, near_singular, odd_tool_length, posture_at, straight_tool, unusual_load,
 };
 use kinetostat_model::{Controller, Model};
 use nalgebra::Vector3;
@@ -178,7 +178,7 @@ impl PlaceQuery {
             (None, Some(f)) => {
                 mechanism.posture(PostureRequest::joints(&self.target, f.limbs.clone()))
             }
-            (None, None) => mechanism.posture(&self.target),
+            (None, None) => posture_at(mechanism, &self.target),
         }
     }
 

@@ -2,7 +2,7 @@
 
 use kinetostat::{Mechanism, Pose, PostureRequest, machine::LimbPosture};
 use kinetostat_machining::number::{apart, mean_length};
-use kinetostat_machining::{Warning, WarningCode, natural_length};
+use kinetostat_machining::{Warning, WarningCode, natural_length, posture_at};
 
 use crate::place::orientation;
 use crate::ui::failure::Answer;
@@ -65,7 +65,7 @@ const AROUND: f64 = 0.1;
 /// The place, or the nearest one that the machine can take where only the digits of the place keep it
 /// from that; a place that cannot be reached is refused with the nearest pose.
 pub(crate) fn reachable(m: &Mechanism, target: Pose, warnings: &mut Vec<Warning>) -> Answer<Pose> {
-    let error = match m.posture(&target) {
+    let error = match posture_at(m, &target) {
         Err(error @ kinetostat::Error::Unreachable { .. }) => error,
         _ => return Ok(target),
     };

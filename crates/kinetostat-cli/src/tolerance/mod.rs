@@ -96,7 +96,12 @@ fn queries(args: &ToleranceArgs, model: &Model, path: Option<&PathBuf>) -> Answe
             args.force.as_deref(),
             args.moment.as_deref(),
         )?;
-        query.posture()?;
+        match &query.followed {
+            Some(_) => query.posture()?,
+            // Drawn machines are commanded as this one is next to home, in no other configuration.
+            None => query.mechanism.posture(&query.target)?,
+        }
+        .within_limits()?;
         Ok(query)
     };
     each.into_iter().map(query).collect()

@@ -9,6 +9,7 @@ use crate::map::nearness::{Nearness, NearnessRoom};
 use crate::map::place::PlaceState;
 use crate::map::solved::Solved;
 use crate::map::variable::{Needs, Variable};
+use crate::postures::configurations::Configurations;
 
 /// A machine, and which of its variables are asked for.
 #[derive(Clone, Debug)]
@@ -19,6 +20,7 @@ pub struct Evaluator {
     variables: Vec<Variable>,
     details: Details,
     nearness: Option<Nearness>,
+    configurations: Configurations,
 }
 
 /// What became of a posture.
@@ -62,6 +64,7 @@ impl Evaluator {
             nearness: variables
                 .contains(&Variable::SingularityDistance)
                 .then(|| Nearness::of(mechanism)),
+            configurations: Configurations::of(mechanism),
         }
     }
 
@@ -161,6 +164,14 @@ impl Evaluator {
                 let by_posture = || machine.posture(pose).ok().map(|p| own.of_posture(&p));
                 place.singularity_distance = found.or_else(by_posture).unwrap_or(f64::NAN);
             }
+            let left = matches!(
+                place.state,
+                PlaceState::OutsideLimits | PlaceState::Unreachable
+            );
+            if let Some(other) = (left.then(|| self.configurations.within_limits(pose))).flatten() {
+                place.forget();
+                self.by_itself(place, Ok(other), loads.map(|loads| &loads[i]));
+            }
             each(i, place);
         }
     }
@@ -174,7 +185,11 @@ impl Evaluator {
     ) -> Option<Posture> {
         let posture = place.take_posture(posture, load, &self.ratings);
         if let (Some(own), Some(posture), true) = (&self.nearness, &posture, place.found) {
-            place.singularity_distance = own.of_posture(posture);
+            // What nothing holds has no rate of a drive that tells of it.
+            place.singularity_distance = match place.free.is_empty() {
+                true => own.of_posture(posture),
+                false => 0.0,
+            };
         }
         posture
     }

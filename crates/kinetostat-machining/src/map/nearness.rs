@@ -12,6 +12,8 @@ use nalgebra::{DMatrix, DVector, Vector6};
 
 /// Motions for differences, as a share of the natural length.
 const STEP: f64 = 1e-4;
+/// How far beside a singular home motions are counted, share of the natural length.
+const BESIDE: f64 = 0.05;
 /// Joints that go farther (share of the natural length) in a step have changed their branch.
 const JUMP: f64 = 0.1;
 
@@ -35,13 +37,11 @@ pub(crate) struct NearnessRoom {
 }
 
 impl Nearness {
-    /// Of the motions that the actuators drive at home.
+    /// Of the motions that the actuators drive at home; beside it where home is singular.
     pub fn of(mechanism: &Mechanism) -> Self {
         let length = mechanism.natural_length();
         let step = STEP * length;
-        let home = &mechanism.platforms()[mechanism.tool()].home;
-        let basis = mechanism.posture(home).map(|p| p.commanded_motions());
-        let basis = basis.unwrap_or_else(|_| DMatrix::zeros(6, 0));
+        let basis = driven_motions(mechanism);
         let unit = |k: usize| if k < 3 { 1.0 } else { length };
         let columns = basis.column_iter();
         let steps = columns
@@ -105,6 +105,39 @@ impl Nearness {
             rates.set_column(k, &difference);
         }
         Some(share(&rates))
+    }
+}
+
+/// Motions of the tool that the actuators drive (columns, rotations at the natural length): at home, or beside it, where the machine
+/// goes without resistance, if more are driven there.
+fn driven_motions(mechanism: &Mechanism) -> DMatrix<f64> {
+    let home = &mechanism.platforms()[mechanism.tool()].home;
+    let Ok(posture) = mechanism.posture(home) else {
+        return DMatrix::zeros(6, 0);
+    };
+    let at_home = posture.commanded_motions();
+    let Ok(stiffness) = posture.stiffness() else {
+        return at_home;
+    };
+    let free = stiffness.compliance().free;
+    let size = |t: &Twist| t.linear().norm() + mechanism.natural_length() * t.angular().norm();
+    // Irregular shares, the same every time: what is singular for a reason is regular beside it.
+    let way = free
+        .iter()
+        .enumerate()
+        .fold(Vector6::zeros(), |way, (k, t)| {
+            let share = 1.0 + 0.5 * ((k + 1) as f64 * 0.618_034).fract();
+            way + t.0
+                * (BESIDE * mechanism.natural_length() * share / size(t).max(f64::MIN_POSITIVE))
+        });
+    let beside = match free.is_empty() {
+        true => None,
+        false => mechanism.posture(&moved(home, &Twist(way))).ok(),
+    };
+    let elsewhere = beside.map(|p| p.commanded_motions());
+    match elsewhere {
+        Some(more) if more.ncols() > at_home.ncols() => more,
+        _ => at_home,
     }
 }
 

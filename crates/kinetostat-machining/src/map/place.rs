@@ -11,7 +11,7 @@ pub enum PlaceState {
     Singular,
     /// The equilibrium under the load is not stable.
     Unstable,
-    /// An actuator would be outside its limits. There are no figures.
+    /// An actuator would be outside its limits, of an arm in every configuration that is found. There are no figures.
     OutsideLimits,
     /// The machine cannot put its tool there. There are no figures.
     Unreachable,

@@ -127,7 +127,7 @@ pub const VARIABLES: &[Entry] = table![
     EffortShare, "effort_share", "1", ONE, Larger, Rest, "largest share of an actuator's effort in its rated one, of those that state a rating";
     ShareToBuckling, "share_to_buckling", "1", ONE, Larger, Stability, "largest share of the way to buckling of all limbs; below 1 their shapes hold";
     Margin, "margin", "1", ONE, Smaller, Stability, "what is left to buckling, 1 - share_to_buckling, and no more than 0 where the equilibrium is not stable";
-    SingularityDistance, "singularity_distance", "1", ONE, Smaller, Posture, "smallest singular value of the Jacobian between actuators and the motions that they drive, as a share of the largest; angles are multiplied with the natural length of the machine; 0 is singular; of machines with drives";
+    SingularityDistance, "singularity_distance", "1", ONE, Smaller, Posture, "smallest singular value of the Jacobian between actuators and the motions that they drive, as a share of the largest, 0 where a motion is lost or held by nothing; angles are multiplied with the natural length of the machine; of machines with drives";
     Stable, "stable", "1", ONE, Smaller, Stability, "1 where the equilibrium under the load is stable, 0 where it is not";
 ];
 

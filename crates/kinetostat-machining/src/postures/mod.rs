@@ -4,5 +4,6 @@
 //! the branch of a search from neighbour to neighbour, and by that search elsewhere. Knows nothing of programs.
 
 pub(crate) mod arm_course;
+pub(crate) mod configurations;
 pub(crate) mod neighbour;
 pub(crate) mod orientation;

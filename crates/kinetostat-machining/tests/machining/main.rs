@@ -10,6 +10,7 @@
 
 mod again;
 mod arm_way;
+mod configurations;
 mod cut_forces;
 mod fitted_arcs;
 mod five_axes;

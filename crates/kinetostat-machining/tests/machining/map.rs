@@ -1,7 +1,9 @@
 //! A map tells at every place what the general engine tells there.
 
 use kinetostat::{Error, Pose, Wrench, chain::FoundBy};
-use kinetostat_machining::{Grid, MapPlace, MapTask, PlaceState, RunError, Unwatched, map};
+use kinetostat_machining::{
+    Grid, MapPlace, MapTask, PlaceState, RunError, Unwatched, Variable, map, posture_at,
+};
 use kinetostat_model::Model;
 use nalgebra::{Matrix3, UnitQuaternion, Vector3, vector};
 use proptest::prelude::*;
@@ -27,7 +29,7 @@ fn same_as_scalar(task: &MapTask<'_>) -> Vec<PlaceState> {
     for place in &places {
         let position = Vector3::from(place.position_mm) * 1e-3;
         let pose = Pose::from_parts(position.into(), task.orientation);
-        let posture = task.mechanism.posture(&pose);
+        let posture = posture_at(task.mechanism, &pose);
         let posture = posture.and_then(|p| p.within_limits().map(|()| p));
         let posture = match posture {
             Ok(posture) => posture,
@@ -205,6 +207,48 @@ fn threads_change_nothing_and_a_watch_stops_it() {
     assert_eq!(bits(1), bits(3));
     let stopped = map(&task, &Stops, |_| (), |()| Ok::<(), RunError>(()));
     assert!(matches!(stopped, Err(RunError::Cancelled)));
+}
+
+#[test]
+fn the_distance_from_singular_is_zero_where_nothing_holds_a_motion_and_grows_beside_it() {
+    let at = |preset: &str, x_mm: f64, turned_deg: f64| {
+        let model = Model::preset(preset).expect("a preset");
+        let home = model.mechanism.platforms()[model.mechanism.tool()].home;
+        let turn = Vector3::z() * turned_deg.to_radians();
+        let place = [x_mm, 7.0, 600.0];
+        let task = MapTask {
+            mechanism: &model.mechanism,
+            grid: Grid {
+                from_mm: place,
+                to_mm: place,
+                counts: [1; 3],
+            },
+            orientation: UnitQuaternion::new(turn) * home.rotation,
+            orientation_follows: false,
+            load: None,
+            further: Vec::new(),
+            variables: vec![Variable::SingularityDistance, Variable::StiffnessSoftest],
+            ratings: vec![None; 6],
+            first: 0,
+        };
+        let place = all(&task).remove(0);
+        (place.state, place.values[0], place.values[1])
+    };
+    // Hexapod "a" of the report is singular everywhere, also at home.
+    for (x_mm, turned_deg) in [(0.0, 0.0), (31.0, 0.0), (-12.5, 20.0)] {
+        let (state, distance, softest) = at("stewart_gough_a", x_mm, turned_deg);
+        assert_eq!(state, PlaceState::Singular);
+        assert_eq!((distance, softest), (0.0, 0.0));
+    }
+    // Hexapod "b" is singular a quarter turn from home (Fichter): to first order the distance is proportional to the turn from there.
+    let (state, distance, softest) = at("stewart_gough_b", 0.0, 90.0);
+    assert_eq!(state, PlaceState::Singular);
+    assert_eq!((distance, softest), (0.0, 0.0));
+    let [(near, one, _), (farther, two, _)] =
+        [89.5, 89.0].map(|turn| at("stewart_gough_b", 31.0, turn));
+    assert_eq!((near, farther), (PlaceState::Regular, PlaceState::Regular));
+    assert!(one > 0.0 && one < 0.05, "{one}");
+    assert!((two / one - 2.0).abs() < 0.05, "{one} {two}");
 }
 
 proptest! {

@@ -322,3 +322,36 @@ fn the_distance_to_singular_postures_is_known_where_the_tool_turns() {
         }
     }
 }
+
+#[test]
+fn a_hybrid_of_five_freedoms_takes_the_poses_that_it_takes_by_their_positions() {
+    // Three legs and a tube, which turns the head as it moves sideways; a wrist of two axes behind it.
+    let machine = Model::preset("tricept_like").expect("a preset").mechanism;
+    let home = home(&machine);
+    assert!(machine.turns_as_it_moves());
+    for (x, y, z) in [
+        (0.0, 3e-3, 0.0),
+        (0.0, -10e-3, 0.0),
+        (30e-3, 30e-3, 10e-3),
+        (-30e-3, 15e-3, 10e-3),
+        (-0.1, -0.15, 0.08),
+    ] {
+        let position = home.translation.vector + vector![x, y, z];
+        let by_position = machine.posture(PostureRequest::position(&position, &home.rotation));
+        let by_position = by_position.expect("a place in its workspace");
+        let pose = *by_position.target();
+        let by_pose = machine.posture(&pose).expect("the machine's own target");
+        for (a, b) in by_pose.commands().iter().zip(by_position.commands()) {
+            assert!((a - b).abs() < 1e-8, "({x}, {y}, {z}): {a} {b}");
+        }
+        // A pose that it cannot have is refused: turned about the tool's axis, which no joint does.
+        let axis = pose.rotation * Vector3::z_axis();
+        let turn = UnitQuaternion::from_axis_angle(&axis, 0.05);
+        let turned = Pose::from_parts(pose.translation, turn * pose.rotation);
+        let refused = machine.posture(&turned);
+        assert!(matches!(
+            refused,
+            Err(kinetostat::Error::Unreachable { .. })
+        ));
+    }
+}

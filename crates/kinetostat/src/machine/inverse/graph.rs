@@ -34,6 +34,8 @@ pub(crate) struct GraphPosture {
 const PASSIVE_WEIGHT: f64 = 1e-2;
 /// Damping that leaves a step exact to ten digits.
 const LEAST_DAMPING: f64 = 1e-10;
+/// Steps of the way to a target next to the straight path.
+const BESIDE_STEPS: u32 = 8;
 
 /// The joints that bring the tool of the unloaded nominal machine to `target`, followed from
 /// `start`, and failing that from home.
@@ -63,9 +65,13 @@ pub(crate) fn graph_inverse(
             .map_err(|_| search.unreachable(target, target))?;
         return search.adjusted(found, false);
     }
-    match search.by_continuation(home, target) {
-        Ok(found) => search.adjusted(found, true),
-        Err(reached) => Err(search.unreachable(target, &reached)),
+    let reached = match search.by_continuation(home.clone(), target) {
+        Ok(found) => return search.adjusted(found, true),
+        Err(reached) => reached,
+    };
+    match search.beside_the_line(home, target) {
+        Some(found) => search.adjusted(found, true),
+        None => Err(search.unreachable(target, &reached)),
     }
 }
 
@@ -258,6 +264,30 @@ impl<'m> GraphSearch<'m> {
             }
         }
         Ok(at)
+    }
+
+    /// Follows the poses that the machine can take next to the straight path to the target. With fewer than six freedoms it
+    /// cannot take those on the path, though it can take both ends.
+    fn beside_the_line(&self, from: GraphPosture, target: &Pose) -> Option<GraphPosture> {
+        let free = Self {
+            tool_free: true,
+            ..Self::new(self.mechanism)
+        };
+        let tool = self.mechanism.tool();
+        let start = from.platforms[tool];
+        let motion = pose_residual(target, &start);
+        let mut at = from;
+        for step in 1..BESIDE_STEPS {
+            let share = f64::from(step) / f64::from(BESIDE_STEPS);
+            at.platforms[tool] = moved(&start, &Twist(motion.0 * share));
+            at = match self.close(at) {
+                Ok(on_the_path) => on_the_path,
+                // The joints are as near to the path as they come: let go, the tool is where they lead.
+                Err(near) => free.close(near).ok()?,
+            };
+        }
+        at.platforms[tool] = *target;
+        self.close(at).ok()
     }
 
     /// All limbs linearised; `home` draws their joints there.
