@@ -75,8 +75,8 @@ def evaluate(
     -------
     xarray.Dataset
         Variables with their units, and ``status`` (:class:`kinetostat.Status`): numbers are NaN where it is 2; where it is 1 an actuator
-        would be outside its limits. The coordinate ``orientation_matrix`` holds the rotation matrices, ``wrench`` the loads; ``rotation``
-        is a variable: how far the tool turns under the load.
+        would be outside its limits, of an arm in all configurations that are tried. The coordinate ``orientation_matrix`` holds the
+        rotation matrices, ``wrench`` the loads; ``rotation`` is a variable: how far the tool turns under the load.
 
     Raises
     ------
