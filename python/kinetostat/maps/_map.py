@@ -11,9 +11,6 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from kinetostat import _core, sweep
-from kinetostat._arguments import of_kind, or_none, told
-from kinetostat._arguments import path as file_path
-from kinetostat._arrays import thread_count, whole_number
 from kinetostat.machine import Machine, Progress
 from kinetostat.maps._question import Question, asked
 from kinetostat.maps._rows import rows
@@ -78,8 +75,8 @@ def evaluate(
     -------
     xarray.Dataset
         Variables with their units, and ``status`` (:class:`kinetostat.Status`): numbers are NaN where it is 2; where it is 1 an actuator
-        would be outside its limits, of an arm in all configurations that are tried (:class:`kinetostat.Status`). The coordinate ``orientation_matrix`` holds the rotation matrices, ``wrench`` the loads; ``rotation``
-        is a variable: how far the tool turns under the load.
+        would be outside its limits, of an arm in all configurations that are tried. The coordinate ``orientation_matrix`` holds the
+        rotation matrices, ``wrench`` the loads; ``rotation`` is a variable: how far the tool turns under the load.
 
     Raises
     ------
@@ -100,9 +97,6 @@ def evaluate(
     'N/m'
     """
     _xarray()
-    of_kind("machine", machine, Machine, "a Machine")
-    chunk, threads = whole_number("chunk", chunk, 1, 2**40), thread_count(threads)
-    folder, progress = or_none(file_path, "folder", folder), told(progress)
     question = asked(machine, x, y, z, orientations, over_orientations, loads, variables)
     # What makes no sense of one place is said here, not by a worker.
     rows(0, 1, threads=1, **question.settings(places=False))
