@@ -63,7 +63,10 @@ def run(words: Sequence[str | os.PathLike[str]], progress: Callable[[int, int, s
     >>> run(["model", "list"]).code
     0
     """
-    return Completed(*_core.run_command([os.fspath(word) for word in words], progress))
+    if isinstance(words, (str, bytes)) or not isinstance(words, Sequence):
+        raise refused("words", words, "a list of words as ['model', 'list']")
+    each = [file_path(f"words[{index}]", word) for index, word in enumerate(words)]
+    return Completed(*_core.run_command(each, told(progress)))
 
 
 _ARGUMENTS: ContextVar[Mapping[str, str]] = ContextVar("arguments of a typed question, by options", default=MappingProxyType({}))
@@ -87,12 +90,6 @@ def in_words_of_python(message: str) -> str:
         return _ARGUMENTS.get().get(name, name) + ("=N" if option[2] else "")
 
     return re.sub(r"(?<![\w-])--([a-z][a-z-]*)( N\b)?", argument, message)
-
-
-    if isinstance(words, (str, bytes)) or not isinstance(words, Sequence):
-        raise refused("words", words, "a list of words as ['model', 'list']")
-    each = [file_path(f"words[{index}]", word) for index, word in enumerate(words)]
-    return Completed(*_core.run_command(each, told(progress)))
 
 
 def _word(name: str, value: Any, of_option: bool) -> str:
