@@ -250,4 +250,16 @@ True
         (256, 'normal')
         """,
     ),
+    "verify": _with_file(
+        "groove.ngc",
+        _PROGRAM,
+        """
+        ...     question = {"model": "orthoglide", "force": [100, -20, -30]}
+        ...     out = Path(folder, "corrected.ngc")
+        ...     _ = ks.commands.compensate(program=file, out=out, **question)
+        ...     found = ks.commands.verify(out, against=file, **question)
+        >>> found["held"], found["max_position_error_mm"] < 1e-3
+        (True, True)
+        """,
+    ),
 }

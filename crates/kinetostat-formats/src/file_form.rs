@@ -1,7 +1,7 @@
 //! What a file of a program holds, and by which endings it is known.
 
 use crate::language::endings_of;
-use crate::model::program::Language;
+use crate::model::language::Language;
 
 /// What a file of a program holds, as the ending of its name says it.
 ///

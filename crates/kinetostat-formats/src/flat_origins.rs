@@ -1,6 +1,6 @@
 //! Comments in a flat program with the lines that its blocks are from.
 
-use crate::model::program::Language;
+use crate::model::language::Language;
 use crate::text::flat::FlatText;
 use crate::text::source::SourceFile;
 

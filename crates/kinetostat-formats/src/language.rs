@@ -1,6 +1,6 @@
 //! Which language a file is written in.
 
-use crate::model::program::Language;
+use crate::model::language::Language;
 
 /// Bytes of a file that are looked at for its language.
 const LOOKED_AT: usize = 1 << 16;

@@ -8,7 +8,7 @@ use numpy::PyArray3;
 use pyo3::prelude::*;
 
 use crate::arrays::{Numbers, array, matrix_of, rows};
-use crate::batch::{Columns, done};
+use crate::columns::{Columns, done};
 use crate::machine::Machine;
 use crate::work::Manner;
 

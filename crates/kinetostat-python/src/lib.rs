@@ -10,6 +10,7 @@
 
 mod arrays;
 mod batch;
+mod columns;
 mod command;
 mod elsewhere;
 mod equilibrium;

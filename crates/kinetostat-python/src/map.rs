@@ -9,7 +9,8 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use crate::arrays::{Numbers, array, poses as read_poses};
-use crate::batch::{Columns, done, each_wrench};
+use crate::batch::each_wrench;
+use crate::columns::{Columns, done};
 use crate::errors::{Class, error};
 use crate::machine::Machine;
 use crate::work::Manner;

@@ -1,8 +1,6 @@
 //! Features of the part: `[[features]]` of a job file.
 
 use kinetostat_machining::Feature;
-use serde::Deserialize;
-use serde_spanned::Spanned;
 
 use crate::job::job_file::JobFile;
 use crate::job::values::{chosen, micrometres};
@@ -10,18 +8,6 @@ use crate::ui::failure::Answer;
 
 /// More features than this are no list that anybody reads.
 const MOST: usize = 1000;
-
-/// A feature: lines of the program with a name and a tolerance.
-#[derive(Clone, Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct FeatureTable {
-    /// Its name.
-    pub name: Spanned<String>,
-    /// First and last line of the program.
-    pub lines: Spanned<[usize; 2]>,
-    /// How far the tool may be off there, micrometres; without it, as far as in the whole program.
-    pub tolerance_um: Option<Spanned<f64>>,
-}
 
 /// The features of a job; each name once, lines in their order.
 pub(crate) fn features(job: Option<&JobFile>) -> Answer<Vec<Feature>> {

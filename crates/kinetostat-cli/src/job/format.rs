@@ -12,7 +12,7 @@ use crate::job::cut_tables::{
     CuttersTable, EngagementTable, MaterialTable, MeasuredTable, SpindleTable, StockTable,
 };
 use crate::job::expand_table::ExpandTable;
-use crate::job::features::FeatureTable;
+use crate::job::feature_table::FeatureTable;
 use crate::job::robot_table::RobotTable;
 use crate::job::source::Source;
 use crate::job::uncertain_table::UncertainTable;

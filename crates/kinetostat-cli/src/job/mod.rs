@@ -12,6 +12,7 @@ mod cut_tables;
 mod dialect_word;
 mod expand_table;
 pub(crate) mod expansion;
+mod feature_table;
 pub(crate) mod features;
 pub(crate) mod file_endings;
 pub(crate) mod format;

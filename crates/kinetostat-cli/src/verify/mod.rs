@@ -36,11 +36,7 @@ pub(crate) fn run(args: &VerifyArgs) -> Answer<()> {
     let job = args.job.as_deref().map(|path| JobFile::read(&files, path));
     let job = job.transpose()?;
     let model_named = args.model.as_deref();
-    if args.original.report.is_some() {
-        return Err(Failure::input(
-            "verify writes no report: its answer comes as text, as JSON (--json FILE) and as a table of points (--points FILE)",
-        ));
-    }
+    refuse_what_says_nothing(&args.original)?;
     let flags = WritingFlags {
         tolerance_um: args.tolerance_um,
         ..WritingFlags::default()
@@ -105,6 +101,21 @@ pub(crate) fn run(args: &VerifyArgs) -> Answer<()> {
         true => Ok(()),
         false => Err(verified.within(Failure::tolerance_missed(answer.faults().join("\n")))),
     }
+}
+
+/// Options of other commands along a program that mean nothing here.
+fn refuse_what_says_nothing(given: &ProgramArgs) -> Answer<()> {
+    let turn = &given.turn;
+    let what = if given.report.is_some() {
+        "--report: its answer comes as text, as JSON (--json FILE) and as a table of points (--points FILE)"
+    } else if turn.free_turn || turn.stiff_turn || turn.turn_plot.is_some() {
+        "--free-turn, --stiff-turn and --turn-plot: the tool is turned as the program says"
+    } else if given.uncertain.uncertain.is_some() || given.uncertain.machines.is_some() {
+        "--uncertain and --machines: one machine is solved, as the model says"
+    } else {
+        return Ok(());
+    };
+    Err(Failure::input(format!("verify has no use for {what}")))
 }
 
 /// A program and how it is read.

@@ -5,8 +5,9 @@ use crate::apt::file_reader::{Found, Reader};
 use crate::apt::lines::statements_of;
 use crate::apt::state::{State, unit_of};
 use crate::error::ProgramError;
+use crate::model::language::Language;
 use crate::model::parsed::Parsed;
-use crate::model::program::{Language, RobotProgram};
+use crate::model::program::RobotProgram;
 use crate::options::ReadOptions;
 use crate::text::source::SourceFile;
 

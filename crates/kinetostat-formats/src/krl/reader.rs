@@ -11,9 +11,11 @@ use crate::krl::tree::Content;
 use crate::krl::usage::note_usage;
 use crate::krl::values::Values;
 use crate::krl::walking::walker::Walker;
+use crate::model::language::Language;
 use crate::model::parsed::{Parsed, Read};
-use crate::model::program::{Finding, Language, RobotProgram};
+use crate::model::program::RobotProgram;
 use crate::options::{ExternalAxes, ReadOptions};
+use crate::text::finding::Finding;
 use crate::text::source::SourceFile;
 
 /// Most bytes of a file; the memory needed is some forty times as much.

@@ -13,10 +13,10 @@ use crate::krl::walking::walker::Walker;
 use crate::model::frame::{Frame, FrameUse};
 use crate::model::motion::{Motion, MotionKind, Runs, Zone};
 use crate::model::outside_call::OutsideCall;
-use crate::model::program::Finding;
 use crate::model::site::{Declaration, TargetSite};
 use crate::model::target::{PoseTarget, Target};
 use crate::options::UnknownTargets;
+use crate::text::finding::Finding;
 
 /// Motions in their order, and what a person should know of them.
 pub(crate) struct Resolved {

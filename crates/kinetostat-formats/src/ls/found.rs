@@ -4,9 +4,9 @@ use crate::error::ProgramError;
 use crate::ls::ends::Ends;
 use crate::model::motion::Motion;
 use crate::model::outside_call::OutsideCall;
-use crate::model::program::Finding;
 use crate::model::site::Declaration;
 use crate::options::ReadOptions;
+use crate::text::finding::Finding;
 use crate::text::source::SourceFile;
 
 /// What is found of the programs so far.

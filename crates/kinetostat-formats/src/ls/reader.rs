@@ -10,9 +10,10 @@ use crate::ls::order::Order;
 use crate::ls::positions::Positions;
 use crate::ls::program::Place;
 use crate::ls::step::Step;
+use crate::model::language::Language;
 use crate::model::motion::Runs;
 use crate::model::parsed::{Parsed, Read};
-use crate::model::program::{Language, RobotProgram};
+use crate::model::program::RobotProgram;
 use crate::options::{ExternalAxes, ReadOptions};
 use crate::text::source::SourceFile;
 

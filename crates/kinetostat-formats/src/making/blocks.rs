@@ -1,6 +1,6 @@
 //! Branches, loops and jumps of robots' programs, line by line: what stands in none of them runs once.
 
-use crate::model::program::Language;
+use crate::model::language::Language;
 
 /// Blocks that run on a condition or again and again.
 pub(crate) struct Blocks {

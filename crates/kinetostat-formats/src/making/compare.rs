@@ -3,6 +3,7 @@
 use kinetostat_program::{Curve, Path};
 use nalgebra::Vector3;
 
+use crate::extreme::larger;
 use crate::making::again::{ReadMotion, broken};
 use crate::making::fault::MakeError;
 use crate::making::limits::MakeLanguage;
@@ -39,14 +40,6 @@ pub struct Kept {
     pub chord_mm: f64,
     /// Largest difference of a speed at feed, relative to it.
     pub speed_relative: f64,
-}
-
-/// The larger of two; NaN where one of them is.
-fn larger(one: f64, other: f64) -> f64 {
-    match one > other || one.is_nan() {
-        true => one,
-        false => other,
-    }
 }
 
 /// Shares of a piece at which arcs are compared.

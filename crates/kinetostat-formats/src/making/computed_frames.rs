@@ -3,7 +3,8 @@
 use crate::making::fault::MakeError;
 use crate::making::template::{StatedFrame, StatedTool, Template};
 use crate::model::frame::{Frame, FrameUse};
-use crate::model::program::{Language, RobotProgram};
+use crate::model::language::Language;
+use crate::model::program::RobotProgram;
 
 /// Each, by the line of its first motion, where the template does not say what it is.
 pub(crate) fn computed_frames(program: &RobotProgram, template: &Template) -> Vec<MakeError> {

@@ -9,7 +9,7 @@ use crate::making::events::SourceEvent;
 use crate::making::fault::MakeFinding;
 use crate::making::numbers::plain;
 use crate::making::step::StatedConfiguration;
-use crate::model::program::Language;
+use crate::model::language::Language;
 
 /// Numbers of a motion: what acts before it, the motion, and what acts behind it.
 const OF_A_MOTION: usize = 3;

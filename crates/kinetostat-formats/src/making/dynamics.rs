@@ -4,8 +4,9 @@ use crate::making::fault::MakeFinding;
 use crate::making::limits::MakeLanguage;
 use crate::making::rapid::OTHER_SPEEDS;
 use crate::making::routines::words_of;
+use crate::model::language::Language;
 use crate::model::motion::{Motion, MotionKind};
-use crate::model::program::{Language, RobotProgram};
+use crate::model::program::RobotProgram;
 use crate::path::of_program::RobotPath;
 use crate::text::line_words::in_words;
 

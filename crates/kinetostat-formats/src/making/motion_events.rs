@@ -8,8 +8,9 @@ use crate::ls::names::{named_end, position_names};
 use crate::making::event_kind::EventKind;
 use crate::making::events::SourceEvent;
 use crate::making::statements::of_line;
+use crate::model::language::Language;
 use crate::model::motion::Motion;
-use crate::model::program::{Language, RobotProgram};
+use crate::model::program::RobotProgram;
 use crate::text::source::SourceFile;
 
 /// The events of all motions of a file.

@@ -2,7 +2,6 @@
 
 use crate::making::fault::MakeError;
 use crate::making::limits::MakeLanguage;
-use crate::making::rapid::{base_name, name_of_tool};
 use crate::making::template::{StatedFrame, StatedTool, Template};
 use crate::rapid::table::{motion_row, row};
 use crate::text::name::Name;
@@ -186,4 +185,19 @@ pub(crate) fn is_identifier(name: &str, most: usize, what: &str) -> Result<(), M
 /// The name of a part, counted from 0.
 pub(crate) fn of_part(name: &str, part: usize) -> String {
     format!("{name}_{}", part + 1)
+}
+
+/// The name of a base.
+pub(crate) fn base_name(base: &StatedFrame) -> String {
+    let numbered = || format!("wobj{}", base.number.unwrap_or(1));
+    base.name.clone().unwrap_or_else(numbered)
+}
+
+/// The name of a tool, with its number in the program.
+pub(crate) fn name_of_tool(in_program: Option<u32>, tool: &StatedTool) -> String {
+    let number = tool.frame.number.or(in_program).unwrap_or(1);
+    tool.frame
+        .name
+        .clone()
+        .unwrap_or_else(|| format!("tool{number}"))
 }

@@ -1,6 +1,6 @@
 //! Statements that only order a program: nothing of it is lost without them.
 
-use crate::model::program::Language;
+use crate::model::language::Language;
 
 /// Words with which lines begin that only order a program: nothing of it is lost.
 fn of_form(language: Language) -> &'static [&'static str] {

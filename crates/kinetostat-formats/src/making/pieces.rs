@@ -2,6 +2,7 @@
 
 use kinetostat_program::{Arc, Curve, Move};
 
+use crate::extreme::larger;
 use crate::making::limits::{Arcs, Limits};
 
 /// What a piece of a move becomes.
@@ -121,13 +122,5 @@ fn why_followed(
                 None => Some(Followed::Small),
             }
         }
-    }
-}
-
-/// The larger of two; NaN where one of them is.
-fn larger(one: f64, other: f64) -> f64 {
-    match one > other || one.is_nan() {
-        true => one,
-        false => other,
     }
 }

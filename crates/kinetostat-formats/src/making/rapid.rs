@@ -7,12 +7,12 @@ use std::collections::{BTreeMap, BTreeSet};
 use nalgebra::{Isometry3, UnitQuaternion, Vector3};
 
 use crate::making::action::EventAction;
-use crate::making::names::of_part;
+use crate::making::names::{base_name, name_of_tool, of_part};
 use crate::making::numbers::{angles, coordinates, fixed, short};
 use crate::making::parts::parts;
 use crate::making::stated::is_number_zero;
 use crate::making::step::{MadeMotion, Step, Way};
-use crate::making::template::{StatedFrame, StatedTool, Template};
+use crate::making::template::Template;
 use crate::model::orientation::OrientationText;
 
 /// Most speeds that get a name; further ones stand in line.
@@ -331,21 +331,6 @@ fn uses_tool(steps: &[Step], template: &Template) -> bool {
         }
         is_own && step.motion().is_some()
     })
-}
-
-/// The name of a base.
-pub(crate) fn base_name(base: &StatedFrame) -> String {
-    let numbered = || format!("wobj{}", base.number.unwrap_or(1));
-    base.name.clone().unwrap_or_else(numbered)
-}
-
-/// The name of a tool, with its number in the program.
-pub(crate) fn name_of_tool(in_program: Option<u32>, tool: &StatedTool) -> String {
-    let number = tool.frame.number.or(in_program).unwrap_or(1);
-    tool.frame
-        .name
-        .clone()
-        .unwrap_or_else(|| format!("tool{number}"))
 }
 
 /// A zone by its name, or in line as the named ones are made.

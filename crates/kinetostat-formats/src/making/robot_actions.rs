@@ -2,7 +2,7 @@
 
 use crate::making::action::{Coolant, EventAction};
 use crate::making::event_kind::EventKind;
-use crate::model::program::Language;
+use crate::model::language::Language;
 
 /// What the only statement of a line does; none where no other language has it.
 pub(crate) fn action_of(language: Language, text: &str) -> Option<EventAction> {

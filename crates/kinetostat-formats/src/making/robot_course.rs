@@ -10,7 +10,8 @@ use crate::making::of_tools::changes_of_source;
 use crate::making::robot_events::events_of_robot;
 use crate::making::routines::running_lines;
 use crate::making::statements::comment_behind;
-use crate::model::program::{Language, RobotProgram};
+use crate::model::language::Language;
+use crate::model::program::RobotProgram;
 use crate::path::of_program::RobotPath;
 
 /// The course of a program along its path.

@@ -13,7 +13,8 @@ use crate::making::order_words::orders_only;
 use crate::making::robot_actions::kind_of;
 use crate::making::siemens_events::events_of_siemens;
 use crate::making::statements::{comment_behind, of_line};
-use crate::model::program::{Language, RobotProgram};
+use crate::model::language::Language;
+use crate::model::program::RobotProgram;
 use crate::text::source::SourceFile;
 
 /// The events of a robot's program: statements beside its motions, of the file with the motions.

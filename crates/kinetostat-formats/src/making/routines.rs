@@ -7,7 +7,8 @@ use crate::making::block_order::{Part, Running, running_blocks, until_end};
 use crate::making::blocks::Blocks;
 use crate::making::robot_events::{body, instructions};
 use crate::making::statements::statements;
-use crate::model::program::{Language, RobotProgram};
+use crate::model::language::Language;
+use crate::model::program::RobotProgram;
 use crate::text::source::SourceFile;
 
 /// Deepest nesting of calls that is followed.

@@ -1,6 +1,6 @@
 //! What is said where the speed of a motion is not known, in words of the language of the program.
 
-use crate::model::program::Language;
+use crate::model::language::Language;
 
 /// What to do where the speed of a motion at feed is not known.
 pub(crate) fn speed_remedy(language: Option<Language>) -> &'static str {

@@ -3,7 +3,8 @@
 use std::collections::BTreeMap;
 
 use crate::making::routines::{running_lines, words_of};
-use crate::model::program::{Language, RobotProgram};
+use crate::model::language::Language;
+use crate::model::program::RobotProgram;
 use crate::model::target::Configuration;
 
 /// The text of a configuration; none where nothing is stated.

@@ -4,7 +4,7 @@ use crate::making::event_kind::EventKind;
 use crate::making::events::SourceEvent;
 use crate::making::order_words::orders_only;
 use crate::making::robot_actions::{action_of, kind_of};
-use crate::model::program::Language;
+use crate::model::language::Language;
 
 /// Words of RAPID with which a statement on the same line may run on a condition, again, or not at all.
 const OF_BLOCKS: [&str; 17] = [

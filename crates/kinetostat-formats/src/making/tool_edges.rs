@@ -10,7 +10,7 @@ use crate::making::course::Course;
 use crate::making::event_kind::EventKind;
 use crate::making::fault::MakeError;
 use crate::making::limits::MakeLanguage;
-use crate::model::program::Language;
+use crate::model::language::Language;
 
 /// The edge of which the tip counts where none is programmed.
 const USUAL: u64 = 1;

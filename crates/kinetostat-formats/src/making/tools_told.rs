@@ -8,7 +8,7 @@ use nalgebra::Isometry3;
 use crate::making::course::Course;
 use crate::making::fault::{MakeError, MakeFinding};
 use crate::making::limits::MakeLanguage;
-use crate::making::rapid;
+use crate::making::names::name_of_tool;
 use crate::making::template::{StatedTool, Template};
 
 /// What is wrong with the tools of a program and a template, and what is taken for granted of them.
@@ -136,7 +136,7 @@ fn alike(used: &Used, template: &Template, language: MakeLanguage) -> Vec<MakeEr
     for (in_program, tool) in own.into_iter().chain(numbered) {
         let number = tool.frame.number.or(in_program).unwrap_or(1);
         let name = match language {
-            MakeLanguage::Rapid => rapid::name_of_tool(in_program, tool),
+            MakeLanguage::Rapid => name_of_tool(in_program, tool),
             MakeLanguage::FanucLs => format!("UTOOL_NUM={number}"),
             // KRL writes the poses themselves.
             _ if tool.frame.pose.is_some() => continue,

@@ -6,6 +6,7 @@
 use kinetostat_program::{Move, ToolTurn};
 use nalgebra::{Unit, UnitQuaternion, Vector3};
 
+use crate::extreme::larger;
 use crate::making::fault::MakeFinding;
 use crate::making::limits::MakeLanguage;
 use crate::making::pieces::{Pieces, Shape};
@@ -152,13 +153,5 @@ fn law(
         MakeLanguage::Krl => ToolTurn::swivelled(start, end, Vector3::x_axis()),
         MakeLanguage::Apt => ToolTurn::swivelled(start, end, Unit::new_normalize(*tool_axis)),
         _ => ToolTurn::shortest(start, end),
-    }
-}
-
-/// The larger of two; NaN where one of them is.
-fn larger(one: f64, other: f64) -> f64 {
-    match one > other || one.is_nan() {
-        true => one,
-        false => other,
     }
 }

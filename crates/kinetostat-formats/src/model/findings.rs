@@ -3,10 +3,11 @@
 use std::collections::BTreeSet;
 
 use crate::model::frame::Frame;
+use crate::model::language::Language;
 use crate::model::motion::{Motion, MotionKind};
 use crate::model::outside_call::{OutsideCall, by_name};
-use crate::model::program::{Finding, Language};
 use crate::model::target::Target;
+use crate::text::finding::Finding;
 
 /// Motions that stay as they are written because their ends are not known, each reason once.
 pub(crate) fn left_as_written(motions: &[Motion]) -> Vec<Finding> {

@@ -7,6 +7,7 @@ pub(crate) mod external;
 pub(crate) mod findings;
 pub(crate) mod frame;
 pub(crate) mod joint_arm;
+pub(crate) mod language;
 pub(crate) mod motion;
 pub(crate) mod orientation;
 pub(crate) mod outside_call;

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::model::program::Language;
+use crate::model::language::Language;
 use crate::text::line_words::in_words;
 
 /// A call of what is in none of the files.

@@ -3,11 +3,13 @@
 use crate::error::ProgramError;
 use crate::model::external::moving_axis;
 use crate::model::findings::{left_as_written, outside_calls as named_calls, unknown_frames};
+use crate::model::language::Language;
 use crate::model::motion::Motion;
 use crate::model::outside_call::OutsideCall;
-use crate::model::program::{Finding, Language, RobotProgram};
+use crate::model::program::RobotProgram;
 use crate::model::site::Declaration;
 use crate::model::stated_axes::StatedAxes;
+use crate::text::finding::Finding;
 use crate::text::source::SourceFile;
 
 /// A program as far as it could be read, and what is refused: with a fault it must not be corrected.

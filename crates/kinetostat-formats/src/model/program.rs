@@ -2,55 +2,13 @@
 
 use std::collections::BTreeSet;
 
+use crate::model::language::Language;
 use crate::model::motion::Motion;
 use crate::model::outside_call::OutsideCall;
 use crate::model::site::Declaration;
 use crate::model::stated_axes::StatedAxes;
+use crate::text::finding::Finding;
 use crate::text::source::SourceFile;
-
-/// The languages that are read.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum Language {
-    /// ABB RAPID.
-    Rapid,
-    /// FANUC TP programs as text.
-    FanucLs,
-    /// APT and CLDATA.
-    Apt,
-    /// KUKA KRL.
-    Krl,
-    /// Lists of poses: tables (CSV) and YAML.
-    Poses,
-    /// SINUMERIK 840D.
-    Siemens,
-    /// Heidenhain conversational.
-    Heidenhain,
-}
-
-impl Language {
-    /// Each language once.
-    pub const ALL: [Self; 7] = [
-        Self::Rapid,
-        Self::Krl,
-        Self::FanucLs,
-        Self::Apt,
-        Self::Siemens,
-        Self::Heidenhain,
-        Self::Poses,
-    ];
-}
-
-/// Something that a person should know of a program that was taken.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Finding {
-    /// An index of [`RobotProgram::files`].
-    pub file: usize,
-    /// Line of the file, counted from 1.
-    pub line: usize,
-    /// What.
-    pub message: String,
-}
 
 /// A program as it was read: its files byte for byte, and what moves in them.
 #[derive(Debug, Clone, PartialEq)]

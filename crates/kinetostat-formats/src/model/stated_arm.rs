@@ -1,6 +1,6 @@
 //! What the configuration of a target says of the arm's shoulder, elbow and wrist.
 
-use crate::model::program::Language;
+use crate::model::language::Language;
 use crate::model::target::Configuration;
 
 /// Shoulder, elbow and wrist of an arm as a target states them; `None` where it says nothing of one.

@@ -9,8 +9,9 @@
 use kinetostat_program::{GreatCircle, OffCircle, RotaryAxes, StatedBy, Unreached};
 use nalgebra::Vector3;
 
+use crate::model::language::Language;
 use crate::model::motion::Motion;
-use crate::model::program::{Language, RobotProgram};
+use crate::model::program::RobotProgram;
 use crate::model::stated_axes::AxesStated;
 use crate::path::axis_turns::{OVER, axis_of};
 use crate::path::fault::PathError;

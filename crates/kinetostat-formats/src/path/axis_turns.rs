@@ -7,9 +7,10 @@
 
 use nalgebra::{Isometry3, Matrix3, Rotation3, UnitQuaternion, Vector3};
 
+use crate::model::language::Language;
 use crate::model::motion::Motion;
 use crate::model::orientation::OrientationText;
-use crate::model::program::{Language, RobotProgram};
+use crate::model::program::RobotProgram;
 use crate::model::site::TargetSite;
 use crate::path::fault::PathError;
 

@@ -9,9 +9,10 @@ use nalgebra::{Isometry3, UnitQuaternion, Vector3};
 
 use crate::document::{read, write};
 use crate::error::WriteError;
+use crate::model::language::Language;
 use crate::model::motion::{Motion, MotionKind};
 use crate::model::orientation::OrientationText;
-use crate::model::program::{Language, RobotProgram};
+use crate::model::program::RobotProgram;
 use crate::model::site::TargetSite;
 use crate::options::{ReadOptions, WriteOptions};
 use crate::path::fault::broken;

@@ -4,7 +4,7 @@ use kinetostat_program::COMPENSATED_MARK;
 
 use crate::heidenhain::numbering;
 use crate::ls::write::numbered_again;
-use crate::model::program::Language;
+use crate::model::language::Language;
 use crate::text::source::SourceFile;
 use crate::text::source::beginning;
 

@@ -7,8 +7,9 @@ use kinetostat_program::{Corrected, WriteError};
 
 use crate::krl::folds::folds_of;
 use crate::krl::lex::TokenFile;
+use crate::model::language::Language;
 use crate::model::motion::Motion;
-use crate::model::program::{Language, RobotProgram};
+use crate::model::program::RobotProgram;
 use crate::model::site::TargetSite;
 use crate::path::fault::broken;
 use crate::path::of_program::RobotPath;

@@ -7,9 +7,9 @@ use kinetostat_program::{
 };
 use nalgebra::{Isometry3, Point3, Unit, UnitQuaternion, Vector3};
 
+use crate::model::language::Language;
 use crate::model::motion::{Motion, MotionKind};
 use crate::model::orientation::OrientationText;
-use crate::model::program::Language;
 use crate::model::site::{PoseText, TargetSite};
 use crate::path::axis_turns::is_by_axis;
 use crate::path::circle::about;

@@ -5,8 +5,9 @@ use std::sync;
 use kinetostat_program::RotaryAxes;
 use nalgebra::{Isometry3, UnitQuaternion, Vector3};
 
+use crate::model::language::Language;
 use crate::model::motion::{Motion, MotionKind};
-use crate::model::program::{Language, RobotProgram};
+use crate::model::program::RobotProgram;
 use crate::model::target::Target;
 use crate::path::axis_angles::{AxesOfMotion, axes_of_motions};
 use crate::path::axis_turns::axis_turns;

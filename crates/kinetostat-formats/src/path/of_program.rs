@@ -5,8 +5,9 @@ use nalgebra::{Isometry3, UnitQuaternion};
 
 use crate::apt::spindle::spindle_changes;
 use crate::model::frame::FrameUse;
+use crate::model::language::Language;
 use crate::model::motion::{Motion, Runs};
-use crate::model::program::{Language, RobotProgram};
+use crate::model::program::RobotProgram;
 use crate::model::stated_axes::AxesStated;
 use crate::path::axis_turns::{first_leaning, first_leaning_in_base};
 use crate::path::fault::{PathError, fault_at};

@@ -3,9 +3,10 @@
 use kinetostat_program::{Knowledge, Move, MoveKind, StatedBy, Warning};
 use nalgebra::Vector3;
 
+use crate::model::language::Language;
 use crate::model::motion::{Motion, MotionKind};
 use crate::model::orientation::OrientationText;
-use crate::model::program::{Language, RobotProgram};
+use crate::model::program::RobotProgram;
 use crate::model::site::TargetSite;
 use crate::path::axis_angles::on_great_circle;
 use crate::path::axis_turns::{ALONG_Z, TurnAboutAxis, axis_of};

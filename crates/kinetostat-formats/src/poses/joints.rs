@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use nalgebra::{Isometry3, UnitQuaternion, Vector3};
 
+use crate::extreme::larger;
 use crate::model::frame::{Frame, FrameUse};
 use crate::model::joint_arm::{BetweenRows, TableArm};
 use crate::model::site::{JointsText, TargetSite};
@@ -153,12 +154,4 @@ fn departure(
         most_deg = larger(most_deg, tool.rotation.angle_to(&even).to_degrees());
     }
     (most_mm, most_deg)
-}
-
-/// The larger of two; what is no number is larger.
-fn larger(a: f64, b: f64) -> f64 {
-    match a >= b || a.is_nan() {
-        true => a,
-        false => b,
-    }
 }

@@ -2,9 +2,10 @@
 
 use crate::error::{ProgramError, note};
 use crate::model::frame::{Frame, FrameUse};
+use crate::model::language::Language;
 use crate::model::motion::{Motion, MotionKind, Runs, Speed, Zone};
 use crate::model::parsed::Parsed;
-use crate::model::program::{Finding, Language, RobotProgram};
+use crate::model::program::RobotProgram;
 use crate::model::site::{MotionSite, PoseText, SpeedSite, TargetSite};
 use crate::model::target::{Configuration, PoseTarget, Target};
 use crate::options::{ExternalAxes, LengthUnit, ReadOptions};
@@ -14,6 +15,7 @@ use crate::poses::joints::{base, between_rows, joint_target};
 use crate::poses::row::{Row, RowTarget, Rows};
 use crate::poses::units::{Reach, mm_of};
 use crate::poses::yaml::read_yaml;
+use crate::text::finding::Finding;
 use crate::text::number::{Width, values_of};
 use crate::text::source::SourceFile;
 use nalgebra::Vector3;

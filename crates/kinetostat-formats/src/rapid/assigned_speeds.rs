@@ -1,39 +1,14 @@
 //! Speeds that the program assigns: `rdkSpeed.v_tcp:=20;` and `rdkSpeed:=[20,500,5000,1000];` before the motions that go with them.
 
-use std::collections::BTreeMap;
 use std::ops::Range;
 
 use crate::model::motion::Runs;
 use crate::rapid::expression::expression_of;
 use crate::rapid::lex::Kind;
-use crate::rapid::symbols::{Meaning, Symbols};
+use crate::rapid::symbols::Meaning;
 use crate::rapid::tree::Change;
 use crate::rapid::walker::Walker;
 use crate::text::name::Name;
-
-/// What the program gave speeds for certain, as far as it was walked.
-#[derive(Debug, Default)]
-pub(crate) struct AssignedSpeeds {
-    /// By datum; none where it is not in numbers, or whether it was assigned is not certain.
-    held: BTreeMap<usize, Option<[f64; 4]>>,
-    /// The routine that is walked runs once, and no statement of it ran on a condition: these are the values that it finds.
-    is_certain: bool,
-}
-
-impl AssignedSpeeds {
-    /// What a datum holds in a statement of a routine.
-    pub(crate) fn held(
-        &self,
-        symbols: &Symbols<'_>,
-        (routine, index): (usize, usize),
-    ) -> Option<[f64; 4]> {
-        let datum = symbols.data.get(index)?;
-        let is_followed = self.is_certain && !datum.is_changed_otherwise;
-        // The statements of several routines follow one another as the calls do; here calls take away what is held.
-        let is_own = datum.assigned_in.is_none_or(|own| own == routine);
-        *self.held.get(&index).filter(|_| is_followed && is_own)?
-    }
-}
 
 /// The parts of a speed: of the tip, of turning, of external axes that go straight and that turn.
 const PARTS: [&str; 4] = ["V_TCP", "V_ORI", "V_LEAX", "V_REAX"];

@@ -4,7 +4,6 @@ use std::ops::Range;
 
 use crate::error::{ProgramError, note};
 use crate::model::outside_call::OutsideCall;
-use crate::model::program::Finding;
 use crate::options::ExternalAxes;
 use crate::rapid::calls::Place;
 use crate::rapid::motion::{Instruction, follow};
@@ -13,6 +12,7 @@ use crate::rapid::tree::{Choice, TokenFile};
 use crate::rapid::turning::mode_of;
 use crate::rapid::walker::Walker;
 use crate::table::Treatment;
+use crate::text::finding::Finding;
 use crate::text::name::Name;
 
 /// Statements that leave the path as it is, and change what deflection depends on.

@@ -13,6 +13,7 @@ mod constants;
 pub(crate) mod expression;
 pub(crate) mod frames;
 mod functions;
+mod held_speeds;
 mod instructions;
 pub(crate) mod jumps;
 pub(crate) mod labels;

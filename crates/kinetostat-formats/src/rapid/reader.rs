@@ -1,8 +1,9 @@
 //! The reader of RAPID modules.
 
 use crate::error::ProgramError;
+use crate::model::language::Language;
 use crate::model::parsed::{Parsed, Read};
-use crate::model::program::{Language, RobotProgram};
+use crate::model::program::RobotProgram;
 use crate::options::{ExternalAxes, ReadOptions};
 use crate::rapid::frames::Values;
 use crate::rapid::lex::tokens_of;

@@ -5,7 +5,6 @@ use std::ops::Range;
 
 use nalgebra::{UnitQuaternion, Vector3};
 
-use crate::model::program::Finding;
 use crate::model::site::{Declaration, DeclarationCopy, OffsetAxes, PoseText, TargetSite};
 use crate::model::target::PoseTarget;
 use crate::rapid::expression::{Argument, Expression, Value};
@@ -13,6 +12,7 @@ use crate::rapid::frames::{Reason, Values};
 use crate::rapid::literals::target_of;
 use crate::rapid::symbols::Meaning;
 use crate::rapid::tree::Change;
+use crate::text::finding::Finding;
 use crate::text::name::Name;
 use crate::text::number::NumberText;
 

@@ -8,7 +8,6 @@ use std::ops::Range;
 use crate::error::{ProgramError, note};
 use crate::model::motion::{Motion, Runs};
 use crate::model::outside_call::OutsideCall;
-use crate::model::program::Finding;
 use crate::options::ReadOptions;
 use crate::rapid::calls::{Call, Place, Summary, merge, of_calls};
 use crate::rapid::frames::Values;
@@ -18,6 +17,7 @@ use crate::rapid::targets::Targets;
 use crate::rapid::tree::{Choice, RoutineKind, Statement};
 use crate::rapid::turning::Modes;
 use crate::rapid::walker::{Now, Walker, stays};
+use crate::text::finding::Finding;
 use crate::text::name::Name;
 
 /// Deepest nesting of calls and blocks together.

@@ -3,7 +3,6 @@
 use crate::error::ProgramError;
 use crate::model::motion::{Motion, Runs};
 use crate::model::outside_call::OutsideCall;
-use crate::model::program::Finding;
 use crate::options::{ExternalAxes, UnknownTargets};
 use crate::rapid::calls::{Place, Summary};
 use crate::rapid::frames::Values;
@@ -13,6 +12,7 @@ use crate::rapid::targets::Targets;
 use crate::rapid::tree::{Statement, TokenFile};
 use crate::rapid::turning::{MODES, Modes, Moment};
 use crate::table::Treatment;
+use crate::text::finding::Finding;
 use crate::text::name::Name;
 
 /// The routine that is walked.

@@ -3,9 +3,9 @@
 //! Source: Siemens, SINUMERIK 840D sl, machine data lists, MD30455 $MA_MISC_FUNCTION_MASK: with bit 2 a modulo rotary axis that is programmed
 //! under G90 goes to its angle as with DC; without it, as with AC.
 
-use crate::model::program::Finding;
 use crate::siemens::state::Coordinate;
 use crate::siemens::walker::{PlainTurn, Reader};
+use crate::text::finding::Finding;
 
 /// Further lines are named up to so many.
 const MOST_NAMED: usize = 20;

@@ -1,11 +1,13 @@
 //! The reader of SINUMERIK programs.
 
 use crate::error::ProgramError;
+use crate::model::language::Language;
 use crate::model::parsed::Parsed;
-use crate::model::program::{Finding, Language, RobotProgram};
+use crate::model::program::RobotProgram;
 use crate::options::ReadOptions;
 use crate::siemens::scan::scan;
 use crate::siemens::walker::Scan;
+use crate::text::finding::Finding;
 use crate::text::source::SourceFile;
 
 /// Reads programs of the SINUMERIK 840D and its kin (`.mpf`, `.spf`), each file for itself.

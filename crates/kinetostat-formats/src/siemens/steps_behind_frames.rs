@@ -6,10 +6,10 @@
 //! SINUMERIK programs, which quotes the setting's name, its factory default TRUE and "changes to work offsets are traversed after a frame
 //! change". Of frames that are turned it says nothing, and neither is said here.
 
-use crate::model::program::Finding;
 use crate::siemens::state::Counted;
 use crate::siemens::walker::Reader;
 use crate::siemens::words::Words;
+use crate::text::finding::Finding;
 use crate::text::line_words::in_words;
 
 /// Shift of a frame that is none, mm.

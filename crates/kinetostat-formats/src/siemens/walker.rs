@@ -9,7 +9,6 @@ use crate::axis_count::CountShown;
 use crate::corner::Cut;
 use crate::error::{ProgramError, note};
 use crate::model::motion::Motion;
-use crate::model::program::Finding;
 use crate::model::stated_axes::StatedAxes;
 use crate::options::ReadOptions;
 use crate::siemens::block::How;
@@ -17,6 +16,7 @@ use crate::siemens::expression::Expression;
 use crate::siemens::state::{Angles, Code, Coordinate, Feed, State};
 use crate::siemens::tokens::Broken;
 use crate::siemens::values::Variables;
+use crate::text::finding::Finding;
 use crate::text::source::SourceFile;
 
 /// What a program's files hold.

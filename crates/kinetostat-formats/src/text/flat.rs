@@ -1,6 +1,6 @@
 //! A program run once and written flat, with where each of its lines is from.
 
-use crate::model::program::Finding;
+use crate::text::finding::Finding;
 use crate::text::source::SourceFile;
 
 /// A program that was run once and written flat.

@@ -2,9 +2,9 @@
 
 use nalgebra::UnitQuaternion;
 
+use crate::model::language::Language;
 use crate::model::motion::{Motion, MotionKind};
 use crate::model::orientation::OrientationText;
-use crate::model::program::Language;
 use crate::model::site::PoseText;
 use crate::writing::ends::Writer;
 use crate::writing::external_axes::AxesOfPiece;

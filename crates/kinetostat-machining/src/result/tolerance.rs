@@ -109,7 +109,8 @@ impl MissedTolerance {
     /// ```
     /// use kinetostat_machining::{MissedTolerance, PointResult};
     ///
-    /// let point = PointResult { line: 4, error_after_mm: [0.03, 0.0, 0.04], ..PointResult::default() };
+    /// let mut point = PointResult::default();
+    /// (point.line, point.error_after_mm) = (4, [0.03, 0.0, 0.04]);
     /// let missed = MissedTolerance::at(&point, String::new());
     /// assert!(missed.line == 4 && (missed.error_mm - 0.05).abs() < 1e-15);
     /// ```

@@ -1,5 +1,6 @@
 //! Pieces of another program as those of a written one, with the orientation that it commands.
 
+use kinetostat::number::larger;
 use kinetostat_program::{Accounting, Corrected, MoveKind, Path};
 use nalgebra::UnitQuaternion;
 
@@ -35,9 +36,9 @@ pub(crate) fn as_written(
         bytes_out: bytes.len(),
         pieces: followed.len(),
         corner_steps: largest(false).count(),
-        largest_corner_step_mm: largest(false).fold(0.0, f64::max),
+        largest_corner_step_mm: largest(false).fold(0.0, larger),
         entry_steps: largest(true).count(),
-        largest_entry_step_mm: largest(true).fold(0.0, f64::max),
+        largest_entry_step_mm: largest(true).fold(0.0, larger),
         ..Accounting::default()
     };
     Corrected {

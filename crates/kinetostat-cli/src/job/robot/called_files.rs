@@ -7,14 +7,12 @@ use kinetostat_machining::FileRead;
 
 use crate::files::input_files::InputFiles;
 use crate::files::origin;
+use crate::job::robot::folder::Folder;
 use crate::job::robot::source::RobotSource;
 use crate::ui::failure::Answer;
 
 /// Most files of one program.
 const MOST_FILES: usize = 1000;
-
-/// Most names of a folder that are looked at.
-const MOST_NAMES: usize = 100_000;
 
 /// Adds the files that a program calls, those that these call, and so on, as far as they are there: their places, and how they were
 /// read. A file that the job names stands for its name.
@@ -54,40 +52,4 @@ pub(crate) fn with_called_files(
         at += 1;
     }
     Ok(read)
-}
-
-/// A folder with the names of its files: controls do not tell capitals from small letters.
-pub(super) struct Folder {
-    path: PathBuf,
-    names: Vec<String>,
-}
-
-impl Folder {
-    pub(super) fn of(path: &Path) -> Self {
-        let entries = std::fs::read_dir(path).into_iter().flatten().flatten();
-        let names = entries.filter_map(|entry| entry.file_name().into_string().ok());
-        let mut names: Vec<String> = names.take(MOST_NAMES).collect();
-        names.sort();
-        Self {
-            path: path.to_owned(),
-            names,
-        }
-    }
-
-    /// The file of a name: as it is written, else in other letters.
-    pub(super) fn file(&self, name: &str) -> Option<PathBuf> {
-        self.named(name).filter(|found| found.is_file())
-    }
-
-    /// The folder of a name in it: as it is written, else in other letters.
-    pub(super) fn folder(&self, name: &str) -> Option<Self> {
-        let found = self.named(name).filter(|found| found.is_dir())?;
-        Some(Self::of(&found))
-    }
-
-    fn named(&self, name: &str) -> Option<PathBuf> {
-        let same = self.names.iter().find(|own| *own == name);
-        let alike = || self.names.iter().find(|own| own.eq_ignore_ascii_case(name));
-        Some(self.path.join(same.or_else(alike)?))
-    }
 }

@@ -10,6 +10,7 @@ pub(crate) mod configuration;
 pub(crate) mod divided;
 pub(crate) mod first_place;
 pub(crate) mod flat;
+mod folder;
 pub(crate) mod frames;
 pub(crate) mod joint_arm;
 pub(crate) mod machine;

@@ -10,7 +10,7 @@ use kinetostat_program::Warning;
 
 use crate::files::input_files::InputFiles;
 use crate::files::origin;
-use crate::job::robot::called_files::Folder;
+use crate::job::robot::folder::Folder;
 use crate::job::robot::source::RobotSource;
 use crate::ui::failure::Answer;
 

@@ -6,6 +6,7 @@
 use crate::apt::dialect::Dialect;
 use crate::apt::lines::Statement;
 use crate::apt::numbers::{Argument, arguments_of};
+use crate::extreme::larger;
 use crate::text::source::SourceFile;
 
 /// How the tool comes out of a hole, and what it does at the bottom.
@@ -226,7 +227,7 @@ impl Words {
                 "correct RAPTO, or the depth",
             );
         }
-        let clear = f64::max(clear.unwrap_or(rapid_to), rapid_to);
+        let clear = larger(clear.unwrap_or(rapid_to), rapid_to);
         if matches!(kind, Kind::Deep | Kind::Break) && self.step.is_none_or(|step| step <= 0.0) {
             return wrong("by which steps it drills, is not stated", "state STEP");
         }

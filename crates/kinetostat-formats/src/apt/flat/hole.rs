@@ -4,6 +4,7 @@ use kinetostat_program::{Spindle, SpindleRotation};
 use nalgebra::Vector3;
 
 use crate::apt::flat::cycle::{Cycle, Kind, Retract, Wrong};
+use crate::extreme::smaller;
 
 /// Most steps of one hole.
 const MOST_STEPS: usize = 10_000;
@@ -109,7 +110,7 @@ impl Hole {
                 "state a larger STEP",
             ));
         }
-        let back = f64::min(BACK_MM / self.unit_mm, 0.5 * step);
+        let back = smaller(BACK_MM / self.unit_mm, 0.5 * step);
         let mut parts = Vec::new();
         for index in 1..count as usize {
             let depth = step * index as f64;

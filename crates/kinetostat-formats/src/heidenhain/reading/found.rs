@@ -11,8 +11,8 @@ use crate::heidenhain::datum::Datum;
 use crate::heidenhain::ends::Shape;
 use crate::heidenhain::reading::rounded::{Rounded, Unrounded};
 use crate::model::motion::Motion;
-use crate::model::program::Finding;
 use crate::model::stated_axes::AxesStated;
+use crate::text::finding::Finding;
 
 /// A motion as it is programmed.
 #[derive(Debug, Clone, PartialEq)]

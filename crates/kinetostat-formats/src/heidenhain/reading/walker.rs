@@ -8,8 +8,8 @@ use crate::error::{ProgramError, note};
 use crate::heidenhain::reading::found::Found;
 use crate::heidenhain::reading::rounded::{Line, Pending};
 use crate::heidenhain::state::State;
-use crate::model::program::Finding;
 use crate::options::ReadOptions;
+use crate::text::finding::Finding;
 use crate::text::source::SourceFile;
 
 /// The walk over one file.

@@ -9,7 +9,7 @@ use crate::krl::usage::ends_of;
 use crate::krl::walking::walker::Walker;
 use crate::krl::with_list::with;
 use crate::model::motion::Zone;
-use crate::model::program::Finding;
+use crate::text::finding::Finding;
 use crate::text::name::Name;
 
 impl Walker<'_, '_> {

@@ -11,8 +11,8 @@ use crate::krl::targets::Targets;
 use crate::krl::touched::Touched;
 use crate::krl::values::{Reason, Values};
 use crate::model::motion::Runs;
-use crate::model::program::Finding;
 use crate::options::UnknownTargets;
+use crate::text::finding::Finding;
 
 /// Deepest nesting of calls and blocks together.
 pub(super) const DEEPEST: usize = 200;

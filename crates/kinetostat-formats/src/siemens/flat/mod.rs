@@ -1,12 +1,13 @@
 //! Programs with jumps, loops, calls and drilling cycles: run once, and written flat.
 //!
 //! [`structure`] reads the control flow of a file ([`control`], [`statements`]), [`run`] follows it, [`mod@print`] writes the blocks with numbers in place of
-//! expressions, [`holes`] the blocks of drilling cycles ([`doubts`] names what of them is not certain), [`corners`] those of rounded and broken corners, [`saved`] what comes back behind a subprogram with SAVE,
+//! expressions, [`holes`] the blocks of drilling cycles ([`doubtful`] names what of them is not certain), [`corners`] those of rounded and broken corners, [`saved`] what comes back behind a subprogram with SAVE,
 //! [`refused_lines`] how the run goes on behind what is refused.
 
 mod calls;
 mod control;
 mod corners;
+mod doubtful;
 mod doubts;
 mod drilling;
 mod expand;

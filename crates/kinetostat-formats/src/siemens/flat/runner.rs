@@ -4,7 +4,6 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 
 use crate::error::ProgramError;
-use crate::model::program::Finding;
 use crate::options::SlashBlocks;
 use crate::refused_run::FaultsOfRun;
 use crate::siemens::block::What;
@@ -15,6 +14,7 @@ use crate::siemens::flat::frames::Frames;
 use crate::siemens::flat::modes::Modes;
 use crate::siemens::flat::structure::Unit;
 use crate::siemens::values::{Value, Variable, Variables};
+use crate::text::finding::Finding;
 use crate::text::source::SourceFile;
 
 /// Most programs that call one another (840D sl: 18 levels).

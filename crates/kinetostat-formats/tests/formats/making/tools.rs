@@ -1,6 +1,7 @@
 //! Tools of the source keep their numbers, and what gets a number is named.
 
 use kinetostat_formats::*;
+use kinetostat_testing::Worst;
 
 use super::{found, of_robot, text_of};
 
@@ -203,12 +204,9 @@ fn the_tool_before_the_first_change_keeps_its_tip() {
             let made = super::made(TWO_TOOLS, &template, made_in);
             let found = tips(&made, language);
             let wanted = [180.0, 180.0, 180.0, 180.0, 120.0, 120.0, 120.0];
-            let apart = found
-                .iter()
-                .zip(wanted)
-                .map(|(one, other)| (one - other).abs());
-            assert_eq!(found.len(), wanted.len(), "{language:?}");
-            assert!(apart.fold(0.0, f64::max) < 1e-9, "{language:?}: {found:?}");
+            let mut apart = Worst::new();
+            apart.all_apart(&found, &wanted);
+            assert!(apart.holds(1e-9), "{language:?}: {found:?}");
             if language == Language::Rapid {
                 let text = text_of(&made, 0);
                 let own = format!("PERS tooldata tool{}:=", number.unwrap_or(1));
