@@ -57,7 +57,7 @@ def no_option_of(options: Mapping[str, Any], **arguments: str) -> None:
     """Refuses options of the command that are arguments of the typed question under another name, or its own business."""
     for name, instead in arguments.items():
         if name in options:
-            raise ArgumentError(f"{name} is no argument here: give {instead}")
+            raise ArgumentError(f"{name} is no argument here, expected {instead}")
 
 
 def bare(machine: Machine) -> tuple[Machine, float | None]:

@@ -373,10 +373,11 @@ def curve(
     (-0.110932, -1.033477)
     """
     load = None if force is None and moment is None else [triple("force", force), triple("moment", moment)]
-    one_way({"direction": direction, "about": about, "force (moment)": load}, displacement, turn, factor)
+    along, axis = triple("direction", direction), triple("about", about)
     far = ends("displacement", displacement, "m", _FARTHEST)
     angles = ends("turn", turn, "rad", np.pi)
     times = ends("factor", factor, "", np.inf)
+    one_way({"direction": along, "about": axis, "force (moment)": load}, displacement, turn, factor)
     if load is not None and not np.any([x for part in load for x in part or ()]):
         raise ArgumentError("force and moment are zero: which load shall grow?")
     limits = None if force_limits is None else one("force_limits", force_limits, (2,)).tolist()
@@ -387,9 +388,9 @@ def curve(
     with arguments(displacement_mm="displacement", turn_deg="turn", load="loads", all="search_all"):
         answer = commands.curve(
             **place(posture),
-            direction=triple("direction", direction),
+            direction=along,
             displacement_mm=None if far is None else (1e3 * far).tolist(),
-            about=triple("about", about),
+            about=axis,
             turn_deg=None if angles is None else (angles / _DEG).tolist(),
             force=triple("force", force),
             moment=triple("moment", moment),

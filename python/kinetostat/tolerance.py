@@ -250,7 +250,9 @@ def machines(
     pairs = {} if correlations is None else mapping("correlations", correlations, "a dictionary of numbers by pairs of names")
     if isinstance(spread, str):
         if pairs:
-            raise ArgumentError("correlations goes with a dictionary of Distributions: the text of a file states its own")
+            raise ArgumentError(
+                "correlations goes with a dictionary of Distributions: the text of a file states its own, as [[correlation]]"
+            )
         stated = text("spread", spread, "the text of a file", longest=None)
     else:
         stated = _toml(mapping("spread", spread, "a dictionary of Distributions by paths of numbers, or the text of a file"), pairs)

@@ -130,11 +130,11 @@ def test_warnings_of_a_curve_name_its_own_arguments() -> None:
 
 
 def test_other_typed_questions_name_their_own_arguments() -> None:
-    with pytest.raises(ks.ArgumentError, match="factor is no argument here: give most"):
+    with pytest.raises(ks.ArgumentError, match="factor is no argument here, expected most"):
         ks.curves.critical_load(BENDING, [-1, 0, 0], factor=(0, 3))
-    with pytest.raises(ks.ArgumentError, match="part_origin_mm is no argument here: give part_origin, m"):
+    with pytest.raises(ks.ArgumentError, match="part_origin_mm is no argument here, expected part_origin, m"):
         ORTHOGLIDE.compensate("in.ngc", "out.ngc", part_origin_mm=[0, 0, 0])
-    with pytest.raises(ks.ArgumentError, match="tool_length_mm is no argument here: give a machine with its tool"):
+    with pytest.raises(ks.ArgumentError, match="tool_length_mm is no argument here, expected a machine with its tool"):
         ORTHOGLIDE.compensate("in.ngc", "out.ngc", tool_length_mm=100)
     with pytest.raises(ks.ArgumentError, match=r"^turned: "):
         BENDING.shapes(turned=[0, 0, 4])

@@ -10,7 +10,6 @@ use kinetostat_machining::Configurations;
 use numpy::PyArray1;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use rayon::prelude::*;
 
 use crate::arrays::{Numbers, array, matrix_of, poses, rows, wrenches};
 use crate::columns::{Columns, done};
@@ -20,7 +19,7 @@ use crate::elsewhere::{
 };
 use crate::errors::{Class, error, of_core};
 use crate::machine::Machine;
-use crate::work::{Course, Manner, away};
+use crate::work::Manner;
 
 /// What became of a posture, as `kinetostat.Status` counts.
 fn number(status: Status, outside: bool) -> u8 {

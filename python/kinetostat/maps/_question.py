@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from kinetostat._arguments import refused
+from kinetostat._arguments import of_kind, refused
 from kinetostat._arrays import Floats, fitting, numbers
 from kinetostat.errors import ArgumentError
 from kinetostat.machine import Machine
@@ -75,6 +75,7 @@ def asked(
     names: str | Sequence[str] | None,
 ) -> Question:
     """A question, or an error that says what is wrong with it."""
+    of_kind("machine", machine, Machine, "a Machine")
     home = machine.home[:3, 3]
     axes = {name: _axis(name, home[k] if given is None else given) for k, (name, given) in enumerate(zip("xyz", (x, y, z), strict=True))}
     if all(values.ndim == 0 for values in axes.values()):

@@ -21,7 +21,7 @@ def formula(name: str, value: Any, **assumed: bool) -> sp.Expr:
     """A formula as it is, or a symbol by its name, real unless something else is assumed of it."""
     if isinstance(value, str):
         symbol = text(name, value)
-        if symbol[:1].isdigit() or set(symbol) & _SIGNS:
+        if not symbol or symbol[0].isdigit() or set(symbol) & _SIGNS:
             raise ArgumentError(
                 f"{name} is {shown(value)}, which is no name of a symbol: text names one symbol; write numbers as numbers, and formulas "
                 "with SymPy, as in 2 * sympy.Symbol('L', real=True)"

@@ -5,10 +5,10 @@
 
 use nalgebra::{UnitQuaternion, Vector3};
 
-use crate::rapid::expression::{Argument, Expression, Value};
-use crate::rapid::frames::Values;
-use crate::rapid::symbols::{Meaning, Scope};
+use crate::rapid::expression::{Argument, Expression, Value, expression_of};
+use crate::rapid::symbols::{Meaning, Scope, Symbols};
 use crate::rapid::tree::Change;
+use crate::rapid::tree::TokenFile;
 use crate::text::name::Name;
 
 /// Deepest nesting of lists and of constants that others are.
@@ -17,9 +17,23 @@ const DEEPEST: usize = 12;
 /// Most numbers of an expression: constants in constants grow.
 const MOST: usize = 64;
 
-impl Values<'_> {
+/// What the data of a program are declared with.
+#[derive(Clone, Copy)]
+pub(crate) struct Constants<'v, 'p> {
+    pub(crate) symbols: &'v Symbols<'p>,
+    pub(crate) files: &'p [TokenFile<'p>],
+}
+
+impl Constants<'_, '_> {
+    /// The first value of a datum, in its file.
+    pub(crate) fn declared(&self, index: usize) -> Option<Expression> {
+        let datum = &self.symbols.data[index];
+        let tokens = datum.node.initial.clone()?;
+        Some(expression_of(&self.files[datum.file], tokens))
+    }
+
     /// An expression of a routine in numbers alone; none where the run of the program says one of them.
-    pub(crate) fn in_numbers(&self, routine: usize, expression: &Expression) -> Option<Expression> {
+    pub(crate) fn numbers_in(&self, routine: usize, expression: &Expression) -> Option<Expression> {
         let mut left = MOST;
         self.numbers_of(Scope::Routine(routine), expression, DEEPEST, &mut left)
     }
@@ -84,6 +98,6 @@ impl Values<'_> {
         let datum = &self.symbols.data[index];
         // A controller may hold another value of a PERS than the file.
         let is_one = self.symbols.is_fixed(index) && datum.node.change != Change::Persistent;
-        Some((datum.scope, is_one.then(|| self.initial(index))??))
+        Some((datum.scope, is_one.then(|| self.declared(index))??))
     }
 }

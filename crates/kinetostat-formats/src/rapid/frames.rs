@@ -7,7 +7,8 @@ use nalgebra::Isometry3;
 use crate::model::frame::{Frame, FrameUse};
 use crate::model::motion::Zone;
 use crate::options::ReadOptions;
-use crate::rapid::expression::{Expression, Value, expression_of};
+use crate::rapid::constants::Constants;
+use crate::rapid::expression::{Expression, Value};
 use crate::rapid::held_speeds::AssignedSpeeds;
 use crate::rapid::literals::{frame_of, values};
 use crate::rapid::symbols::{Meaning, Symbols};
@@ -59,11 +60,21 @@ impl<'p> Values<'p> {
         }
     }
 
+    fn constants(&self) -> Constants<'_, 'p> {
+        Constants {
+            symbols: &self.symbols,
+            files: self.files,
+        }
+    }
+
     /// The first value of a datum, in its file.
     pub(crate) fn initial(&self, index: usize) -> Option<Expression> {
-        let datum = &self.symbols.data[index];
-        let tokens = datum.node.initial.clone()?;
-        Some(expression_of(&self.files[datum.file], tokens))
+        self.constants().declared(index)
+    }
+
+    /// An expression of a routine in numbers alone; none where the run of the program says one of them.
+    pub(crate) fn in_numbers(&self, routine: usize, expression: &Expression) -> Option<Expression> {
+        self.constants().numbers_in(routine, expression)
     }
 
     /// That something is changed at run time, as said in a file.

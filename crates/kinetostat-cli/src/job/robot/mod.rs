@@ -6,6 +6,7 @@
 //! ([`row_limits`]: rows that this arm does not reach).
 
 pub(crate) mod called_files;
+mod config_frames;
 pub(crate) mod configuration;
 pub(crate) mod divided;
 pub(crate) mod first_place;

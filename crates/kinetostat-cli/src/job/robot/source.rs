@@ -11,11 +11,11 @@ use crate::files::origin;
 use crate::job::arguments::{ProgramArgs, ReadingArgs};
 use crate::job::format::BlockDeleteWord;
 use crate::job::job_file::JobFile;
+use crate::job::robot::config_frames::SystemFrames;
 use crate::job::robot::divided::Divided;
 use crate::job::robot::parquet;
 use crate::job::robot::read_once::Reading;
 use crate::job::robot::settings::{RobotSettings, settings};
-use crate::job::robot::system_frames::SystemFrames;
 use crate::job::robot::unfit_options::refuse_unfit;
 use crate::ui::failure::{Answer, Failure};
 

@@ -10,6 +10,7 @@ use kinetostat_program::Warning;
 
 use crate::files::input_files::InputFiles;
 use crate::files::origin;
+use crate::job::robot::config_frames::SystemFrames;
 use crate::job::robot::folder::Folder;
 use crate::job::robot::source::RobotSource;
 use crate::ui::failure::Answer;
@@ -20,14 +21,6 @@ const SYSTEM: &str = "System";
 
 /// Most folders above a program among which [`PROGRAMS`] is looked for.
 const MOST_ABOVE: usize = 8;
-
-/// Tools and bases that were found.
-#[derive(Clone, Debug)]
-pub(crate) struct SystemFrames {
-    path: PathBuf,
-    /// `BASE_DATA[2]`, ... in capitals.
-    names: Vec<String>,
-}
 
 /// Adds the tools and bases of the controller to a program that names them and has none of its own files for them: their place, and how
 /// it was read.
