@@ -89,7 +89,7 @@ def function(name: str, value: Any, expected: str = "a function") -> Any:
 
 
 def told(progress: T) -> T:
-    """What is told of the progress of a call: a function, or None."""
+    """The function that hears of the progress of a call, or None."""
     given: Any = progress
     if given is not None and not callable(given):
         raise refused("progress", given, "a function of what is done, how much there is and the name of the stage, or None")

@@ -154,7 +154,7 @@ class Machine:
         >>> Machine.from_toml(text) == Machine.preset("two_link")
         True
         """
-        # What the text holds is told with its lines by the reader.
+        # The reader names faults of the text with their lines.
         written = checked_text("text", text, "the text of a model file", longest=None)
         return cls._of(_core.Machine.from_toml(written, checked_text("file", file)))
 

@@ -34,7 +34,8 @@ fn number(value: &Value, name: &str) -> f64 {
     value[name].as_f64().unwrap_or(f64::NAN)
 }
 
-fn compensated(here: &Path, more: &[&str]) -> Value {
+/// The job compensated to `out.ngc` with an exit code, and its result; what it said.
+fn compensated_with(here: &Path, code: i32, more: &[&str]) -> (Value, String) {
     let words = [
         "compensate",
         "job.toml",
@@ -44,9 +45,13 @@ fn compensated(here: &Path, more: &[&str]) -> Value {
         "out.json",
     ];
     let output = run(here, &[&words[..], more].concat());
-    assert_eq!(output.code, 0, "{output:?}");
+    assert_eq!(output.code, code, "{output:?}");
     let text = std::fs::read_to_string(here.join("out.json")).unwrap();
-    serde_json::from_str(&text).unwrap()
+    (serde_json::from_str(&text).unwrap(), output.err)
+}
+
+fn compensated(here: &Path, more: &[&str]) -> Value {
+    compensated_with(here, 0, more).0
 }
 
 #[test]
@@ -164,23 +169,11 @@ fn features_have_verdicts_of_their_own() {
     let here = part();
     let features = "[[features]]\nname = \"contour\"\nlines = [4, 8]\ntolerance_um = 20\n[[features]]\nname = \"slot\"\nlines = [12, 12]\ntolerance_um = 0.01\n[[features]]\nname = \"nothing\"\nlines = [9, 10]\n";
     std::fs::write(here.path().join("job.toml"), format!("{JOB}{features}")).unwrap();
-    let words = [
-        "compensate",
-        "job.toml",
-        "--out",
-        "out.ngc",
-        "--json",
-        "out.json",
-    ];
-    let output = run(here.path(), &words);
-    let said = output.err;
-    assert_eq!(output.code, 3, "{said}");
+    let (of_compensate, said) = compensated_with(here.path(), 3, &[]);
     assert!(
         said.contains("THE TOLERANCE OF slot IS MISSED at line"),
         "{said}"
     );
-    let text = std::fs::read_to_string(here.path().join("out.json")).unwrap();
-    let of_compensate: Value = serde_json::from_str(&text).unwrap();
     let (code, of_verify, said) = verified(here.path(), "out.ngc", &[]);
     assert_eq!(code, 3, "{said}");
     for result in [&of_compensate, &of_verify] {

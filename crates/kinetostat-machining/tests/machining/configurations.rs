@@ -66,7 +66,7 @@ fn what_no_configuration_reaches_is_told_as_before() {
         matches!(error, kinetostat::Error::Unreachable { .. }),
         "{error}"
     );
-    // A machine of several limbs has one way to a place, and its limits are told.
+    // A machine of several limbs has one way to a place, and limits that it leaves are named.
     let machine = Model::preset("orthoglide").expect("a preset").mechanism;
     assert!(!Configurations::of(&machine).are_several());
 }
