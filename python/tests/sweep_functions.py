@@ -43,6 +43,16 @@ def counted(first: int, last: int, *, threads: int | None, log: str, fail: int =
     return {"row": np.arange(first, last), "root": np.sqrt(np.arange(first, last)), "nan": np.full(last - first, np.nan)}
 
 
+def fails_once(first: int, last: int, *, threads: int | None, mark: str, log: str) -> dict[str, Any]:
+    """Notes every attempt; the first at row 5 fails."""
+    with open(log, "a", encoding="utf-8") as file:
+        file.write(f"{first}\n")
+    if first == 5 and not os.path.exists(mark):
+        open(mark, "w", encoding="utf-8").close()
+        raise OSError("a fault of a node")
+    return {"row": np.arange(first, last)}
+
+
 def short(first: int, last: int, *, threads: int | None) -> dict[str, Any]:
     return {"row": np.arange(first, last - 1)}
 

@@ -5,14 +5,16 @@ from __future__ import annotations
 import contextlib
 import json
 import os
+import pickle
 import signal
 import subprocess
 import sys
 import threading
 import time
-from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
+from concurrent.futures import Future, ProcessPoolExecutor, ThreadPoolExecutor
 from functools import partial
 from pathlib import Path
+from typing import Any, ClassVar
 
 import numpy as np
 import pytest
@@ -388,6 +390,72 @@ def test_dask_with_four_workers_and_one_killed(tmp_path: Path, serial: dict[str,
     assert done == sweep.Done(40, 40, 0)
     assert sweep.verify(tmp_path / "out").complete
     same_bits(serial, sweep.read(tmp_path / "out"))
+
+
+def impatient(done: int, count: int, _: str) -> None:
+    if done > count / 2:
+        raise KeyboardInterrupt
+
+
+@pytest.mark.filterwarnings("ignore")
+def test_dask_goes_on_at_once_with_what_was_stopped(tmp_path: Path, serial: dict[str, np.ndarray]) -> None:
+    """Dask takes calls with equal arguments for one task: those of the stopped run are being cancelled when the next run asks for them."""
+    distributed = pytest.importorskip("distributed")
+    pytest.importorskip("pyarrow")
+    with (
+        distributed.LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None, local_directory=str(tmp_path)) as cluster,
+        distributed.Client(cluster) as client,
+    ):
+        for attempt in range(12):
+            out = tmp_path / f"out-{attempt}"
+            how = {"chunk": 15, "executor": client.get_executor()}
+            settings = {**SETTINGS, "wait": 0.001 * attempt}
+            with pytest.raises(KeyboardInterrupt):
+                sweep.to_folder(out, functions.stiff, 600, settings, progress=impatient, **how)
+            assert 0 < len(sweep.verify(out).sound) < 40
+            sweep.to_folder(out, functions.stiff, 600, settings, **how)
+            same_bits(serial, sweep.read(out))
+
+
+def test_no_two_submissions_are_equal(tmp_path: Path) -> None:
+    """A library that knows tasks by their arguments gives an equal call the answer of the first, or its error."""
+
+    class ByArguments(ThreadPoolExecutor):
+        tasks: ClassVar[dict[bytes, Future[Any]]] = {}
+
+        def submit(self, fn: Any, /, *args: Any, **kwargs: Any) -> Future[Any]:
+            key = pickle.dumps((fn, args, kwargs))
+            if key not in self.tasks:
+                self.tasks[key] = super().submit(fn, *args, **kwargs)
+            return self.tasks[key]
+
+    log = tmp_path / "log"
+    with ByArguments(1) as pool:
+        for _ in range(2):
+            found = sweep.run(functions.fails_once, 20, {"mark": str(tmp_path / "failed"), "log": str(log)}, chunk=5, executor=pool)
+            assert found["row"].tolist() == list(range(20))
+    assert log.read_text(encoding="utf-8").split() == ["0", "5", "10", "5", "15", "0", "5", "10", "15"]
+
+
+def test_a_cancelled_chunk_is_asked_for_once_more() -> None:
+    class Cancelling(ThreadPoolExecutor):
+        """Gives the third chunk back cancelled, as Dask does where its scheduler did not answer for a while."""
+
+        asked = 0
+
+        def submit(self, fn: Any, /, *args: Any, **kwargs: Any) -> Future[Any]:
+            self.asked += 1
+            if self.asked != 3:
+                return super().submit(fn, *args, **kwargs)
+            cancelled: Future[Any] = Future()
+            cancelled.cancel()
+            return cancelled
+
+    with Cancelling(2) as pool:
+        assert sweep.run(squares, 20, chunk=4, executor=pool)["square"].tolist() == [n * n for n in range(20)]
+        assert pool.asked == 6
+    with pytest.raises(sweep.SweepError, match=r"the executor takes no more chunks, from chunk 0 on: .*shutdown"):
+        sweep.run(squares, 20, chunk=4, executor=pool)
 
 
 MPI = """

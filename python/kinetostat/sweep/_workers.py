@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import queue
+import uuid
 from collections import deque
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from concurrent.futures import BrokenExecutor, CancelledError, Executor, Future
 from typing import Any
 
@@ -97,7 +98,7 @@ class _Pool:
                 try:
                     self._submit()
                     self._take(self.back.get())
-                except (BrokenExecutor, CancelledError) as lost:
+                except BrokenExecutor as lost:
                     self._replace(lost)
         except BaseException:
             self._keep_finished()
@@ -107,8 +108,12 @@ class _Pool:
         while self.waiting and len(self.under_way) < self.limit:
             index = self.waiting[0]
             first, last = self.plan.rows(index)
-            # One thread in each worker: there are as many workers as cores, and the answer is the same.
-            future = self.executor.submit(self.plan.function, first, last, threads=1, **self.plan.settings)
+            try:
+                future = self.executor.submit(on_worker, self.plan.function, first, last, self.plan.settings, uuid.uuid4().hex)
+            except BrokenExecutor:
+                raise
+            except RuntimeError as closed:
+                raise SweepError(f"the executor takes no more chunks, from chunk {index} on: {closed}") from closed
             self.waiting.popleft()
             self.under_way[future] = index
             future.add_done_callback(self.back.put)
@@ -119,12 +124,13 @@ class _Pool:
             return  # of a pool that was given up
         try:
             result = future.result()
-        except (BrokenExecutor, CancelledError):
+        except BrokenExecutor:
             raise
-        except Exception as failed:
+        except (Exception, CancelledError) as failed:
             del self.under_way[future]
             if index not in self.failed:
-                # Once more: Dask hands on a result that is lost with its worker as one of several errors, and nodes have faults.
+                # Once more: Dask hands on a result that is lost with its worker as one of several errors, it cancels what was under
+                # way when its scheduler does not answer for a while, and nodes have faults.
                 self.failed.add(index)
                 self.waiting.appendleft(index)
                 return
@@ -163,6 +169,17 @@ class _Pool:
             self.keep(index, checked(self.plan, index, future.result()))
             del self.under_way[future]
             self.broken_since_progress = 0
+
+
+def on_worker(function: Callable[..., Any], first: int, last: int, settings: Mapping[str, Any], submission: str) -> Any:
+    """One chunk on a worker; ``submission`` tells it from the same chunk of every other submission.
+
+    Dask takes two calls with equal arguments for one task. The same chunk asked for again, after a run was stopped or the chunk failed,
+    would then be the task that is just being cancelled, or the error of the first attempt.
+    """
+    del submission
+    # One thread in each worker: there are as many workers as cores, and the answer is the same.
+    return function(first, last, threads=1, **settings)
 
 
 def _limit(executor: Executor) -> int:
