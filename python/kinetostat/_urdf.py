@@ -6,22 +6,48 @@ import math
 import os
 import re
 import xml.etree.ElementTree as ElementTree
-from collections.abc import Mapping
-from typing import Any
+from collections.abc import Mapping, Sequence
+from typing import Any, Literal
 
 import numpy as np
 
-from kinetostat._arguments import mapping, one_of, path, refused, shown, text
+from kinetostat import _core
+from kinetostat._arguments import mapping, one_of, or_none, path, refused, shown, text, text_or_none, texts
 from kinetostat._arrays import Floats, real
-from kinetostat.errors import ArgumentError
+from kinetostat.errors import ArgumentError, ModelError
 
-__all__ = ["in_words_of_python", "stiffness_table", "text_of", "with_ratings"]
+__all__ = ["model_text", "with_ratings"]
 
 _WRITERS = ("write_xml_string", "to_xml_string")
 _UNIT = 1e-12
 _STIFFNESS_UNITS = ("N m/rad", "N mm/rad", "N m/deg", "N/m", "N/mm", "N/um")
 _ENDLESS = 1e300
 """Pinocchio writes the largest number where a joint has no limit."""
+
+
+def model_text(
+    robot: object,
+    base: str | None,
+    tip: str | None,
+    passive: Sequence[str],
+    home: Mapping[str, tuple[Literal["revolute", "prismatic"], float]] | None,
+    stiffness: float | Mapping[str, tuple[float, str]] | None,
+) -> tuple[str, str, str, Floats | None]:
+    """Text of a model file made of a robot, a name for messages, the text of its URDF, and gravity (3,) in m/s^2 where it is stated.
+
+    Arguments as given to ``Machine.from_urdf``; they are checked here.
+    """
+    base, tip, idle = text_or_none("base", base), text_or_none("tip", tip), texts("passive", passive, "a list of names of joints")
+    stands = {} if home is None else stands_at(home)
+    table = stiffness_table(stiffness) if isinstance(stiffness, Mapping) else None
+    single = None if table is not None else or_none(real, "stiffness", stiffness)
+    urdf, file, gravity = text_of(robot)
+    try:
+        toml, _ = _core.urdf_to_toml(urdf, file, base, tip, idle, stands, single, table)
+    except ModelError as wrong:
+        raise ModelError(in_words_of_python(str(wrong))) from None
+    # Lines in messages are those of the model, which is its text, not those of the URDF.
+    return toml, f"model made of {file}", urdf, gravity
 
 
 def text_of(robot: object) -> tuple[str, str, Floats | None]:

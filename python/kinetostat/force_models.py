@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from kinetostat._arguments import function as callable_given
 from kinetostat._arguments import of_kind, or_none
 from kinetostat._arrays import Floats, numbers, positive, thread_count, whole_number
+from kinetostat._places import poses_of
 from kinetostat.errors import ArgumentError
 from kinetostat.results import Equilibria
 from kinetostat.spatial import rotation_from_vector
@@ -197,7 +198,7 @@ def equilibrium_under(
     machine = where.machine if isinstance(where, Posture) else where
     commanded = where.target if isinstance(where, Posture) else poses
     assert commanded is not None
-    flat, leading = machine._poses(commanded)
+    flat, leading = poses_of(machine._native, commanded)
     loads = _called("model", model, flat, (6,))
     answer, slope = None, np.zeros((len(flat), 6, 6))
     unbalanced = np.full((len(flat), 6), np.nan)

@@ -2,26 +2,26 @@
 
 from __future__ import annotations
 
-import dataclasses
 import json
-import math
 import os
 from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, Literal, cast
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from kinetostat import _core
-from kinetostat._arguments import flag, mapping, of_kind, one_of, or_none, refused, text_or_none, texts, told
+from kinetostat._arguments import flag, mapping, of_kind, one_of, refused, told
 from kinetostat._arguments import path as file_path
 from kinetostat._arguments import text as checked_text
-from kinetostat._arrays import Floats, fitting, numbers, one, real, rows, thread_count
+from kinetostat._arrays import Floats, one, real, thread_count
 from kinetostat._document import plain, without_none
+from kinetostat._places import places_of, poses_of, posture_at, shaped, wrenches_of
 from kinetostat._plausibility import counted, issue, sentences
-from kinetostat._urdf import in_words_of_python, stands_at, stiffness_table, text_of, with_ratings
+from kinetostat._urdf import model_text, with_ratings
+from kinetostat.actuator import Actuator
 from kinetostat.display import machine_html
-from kinetostat.errors import ArgumentError, ModelError
+from kinetostat.errors import ArgumentError
 from kinetostat.posture import Posture
 from kinetostat.results import Equilibria, Stiffnesses, Targets
 
@@ -38,36 +38,8 @@ __all__ = ["Actuator", "Machine", "preset_names"]
 Progress = Callable[[int, int, str], object]
 """Called with what is done, how much there is (0: nobody knows) and the name of the stage."""
 
-_BLOCK = 1 << 17
 _DETAILS = ("rest", "stiffness", "stability")
 _DIRECTIONS = ("x", "y", "z", "rx", "ry", "rz")
-
-
-@dataclasses.dataclass(frozen=True)
-class Actuator:
-    """A drive of a machine.
-
-    Examples
-    --------
-    >>> drive = Machine.preset("orthoglide").actuators[0]
-    >>> drive.name, drive.kind, drive.unit
-    ('leg x.slider', 'prismatic', 'm')
-    """
-
-    name: str
-    """``limb.actuator``, or the actuator's own name in a machine of one limb."""
-    kind: Literal["prismatic", "revolute"]
-    home: float
-    """Command at home, m or rad."""
-    limits: tuple[float, float] | None
-    """Smallest and largest command, m or rad; none where the model states none."""
-    rating: float | None
-    """Largest force (N) or torque (N m) that the model states; none where it states none."""
-
-    @property
-    def unit(self) -> Literal["m", "rad"]:
-        """Unit of its commands."""
-        return "m" if self.kind == "prismatic" else "rad"
 
 
 def preset_names() -> dict[str, str]:
@@ -228,18 +200,8 @@ class Machine:
         >>> round(float(loaded.displacement[2]), 6)
         -0.0005
         """
-        base, tip, idle = text_or_none("base", base), text_or_none("tip", tip), texts("passive", passive, "a list of names of joints")
-        stands = {} if home is None else stands_at(home)
-        table = stiffness_table(stiffness) if isinstance(stiffness, Mapping) else None
-        single = None if table is not None else or_none(real, "stiffness", stiffness)
         ratings = flag("efforts_are_ratings", efforts_are_ratings)
-        text, file, gravity = text_of(robot)
-        try:
-            toml, _ = _core.urdf_to_toml(text, file, base, tip, idle, stands, single, table)
-        except ModelError as wrong:
-            raise ModelError(in_words_of_python(str(wrong))) from None
-        # Lines in messages are those of the model, which is its text, not those of the URDF.
-        file = f"model made of {file}"
+        toml, file, text, gravity = model_text(robot, base, tip, passive, home, stiffness)
         made = cls._of(_core.Machine.from_toml(toml, file))
         document = made.to_dict()
         if ratings:
@@ -438,56 +400,8 @@ class Machine:
         """
         if near is not None:
             of_kind("near", near, Posture, "a Posture")
-        found = self._posture(position, rotation, pose, joints, None if near is None else near._native)
+        found = posture_at(self._native, position, rotation, pose, joints, None if near is None else near._native)
         return Posture(self, found)
-
-    def _posture(
-        self,
-        position: ArrayLike | None,
-        rotation: ArrayLike | None,
-        pose: ArrayLike | None,
-        joints: ArrayLike | None,
-        near: _core.Posture | None,
-    ) -> _core.Posture:
-        if joints is not None:
-            if pose is not None or position is not None or rotation is not None:
-                raise ArgumentError("give joints or a place, not both")
-            return self._native.posture_at_joints(one("joints", joints, (len(self._native.actuators()),)).tolist())
-        if pose is not None:
-            if position is not None or rotation is not None:
-                raise ArgumentError("give a pose, or a position and a rotation, not both")
-            return self._native.posture_at_pose(one("pose", pose, (4, 4))[None], near)
-        if rotation is None and position is not None:
-            place = one("position", position, (3,))
-            return self._native.posture_at_position(place.tolist(), self._native.turns_as_it_moves(), near)
-        at = self._native.home_pose()
-        if position is not None:
-            at[:3, 3] = one("position", position, (3,))
-        if rotation is not None:
-            at[:3, :3] = one("rotation", rotation, (3, 3))
-        return self._native.posture_at_pose(at[None], near)
-
-    def _poses(self, poses: ArrayLike, threads: int | None = None, *, follow: bool = True) -> tuple[Floats, tuple[int, ...]]:
-        """Poses (n, 4, 4) from poses or from positions with the orientation at home.
-
-        ``follow``: where the tool turns as the machine moves, with the one nearest to that which the machine takes there.
-        """
-        given = numbers("poses", poses)
-        if given.shape[-2:] == (4, 4):
-            return rows("poses", given, (4, 4))
-        if given.shape[-1:] != (3,):
-            raise ArgumentError(f"poses has shape {given.shape}, expected (..., 4, 4), or positions (..., 3)")
-        places, leading = rows("poses", given, (3,))
-        if follow and self._native.turns_as_it_moves():
-            return _core.poses_following(self._native, places, threads), leading
-        out = np.empty((len(places), 4, 4))
-        home = self._native.home_pose()
-        # In blocks: Ctrl-C waits for numpy, and to fill a gigabyte takes seconds.
-        for first in range(0, len(out), _BLOCK):
-            block = slice(first, first + _BLOCK)
-            out[block] = home
-            out[block, :3, 3] = places[block]
-        return out, leading
 
     def stiffness(
         self,
@@ -531,9 +445,9 @@ class Machine:
         (5, 6, 6)
         """
         threads = thread_count(threads)
-        places, commands, leading = self._places(poses, joints, threads)
+        places, commands, leading = places_of(self._native, poses, joints, threads)
         found = _core.stiffness_of_many(self._native, places, commands, threads, told(progress))
-        return Stiffnesses(**{name: _shaped(array, leading) for name, array in found.items()})
+        return Stiffnesses(**{name: shaped(array, leading) for name, array in found.items()})
 
     def shares(
         self,
@@ -563,17 +477,6 @@ class Machine:
         from kinetostat.shares import shares
 
         return shares(self, position, joints=joints, direction=direction, wrench=wrench, progress=progress)
-
-    def _places(
-        self, poses: ArrayLike | None, joints: ArrayLike | None, threads: int | None
-    ) -> tuple[Floats | None, Floats | None, tuple[int, ...]]:
-        if (poses is None) == (joints is None):
-            raise ArgumentError("give poses or joints")
-        if poses is not None:
-            places, leading = self._poses(poses, threads)
-            return places, None, leading
-        commands, leading = rows("joints", cast(ArrayLike, joints), (len(self._native.actuators()),))
-        return None, commands, leading
 
     def equilibrium(
         self,
@@ -613,25 +516,17 @@ class Machine:
         """
         one_of("details", details, _DETAILS)
         threads = thread_count(threads)
-        places, commands, leading = self._places(poses, joints, threads)
-        loads = self._wrenches(wrenches, leading)
+        places, commands, leading = places_of(self._native, poses, joints, threads)
+        loads = wrenches_of(wrenches, leading)
         level = _DETAILS.index(details)
         found = _core.equilibrium_of_many(self._native, loads, level, places, commands, threads, told(progress))
         stability = found.pop("stability", None)
-        arrays: dict[str, Any] = {name: _shaped(array, leading) for name, array in found.items()}
+        arrays: dict[str, Any] = {name: shaped(array, leading) for name, array in found.items()}
         if stability is not None:
-            arrays["stable"] = _shaped(stability[:, 0] > 0, leading)
-            arrays["against_force"] = _shaped(stability[:, 1], leading)
-            arrays["share_to_buckling"] = _shaped(stability[:, 2], leading)
+            arrays["stable"] = shaped(stability[:, 0] > 0, leading)
+            arrays["against_force"] = shaped(stability[:, 1], leading)
+            arrays["share_to_buckling"] = shaped(stability[:, 2], leading)
         return Equilibria(**arrays)
-
-    def _wrenches(self, wrenches: ArrayLike, leading: tuple[int, ...]) -> Floats:
-        given = fitting("wrenches", wrenches, (6,))
-        if given.ndim == 1:
-            return given.reshape(1, 6)
-        if given.shape[:-1] != leading:
-            raise ArgumentError(f"wrenches has shape {given.shape}, expected (6,) or {(*leading, 6)}")
-        return np.ascontiguousarray(given.reshape(math.prod(leading), 6))
 
     def targets(
         self,
@@ -674,10 +569,10 @@ class Machine:
         threads = thread_count(threads)
         wanted = [name in names for name in _DIRECTIONS]
         # Where the position alone is corrected, each target takes the orientation nearest to that at home by itself.
-        places, leading = self._poses(poses, threads, follow=wanted != [True] * 3 + [False] * 3)
-        loads = self._wrenches(wrenches, leading)
+        places, leading = poses_of(self._native, poses, threads, follow=wanted != [True] * 3 + [False] * 3)
+        loads = wrenches_of(wrenches, leading)
         found = _core.targets_of_many(self._native, places, loads, wanted, threads, told(progress))
-        return Targets(**{name: _shaped(array, leading) for name, array in found.items()})
+        return Targets(**{name: shaped(array, leading) for name, array in found.items()})
 
     def map(
         self,
@@ -842,7 +737,3 @@ def _restored(text: str, file: str, tool: Floats) -> Machine:
     """A machine that was pickled."""
     native = _core.Machine.from_toml(text, file)
     return Machine._of(native if np.array_equal(tool, np.eye(4)) else native.with_tool(tool[None]))
-
-
-def _shaped(array: NDArray[Any], leading: tuple[int, ...]) -> NDArray[Any]:
-    return array.reshape(leading + array.shape[1:])

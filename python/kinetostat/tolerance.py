@@ -17,6 +17,7 @@ from kinetostat import _core
 from kinetostat._arguments import flag, mapping, of_kind, one_of, refused, shown, text, texts, told
 from kinetostat._arguments import function as callable_given
 from kinetostat._arrays import Floats, numbers, one, real, scalar, thread_count, whole_number
+from kinetostat._places import poses_of
 from kinetostat.errors import ArgumentError, UnansweredError
 from kinetostat.machine import Machine
 
@@ -256,7 +257,7 @@ def machines(
         stated = text("spread", spread, "the text of a file", longest=None)
     else:
         stated = _toml(mapping("spread", spread, "a dictionary of Distributions by paths of numbers, or the text of a file"), pairs)
-    places, _ = machine._poses(poses, threads)
+    places, _ = poses_of(machine._native, poses, threads)
     load = one("wrench", wrench, (6,))[None]
     found: dict[str, Any] = _core.tolerance_of_machine(
         machine._native, stated, "spread", places, load, asked, count, _seed(seed), threads, told(progress)

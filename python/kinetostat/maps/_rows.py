@@ -11,6 +11,7 @@ import numpy as np
 
 from kinetostat import _core
 from kinetostat._arrays import Floats
+from kinetostat._places import poses_of
 from kinetostat.machine import Machine
 from kinetostat.maps._variables import chosen
 from kinetostat.status import Status
@@ -56,7 +57,7 @@ def rows(
 
 def _poses(machine: Machine, position: Floats, rotations: Floats | None, threads: int | None) -> Floats:
     if rotations is None:
-        return machine._poses(position, threads)[0]
+        return poses_of(machine._native, position, threads)[0]
     poses = np.empty((len(position), 4, 4))
     poses[:] = machine.home
     poses[:, :3, 3] = position
