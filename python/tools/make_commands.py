@@ -1,4 +1,4 @@
-"""Writes python/kinetostat/commands.py from the command line's own table of commands and options.
+"""Writes python/kinetostat/commands from the command line's own table of commands and options.
 
 Run with ``--check`` to compare with what is there.
 """
@@ -16,7 +16,7 @@ from command_examples import EXAMPLES
 
 from kinetostat import _core
 
-TARGET = Path(__file__).resolve().parents[1] / "kinetostat" / "commands.py"
+TARGET = Path(__file__).resolve().parents[1] / "kinetostat" / "commands"
 
 HEAD = '''"""Every command of the command line as a function; made by python/tools/make_commands.py from the command line's own table.
 
@@ -28,19 +28,17 @@ program that misses its tolerance is written, and warned of with ``ToleranceMiss
 
 from __future__ import annotations
 
-import os
-from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, Any, Literal
-
-from kinetostat._running import Completed, answered, listed, run, texted
-
-if TYPE_CHECKING:
-    from kinetostat.machine import Machine
+from kinetostat._running import Completed, run
+{imports}
 
 __all__ = {names}
+'''
 
-_Path = str | os.PathLike[str]
-_Progress = Callable[[int, int, str], object]
+ROOM = '''"""{title}; made by python/tools/make_commands.py."""
+
+from __future__ import annotations
+
+{imports}
 '''
 
 LEFT_OUT = {"completions", "man"}
@@ -152,21 +150,51 @@ def functions(path: list[str], command: dict[str, Any]) -> list[tuple[str, str]]
     return [(identifier("_".join(path)), function(path, command))]
 
 
-def text() -> str:
-    """The whole module."""
+def room(name: str, made: list[tuple[str, str]]) -> str:
+    """The module of one command and those below it."""
+    body = "\n\n\n".join(text for _, text in made)
+    abstract = sorted(kind for kind in ("Callable", "Sequence") if f"{kind}[" in body or kind == "Callable")
+    running = sorted({kind for kind in ("answered", "listed", "texted") if f"return {kind}(" in body})
+    imports = ["import os"] if "_Path" in body else []
+    imports.append(f"from collections.abc import {', '.join(abstract)}")
+    typed = " | Machine" in body
+    typing = [*(["TYPE_CHECKING"] if typed else []), "Any", *(["Literal"] if "Literal[" in body else [])]
+    imports += [f"from typing import {', '.join(typing)}", "", f"from kinetostat._running import {', '.join(running)}"]
+    if typed:
+        imports += ["", "if TYPE_CHECKING:", "    from kinetostat.machine import Machine"]
+    imports += [""]
+    if "_Path" in body:
+        imports.append("_Path = str | os.PathLike[str]")
+    imports.append("_Progress = Callable[[int, int, str], object]")
+    head = ROOM.replace("{title}", f"``kinetostat {name}``").replace("{imports}", "\n".join(imports))
+    return head + "\n\n" + body + "\n"
+
+
+def files() -> dict[str, str]:
+    """Texts of all modules of the package by their names."""
     root = json.loads(_core.command_tree())
-    made = [one for command in root["commands"] if command["name"] not in LEFT_OUT for one in functions([command["name"]], command)]
-    names = sorted([name for name, _ in made] + ["Completed", "run"], key=lambda n: (not n[0].isupper(), n))
-    listed = "[\n" + "".join(f'    "{name}",\n' for name in names) + "]"
-    return "\n\n".join([HEAD.replace("{names}", listed), *(body for _, body in made)]) + "\n"
+    shown = [command for command in root["commands"] if command["name"] not in LEFT_OUT]
+    rooms = {f"_{identifier(command['name']).rstrip('_')}": (command["name"], functions([command["name"]], command)) for command in shown}
+    names = [name for _, made in rooms.values() for name, _ in made]
+    exported = sorted([*names, "Completed", "run"], key=lambda name: (not name[0].isupper(), name))
+    listed = "[\n" + "".join(f'    "{name}",\n' for name in exported) + "]"
+    imports = [
+        f"from kinetostat.commands.{room} import {', '.join(sorted(name for name, _ in made))}" for room, (_, made) in sorted(rooms.items())
+    ]
+    texts = {f"{name}.py": room(command, made) for name, (command, made) in rooms.items()}
+    texts["__init__.py"] = HEAD.replace("{names}", listed).replace("{imports}", "\n".join(imports))
+    return texts
 
 
 if __name__ == "__main__":
-    wanted = text()
+    wanted = files()
+    there = {path.name: path.read_text() for path in TARGET.glob("*.py")}
     if "--check" in sys.argv:
-        if TARGET.read_text() != wanted:
-            sys.exit(
-                "python/kinetostat/commands.py is not what the command line says; make it anew with python python/tools/make_commands.py"
-            )
+        if there != wanted:
+            sys.exit("python/kinetostat/commands is not what the command line says; make it anew with python python/tools/make_commands.py")
     else:
-        TARGET.write_text(wanted)
+        TARGET.mkdir(exist_ok=True)
+        for name in there.keys() - wanted.keys():
+            (TARGET / name).unlink()
+        for name, text in wanted.items():
+            (TARGET / name).write_text(text)

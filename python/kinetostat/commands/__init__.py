@@ -1,0 +1,67 @@
+"""Every command of the command line as a function; made by python/tools/make_commands.py from the command line's own table.
+
+A function takes the options of its command by their names and gives what the command prints with ``--json``, as a dictionary (units are
+part of its names, see STABILITY.md); commands without such an answer give their text. Where the command line takes the name of a
+model, a :class:`kinetostat.Machine` does too. Wrong input raises ``ArgumentError``, a question without an answer ``UnansweredError``; a
+program that misses its tolerance is written, and warned of with ``ToleranceMissedWarning``.
+"""
+
+from __future__ import annotations
+
+from kinetostat._running import Completed, run
+from kinetostat.commands._assemble import assemble
+from kinetostat.commands._check import check
+from kinetostat.commands._compare import compare
+from kinetostat.commands._compensate import compensate
+from kinetostat.commands._convert import convert
+from kinetostat.commands._curve import curve
+from kinetostat.commands._deflect import deflect
+from kinetostat.commands._demo import demo
+from kinetostat.commands._dialect import dialect_list, dialect_show
+from kinetostat.commands._engagement import engagement
+from kinetostat.commands._equilibria import equilibria
+from kinetostat.commands._expand import expand
+from kinetostat.commands._force import force
+from kinetostat.commands._import import import_link_displacements, import_matrix, import_urdf
+from kinetostat.commands._map import map
+from kinetostat.commands._mirror import mirror
+from kinetostat.commands._model import model_compare, model_draw, model_list, model_schema, model_show
+from kinetostat.commands._reproduce import reproduce
+from kinetostat.commands._shares import shares
+from kinetostat.commands._stiffness import stiffness
+from kinetostat.commands._tolerance import tolerance
+from kinetostat.commands._verify import verify
+
+__all__ = [
+    "Completed",
+    "assemble",
+    "check",
+    "compare",
+    "compensate",
+    "convert",
+    "curve",
+    "deflect",
+    "demo",
+    "dialect_list",
+    "dialect_show",
+    "engagement",
+    "equilibria",
+    "expand",
+    "force",
+    "import_link_displacements",
+    "import_matrix",
+    "import_urdf",
+    "map",
+    "mirror",
+    "model_compare",
+    "model_draw",
+    "model_list",
+    "model_schema",
+    "model_show",
+    "reproduce",
+    "run",
+    "shares",
+    "stiffness",
+    "tolerance",
+    "verify",
+]
