@@ -87,17 +87,18 @@ pub use result::point::{PointKind, PointResult};
 pub use result::program_place::ProgramPlace;
 pub use result::run_inputs::{ActuatorColumn, FileRead, RunInputs, ToolAtCorners};
 pub use result::run_result::{NearSingularPlace, RESULT_SCHEMA, RunResult};
-pub use result::selection::thinned;
+pub use result::selection::{farthest_off, thinned};
 pub use result::solving::{FoundCount, Solving};
 pub use result::summary::Summary;
 pub use result::tolerance::{
     MissedTolerance, ToleranceResult, keeps_as_it_is, of_table, unchanged_text,
 };
 pub use result::uncertainty_band::{BandPlace, ScatteredError, UncertainNumber, UncertaintyBand};
-pub use run::compensate::{analyse, compensate_program, with_model_field};
+pub use run::compensate::{analyse, compensate_program};
 pub use run::conclude::{Run, load_description, of_program};
 pub use run::cutting::{cut_places, cutting_result};
 pub use run::places::wrenches_at;
+pub use run::preparation::with_model_field;
 pub use table::{FieldCorrection, correct_by_field, wide_table};
 pub use task::{NoMotion, RunError, Task};
 pub use verify::{Matched, Uncut, Verified, verify_program};

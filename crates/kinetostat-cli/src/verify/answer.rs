@@ -1,7 +1,7 @@
 //! What `verify` answers.
 
 use kinetostat_machining::{
-    FeatureResult, FileRead, MissedTolerance, PointResult, Verified, Warning,
+    FeatureResult, FileRead, MissedTolerance, PointResult, Verified, Warning, farthest_off,
 };
 use serde::Serialize;
 
@@ -37,32 +37,6 @@ pub(crate) struct VerifyAnswer {
     pub(crate) warnings: Vec<Warning>,
 }
 
-/// Places that are listed.
-const MOST_WORST: usize = 10;
-
-/// The distance of the tool from where it should be along the program, mm.
-pub(crate) fn off_mm(point: &PointResult) -> f64 {
-    let [x, y, z] = point.error_after_mm;
-    x.hypot(y).hypot(z)
-}
-
-/// The worst places of a program, one of a line.
-pub(crate) fn worst(points: &[PointResult]) -> Vec<PointResult> {
-    let cut = |p: &&PointResult| p.kind != kinetostat_machining::PointKind::Rapid;
-    let mut all: Vec<&PointResult> = points.iter().filter(cut).collect();
-    all.sort_by(|a, b| off_mm(b).total_cmp(&off_mm(a)));
-    let mut worst: Vec<PointResult> = Vec::new();
-    for point in all {
-        if worst.len() == MOST_WORST {
-            break;
-        }
-        if worst.iter().all(|w| w.output_line != point.output_line) {
-            worst.push(point.clone());
-        }
-    }
-    worst
-}
-
 impl VerifyAnswer {
     pub(crate) fn of(
         verified: &Verified,
@@ -72,7 +46,9 @@ impl VerifyAnswer {
     ) -> Self {
         let result = &verified.run.result;
         let s = &result.summary;
-        let worst_points = worst(&verified.run.points);
+        let points = &verified.run.points;
+        let worst = farthest_off(points).into_iter();
+        let worst_points: Vec<PointResult> = worst.map(|i| points[i].clone()).collect();
         let within = s.max_position_error_after_mm <= allowed_mm;
         let whole = verified.matched.uncut.is_empty();
         Self {

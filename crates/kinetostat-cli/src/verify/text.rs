@@ -6,7 +6,7 @@ use crate::program::features::features_text;
 use crate::ui::layout::{columns, wrapped};
 use crate::ui::numbers::{fixed, triple};
 use crate::ui::warnings::warnings;
-use crate::verify::answer::{VerifyAnswer, off_mm};
+use crate::verify::answer::VerifyAnswer;
 
 pub(crate) fn answer_text(answer: &VerifyAnswer) -> String {
     let head = format!(
@@ -68,7 +68,7 @@ fn worst(answer: &VerifyAnswer) -> String {
             p.output_line.to_string(),
             p.line.to_string(),
             triple(p.position_mm, |x| fixed(x, 2)),
-            largest_length(off_mm(p)),
+            largest_length(p.off_mm()),
         ]
     });
     let rows: Vec<Vec<String>> = std::iter::once(head).chain(points).collect();

@@ -140,6 +140,12 @@ impl PointResult {
         placement.pose(&self.position_mm.into(), placement.orientation_of(stated))
     }
 
+    /// Distance of the tool from where it should be, as the program is now, mm.
+    #[must_use]
+    pub fn off_mm(&self) -> f64 {
+        size(&self.error_after_mm)
+    }
+
     /// Where the program lies there.
     pub(crate) fn placement(&self, placement: &Placement) -> Placement {
         placement.turned(self.part_turn.as_ref())

@@ -84,6 +84,9 @@ fn farthest(points: &[PointResult], value: impl Fn(&PointResult) -> f64) -> Opti
     best.map(|(index, _)| index)
 }
 
+/// Places that are listed as the worst.
+const MOST_WORST: usize = 10;
+
 /// Indices of the worst points before compensation, at most ten, not two from one line or from
 /// neighbouring ones.
 pub(crate) fn worst(points: &[PointResult]) -> Vec<usize> {
@@ -108,8 +111,27 @@ pub(crate) fn worst(points: &[PointResult]) -> Vec<usize> {
         if apart {
             chosen.push(i);
         }
-        if chosen.len() == 10 {
+        if chosen.len() == MOST_WORST {
             break;
+        }
+    }
+    chosen
+}
+
+/// Indices of the points that are farthest off along a written program, worst first: at most ten, one of a line of it, none on rapids.
+#[must_use]
+pub fn farthest_off(points: &[PointResult]) -> Vec<usize> {
+    let cut = |i: &usize| points[*i].kind != PointKind::Rapid;
+    let mut order: Vec<usize> = (0..points.len()).filter(cut).collect();
+    order.sort_by(|&i, &j| points[j].off_mm().total_cmp(&points[i].off_mm()));
+    let mut chosen: Vec<usize> = Vec::new();
+    for i in order {
+        if chosen.len() == MOST_WORST {
+            break;
+        }
+        let line = points[i].output_line;
+        if chosen.iter().all(|&j| points[j].output_line != line) {
+            chosen.push(i);
         }
     }
     chosen

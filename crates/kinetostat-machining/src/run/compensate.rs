@@ -3,15 +3,10 @@
 
 use kinetostat_program::{Corrected, CorrectionField, Monitor, NoCorrection, Verification};
 
-use crate::checks::motion::no_motion;
-use crate::checks::refused::{of_accounting, of_points, of_task};
-use crate::field::ModelField;
-use crate::limits::Beyond;
-use crate::load::along_path::LoadAlongPath;
+use crate::checks::refused::{of_accounting, of_points};
 use crate::load::law::CornerLoad;
 use crate::load::ramp_findings::TooFast;
 use crate::load::ramps::Ramped;
-use crate::postures::arm_course::ArmCourse;
 use crate::result::point::{PointResult, most, size};
 use crate::result::run_result::bound_mm;
 use crate::result::tolerance::keeps_as_it_is;
@@ -19,32 +14,17 @@ use crate::run::checked::Checked;
 use crate::run::conclude::{Run, conclude};
 use crate::run::corner_steps::by_the_other_reading;
 use crate::run::divide_again::Again;
-use crate::run::first_look::FirstLook;
 use crate::run::following::jump;
 use crate::run::force_band::force_band;
 use crate::run::largest_change::changes;
 use crate::run::places::places;
 use crate::run::points::solve;
+use crate::run::preparation::{Preparation, refuse};
 use crate::run::sites::{of_path, sites_of_written, spacing_mm};
 use crate::run::summary::feed_arcs;
 use crate::run::way_out::with_way_out;
 use crate::task::{RunError, Task};
 use crate::watch::Watch;
-
-/// Refuses what is beyond its limits.
-fn refuse(beyond: Vec<Beyond>) -> Result<(), RunError> {
-    match beyond.is_empty() {
-        true => Ok(()),
-        false => Err(RunError::BeyondLimits(beyond)),
-    }
-}
-
-fn has_motion(task: &Task<'_>) -> Result<(), RunError> {
-    match no_motion(task.path()) {
-        Some(reason) => Err(RunError::NoMotion(reason)),
-        None => Ok(()),
-    }
-}
 
 /// Deflections along the program as it is.
 ///
@@ -55,17 +35,13 @@ pub fn analyse(task: &Task<'_>, watch: &dyn Watch) -> Result<Run, RunError> {
 }
 
 fn analysed(task: &Task<'_>, watch: &dyn Watch) -> Result<Run, RunError> {
-    has_motion(task)?;
-    let load = LoadAlongPath::with_tools(task.load, task.path(), task.tools).with_cut(task.cut);
-    let looked = FirstLook::new(task, &load, watch)?;
-    refuse(looked.folding_load(task))?;
+    let Preparation { load, course } = Preparation::of_analysis(task, watch)?;
     let Ramped {
         acting: load,
         findings: ramps,
         ..
-    } = load.ramped(looked.stiffness());
+    } = load;
     let sites = || of_path(task.path(), &load, &task.placement, spacing_mm(task));
-    let course = ArmCourse::of(task);
     let (mut points, _) = solve(task, sites, (false, course.as_ref()), watch)?;
     let checked = Checked {
         force_band: force_band(task, &mut points, sites, watch)?,
@@ -85,27 +61,16 @@ pub fn compensate_program(task: &Task<'_>, watch: &dyn Watch) -> Result<Run, Run
 }
 
 fn compensated(task: &Task<'_>, watch: &dyn Watch) -> Result<Run, RunError> {
-    refuse(of_task(task))?;
-    has_motion(task)?;
-    let load = LoadAlongPath::with_tools(task.load, task.path(), task.tools).with_cut(task.cut);
-    let looked = FirstLook::new(task, &load, watch)?.beginning_solved()?;
-    refuse(looked.gross(task))?;
-    let Ramped {
-        followed,
-        acting: load,
-        findings: ramps,
-    } = load.ramped(looked.stiffness());
-    let course = ArmCourse::of(task);
-    let field = ModelField::new(task.mechanism, task.placement, &followed)
-        .correcting(task.corrected)
-        .on_course(course.as_ref());
+    let prepared = Preparation::of_correction(task, watch)?;
+    let (load, course) = (&prepared.load.acting, &prepared.course);
+    let field = prepared.field(task);
     let mut again = Again::default();
     let arcs = feed_arcs(task);
     let (mut written, mut check, mut points, mut worse, allowed_mm) = loop {
         let (written, check) = write_and_read_again(task, &again.field(&field), watch)?;
         let (points, worse) = solve(
             task,
-            || sites_of_written(task, &load, &written),
+            || sites_of_written(task, load, &written),
             (true, course.as_ref()),
             watch,
         )?;
@@ -138,20 +103,20 @@ fn compensated(task: &Task<'_>, watch: &dyn Watch) -> Result<Run, RunError> {
         (written, check) = write_and_read_again(task, &NoCorrection, watch)?;
         (points, worse) = solve(
             task,
-            || sites_of_written(task, &load, &written),
+            || sites_of_written(task, load, &written),
             (true, course.as_ref()),
             watch,
         )?;
     }
     // Where the force changes faster than the correction may, a block may end farther off; the tolerance is missed there.
     let matters = |found: &TooFast| found.matters(task.writing.tolerance_mm);
-    if let Some(worse) = worse.filter(|_| !ramps.too_fast.iter().any(matters)) {
+    if let Some(worse) = worse.filter(|_| !prepared.load.findings.too_fast.iter().any(matters)) {
         return Err(worse);
     }
     if let Some(line) = jump(task, &points) {
         return Err(RunError::Jump { line });
     }
-    let sites = || sites_of_written(task, &load, &written);
+    let sites = || sites_of_written(task, load, &written);
     let checked = Checked {
         speed_percent: 100.0 * check.largest_speed_error,
         if_turns_mm: by_the_other_reading(task, CornerLoad::Turns, sites, watch)?,
@@ -166,31 +131,9 @@ fn compensated(task: &Task<'_>, watch: &dyn Watch) -> Result<Run, RunError> {
         changes: changes(task.path(), &written, &task.writing, |line| {
             task.load_on(line).largest_step
         }),
-        ramps,
+        ramps: prepared.load.findings.clone(),
     };
-    Ok(conclude(task, &load, points, Some(written), &checked))
-}
-
-/// What `work` makes of the field of corrections that a compensation of this task is written with.
-///
-/// # Errors
-/// As [`compensate_program`], of what is found before its points are solved.
-pub fn with_model_field<R>(
-    task: &Task<'_>,
-    watch: &dyn Watch,
-    work: impl FnOnce(&dyn CorrectionField) -> R,
-) -> Result<R, RunError> {
-    refuse(of_task(task))?;
-    has_motion(task)?;
-    let load = LoadAlongPath::with_tools(task.load, task.path(), task.tools).with_cut(task.cut);
-    let looked = FirstLook::new(task, &load, watch)?.beginning_solved()?;
-    refuse(looked.gross(task))?;
-    let Ramped { followed, .. } = load.ramped(looked.stiffness());
-    let course = ArmCourse::of(task);
-    let field = ModelField::new(task.mechanism, task.placement, &followed)
-        .correcting(task.corrected)
-        .on_course(course.as_ref());
-    Ok(work(&field))
+    Ok(conclude(task, load, points, Some(written), &checked))
 }
 
 /// Whether the program keeps its tolerance as it is.

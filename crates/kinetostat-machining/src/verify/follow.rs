@@ -143,21 +143,12 @@ impl Along<'_> {
         let stretch = self.stretch_from(at);
         let (move_index, share, _) = self.place(stretch, at);
         self.pieces.push(Followed {
-            piece: Piece {
+            piece: Piece::uncorrected(
                 move_index,
-                share_from: share,
-                share_to: share,
-                commanded_from: end.position,
-                commanded_to: end.position,
-                output_line: self.other.moves[end.move_index].line,
-                corner_step: false,
-                turn: None,
-                corrected: false,
-                kept_arc: false,
-                arc: None,
-                circle: None,
-                feed_limited: false,
-            },
+                [share; 2],
+                [end.position; 2],
+                self.other.moves[end.move_index].line,
+            ),
             other_end: (end.move_index, end.shares[1]),
         });
     }
@@ -223,22 +214,19 @@ impl Along<'_> {
         };
         self.pieces.push(Followed {
             piece: Piece {
-                move_index: to.0,
-                share_from: from.1,
-                share_to: to.1,
-                commanded_from: motion.point(share_from),
-                commanded_to: motion.point(share_to),
-                output_line: motion.line,
                 corner_step: turn.is_some(),
                 turn,
                 corrected: self.original.moves[to.0].is_known_feed(),
-                kept_arc: false,
-                arc: None,
                 circle: match &motion.curve {
                     Curve::Line => None,
                     Curve::Arc(of_move) => Some(arc(of_move)),
                 },
-                feed_limited: false,
+                ..Piece::uncorrected(
+                    to.0,
+                    [from.1, to.1],
+                    [share_from, share_to].map(|share| motion.point(share)),
+                    motion.line,
+                )
             },
             other_end: (end.move_index, share_to),
         });

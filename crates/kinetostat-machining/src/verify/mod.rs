@@ -18,16 +18,13 @@ mod places;
 mod uncut;
 
 use kinetostat::number::smaller;
-use kinetostat_program::{Arcs, Corrected, Path, Unwatched};
+use kinetostat_program::{Arcs, Corrected, CorrectionField, Path, Unwatched};
 
-use crate::load::along_path::LoadAlongPath;
 use crate::load::ramps::Ramped;
-use crate::postures::arm_course::ArmCourse;
 use crate::run::checked::Checked;
-use crate::run::compensate::with_model_field;
 use crate::run::conclude::{Run, conclude};
-use crate::run::first_look::FirstLook;
 use crate::run::points::solve;
+use crate::run::preparation::Preparation;
 use crate::run::sites::sites_of_written;
 use crate::run::way_out::with_way_out;
 use crate::task::{RunError, Task};
@@ -73,18 +70,17 @@ fn verified(
     (other, bytes): (&Path, &[u8]),
     watch: &dyn Watch,
 ) -> Result<Verified, RunError> {
-    let guide = guide(task, watch)?;
+    let prepared = Preparation::of_correction(task, watch)?;
+    let guide = guide(task, &prepared.field(task), watch)?;
     watch.stage("places of the original", 0);
     let (pieces, matched) = follow(task.path(), &guide, other)?;
     let written = as_written(task.path(), (other, bytes), pieces);
-    let load = LoadAlongPath::with_tools(task.load, task.path(), task.tools).with_cut(task.cut);
-    let looked = FirstLook::new(task, &load, watch)?;
+    let Preparation { load, course } = prepared;
     let Ramped {
         acting: load,
         findings: ramps,
         ..
-    } = load.ramped(looked.stiffness());
-    let course = ArmCourse::of(task);
+    } = load;
     let sites = || sites_of_written(task, &load, &written);
     // A place where the program is worse than the original is a finding here.
     let (points, _worse) = solve(task, sites, (true, course.as_ref()), watch)?;
@@ -102,16 +98,17 @@ fn verified(
 const GUIDE_MM: f64 = 1e-3;
 
 /// The original, compensated by the model in straight pieces.
-fn guide(task: &Task<'_>, watch: &dyn Watch) -> Result<Corrected, RunError> {
+fn guide(
+    task: &Task<'_>,
+    field: &dyn CorrectionField,
+    watch: &dyn Watch,
+) -> Result<Corrected, RunError> {
     let mut writing = task.writing.clone();
     writing.arcs = Arcs::Lines;
     writing.header = None;
     // The correspondence is to be no coarser than what is verified by it.
     writing.tolerance_mm = smaller(writing.tolerance_mm, GUIDE_MM);
     writing.chord_tolerance_mm = smaller(writing.chord_tolerance_mm, GUIDE_MM);
-    with_model_field(task, watch, |field| {
-        watch.stage("corrections", 0);
-        task.program.write(field, &writing, &Unwatched)
-    })?
-    .map_err(RunError::from)
+    watch.stage("corrections", 0);
+    Ok(task.program.write(field, &writing, &Unwatched)?)
 }

@@ -108,21 +108,10 @@ impl<'a> PieceAccount<'a> {
 
     /// A move that goes where the input has it, or to a place of the machine.
     pub fn uncorrected(&mut self, move_index: usize, written: &AsWritten) {
-        self.pieces.push(Piece {
-            move_index,
-            share_from: 0.0,
-            share_to: 1.0,
-            commanded_from: written.from,
-            commanded_to: written.to,
-            output_line: written.output_line,
-            corner_step: false,
-            turn: None,
-            corrected: false,
-            kept_arc: false,
-            arc: None,
-            circle: None,
-            feed_limited: false,
-        });
+        let ends = [written.from, written.to];
+        let line = written.output_line;
+        self.pieces
+            .push(Piece::uncorrected(move_index, [0.0, 1.0], ends, line));
         self.rate.note(None);
     }
 

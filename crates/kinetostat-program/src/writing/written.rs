@@ -44,6 +44,31 @@ pub struct Piece {
 }
 
 impl Piece {
+    /// A straight piece, between two shares of its move and two places as written (mm, part frame), without a correction.
+    #[must_use]
+    pub fn uncorrected(
+        move_index: usize,
+        [share_from, share_to]: [f64; 2],
+        [commanded_from, commanded_to]: [Vector3<f64>; 2],
+        output_line: usize,
+    ) -> Self {
+        Self {
+            move_index,
+            share_from,
+            share_to,
+            commanded_from,
+            commanded_to,
+            output_line,
+            corner_step: false,
+            turn: None,
+            corrected: false,
+            kept_arc: false,
+            arc: None,
+            circle: None,
+            feed_limited: false,
+        }
+    }
+
     /// Whether it is round, whose ends and places between were fitted to the corrected curve.
     #[must_use]
     pub fn is_fitted(&self) -> bool {

@@ -1,0 +1,93 @@
+//! What every run begins with: a first look at the program, the load along it, and the way of the arm.
+
+use kinetostat_program::CorrectionField;
+
+use crate::checks::motion::no_motion;
+use crate::checks::refused::of_task;
+use crate::field::ModelField;
+use crate::limits::Beyond;
+use crate::load::along_path::LoadAlongPath;
+use crate::load::ramps::Ramped;
+use crate::postures::arm_course::ArmCourse;
+use crate::run::first_look::FirstLook;
+use crate::task::{RunError, Task};
+use crate::watch::Watch;
+
+/// Refuses what is beyond its limits.
+pub(crate) fn refuse(beyond: Vec<Beyond>) -> Result<(), RunError> {
+    match beyond.is_empty() {
+        true => Ok(()),
+        false => Err(RunError::BeyondLimits(beyond)),
+    }
+}
+
+/// The load along a program in its two readings, and the way of an arm that is not the one from home.
+pub(crate) struct Preparation<'a> {
+    pub load: Ramped<'a>,
+    pub course: Option<ArmCourse>,
+}
+
+impl<'a> Preparation<'a> {
+    /// Of a program that is solved as it is.
+    ///
+    /// # Errors
+    /// It has no motion; a load that no cutting has folds the machine over.
+    pub fn of_analysis(task: &Task<'a>, watch: &dyn Watch) -> Result<Self, RunError> {
+        has_motion(task)?;
+        let load = load(task);
+        let looked = FirstLook::new(task, &load, watch)?;
+        refuse(looked.folding_load(task))?;
+        Ok(Self::with(task, load, &looked))
+    }
+
+    /// Of a program that is corrected.
+    ///
+    /// # Errors
+    /// It has no motion; load or tool are beyond their limits, or corrections by far; its first place has no answer.
+    pub fn of_correction(task: &Task<'a>, watch: &dyn Watch) -> Result<Self, RunError> {
+        refuse(of_task(task))?;
+        has_motion(task)?;
+        let load = load(task);
+        let looked = FirstLook::new(task, &load, watch)?.beginning_solved()?;
+        refuse(looked.gross(task))?;
+        Ok(Self::with(task, load, &looked))
+    }
+
+    fn with(task: &Task<'a>, load: LoadAlongPath<'a>, looked: &FirstLook) -> Self {
+        Self {
+            load: load.ramped(looked.stiffness()),
+            course: ArmCourse::of(task),
+        }
+    }
+
+    /// The corrections of the model along the program.
+    pub fn field<'f>(&'f self, task: &'f Task<'_>) -> ModelField<'f> {
+        ModelField::new(task.mechanism, task.placement, &self.load.followed)
+            .correcting(task.corrected)
+            .on_course(self.course.as_ref())
+    }
+}
+
+/// What `work` makes of the field of corrections that a compensation of this task is written with.
+///
+/// # Errors
+/// As [`crate::compensate_program`], of what is found before its points are solved.
+pub fn with_model_field<R>(
+    task: &Task<'_>,
+    watch: &dyn Watch,
+    work: impl FnOnce(&dyn CorrectionField) -> R,
+) -> Result<R, RunError> {
+    let prepared = Preparation::of_correction(task, watch)?;
+    Ok(work(&prepared.field(task)))
+}
+
+fn load<'a>(task: &Task<'a>) -> LoadAlongPath<'a> {
+    LoadAlongPath::with_tools(task.load, task.path(), task.tools).with_cut(task.cut)
+}
+
+fn has_motion(task: &Task<'_>) -> Result<(), RunError> {
+    match no_motion(task.path()) {
+        Some(reason) => Err(RunError::NoMotion(reason)),
+        None => Ok(()),
+    }
+}
