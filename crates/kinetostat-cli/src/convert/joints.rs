@@ -57,10 +57,7 @@ pub(crate) fn as_joints(
         }
     };
     let table = TableArm {
-        between: match asked.rows {
-            Some(JointRowsWord::Joint) => BetweenRows::Joint,
-            Some(JointRowsWord::Linear) | None => BetweenRows::Linear,
-        },
+        between: asked.rows.map_or(BetweenRows::Linear, BetweenRows::from),
         arm: arm.clone(),
     };
     let Some((_, bytes)) = made.files.first_mut() else {

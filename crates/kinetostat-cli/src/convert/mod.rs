@@ -17,7 +17,7 @@ mod text;
 
 use std::path::Path;
 
-use kinetostat_formats::{Language, Template};
+use kinetostat_formats::{BetweenRows, Language, Template};
 use kinetostat_report::turns_svg;
 
 use crate::convert::arguments::ConvertArgs;
@@ -168,6 +168,9 @@ fn with_arm(
         let frames = &mut source.settings.reading.frames;
         frames.entry("tool".to_owned()).or_insert(tool);
     }
+    // Of a table that becomes another one the option says both; a job that says how the first one is read goes before it.
+    let rows = &mut source.settings.joint_rows;
+    *rows = rows.or(args.joint_rows.map(BetweenRows::from));
     let model = args.model.as_deref();
     give_arm(Some(source), files, (job, model), &flags(args))
 }

@@ -2,6 +2,7 @@
 
 use clap::{Args, ValueEnum};
 use kinetostat::Directions;
+use kinetostat_formats::BetweenRows;
 use serde::Deserialize;
 
 use crate::options::number;
@@ -25,6 +26,15 @@ pub(crate) enum JointRowsWord {
     Joint,
     /// The tool on a straight line
     Linear,
+}
+
+impl From<JointRowsWord> for BetweenRows {
+    fn from(word: JointRowsWord) -> Self {
+        match word {
+            JointRowsWord::Joint => Self::Joint,
+            JointRowsWord::Linear => Self::Linear,
+        }
+    }
 }
 
 /// An axis and its sense.

@@ -156,6 +156,45 @@ fn joint_values_stay_where_they_are_beside_a_base_of_the_template() {
     }
 }
 
+/// A table of joint values written as one again, with the option that says how the controller moves between the rows of both.
+#[test]
+fn a_table_of_joint_values_becomes_one_again() {
+    let here = place();
+    let here = here.path();
+    std::fs::write(
+        here.join("rows.csv"),
+        "A1_deg,A2_deg,A3_deg,A4_deg,A5_deg,A6_deg,speed_mm_per_s,rapid\n\
+         0,0,0,0,60,0,200,1\n1,2,1,0,60,0,50,0\n2,2,1,0,61,5,50,0\n",
+    )
+    .unwrap();
+    std::fs::write(
+        here.join("tool.toml"),
+        "schema = 1\n[tool]\npose = { position_mm = [0, 0, 180] }\n",
+    )
+    .unwrap();
+    let line = "convert rows.csv --to joints --model heavy_6r --joint-rows linear --template tool.toml --out again.csv --force-overwrite";
+    run(here, &words(line)).answered();
+    let text = std::fs::read_to_string(here.join("again.csv")).unwrap();
+    let rows: Vec<Vec<f64>> = (text.lines())
+        .filter(|line| !line.starts_with(['#', 'j']))
+        .map(|row| row.split(',').map(|cell| cell.parse().unwrap()).collect())
+        .collect();
+    let expected = [
+        [0.0, 0.0, 0.0, 0.0, 60.0, 0.0],
+        [1.0, 2.0, 1.0, 0.0, 60.0, 0.0],
+        [2.0, 2.0, 1.0, 0.0, 61.0, 5.0],
+    ];
+    assert_eq!(rows.len(), expected.len(), "{text}");
+    for (row, expected) in rows.iter().zip(expected) {
+        for (value, expected) in row.iter().zip(expected) {
+            assert!((value - expected).abs() < 1e-9, "{text}");
+        }
+    }
+    let said = run(here, &words(&line.replace("--joint-rows linear ", "")));
+    assert_eq!(said.code, 1, "{said:?}");
+    assert!(said.err.contains("--joint-rows"), "{said:?}");
+}
+
 #[test]
 fn what_is_missing_is_named() {
     let here = place();

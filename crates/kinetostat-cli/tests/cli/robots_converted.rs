@@ -77,3 +77,36 @@ fn calls_of_what_is_not_there_are_named_by_line() {
         assert!(said.contains(part), "{part}: {said}");
     }
 }
+
+/// Half a turn may go round on either side, and the poses do not say which; a little less does.
+#[test]
+fn half_a_turn_is_warned_of() {
+    let here = tempfile::tempdir().unwrap();
+    let half = "MODULE T\n\
+        PERS tooldata tA:=[TRUE,[[0,0,100],[1,0,0,0]],[5,[0,0,60],[1,0,0,0],0,0,0]];\n\
+        PROC main()\n\
+        MoveJ [[1500,0,800],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v500,z10,tA;\n\
+        MoveL [[1520,0,800],[0,1,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v20,fine,tA;\n\
+        ENDPROC\nENDMODULE\n";
+    // 179 degrees about z.
+    let less = half.replace("[0,1,0,0]", "[0,0.9999619230641713,0.008726535498373935,0]");
+    for (program, is_warned) in [(half, true), (&less, false)] {
+        std::fs::write(here.path().join("t.mod"), program).unwrap();
+        let said = run(
+            here.path(),
+            &[
+                "convert",
+                "t.mod",
+                "--to",
+                "csv",
+                "--out",
+                "t.csv",
+                "--force-overwrite",
+            ],
+        );
+        assert_eq!(said.code, 0, "{said:?}");
+        let text = said.out.split_whitespace().collect::<Vec<_>>().join(" ");
+        let warned = text.contains("line 5: the tool turns by half a turn here");
+        assert_eq!(warned, is_warned, "{text}");
+    }
+}

@@ -1,7 +1,9 @@
 //! What a person should know of a path that was made.
 
-use kinetostat_program::{Knowledge, Move, MoveKind, StatedBy, Warning};
-use nalgebra::Vector3;
+use std::f64::consts::PI;
+
+use kinetostat_program::{Knowledge, Move, MoveKind, StatedBy, ToolTurn, Warning};
+use nalgebra::{UnitQuaternion, Vector3};
 
 use crate::model::language::Language;
 use crate::model::motion::{Motion, MotionKind};
@@ -18,6 +20,9 @@ const SEVERAL: usize = 8;
 /// ... as one of 3 m in metres is where its lengths are taken for millimetres.
 const METRES_AS_MM: f64 = 3.0;
 
+/// Turns that are nearer to half a turn are one but for the last digits of quaternions with four decimals, rad (0.01 deg).
+const NEAR_HALF_A_TURN: f64 = 1.75e-4;
+
 /// Warnings of a path; `place` says where a motion ends.
 pub(crate) fn warnings_of(
     (program, options): (&RobotProgram, &PathOptions),
@@ -31,7 +36,7 @@ pub(crate) fn warnings_of(
         warnings.push(Warning {
             line: first.line,
             text: format!(
-                "where {} begins is not known, here first: behind another tool, behind joint values, in a branch or in what runs more than once. Only the end is corrected, and of a force that turns with the feed only the part along the tool",
+                "where {} begins is not known, here first: behind another tool or zero point (G54, G55), behind joint values, in a branch or in what runs more than once. Only the end is corrected, and of a force that turns with the feed only the part along the tool",
                 match moves.iter().filter(begins).count() {
                     1 => "1 motion at feed".to_owned(),
                     n => format!("{n} motions at feed"),
@@ -39,6 +44,7 @@ pub(crate) fn warnings_of(
             ),
         });
     }
+    warnings.extend(by_half_a_turn(moves));
     let slow = |motion: &&Motion| {
         motion.kind != MotionKind::Joint
             && motion.target.pose().is_some()
@@ -73,6 +79,44 @@ pub(crate) fn warnings_of(
         });
     }
     warnings
+}
+
+/// Motions at feed that turn the tool by half a turn: on which side it goes round, the poses do not say.
+fn by_half_a_turn(moves: &[Move]) -> Option<Warning> {
+    let half = |motion: &&Move| {
+        let turn = motion.tool_turn.as_ref();
+        motion.is_known_feed() && turn.is_some_and(|turn| is_half_a_turn(turn))
+    };
+    let mut all = moves.iter().filter(half);
+    let first = all.next()?;
+    let more = match all.count() {
+        0 => String::new(),
+        1 => " (and in 1 more motion)".to_owned(),
+        n => format!(" (and in {n} more motions)"),
+    };
+    Some(Warning {
+        line: first.line,
+        text: format!(
+            "the tool turns by half a turn here{more}, and on which side it goes round is not stated: the controller may go on the other one than is taken here; write a pose between"
+        ),
+    })
+}
+
+/// Where rotary axes turn the tool, their angles say the side.
+fn is_half_a_turn(turn: &ToolTurn) -> bool {
+    let half = |angle: f64| angle > PI - NEAR_HALF_A_TURN;
+    match (&turn.rotary, &turn.swivelling) {
+        (Some(_), _) => false,
+        (None, None) => half(turn.start.angle_to(&turn.end)),
+        (None, Some(axis)) => {
+            let [from, to] = [turn.start * axis, turn.end * axis];
+            let swung = UnitQuaternion::rotation_between(&from, &to);
+            // None between opposite directions; else what is left is the turn about the axis.
+            swung.is_none_or(|swung| {
+                half(swung.angle()) || half((swung * turn.start).angle_to(&turn.end))
+            })
+        }
+    }
 }
 
 /// Line of the first of many places that lie as near to each other as those of a program in metres.

@@ -11,7 +11,7 @@ use nalgebra::Vector3;
 use serde_spanned::Spanned;
 
 use crate::job::job_file::JobFile;
-use crate::job::robot_arguments::{AxisWord, CorrectWord, JointRowsWord, RobotArgs};
+use crate::job::robot_arguments::{AxisWord, CorrectWord, RobotArgs};
 use crate::job::robot_table::{
     CutterCompensationWord, ExternalAxesWord, LengthUnitWord, RobotTable, UnknownTargetsWord,
 };
@@ -137,10 +137,7 @@ pub(crate) fn settings(
         writing: TextOptions::default(),
         corrected,
         axis_is_stated,
-        joint_rows: joint_rows.map(|word| match word {
-            JointRowsWord::Joint => BetweenRows::Joint,
-            JointRowsWord::Linear => BetweenRows::Linear,
-        }),
+        joint_rows: joint_rows.map(BetweenRows::from),
         joints_are: None,
         made_arm: None,
         beyond_limits: Vec::new(),
