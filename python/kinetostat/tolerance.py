@@ -359,10 +359,12 @@ def sobol(
     """
     callable_given("function", function, "a function of an array (m, numbers)")
     each = _each(values, spread)
+    if not each:
+        raise ArgumentError("spread is empty: give a Distribution for each number, at least one")
     design = _core.sobol_design(each, whole_number("n", n, _LEAST_SOBOL, _MOST_DRAWS), _seed(seed))
     rows = design.reshape(-1, len(each))
     answers = numbers("the function's answer", function(rows))
-    if answers.shape[:1] != rows.shape[:1] or answers.ndim > 2:
+    if answers.shape[:1] != rows.shape[:1] or answers.ndim > 2 or answers.size == 0:
         raise ArgumentError(f"the function gave shape {answers.shape} for {rows.shape}, expected ({len(rows)},) or ({len(rows)}, outputs)")
     outputs = answers.reshape(len(rows), -1).T
     found = [_core.sobol_of_answers(column.tolist(), len(each)) for column in outputs]

@@ -8,6 +8,7 @@ import re
 import shutil
 import subprocess
 import sys
+import time
 
 import numpy as np
 import pytest
@@ -371,3 +372,29 @@ def test_any_name_compiles(tmp_path, language, compiler, standard):
     file.write_text(getattr(found, language)("f"), encoding="utf-8")
     words = ["cc", f"-std={standard}", "-Wall", "-Werror", "-c"] if language == "c" else ["rustc", "--crate-type=lib"]
     subprocess.run([*words, str(file), "-o", str(tmp_path / "f.o")], cwd=tmp_path, check=True)
+
+
+@pytest.mark.parametrize("name", ["sin", "cos", "pi", "array", "exp", "nan", "select", "E"])
+def test_a_symbol_may_be_called_like_a_function_or_a_constant(name):
+    q, k = sp.Symbol(name, real=True), sp.Symbol("k", positive=True)
+    found = symbolic.Formula(sp.Matrix([[sp.pi * q + sp.sin(q), sp.cos(q) * sp.exp(k)]]))
+    expected = [[np.pi * 0.3 + np.sin(0.3), np.cos(0.3) * np.exp(2)]]
+    assert np.allclose(found.lambdify([name, "k"])(0.3, 2.0), expected, rtol=1e-14)
+    # A bar of length pi that turns by q, with a second spring along it: whether formulas are zero is decided at numbers.
+    arm = symbolic.Chain().actuator(name, "revolute", "z", stiffness="k").move(sp.pi).spring("s", "prismatic", "x", stiffness="c")
+    turned = sp.Matrix([[sp.cos(q), -sp.sin(q)], [sp.sin(q), sp.cos(q)]])
+    whole = turned * sp.diag(sp.Symbol("c", positive=True), k / sp.pi**2) * turned.T
+    found = arm.stiffness(directions=("x", "y"))
+    values = {"k": 2.0, "c": 5.0, name: 0.3}
+    own = np.array(symbolic.Formula(whole).subs(values).matrix.evalf(), float)
+    assert np.allclose(np.array(found.subs(values).matrix.evalf(), float), own, rtol=1e-12)
+    assert found.rank == 2
+
+
+def test_the_rank_of_long_formulas_takes_no_time():
+    chain = symbolic.Chain().actuator("q", "revolute", "z", stiffness="k").move("L").actuator("p", "revolute", "y", stiffness="c").move("M")
+    chain = chain.actuator("r", "revolute", "z", stiffness="n").move("N").passive("b", "revolute", "y", at=0).move("O")
+    found = chain.compliance()
+    before = time.perf_counter()
+    assert symbolic.Stiffness(found.matrix).rank == 3
+    assert time.perf_counter() - before < 5

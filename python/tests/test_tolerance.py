@@ -167,3 +167,10 @@ def test_sobol_indices_with_missing_answers() -> None:
     found = tol.sobol(missing_above(4.2), [0, 0], one, 4096)
     assert 0 < found.unanswered <= 0.02 * 4096
     np.testing.assert_allclose(found.first[0], [0.5, 0.5], atol=0.05)
+
+
+def test_sobol_indices_of_nothing_are_refused():
+    with pytest.raises(ks.ArgumentError, match="spread is empty"):
+        tol.sobol(lambda x: np.zeros(len(x)), [], [], 128)
+    with pytest.raises(ks.ArgumentError, match="shape"):
+        tol.sobol(lambda x: np.zeros((len(x), 0)), [1.0], [tol.normal(1)], 128)

@@ -39,13 +39,17 @@ def numbers(matrix: sp.Matrix, definitions: Definitions = ()) -> Any:
     known = {s for s, _ in definitions}
     free = set().union(matrix.free_symbols, *(e.free_symbols for _, e in definitions)) - known
     values = at_random(free)
+    # Under names of ours: a symbol may be called as a function or a constant that the formulas use, sin or pi.
+    ours = {s: sp.Symbol(f"_v{i}") for i, s in enumerate([*values, *(s for s, _ in definitions)])}
+    matrix = matrix.xreplace(ours)
+    definitions = tuple((ours[s], e.xreplace(ours)) for s, e in definitions)
 
     def steps(matrix: sp.Matrix) -> tuple[Any, Any]:
         return (definitions, matrix) if definitions else sp.cse(matrix, list=False)
 
     with mpmath.workdps(DIGITS):
         given = [mpmath.mpf(int(v.p)) / int(v.q) for v in values.values()]
-        return mpmath.matrix(sp.lambdify(list(values), matrix, modules="mpmath", cse=steps)(*given))
+        return mpmath.matrix(sp.lambdify([ours[s] for s in values], matrix, modules="mpmath", cse=steps)(*given))
 
 
 def solved(matrix: sp.Matrix, right: sp.Matrix) -> sp.Matrix:

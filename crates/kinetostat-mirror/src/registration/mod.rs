@@ -2,7 +2,7 @@
 //!
 //! 1. **Starts.** No motion; the motion that brings points at shares of the way through them to the same shares of the path
 //!    (points measured in order); the motions that bring principal axes onto those of the path. Each is followed, and the
-//!    first of them is taken to which no other is clearly nearer.
+//!    first of them is taken to which no other is clearly nearer. Points plainly in another frame start in their order.
 //! 2. **Closest points** (Besl and McKay 1992): every point goes with its foot on the path, the motion of all of them is found
 //!    in closed form by quaternions (Horn 1987, which has no reflections and for points on a line turns no more than needed).
 //! 3. **Distance from the path**: near the end the points may slide along the path (point-to-line distance, Chen and Medioni

@@ -21,6 +21,9 @@ const FINE: [usize; 2] = [20, 100];
 /// A start must be nearer than this share of the one before it to be taken instead.
 const CLEARLY: f64 = 0.7;
 
+/// Nearer than this share of the size of the points, none is nearer than another: that is rounding.
+const SAME: f64 = 1e-9;
+
 /// The way of a step, as a share of the size of the points, below which the search has ended.
 const AT_REST: f64 = 1e-13;
 
@@ -77,12 +80,14 @@ pub fn register(
     let points = points.points();
     let every = points.len().div_ceil(JUDGED);
     let judged: Vec<MeasuredPoint> = points.iter().step_by(every).copied().collect();
+    let size = Closest::of(nominal, &judged, &Motion::default()).map(|found| found.size_mm);
+    let same = SAME * size.unwrap_or(0.0);
     let mut best: Option<(f64, Motion)> = None;
     for start in starts(nominal, points) {
         let Some((median, motion)) = follow(nominal, &judged, start) else {
             continue;
         };
-        if best.is_none_or(|(nearest, _)| median < CLEARLY * nearest) {
+        if best.is_none_or(|(nearest, _)| nearest > same && median < CLEARLY * nearest) {
             best = Some((median, motion));
         }
     }

@@ -2,7 +2,9 @@
 
 use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
 
+use crate::number::median;
 use crate::points::MeasuredPoint;
+use crate::registration::closest::Closest;
 use crate::registration::horn::{Pair, closest_motion};
 use crate::registration::motion::Motion;
 use kinetostat_program::NominalPath;
@@ -10,16 +12,28 @@ use kinetostat_program::NominalPath;
 /// Places of the path for its principal axes.
 const PLACES: usize = 1000;
 
+/// Median distance of unmoved points from the path, as a share of their size, beyond which they are in another frame.
+const ELSEWHERE: f64 = 0.01;
+
 /// Motions to start from, the most likely first.
+///
+/// A rectangle lies on itself when it is turned by half a turn, and only the order of the points tells which side was cut first.
+/// So points that are plainly in another frame are first brought onto the path in their order, where that brings them nearer.
 pub(crate) fn starts(nominal: &NominalPath<'_>, points: &[MeasuredPoint]) -> Vec<Motion> {
     let mut all = vec![Motion::default()];
-    all.extend(in_order(nominal, points));
+    if let Some((motion, left_mm)) = in_order(nominal, points) {
+        let unmoved = Closest::of(nominal, points, &Motion::default());
+        let elsewhere = unmoved.is_some_and(|found| {
+            found.median_mm > left_mm && found.median_mm > ELSEWHERE * found.size_mm
+        });
+        all.insert(usize::from(!elsewhere), motion);
+    }
     all.extend(by_principal_axes(nominal, points));
     all
 }
 
-/// Points in the order of the path: at the same share of the way.
-fn in_order(nominal: &NominalPath<'_>, points: &[MeasuredPoint]) -> Option<Motion> {
+/// Points in the order of the path: at the same share of the way; with the median distance that this leaves, mm.
+fn in_order(nominal: &NominalPath<'_>, points: &[MeasuredPoint]) -> Option<(Motion, f64)> {
     let mut way = 0.0;
     let mut ways = vec![0.0];
     for pair in points.windows(2) {
@@ -34,7 +48,9 @@ fn in_order(nominal: &NominalPath<'_>, points: &[MeasuredPoint]) -> Option<Motio
             (point.position_mm, place, point.weight)
         })
         .collect();
-    closest_motion(&pairs, false)
+    let motion = closest_motion(&pairs, false)?;
+    let left = |(point, place, _): &Pair| (motion.of(point) - place).norm();
+    Some((motion, median(pairs.iter().map(left).collect())))
 }
 
 /// Principal axes onto those of the path, turned in the four ways that keep right-handed axes.
