@@ -211,7 +211,9 @@ def machines(
     wrench : array_like, shape (6,)
         Force and moment on the tool (N, N m), base axes.
     quantities : sequence of str
-        Of ``error``, ``deflection``, ``deviation``, ``compensated``, ``stiffness``.
+        Of ``error`` (from where the unloaded tool is commanded to where it is: manufacture, assembly and the machine's own weight),
+        ``deflection`` (from there to where the wrench moves it: own weight is not in it), ``deviation`` (both together),
+        ``compensated`` (the deviation that stays when commands compensate the machine as drawn), ``stiffness``.
     correlations : mapping of pairs of names to float, optional
         Of the numbers' normal scores; not with the text of a file, which states its own.
     draws : int

@@ -195,6 +195,10 @@ def refused() -> ProcessPoolExecutor:
         ({"x": [0, 1], "variables": "softness"}, "variables has 'softness', expected some of stiffness_x"),
         ({"x": [0, 1], "variables": []}, "one or more names"),
         ({"x": [0, 1], "variables": "deflection"}, "needs a load"),
+        (
+            {"x": np.linspace(0, 1, 100_000), "y": np.linspace(0, 1, 100_000), "variables": "stiffness_x"},
+            r"1e\+10 places would have 1e\+10 numbers \(80 GB\), expected at most 2e\+09",
+        ),
     ],
 )
 def test_questions_that_make_no_sense(question: dict[str, object], message: str) -> None:

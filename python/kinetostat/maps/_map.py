@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from kinetostat import _core, sweep
+from kinetostat.errors import ArgumentError
 from kinetostat.machine import Machine, Progress
 from kinetostat.maps._question import Question, asked
 from kinetostat.maps._rows import rows
@@ -23,6 +24,9 @@ if TYPE_CHECKING:
 __all__ = ["evaluate"]
 
 _AXES = {"x": "x of the tool's reference point", "y": "y of the tool's reference point", "z": "z of the tool's reference point"}
+
+_MOST_NUMBERS = 2_000_000_000
+"""Of a map, 16 GB."""
 
 
 def evaluate(
@@ -100,6 +104,7 @@ def evaluate(
     question = asked(machine, x, y, z, orientations, over_orientations, loads, variables)
     # What makes no sense of one place is said here, not by a worker.
     rows(0, 1, threads=1, **question.settings(places=False))
+    _fits(question)
     if folder is None:
         how: dict[str, Any] = {"chunk": chunk, "executor": executor, "threads": threads, "progress": progress}
         found = sweep.run(rows, question.count, question.settings(places=False), **how)
@@ -109,6 +114,17 @@ def evaluate(
         sweep.to_folder(folder, rows, question.count, question.settings(places=True), **how)
         found = sweep.read(folder, ["status", *(variable.name for variable in question.variables)])
     return _dataset(question, found)
+
+
+def _fits(question: Question) -> None:
+    """Refuses a map that no memory takes, before anything is computed."""
+    drives = len(question.machine.actuators)
+    numbers = question.count * sum(drives if variable.columns is None else variable.columns for variable in question.variables)
+    if numbers > _MOST_NUMBERS:
+        said = f"{question.count:.3g} places would have {numbers:.3g} numbers ({8e-9 * numbers:.3g} GB)"
+        raise ArgumentError(
+            f"{said}, expected at most {_MOST_NUMBERS:.0e}: give fewer places or variables, or map parts one after the other"
+        )
 
 
 def _xarray() -> Any:

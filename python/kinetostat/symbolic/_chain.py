@@ -403,9 +403,10 @@ class Chain:
             Wrenches on nodes, dead (fixed in base axes).
         steps : bool
             Give intermediate results names (``definitions`` of what comes back) instead of one formula in lowest terms. For more than
-            about four joints with angles as symbols: the one formula takes minutes or longer, the steps a second. They hold for all values
-            of angles and lengths, special ones (all links in line) too, and for all stiffnesses that are not zero: steps divide by
-            them. ``subs`` refuses a zero; printed functions and ``lambdify`` divide by it. Where a stiffness may vanish ask with
+            about four joints with angles as symbols: the one formula takes minutes or longer, the steps a second (with a spring of
+            six stiffnesses behind one such joint half a minute). They hold for all values of angles and lengths, special ones (all
+            links in line) too, and for all stiffnesses that are not zero: steps divide by them. ``subs`` refuses a zero; printed
+            functions and ``lambdify`` divide by it. Where a stiffness may vanish ask with
             ``wrench=[0] * 6``, whose steps take zeros as long as not all springs vanish. At values that hold the end rigidly
             somewhere, or at which loads make it buckle, entries are infinite or NaN.
 

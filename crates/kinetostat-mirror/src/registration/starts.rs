@@ -20,13 +20,18 @@ const ELSEWHERE: f64 = 0.01;
 /// A rectangle lies on itself when it is turned by half a turn, and only the order of the points tells which side was cut first.
 /// So points that are plainly in another frame are first brought onto the path in their order, where that brings them nearer.
 pub(crate) fn starts(nominal: &NominalPath<'_>, points: &[MeasuredPoint]) -> Vec<Motion> {
-    let mut all = vec![Motion::default()];
+    let mut all = Vec::new();
+    let mut elsewhere = false;
     if let Some((motion, left_mm)) = in_order(nominal, points) {
         let unmoved = Closest::of(nominal, points, &Motion::default());
-        let elsewhere = unmoved.is_some_and(|found| {
+        elsewhere = unmoved.is_some_and(|found| {
             found.median_mm > left_mm && found.median_mm > ELSEWHERE * found.size_mm
         });
-        all.insert(usize::from(!elsewhere), motion);
+        all.push(motion);
+    }
+    // From another frame closest points may slide half of the points beyond the end of a straight path.
+    if !elsewhere {
+        all.insert(0, Motion::default());
     }
     all.extend(by_principal_axes(nominal, points));
     all

@@ -115,19 +115,25 @@ fn points_far_off_do_not_pull() {
     assert_eq!(found.rejected_rows, rows);
 }
 
-/// A rectangle lies on itself when it is turned by half a turn: only the order of the points tells where the bump of 0.1 mm
-/// at X75 is. The frames are turned by 0.1 to 3.1 rad and some 300 mm away.
+/// A rectangle lies on itself when it is turned by half a turn, a square when it is turned by a quarter, and points on a line may
+/// slide: only the order of the points tells where the bump of 0.1 mm at X75 is.
 #[test]
 fn what_is_the_same_turned_around_is_told_by_the_order() {
-    let rectangle = "G21 G90\nG0 X0 Y0 Z0\nG1 X100 F600\nY60\nX0\nY0\nM30\n";
-    let (_, path) = read(rectangle);
+    for cuts in ["X100\nY60\nX0\nY0", "X100\nY100\nX0\nY0", "X100"] {
+        bump_is_found(cuts);
+    }
+}
+
+/// The frames are turned by 0.1 to 3.1 rad and some 300 mm away.
+fn bump_is_found(cuts: &str) {
+    let (_, path) = read(&format!("G21 G90\nG0 X0 Y0 Z0\nF600\nG1 {cuts}\nM30\n"));
     let nominal = NominalPath::new(&path).unwrap();
     for noise_mm in [0.0, 1e-3] {
         for angle in [0.1, 1.5, 2.5, 3.1] {
             let turn = UnitQuaternion::from_scaled_axis(Vector3::new(0.0, 0.0, angle));
             let mut noise = Noise(7);
             let cut = |i: i32| {
-                let place = nominal.point_at(320.0 * f64::from(i) / 600.0);
+                let place = nominal.point_at(nominal.length_mm() * f64::from(i) / 600.0);
                 let bump = match place.y.abs() < 1e-9 {
                     true => 0.1 * (-((place.x - 75.0) / 12.0).powi(2)).exp(),
                     false => 0.0,
@@ -146,7 +152,11 @@ fn what_is_the_same_turned_around_is_told_by_the_order() {
                 worst.add((found.motion.of(point) - place).norm());
             }
             // Half a turn would be 100 mm; the motion may take away the bump's own share.
-            assert!(worst.of(601) < 0.2, "{angle} rad: {} mm", worst.value());
+            assert!(
+                worst.of(601) < 0.2,
+                "{cuts:?}, {angle} rad, {noise_mm} mm: {} mm",
+                worst.value()
+            );
         }
     }
 }
