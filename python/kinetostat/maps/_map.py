@@ -123,7 +123,7 @@ def _fits(question: Question) -> None:
     if numbers > _MOST_NUMBERS:
         said = f"{question.count:.3g} places would have {numbers:.3g} numbers ({8e-9 * numbers:.3g} GB)"
         raise ArgumentError(
-            f"{said}, expected at most {_MOST_NUMBERS:.0e}: give fewer places or variables, or map parts one after the other"
+            f"{said}, expected at most {_MOST_NUMBERS:.0e}: give fewer places or variables, or map it in parts"
         )
 
 

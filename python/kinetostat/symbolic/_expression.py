@@ -27,8 +27,8 @@ M_E M_LOG2E M_LOG10E M_LN2 M_LN10 M_PI M_PI_2 M_PI_4 M_1_PI M_2_PI M_2_SQRTPI M_
 _RUST = """as async await break const continue crate dyn else enum extern false fn for gen if impl in let loop match mod move mut pub ref
 return self Self static struct super trait true type unsafe use where while abstract become box do final macro override priv try typeof
 unsized virtual yield Some Ok Err _"""
-_NUMPY = """array numpy pi nan inf select where sign less less_equal greater greater_equal equal not_equal logical_and logical_or logical_not
-amax amin maximum minimum arccos arccosh arcsin arcsinh arctan arctan2 arctanh"""
+_NUMPY = """array numpy pi nan inf select where sign less less_equal greater greater_equal equal not_equal logical_and logical_or
+logical_not amax amin maximum minimum arccos arccosh arcsin arcsinh arctan arctan2 arctanh"""
 _KEYWORDS = frozenset([*keyword.kwlist, "math", "abs", "max", "min", "out", *f"{_C} {_MATH_H} {_RUST} {_NUMPY}".split()])
 """What no printed language takes as a name; one set for all, so that arguments are called the same in each."""
 
