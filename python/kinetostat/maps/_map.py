@@ -122,9 +122,7 @@ def _fits(question: Question) -> None:
     numbers = question.count * sum(drives if variable.columns is None else variable.columns for variable in question.variables)
     if numbers > _MOST_NUMBERS:
         said = f"{question.count:.3g} places would have {numbers:.3g} numbers ({8e-9 * numbers:.3g} GB)"
-        raise ArgumentError(
-            f"{said}, expected at most {_MOST_NUMBERS:.0e}: give fewer places or variables, or map it in parts"
-        )
+        raise ArgumentError(f"{said}, expected at most {_MOST_NUMBERS:.0e}: give fewer places or variables, or map it in parts")
 
 
 def _xarray() -> Any:
