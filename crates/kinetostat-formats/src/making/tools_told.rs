@@ -42,7 +42,7 @@ pub(crate) fn told(
         told.faults.push(MakeError::at(
             *line,
             format!("the program takes the tool {number}, one of several, and where its tip is, is not stated"),
-            "state each of them in the template under [[tools]], or write one program for each tool",
+            "state each of them in the template under [[tools]] (with a [tool] in the template its tools stand for those of the source), or write one program for each tool",
         ));
     }
     if let Some(line) = used.first_unnamed {
