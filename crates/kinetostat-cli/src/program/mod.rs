@@ -9,6 +9,7 @@ pub(crate) mod flat_lines;
 mod joint_columns;
 pub(crate) mod outputs;
 pub(crate) mod points_table;
+pub(crate) mod paper;
 pub(crate) mod report;
 pub(crate) mod solve;
 pub(crate) mod summary;

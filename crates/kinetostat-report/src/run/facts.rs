@@ -1,6 +1,6 @@
 //! Figures and tables of the report as text.
 
-use kinetostat_machining::{FileRead, PointKind, PointResult, RunInputs, Summary, UncertaintyBand};
+use kinetostat_machining::{FileRead, PointKind, PointResult, RunInputs, Summary, UncertainNumber, UncertaintyBand};
 use minijinja::{Value, context};
 
 use crate::number::{self, MISSING, Rounding, norm};
@@ -162,20 +162,23 @@ fn error_columns(error: &[f64; 3], factor: f64) -> Vec<String> {
     columns
 }
 
+/// A number that is uncertain: `name = value unit (distribution spread unit)`.
+pub(crate) fn uncertain_number(n: &UncertainNumber) -> String {
+    let unit = if n.unit.is_empty() { "" } else { " " };
+    format!(
+        "{} = {}{unit}{} ({} {}{unit}{})",
+        n.name,
+        number::setting(n.value),
+        n.unit,
+        n.distribution,
+        number::setting(n.spread),
+        n.unit
+    )
+}
+
 /// What is uncertain, and how far linear propagation goes.
 fn uncertain_words(band: &UncertaintyBand) -> String {
-    let numbers = band.uncertain.iter().map(|n| {
-        let unit = if n.unit.is_empty() { "" } else { " " };
-        format!(
-            "{} = {}{unit}{} ({} {}{unit}{})",
-            n.name,
-            number::setting(n.value),
-            n.unit,
-            n.distribution,
-            number::setting(n.spread),
-            n.unit
-        )
-    });
+    let numbers = band.uncertain.iter().map(uncertain_number);
     let numbers: Vec<String> = numbers.collect();
     let linear = match band.before.linear_is_enough {
         true => "Linear propagation agrees",

@@ -4,6 +4,7 @@
 mod english;
 mod french;
 mod german;
+mod shared;
 
 use kinetostat_machining::{ArmConfiguration, LimitEnd};
 
@@ -176,10 +177,14 @@ pub(crate) fn statement(
     }
 }
 
-/// Name and explanation of what a program leaves.
-pub(crate) fn left(language: Language, left: &Left, result: &Shown<'_>) -> (String, String) {
+/// Name, size and explanation of what a program leaves.
+pub(crate) fn left(language: Language, left: Left, result: &Shown<'_>) -> [String; 3] {
     match language {
-        Language::English => (left.name().to_owned(), left.text(result)),
+        Language::English => [
+            left.name().to_owned(),
+            left.size(result),
+            left.text(result),
+        ],
         Language::French => french::left::left(left, result),
         Language::German => german::left::left(left, result),
     }
