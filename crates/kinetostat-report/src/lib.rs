@@ -65,7 +65,9 @@ pub enum ReportError {
     #[error("the report could not be set as PDF: {0}")]
     Pdf(String),
     /// This build makes no PDF.
-    #[error("this build makes no PDF: the command line does, kinetostat compensate job.toml --pdf report.pdf")]
+    #[error(
+        "this build makes no PDF: the command line does, kinetostat compensate job.toml --pdf report.pdf"
+    )]
     NoPdf,
 }
 

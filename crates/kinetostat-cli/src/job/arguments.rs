@@ -10,8 +10,8 @@ use crate::job::robot_arguments::RobotArgs;
 use crate::job::turn_arguments::TurnFlags;
 use crate::job::uncertain::UncertainFlags;
 use crate::job::units_word::UnitsWord;
-use crate::program::paper::LanguageWord;
 use crate::options::{number, whole};
+use crate::program::paper::LanguageWord;
 
 /// Job file, model and everything about the program.
 #[derive(Debug, Args)]

@@ -8,7 +8,9 @@ use kinetostat_report::{Language, Paper, html_of_run_and_turns, turns_svg};
 
 use crate::files::outputs::{Existing, Outputs};
 use crate::job::free_turn::FreeTurn;
-use crate::job::output_paths::{BESIDE, COMPENSATED_PROGRAM, FLAT_PROGRAM, OutputPaths, PDF, TURN_PLOT};
+use crate::job::output_paths::{
+    BESIDE, COMPENSATED_PROGRAM, FLAT_PROGRAM, OutputPaths, PDF, TURN_PLOT,
+};
 use crate::job::setting::Setting;
 use crate::program::aim::Aim;
 use crate::program::flat_lines::WithSources;

@@ -45,11 +45,17 @@ pub(crate) fn refuse_without_pdf() -> Answer<()> {
 
 /// The document.
 pub(crate) fn pdf(paper: &Paper<'_>) -> Answer<Vec<u8>> {
-    paper.pdf().map_err(|error| Failure::input(error.to_string()))
+    paper
+        .pdf()
+        .map_err(|error| Failure::input(error.to_string()))
 }
 
 /// What was written, with its hashes.
-pub(crate) fn written(targets: &OutputPaths, program: &[u8], beside: &[Cow<'_, [u8]>]) -> Vec<FileRead> {
+pub(crate) fn written(
+    targets: &OutputPaths,
+    program: &[u8],
+    beside: &[Cow<'_, [u8]>],
+) -> Vec<FileRead> {
     let paths = targets.program.iter().chain(&targets.beside);
     let bytes = std::iter::once(program).chain(beside.iter().map(Cow::as_ref));
     let file = |(path, bytes): (&std::path::PathBuf, &[u8])| {

@@ -90,7 +90,7 @@ impl<'a> Paper<'a> {
         page::html(&content::contents(self, &Shown::of_result(self.result)))
     }
 
-    /// The paper as PDF: A4, for archives (PDF/A-2b), with its letters in it. The same result gives the same bytes.
+    /// The paper as PDF: A4, for archives (PDF/A-2b, where the run has a date), with its letters in it. The same result gives the same bytes.
     ///
     /// # Errors
     ///

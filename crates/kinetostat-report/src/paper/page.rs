@@ -52,7 +52,11 @@ fn block(out: &mut String, block: &Block) {
         ),
         Block::Facts(facts) => {
             let all = facts.iter().map(|(name, lines)| {
-                format!("<dt>{}</dt><dd>{}</dd>\n", escape(name), each(lines, "span"))
+                format!(
+                    "<dt>{}</dt><dd>{}</dd>\n",
+                    escape(name),
+                    each(lines, "span")
+                )
             });
             writeln!(out, "<dl>\n{}</dl>", all.collect::<String>())
         }

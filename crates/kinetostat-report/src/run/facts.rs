@@ -1,6 +1,8 @@
 //! Figures and tables of the report as text.
 
-use kinetostat_machining::{FileRead, PointKind, PointResult, RunInputs, Summary, UncertainNumber, UncertaintyBand};
+use kinetostat_machining::{
+    FileRead, PointKind, PointResult, RunInputs, Summary, UncertainNumber, UncertaintyBand,
+};
 use minijinja::{Value, context};
 
 use crate::number::{self, MISSING, Rounding, norm};

@@ -13,13 +13,15 @@ pub(super) fn results(of: &Of<'_>) -> Vec<Block> {
     let verified = of.paper.verified.as_ref();
     let after = of.has_after();
     let mut columns = vec![Column::words(words.figure)];
-    columns.extend(match (verified, after) {
-        (Some(_), _) => vec![words.of_original, words.of_verified],
-        (None, true) => vec![words.before, words.after],
-        (None, false) => vec![words.before],
-    }
-    .into_iter()
-    .map(Column::figures));
+    columns.extend(
+        match (verified, after) {
+            (Some(_), _) => vec![words.of_original, words.of_verified],
+            (None, true) => vec![words.before, words.after],
+            (None, false) => vec![words.before],
+        }
+        .into_iter()
+        .map(Column::figures),
+    );
     let mut rows: Vec<Vec<Cell>> = Vec::new();
     let mut row = |name: &str, before: &str, behind: &str| {
         let mut cells = vec![Cell::from(name.to_owned())];

@@ -42,7 +42,10 @@ fn feature(of: &Of<'_>, feature: &FeatureResult) -> Vec<Cell> {
         false => of.figure(&number::typeset(&cell)),
     };
     let [first, last] = feature.lines.map(number::count);
-    let lines = fill(words.lines_to, &[("first", first.as_str()), ("last", &last)]);
+    let lines = fill(
+        words.lines_to,
+        &[("first", first.as_str()), ("last", &last)],
+    );
     let mut cells: Vec<Cell> = vec![clean(&name).into(), lines.into(), length(before).into()];
     if of.has_after() {
         cells.push(length(after).into());
@@ -119,7 +122,10 @@ pub(super) fn drives(of: &Of<'_>) -> Vec<Block> {
     let rated = actuators.iter().any(|a| a.rating.is_some());
     let limited = actuators.iter().any(|a| a.limits.is_some());
     let corrected = result.run_inputs.compensated;
-    let mut columns = vec![Column::words(words.drive), Column::figures(words.largest_force)];
+    let mut columns = vec![
+        Column::words(words.drive),
+        Column::figures(words.largest_force),
+    ];
     if rated {
         columns.extend([words.rating, words.share].map(Column::figures));
     }
@@ -154,7 +160,9 @@ pub(super) fn drives(of: &Of<'_>) -> Vec<Block> {
                 let text = number::with_unit(&number::setting(rating), &actuator.force_unit);
                 of.figure(&text).into()
             }));
-            let share = force.zip(rating).map(|(force, rating)| force.abs() / rating);
+            let share = force
+                .zip(rating)
+                .map(|(force, rating)| force.abs() / rating);
             cells.push(share.map_or_else(missing, |share| {
                 let text = kinetostat_machining::number::share(share);
                 let text = of.figure(&number::typeset(&text));
@@ -202,14 +210,16 @@ fn joints(of: &Of<'_>) -> Vec<Remark> {
             text,
         });
     };
-    if let (Some(found), Some(size)) = (&result.joints.nearest_limit, &result.figures.nearest_limit) {
+    if let (Some(found), Some(size)) = (&result.joints.nearest_limit, &result.figures.nearest_limit)
+    {
         let (drive, line) = (name(found.limit.actuator), number::count(found.line));
         let end = words.end(found.limit.end);
         let values = [("drive", drive.as_str()), ("end", end), ("line", &line)];
         let text = fill(words.nearest_limit_text, &values);
         remark(words.nearest_limit, of.figure(size), text);
     }
-    if let (Some(found), Some(size)) = (&result.joints.most_loaded, &result.figures.share_of_rating) {
+    if let (Some(found), Some(size)) = (&result.joints.most_loaded, &result.figures.share_of_rating)
+    {
         let (drive, line) = (name(found.drive.actuator), number::count(found.line));
         let values = [("drive", drive.as_str()), ("line", &line)];
         let text = fill(words.most_loaded_text, &values);
@@ -271,7 +281,10 @@ pub(super) fn cut(of: &Of<'_>) -> Vec<Block> {
         blocks.push(Block::Note(text));
     }
     let nearest = cut.nearest_to_spindle.as_ref();
-    if nearest.and_then(CutPlace::share_of_spindle).is_some_and(|share| share > 1.0) {
+    if nearest
+        .and_then(CutPlace::share_of_spindle)
+        .is_some_and(|share| share > 1.0)
+    {
         blocks.push(Block::Paragraph(words.cut_spindle.to_owned()));
     }
     blocks

@@ -31,8 +31,14 @@ fn fault(what: impl std::fmt::Display) -> ReportError {
 pub(crate) fn pdf(contents: &Contents) -> Result<Vec<u8>, ReportError> {
     let letters = Letters::new().ok_or_else(|| fault("its letters cannot be read"))?;
     let pages = Setter::pages(&letters, contents);
+    let date = contents.date.as_deref().and_then(day);
+    // An archive wants a date; a run without one has none to give.
+    let validator = match date {
+        Some(_) => Validator::A2_B,
+        None => Validator::None,
+    };
     let mut document = Document::new_with(SerializeSettings {
-        configuration: Configuration::new_with_validator(Validator::A2_B),
+        configuration: Configuration::new_with_validator(validator),
         enable_tagging: false,
         ..SerializeSettings::default()
     });
@@ -55,11 +61,13 @@ pub(crate) fn pdf(contents: &Contents) -> Result<Vec<u8>, ReportError> {
         .title(letters.writable(&contents.title))
         .language(contents.language.code().to_owned())
         .creator(contents.running[1].clone());
-    if let Some(date) = contents.date.as_deref().and_then(day) {
+    if let Some(date) = date {
         metadata = metadata.creation_date(date);
     }
     document.set_metadata(metadata);
-    document.finish().map_err(|error| fault(format!("{error:?}")))
+    document
+        .finish()
+        .map_err(|error| fault(format!("{error:?}")))
 }
 
 /// `2026-11-20`.

@@ -26,9 +26,7 @@ impl Setter<'_> {
     pub(super) fn table(&mut self, table: &Table) {
         let mut size = SIZE;
         let mut widths = self.widths(table, size);
-        while widths.iter().sum::<f32>() + GAP * (widths.len() as f32 - 1.0) > RIGHT - LEFT + 0.5
-            && size > SMALLEST
-        {
+        while size > SMALLEST && !self.fits(table, &widths, size) {
             size -= 0.5;
             widths = self.widths(table, size);
         }
@@ -37,6 +35,9 @@ impl Setter<'_> {
             .iter()
             .map(|column| Cell::strong(column.head.clone()))
             .collect();
+        // A head is not alone at the foot of a page.
+        let first = table.rows.first().map_or(&heads, |row| row);
+        self.room(self.height(&heads, &widths, size) + self.height(first, &widths, size));
         self.row(table, &heads, &widths, size, true);
         for row in &table.rows {
             let height = self.height(row, &widths, size);
@@ -48,6 +49,18 @@ impl Setter<'_> {
             self.row(table, row, &widths, size, false);
         }
         self.y += 4.0;
+    }
+
+    /// Whether all columns stand side by side and no word, nor the name of a file, is broken.
+    fn fits(&self, table: &Table, widths: &[f32], size: f32) -> bool {
+        let gaps = GAP * widths.len().saturating_sub(1) as f32;
+        let whole = |row: &Vec<Cell>| {
+            row.iter().zip(widths).all(|(cell, width)| {
+                let mut words = cell.text.split(' ');
+                words.all(|word| self.wide(word, weight(cell), size) <= *width + 0.1)
+            })
+        };
+        widths.iter().sum::<f32>() + gaps <= RIGHT - LEFT + 0.5 && table.rows.iter().all(whole)
     }
 
     /// Columns that do not wrap are as wide as what stands in them; the others share what is left, by what they want.

@@ -66,7 +66,7 @@ pub(super) const WORDS: Words = Words {
     largest_error: "largest error of the tool's position",
     rms_error: "root mean square of it",
     allowed_in_all: "error allowed in all",
-    held: "tolerance kept",
+    held: "tolerance of the whole program kept",
     rounding: "of that by rounding",
     largest_correction: "largest correction",
     tilt: "tilt of the tool",

@@ -180,11 +180,7 @@ pub(crate) fn statement(
 /// Name, size and explanation of what a program leaves.
 pub(crate) fn left(language: Language, left: Left, result: &Shown<'_>) -> [String; 3] {
     match language {
-        Language::English => [
-            left.name().to_owned(),
-            left.size(result),
-            left.text(result),
-        ],
+        Language::English => [left.name().to_owned(), left.size(result), left.text(result)],
         Language::French => french::left::left(left, result),
         Language::German => german::left::left(left, result),
     }

@@ -42,9 +42,7 @@ pub(crate) fn corners(result: &Shown<'_>) -> Option<Corners> {
     corner.or(entry)?;
     let tools = &result.run_inputs.tools_at_corners;
     let first = tools.first().map(|tool| tool.load_at_corners);
-    let shared = tools
-        .iter()
-        .all(|tool| Some(tool.load_at_corners) == first);
+    let shared = tools.iter().all(|tool| Some(tool.load_at_corners) == first);
     let finite = |mm: Option<f64>| mm.filter(|mm| mm.is_finite());
     Some(Corners {
         corner,

@@ -69,7 +69,7 @@ pub(super) const WORDS: Words = Words {
     largest_error: "plus grand écart de position de l’outil",
     rms_error: "sa moyenne quadratique",
     allowed_in_all: "écart admis au total",
-    held: "tolérance tenue",
+    held: "tolérance de tout le programme tenue",
     rounding: "dont par arrondi",
     largest_correction: "plus grande correction",
     tilt: "inclinaison de l’outil",

@@ -69,7 +69,7 @@ pub(super) const WORDS: Words = Words {
     largest_error: "größter Positionsfehler des Werkzeugs",
     rms_error: "quadratisches Mittel davon",
     allowed_in_all: "insgesamt zulässiger Fehler",
-    held: "Toleranz eingehalten",
+    held: "Toleranz des ganzen Programms eingehalten",
     rounding: "davon durch Runden",
     largest_correction: "größte Korrektur",
     tilt: "Verkippung des Werkzeugs",
