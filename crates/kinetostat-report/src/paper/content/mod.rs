@@ -9,7 +9,7 @@ use crate::paper::Paper;
 use crate::paper::block::{Block, Contents};
 use crate::paper::language::Language;
 use crate::paper::words::{Words, fill, statement, words};
-use crate::run::meaning::{Level, assessment};
+use crate::run::meaning::{Level, Statement, assessment};
 use crate::run::shown::Shown;
 use crate::text::{clean, shorten};
 
@@ -121,6 +121,8 @@ fn verdict(of: &Of<'_>) -> Block {
     let mut sentences: Vec<String> = assessment
         .statements
         .iter()
+        // Of a program of others it is not solved what another reading of the load at its steps would do.
+        .filter(|said| of.paper.verified.is_none() || **said != Statement::Corners)
         .filter_map(|said| statement(of.language, said, of.result))
         .map(|sentence| clean(&sentence))
         .collect();

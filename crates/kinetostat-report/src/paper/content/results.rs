@@ -42,9 +42,8 @@ pub(super) fn results(of: &Of<'_>) -> Vec<Block> {
     if after {
         let allowed = number::against(summary.max_position_error_after_mm, allowed_mm).1;
         row(words.allowed_in_all, "", &allowed);
-        let held = verified.map_or(result.tolerance.held, |v| Some(v.held));
         let [yes, no] = words.yes_no;
-        if let Some(held) = held {
+        if let Some(held) = result.tolerance.held {
             row(words.held, "", if held { yes } else { no });
         }
     }

@@ -68,7 +68,7 @@ pub(super) fn worst(of: &Of<'_>) -> Vec<Block> {
     }
     let after = of.has_after();
     let mut columns = vec![Column::words(words.line)];
-    columns.extend(["X, mm", "Y, mm", "Z, mm", words.before].map(Column::figures));
+    columns.extend(["X,\u{a0}mm", "Y,\u{a0}mm", "Z,\u{a0}mm", words.before].map(Column::figures));
     if after {
         columns.extend([words.after, words.line_written].map(Column::figures));
     }
