@@ -37,7 +37,8 @@ impl Setter<'_> {
             .collect();
         // A head is not alone at the foot of a page.
         let first = table.rows.first().map_or(&heads, |row| row);
-        self.room(self.height(&heads, &widths, size) + self.height(first, &widths, size));
+        // Each row ends with a line.
+        self.room(self.height(&heads, &widths, size) + self.height(first, &widths, size) + 4.0);
         self.row(table, &heads, &widths, size, true);
         for row in &table.rows {
             let height = self.height(row, &widths, size);
