@@ -1,4 +1,4 @@
-//! The report of a run as one self-contained HTML file.
+//! The report of a run as one self-contained HTML file, or as a PDF to be signed.
 //!
 //! [`html`] turns a [`RunResult`] into a page that opens from disk without any network, prints on A4
 //! and can be filed with the part. [`plot_preview_svg`] draws the same run as one small picture.
@@ -14,6 +14,7 @@
 //!   length of a path. They share `axis`, `outline`, `label` and `title`.
 //! - `drawing`: a machine in space, as lines on paper.
 //! - `turns`: the free turn of a round tool along a path, over all turns that were tried.
+//! - `paper`: the report without pictures, to be signed, as PDF or HTML in three languages.
 //! - `number` and `text` decide how numbers and names look, in one place.
 //!
 //! # Why the plots are drawn here and not by a plotting library
@@ -35,6 +36,7 @@
 mod chart;
 mod drawing;
 mod number;
+mod paper;
 mod run;
 mod svg;
 mod text;
@@ -49,6 +51,8 @@ pub use chart::bars::{Bar, Bars};
 pub use chart::plot::{Plot, PlotLine, PlotMark};
 pub use chart::section::{Cell, Section};
 pub use drawing::{Drawing, Magnified, Moved, Placed, View};
+pub use paper::language::Language;
+pub use paper::{Paper, VerifiedProgram};
 
 /// Why a report could not be made.
 #[derive(Debug, thiserror::Error)]
@@ -57,6 +61,14 @@ pub enum ReportError {
     /// The page template failed; this is a fault of this crate, never of the data.
     #[error("the report page could not be filled: {0}")]
     Template(#[from] minijinja::Error),
+    /// The PDF could not be made; this is a fault of this crate, never of the data.
+    #[error("the report could not be set as PDF: {0}")]
+    Pdf(String),
+    /// This build makes no PDF.
+    #[error(
+        "this build makes no PDF: the command line does, kinetostat compensate job.toml --pdf report.pdf"
+    )]
+    NoPdf,
 }
 
 /// The report as one HTML page.

@@ -66,9 +66,9 @@ pub(crate) fn from_map(
     to_screen: bool,
 ) -> Answer<()> {
     let t = &setting.targets;
-    if t.report.is_some() || t.points.is_some() {
+    if t.report.is_some() || t.pdf.is_some() || t.points.is_some() {
         return Err(Failure::input(
-            "--map writes no --report and no --points: a table of corrections says nothing about loads and stiffness; leave these options out",
+            "--map writes no --report, no --pdf and no --points: a table of corrections says nothing about loads and stiffness; leave these options out",
         ));
     }
     let field = read_table(files, map)?;

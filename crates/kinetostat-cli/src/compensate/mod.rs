@@ -37,6 +37,7 @@ use crate::job::{program, run_warnings};
 use crate::program::aim::Aim;
 use crate::program::features::refuse_missed_features;
 use crate::program::outputs::RunOutputs;
+use crate::program::paper::LanguageWord;
 use crate::program::{report, solve, summary};
 use crate::ui::failure::{Answer, Failure};
 
@@ -128,6 +129,7 @@ fn compensate(files: &InputFiles, args: &CompensateArgs) -> Answer<()> {
         .warnings
         .extend(run_warnings::of_run(&model, job));
     outputs.list(flags.all_points, &model);
+    outputs.language = LanguageWord::language(flags.language);
     if let Some(turn) = &turn {
         turn.put_into(&mut run.result.run_inputs);
     }

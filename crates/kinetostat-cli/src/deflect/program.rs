@@ -16,6 +16,7 @@ use crate::job::turn_arguments::FreeTurnWord;
 use crate::job::{program, run_warnings};
 use crate::program::aim::Aim;
 use crate::program::outputs::RunOutputs;
+use crate::program::paper::LanguageWord;
 use crate::program::{report, solve, summary};
 use crate::ui::failure::Answer;
 
@@ -35,6 +36,7 @@ pub(crate) fn along_program(args: &DeflectArgs, is_job: bool) -> Answer<()> {
     let mut chosen = setting.targets.clone();
     // The job's outputs are those of the compensation: an analysis writes what is named here.
     chosen.report.clone_from(&args.program.report);
+    chosen.pdf.clone_from(&args.program.pdf);
     chosen.points.clone_from(&args.program.points);
     chosen.turn_plot = (args.program.turn.turn_plot.clone()).filter(|_| {
         // Without a turn that is chosen there is nothing to draw.
@@ -75,6 +77,7 @@ pub(crate) fn along_program(args: &DeflectArgs, is_job: bool) -> Answer<()> {
         .warnings
         .extend(run_warnings::of_run(&model, job.as_ref()));
     outputs.list(args.program.all_points, &model);
+    outputs.language = LanguageWord::language(args.program.language);
     outputs.fill(&run, &setting, turn.as_ref())?;
     let note = outputs.note(&run);
     let paths = outputs.files.commit()?;

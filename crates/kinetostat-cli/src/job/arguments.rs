@@ -11,6 +11,7 @@ use crate::job::turn_arguments::TurnFlags;
 use crate::job::uncertain::UncertainFlags;
 use crate::job::units_word::UnitsWord;
 use crate::options::{number, whole};
+use crate::program::paper::LanguageWord;
 
 /// Job file, model and everything about the program.
 #[derive(Debug, Args)]
@@ -92,6 +93,12 @@ pub(crate) struct ProgramArgs {
     /// The report, one HTML file
     #[arg(long, value_name = "FILE", help_heading = "Outputs")]
     pub(crate) report: Option<PathBuf>,
+    /// The report without pictures as PDF, to be signed and filed
+    #[arg(long, value_name = "FILE", help_heading = "Outputs")]
+    pub(crate) pdf: Option<PathBuf>,
+    /// Language of the reports [default: en]. In French and German the HTML report has no pictures either
+    #[arg(long, value_enum, value_name = "LANGUAGE", help_heading = "Outputs")]
+    pub(crate) language: Option<LanguageWord>,
     /// Points of the path as a table (CSV); of long programs the worst of every stretch
     #[arg(long, value_name = "FILE", help_heading = "Outputs")]
     pub(crate) points: Option<PathBuf>,

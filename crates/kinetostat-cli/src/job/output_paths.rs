@@ -13,6 +13,9 @@ use crate::ui::failure::Answer;
 /// What the compensated program is called among outputs.
 pub(crate) const COMPENSATED_PROGRAM: &str = "compensated program";
 
+/// What the report to be signed is called among outputs.
+pub(crate) const PDF: &str = "report as PDF";
+
 /// What the flat program is called among outputs.
 pub(crate) const FLAT_PROGRAM: &str = "flat program";
 
@@ -54,6 +57,8 @@ pub(crate) enum Form {
 pub(crate) struct OutputPaths {
     pub(crate) program: Option<PathBuf>,
     pub(crate) report: Option<PathBuf>,
+    /// Report without pictures, to be signed.
+    pub(crate) pdf: Option<PathBuf>,
     pub(crate) json: Option<PathBuf>,
     pub(crate) points: Option<PathBuf>,
     /// Of a program that is written flat.
@@ -70,6 +75,7 @@ impl OutputPaths {
         [
             (COMPENSATED_PROGRAM, &self.program),
             ("report", &self.report),
+            (PDF, &self.pdf),
             ("result", &self.json),
             ("table of points", &self.points),
             (FLAT_PROGRAM, &self.flat),
@@ -117,6 +123,7 @@ pub(crate) fn output_paths(
     let mut targets = OutputPaths {
         beside: Vec::new(),
         program: from_job(writing.out, |j| j.output.program.as_ref())?,
+        pdf: flags.pdf.clone(),
         report: from_job(flags.report.as_deref(), |j| j.output.report.as_ref())?,
         json: from_job(writing.json.filter(|p| *p != Path::new("-")), |j| {
             j.output.json.as_ref()

@@ -8,6 +8,7 @@ pub(crate) mod features;
 pub(crate) mod flat_lines;
 mod joint_columns;
 pub(crate) mod outputs;
+pub(crate) mod paper;
 pub(crate) mod points_table;
 pub(crate) mod report;
 pub(crate) mod solve;

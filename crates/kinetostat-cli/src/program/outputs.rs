@@ -4,14 +4,17 @@ use std::path::PathBuf;
 
 use kinetostat_machining::Run;
 use kinetostat_model::Model;
-use kinetostat_report::{html_of_run_and_turns, turns_svg};
+use kinetostat_report::{Language, Paper, html_of_run_and_turns, turns_svg};
 
 use crate::files::outputs::{Existing, Outputs};
 use crate::job::free_turn::FreeTurn;
-use crate::job::output_paths::{BESIDE, COMPENSATED_PROGRAM, FLAT_PROGRAM, OutputPaths, TURN_PLOT};
+use crate::job::output_paths::{
+    BESIDE, COMPENSATED_PROGRAM, FLAT_PROGRAM, OutputPaths, PDF, TURN_PLOT,
+};
 use crate::job::setting::Setting;
 use crate::program::aim::Aim;
 use crate::program::flat_lines::WithSources;
+use crate::program::paper;
 use crate::program::points_table::{self, Listing};
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::json::json;
@@ -22,6 +25,9 @@ pub(crate) struct RunOutputs {
     pub(crate) files: Outputs,
     pub(crate) program: Option<usize>,
     pub(crate) report: Option<usize>,
+    pub(crate) pdf: Option<usize>,
+    /// Language of the reports.
+    pub(crate) language: Language,
     pub(crate) json: Option<usize>,
     pub(crate) points: Option<usize>,
     pub(crate) flat: Option<usize>,
@@ -52,9 +58,14 @@ impl RunOutputs {
             Aim::Compensate => claim(COMPENSATED_PROGRAM, &targets.program)?,
             Aim::Analyse => None,
         };
+        if targets.pdf.is_some() {
+            paper::refuse_without_pdf()?;
+        }
         Ok(Self {
             program,
             report: claim("report", &targets.report)?,
+            pdf: claim(PDF, &targets.pdf)?,
+            language: Language::English,
             json: claim("result", &targets.json)?,
             points: claim("table of points", &targets.points)?,
             flat: claim(FLAT_PROGRAM, &targets.flat)?,
@@ -111,8 +122,10 @@ impl RunOutputs {
         if let Some(index) = self.flat {
             self.files.fill(index, &setting.program)?;
         }
+        let mut made = Vec::new();
         if let (Some(index), Some(written)) = (self.program, &run.written) {
             let written = setting.as_files(written)?;
+            made = paper::written(&setting.targets, &written.program, &written.beside);
             self.files.fill(index, &written.program)?;
             self.widened = written.widened;
             for (index, bytes) in self.beside.iter().zip(&written.beside) {
@@ -134,12 +147,20 @@ impl RunOutputs {
             )?;
             outputs.complete(index)?;
         }
+        let of = Paper::of(&run.result)
+            .in_language(self.language)
+            .with_written(made);
+        if let Some(index) = self.pdf {
+            self.files.fill(index, &paper::pdf(&of)?)?;
+        }
         if let Some(index) = self.report {
-            let page = html_of_run_and_turns(
-                run,
-                turn.map(|turn| (&turn.choice, turn.description.as_str())),
-            )
-            .map_err(|error| Failure::input(format!("the report cannot be made: {error}")))?;
+            let chosen = turn.map(|turn| (&turn.choice, turn.description.as_str()));
+            let page = match self.language {
+                Language::English => html_of_run_and_turns(run, chosen),
+                Language::French | Language::German => Ok(of.html()),
+            };
+            let page = page
+                .map_err(|error| Failure::input(format!("the report cannot be made: {error}")))?;
             self.files.fill(index, page.as_bytes())?;
         }
         Ok(())

@@ -1,8 +1,10 @@
 //! What `verify` answers.
 
 use kinetostat_machining::{
-    FeatureResult, FileRead, MissedTolerance, PointResult, Verified, Warning, farthest_off,
+    FeatureResult, FileRead, MissedTolerance, PointResult, RunResult, Verified, Warning,
+    farthest_off,
 };
+use kinetostat_report::{Language, Paper, VerifiedProgram};
 use serde::Serialize;
 
 /// The answer of `verify`: lengths in mm, lines of the original and of the program.
@@ -80,6 +82,38 @@ impl VerifyAnswer {
             worst_points,
             warnings: result.warnings.clone(),
         }
+    }
+
+    /// The run as a paper has it: what was verified is its program, with what it says of its tolerance.
+    pub(crate) fn as_run(&self, verified: &Verified) -> RunResult {
+        let mut run = verified.run.result.clone();
+        run.run_inputs.program.clone_from(&self.program);
+        run.run_inputs.files.clone_from(&self.files);
+        // Files of the original follow behind the first one, which is that of the program.
+        if let Some(first) = run.run_inputs.files.first_mut() {
+            first.what = "verified program".to_owned();
+        }
+        run.run_inputs.tolerance_mm = self.allowed_mm;
+        run.run_inputs.chord_tolerance_mm = 0.0;
+        run.summary.max_rounding_error_mm = 0.0;
+        run.tolerance.allowed_mm = self.allowed_mm;
+        run.tolerance.held = Some(self.missed.is_none());
+        run.tolerance.missed.clone_from(&self.missed);
+        run.worst_points.clone_from(&self.worst_points);
+        run
+    }
+
+    /// Its paper.
+    pub(crate) fn paper<'a>(&self, run: &'a RunResult, language: Language) -> Paper<'a> {
+        let uncut = self.matched.uncut.iter();
+        Paper::of(run)
+            .in_language(language)
+            .of_verified(VerifiedProgram {
+                original: self.against.clone(),
+                held: self.held,
+                allowed_mm: self.allowed_mm,
+                uncut: uncut.map(|uncut| (uncut.lines, uncut.length_mm)).collect(),
+            })
     }
 
     /// Everything that keeps the program from being as it should be, a sentence each.

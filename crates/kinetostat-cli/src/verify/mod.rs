@@ -16,12 +16,14 @@ use crate::job::arguments::{ProgramArgs, WritingFlags};
 use crate::job::axes_of_program::give_axes;
 use crate::job::job_file::JobFile;
 use crate::job::machine::{MachineSetup, machine_setup};
+use crate::job::output_paths::PDF;
 use crate::job::program::read_program;
 use crate::job::robot::joint_arm::give_arm;
 use crate::job::run_warnings;
 use crate::job::setting::{Setting, setting};
 use crate::program::aim::Aim;
 use crate::program::features::put_features;
+use crate::program::paper::{self, LanguageWord};
 use crate::program::points_table::{self, Listing};
 use crate::program::solve::{forces_of, with_task};
 use crate::ui::failure::{Answer, Failure};
@@ -62,6 +64,10 @@ pub(crate) fn run(args: &VerifyArgs) -> Answer<()> {
         path.map(|path| claimed.claim(what, path)).transpose()
     };
     let json_out = claim("result", &args.json.clone().filter(|_| !to_screen))?;
+    let pdf_out = claim(PDF, &args.original.pdf)?;
+    if pdf_out.is_some() {
+        paper::refuse_without_pdf()?;
+    }
     let points_out = claim("table of points", &args.original.points)?;
 
     let mut found = solved(&machine, (&original, &verified), args.original.threads)?;
@@ -82,6 +88,12 @@ pub(crate) fn run(args: &VerifyArgs) -> Answer<()> {
     let answer = VerifyAnswer::of(&found, names, read, allowed_mm);
     if let Some(index) = json_out {
         claimed.fill(index, json::json(&answer)?.as_bytes())?;
+    }
+    if let Some(index) = pdf_out {
+        let language = LanguageWord::language(args.original.language);
+        let of_run = answer.as_run(&found);
+        let of = answer.paper(&of_run, language);
+        claimed.fill(index, &paper::pdf(&of)?)?;
     }
     if let Some(index) = points_out {
         let listing = Listing {
@@ -107,7 +119,7 @@ pub(crate) fn run(args: &VerifyArgs) -> Answer<()> {
 fn refuse_what_says_nothing(given: &ProgramArgs) -> Answer<()> {
     let turn = &given.turn;
     let what = if given.report.is_some() {
-        "--report: its answer comes as text, as JSON (--json FILE) and as a table of points (--points FILE)"
+        "--report: its answer comes as text, as JSON (--json FILE), as PDF (--pdf FILE) and as a table of points (--points FILE)"
     } else if turn.free_turn || turn.stiff_turn || turn.turn_plot.is_some() {
         "--free-turn, --stiff-turn and --turn-plot: the tool is turned as the program says"
     } else if given.uncertain.uncertain.is_some() || given.uncertain.machines.is_some() {

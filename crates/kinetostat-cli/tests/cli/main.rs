@@ -52,6 +52,7 @@ mod measured;
 mod mirror;
 mod named_at_once;
 mod other_language;
+mod paper;
 mod places_by_position;
 mod plausibility_checks;
 mod poses;

@@ -127,7 +127,7 @@ fn what_is_the_same_turned_around_is_told_by_the_order() {
 /// The frames are turned by 0.1 to 3.1 rad and some 300 mm away.
 fn bump_is_found(cuts: &str) {
     let (_, path) = read(&format!("G21 G90\nG0 X0 Y0 Z0\nF600\nG1 {cuts}\nM30\n"));
-    let nominal = NominalPath::new(&path).unwrap();
+    let nominal = NominalPath::new(&path).expect("a path with length");
     for noise_mm in [0.0, 1e-3] {
         for angle in [0.1, 1.5, 2.5, 3.1] {
             let turn = UnitQuaternion::from_scaled_axis(Vector3::new(0.0, 0.0, angle));
@@ -145,8 +145,9 @@ fn bump_is_found(cuts: &str) {
                 .collect();
             let away = Vector3::new(300.0, 200.0, 100.0);
             let points: Vec<_> = cut.iter().map(|place| turn * place + away).collect();
-            let measured = MeasuredPoints::at(&points).unwrap();
-            let found = register(&nominal, &measured, RegistrationOptions::default()).unwrap();
+            let measured = MeasuredPoints::at(&points).expect("points");
+            let found =
+                register(&nominal, &measured, RegistrationOptions::default()).expect("a motion");
             let mut worst = Worst::new();
             for (point, place) in points.iter().zip(&cut) {
                 worst.add((found.motion.of(point) - place).norm());

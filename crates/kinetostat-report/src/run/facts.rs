@@ -1,6 +1,8 @@
 //! Figures and tables of the report as text.
 
-use kinetostat_machining::{FileRead, PointKind, PointResult, RunInputs, Summary, UncertaintyBand};
+use kinetostat_machining::{
+    FileRead, PointKind, PointResult, RunInputs, Summary, UncertainNumber, UncertaintyBand,
+};
 use minijinja::{Value, context};
 
 use crate::number::{self, MISSING, Rounding, norm};
@@ -162,20 +164,23 @@ fn error_columns(error: &[f64; 3], factor: f64) -> Vec<String> {
     columns
 }
 
+/// A number that is uncertain: `name = value unit (distribution spread unit)`.
+pub(crate) fn uncertain_number(n: &UncertainNumber) -> String {
+    let unit = if n.unit.is_empty() { "" } else { " " };
+    format!(
+        "{} = {}{unit}{} ({} {}{unit}{})",
+        n.name,
+        number::setting(n.value),
+        n.unit,
+        n.distribution,
+        number::setting(n.spread),
+        n.unit
+    )
+}
+
 /// What is uncertain, and how far linear propagation goes.
 fn uncertain_words(band: &UncertaintyBand) -> String {
-    let numbers = band.uncertain.iter().map(|n| {
-        let unit = if n.unit.is_empty() { "" } else { " " };
-        format!(
-            "{} = {}{unit}{} ({} {}{unit}{})",
-            n.name,
-            number::setting(n.value),
-            n.unit,
-            n.distribution,
-            number::setting(n.spread),
-            n.unit
-        )
-    });
+    let numbers = band.uncertain.iter().map(uncertain_number);
     let numbers: Vec<String> = numbers.collect();
     let linear = match band.before.linear_is_enough {
         true => "Linear propagation agrees",
@@ -191,110 +196,192 @@ fn uncertain_words(band: &UncertaintyBand) -> String {
     )
 }
 
+/// Something that a program leaves, or that its figures do not cover. It holds no words, so that every language says the same.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Left {
+    /// The tool is turned.
+    Tilt,
+    /// The force of the cut may be another.
+    ForceOfCut,
+    /// Machine and force may be others.
+    Uncertain,
+    /// Digits that are not written.
+    Rounding,
+    /// Steps at corners.
+    CornerSteps,
+    /// Steps where a rapid ends.
+    EntrySteps,
+    /// How fast the correction changes.
+    Change,
+    /// Steps against the motion.
+    Backwards,
+    /// Pieces that are cut more slowly.
+    FeedLimited,
+}
+
+/// What is to be said of a run, in its order.
+pub(crate) fn left(result: &Shown<'_>) -> Vec<Left> {
+    let summary = &result.summary;
+    let written = result.run_inputs.compensated;
+    let all = [
+        (true, Left::Tilt),
+        (result.force_band.is_some(), Left::ForceOfCut),
+        (result.uncertainty.is_some(), Left::Uncertain),
+        (written, Left::Rounding),
+        (written, Left::CornerSteps),
+        (written && summary.entry_steps > 0, Left::EntrySteps),
+        (
+            written && summary.largest_change_mm_per_mm.is_some(),
+            Left::Change,
+        ),
+        (
+            written && summary.largest_backward_step_mm > 0.0,
+            Left::Backwards,
+        ),
+        (
+            written && summary.feed_limited_pieces > 0,
+            Left::FeedLimited,
+        ),
+    ];
+    let said = all.into_iter().filter(|(is_said, _)| *is_said);
+    said.map(|(_, left)| left).collect()
+}
+
 /// What the written program leaves: name, size, explanation.
 pub(crate) fn uncorrected(result: &Shown<'_>) -> Vec<Value> {
-    let (summary, run_inputs) = (&result.summary, &result.run_inputs);
-    let row = |name: &str, size: String, text: String| context! { name, size, text };
-    let mut rows = vec![row(
-        "Tilt of the tool",
-        result.figures.rotation.clone(),
-        "Load, weight and assembly errors turn the tool as well as moving it. A program of positions moves the tool tip back to its place but \
-         cannot turn it back; a side wall cut deep below the tip shows it."
-            .to_owned(),
-    )];
-    if let (Some(band), Some(text)) = (&result.force_band, result.force_band_text()) {
-        let error = band.max_error_mm();
-        rows.push(row(
-            "Force of the cut",
-            error.map_or_else(
-                || MISSING.to_owned(),
-                |error| number::length(error, 3, Rounding::Up),
+    let all = left(result).into_iter();
+    all.map(|left| context! { name => left.name(), size => left.size(result), text => left.text(result) })
+        .collect()
+}
+
+impl Left {
+    /// What it is, in English.
+    pub(crate) fn name(self) -> &'static str {
+        match self {
+            Self::Tilt => "Tilt of the tool",
+            Self::ForceOfCut => "Force of the cut",
+            Self::Uncertain => "Machine and force as they may be",
+            Self::Rounding => "Rounding",
+            Self::CornerSteps => "Corner steps",
+            Self::EntrySteps => "Steps where a rapid ends",
+            Self::Change => "Change of the correction",
+            Self::Backwards => "Way backwards",
+            Self::FeedLimited => "Feed limited",
+        }
+    }
+
+    /// Its figure; of steps the longest one, of limited feeds the slowest speed.
+    pub(crate) fn figure(self, result: &Shown<'_>) -> String {
+        let figures = &result.figures;
+        let summary = &result.summary;
+        let or_missing = |text: &Option<String>| text.clone().unwrap_or_else(|| MISSING.to_owned());
+        match self {
+            Self::Tilt => figures.rotation.clone(),
+            Self::ForceOfCut => {
+                let error = result.force_band.as_ref().and_then(|b| b.max_error_mm());
+                error.map_or_else(
+                    || MISSING.to_owned(),
+                    |error| number::length(error, 3, Rounding::Up),
+                )
+            }
+            Self::Uncertain => {
+                let band = result.uncertainty.as_ref();
+                let shown = band.map(|band| band.after.as_ref().unwrap_or(&band.before));
+                shown.map_or_else(
+                    || MISSING.to_owned(),
+                    |shown| number::typeset(&shown.band_text()),
+                )
+            }
+            Self::Rounding => figures.rounding.clone(),
+            Self::CornerSteps => or_missing(&figures.corner_step),
+            Self::EntrySteps => or_missing(&figures.entry_step),
+            Self::Change => or_missing(&figures.change),
+            Self::Backwards => number::length(summary.largest_backward_step_mm, 3, Rounding::Up),
+            Self::FeedLimited => number::with_unit(
+                &number::significant(
+                    summary.slowest_limited_speed_percent.unwrap_or(f64::NAN),
+                    2,
+                    Rounding::Down,
+                ),
+                "%",
             ),
-            text,
-        ));
+        }
     }
-    if let Some(band) = &result.uncertainty {
-        let shown = band.after.as_ref().unwrap_or(&band.before);
-        rows.push(row(
-            "Machine and force as they may be",
-            number::typeset(&shown.band_text()),
-            uncertain_words(band),
-        ));
+
+    /// How many of it there are; none of what is not counted.
+    pub(crate) fn counted(self, result: &Shown<'_>) -> Option<usize> {
+        match self {
+            Self::CornerSteps => Some(result.summary.corner_steps),
+            Self::EntrySteps => Some(result.summary.entry_steps),
+            Self::FeedLimited => Some(result.summary.feed_limited_pieces),
+            _ => None,
+        }
     }
-    if !run_inputs.compensated {
-        return rows;
+
+    /// How much it is, in English.
+    pub(crate) fn size(self, result: &Shown<'_>) -> String {
+        match (self, self.counted(result)) {
+            (Self::FeedLimited, Some(pieces)) => number::counted(pieces, "piece"),
+            (_, Some(0)) => "none".to_owned(),
+            (_, Some(steps)) => {
+                format!("{}, longest {}", number::count(steps), self.figure(result))
+            }
+            (_, None) => self.figure(result),
+        }
     }
-    rows.push(row(
-        "Rounding",
-        result.figures.rounding.clone(),
-        format!(
-            "Numbers are written with {} decimals. This part of the error after compensation comes from that alone.",
-            run_inputs.decimals
-        ),
-    ));
-    let steps = |count, longest: &Option<String>| match count {
-        0 => "none".to_owned(),
-        steps => format!(
-            "{}, longest {}",
-            number::count(steps),
-            longest.as_deref().unwrap_or(MISSING)
-        ),
-    };
-    rows.push(row(
-        "Corner steps",
-        steps(summary.corner_steps, &result.figures.corner_step),
-        format!(
-            "Where the load turns at once, as at a sharp corner, the correction turns with it: the program makes a short \
-             step there while the tool stays at its corner. {}",
-            result.corners_text().unwrap_or_default()
-        )
-        .trim_end()
-        .to_owned(),
-    ));
-    if summary.entry_steps > 0 {
-        rows.push(row(
-            "Steps where a rapid ends",
-            steps(summary.entry_steps, &result.figures.entry_step),
-            "The load is there at once where a rapid ends: the program makes a step while the tool stays at its \
-             place."
-                .to_owned(),
-        ));
-    }
-    rows.extend(change(result));
-    if summary.largest_backward_step_mm > 0.0 {
-        rows.push(row(
-            "Way backwards",
-            number::length(summary.largest_backward_step_mm, 3, Rounding::Up),
-            format!(
+
+    /// What it means, in English.
+    pub(crate) fn text(self, result: &Shown<'_>) -> String {
+        let summary = &result.summary;
+        match self {
+            Self::Tilt => {
+                "Load, weight and assembly errors turn the tool as well as moving it. A program of positions moves the tool tip back to its place but \
+                 cannot turn it back; a side wall cut deep below the tip shows it."
+                    .to_owned()
+            }
+            Self::ForceOfCut => result.force_band_text().unwrap_or_default(),
+            Self::Uncertain => {
+                let band = result.uncertainty.as_ref();
+                band.map_or_else(String::new, uncertain_words)
+            }
+            Self::Rounding => format!(
+                "Numbers are written with {} decimals. This part of the error after compensation comes from that alone.",
+                result.run_inputs.decimals
+            ),
+            Self::CornerSteps => format!(
+                "Where the load turns at once, as at a sharp corner, the correction turns with it: the program makes a short \
+                 step there while the tool stays at its corner. {}",
+                result.corners_text().unwrap_or_default()
+            )
+            .trim_end()
+            .to_owned(),
+            Self::EntrySteps => {
+                "The load is there at once where a rapid ends: the program makes a step while the tool stays at its \
+                 place."
+                    .to_owned()
+            }
+            Self::Change => change(result),
+            Self::Backwards => format!(
                 "The longest step or piece against the direction of motion; {} are longer than {}.",
                 number::count(summary.backward_steps),
                 number::length_setting(summary.backward_step_limit_mm)
             ),
-        ));
-    }
-    if summary.feed_limited_pieces > 0 {
-        rows.push(row(
-            "Feed limited",
-            number::counted(summary.feed_limited_pieces, "piece"),
-            format!(
+            Self::FeedLimited => format!(
                 "Their feed is held to {} times the programmed one, so the part is cut more slowly there than \
-                 programmed, the slowest at {} % of its speed, first at line {}.",
+                 programmed, the slowest at {} of its speed, first at line {}.",
                 summary.max_feed_factor,
-                number::significant(
-                    summary.slowest_limited_speed_percent.unwrap_or(f64::NAN),
-                    2,
-                    Rounding::Down
-                ),
+                self.figure(result).replace('\u{202f}', " "),
                 number::count(summary.feed_limited_line.unwrap_or(0))
             ),
-        ));
+        }
     }
-    rows
 }
 
 /// The fastest change of the correction outside steps, with its line, beside what is stated.
-fn change(result: &Shown<'_>) -> Option<Value> {
-    let change = result.summary.largest_change_mm_per_mm?;
+fn change(result: &Shown<'_>) -> String {
+    let Some(change) = result.summary.largest_change_mm_per_mm else {
+        return String::new();
+    };
     let line = number::count(change.line);
     let beside = match (change.stated, change.lines_beyond) {
         (Some(stated), 0) => format!(
@@ -309,13 +396,9 @@ fn change(result: &Shown<'_>) -> Option<Value> {
         ),
         (None, _) => String::new(),
     };
-    Some(context! {
-        name => "Change of the correction",
-        size => result.figures.change.clone().unwrap_or_else(|| MISSING.to_owned()),
-        text => format!(
-            "The fastest one per mm of path outside steps, from the written positions, at line {line}{beside}."
-        ),
-    })
+    format!(
+        "The fastest one per mm of path outside steps, from the written positions, at line {line}{beside}."
+    )
 }
 
 /// The first lines under the title: what the result is about.

@@ -46,191 +46,255 @@ impl Level {
     }
 }
 
-/// The result of a run against its tolerance.
+/// The result of a run against its tolerance: how good it is, and what is to be said of it, in this order.
 pub(crate) struct RunAssessment {
     pub(crate) level: Level,
-    pub(crate) sentence: String,
+    pub(crate) statements: Vec<Statement>,
+}
+
+/// What is said of a run. It holds no words, so that every language says the same.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Statement {
+    /// No point was calculated.
+    NoPoint,
+    /// The machine is not stable, first at this line.
+    Unstable { line: Option<usize> },
+    /// Some place has no answer.
+    NotConverged,
+    /// The errors are no numbers.
+    Unknown,
+    /// No cutting force acts.
+    NoLoad,
+    /// An analysis, with its largest error.
+    Analysed,
+    /// The program came back byte for byte.
+    Unchanged,
+    /// The written program misses the tolerance; it may be better than the original.
+    Missed { better: bool },
+    /// The original keeps the tolerance, too.
+    WithinBefore,
+    /// The errors before and after.
+    Corrected,
+    /// Features that miss their tolerance.
+    FeaturesMissed,
+    /// What the machine's own weight does.
+    OwnWeight,
+    /// What is assumed at corners.
+    Corners,
+    /// Over which length the load comes.
+    Ramp,
+    /// What another force does.
+    ForceBand,
+    /// What other machines do.
+    Uncertainty,
+    /// The tilt that stays.
+    Tilt,
 }
 
 /// Compares a run with its tolerance.
 pub(crate) fn assessment(result: &RunResult) -> RunAssessment {
     let summary = &result.summary;
-    let stop = |sentence: String| RunAssessment {
-        level: Level::Stop,
-        sentence,
+    let only = |level, statement| RunAssessment {
+        level,
+        statements: vec![statement],
     };
     if summary.points == 0 && result.points.is_empty() {
-        return RunAssessment {
-            level: Level::Attention,
-            sentence: "No point of the program was calculated, so there is nothing to judge."
-                .to_owned(),
-        };
+        return only(Level::Attention, Statement::NoPoint);
     }
     if !summary.stable {
-        let place = first_unstable_line(result).map_or_else(String::new, |line| {
-            format!(", first at line {}", number::count(line))
-        });
-        return stop(format!(
-            "The machine gives way under this load{place}: it is not stable there. Do not run this program with \
-             this load; the figures below hold only where the machine is stable."
-        ));
+        let line = first_unstable_line(result);
+        return only(Level::Stop, Statement::Unstable { line });
     }
     if !summary.converged {
-        let program = if result.run_inputs.compensated {
-            " or on the compensated program"
-        } else {
-            ""
-        };
-        return stop(format!(
-            "The calculation found no answer for at least one place on the path. Do not rely on the figures \
-             below{program} before the reason is found (see the warnings)."
-        ));
+        return only(Level::Stop, Statement::NotConverged);
     }
-    let mut meaning = if result.run_inputs.compensated {
-        compensated(result)
-    } else {
-        analysed(result)
+    let (mut level, main) = match result.run_inputs.compensated {
+        true => compensated(result),
+        false => analysed(result),
     };
-    let missed: Vec<&str> = (result.features.iter())
-        .filter(|feature| feature.held == Some(false))
-        .map(|feature| feature.name.as_str())
-        .collect();
-    if !missed.is_empty() {
-        if meaning.level != Level::Stop && result.run_inputs.compensated {
-            meaning.level = Level::Attention;
-        }
-        meaning.sentence.push_str(&format!(
-            " The tolerance is missed of: {}.",
-            missed.join(", ")
-        ));
+    let missed = result.features.iter().any(|f| f.held == Some(false));
+    if missed && level != Level::Stop && result.run_inputs.compensated {
+        level = Level::Attention;
     }
-    if let Some(own) = result.own_weight_text() {
-        meaning.sentence.push(' ');
-        meaning.sentence.push_str(&own);
-    }
-    if let Some(corners) = result.corners_text() {
-        meaning.sentence.push(' ');
-        meaning.sentence.push_str(&corners);
-    }
-    if let Some(ramp) = result.ramp_text() {
-        meaning.sentence.push(' ');
-        meaning.sentence.push_str(&ramp);
-    }
-    if let Some(band) = result.force_band_text() {
-        meaning.sentence.push(' ');
-        meaning.sentence.push_str(&band);
-    }
-    if let Some(band) = result.uncertainty_text() {
-        meaning.sentence.push(' ');
-        meaning.sentence.push_str(&band.replace("+-", "±"));
-    }
-    if cuts_without_load(result) {
-        meaning.sentence = format!(
-            "No cutting force acts on the tool in this run. {}",
-            meaning.sentence
-        );
-    }
-    if summary.max_residual_rotation_deg > SMALLEST_ROTATION {
-        let angle = in_type(result).rotation;
-        let inputs = &result.run_inputs;
-        let beside = match (inputs.orientation_corrected, inputs.states_orientation) {
-            (true, _) => "",
-            (false, true) => ", which --correct pose corrects, too",
-            (false, false) => ", which a program of positions cannot correct",
-        };
-        meaning.sentence.push_str(&match inputs.compensated {
-            true => format!(" The tool stays tilted by up to {angle}{beside}."),
-            false => format!(" It tilts by up to {angle}."),
-        });
-    }
-    meaning
-}
-
-fn analysed(result: &RunResult) -> RunAssessment {
-    let before = result.summary.max_position_error_before_mm;
-    if !before.is_finite() {
-        return unknown();
-    }
-    RunAssessment {
-        level: Level::Analysis,
-        sentence: format!(
-            "The tool is up to {} off its programmed path. This is an analysis only: no compensated program was \
-             written.",
-            in_type(result).error_before
+    let beside = [
+        (cuts_without_load(result), Statement::NoLoad),
+        (true, main),
+        (missed, Statement::FeaturesMissed),
+        (result.own_weight_text().is_some(), Statement::OwnWeight),
+        (result.corners_text().is_some(), Statement::Corners),
+        (result.ramp_text().is_some(), Statement::Ramp),
+        (result.force_band.is_some(), Statement::ForceBand),
+        (result.uncertainty.is_some(), Statement::Uncertainty),
+        (
+            summary.max_residual_rotation_deg > SMALLEST_ROTATION,
+            Statement::Tilt,
         ),
+    ];
+    let said = beside.into_iter().filter(|(is_said, _)| *is_said);
+    RunAssessment {
+        level,
+        statements: said.map(|(_, statement)| statement).collect(),
     }
 }
 
-fn compensated(result: &RunResult) -> RunAssessment {
+fn analysed(result: &RunResult) -> (Level, Statement) {
+    match result.summary.max_position_error_before_mm.is_finite() {
+        true => (Level::Analysis, Statement::Analysed),
+        false => (Level::Stop, Statement::Unknown),
+    }
+}
+
+fn compensated(result: &RunResult) -> (Level, Statement) {
     let before = result.summary.max_position_error_before_mm;
     let after = result.summary.max_position_error_after_mm;
     if !before.is_finite() || !after.is_finite() {
-        return unknown();
+        return (Level::Stop, Statement::Unknown);
     }
-    if let Some(unchanged) = result.unchanged_text() {
-        return RunAssessment {
-            level: Level::Unchanged,
-            sentence: format!(
-                "{unchanged} The tool is at most {} off.",
-                in_type(result).error_after
-            ),
-        };
+    if result.unchanged_text().is_some() {
+        return (Level::Unchanged, Statement::Unchanged);
     }
-    let allowed = result.allowed_mm();
-    let before_text = in_type(result).error_before;
-    let (after_text, allowed_text) = number::against(after, allowed);
     if result.holds_tolerance() != Some(true) {
-        let sentence = if after < before {
-            format!(
-                "Without compensation the tool is up to {before_text} off; with the compensated program it is still \
-                 up to {after_text} off, more than the {} asked for.",
-                allowed_text
-            )
-        } else {
-            format!(
-                "The compensated program is no better than the original: the tool is up to {before_text} off without \
-                 it and up to {after_text} with it, more than the {} asked for.",
-                allowed_text
-            )
-        };
-        let sentence = match &result.tolerance.missed {
-            Some(missed) => format!(
-                "The tolerance is missed, most at line {}: {}. {sentence}",
-                number::count(missed.line),
-                crate::text::clean(&missed.reason)
-            ),
-            None => format!("The tolerance is missed. {sentence}"),
-        };
-        return RunAssessment {
-            level: Level::Attention,
-            sentence,
-        };
+        let better = after < before;
+        return (Level::Attention, Statement::Missed { better });
     }
-    if before <= allowed {
-        return RunAssessment {
-            level: Level::Good,
-            sentence: format!(
-                "Even without compensation the tool is at most {before_text} off, within the {} asked for; with the \
-                 compensated program at most {after_text}.",
-                allowed_text
-            ),
-        };
-    }
-    RunAssessment {
-        level: Level::Good,
-        sentence: format!(
-            "Without compensation the tool is up to {before_text} off; with the compensated program at most \
-             {after_text}."
-        ),
+    match before <= result.allowed_mm() {
+        true => (Level::Good, Statement::WithinBefore),
+        false => (Level::Good, Statement::Corrected),
     }
 }
 
-fn unknown() -> RunAssessment {
-    RunAssessment {
-        level: Level::Stop,
-        sentence: "The error of the tool is not available, so the program cannot be judged: do not run it before the \
-                   reason is found (see the warnings)."
-            .to_owned(),
+impl RunAssessment {
+    /// All of it in English.
+    pub(crate) fn sentence(&self, result: &RunResult) -> String {
+        let sentences = self.statements.iter().map(|s| s.sentence(result));
+        sentences.collect::<Vec<_>>().join(" ")
+    }
+}
+
+impl Statement {
+    /// In English.
+    pub(crate) fn sentence(self, result: &RunResult) -> String {
+        match self {
+            Self::NoPoint => {
+                "No point of the program was calculated, so there is nothing to judge.".to_owned()
+            }
+            Self::Unstable { line } => {
+                let place = line.map_or_else(String::new, |line| {
+                    format!(", first at line {}", number::count(line))
+                });
+                format!(
+                    "The machine gives way under this load{place}: it is not stable there. Do not run this program with \
+                     this load; the figures below hold only where the machine is stable."
+                )
+            }
+            Self::NotConverged => {
+                let program = match result.run_inputs.compensated {
+                    true => " or on the compensated program",
+                    false => "",
+                };
+                format!(
+                    "The calculation found no answer for at least one place on the path. Do not rely on the figures \
+                     below{program} before the reason is found (see the warnings)."
+                )
+            }
+            Self::Unknown => {
+                "The error of the tool is not available, so the program cannot be judged: do not run it before the \
+                 reason is found (see the warnings)."
+                    .to_owned()
+            }
+            Self::NoLoad => "No cutting force acts on the tool in this run.".to_owned(),
+            Self::Analysed => format!(
+                "The tool is up to {} off its programmed path. This is an analysis only: no compensated program was \
+                 written.",
+                in_type(result).error_before
+            ),
+            Self::Unchanged => format!(
+                "{} The tool is at most {} off.",
+                result.unchanged_text().unwrap_or_default(),
+                in_type(result).error_after
+            ),
+            Self::Missed { better } => missed(result, better),
+            Self::WithinBefore => {
+                let (after, allowed) = after_and_allowed(result);
+                format!(
+                    "Even without compensation the tool is at most {} off, within the {allowed} asked for; with the \
+                     compensated program at most {after}.",
+                    in_type(result).error_before
+                )
+            }
+            Self::Corrected => format!(
+                "Without compensation the tool is up to {} off; with the compensated program at most {}.",
+                in_type(result).error_before,
+                after_and_allowed(result).0
+            ),
+            Self::FeaturesMissed => {
+                format!(
+                    "The tolerance is missed of: {}.",
+                    missed_features(result).join(", ")
+                )
+            }
+            Self::OwnWeight => result.own_weight_text().unwrap_or_default(),
+            Self::Corners => result.corners_text().unwrap_or_default(),
+            Self::Ramp => result.ramp_text().unwrap_or_default(),
+            Self::ForceBand => result.force_band_text().unwrap_or_default(),
+            Self::Uncertainty => {
+                let band = result.uncertainty_text().unwrap_or_default();
+                band.replace("+-", "±")
+            }
+            Self::Tilt => tilt(result),
+        }
+    }
+}
+
+/// Largest error with the written program beside what is allowed.
+pub(crate) fn after_and_allowed(result: &RunResult) -> (String, String) {
+    number::against(
+        result.summary.max_position_error_after_mm,
+        result.allowed_mm(),
+    )
+}
+
+/// Names of features that miss their tolerance.
+pub(crate) fn missed_features(result: &RunResult) -> Vec<&str> {
+    let features = result.features.iter();
+    let missed = features.filter(|feature| feature.held == Some(false));
+    missed.map(|feature| feature.name.as_str()).collect()
+}
+
+fn missed(result: &RunResult, better: bool) -> String {
+    let before = in_type(result).error_before;
+    let (after, allowed) = after_and_allowed(result);
+    let sentence = match better {
+        true => format!(
+            "Without compensation the tool is up to {before} off; with the compensated program it is still \
+             up to {after} off, more than the {allowed} asked for."
+        ),
+        false => format!(
+            "The compensated program is no better than the original: the tool is up to {before} off without \
+             it and up to {after} with it, more than the {allowed} asked for."
+        ),
+    };
+    match &result.tolerance.missed {
+        Some(missed) => format!(
+            "The tolerance is missed, most at line {}: {}. {sentence}",
+            number::count(missed.line),
+            crate::text::clean(&missed.reason)
+        ),
+        None => format!("The tolerance is missed. {sentence}"),
+    }
+}
+
+fn tilt(result: &RunResult) -> String {
+    let angle = in_type(result).rotation;
+    let inputs = &result.run_inputs;
+    let beside = match (inputs.orientation_corrected, inputs.states_orientation) {
+        (true, _) => "",
+        (false, true) => ", which --correct pose corrects, too",
+        (false, false) => ", which a program of positions cannot correct",
+    };
+    match inputs.compensated {
+        true => format!("The tool stays tilted by up to {angle}{beside}."),
+        false => format!("It tilts by up to {angle}."),
     }
 }
 
@@ -283,7 +347,7 @@ mod tests {
         let assessment = assessment(result);
         (
             assessment.level,
-            assessment.sentence.replace('\u{202f}', " "),
+            assessment.sentence(result).replace('\u{202f}', " "),
         )
     }
 

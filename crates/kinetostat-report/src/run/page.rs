@@ -47,7 +47,7 @@ pub(crate) fn render(result: &Shown<'_>) -> Result<String, minijinja::Error> {
         assessment => context! {
             class => assessment.level.class(),
             word => assessment.level.word(),
-            sentence => assessment.sentence,
+            sentence => assessment.sentence(result),
         },
         heading => facts::heading(result),
         cards => facts::cards(result),

@@ -1,0 +1,65 @@
+//! The report to be signed: its language, the hashes of what was written, and the document itself.
+
+use std::borrow::Cow;
+use std::path::Path;
+
+use clap::ValueEnum;
+use kinetostat_machining::FileRead;
+use kinetostat_report::{Language, Paper};
+
+use crate::files::origin;
+use crate::job::output_paths::OutputPaths;
+use crate::ui::failure::{Answer, Failure};
+
+/// Language of reports, as it is named.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum LanguageWord {
+    /// English
+    En,
+    /// French
+    Fr,
+    /// German
+    De,
+}
+
+impl LanguageWord {
+    /// English where none is named.
+    pub(crate) fn language(word: Option<Self>) -> Language {
+        match word {
+            None | Some(Self::En) => Language::English,
+            Some(Self::Fr) => Language::French,
+            Some(Self::De) => Language::German,
+        }
+    }
+}
+
+/// Without PDF in this build it is said before the long work begins.
+pub(crate) fn refuse_without_pdf() -> Answer<()> {
+    match Paper::makes_pdf() {
+        true => Ok(()),
+        false => Err(Failure::input(
+            "this build makes no PDF: the command line does (kinetostat compensate job.toml --pdf report.pdf); an HTML report can be printed",
+        )),
+    }
+}
+
+/// The document.
+pub(crate) fn pdf(paper: &Paper<'_>) -> Answer<Vec<u8>> {
+    paper
+        .pdf()
+        .map_err(|error| Failure::input(error.to_string()))
+}
+
+/// What was written, with its hashes.
+pub(crate) fn written(
+    targets: &OutputPaths,
+    program: &[u8],
+    beside: &[Cow<'_, [u8]>],
+) -> Vec<FileRead> {
+    let paths = targets.program.iter().chain(&targets.beside);
+    let bytes = std::iter::once(program).chain(beside.iter().map(Cow::as_ref));
+    let file = |(path, bytes): (&std::path::PathBuf, &[u8])| {
+        origin::file("written program", Path::new(path), bytes)
+    };
+    paths.zip(bytes).map(file).collect()
+}

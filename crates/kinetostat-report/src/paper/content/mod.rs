@@ -1,0 +1,169 @@
+//! What stands in a paper, in its order.
+
+mod inputs;
+mod results;
+mod tables;
+
+use crate::number;
+use crate::paper::Paper;
+use crate::paper::block::{Block, Contents};
+use crate::paper::language::Language;
+use crate::paper::words::{Words, fill, statement, words};
+use crate::run::meaning::{Level, Statement, assessment};
+use crate::run::shown::Shown;
+use crate::text::{clean, shorten};
+
+/// Most warnings and features shown; more are in the result file.
+const MOST: usize = 100;
+
+/// What every section is made from.
+pub(super) struct Of<'a> {
+    pub(super) paper: &'a Paper<'a>,
+    pub(super) result: &'a Shown<'a>,
+    pub(super) words: &'static Words,
+    pub(super) language: Language,
+}
+
+impl Of<'_> {
+    /// A figure of the report in this language.
+    pub(super) fn figure(&self, text: &str) -> String {
+        self.language.figure(text, &self.words.figures)
+    }
+
+    /// A largest length.
+    pub(super) fn length(&self, mm: f64) -> String {
+        let text = kinetostat_machining::number::largest_length(mm);
+        self.figure(&number::typeset(&text))
+    }
+
+    /// Text of others, harmless; a word for its absence.
+    pub(super) fn text(&self, text: &str) -> String {
+        let text = clean(text);
+        match text.trim().is_empty() {
+            true => self.words.not_stated.to_owned(),
+            false => text,
+        }
+    }
+
+    /// There is a second program: written, or verified.
+    pub(super) fn has_after(&self) -> bool {
+        self.result.run_inputs.compensated || self.paper.verified.is_some()
+    }
+}
+
+/// A paper of a run.
+pub(crate) fn contents(paper: &Paper<'_>, result: &Shown<'_>) -> Contents {
+    let language = paper.language;
+    let words = words(language);
+    let of = Of {
+        paper,
+        result,
+        words,
+        language,
+    };
+    let inputs = &result.run_inputs;
+    let kind = match (&paper.verified, inputs.compensated) {
+        (Some(_), _) => words.kind_verified,
+        (None, true) => words.kind_compensated,
+        (None, false) => words.kind_analysed,
+    };
+    let program = shorten(&of.text(&inputs.program), 80);
+    let machine = shorten(&of.text(&inputs.model), 80);
+    let version = shorten(&result.kinetostat_version, 40);
+    let mut blocks = vec![Block::Facts(inputs::head(&of)), verdict(&of)];
+    if !words.quoted.is_empty() {
+        blocks.push(Block::Note(words.quoted.to_owned()));
+    }
+    blocks.extend(results::results(&of));
+    blocks.extend(tables::features(&of));
+    blocks.extend(tables::worst(&of));
+    blocks.extend(tables::drives(&of));
+    blocks.extend(tables::cut(&of));
+    blocks.extend(results::left(&of));
+    blocks.extend(warnings(&of));
+    blocks.push(Block::Heading(words.head_inputs.to_owned()));
+    blocks.push(Block::Facts(inputs::inputs(&of)));
+    blocks.push(Block::Heading(words.head_files.to_owned()));
+    blocks.push(inputs::files(&of));
+    blocks.push(Block::Heading(words.head_signatures.to_owned()));
+    blocks.push(Block::Signatures(
+        words
+            .signed_by
+            .map(|who| [who, words.name_and_date, words.signature].map(str::to_owned))
+            .to_vec(),
+    ));
+    Contents {
+        language,
+        kind: kind.to_owned(),
+        title: fill(
+            words.title,
+            &[("program", program.as_str()), ("machine", &machine)],
+        ),
+        running: [program, fill(words.made_by, &[("version", &version)])],
+        page_of: words.page_of,
+        date: inputs.date.clone(),
+        blocks,
+    }
+}
+
+fn verdict(of: &Of<'_>) -> Block {
+    let words = of.words;
+    let assessment = assessment(of.result);
+    let (level, word) = match (&of.paper.verified, assessment.level) {
+        (_, Level::Stop) => (Level::Stop, words.stop),
+        (Some(verified), _) if verified.held => (Level::Good, words.verified),
+        (Some(_), _) => (Level::Attention, words.missed),
+        (None, Level::Good) => (Level::Good, words.good),
+        (None, Level::Unchanged) => (Level::Unchanged, words.unchanged),
+        (None, Level::Analysis) => (Level::Analysis, words.analysis),
+        (None, Level::Attention) => (Level::Attention, words.attention),
+    };
+    let mut sentences: Vec<String> = assessment
+        .statements
+        .iter()
+        // Of a program of others it is not solved what another reading of the load at its steps would do.
+        .filter(|said| of.paper.verified.is_none() || **said != Statement::Corners)
+        .filter_map(|said| statement(of.language, said, of.result))
+        .map(|sentence| clean(&sentence))
+        .collect();
+    for (lines, length_mm) in of.paper.verified.iter().flat_map(|v| &v.uncut) {
+        let [first, last] = lines.map(number::count);
+        let length = of.length(*length_mm);
+        sentences.push(fill(
+            words.uncut,
+            &[
+                ("first", first.as_str()),
+                ("last", &last),
+                ("length", &length),
+            ],
+        ));
+    }
+    sentences.push(words.model_only.to_owned());
+    Block::Verdict {
+        level,
+        word: word.to_owned(),
+        sentences,
+    }
+}
+
+fn warnings(of: &Of<'_>) -> Vec<Block> {
+    let all = &of.result.warnings;
+    let shown = all.iter().take(MOST);
+    let lines: Vec<String> = shown.map(|warning| clean(&warning.to_string())).collect();
+    let mut blocks = vec![
+        Block::Heading(of.words.head_warnings.to_owned()),
+        match lines.is_empty() {
+            true => Block::Paragraph(of.words.none.to_owned()),
+            false => Block::List(lines),
+        },
+    ];
+    blocks.extend(more(of.words.more_warnings, all.len()));
+    blocks
+}
+
+/// How many are not shown.
+pub(super) fn more(words: &str, all: usize) -> Option<Block> {
+    let more = all.checked_sub(MOST).filter(|more| *more > 0)?;
+    let count = number::count(more);
+    Some(Block::Note(fill(words, &[("count", count.as_str())])))
+}

@@ -1,0 +1,210 @@
+//! Papers of made-up runs: what stands in them, in all languages.
+
+use kinetostat_machining::{
+    ActuatorColumn, FeatureResult, FileRead, ForceBand, PointResult, RunResult, Warning,
+    WarningCode,
+};
+
+use crate::paper::content::contents;
+use crate::paper::language::Language;
+use crate::paper::{Paper, VerifiedProgram};
+use crate::run::shown::Shown;
+
+/// A run with everything that a paper speaks of, with a feature that is missed and names that are hard to write.
+fn run() -> RunResult {
+    let mut result = RunResult::default();
+    let s = &mut result.summary;
+    (s.points, s.converged, s.stable) = (1234, true, true);
+    s.max_position_error_before_mm = 0.7583;
+    s.max_position_error_after_mm = 0.000_57;
+    s.max_residual_rotation_deg = 0.42;
+    s.max_actuator_force = vec![812.5];
+    (s.corner_steps, s.largest_corner_step_mm) = (3, 0.0171);
+    (s.entry_steps, s.largest_entry_step_mm) = (2, 0.577);
+    (s.feed_limited_pieces, s.max_feed_factor) = (4, 1.5);
+    s.largest_backward_step_mm = 0.0333;
+    s.max_error_by_own_weight_mm = Some(0.0912);
+    let q = &mut result.run_inputs;
+    q.compensated = true;
+    q.tolerance_mm = 0.000_5;
+    q.chord_tolerance_mm = 0.000_4;
+    q.decimals = 4;
+    s_names(q);
+    let mut feature = FeatureResult::default();
+    feature.name = "Tasche größer".to_owned();
+    feature.lines = [4, 9];
+    feature.error_before_mm = Some(0.61);
+    feature.error_after_mm = Some(0.000_37);
+    feature.allowed_mm = 0.0002;
+    feature.held = Some(false);
+    result.features.push(feature);
+    let mut band = ForceBand::default();
+    (band.spread_percent, band.points, band.of_points, band.line) = (25.0, 9, 99, 17);
+    band.max_error_if_larger_mm = Some(0.1234);
+    band.max_error_if_smaller_mm = Some(0.0456);
+    result.force_band = Some(band);
+    let mut point = PointResult::default();
+    (point.line, point.output_line, point.stable) = (77, 88, true);
+    point.error_before_mm = [0.3, 0.0, 0.4];
+    point.force_n = [100.0, 0.0, 0.0];
+    result.points.push(point.clone());
+    result.worst_points.push(point);
+    let warning = Warning::at_line(WarningCode::Writing, 5, "a step against the motion");
+    result.warnings.push(warning);
+    result
+}
+
+fn s_names(q: &mut kinetostat_machining::RunInputs) {
+    q.program = format!(
+        "/Auftrag/{}/größer_élévé_中.ngc",
+        "sehr_langer_Ordner".repeat(12)
+    );
+    q.model = "Ärm <b>".to_owned();
+    q.stiffnesses = vec!["'slider' 1.00e6 N/mm".to_owned()];
+    q.files.push(FileRead {
+        what: "program".to_owned(),
+        name: "größer.ngc".to_owned(),
+        sha256: "ab".repeat(32),
+    });
+    let mut drive = ActuatorColumn::default();
+    (drive.name, drive.motion_unit, drive.force_unit) =
+        ("q1".to_owned(), "deg".to_owned(), "N m".to_owned());
+    drive.rating = Some(1000.0);
+    q.actuators.push(drive);
+}
+
+fn said(paper: &Paper<'_>) -> String {
+    contents(paper, &Shown::of_result(paper.result)).text()
+}
+
+#[test]
+fn every_language_states_the_same_figures() {
+    let result = run();
+    for language in Language::ALL {
+        let text = said(&Paper::of(&result).in_language(language));
+        let plain = text.replace('\u{202f}', " ");
+        // Largest figures are rounded up; the share is 812.5 of 1000.
+        let figures = [
+            "0.759 mm",
+            "0.570 µm",
+            "0.0912 mm",
+            "0.0171 mm",
+            "0.577 mm",
+            "0.124 mm",
+            "0.0333 mm",
+            "0.610 mm",
+            "0.370 µm",
+            "0.2 µm",
+            "0.500 mm",
+            "81.3 %",
+            "813 N m",
+            "0.420",
+            "1 234",
+            "25 %",
+        ];
+        for figure in figures {
+            let figure = match language {
+                Language::English => figure.to_owned(),
+                Language::French | Language::German => figure.replace('.', ","),
+            };
+            assert!(
+                plain.contains(&figure),
+                "{language:?}: {figure} in\n{plain}"
+            );
+        }
+        // No text to fill in is left, and no sentence is English in another language.
+        assert!(!text.contains('{') && !text.contains('}'), "{text}");
+        let english = ["tool", "without", "allowed", "stiffness against", "kept"];
+        for word in english
+            .into_iter()
+            .filter(|_| language != Language::English)
+        {
+            assert!(!text.contains(word), "{language:?}: {word} in\n{text}");
+        }
+    }
+}
+
+#[test]
+fn every_statement_of_the_html_report_is_in_the_paper() {
+    let result = run();
+    let text = said(&Paper::of(&result));
+    for statement in crate::run::meaning::assessment(&result).statements {
+        assert!(text.contains(&statement.sentence(&result)), "{statement:?}");
+    }
+    let shown = Shown::of_result(&result);
+    for left in crate::run::facts::left(&shown) {
+        for language in Language::ALL {
+            let [name, size, words] = crate::paper::words::left(language, left, &shown);
+            let text = said(&Paper::of(&result).in_language(language));
+            assert!(
+                text.contains(&format!("{name}: {size}: {words}")),
+                "{left:?}"
+            );
+        }
+    }
+    for warning in &result.warnings {
+        assert!(text.contains(&warning.to_string()));
+    }
+}
+
+#[test]
+fn a_run_of_nothing_and_one_that_must_not_run_say_so() {
+    let words = ["nothing to judge", "rien à juger", "nichts zu beurteilen"];
+    for (language, expected) in Language::ALL.into_iter().zip(words) {
+        let text = said(&Paper::of(&RunResult::default()).in_language(language));
+        assert!(text.contains(expected), "{text}");
+    }
+    let mut result = run();
+    result.summary.stable = false;
+    let words = ["Do not run", "Ne pas exécuter", "Nicht ausführen"];
+    for (language, expected) in Language::ALL.into_iter().zip(words) {
+        let text = said(&Paper::of(&result).in_language(language));
+        assert!(text.contains(expected), "{text}");
+    }
+}
+
+#[test]
+fn a_verified_program_has_its_own_verdict() {
+    let result = run();
+    let paper = Paper::of(&result)
+        .in_language(Language::German)
+        .of_verified(VerifiedProgram {
+            original: "vorlage.ngc".to_owned(),
+            held: false,
+            allowed_mm: 0.001,
+            uncut: vec![([4, 6], 12.5)],
+        });
+    let text = said(&paper);
+    assert!(text.contains("Toleranz verfehlt"), "{text}");
+    assert!(text.contains("Die Zeilen 4 bis 6 des Originals"), "{text}");
+    assert!(text.contains("vorlage.ngc"), "{text}");
+    // Nothing is said of another load at corners, which was not solved.
+    assert!(!text.contains("Gleichgewicht"), "{text}");
+}
+
+#[test]
+fn names_are_harmless_in_html() {
+    let result = run();
+    let page = Paper::of(&result).in_language(Language::French).html();
+    assert!(page.contains("Ärm &lt;b&gt;") && !page.contains("Ärm <b>"));
+    assert!(page.contains("lang=\"fr\""));
+}
+
+#[cfg(feature = "pdf")]
+#[test]
+fn a_pdf_is_the_same_twice_whatever_the_names_are() {
+    let dated = {
+        let mut result = run();
+        result.run_inputs.date = Some("2026-11-20".to_owned());
+        result
+    };
+    for (language, result) in Language::ALL
+        .into_iter()
+        .flat_map(|language| [(language, &dated), (language, &run())].map(|(l, r)| (l, r.clone())))
+    {
+        let paper = Paper::of(&result).in_language(language);
+        let bytes = paper.pdf().expect("a paper");
+        assert!(bytes.starts_with(b"%PDF-1.") && bytes.trim_ascii_end().ends_with(b"%%EOF"));
+        assert!(bytes == paper.pdf().expect("a paper"), "{language:?}");
+    }
+}
