@@ -23,6 +23,9 @@ pub struct Question {
 /// Places that tell how far a placement is from being reached.
 const PROBES: usize = 12;
 
+/// Where so many of them are lost and none is reached, all are: to find that out takes longest of all.
+const ENOUGH: f64 = 4.0;
+
 /// Answers what placements are worth.
 pub(crate) struct Evaluator<'e> {
     pub(crate) program: &'e MovableProgram<'e, 'e>,
@@ -45,7 +48,13 @@ pub(crate) struct OnAll {
 impl Evaluator<'_> {
     /// At some places.
     pub(crate) fn at(&self, place: &Place, places: &[usize]) -> Value {
-        self.looked(self.space.placement(place), places).value
+        let lies = self.space.placement(place);
+        // Out of reach is found sooner without a load.
+        let lost = self.obstacle(&lies).or_else(|| self.lost(lies, None));
+        match lost {
+            Some(refusal) => Value::Refused(refusal),
+            None => self.solved(lies, places).value,
+        }
     }
 
     /// At all places, posture by posture.
@@ -58,6 +67,10 @@ impl Evaluator<'_> {
         if let Some(refusal) = self.obstacle(&lies) {
             return refused(refusal, Vec::new());
         }
+        self.solved(lies, places)
+    }
+
+    fn solved(&self, lies: Placement, places: &[usize]) -> OnAll {
         match self.figures(lies, places) {
             Ok(found) => found,
             Err((at, error)) => {
@@ -159,43 +172,51 @@ impl Evaluator<'_> {
 
     /// Why a place has no answer, and by how much the placement is refused.
     fn refusal(&self, lies: Placement, place: usize, error: &RunError) -> Refusal {
+        self.lost(lies, Some(place)).unwrap_or_else(|| Refusal {
+            why: Why::NoEquilibrium,
+            line: Some(self.program.line(place)),
+            amount: 0.0,
+            message: match error {
+                RunError::Point { message, .. } => message.clone(),
+                other => other.to_string(),
+            },
+        })
+    }
+
+    /// Some places, and one more, are not reached; by how much the placement is refused then.
+    fn lost(&self, lies: Placement, place: Option<usize>) -> Option<Refusal> {
         let count = self.program.len();
-        let step = count.div_ceil(PROBES).max(1);
-        let probes = (0..count).step_by(step).chain([place]);
-        let (mut lost, mut all) = (0.0, 0.0);
-        let mut far = 0.0;
-        let mut message = match error {
-            RunError::Point { message, .. } => message.clone(),
-            other => other.to_string(),
-        };
-        let mut why = Why::NoEquilibrium;
+        // Far from each other one after the other.
+        let spread = (0..PROBES).map(|k| (5 * k % PROBES) * count / PROBES);
+        let probes = place.into_iter().chain(spread);
+        let (mut lost, mut all, mut far) = (0.0, 0.0, 0.0);
+        let mut first: Option<Refusal> = None;
         for probe in probes {
+            if lost >= ENOUGH && lost == all {
+                break;
+            }
             all += 1.0;
             let pose = self.program.tool_pose(lies, probe);
             let away = (pose.translation.vector - self.home).norm() / self.size;
             far = larger(far, away);
-            if let Reach::Refused {
-                by_limits,
-                message: words,
-            } = self.program.reach(lies, probe)
-            {
+            if let Reach::Refused { by_limits, message } = self.program.reach(lies, probe) {
                 lost += 1.0;
-                why = match by_limits {
-                    true if why != Why::Unreachable => Why::OutsideLimits,
-                    _ => Why::Unreachable,
+                let why = match by_limits {
+                    true => Why::OutsideLimits,
+                    false => Why::Unreachable,
                 };
-                if probe == place {
-                    message = words;
-                }
+                first.get_or_insert(Refusal {
+                    why,
+                    line: Some(self.program.line(probe)),
+                    amount: 0.0,
+                    message,
+                });
             }
         }
-        Refusal {
-            why,
-            line: Some(self.program.line(place)),
-            // All of it out of reach is led back by the distance alone.
-            amount: lost / all + far,
-            message,
-        }
+        let mut refusal = first?;
+        // All of it out of reach is led back by the distance alone.
+        refusal.amount = lost / all + far;
+        Some(refusal)
     }
 
     /// Path or part enters an obstacle.

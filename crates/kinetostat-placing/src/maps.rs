@@ -6,8 +6,9 @@ use crate::answer::MapPanel;
 use crate::space::{Place, Space};
 use crate::value::Value;
 
-/// Cells along each axis of a slice, and places of a curve.
+/// Cells along each axis of a slice, of one that is the only one, and places of a curve.
 const CELLS: usize = 25;
+const CELLS_OF_ONE: usize = 41;
 const OF_CURVE: usize = 101;
 
 /// Most slices.
@@ -45,10 +46,14 @@ pub(crate) fn maps(
     }
     let pairs = (0..ranges.len()).flat_map(|a| (a + 1..ranges.len()).map(move |b| (a, b)));
     let panel = |(a, b): (usize, usize)| {
-        let (across, up) = (values(a, CELLS), values(b, CELLS));
-        let cells = (0..CELLS * CELLS).into_par_iter();
+        let count = match ranges.len() {
+            2 => CELLS_OF_ONE,
+            _ => CELLS,
+        };
+        let (across, up) = (values(a, count), values(b, count));
+        let cells = (0..count * count).into_par_iter();
         let found = cells
-            .map(|i| worth(&with(&[(a, across[i % CELLS]), (b, up[i / CELLS])])))
+            .map(|i| worth(&with(&[(a, across[i % count]), (b, up[i / count])])))
             .collect();
         MapPanel {
             variables: vec![ranges[a].variable, ranges[b].variable],

@@ -157,8 +157,8 @@ pub struct Place {
     pub values: Vec<f64>,
 }
 
-/// Values are given and answered in steps of this, mm or deg, so that what is said is what was solved.
-const STEP: f64 = 0.01;
+/// Values are looked at in so many steps of a millimetre or degree, so that what is said is what was solved.
+const STEPS_OF_ONE: f64 = 100.0;
 
 impl Space {
     /// Around a placement that says all that has no range. `states_orientation`: the program states how the tool stands.
@@ -236,7 +236,7 @@ impl Space {
     pub fn at(&self, fixture: usize, shares: &[f64]) -> Place {
         let value = |(range, share): (&Range, &f64)| {
             let value = range.from + share.clamp(0.0, 1.0) * (range.to - range.from);
-            ((value / STEP).round() * STEP).clamp(range.from, range.to)
+            ((value * STEPS_OF_ONE).round() / STEPS_OF_ONE).clamp(range.from, range.to)
         };
         Place {
             fixture,

@@ -72,8 +72,12 @@ pub(crate) fn drawing(answer: &PlaceAnswer, space: &Space) -> Option<String> {
             true => String::new(),
             false => format!(" at {}", fixed.join(", ")),
         };
+        let projected = match fixed.is_empty() {
+            true => "",
+            false => "; the next best, numbered, lie before or behind this slice",
+        };
         format!(
-            "{} with {}: {}{at}",
+            "{} with {}: {}{at}{projected}",
             answer.model,
             answer.program,
             answer.objective.what()
