@@ -53,6 +53,7 @@ mod mirror;
 mod named_at_once;
 mod other_language;
 mod places_by_position;
+mod placing;
 mod plausibility_checks;
 mod poses;
 mod programs;
