@@ -29,25 +29,53 @@ fn the_best_placement_is_what_deflect_finds_there() {
     let free = "[place]\nx_mm = [1300, 1700]\ny_mm = [-300, 300]\n";
     write("job.toml", &job("plate.ngc", free));
     let words = [
-        "place", "job.toml", "--samples", "40", "--json", "--csv", "all.csv", "--plot", "map.svg",
+        "place",
+        "job.toml",
+        "--samples",
+        "40",
+        "--json",
+        "--csv",
+        "all.csv",
+        "--plot",
+        "map.svg",
     ];
     let said = run(here.path(), &words).answered();
     let found: Value = serde_json::from_str(&said.out).unwrap();
     let origin = found["best"]["part_origin_mm"].as_array().unwrap();
-    let origin: Vec<String> = origin.iter().map(|x| x.as_f64().unwrap().to_string()).collect();
+    let origin: Vec<String> = origin
+        .iter()
+        .map(|x| x.as_f64().unwrap().to_string())
+        .collect();
     let mut words = vec!["deflect", "job.toml", "--json", "--part-origin-mm"];
     words.extend(origin.iter().map(String::as_str));
     let said = run(here.path(), &words).answered();
     let there: Value = serde_json::from_str(&said.out).unwrap();
-    let own = there["summary"]["max_position_error_before_mm"].as_f64().unwrap();
+    let own = there["summary"]["max_position_error_before_mm"]
+        .as_f64()
+        .unwrap();
     let mut relative = Worst::new();
     relative.add(figure(&found, "best") / own - 1.0);
-    relative.holds(1e-6);
+    assert!(relative.holds(1e-6), "{relative}");
     assert!(figure(&found, "best") < figure(&found, "centre"));
     let table = std::fs::read_to_string(here.path().join("all.csv")).unwrap();
-    assert!(table.starts_with("kind,fixture,x_mm,y_mm,figure,refused\n"), "{table}");
-    assert!(table.lines().filter(|line| line.starts_with("filling,")).count() >= 40);
-    assert_eq!(table.lines().filter(|line| line.starts_with("map,")).count(), 41 * 41);
+    assert!(
+        table.starts_with("kind,fixture,x_mm,y_mm,figure,refused\n"),
+        "{table}"
+    );
+    assert!(
+        table
+            .lines()
+            .filter(|line| line.starts_with("filling,"))
+            .count()
+            >= 40
+    );
+    assert_eq!(
+        table
+            .lines()
+            .filter(|line| line.starts_with("map,"))
+            .count(),
+        41 * 41
+    );
     let map = std::fs::read_to_string(here.path().join("map.svg")).unwrap();
     assert!(map.starts_with("<svg") && map.contains("best"));
 }
@@ -57,11 +85,18 @@ fn ranges_out_of_reach_have_no_answer() {
     let here = workplace();
     let write = |name: &str, text: &str| std::fs::write(here.path().join(name), text).unwrap();
     write("plate.ngc", PLATE);
-    write("job.toml", &job("plate.ngc", "[place]\nx_mm = [6000, 7000]\n"));
+    write(
+        "job.toml",
+        &job("plate.ngc", "[place]\nx_mm = [6000, 7000]\n"),
+    );
     let said = run(here.path(), &["place", "job.toml", "--samples", "10"]);
     assert_eq!(said.code, 2, "{}", said.err);
     let err = said.err.split_whitespace().collect::<Vec<_>>().join(" ");
-    for needle in ["no placement inside the ranges", "Nearest to it is x = 6000 mm", "moved by (-"] {
+    for needle in [
+        "no placement inside the ranges",
+        "Nearest to it is x = 6000 mm",
+        "moved by (-",
+    ] {
         assert!(err.contains(needle), "{err}");
     }
 }
@@ -95,7 +130,11 @@ fn the_pocket_lies_a_quarter_better_than_in_the_middle() {
     let here = workplace();
     let text = std::fs::read_to_string(gcode.join("tball-pocket.gcode")).unwrap();
     // A debug build takes a part of it.
-    let lines = if cfg!(debug_assertions) { 2000 } else { usize::MAX };
+    let lines = if cfg!(debug_assertions) {
+        2000
+    } else {
+        usize::MAX
+    };
     let part: String = text.split_inclusive('\n').take(lines).collect();
     std::fs::write(here.path().join("pocket.ngc"), part).unwrap();
     let free = "[place]\nx_mm = [1000, 1800]\ny_mm = [-400, 400]\nz_mm = [300, 900]\n";

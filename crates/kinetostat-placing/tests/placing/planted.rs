@@ -40,10 +40,10 @@ fn a_kink_is_found() {
     let best = placed.best.expect("a best placement");
     let mut far = Worst::new();
     far.add(best.values["y_mm"] + 10.0);
-    far.holds(0.02);
+    assert!(far.holds(0.02), "{far}");
     let mut relative = Worst::new();
     relative.add(best.figure.expect("a figure") / expected_mm([600.0, -10.0]) - 1.0);
-    relative.holds(1e-3);
+    assert!(relative.holds(1e-3), "{relative}");
     // To both sides it grows by the way that is left to the farther end.
     let room = placed.sensitivity[0];
     assert!(room.down.slope.expect("a slope") < 0.0 && room.up.slope.expect("a slope") > 0.0);
@@ -51,7 +51,7 @@ fn a_kink_is_found() {
     let mut ways = Worst::new();
     ways.add(five(room.up.until_5_percent_worse) - 2.0);
     ways.add(five(room.down.until_5_percent_worse) - 2.0);
-    ways.holds(0.2);
+    assert!(ways.holds(0.2), "{ways}");
     assert!(placed.findings.is_empty(), "{:?}", placed.findings);
 }
 
@@ -66,7 +66,7 @@ fn an_optimum_at_the_end_of_a_range_is_said() {
     let mut far = Worst::new();
     far.add(best.values["x_mm"] - 300.0);
     far.add(best.values["y_mm"] + 10.0);
-    far.holds(0.1);
+    assert!(far.holds(0.1), "{far}");
     let kinds: Vec<&str> = placed.findings.iter().map(|f| f.kind).collect();
     assert_eq!(kinds, ["at_bound"]);
     assert!(
@@ -83,7 +83,7 @@ fn an_optimum_at_the_end_of_a_range_is_said() {
         let at = [candidate.values["x_mm"], candidate.values["y_mm"]];
         relative.add(candidate.figure.expect("a figure") / expected_mm(at) - 1.0);
     }
-    relative.holds(1e-3);
+    assert!(relative.holds(1e-3), "{relative}");
 }
 
 /// No place of a dense grid, each of them solved as `deflect` solves it, is better.
@@ -113,8 +113,8 @@ fn no_place_of_a_dense_grid_is_better() {
         let own = largest_mm(0, &space.shares(&best.place));
         let mut relative = Worst::new();
         relative.add(best.figure.expect("a figure") / own - 1.0);
-        relative.holds(1e-9);
-        const CELLS: usize = 21;
+        assert!(relative.holds(1e-9), "{relative}");
+        const CELLS: usize = 7;
         let mut grid = f64::INFINITY;
         for i in 0..CELLS * CELLS {
             let share = |k: usize| k as f64 / (CELLS - 1) as f64;
@@ -123,8 +123,8 @@ fn no_place_of_a_dense_grid_is_better() {
             grid = grid.min(there);
         }
         assert!(own <= grid, "{own} above {grid} of the grid");
-        // Its cells are 30 mm and 20 mm wide: it comes near.
-        assert!(own >= 0.8 * grid, "{own} far below {grid}");
+        // Its nearest place is 10 mm off, where 40 mm are the least that a path of 80 mm needs.
+        assert!(own >= 0.75 * grid, "{own} far below {grid}");
     });
 }
 
@@ -150,10 +150,10 @@ fn the_part_is_turned_to_where_the_machine_is_stiff() {
             let best = placed.expect("answer").best.expect("a best placement");
             let mut far = Worst::new();
             far.add(best.values["turn_z_deg"] + (30.0_f64 / 40.0).atan().to_degrees());
-            far.holds(0.02);
+            assert!(far.holds(0.02), "{far}");
             let mut relative = Worst::new();
             relative.add(best.figure.expect("a figure") / (200.0 / stiff) - 1.0);
-            relative.holds(1e-3);
+            assert!(relative.holds(1e-3), "{relative}");
         },
     );
 }

@@ -21,7 +21,8 @@ fn the_number_of_threads_changes_nothing() {
                 ];
                 let space = Space::new(task.placement, free, Vec::new(), false).expect("space");
                 let effort = Effort {
-                    samples: Some(100),
+                    samples: Some(30),
+                    starts: 2,
                     ..Effort::default()
                 };
                 place(task, &space, &Question::default(), effort, &Unwatched).expect("answer")
