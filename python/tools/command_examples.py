@@ -222,6 +222,15 @@ True
 >>> "[mechanism]" in ks.commands.model_show("two_link")
 True
 """,
+    "place": _with_file(
+        "groove.ngc",
+        _PROGRAM,
+        """
+        ...     found = ks.commands.place(program=file, model="heavy_6r", part_origin_mm=[1500, 0, 600], force=[0, 0, 200], x_mm=[1300, 1700], samples=16)
+        >>> found["best"]["figure"] < found["centre"]["figure"], len(found["next_best"]) <= 10
+        (True, True)
+        """,
+    ),
     "reproduce": """
 >>> import kinetostat as ks
 >>> found = ks.commands.reproduce("eq-3.34")

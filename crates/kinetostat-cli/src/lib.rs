@@ -32,6 +32,7 @@ mod mirror;
 mod model;
 mod options;
 mod place;
+mod placing;
 mod program;
 mod reproduce;
 mod shares;
@@ -160,6 +161,7 @@ fn run(command: Command) -> Answer<()> {
         Command::Compare(args) => compare::run(&args),
         Command::Map(args) => map::run(&args),
         Command::Mirror(args) => mirror::run(&args),
+        Command::Place(args) => placing::run(&args),
         Command::Verify(args) => verify::run(&args),
         Command::Tolerance(args) => tolerance::run(&args),
         Command::Assemble(args) => assemble::run(&args),

@@ -97,6 +97,7 @@ pub use result::uncertainty_band::{BandPlace, ScatteredError, UncertainNumber, U
 pub use run::compensate::{analyse, compensate_program};
 pub use run::conclude::{Run, load_description, of_program};
 pub use run::cutting::{cut_places, cutting_result};
+pub use run::movable::{MovableProgram, Reach};
 pub use run::places::wrenches_at;
 pub use run::preparation::with_model_field;
 pub use table::{FieldCorrection, correct_by_field, wide_table};

@@ -24,6 +24,7 @@ use crate::map::arguments::MapArgs;
 use crate::mirror::arguments::MirrorArgs;
 use crate::model::arguments::ModelArgs;
 use crate::options::EXIT_CODES;
+use crate::placing::arguments::PlacingArgs;
 use crate::reproduce::arguments::ReproduceArgs;
 use crate::shares::arguments::SharesArgs;
 use crate::shell::arguments::{CompletionsArgs, ManArgs};
@@ -81,6 +82,7 @@ pub(crate) enum Command {
     Compare(Box<CompareArgs>),
     Map(Box<MapArgs>),
     Mirror(Box<MirrorArgs>),
+    Place(Box<PlacingArgs>),
     Tolerance(Box<ToleranceArgs>),
     Assemble(Box<AssembleArgs>),
     Curve(Box<CurveArgs>),

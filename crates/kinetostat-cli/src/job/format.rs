@@ -13,6 +13,7 @@ use crate::job::cut_tables::{
 };
 use crate::job::expand_table::ExpandTable;
 use crate::job::feature_table::FeatureTable;
+use crate::job::place_table::PlaceTable;
 use crate::job::robot_table::RobotTable;
 use crate::job::source::Source;
 use crate::job::uncertain_table::UncertainTable;
@@ -66,6 +67,8 @@ pub(crate) struct Job {
     /// Lines of the program with names and tolerances of their own.
     #[serde(default)]
     pub features: Vec<Spanned<FeatureTable>>,
+    /// Where the part may lie, for `kinetostat place`.
+    pub place: Option<Spanned<PlaceTable>>,
     #[serde(default)]
     pub tolerances: TolerancesTable,
     #[serde(default)]

@@ -23,6 +23,7 @@ mod load;
 pub(crate) mod machine;
 pub(crate) mod model_named;
 pub(crate) mod output_paths;
+pub(crate) mod place_table;
 mod placement;
 pub(crate) mod program;
 pub(crate) mod reading;

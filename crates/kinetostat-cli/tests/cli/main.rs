@@ -54,6 +54,7 @@ mod named_at_once;
 mod other_language;
 mod paper;
 mod places_by_position;
+mod placing;
 mod plausibility_checks;
 mod poses;
 mod programs;

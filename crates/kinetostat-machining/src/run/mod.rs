@@ -16,6 +16,7 @@ pub(crate) mod force_band;
 pub(crate) mod joints;
 pub(crate) mod largest_change;
 pub(crate) mod machines;
+pub(crate) mod movable;
 pub(crate) mod nearest_singular;
 pub(crate) mod other_load;
 pub(crate) mod places;

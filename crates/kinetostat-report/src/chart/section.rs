@@ -108,6 +108,27 @@ impl Section {
             .document(SIZE, &self.title, &style)
     }
 
+    /// This section and others below it, as one document. Where the two axes of one are not the same quantity, they fill the picture.
+    #[must_use]
+    pub fn svg_above(&self, others: &[Self]) -> String {
+        let style = [STYLE, OVER].concat();
+        let mut svg = Svg::default();
+        let mut down = 0.0;
+        for section in std::iter::once(self).chain(others) {
+            let unit = |label: &str| label.rsplit(", ").next().map(str::to_owned);
+            let (drawn, height) = match unit(&section.x_label) == unit(&section.y_label) {
+                true => {
+                    let (drawn, size) = section.fitted();
+                    (drawn, size.1)
+                }
+                false => (section.draw(SIZE.1, Shape::Filled), SIZE.1),
+            };
+            svg.below(down, &drawn);
+            down += height + 8.0;
+        }
+        svg.document((SIZE.0, down - 8.0), &self.title, &style)
+    }
+
     /// The same as an element for a page, which has the style of plots and [`Self::filled_style`]; `description` is for those who
     /// cannot see it.
     pub(crate) fn filled_element(&self, description: &str) -> String {

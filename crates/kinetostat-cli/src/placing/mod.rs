@@ -1,0 +1,162 @@
+//! `kinetostat place`: where does the part lie best?
+//!
+//! It takes a job and where the part may lie, and gives the best placement with the next best ones, a map and a table. The
+//! search is in the crate `kinetostat-placing`.
+
+mod answer;
+pub(crate) mod arguments;
+mod asked;
+mod picture;
+mod text;
+
+use std::path::{Path, PathBuf};
+
+use kinetostat_machining::{Task, analyse};
+use kinetostat_placing::{Effort, Placed, Space, place};
+
+use crate::files::input_files::InputFiles;
+use crate::files::outputs::{self, Existing, Outputs};
+use crate::job::arguments::{ProgramArgs, WritingFlags};
+use crate::job::axes_of_program::give_axes;
+use crate::job::job_file::JobFile;
+use crate::job::machine::machine_setup;
+use crate::job::program::read_program;
+use crate::job::robot::joint_arm::give_arm;
+use crate::job::run_warnings;
+use crate::job::setting::setting;
+use crate::placing::answer::{AtBest, PlaceAnswer};
+use crate::placing::arguments::PlacingArgs;
+use crate::program::aim::Aim;
+use crate::program::solve::{forces_of, with_task};
+use crate::ui::failure::{Answer, Failure};
+use crate::ui::json;
+use crate::ui::progress::Progress;
+use crate::ui::threads::in_threads;
+
+/// Most placements that may fill the ranges.
+const MOST_SAMPLES: usize = 1_000_000;
+
+pub(crate) fn run(args: &PlacingArgs) -> Answer<()> {
+    let files = InputFiles::default();
+    let job = args.job.as_deref().map(|path| JobFile::read(&files, path));
+    let job = job.transpose()?;
+    let job = job.as_ref();
+    let named = args.model.as_deref();
+    refuse_what_says_nothing(&args.program)?;
+    if let Some(samples) = args.samples
+        && !(1..=MOST_SAMPLES).contains(&samples)
+    {
+        return Err(Failure::input(format!(
+            "--samples {samples}: 1 to {MOST_SAMPLES} placements can fill the ranges"
+        )));
+    }
+    let question = asked::question(job, args)?;
+    let mut setting = setting(&files, job, &args.program, &WritingFlags::default())?;
+    let model_of_job = (job, named);
+    give_arm(setting.robot.as_mut(), &files, model_of_job, &args.program)?;
+    give_axes(&mut setting, &files, model_of_job, &args.program)?;
+    let frames = setting.robot_frames()?;
+    let with = (frames.as_ref(), &mut setting.inputs);
+    let (machine, model) = machine_setup(&files, job, named, &args.program, with)?;
+    setting.turned_by(machine.rotary.clone());
+    let read = read_program(&setting)?;
+    let states_orientation = read.path().moves.iter().any(|m| m.tool_turn.is_some());
+    let space = asked::space(job, args, machine.placement, states_orientation)?;
+
+    let to_screen = args.json.as_deref() == Some(Path::new("-"));
+    let existing = Existing::forced(args.program.force_overwrite);
+    let mut claimed = Outputs::new(existing, setting.inputs.clone());
+    let mut claim =
+        |what, path: Option<&PathBuf>| path.map(|path| claimed.claim(what, path)).transpose();
+    let json_out = claim("result", args.json.as_ref().filter(|_| !to_screen))?;
+    let csv_out = claim("table of placements", args.csv.as_ref())?;
+    let plot_out = claim("map", args.plot.as_ref())?;
+
+    let progress = Progress::new();
+    let forces = forces_of(&machine, &setting, read.path(), &progress)?;
+    let effort = Effort {
+        samples: args.samples,
+        maps: args.plot.is_some() || args.csv.is_some(),
+        ..Effort::default()
+    };
+    let search = |task: &Task<'_>| {
+        let placed = place(task, &space, &question, effort, &progress)?;
+        let at_best = placed.best.as_ref().map(|best| {
+            let mut there = task.clone();
+            there.placement = space.placement(&best.place);
+            analyse(&there, &progress)
+        });
+        Ok((task.run_inputs.clone(), placed, at_best.transpose()?))
+    };
+    let found = with_task(
+        Aim::Analyse,
+        &machine,
+        &setting,
+        &read,
+        forces.as_ref(),
+        |task| in_threads(args.program.threads, || search(task)),
+    )??;
+    progress.finish();
+    let (inputs, placed, at_best) =
+        found.map_err(|error: kinetostat_machining::RunError| setting.within(error.into()))?;
+    refuse_nowhere(&placed, &space)?;
+    let mut warnings = at_best
+        .as_ref()
+        .map_or_else(Vec::new, |run| run.result.warnings.clone());
+    warnings.extend(run_warnings::of_run(&model, job));
+    let result = at_best.as_ref().map(|run| &run.result);
+    let answer = PlaceAnswer {
+        schema: 1,
+        kinetostat_version: env!("CARGO_PKG_VERSION"),
+        model: inputs.model,
+        program: setting.program_name.clone(),
+        load: result.map_or_else(String::new, |result| result.run_inputs.load.clone()),
+        files: inputs.files,
+        objective: question.objective,
+        unit: question.objective.unit(),
+        placed,
+        at_best: result.map(AtBest::of),
+        warnings,
+    };
+    if let Some(index) = json_out {
+        claimed.fill(index, json::json(&answer)?.as_bytes())?;
+    }
+    if let Some(index) = csv_out {
+        claimed.fill(index, &picture::table(&answer.placed, &space)?)?;
+    }
+    if let Some(index) = plot_out {
+        let drawing = picture::drawing(&answer, &space).ok_or_else(|| {
+            Failure::input(
+                "--plot: there is nothing to draw where only fixtures are compared: leave it out",
+            )
+        })?;
+        claimed.fill(index, drawing.as_bytes())?;
+    }
+    let paths = claimed.commit()?;
+    let text = text::answer_text(&answer, &space);
+    let text = format!("{text}{}", outputs::written(&paths));
+    json::print_answer(&text, &answer, to_screen)
+}
+
+/// Where the program can be run nowhere, there is no answer.
+fn refuse_nowhere(placed: &Placed, space: &Space) -> Answer<()> {
+    match &placed.nowhere {
+        Some(nowhere) => Err(Failure::unanswered(text::nowhere_text(nowhere, space))),
+        None => Ok(()),
+    }
+}
+
+/// Options of other commands along a program that mean nothing here.
+fn refuse_what_says_nothing(given: &ProgramArgs) -> Answer<()> {
+    let turn = &given.turn;
+    let what = if given.report.is_some() || given.points.is_some() {
+        "--report and --points: give them to `kinetostat deflect` with the best placement"
+    } else if turn.free_turn || turn.stiff_turn || turn.turn_plot.is_some() {
+        "--free-turn, --stiff-turn and --turn-plot: it turns the tool by --turn-tool-deg, the same along the whole program"
+    } else if given.uncertain.uncertain.is_some() || given.uncertain.machines.is_some() {
+        "--uncertain and --machines: one machine is solved, as the model says"
+    } else {
+        return Ok(());
+    };
+    Err(Failure::input(format!("place has no use for {what}")))
+}

@@ -1,0 +1,260 @@
+//! A program whose places are solved wherever the part lies.
+//!
+//! What does not depend on where it lies (places along the path, compiled machines, headings of the load) is made once, so that
+//! a few of its places take a millisecond somewhere else.
+
+use kinetostat::{Error, Pose, Wrench};
+use nalgebra::Vector3;
+
+use crate::checks::motion::no_motion;
+use crate::field::cause_and_advice;
+use crate::joints::figures::JointFigures;
+use crate::load::along_path::LoadAlongPath;
+use crate::placement::Placement;
+use crate::postures::neighbour::{CHUNK, Neighbour, in_chunks};
+use crate::result::point::{PointKind, PointResult};
+use crate::run::first_look::FirstLook;
+use crate::run::joints::joints_result;
+use crate::run::machines::Machines;
+use crate::run::points::{Solving, chunk};
+use crate::run::sites::{Site, of_path, spacing_mm};
+use crate::task::{NoMotion, RunError, Task};
+use crate::watch::Watch;
+
+/// A program whose places are solved wherever the part lies.
+pub struct MovableProgram<'t, 'm> {
+    task: &'t Task<'m>,
+    load: LoadAlongPath<'m>,
+    machines: Machines<'t, 'm>,
+    sites: Vec<Site>,
+    /// Every so many places of the program are among them.
+    every: usize,
+}
+
+/// Whether the machine gets to a place.
+#[derive(Clone, Debug)]
+pub enum Reach {
+    /// It does, inside the limits of its joints.
+    Reached,
+    /// It does not, or not inside the limits.
+    Refused {
+        /// Beyond the limits of a joint, and not out of reach.
+        by_limits: bool,
+        /// What is wrong, in words.
+        message: String,
+    },
+}
+
+impl<'t, 'm> MovableProgram<'t, 'm> {
+    /// The places at which a program is looked at as it is given, at most about `most`. The load comes and goes as where the
+    /// task has the part.
+    ///
+    /// # Errors
+    /// [`RunError::NoMotion`], [`RunError::Cancelled`].
+    pub fn new(task: &'t Task<'m>, most: usize, watch: &dyn Watch) -> Result<Self, RunError> {
+        if let Some(reason) = no_motion(task.path()) {
+            return Err(RunError::NoMotion(reason));
+        }
+        let load = LoadAlongPath::with_tools(task.load, task.path(), task.tools).with_cut(task.cut);
+        let looked = FirstLook::new(task, &load, watch)?;
+        let load = load.ramped(looked.stiffness()).acting;
+        let sites = || of_path(task.path(), &load, &task.placement, spacing_mm(task));
+        let total = sites().count();
+        if total == 0 {
+            return Err(RunError::NoMotion(NoMotion::NoLength));
+        }
+        let every = total.div_ceil(most.max(1));
+        let sites = sites().step_by(every).collect();
+        Ok(Self {
+            machines: Machines::new(task),
+            task,
+            load,
+            sites,
+            every,
+        })
+    }
+
+    /// How many places there are.
+    #[must_use]
+    #[allow(clippy::len_without_is_empty)]
+    pub fn len(&self) -> usize {
+        self.sites.len()
+    }
+
+    /// Every so many places of the program are among them: 1 where all are.
+    #[must_use]
+    pub fn every(&self) -> usize {
+        self.every
+    }
+
+    /// Line of the program at a place, from 1.
+    #[must_use]
+    pub fn line(&self, index: usize) -> usize {
+        self.sites[index].line
+    }
+
+    /// Where the tool should be at a place, program coordinates, mm.
+    #[must_use]
+    pub fn position_mm(&self, index: usize) -> Vector3<f64> {
+        self.sites[index].desired
+    }
+
+    /// Whether the tool moves at feed there.
+    #[must_use]
+    pub fn at_feed(&self, index: usize) -> bool {
+        self.sites[index].kind != PointKind::Rapid
+    }
+
+    /// Pose of the tool at a place, where the program lies so, base from tool, m.
+    #[must_use]
+    pub fn tool_pose(&self, placement: Placement, index: usize) -> Pose {
+        let site = &self.sites[index];
+        let motion = &self.task.path().moves[site.move_index];
+        let lies = placement.on(motion, site.share);
+        lies.pose(&site.desired, lies.orientation_of(site.orientation))
+    }
+
+    fn task_at(&self, placement: Placement) -> Task<'m> {
+        let mut task = self.task.clone();
+        task.placement = placement;
+        task
+    }
+
+    fn sites_at(&self, placement: &Placement, indices: &[usize]) -> Vec<Site> {
+        let moved = |&index: &usize| {
+            let site = &self.sites[index];
+            let wrench = self.load.wrench(placement, site.move_index, site.share);
+            Site {
+                wrench,
+                ..site.clone()
+            }
+        };
+        indices.iter().map(moved).collect()
+    }
+
+    /// Some places in the order of the program, solved without compensation where the program lies so.
+    ///
+    /// # Errors
+    /// Position in `indices` of the first that has no answer, and why.
+    pub fn points(
+        &self,
+        placement: Placement,
+        indices: &[usize],
+    ) -> Result<Vec<PointResult>, (usize, RunError)> {
+        let task = self.task_at(placement);
+        let sites = self.sites_at(&placement, indices);
+        let figures = JointFigures::new(task.mechanism, &task.bounds.ratings);
+        let of_one_tool = sites.chunk_by(|a, b| self.machines.same(a, b));
+        let mut points = Vec::with_capacity(sites.len());
+        for run in of_one_tool {
+            let (machine, orientation) = self.machines.at(&run[0]);
+            let how = Solving {
+                orientation,
+                written: false,
+                course: None,
+            };
+            let first = points.len();
+            let solved = in_chunks(run, |memory, sites| {
+                chunk(&task, machine, memory, sites, how)
+            });
+            // A chunk ends with its first failure, so that later ones would not stand at their numbers.
+            for (offset, point) in solved.into_iter().enumerate() {
+                let mut point = point.map_err(|error| (first + offset, error))?;
+                figures.fill(&mut point);
+                points.push(point);
+            }
+        }
+        Ok(points)
+    }
+
+    /// Size of the correction of the tool's place that compensation would command at some places, mm of the program.
+    ///
+    /// # Errors
+    /// Position in `indices` of the first that has no answer, and why.
+    pub fn corrections_mm(
+        &self,
+        placement: Placement,
+        indices: &[usize],
+    ) -> Result<Vec<f64>, (usize, RunError)> {
+        let sites = self.sites_at(&placement, indices);
+        let mut sizes = Vec::with_capacity(sites.len());
+        for run in sites.chunk_by(|a, b| self.machines.same(a, b)) {
+            let (machine, orientation) = self.machines.at(&run[0]);
+            for sites in run.chunks(CHUNK) {
+                let first = sizes.len();
+                let lies = |s: &Site| {
+                    let motion = &self.task.path().moves[s.move_index];
+                    placement.on(motion, s.share)
+                };
+                let pose = |s: &Site| {
+                    let lies = lies(s);
+                    lies.pose(&s.desired, lies.orientation_of(s.orientation))
+                };
+                let poses: Vec<Pose> = sites.iter().map(pose).collect();
+                let wrenches: Vec<Wrench> = sites.iter().map(|s| s.wrench).collect();
+                let corrected = self.task.corrected;
+                let targets = match machine.targets(&poses, &wrenches, corrected) {
+                    Some(targets) => targets,
+                    None => {
+                        let mut memory = Neighbour::default();
+                        let how = (orientation, corrected);
+                        let one = |i: usize| -> Result<Pose, Error> {
+                            let mechanism = machine.mechanism();
+                            let found = memory.target(mechanism, &poses[i], &wrenches[i], how)?;
+                            Ok(*found.target())
+                        };
+                        let mut one = one;
+                        let mut targets = Vec::with_capacity(sites.len());
+                        for (i, site) in sites.iter().enumerate() {
+                            let found = one(i).map_err(|e| (first + i, failed(site, e)))?;
+                            targets.push(found);
+                        }
+                        targets
+                    }
+                };
+                for ((site, pose), target) in sites.iter().zip(&poses).zip(&targets) {
+                    let shift = target.translation.vector - pose.translation.vector;
+                    sizes.push(lies(site).to_program(&shift).norm());
+                }
+            }
+        }
+        Ok(sizes)
+    }
+
+    /// Whether the machine gets to a place where the program lies so, from its home and without a load.
+    #[must_use]
+    pub fn reach(&self, placement: Placement, index: usize) -> Reach {
+        let site = &self.sites[index];
+        let (machine, orientation) = self.machines.at(site);
+        let pose = self.tool_pose(placement, index);
+        let found = orientation.posture(machine.mechanism(), &pose, None);
+        match found.and_then(|posture| posture.within_limits()) {
+            Ok(()) => Reach::Reached,
+            Err(error) => Reach::Refused {
+                by_limits: matches!(error, Error::OutsideLimits { .. }),
+                message: cause_and_advice(&error),
+            },
+        }
+    }
+
+    /// How often the posture of the machine changes on feed moves along all places, which no feed motion can do; and the line of the first.
+    #[must_use]
+    pub fn posture_changes(
+        &self,
+        placement: Placement,
+        points: &[PointResult],
+    ) -> Option<(usize, usize)> {
+        let found = joints_result(&self.task_at(placement), points);
+        let first = found.changes.first()?;
+        Some((found.change_count, first.line))
+    }
+}
+
+fn failed(site: &Site, cause: Error) -> RunError {
+    RunError::Point {
+        line: site.line,
+        position_mm: site.desired.into(),
+        message: cause_and_advice(&cause),
+        cause: Box::new(cause),
+    }
+}

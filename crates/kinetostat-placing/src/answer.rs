@@ -1,0 +1,168 @@
+//! The answer of a search: plain data, units in the names.
+
+use std::collections::BTreeMap;
+
+use serde::Serialize;
+
+use crate::evaluate::OnAll;
+use crate::space::{Place, Space, Variable};
+use crate::value::{Refusal, Value};
+
+/// A placement that was solved at all places of the program.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Candidate {
+    /// Name of the fixture; none where there are none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub fixture: Option<String>,
+    /// Value of every variable that is free, by its name (mm or deg).
+    #[serde(flatten)]
+    pub values: BTreeMap<&'static str, f64>,
+    /// Where the program's zero lies, base axes, mm.
+    pub part_origin_mm: [f64; 3],
+    /// Orientation of the program's axes in the base: unit quaternion w, x, y, z.
+    pub part_orientation: [f64; 4],
+    /// Orientation of the tool in the base, of programs that do not state it: w, x, y, z.
+    pub tool_orientation: [f64; 4],
+    /// The figure over the whole program, in its unit; none where it is refused.
+    pub figure: Option<f64>,
+    /// Why it is refused.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub refusal: Option<Refusal>,
+    /// Line of the program where the figure is largest, from 1.
+    pub line: Option<usize>,
+    /// Where in the program, mm.
+    pub position_mm: Option<[f64; 3]>,
+    /// The placement, for further questions.
+    #[serde(skip)]
+    pub place: Place,
+}
+
+impl Candidate {
+    pub(crate) fn new(
+        space: &Space,
+        place: &Place,
+        found: &OnAll,
+        at: impl Fn(usize) -> (usize, [f64; 3]),
+    ) -> Self {
+        let lies = space.placement(place);
+        let quaternion = |q: nalgebra::UnitQuaternion<f64>| [q.w, q.i, q.j, q.k];
+        let names = space.ranges().iter().map(|range| range.variable.name());
+        let worst = found.worst.map(at);
+        Self {
+            fixture: space.fixture_of(place).map(str::to_owned),
+            values: names.zip(place.values.iter().copied()).collect(),
+            part_origin_mm: (lies.base_from_part.translation.vector * 1e3)
+                .map(|x| (1e6 * x).round() / 1e6 + 0.0)
+                .into(),
+            part_orientation: quaternion(lies.base_from_part.rotation),
+            tool_orientation: quaternion(lies.tool_orientation),
+            figure: found.value.figure(),
+            refusal: match &found.value {
+                Value::Refused(refusal) => Some(refusal.clone()),
+                Value::Figure(_) => None,
+            },
+            line: worst.map(|(line, _)| line),
+            position_mm: worst.map(|(_, position)| position),
+            place: place.clone(),
+        }
+    }
+}
+
+/// A placement that was looked at on the way, at the places that the search looks at.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Evaluated {
+    /// The placement.
+    #[serde(skip)]
+    pub place: Place,
+    /// What it is worth there.
+    pub value: Value,
+}
+
+/// To one side of the best placement.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct SideSensitivity {
+    /// Change of the figure by that of the variable close by, its unit per mm or deg; none at the end of the range, and where a program
+    /// cannot be run there.
+    pub slope: Option<f64>,
+    /// How far the variable may go until the figure is 5 % larger or the placement is refused, mm or deg; none where it may go to the
+    /// end of its range.
+    pub until_5_percent_worse: Option<f64>,
+}
+
+/// How the figure changes around the best placement, one variable after the other.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Sensitivity {
+    /// Which variable.
+    pub variable: Variable,
+    /// Towards smaller values.
+    pub down: SideSensitivity,
+    /// Towards larger ones.
+    pub up: SideSensitivity,
+}
+
+/// The figure over two variables (or one), all others as in the best placement.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct MapPanel {
+    /// Across and up; one alone is a curve.
+    pub variables: Vec<Variable>,
+    /// Values of the first.
+    pub across: Vec<f64>,
+    /// Values of the second; empty of a curve.
+    pub up: Vec<f64>,
+    /// What every placement is worth, the first variable running fastest.
+    #[serde(skip)]
+    pub values: Vec<Value>,
+}
+
+/// What is to be known of an answer beside its figures, in words.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct Finding {
+    /// What kind: `at_bound`, `flat`, `few_reachable`, `thinned`, `not_better`.
+    pub kind: &'static str,
+    /// In a sentence.
+    pub message: String,
+}
+
+/// No placement can be taken.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Nowhere {
+    /// The one that is nearest to being taken, and why it is refused.
+    pub nearest: Candidate,
+    /// How far the part would have to be moved from there so that all of it is reached, base axes, mm; none where no way was
+    /// found.
+    pub move_mm: Option<[f64; 3]>,
+}
+
+/// What a search found.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Placed {
+    /// The best placement; none where none can be taken.
+    pub best: Option<Candidate>,
+    /// The next best ones, each apart from all before it.
+    pub next_best: Vec<Candidate>,
+    /// In the middle of all ranges.
+    pub centre: Candidate,
+    /// The figure where the placement is as given; none where it is refused there.
+    pub given: Option<f64>,
+    /// Where the best is none.
+    pub nowhere: Option<Nowhere>,
+    /// Around the best placement.
+    pub sensitivity: Vec<Sensitivity>,
+    /// What is to be known, in words.
+    pub findings: Vec<Finding>,
+    /// Placements that were looked at.
+    pub evaluated: usize,
+    /// Of those that fill the space, how many can be taken.
+    pub taken: usize,
+    /// How many fill it.
+    pub samples: usize,
+    /// Places of the program at which the best ones were solved.
+    pub places: usize,
+    /// Places at which all others were.
+    pub places_of_search: usize,
+    /// Slices through the best placement.
+    pub maps: Vec<MapPanel>,
+    /// The placements that fill the space.
+    #[serde(skip)]
+    pub filling: Vec<Evaluated>,
+}

@@ -1,0 +1,288 @@
+//! What a placement is worth, at some places of the program or at all of them.
+
+use kinetostat::number::{larger, smaller};
+use kinetostat_machining::{MovableProgram, Placement, Reach, RunError};
+use nalgebra::Vector3;
+
+use crate::objective::Objective;
+use crate::obstacle::{Obstacle, PartBox};
+use crate::space::{Place, Space};
+use crate::value::{Refusal, Value, Why};
+
+/// What is asked.
+#[derive(Clone, Debug, Default)]
+pub struct Question {
+    /// What is to be least.
+    pub objective: Objective,
+    /// What neither path nor part may enter.
+    pub obstacles: Vec<Obstacle>,
+    /// A box around the part that is kept clear of obstacles, too; only the path is without it.
+    pub part: Option<PartBox>,
+}
+
+/// Places that tell how far a placement is from being reached.
+const PROBES: usize = 12;
+
+/// Where so many of them are lost and none is reached, all are: to find that out takes longest of all.
+const ENOUGH: f64 = 4.0;
+
+/// Answers what placements are worth.
+pub(crate) struct Evaluator<'e> {
+    pub(crate) program: &'e MovableProgram<'e, 'e>,
+    pub(crate) space: &'e Space,
+    pub(crate) question: &'e Question,
+    /// Where the machine's tool is at home, m, and how large the machine is: a program out of reach is led back there.
+    pub(crate) home: Vector3<f64>,
+    pub(crate) size: f64,
+}
+
+/// A placement at all places of the program.
+pub(crate) struct OnAll {
+    pub(crate) value: Value,
+    /// Place with the largest figure, or where it is refused.
+    pub(crate) worst: Option<usize>,
+    /// Places that a search must look at so that it sees the same, worst first.
+    pub(crate) telling: Vec<usize>,
+}
+
+impl Evaluator<'_> {
+    /// At some places.
+    pub(crate) fn at(&self, place: &Place, places: &[usize]) -> Value {
+        let lies = self.space.placement(place);
+        // Out of reach is found sooner without a load.
+        let lost = self.obstacle(&lies).or_else(|| self.lost(lies, None));
+        match lost {
+            Some(refusal) => Value::Refused(refusal),
+            None => self.solved(lies, places).value,
+        }
+    }
+
+    /// At all places, posture by posture.
+    pub(crate) fn on_all(&self, lies: Placement) -> OnAll {
+        let all: Vec<usize> = (0..self.program.len()).collect();
+        self.looked(lies, &all)
+    }
+
+    fn looked(&self, lies: Placement, places: &[usize]) -> OnAll {
+        if let Some(refusal) = self.obstacle(&lies) {
+            return refused(refusal, Vec::new());
+        }
+        self.solved(lies, places)
+    }
+
+    fn solved(&self, lies: Placement, places: &[usize]) -> OnAll {
+        match self.figures(lies, places) {
+            Ok(found) => found,
+            Err((at, error)) => {
+                let telling = vec![places[at]];
+                refused(self.refusal(lies, places[at], &error), telling)
+            }
+        }
+    }
+
+    fn figures(&self, lies: Placement, places: &[usize]) -> Result<OnAll, (usize, RunError)> {
+        let objective = self.question.objective;
+        let cuts = places.iter().any(|&i| self.program.at_feed(i));
+        let counts = |i: usize| !objective.at_feed_only() || !cuts || self.program.at_feed(i);
+        let figures: Vec<Option<f64>> = if objective == Objective::Correction {
+            let found = self.program.corrections_mm(lies, places)?;
+            found.into_iter().map(Some).collect()
+        } else {
+            let points = self.program.points(lies, places)?;
+            if let Some(at) = points.iter().position(|point| !point.stable) {
+                let line = Some(self.program.line(places[at]));
+                let unstable = points.iter().filter(|point| !point.stable).count();
+                let refusal = Refusal {
+                    why: Why::Unstable,
+                    line,
+                    amount: unstable as f64 / points.len() as f64,
+                    message: "the machine would jump to another shape under this load".to_owned(),
+                };
+                return Ok(refused(refusal, vec![places[at]]));
+            }
+            let all = places.len() == self.program.len();
+            if let Some(found) = self.changes(lies, (places, &points), all) {
+                return Ok(found);
+            }
+            points.iter().map(|point| objective.figure(point)).collect()
+        };
+        let counted = places.iter().zip(&figures).filter(|(i, _)| counts(**i));
+        let mut known: Vec<(f64, usize)> = counted
+            .filter_map(|(i, figure)| Some(((*figure)?, *i)))
+            .collect();
+        if known.iter().any(|(figure, _)| !figure.is_finite()) || known.is_empty() {
+            let message = match objective {
+                Objective::Drive => "the model states no rating of a drive",
+                Objective::Buckling => "the machine has no inner freedom that could buckle",
+                _ => "no figure was found",
+            };
+            let refusal = Refusal {
+                why: Why::NoFigure,
+                line: None,
+                amount: 1.0,
+                message: message.to_owned(),
+            };
+            return Ok(refused(refusal, Vec::new()));
+        }
+        // Of equal figures the first place.
+        known.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
+        Ok(OnAll {
+            value: Value::Figure(known[0].0),
+            worst: Some(known[0].1),
+            telling: apart(&known, self.program.len()),
+        })
+    }
+
+    /// The posture of an arm changes between two places that are cut.
+    fn changes(
+        &self,
+        lies: Placement,
+        (places, points): (&[usize], &[kinetostat_machining::PointResult]),
+        all: bool,
+    ) -> Option<OnAll> {
+        let numbered = places.iter().zip(points).filter_map(|(i, point)| {
+            let configuration = point.configuration.filter(|_| self.program.at_feed(*i))?;
+            Some((*i, configuration.number))
+        });
+        let numbered: Vec<(usize, u8)> = numbered.collect();
+        let (first, number) = *numbered.first()?;
+        let others: Vec<usize> = numbered
+            .iter()
+            .filter(|(_, other)| *other != number)
+            .map(|(i, _)| *i)
+            .collect();
+        let refusal = |line: usize, share: f64| Refusal {
+            why: Why::PostureChanges,
+            line: Some(line),
+            amount: share,
+            message: "the arm would have to change its posture while it cuts".to_owned(),
+        };
+        if let Some(other) = others.first() {
+            let share = others.len() as f64 / numbered.len() as f64;
+            let refusal = refusal(self.program.line(*other), smaller(share, 1.0 - share));
+            return Some(refused(refusal, vec![first, *other]));
+        }
+        if !all {
+            return None;
+        }
+        // Neighbours tell it only where all places are looked at.
+        let (_, line) = self.program.posture_changes(lies, points)?;
+        Some(refused(refusal(line, 0.0), Vec::new()))
+    }
+
+    /// Why a place has no answer, and by how much the placement is refused.
+    fn refusal(&self, lies: Placement, place: usize, error: &RunError) -> Refusal {
+        self.lost(lies, Some(place)).unwrap_or_else(|| Refusal {
+            why: Why::NoEquilibrium,
+            line: Some(self.program.line(place)),
+            amount: 0.0,
+            message: match error {
+                RunError::Point { message, .. } => message.clone(),
+                other => other.to_string(),
+            },
+        })
+    }
+
+    /// Some places, and one more, are not reached; by how much the placement is refused then.
+    fn lost(&self, lies: Placement, place: Option<usize>) -> Option<Refusal> {
+        let count = self.program.len();
+        // Far from each other one after the other.
+        let spread = (0..PROBES).map(|k| (5 * k % PROBES) * count / PROBES);
+        let probes = place.into_iter().chain(spread);
+        let (mut lost, mut all, mut far) = (0.0, 0.0, 0.0);
+        let mut first: Option<Refusal> = None;
+        for probe in probes {
+            if lost >= ENOUGH && lost == all {
+                break;
+            }
+            all += 1.0;
+            let pose = self.program.tool_pose(lies, probe);
+            let away = (pose.translation.vector - self.home).norm() / self.size;
+            far = larger(far, away);
+            if let Reach::Refused { by_limits, message } = self.program.reach(lies, probe) {
+                lost += 1.0;
+                let why = match by_limits {
+                    true => Why::OutsideLimits,
+                    false => Why::Unreachable,
+                };
+                first.get_or_insert(Refusal {
+                    why,
+                    line: Some(self.program.line(probe)),
+                    amount: 0.0,
+                    message,
+                });
+            }
+        }
+        let mut refusal = first?;
+        // All of it out of reach is led back by the distance alone.
+        refusal.amount = lost / all + far;
+        Some(refusal)
+    }
+
+    /// Path or part enters an obstacle.
+    fn obstacle(&self, lies: &Placement) -> Option<Refusal> {
+        let obstacles = &self.question.obstacles;
+        if obstacles.is_empty() {
+            return None;
+        }
+        let mut pose_mm = lies.base_from_part;
+        pose_mm.translation.vector *= 1e3;
+        let tips: Vec<Vector3<f64>> = (0..self.program.len())
+            .map(|i| self.program.tool_pose(*lies, i).translation.vector * 1e3)
+            .collect();
+        let mut worst: Option<Refusal> = None;
+        for obstacle in obstacles {
+            let mut inside = 0.0;
+            let mut first = None;
+            for (i, tip) in tips.iter().enumerate() {
+                let from = &tips[i.saturating_sub(1)];
+                let share = obstacle.share_inside(from, tip);
+                if share > 0.0 {
+                    inside += share;
+                    first.get_or_insert(i);
+                }
+            }
+            let depth = (self.question.part).map_or(0.0, |part| obstacle.depth_of(&part, &pose_mm));
+            let amount = 10.0 + inside / tips.len() as f64 + 1e-3 * depth / self.size;
+            if (inside > 0.0 || depth > 0.0) && worst.as_ref().is_none_or(|w| amount > w.amount) {
+                let what = match inside > 0.0 {
+                    true => "the path of the tool",
+                    false => "the part",
+                };
+                worst = Some(Refusal {
+                    why: Why::Obstacle,
+                    line: first.map(|i| self.program.line(i)),
+                    amount,
+                    message: format!("{what} enters the obstacle '{}'", obstacle.name),
+                });
+            }
+        }
+        worst
+    }
+}
+
+fn refused(refusal: Refusal, telling: Vec<usize>) -> OnAll {
+    OnAll {
+        value: Value::Refused(refusal),
+        worst: telling.last().copied(),
+        telling,
+    }
+}
+
+/// Most places that one look adds to those of the search.
+const MOST_TELLING: usize = 6;
+
+/// The worst places, no two of which are neighbours.
+fn apart(known: &[(f64, usize)], count: usize) -> Vec<usize> {
+    let near = count / 100;
+    let mut telling: Vec<usize> = Vec::new();
+    for (_, i) in known {
+        if telling.len() == MOST_TELLING {
+            break;
+        }
+        if telling.iter().all(|t| t.abs_diff(*i) > near) {
+            telling.push(*i);
+        }
+    }
+    telling
+}

@@ -1,0 +1,103 @@
+//! A local search without derivatives.
+//!
+//! The largest figure of a program has kinks where another place becomes the worst one: a search along fixed directions ends
+//! on them. So the directions of every step are others (a mirrored frame, from a sequence that fills the sphere densely) and both
+//! ways along each are tried, as in mesh adaptive direct search [Abramson, Audet, Dennis, Le Digabel 2009]; a step is halved
+//! where none is better.
+
+use nalgebra::DVector;
+use rayon::prelude::*;
+use sobol_burley::sample;
+
+use crate::space::{Place, Space};
+use crate::value::Value;
+
+/// The search ends with steps below this share of the ranges.
+const SMALLEST: f64 = 2e-4;
+
+/// Rounds at most.
+const ROUNDS: u32 = 60;
+
+/// Seed of the directions.
+const SEED: u32 = 77;
+
+/// A placement and what it is worth.
+pub(crate) type Worth = (Place, Value);
+
+/// The better of two; of equal ones the first.
+fn better(a: Worth, b: Worth) -> Worth {
+    match b.1.order(&a.1).is_lt() {
+        true => b,
+        false => a,
+    }
+}
+
+/// The best placement that is found from one on, with steps that begin at a share of the ranges.
+pub(crate) fn refined(
+    space: &Space,
+    start: Worth,
+    step: f64,
+    worth: &(impl Fn(&Place) -> Value + Sync),
+) -> Worth {
+    let size = space.ranges().len();
+    let mut best = start;
+    if size == 0 {
+        return best;
+    }
+    let mut step = step;
+    for round in 0..ROUNDS {
+        let shares = DVector::from_vec(space.shares(&best.0));
+        let frame = frame(size, round);
+        let tried: Vec<Place> = frame
+            .iter()
+            .flat_map(|direction| [1.0, -1.0].map(|sign| &shares + direction * (sign * step)))
+            .map(|shares| space.at(best.0.fixture, shares.as_slice()))
+            .filter(|place| *place != best.0)
+            .collect();
+        let found: Vec<Worth> = tried
+            .into_par_iter()
+            .map(|place| {
+                let value = worth(&place);
+                (place, value)
+            })
+            .collect();
+        let next = found.into_iter().fold(best.clone(), better);
+        match next.0 == best.0 {
+            true => step /= 2.0,
+            false => {
+                step *= 1.5;
+                best = next;
+            }
+        }
+        if step < SMALLEST {
+            break;
+        }
+    }
+    best
+}
+
+/// Orthogonal directions of length 1: the axes, mirrored at a plane that is another one in every round.
+fn frame(size: usize, round: u32) -> Vec<DVector<f64>> {
+    let axis = |k: usize| {
+        let mut axis = DVector::zeros(size);
+        axis[k] = 1.0;
+        axis
+    };
+    // Every third round goes along the variables themselves.
+    if size == 1 || round.is_multiple_of(3) {
+        return (0..size).map(axis).collect();
+    }
+    let number = |k: usize| f64::from(sample(round, k as u32, SEED)) - 0.5;
+    let normal = DVector::from_fn(size, |k, _| number(k));
+    let normal = match normal.norm() > 1e-6 {
+        true => normal.normalize(),
+        false => axis(0),
+    };
+    (0..size)
+        .map(|k| {
+            let axis = axis(k);
+            let along = 2.0 * normal.dot(&axis);
+            axis - &normal * along
+        })
+        .collect()
+}

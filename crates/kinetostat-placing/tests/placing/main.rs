@@ -1,0 +1,6 @@
+//! The best placement against machines whose errors are known in closed form.
+
+mod machine;
+mod planted;
+mod refused;
+mod same;
