@@ -44,7 +44,9 @@ fn fault(variable: Variable, [from, to]: [f64; 2]) -> Option<String> {
         "mm" => 1e3 * FARTHEST,
         _ => MOST_DEG,
     };
-    let far = [from, to].into_iter().find(|end| !(end.abs() <= most));
+    let far = [from, to]
+        .into_iter()
+        .find(|end| end.is_nan() || end.abs() > most);
     match far {
         Some(end) if variable.unit() == "mm" => Some(format!(
             "{end} mm leads more than 10 km away; coordinates are in mm"
@@ -101,7 +103,7 @@ fn fixtures(job: Option<&JobFile>, table: Option<&PlaceTable>) -> Answer<Vec<Fix
     };
     let one = |written: &Spanned<crate::job::place_table::FixtureTable>| {
         let own = written.get_ref();
-        let far = |x: &f64| !(x.abs() <= 1e3 * FARTHEST);
+        let far = |x: &f64| x.is_nan() || x.abs() > 1e3 * FARTHEST;
         if own.part_origin_mm.iter().any(far) {
             let what = format!("the fixture '{}' lies more than 10 km away", own.name);
             return Err(job.error(written, &what, "coordinates are in mm"));
@@ -129,7 +131,10 @@ pub(crate) fn question(job: Option<&JobFile>, args: &PlacingArgs) -> Answer<Ques
             ..Question::default()
         });
     };
-    let turned_round = |from: &[f64; 3], to: &[f64; 3]| (0..3).any(|k| !(from[k] < to[k]));
+    let turned_round = |from: &[f64; 3], to: &[f64; 3]| {
+        let grows = |k: usize| from[k] < to[k];
+        !(0..3).all(grows)
+    };
     let mut obstacles = Vec::new();
     for written in &table.obstacles {
         let own = written.get_ref();
