@@ -226,7 +226,8 @@ True
         "groove.ngc",
         _PROGRAM,
         """
-        ...     found = ks.commands.place(program=file, model="heavy_6r", part_origin_mm=[1500, 0, 600], force=[0, 0, 200], x_mm=[1300, 1700], samples=16)
+        ...     part = {"part_origin_mm": [1500, 0, 600], "x_mm": [1300, 1700]}
+        ...     found = ks.commands.place(program=file, model="heavy_6r", force=[0, 0, 200], samples=16, **part)
         >>> found["best"]["figure"] < found["centre"]["figure"], len(found["next_best"]) <= 10
         (True, True)
         """,

@@ -26,6 +26,7 @@ from kinetostat.commands._import import import_link_displacements, import_matrix
 from kinetostat.commands._map import map
 from kinetostat.commands._mirror import mirror
 from kinetostat.commands._model import model_compare, model_draw, model_list, model_schema, model_show
+from kinetostat.commands._place import place
 from kinetostat.commands._reproduce import reproduce
 from kinetostat.commands._shares import shares
 from kinetostat.commands._stiffness import stiffness
@@ -58,6 +59,7 @@ __all__ = [
     "model_list",
     "model_schema",
     "model_show",
+    "place",
     "reproduce",
     "run",
     "shares",

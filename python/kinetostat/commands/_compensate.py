@@ -57,6 +57,8 @@ def compensate(
     machines: int | None = None,
     limit: str | float | Sequence[str | float] | None = None,
     report: _Path | None = None,
+    pdf: _Path | None = None,
+    language: Literal["en", "fr", "de"] | None = None,
     points: _Path | None = None,
     all_points: bool = False,
     force_overwrite: bool = False,
@@ -187,6 +189,11 @@ def compensate(
         shortest_tool_mm, longest_tool_mm. A program that leaves a limit is refused
     report : path
         The report, one HTML file
+    pdf : path
+        The report without pictures as PDF, to be signed and filed
+    language : Literal["en", "fr", "de"]
+        Language of the reports [default: en]. In French and German the HTML report has no pictures
+        either
     points : path
         Points of the path as a table (CSV); of long programs the worst of every stretch
     all_points : bool
@@ -296,6 +303,8 @@ def compensate(
         ("--machines", machines),
         ("--limit", limit),
         ("--report", report),
+        ("--pdf", pdf),
+        ("--language", language),
         ("--points", points),
         ("--all-points", all_points),
         ("--force-overwrite", force_overwrite),
