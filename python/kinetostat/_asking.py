@@ -47,9 +47,7 @@ def node_loads(loads: Mapping[str, ArrayLike] | Sequence[str] | None) -> list[st
 
 def handed_on(own: dict[str, Any], further: Mapping[str, Any]) -> dict[str, Any]:
     """Options of a command: those that a function makes of its own arguments, and further ones of its caller."""
-    for name in further:
-        if name in own:
-            raise ArgumentError(f"{name} is no argument here, expected none of it: this function gives it to the command itself, by its own arguments")
+    no_option_of(further, **dict.fromkeys(own, "none of it: this function gives it to the command itself, by its own arguments"))
     return {**own, **further}
 
 
