@@ -18,7 +18,7 @@ pub(crate) fn answer_text(answer: &PlaceAnswer, space: &Space) -> String {
     out.push('\n');
     let placed = &answer.placed;
     if let Some(best) = &placed.best {
-        out.push_str(&wrapped(&verdict(answer, best), 2));
+        out.push_str(&wrapped(&verdict(answer, best, space), 2));
         out.push('\n');
         out.push_str(&as_job(best, space));
         out.push_str(&list(answer, space));
@@ -27,10 +27,14 @@ pub(crate) fn answer_text(answer: &PlaceAnswer, space: &Space) -> String {
     }
     out.push_str(&wrapped(
         &format!(
-            "{} looked at, {} of the {} that fill the ranges can be taken. The best ones were solved at all {} of the program.",
+            "{} looked at, {} of the {} {} can be taken. The best ones were solved at all {} of the program.",
             counted(placed.evaluated, "placement"),
             placed.taken,
             placed.samples,
+            match space.ranges().is_empty() {
+                true => "fixtures",
+                false => "that fill the ranges",
+            },
             counted(placed.places, "place"),
         ),
         2,
@@ -40,7 +44,7 @@ pub(crate) fn answer_text(answer: &PlaceAnswer, space: &Space) -> String {
 }
 
 /// What is gained.
-fn verdict(answer: &PlaceAnswer, best: &Candidate) -> String {
+fn verdict(answer: &PlaceAnswer, best: &Candidate, space: &Space) -> String {
     let own = best.figure.unwrap_or(f64::NAN);
     let what = answer.objective.what();
     let compared = |there: Option<f64>, name: &str| match there {
@@ -57,12 +61,25 @@ fn verdict(answer: &PlaceAnswer, best: &Candidate) -> String {
     let line = best
         .line
         .map_or_else(String::new, |line| format!(", on line {line}"));
-    format!(
-        "BEST PLACEMENT: the {what} is {}{line}; {}; {}.",
-        figure(answer, own),
-        compared(answer.placed.centre.figure, "in the middle of the ranges"),
-        compared(answer.placed.given, "at the placement as given"),
-    )
+    let mut sentence = format!(
+        "BEST PLACEMENT: the {what} is {}{line}",
+        figure(answer, own)
+    );
+    let placed = &answer.placed;
+    let mut than = |there, name: &str| sentence.push_str(&format!("; {}", compared(there, name)));
+    if space.ranges().is_empty() {
+        // Fixtures alone have no middle.
+        if let Some(next) = placed.next_best.first() {
+            than(next.figure, "of the next best one");
+        }
+    } else {
+        than(placed.centre.figure, "in the middle of the ranges");
+    }
+    if space.fixtures().is_empty() {
+        than(placed.given, "at the placement as given");
+    }
+    sentence.push('.');
+    sentence
 }
 
 /// What is to be written in the job file.
