@@ -52,7 +52,7 @@ pub use chart::plot::{Plot, PlotLine, PlotMark};
 pub use chart::section::{Cell, Section};
 pub use drawing::{Drawing, Magnified, Moved, Placed, View};
 pub use paper::language::Language;
-pub use paper::{Paper, VerifiedProgram};
+pub use paper::question::{Paper, VerifiedProgram};
 
 /// Why a report could not be made.
 #[derive(Debug, thiserror::Error)]

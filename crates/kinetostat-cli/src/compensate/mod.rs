@@ -37,9 +37,9 @@ use crate::job::{program, run_warnings};
 use crate::program::aim::Aim;
 use crate::program::features::refuse_missed_features;
 use crate::program::outputs::RunOutputs;
-use crate::program::paper::LanguageWord;
 use crate::program::{report, solve, summary};
 use crate::ui::failure::{Answer, Failure};
+use crate::ui::language::LanguageWord;
 
 pub(crate) fn run(mut args: CompensateArgs) -> Answer<()> {
     job_after_json(&mut args);

@@ -16,9 +16,9 @@ use crate::job::turn_arguments::FreeTurnWord;
 use crate::job::{program, run_warnings};
 use crate::program::aim::Aim;
 use crate::program::outputs::RunOutputs;
-use crate::program::paper::LanguageWord;
 use crate::program::{report, solve, summary};
 use crate::ui::failure::Answer;
+use crate::ui::language::LanguageWord;
 
 pub(crate) fn along_program(args: &DeflectArgs, is_job: bool) -> Answer<()> {
     let files = InputFiles::default();

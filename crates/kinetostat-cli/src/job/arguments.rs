@@ -11,7 +11,7 @@ use crate::job::turn_arguments::TurnFlags;
 use crate::job::uncertain::UncertainFlags;
 use crate::job::units_word::UnitsWord;
 use crate::options::{number, whole};
-use crate::program::paper::LanguageWord;
+use crate::ui::language::LanguageWord;
 
 /// Job file, model and everything about the program.
 #[derive(Debug, Args)]

@@ -1,37 +1,14 @@
-//! The report to be signed: its language, the hashes of what was written, and the document itself.
+//! The report to be signed: the hashes of what was written, and the document itself.
 
 use std::borrow::Cow;
 use std::path::Path;
 
-use clap::ValueEnum;
 use kinetostat_machining::FileRead;
-use kinetostat_report::{Language, Paper};
+use kinetostat_report::Paper;
 
 use crate::files::origin;
 use crate::job::output_paths::OutputPaths;
 use crate::ui::failure::{Answer, Failure};
-
-/// Language of reports, as it is named.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(crate) enum LanguageWord {
-    /// English
-    En,
-    /// French
-    Fr,
-    /// German
-    De,
-}
-
-impl LanguageWord {
-    /// English where none is named.
-    pub(crate) fn language(word: Option<Self>) -> Language {
-        match word {
-            None | Some(Self::En) => Language::English,
-            Some(Self::Fr) => Language::French,
-            Some(Self::De) => Language::German,
-        }
-    }
-}
 
 /// Without PDF in this build it is said before the long work begins.
 pub(crate) fn refuse_without_pdf() -> Answer<()> {

@@ -10,6 +10,7 @@ pub(crate) mod failure;
 pub(crate) mod fault_list;
 pub(crate) mod host;
 pub(crate) mod json;
+pub(crate) mod language;
 pub(crate) mod layout;
 pub(crate) mod numbers;
 pub(crate) mod pose;

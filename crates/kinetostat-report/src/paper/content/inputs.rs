@@ -2,8 +2,8 @@
 
 use crate::number;
 use crate::paper::block::{Block, Cell, Column, Table};
-use crate::paper::content::Of;
-use crate::paper::words::fill;
+use crate::paper::content::of::Of;
+use crate::paper::words::table::fill;
 use crate::text::clean;
 
 type Fact = (String, Vec<String>);

@@ -1,55 +1,22 @@
 //! What stands in a paper, in its order.
 
 mod inputs;
+mod of;
 mod results;
 mod tables;
 
 use crate::number;
-use crate::paper::Paper;
 use crate::paper::block::{Block, Contents};
-use crate::paper::language::Language;
-use crate::paper::words::{Words, fill, statement, words};
+use crate::paper::content::of::Of;
+use crate::paper::question::Paper;
+use crate::paper::words::table::fill;
+use crate::paper::words::{statement, words};
 use crate::run::meaning::{Level, Statement, assessment};
 use crate::run::shown::Shown;
 use crate::text::{clean, shorten};
 
 /// Most warnings and features shown; more are in the result file.
 const MOST: usize = 100;
-
-/// What every section is made from.
-pub(super) struct Of<'a> {
-    pub(super) paper: &'a Paper<'a>,
-    pub(super) result: &'a Shown<'a>,
-    pub(super) words: &'static Words,
-    pub(super) language: Language,
-}
-
-impl Of<'_> {
-    /// A figure of the report in this language.
-    pub(super) fn figure(&self, text: &str) -> String {
-        self.language.figure(text, &self.words.figures)
-    }
-
-    /// A largest length.
-    pub(super) fn length(&self, mm: f64) -> String {
-        let text = kinetostat_machining::number::largest_length(mm);
-        self.figure(&number::typeset(&text))
-    }
-
-    /// Text of others, harmless; a word for its absence.
-    pub(super) fn text(&self, text: &str) -> String {
-        let text = clean(text);
-        match text.trim().is_empty() {
-            true => self.words.not_stated.to_owned(),
-            false => text,
-        }
-    }
-
-    /// There is a second program: written, or verified.
-    pub(super) fn has_after(&self) -> bool {
-        self.result.run_inputs.compensated || self.paper.verified.is_some()
-    }
-}
 
 /// A paper of a run.
 pub(crate) fn contents(paper: &Paper<'_>, result: &Shown<'_>) -> Contents {

@@ -2,7 +2,7 @@
 
 use crate::number;
 use crate::paper::block::{Block, Cell, Column, Remark, Table};
-use crate::paper::content::Of;
+use crate::paper::content::of::Of;
 use crate::paper::words::left as in_words;
 use crate::run::facts;
 

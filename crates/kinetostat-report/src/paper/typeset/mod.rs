@@ -18,7 +18,7 @@ use crate::ReportError;
 use crate::paper::block::Contents;
 use crate::paper::typeset::layout::{BOTTOM, HEIGHT, LEFT, Mark, RIGHT, Setter, TOP, WIDTH};
 use crate::paper::typeset::letters::{Letters, Weight};
-use crate::paper::words::fill;
+use crate::paper::words::table::fill;
 
 /// Size of what stands on every page, points.
 const RUNNING: f32 = 7.5;

@@ -1,7 +1,7 @@
 //! English.
 
 use crate::paper::language::FigureWords;
-use crate::paper::words::Words;
+use crate::paper::words::table::Words;
 
 pub(super) const WORDS: Words = Words {
     figures: FigureWords {

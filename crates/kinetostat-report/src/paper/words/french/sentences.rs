@@ -4,14 +4,14 @@ use kinetostat_machining::{CornerLoad, LoadBegins};
 
 use crate::number;
 use crate::paper::language::Language;
+use crate::paper::words::french::WORDS;
 use crate::paper::words::shared::{corners, length, missed_place, uncertain};
-use crate::paper::words::words;
 use crate::run::meaning::{Statement, after_and_allowed, missed_features};
 use crate::run::shown::Shown;
 
 /// Un nombre, comme on l'écrit en français.
 pub(super) fn nombre(text: &str) -> String {
-    Language::French.figure(text, &words(Language::French).figures)
+    Language::French.figure(text, &WORDS.figures)
 }
 
 /// Une phrase ou plusieurs.

@@ -4,7 +4,7 @@ pub(super) mod left;
 pub(super) mod sentences;
 
 use crate::paper::language::FigureWords;
-use crate::paper::words::Words;
+use crate::paper::words::table::Words;
 
 pub(super) const WORDS: Words = Words {
     figures: FigureWords {

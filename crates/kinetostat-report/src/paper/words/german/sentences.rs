@@ -4,14 +4,14 @@ use kinetostat_machining::{CornerLoad, LoadBegins};
 
 use crate::number;
 use crate::paper::language::Language;
+use crate::paper::words::german::WORDS;
 use crate::paper::words::shared::{corners, length, missed_place, uncertain};
-use crate::paper::words::words;
 use crate::run::meaning::{Statement, after_and_allowed, missed_features};
 use crate::run::shown::Shown;
 
 /// Eine Zahl, wie sie im Deutschen steht.
 pub(super) fn zahl(text: &str) -> String {
-    Language::German.figure(text, &words(Language::German).figures)
+    Language::German.figure(text, &WORDS.figures)
 }
 
 /// Ein Satz oder mehrere.

@@ -1,0 +1,43 @@
+//! What every section of a paper is made from.
+
+use crate::number;
+use crate::paper::language::Language;
+use crate::paper::question::Paper;
+use crate::paper::words::table::Words;
+use crate::run::shown::Shown;
+use crate::text::clean;
+
+/// What every section is made from.
+pub(super) struct Of<'a> {
+    pub(super) paper: &'a Paper<'a>,
+    pub(super) result: &'a Shown<'a>,
+    pub(super) words: &'static Words,
+    pub(super) language: Language,
+}
+
+impl Of<'_> {
+    /// A figure of the report in this language.
+    pub(super) fn figure(&self, text: &str) -> String {
+        self.language.figure(text, &self.words.figures)
+    }
+
+    /// A largest length.
+    pub(super) fn length(&self, mm: f64) -> String {
+        let text = kinetostat_machining::number::largest_length(mm);
+        self.figure(&number::typeset(&text))
+    }
+
+    /// Text of others, harmless; a word for its absence.
+    pub(super) fn text(&self, text: &str) -> String {
+        let text = clean(text);
+        match text.trim().is_empty() {
+            true => self.words.not_stated.to_owned(),
+            false => text,
+        }
+    }
+
+    /// There is a second program: written, or verified.
+    pub(super) fn has_after(&self) -> bool {
+        self.result.run_inputs.compensated || self.paper.verified.is_some()
+    }
+}

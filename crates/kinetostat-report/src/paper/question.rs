@@ -1,0 +1,70 @@
+//! What a paper is asked for.
+
+use kinetostat_machining::{FileRead, RunResult};
+
+use crate::paper::language::Language;
+
+/// What a paper is made of.
+///
+/// ```
+/// use kinetostat_machining::RunResult;
+/// use kinetostat_report::{Language, Paper};
+///
+/// let result = RunResult::default();
+/// let page = Paper::of(&result).in_language(Language::German).html();
+/// assert!(page.contains("Unterschrift"));
+/// ```
+#[derive(Clone, Debug)]
+pub struct Paper<'a> {
+    pub(crate) result: &'a RunResult,
+    pub(crate) language: Language,
+    pub(crate) written: Vec<FileRead>,
+    pub(crate) verified: Option<VerifiedProgram>,
+}
+
+/// What `verify` adds to a run: the run's errors before are those of the original, those after those of the program.
+#[derive(Clone, Debug, Default)]
+pub struct VerifiedProgram {
+    /// File name of the original.
+    pub original: String,
+    /// Whether everything is as it should be.
+    pub held: bool,
+    /// What is allowed in all, mm.
+    pub allowed_mm: f64,
+    /// Lines of the original that are not cut, first and last, with their length, mm.
+    pub uncut: Vec<([usize; 2], f64)>,
+}
+
+impl<'a> Paper<'a> {
+    /// Of a run, in English.
+    #[must_use]
+    pub fn of(result: &'a RunResult) -> Self {
+        Self {
+            result,
+            language: Language::English,
+            written: Vec::new(),
+            verified: None,
+        }
+    }
+
+    /// In another language.
+    #[must_use]
+    pub fn in_language(self, language: Language) -> Self {
+        Self { language, ..self }
+    }
+
+    /// With files that the run wrote, and their hashes.
+    #[must_use]
+    pub fn with_written(self, written: Vec<FileRead>) -> Self {
+        Self { written, ..self }
+    }
+
+    /// Of a program that was verified.
+    #[must_use]
+    pub fn of_verified(self, verified: VerifiedProgram) -> Self {
+        Self {
+            verified: Some(verified),
+            ..self
+        }
+    }
+}
