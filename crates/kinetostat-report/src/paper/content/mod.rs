@@ -7,16 +7,13 @@ mod tables;
 
 use crate::number;
 use crate::paper::block::{Block, Contents};
-use crate::paper::content::of::Of;
+use crate::paper::content::of::{MOST, Of, more};
 use crate::paper::question::Paper;
 use crate::paper::words::table::fill;
 use crate::paper::words::{statement, words};
 use crate::run::meaning::{Level, Statement, assessment};
 use crate::run::shown::Shown;
 use crate::text::{clean, shorten};
-
-/// Most warnings and features shown; more are in the result file.
-const MOST: usize = 100;
 
 /// A paper of a run.
 pub(crate) fn contents(paper: &Paper<'_>, result: &Shown<'_>) -> Contents {
@@ -126,11 +123,4 @@ fn warnings(of: &Of<'_>) -> Vec<Block> {
     ];
     blocks.extend(more(of.words.more_warnings, all.len()));
     blocks
-}
-
-/// How many are not shown.
-pub(super) fn more(words: &str, all: usize) -> Option<Block> {
-    let more = all.checked_sub(MOST).filter(|more| *more > 0)?;
-    let count = number::count(more);
-    Some(Block::Note(fill(words, &[("count", count.as_str())])))
 }

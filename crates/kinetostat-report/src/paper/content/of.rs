@@ -1,11 +1,15 @@
 //! What every section of a paper is made from.
 
 use crate::number;
+use crate::paper::block::Block;
 use crate::paper::language::Language;
 use crate::paper::question::Paper;
-use crate::paper::words::table::Words;
+use crate::paper::words::table::{Words, fill};
 use crate::run::shown::Shown;
 use crate::text::clean;
+
+/// Most warnings and features shown; more are in the result file.
+pub(super) const MOST: usize = 100;
 
 /// What every section is made from.
 pub(super) struct Of<'a> {
@@ -40,4 +44,11 @@ impl Of<'_> {
     pub(super) fn has_after(&self) -> bool {
         self.result.run_inputs.compensated || self.paper.verified.is_some()
     }
+}
+
+/// How many are not shown.
+pub(super) fn more(words: &str, all: usize) -> Option<Block> {
+    let more = all.checked_sub(MOST).filter(|more| *more > 0)?;
+    let count = number::count(more);
+    Some(Block::Note(fill(words, &[("count", count.as_str())])))
 }

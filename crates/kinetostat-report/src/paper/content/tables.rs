@@ -4,7 +4,7 @@ use kinetostat_machining::{CutPlace, FeatureResult, PointResult};
 
 use crate::number::{self, Rounding, norm};
 use crate::paper::block::{Block, Cell, Column, Remark, Table};
-use crate::paper::content::{MOST, Of, more};
+use crate::paper::content::of::{MOST, Of, more};
 use crate::paper::words::table::fill;
 use crate::text::{clean, shorten};
 

@@ -15,7 +15,7 @@ pub(super) fn nombre(text: &str) -> String {
 }
 
 /// Une phrase ou plusieurs.
-pub(in crate::paper) fn statement(statement: &Statement, result: &Shown<'_>) -> Option<String> {
+pub(crate) fn statement(statement: &Statement, result: &Shown<'_>) -> Option<String> {
     let summary = &result.summary;
     let before = nombre(&result.figures.error_before);
     let (after, allowed) = after_and_allowed(result);

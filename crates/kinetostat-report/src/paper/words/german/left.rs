@@ -8,7 +8,7 @@ use crate::run::meaning::Statement;
 use crate::run::shown::Shown;
 
 /// Name, Größe und Erklärung.
-pub(in crate::paper) fn left(left: Left, result: &Shown<'_>) -> [String; 3] {
+pub(crate) fn left(left: Left, result: &Shown<'_>) -> [String; 3] {
     let summary = &result.summary;
     let figure = zahl(&left.figure(result));
     let size = match left.counted(result) {

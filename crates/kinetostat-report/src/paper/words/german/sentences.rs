@@ -15,7 +15,7 @@ pub(super) fn zahl(text: &str) -> String {
 }
 
 /// Ein Satz oder mehrere.
-pub(in crate::paper) fn statement(statement: &Statement, result: &Shown<'_>) -> Option<String> {
+pub(crate) fn statement(statement: &Statement, result: &Shown<'_>) -> Option<String> {
     let summary = &result.summary;
     let before = zahl(&result.figures.error_before);
     let (after, allowed) = after_and_allowed(result);
