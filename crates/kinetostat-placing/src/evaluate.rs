@@ -59,15 +59,11 @@ impl Evaluator<'_> {
 
     /// At all places, posture by posture.
     pub(crate) fn on_all(&self, lies: Placement) -> OnAll {
-        let all: Vec<usize> = (0..self.program.len()).collect();
-        self.looked(lies, &all)
-    }
-
-    fn looked(&self, lies: Placement, places: &[usize]) -> OnAll {
         if let Some(refusal) = self.obstacle(&lies) {
             return refused(refusal, Vec::new());
         }
-        self.solved(lies, places)
+        let all: Vec<usize> = (0..self.program.len()).collect();
+        self.solved(lies, &all)
     }
 
     fn solved(&self, lies: Placement, places: &[usize]) -> OnAll {

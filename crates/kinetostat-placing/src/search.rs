@@ -329,11 +329,8 @@ impl Search<'_, '_> {
     /// The best and the next best placements, solved at all places, the best first.
     fn listed(&self, worths: &[Worth], filling: &[Evaluated]) -> Result<Vec<Candidate>, RunError> {
         let refined = worths.iter().map(|(place, value)| (place.clone(), value));
-        let mut all: Vec<(Place, &Value)> = refined.collect();
-        all.sort_by(|a, b| a.1.order(b.1));
-        let mut others: Vec<&Evaluated> = filling.iter().collect();
-        others.sort_by(|a, b| a.value.order(&b.value));
-        all.extend(others.into_iter().map(|e| (e.place.clone(), &e.value)));
+        let others = filling.iter().map(|e| (e.place.clone(), &e.value));
+        let mut all: Vec<(Place, &Value)> = refined.chain(others).collect();
         all.retain(|(_, value)| value.figure().is_some());
         // The sort is stable: of equal ones a refined one stays before.
         all.sort_by(|a, b| a.1.order(b.1));

@@ -19,13 +19,12 @@ use crate::files::input_files::InputFiles;
 use crate::files::outputs::may_be_written;
 use crate::job::all_faults::{RunQuery, with_all_others};
 use crate::job::arguments::{ProgramArgs, WritingFlags};
-use crate::job::axes_of_program::give_axes;
 use crate::job::cut::along;
 use crate::job::file_endings::refuse_other_endings;
 use crate::job::job_file::JobFile;
 use crate::job::machine::machine_setup;
+use crate::job::of_model::give_of_model;
 use crate::job::output_paths::OutputPaths;
-use crate::job::robot::joint_arm::give_arm;
 use crate::job::setting::{Setting, setting};
 use crate::job::{program, run_warnings};
 use crate::program::aim::Aim;
@@ -120,8 +119,7 @@ fn findings(files: &InputFiles, path: &Path, flags: &ProgramArgs) -> Answer<JobF
     let job = JobFile::read(files, path)?;
     let mut setting = setting(files, Some(&job), flags, &WritingFlags::default())?;
     named_outputs(&job, &mut setting)?;
-    give_arm(setting.robot.as_mut(), files, (Some(&job), None), flags)?;
-    give_axes(&mut setting, files, (Some(&job), None), flags)?;
+    give_of_model(&mut setting, files, (Some(&job), None), flags)?;
     let frames = setting.robot_frames()?;
     let inputs = &mut setting.inputs;
     let (machine, model) =

@@ -24,12 +24,11 @@ use crate::files::origin;
 use crate::files::outputs::{self, Existing};
 use crate::job::all_faults::{RunQuery, with_all_others};
 use crate::job::arguments::{ProgramArgs, WritingFlags};
-use crate::job::axes_of_program::give_axes;
 use crate::job::file_endings::refuse_other_endings;
 use crate::job::free_turn::FreeTurn;
 use crate::job::job_file::JobFile;
 use crate::job::machine::{MachineSetup, machine_setup};
-use crate::job::robot::joint_arm::give_arm;
+use crate::job::of_model::give_of_model;
 use crate::job::setting::{Setting, setting};
 use crate::job::target_word::RobotWord;
 use crate::job::turn_arguments::FreeTurnWord;
@@ -96,8 +95,7 @@ fn compensate(files: &InputFiles, args: &CompensateArgs) -> Answer<()> {
         return correction_table::from_map(files, map, &setting, existing, to_screen);
     }
     let model_named = args.run.model.as_deref();
-    give_arm(setting.robot.as_mut(), files, (job, model_named), flags)?;
-    give_axes(&mut setting, files, (job, model_named), flags)?;
+    give_of_model(&mut setting, files, (job, model_named), flags)?;
     let frames = setting.robot_frames()?;
     let with = (frames.as_ref(), &mut setting.inputs);
     let (mut machine, model) = machine_setup(files, job, model_named, flags, with)?;

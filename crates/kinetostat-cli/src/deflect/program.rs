@@ -6,11 +6,10 @@ use crate::deflect::arguments::DeflectArgs;
 use crate::files::input_files::InputFiles;
 use crate::files::outputs::{self, Existing};
 use crate::job::arguments::WritingFlags;
-use crate::job::axes_of_program::give_axes;
 use crate::job::free_turn::FreeTurn;
 use crate::job::job_file::JobFile;
 use crate::job::machine::machine_setup;
-use crate::job::robot::joint_arm::give_arm;
+use crate::job::of_model::give_of_model;
 use crate::job::setting::setting;
 use crate::job::turn_arguments::FreeTurnWord;
 use crate::job::{program, run_warnings};
@@ -44,14 +43,8 @@ pub(crate) fn along_program(args: &DeflectArgs, is_job: bool) -> Answer<()> {
     });
     chosen.json = args.json.clone().filter(|p| p != Path::new("-"));
     let existing = Existing::forced(args.program.force_overwrite);
-    give_arm(
-        setting.robot.as_mut(),
-        &files,
-        (job.as_ref(), named),
-        &args.program,
-    )?;
     let model_of_job = (job.as_ref(), named);
-    give_axes(&mut setting, &files, model_of_job, &args.program)?;
+    give_of_model(&mut setting, &files, model_of_job, &args.program)?;
     let frames = setting.robot_frames()?;
     let (machine, model) = machine_setup(
         &files,

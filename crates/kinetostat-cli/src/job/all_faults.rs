@@ -10,12 +10,11 @@ use toml::de::{DeTable, DeValue};
 
 use crate::files::input_files::InputFiles;
 use crate::job::arguments::{ProgramArgs, WritingFlags};
-use crate::job::axes_of_program::give_axes;
 use crate::job::format::Job;
 use crate::job::job_file::JobFile;
 use crate::job::machine::machine_setup;
+use crate::job::of_model::give_of_model;
 use crate::job::program;
-use crate::job::robot::joint_arm::give_arm;
 use crate::job::setting::setting;
 use crate::job::source::Source;
 use crate::job::toml_tree::{holds, table_of, take};
@@ -137,16 +136,12 @@ fn all(files: &InputFiles, path: &Path, query: &RunQuery<'_>, first: &Failure) -
     if !first.is_of_program
         && let Ok(job) = JobFile::read(files, path)
         && let Ok(mut setting) = setting(files, Some(&job), query.program, &query.writing)
-        && let Err(failure) = give_arm(
-            setting.robot.as_mut(),
+        && let Err(failure) = give_of_model(
+            &mut setting,
             files,
             (Some(&job), query.model),
             query.program,
         )
-        .and_then(|()| {
-            let named = (Some(&job), query.model);
-            give_axes(&mut setting, files, named, query.program)
-        })
         .and_then(|()| program::read_program(&setting).map(drop))
     {
         add(&mut found, failure);

@@ -22,6 +22,7 @@ mod limits;
 mod load;
 pub(crate) mod machine;
 pub(crate) mod model_named;
+pub(crate) mod of_model;
 pub(crate) mod output_paths;
 pub(crate) mod place_table;
 mod placement;

@@ -109,6 +109,11 @@ impl RunOutputs {
             .collect()
     }
 
+    /// A paper is made, which states the hashes of what was written; the English page does not.
+    fn has_paper(&self) -> bool {
+        self.pdf.is_some() || (self.report.is_some() && self.language != Language::English)
+    }
+
     /// Writes a run beside its targets, with the turn that was chosen for it; nothing is in place yet.
     pub(crate) fn fill(
         &mut self,
@@ -125,7 +130,9 @@ impl RunOutputs {
         let mut made = Vec::new();
         if let (Some(index), Some(written)) = (self.program, &run.written) {
             let written = setting.as_files(written)?;
-            made = paper::written(&setting.targets, &written.program, &written.beside);
+            if self.has_paper() {
+                made = paper::written(&setting.targets, &written.program, &written.beside);
+            }
             self.files.fill(index, &written.program)?;
             self.widened = written.widened;
             for (index, bytes) in self.beside.iter().zip(&written.beside) {

@@ -13,12 +13,11 @@ use kinetostat_machining::{RunError, Verified, verify_program};
 use crate::files::input_files::InputFiles;
 use crate::files::outputs::{self, Existing, Outputs};
 use crate::job::arguments::{ProgramArgs, WritingFlags};
-use crate::job::axes_of_program::give_axes;
 use crate::job::job_file::JobFile;
 use crate::job::machine::{MachineSetup, machine_setup};
+use crate::job::of_model::give_of_model;
 use crate::job::output_paths::PDF;
 use crate::job::program::read_program;
-use crate::job::robot::joint_arm::give_arm;
 use crate::job::run_warnings;
 use crate::job::setting::{Setting, setting};
 use crate::program::aim::Aim;
@@ -140,8 +139,7 @@ fn asked(
 ) -> Answer<Setting> {
     let mut setting = setting(files, job, program, writing)?;
     let model = (job, model_named);
-    give_arm(setting.robot.as_mut(), files, model, program)?;
-    give_axes(&mut setting, files, model, program)?;
+    give_of_model(&mut setting, files, model, program)?;
     Ok(setting)
 }
 

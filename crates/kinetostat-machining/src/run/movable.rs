@@ -6,7 +6,6 @@
 use kinetostat::{Error, Pose, Wrench};
 use nalgebra::Vector3;
 
-use crate::checks::motion::no_motion;
 use crate::field::cause_and_advice;
 use crate::joints::figures::JointFigures;
 use crate::load::along_path::LoadAlongPath;
@@ -16,7 +15,8 @@ use crate::result::point::{PointKind, PointResult};
 use crate::run::first_look::FirstLook;
 use crate::run::joints::joints_result;
 use crate::run::machines::Machines;
-use crate::run::points::{Solving, chunk};
+use crate::run::points::{Solving, chunk, failed};
+use crate::run::preparation::{has_motion, load};
 use crate::run::sites::{Site, of_path, spacing_mm};
 use crate::task::{NoMotion, RunError, Task};
 use crate::watch::Watch;
@@ -52,10 +52,8 @@ impl<'t, 'm> MovableProgram<'t, 'm> {
     /// # Errors
     /// [`RunError::NoMotion`], [`RunError::Cancelled`].
     pub fn new(task: &'t Task<'m>, most: usize, watch: &dyn Watch) -> Result<Self, RunError> {
-        if let Some(reason) = no_motion(task.path()) {
-            return Err(RunError::NoMotion(reason));
-        }
-        let load = LoadAlongPath::with_tools(task.load, task.path(), task.tools).with_cut(task.cut);
+        has_motion(task)?;
+        let load = load(task);
         let looked = FirstLook::new(task, &load, watch)?;
         let load = load.ramped(looked.stiffness()).acting;
         let sites = || of_path(task.path(), &load, &task.placement, spacing_mm(task));
@@ -197,19 +195,14 @@ impl<'t, 'm> MovableProgram<'t, 'm> {
                     Some(targets) => targets,
                     None => {
                         let mut memory = Neighbour::default();
-                        let how = (orientation, corrected);
-                        let one = |i: usize| -> Result<Pose, Error> {
-                            let mechanism = machine.mechanism();
-                            let found = memory.target(mechanism, &poses[i], &wrenches[i], how)?;
-                            Ok(*found.target())
+                        let (mechanism, how) = (machine.mechanism(), (orientation, corrected));
+                        let mut target = |i: usize| {
+                            let found = memory.target(mechanism, &poses[i], &wrenches[i], how);
+                            let found = found.map(|found| *found.target());
+                            found.map_err(|cause| (first + i, failed(&sites[i], cause)))
                         };
-                        let mut one = one;
-                        let mut targets = Vec::with_capacity(sites.len());
-                        for (i, site) in sites.iter().enumerate() {
-                            let found = one(i).map_err(|e| (first + i, failed(site, e)))?;
-                            targets.push(found);
-                        }
-                        targets
+                        let all = (0..sites.len()).map(&mut target);
+                        all.collect::<Result<Vec<Pose>, _>>()?
                     }
                 };
                 for ((site, pose), target) in sites.iter().zip(&poses).zip(&targets) {
@@ -247,14 +240,5 @@ impl<'t, 'm> MovableProgram<'t, 'm> {
         let found = joints_result(&self.task_at(placement), points);
         let first = found.changes.first()?;
         Some((found.change_count, first.line))
-    }
-}
-
-fn failed(site: &Site, cause: Error) -> RunError {
-    RunError::Point {
-        line: site.line,
-        position_mm: site.desired.into(),
-        message: cause_and_advice(&cause),
-        cause: Box::new(cause),
     }
 }

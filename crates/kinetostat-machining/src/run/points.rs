@@ -161,12 +161,7 @@ pub(crate) fn chunk(
     };
     let mut points = Vec::with_capacity(sites.len());
     for (i, site) in sites.iter().enumerate() {
-        let point = solved(i).map_err(|cause| RunError::Point {
-            line: site.line,
-            position_mm: site.desired.into(),
-            message: cause_and_advice(&cause),
-            cause: Box::new(cause),
-        });
+        let point = solved(i).map_err(|cause| failed(site, cause));
         let ends = point.is_err();
         points.push(point);
         if ends {
@@ -174,6 +169,16 @@ pub(crate) fn chunk(
         }
     }
     points
+}
+
+/// A place without an answer.
+pub(crate) fn failed(site: &Site, cause: Error) -> RunError {
+    RunError::Point {
+        line: site.line,
+        position_mm: site.desired.into(),
+        message: cause_and_advice(&cause),
+        cause: Box::new(cause),
+    }
 }
 
 /// What a result states of an equilibrium.

@@ -81,11 +81,13 @@ pub fn with_model_field<R>(
     Ok(work(&prepared.field(task)))
 }
 
-fn load<'a>(task: &Task<'a>) -> LoadAlongPath<'a> {
+/// What acts along the program as it is stated.
+pub(crate) fn load<'a>(task: &Task<'a>) -> LoadAlongPath<'a> {
     LoadAlongPath::with_tools(task.load, task.path(), task.tools).with_cut(task.cut)
 }
 
-fn has_motion(task: &Task<'_>) -> Result<(), RunError> {
+/// Refuses a program that moves nothing.
+pub(crate) fn has_motion(task: &Task<'_>) -> Result<(), RunError> {
     match no_motion(task.path()) {
         Some(reason) => Err(RunError::NoMotion(reason)),
         None => Ok(()),
