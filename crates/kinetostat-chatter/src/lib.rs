@@ -10,16 +10,23 @@
 //!
 //! What is not covered (`dynamics.md` section 14): variable pitch, process damping, ball ends, run-out, loss of contact.
 
+mod branches;
+mod coupling;
 mod cut;
 mod error;
+mod forced;
 mod lobes;
 mod number;
 mod response;
 mod stability;
 pub mod zeroth_order;
 
+pub use coupling::{
+    Coupled, CoupledLimit, Process, coupled_limit, coupled_roots, two_axis_limit,
+};
 pub use cut::{Arc, Coefficients, Cut, Linearised, Milled, MillingCut, TurningCut};
 pub use error::{ChatterError, ChatterErrorKind, Result};
+pub use forced::{PeriodicForce, SteadyCut, Vibration, VibrationHarmonic};
 pub use lobes::{LobeDiagram, LobePoint, LobeRequest};
 pub use response::{FeedFrame, Mode, ToolResponse};
 pub use stability::{Crossing, Instability, Multiplier, Regeneration, SpeedStability};

@@ -16,5 +16,7 @@ pub use multiplier::{Instability, Multiplier};
 pub use regeneration::Regeneration;
 pub use scan::{Crossing, SpeedStability};
 
+pub(crate) use collocation::Chebyshev;
+pub(crate) use krylov::eigenvalues;
 pub(crate) use operator::Operator;
-pub(crate) use period::{Period, Stretch};
+pub(crate) use period::Period;

@@ -2,6 +2,8 @@
 #![allow(clippy::unwrap_used)]
 
 mod arm;
+mod coupling;
 mod exact;
+mod forced;
 mod support;
 mod zeroth;
