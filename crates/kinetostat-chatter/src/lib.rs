@@ -16,6 +16,7 @@ mod cut;
 mod error;
 mod forced;
 mod lobes;
+mod measured;
 mod number;
 mod response;
 mod stability;
@@ -28,6 +29,11 @@ pub use cut::{Arc, Coefficients, Cut, Linearised, Milled, MillingCut, TurningCut
 pub use error::{ChatterError, ChatterErrorKind, Result};
 pub use forced::{PeriodicForce, SteadyCut, Vibration, VibrationHarmonic};
 pub use lobes::{LobeDiagram, LobePoint, LobeRequest};
+pub use measured::{
+    Fit, FittedMode, MeasuredResponse, ModePair, Motion, Parameter, Scaled, ShapedMode, UniversalFile,
+    fit_modes, modal_assurance, pair_modes, read_columns, read_universal, scale_parameters,
+    write_universal,
+};
 pub use response::{FeedFrame, Mode, ToolResponse};
 pub use stability::{Crossing, Instability, Multiplier, Regeneration, SpeedStability};
 pub use zeroth_order::ZerothOrderLimit;
