@@ -1,14 +1,19 @@
 //! A tool in a regenerative cut.
 
-use crate::cut::Cut;
+use crate::cut::{Cut, checked_depth, checked_speed};
 use crate::error::{ChatterError, ChatterErrorKind, Result};
 use crate::number::Complex64;
-use crate::cut::{checked_depth, checked_speed};
 use crate::response::ToolResponse;
 use crate::stability::krylov;
 use crate::stability::multiplier::Multiplier;
 use crate::stability::operator::Operator;
 use crate::stability::period::Period;
+
+/// Change of a multiplier with a third more points that is accepted, share of it.
+const RESOLVED: f64 = 1e-7;
+/// Growth of the number of points, and most times the usual ones.
+const FINER: f64 = 4.0 / 3.0;
+const FINEST: f64 = 4.0;
 
 /// A tool, in the axes of the cut, and what it cuts.
 ///
@@ -83,12 +88,31 @@ impl Regeneration {
         &self.cut
     }
 
-    /// The largest multiplier of one tooth period at a spindle speed (rpm) and a depth of cut (m).
+    /// The largest multiplier of one tooth period at a spindle speed (rpm) and a depth of cut (m), with points added until it
+    /// changes by less than 1e-7 of itself.
     ///
     /// # Errors
     /// A speed that is not positive, a depth that is negative, and modes too fast for the speed ([`ToolResponse::with_modes_up_to`]).
     pub fn multiplier(&self, speed_rpm: f64, depth: f64) -> Result<Multiplier> {
-        self.multiplier_with(speed_rpm, depth, 1.0)
+        let mut fineness = 1.0;
+        let mut last = self.multiplier_with(speed_rpm, depth, fineness)?;
+        loop {
+            fineness *= FINER;
+            let next = self.multiplier_with(speed_rpm, depth, fineness)?;
+            let change = (next.size() / last.size() - 1.0).abs();
+            if change <= RESOLVED {
+                return Ok(next);
+            }
+            if !(fineness < FINEST) {
+                return Err(ChatterError::new(
+                    ChatterErrorKind::NotConverged,
+                    format!("largest multiplier at {speed_rpm} rpm and {depth:e} m"),
+                    format!("changes by {change:.1e} of itself with a third more points"),
+                    "a change below 1e-7: take faster modes as springs (ToolResponse::with_modes_up_to)",
+                ));
+            }
+            last = next;
+        }
     }
 
     /// As [`Self::multiplier`], with so many times the usual points of collocation: the difference says how exact it is.
