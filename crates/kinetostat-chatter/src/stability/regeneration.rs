@@ -1,9 +1,12 @@
 //! A tool in a regenerative cut.
 
+use nalgebra::Vector3;
+
+use crate::branches::grid;
 use crate::cut::{Cut, checked_depth, checked_speed};
 use crate::error::{ChatterError, ChatterErrorKind, Result};
-use crate::number::Complex64;
-use crate::response::ToolResponse;
+use crate::number::{Complex64, larger};
+use crate::response::{Mode, ToolResponse};
 use crate::stability::krylov;
 use crate::stability::multiplier::Multiplier;
 use crate::stability::operator::Operator;
@@ -31,6 +34,8 @@ const FINEST: f64 = 4.0;
 pub struct Regeneration {
     response: ToolResponse,
     cut: Cut,
+    /// Most that a force of 1 N moves the tool by at any frequency, at most, m/N.
+    gain: f64,
 }
 
 impl Regeneration {
@@ -53,19 +58,16 @@ impl Regeneration {
                 "a positive one: without damping the smallest cut chatters, and no lobe is left to compute",
             ));
         }
-        let mean = cut.mean_matrix();
-        let (bound, flexible) = (response.bound(), {
-            let moved = |along: [f64; 3]| {
-                let along = nalgebra::Vector3::from(along);
-                response.modes().iter().any(|mode| mode.shape().dot(&along).abs() > 0.0)
-                    || (response.residual().transpose() * along).norm() > 0.0
-            };
-            match &cut {
-                Cut::Milling(_) => moved([1.0, 0.0, 0.0]) || moved([0.0, 1.0, 0.0]),
-                Cut::Turning(cut) => moved(cut.factors().0.into()),
-            }
-        });
-        if !(flexible && bound > 0.0 && mean.norm().is_finite()) {
+        let moved = |along: Vector3<f64>| {
+            let of_mode = |mode: &Mode| mode.shape().dot(&along) != 0.0;
+            response.modes().iter().any(of_mode)
+                || (response.residual().transpose() * along).norm() > 0.0
+        };
+        let flexible = match &cut {
+            Cut::Milling(_) => moved(Vector3::x()) || moved(Vector3::y()),
+            Cut::Turning(cut) => moved(cut.factors().0),
+        };
+        if !flexible {
             return Err(ChatterError::new(
                 kind,
                 "flexible directions",
@@ -73,13 +75,22 @@ impl Regeneration {
                 "a mode or residual flexibility across the tool axis (milling) or along the chip direction (turning)",
             ));
         }
-        Ok(Self { response, cut })
+        let gain = peak(&response);
+        Ok(Self {
+            response,
+            cut,
+            gain,
+        })
     }
 
     /// The tool's response, in the axes of the cut.
     #[must_use]
     pub fn response(&self) -> &ToolResponse {
         &self.response
+    }
+
+    pub(crate) fn gain(&self) -> f64 {
+        self.gain
     }
 
     /// The cut.
@@ -122,7 +133,7 @@ impl Regeneration {
     pub fn multiplier_with(&self, speed_rpm: f64, depth: f64, fineness: f64) -> Result<Multiplier> {
         let period = self.period(speed_rpm, checked_depth(depth)?, fineness)?;
         let operator = Operator::new(&period, depth);
-        let (value, vector) = krylov::largest(operator.size(), |x| operator.apply(x))?;
+        let (value, vector) = krylov::largest(operator.size(), krylov::ACCURATE, |x| operator.apply(x))?;
         Ok(Multiplier::new(value, &vector, &operator, depth, &self.response))
     }
 
@@ -148,4 +159,12 @@ impl Regeneration {
         }
         Period::new(&self.response, &self.cut, speed_rpm, depth, fineness)
     }
+}
+
+/// Largest size of the receptance over all frequencies: at those that are close together at the peaks, and a little more.
+fn peak(response: &ToolResponse) -> f64 {
+    let size = |frequency: f64| response.at(frequency).map(|entry| entry.norm()).norm();
+    let at_peaks = response.modes().iter().map(|m| size(m.angular_frequency()));
+    let all = grid(response).into_iter().map(size).chain(at_peaks);
+    1.05 * all.fold(size(0.0), larger)
 }
