@@ -31,9 +31,22 @@ pub(crate) fn eigenvalues(matrix: DMatrix<f64>) -> Result<Vec<Complex64>> {
     if !matrix.iter().all(|entry| entry.is_finite()) {
         return Err(fault("an entry that is not finite"));
     }
-    let schur = Schur::try_new(matrix, f64::EPSILON, ROUNDS)
-        .ok_or_else(|| fault("no convergence of the QR iteration"))?;
-    let mut all: Vec<Complex64> = schur.complex_eigenvalues().iter().copied().collect();
+    let size = matrix.norm();
+    let mut found = None;
+    // Where eigenvalues have equal sizes the iteration may not end: moved along the real axis they have not.
+    for share in [0.0, 0.371, -0.618] {
+        let mut moved = matrix.clone();
+        for i in 0..moved.nrows() {
+            moved[(i, i)] += share * size;
+        }
+        if let Some(schur) = Schur::try_new(moved, f64::EPSILON, ROUNDS) {
+            let values = schur.complex_eigenvalues();
+            found = Some(values.map(|value| value - share * size));
+            break;
+        }
+    }
+    let found = found.ok_or_else(|| fault("no convergence of the QR iteration"))?;
+    let mut all: Vec<Complex64> = found.iter().copied().collect();
     // Equal sizes: the one of a pair that turns forward comes first.
     all.sort_by(|a, b| {
         b.norm()
@@ -68,7 +81,7 @@ pub(crate) fn largest(
         let rest = next.norm();
         column[k] = rest;
         hessenberg.push(column);
-        let whole = k >= size || !(rest > 1e-14 * length);
+        let whole = k >= size || rest.is_nan() || rest <= 1e-14 * length;
         if whole || k >= wanted {
             wanted = (wanted + GROWTH).min(size);
             let small = DMatrix::from_fn(k, k, |i, j| {

@@ -114,7 +114,7 @@ impl Regeneration {
             if change <= RESOLVED {
                 return Ok(next);
             }
-            if !(fineness < FINEST) {
+            if fineness >= FINEST {
                 return Err(ChatterError::new(
                     ChatterErrorKind::NotConverged,
                     format!("largest multiplier at {speed_rpm} rpm and {depth:e} m"),
@@ -133,8 +133,15 @@ impl Regeneration {
     pub fn multiplier_with(&self, speed_rpm: f64, depth: f64, fineness: f64) -> Result<Multiplier> {
         let period = self.period(speed_rpm, checked_depth(depth)?, fineness)?;
         let operator = Operator::new(&period, depth);
-        let (value, vector) = krylov::largest(operator.size(), krylov::ACCURATE, |x| operator.apply(x))?;
-        Ok(Multiplier::new(value, &vector, &operator, depth, &self.response))
+        let (value, vector) =
+            krylov::largest(operator.size(), krylov::ACCURATE, |x| operator.apply(x))?;
+        Ok(Multiplier::new(
+            value,
+            &vector,
+            &operator,
+            depth,
+            &self.response,
+        ))
     }
 
     /// All multipliers `(real, imaginary)` of one tooth period, the largest first; dense, for a look at the whole spectrum.

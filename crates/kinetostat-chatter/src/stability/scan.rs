@@ -216,7 +216,7 @@ impl Regeneration {
                     resolved,
                 });
             }
-            if !(fineness <= FINEST) {
+            if fineness > FINEST {
                 return Err(ChatterError::new(
                     ChatterErrorKind::NotConverged,
                     format!("limit at {} rpm near {:e} m", along.speed_rpm, at.exp()),

@@ -25,7 +25,8 @@ impl Plain {
         for tooth in 0..self.teeth {
             for slice in 0..self.slices {
                 let z = depth * (slice as f64 + 0.5) / self.slices as f64;
-                let phi = (turn + TAU * tooth as f64 / self.teeth as f64 - self.lag * z).rem_euclid(TAU);
+                let phi =
+                    (turn + TAU * tooth as f64 / self.teeth as f64 - self.lag * z).rem_euclid(TAU);
                 if phi < self.entry || phi > self.exit {
                     continue;
                 }
@@ -41,7 +42,13 @@ impl Plain {
 }
 
 /// Size of the largest multiplier with so many steps a tooth period.
-pub fn multiplier(tool: &ToolResponse, cut: &Plain, speed_rpm: f64, depth: f64, steps: usize) -> f64 {
+pub fn multiplier(
+    tool: &ToolResponse,
+    cut: &Plain,
+    speed_rpm: f64,
+    depth: f64,
+    steps: usize,
+) -> f64 {
     let m = tool.modes().len();
     let tau = 60.0 / speed_rpm / cut.teeth as f64;
     let h = tau / steps as f64;
@@ -65,7 +72,10 @@ pub fn multiplier(tool: &ToolResponse, cut: &Plain, speed_rpm: f64, depth: f64, 
             };
             let mut big = DMatrix::zeros(n + 4, n + 4);
             for a in 0..m {
-                let (w, z) = (tool.modes()[a].angular_frequency(), tool.modes()[a].damping_ratio());
+                let (w, z) = (
+                    tool.modes()[a].angular_frequency(),
+                    tool.modes()[a].damping_ratio(),
+                );
                 big[(a, m + a)] = 1.0;
                 big[(m + a, a)] -= w * w;
                 big[(m + a, m + a)] = -2.0 * z * w;
@@ -84,15 +94,23 @@ pub fn multiplier(tool: &ToolResponse, cut: &Plain, speed_rpm: f64, depth: f64, 
     let size = n + 2 * (steps + 1);
     let period = |x: DVector<f64>| {
         let mut y: Vec<f64> = x.rows(0, n).iter().copied().collect();
-        let mut track: std::collections::VecDeque<[f64; 2]> =
-            (0..=steps).map(|k| [x[n + 2 * k], x[n + 2 * k + 1]]).collect();
+        let mut track: std::collections::VecDeque<[f64; 2]> = (0..=steps)
+            .map(|k| [x[n + 2 * k], x[n + 2 * k + 1]])
+            .collect();
         for map in &maps {
             let (old, next) = (track[steps], track[steps - 1]);
             let mut full = y.clone();
-            full.extend([old[0], old[1], (next[0] - old[0]) / h, (next[1] - old[1]) / h]);
+            full.extend([
+                old[0],
+                old[1],
+                (next[0] - old[0]) / h,
+                (next[1] - old[1]) / h,
+            ]);
             let after = map * DVector::from_vec(full);
             y = after.rows(0, n).iter().copied().collect();
-            let place = (0..m).fold([0.0; 2], |p, a| [p[0] + shape(a).x * y[a], p[1] + shape(a).y * y[a]]);
+            let place = (0..m).fold([0.0; 2], |p, a| {
+                [p[0] + shape(a).x * y[a], p[1] + shape(a).y * y[a]]
+            });
             track.pop_back();
             track.push_front(place);
         }
@@ -112,11 +130,19 @@ pub fn multiplier(tool: &ToolResponse, cut: &Plain, speed_rpm: f64, depth: f64, 
         .collect();
     let schur = Schur::try_new(DMatrix::from_columns(&columns), f64::EPSILON, 100_000).unwrap();
     let all = schur.complex_eigenvalues();
-    all.iter().map(|mu: &Complex<f64>| mu.norm()).fold(0.0, f64::max)
+    all.iter()
+        .map(|mu: &Complex<f64>| mu.norm())
+        .fold(0.0, f64::max)
 }
 
 /// The limit of ever more steps, second order assumed.
-pub fn extrapolated(tool: &ToolResponse, cut: &Plain, speed_rpm: f64, depth: f64, steps: usize) -> f64 {
+pub fn extrapolated(
+    tool: &ToolResponse,
+    cut: &Plain,
+    speed_rpm: f64,
+    depth: f64,
+    steps: usize,
+) -> f64 {
     let [coarse, fine] = [steps, steps * 3 / 2].map(|k| multiplier(tool, cut, speed_rpm, depth, k));
     fine + (fine - coarse) / (2.25 - 1.0)
 }

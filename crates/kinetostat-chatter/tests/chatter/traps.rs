@@ -3,7 +3,8 @@
 use std::f64::consts::FRAC_PI_2;
 
 use kinetostat_chatter::{
-    Arc, Coefficients, FeedFrame, Milled, MillingCut, Mode, Regeneration, ToolResponse, zeroth_order,
+    Arc, Coefficients, FeedFrame, Milled, MillingCut, Mode, Regeneration, ToolResponse,
+    zeroth_order,
 };
 use kinetostat_cutting::{Engagement, Linear, Side};
 use kinetostat_testing::Worst;
@@ -14,7 +15,11 @@ use crate::semi_discretisation::{Plain, extrapolated, multiplier};
 use crate::support::{X, Y, aluminium, arc, cut, one_direction, one_mode, regeneration, two_modes};
 
 fn limit(machine: &Regeneration, speed: f64) -> f64 {
-    machine.stability_at(speed, 0.02).unwrap().limit().map_or(f64::NAN, |l| l.depth)
+    machine
+        .stability_at(speed, 0.02)
+        .unwrap()
+        .limit()
+        .map_or(f64::NAN, |l| l.depth)
 }
 
 fn plain(machine: &MillingCut, slices: usize) -> Plain {
@@ -46,9 +51,14 @@ fn semi_discretisation_tends_to_the_collocation() {
         (two_modes(), 5, "up", 1.0, 5000.0, 0.6e-3),
     ] {
         let cut = cut(teeth, arc(name, immersion), aluminium());
-        let found = regeneration(tool.clone(), cut.clone()).multiplier(speed, depth).unwrap().size();
+        let found = regeneration(tool.clone(), cut.clone())
+            .multiplier(speed, depth)
+            .unwrap()
+            .size();
         let expected = extrapolated(&tool, &plain(&cut, 1), speed, depth, 80);
-        worst.add_at(found / expected - 1.0, || format!("{name} {speed}: {found} {expected}"));
+        worst.add_at(found / expected - 1.0, || {
+            format!("{name} {speed}: {found} {expected}")
+        });
     }
     assert!(worst.of(4) < 5e-4, "{worst}");
 }
@@ -57,24 +67,42 @@ fn semi_discretisation_tends_to_the_collocation() {
 #[test]
 fn a_helix_is_many_slices() {
     let mut worst = Worst::new();
-    for (helix, name, immersion, depth) in [(30.0, "down", 0.2, 4e-3), (-25.0, "up", 0.4, 3e-3), (45.0, "slot", 1.0, 5e-3)] {
-        let cut = cut(3, arc(name, immersion), aluminium()).with_helix(f64::to_radians(helix), 0.012).unwrap();
-        let found = regeneration(two_modes(), cut.clone()).multiplier(7000.0, depth).unwrap().size();
+    for (helix, name, immersion, depth) in [
+        (30.0, "down", 0.2, 4e-3),
+        (-25.0, "up", 0.4, 3e-3),
+        (45.0, "slot", 1.0, 5e-3),
+    ] {
+        let cut = cut(3, arc(name, immersion), aluminium())
+            .with_helix(f64::to_radians(helix), 0.012)
+            .unwrap();
+        let found = regeneration(two_modes(), cut.clone())
+            .multiplier(7000.0, depth)
+            .unwrap()
+            .size();
         let expected = extrapolated(&two_modes(), &plain(&cut, 60), 7000.0, depth, 60);
-        worst.add_at(found / expected - 1.0, || format!("{helix}: {found} {expected}"));
+        worst.add_at(found / expected - 1.0, || {
+            format!("{helix}: {found} {expected}")
+        });
     }
     assert!(worst.of(3) < 2e-3, "{worst}");
     // A helix of none is a straight edge, and one of nearly none is nearly so.
     let straight = cut(2, arc("up", 0.3), aluminium());
     let nearly = straight.clone().with_helix(1e-5, 0.012).unwrap();
-    let [a, b] = [straight, nearly].map(|cut| regeneration(two_modes(), cut).multiplier(7000.0, 2e-3).unwrap().size());
+    let [a, b] = [straight, nearly].map(|cut| {
+        regeneration(two_modes(), cut)
+            .multiplier(7000.0, 2e-3)
+            .unwrap()
+            .size()
+    });
     assert!((a / b - 1.0).abs() < 1e-5, "{a} {b}");
 }
 
 /// Trap 5, second half: above the first crossing there is a stable island, and every stretch agrees with a dense look.
 #[test]
 fn islands_are_found() {
-    let cut = cut(2, arc("down", 0.05), aluminium()).with_helix(30_f64.to_radians(), 0.0127).unwrap();
+    let cut = cut(2, arc("down", 0.05), aluminium())
+        .with_helix(30_f64.to_radians(), 0.0127)
+        .unwrap();
     let machine = regeneration(one_direction(), cut);
     let mut islands = 0;
     for speed in [5750.0, 7650.0, 10700.0, 10900.0, 17800.0, 18250.0, 20000.0] {
@@ -85,11 +113,17 @@ fn islands_are_found() {
             let size = machine.multiplier(speed, depth).unwrap().size();
             // Within rounding of the circle either answer is right.
             if (size - 1.0).abs() > 1e-6 {
-                assert_eq!(found.is_stable(depth), Some(size < 1.0), "{speed} {depth}: {size} {found:?}");
+                assert_eq!(
+                    found.is_stable(depth),
+                    Some(size < 1.0),
+                    "{speed} {depth}: {size} {found:?}"
+                );
             }
         }
         for pair in found.crossings.windows(2) {
-            assert!(pair[0].depth < pair[1].depth && pair[0].unstable_above != pair[1].unstable_above);
+            assert!(
+                pair[0].depth < pair[1].depth && pair[0].unstable_above != pair[1].unstable_above
+            );
         }
     }
     assert!(islands >= 3, "{islands}");
@@ -111,10 +145,19 @@ fn residual_flexibility_belongs_to_the_lobes() {
     let half = cut(3, arc("up", 0.5), aluminium());
     let at = |tool: &ToolResponse| limit(&regeneration(tool.clone(), half.clone()), 9000.0);
     let (exact, with, without) = (at(&all), at(&few), at(&bare));
-    assert!((with / exact - 1.0).abs() < 5e-3, "{exact} {with} {without}");
-    assert!((without / exact - 1.0).abs() > 0.03, "{exact} {with} {without}");
+    assert!(
+        (with / exact - 1.0).abs() < 5e-3,
+        "{exact} {with} {without}"
+    );
+    assert!(
+        (without / exact - 1.0).abs() > 0.03,
+        "{exact} {with} {without}"
+    );
     // Turning to the residual alone: a spring without mass never chatters while it is stiff, and is no error.
-    let spring = ToolResponse::new(vec![one_mode(X)]).unwrap().with_residual(Matrix3::identity() * 1e-9).unwrap();
+    let spring = ToolResponse::new(vec![one_mode(X)])
+        .unwrap()
+        .with_residual(Matrix3::identity() * 1e-9)
+        .unwrap();
     assert!(limit(&regeneration(spring, half.clone()), 9000.0) > 0.0);
 }
 
@@ -125,7 +168,10 @@ fn a_ratio_is_no_coefficient() {
     assert!(Coefficients::new(6e8, 4.2e7, 0.3).is_err());
     assert!(Coefficients::with_ratios(6e8, 4.2e7, 0.0).is_err());
     let by_area = Coefficients::with_ratios(6e8, 0.07, 0.5).unwrap();
-    assert!((by_area.radial() / 4.2e7 - 1.0).abs() < 1e-12 && (by_area.axial() / 3e8 - 1.0).abs() < 1e-12);
+    assert!(
+        (by_area.radial() / 4.2e7 - 1.0).abs() < 1e-12
+            && (by_area.axial() / 3e8 - 1.0).abs() < 1e-12
+    );
 }
 
 /// Trap 12: with one direction across the feed, up and down milling at the wall are told apart by sign, not by chance.
@@ -143,11 +189,19 @@ fn up_and_down_are_not_mirrored() {
     // The arcs are those of the cutting crate for a part on the left and on the right.
     for (milled, side) in [(Milled::Up, Side::Left), (Milled::Down, Side::Right)] {
         let engagement = Engagement::straight(6.0, 3.0, 2.0, side).unwrap();
-        let (a, b) = (Arc::of_engagement(&engagement).unwrap(), Arc::straight(milled, 0.25).unwrap());
+        let (a, b) = (
+            Arc::of_engagement(&engagement).unwrap(),
+            Arc::straight(milled, 0.25).unwrap(),
+        );
         assert!((a.entry() - b.entry()).abs() + (a.exit() - b.exit()).abs() < 1e-12);
     }
     // One direction of D5, half immersion: up and down differ by more than three times at 5000 rpm (table).
-    let at = |name| limit(&regeneration(one_direction(), cut(2, arc(name, 0.5), aluminium())), 5000.0);
+    let at = |name| {
+        limit(
+            &regeneration(one_direction(), cut(2, arc(name, 0.5), aluminium())),
+            5000.0,
+        )
+    };
     assert!((at("down") / at("up") - 0.847204 / 0.260279).abs() < 1e-4);
 }
 
@@ -155,7 +209,10 @@ fn up_and_down_are_not_mirrored() {
 #[test]
 fn frames_are_right_handed() {
     let mirrored = Matrix3::from_diagonal(&Vector3::new(1.0, -1.0, 1.0));
-    assert_eq!(FeedFrame::from_rotation(mirrored).unwrap_err().quantity, "frame of the feed");
+    assert_eq!(
+        FeedFrame::from_rotation(mirrored).unwrap_err().quantity,
+        "frame of the feed"
+    );
     assert!(FeedFrame::from_rotation(Matrix3::identity() * f64::NAN).is_err());
     assert!(FeedFrame::new(Vector3::z(), Vector3::z()).is_err());
     let frame = FeedFrame::vertical(FRAC_PI_2).unwrap();
@@ -168,7 +225,12 @@ fn frames_are_right_handed() {
     assert!((sloped.rotation() - frame.rotation()).norm() < 1e-12);
     // The mirror image of a soft direction is another machine: the sign of a cross term decides.
     let slanted = |y: f64| ToolResponse::new(vec![one_mode(Vector3::new(1.0, y, 0.0))]).unwrap();
-    let at = |y: f64| limit(&regeneration(slanted(y), cut(2, arc("up", 0.3), aluminium())), 9000.0);
+    let at = |y: f64| {
+        limit(
+            &regeneration(slanted(y), cut(2, arc("up", 0.3), aluminium())),
+            9000.0,
+        )
+    };
     assert!((at(0.6) / at(-0.6)).ln().abs() > 0.2);
 }
 
@@ -189,7 +251,9 @@ fn coefficients_are_in_si_units() {
     let tool = kinetostat_cutting::Tool::new(kinetostat_cutting::Shape::Flat, 12.0, 2).unwrap();
     let engagement = Engagement::straight(6.0, 4.0, 2.0, Side::Right).unwrap();
     let feed = kinetostat_cutting::Feed::level(0.1).unwrap();
-    let mean = kinetostat_cutting::Milling::new(&tool, &law, &engagement, feed).mean().force_n;
+    let mean = kinetostat_cutting::Milling::new(&tool, &law, &engagement, feed)
+        .mean()
+        .force_n;
     let cut = MillingCut::of_tool(&tool, Arc::of_engagement(&engagement).unwrap(), line).unwrap();
     let ours = kinetostat_chatter::Cut::from(cut).mean_matrix().column(0) * (2e-3 * 1e-4);
     assert!((ours - mean).norm() < 1e-6 * mean.norm(), "{ours} {mean}");
@@ -236,32 +300,81 @@ fn absurd_input_is_refused() {
     let quantity = |error: kinetostat_chatter::ChatterError| error.quantity;
     let machine = regeneration(one_direction(), cut(2, arc("up", 0.5), aluminium()));
     for speed in [0.0, -100.0, f64::NAN, f64::INFINITY] {
-        assert_eq!(quantity(machine.multiplier(speed, 1e-3).unwrap_err()), "spindle speed");
-        assert_eq!(quantity(machine.stability_at(speed, 1e-3).unwrap_err()), "spindle speed");
-        assert_eq!(quantity(machine.stability_at(speed, 1e-9).unwrap_err()), "spindle speed");
-        assert_eq!(quantity(zeroth_order::limit(&machine, speed).unwrap_err()), "spindle speed");
+        assert_eq!(
+            quantity(machine.multiplier(speed, 1e-3).unwrap_err()),
+            "spindle speed"
+        );
+        assert_eq!(
+            quantity(machine.stability_at(speed, 1e-3).unwrap_err()),
+            "spindle speed"
+        );
+        assert_eq!(
+            quantity(machine.stability_at(speed, 1e-9).unwrap_err()),
+            "spindle speed"
+        );
+        assert_eq!(
+            quantity(zeroth_order::limit(&machine, speed).unwrap_err()),
+            "spindle speed"
+        );
     }
     for depth in [-1e-3, f64::NAN] {
-        assert_eq!(quantity(machine.multiplier(5000.0, depth).unwrap_err()), "depth of cut");
+        assert_eq!(
+            quantity(machine.multiplier(5000.0, depth).unwrap_err()),
+            "depth of cut"
+        );
     }
-    assert_eq!(quantity(MillingCut::new(0, Arc::slot(), aluminium()).unwrap_err()), "teeth");
+    assert_eq!(
+        quantity(MillingCut::new(0, Arc::slot(), aluminium()).unwrap_err()),
+        "teeth"
+    );
     for immersion in [0.0, -0.1, 1.0001, f64::NAN] {
-        assert_eq!(quantity(Arc::straight(Milled::Up, immersion).unwrap_err()), "immersion");
+        assert_eq!(
+            quantity(Arc::straight(Milled::Up, immersion).unwrap_err()),
+            "immersion"
+        );
     }
-    assert!(Arc::new(0.0, 7.0).is_err() && Arc::new(1.0, 1.0).is_err() && Arc::new(-1.0, 1.0).is_err());
+    assert!(
+        Arc::new(0.0, 7.0).is_err() && Arc::new(1.0, 1.0).is_err() && Arc::new(-1.0, 1.0).is_err()
+    );
     assert!(Arc::new(0.0, 90.0).is_err(), "degrees");
-    assert!(cut(2, Arc::slot(), aluminium()).with_helix(30.0, 0.012).is_err(), "degrees");
+    assert!(
+        cut(2, Arc::slot(), aluminium())
+            .with_helix(30.0, 0.012)
+            .is_err(),
+        "degrees"
+    );
     for damping in [-0.01, 1.0, 1.5, f64::NAN] {
-        assert_eq!(quantity(Mode::along(X, 1.0, 10.0, damping).unwrap_err()), "damping ratio");
+        assert_eq!(
+            quantity(Mode::along(X, 1.0, 10.0, damping).unwrap_err()),
+            "damping ratio"
+        );
     }
-    assert_eq!(quantity(Mode::new(X, -4.0, 0.01).unwrap_err()), "squared angular frequency");
-    assert_eq!(quantity(Mode::along(X, 0.0, 10.0, 0.01).unwrap_err()), "modal mass");
-    assert_eq!(quantity(ToolResponse::new(vec![]).unwrap_err()), "modes of the tool");
+    assert_eq!(
+        quantity(Mode::new(X, -4.0, 0.01).unwrap_err()),
+        "squared angular frequency"
+    );
+    assert_eq!(
+        quantity(Mode::along(X, 0.0, 10.0, 0.01).unwrap_err()),
+        "modal mass"
+    );
+    assert_eq!(
+        quantity(ToolResponse::new(vec![]).unwrap_err()),
+        "modes of the tool"
+    );
     let axial = ToolResponse::new(vec![one_mode(Vector3::z())]).unwrap();
     let half = cut(2, arc("up", 0.5), aluminium());
-    assert_eq!(quantity(Regeneration::new(axial, half.clone().into()).unwrap_err()), "flexible directions");
+    assert_eq!(
+        quantity(Regeneration::new(axial, half.clone().into()).unwrap_err()),
+        "flexible directions"
+    );
     let undamped = ToolResponse::new(vec![Mode::along(Y, 1.0, 10.0, 0.0).unwrap()]).unwrap();
-    assert_eq!(quantity(Regeneration::new(undamped, half.into()).unwrap_err()), "damping ratio");
+    assert_eq!(
+        quantity(Regeneration::new(undamped, half.into()).unwrap_err()),
+        "damping ratio"
+    );
     // A mode that vibrates hundreds of times while a tooth is in the cut is named, not computed wrongly.
-    assert_eq!(quantity(machine.multiplier(50.0, 1e-4).unwrap_err()), "mode against spindle speed");
+    assert_eq!(
+        quantity(machine.multiplier(50.0, 1e-4).unwrap_err()),
+        "mode against spindle speed"
+    );
 }
