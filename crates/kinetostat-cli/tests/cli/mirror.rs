@@ -474,6 +474,13 @@ fn a_feature_without_a_point_is_named() {
     ] {
         assert!(text.contains(needle), "{needle} in {text}");
     }
+    let mut of_pose = words.to_vec();
+    of_pose.extend(["--correct", "pose"]);
+    let refused = run(here.path(), &of_pose);
+    assert!(
+        refused.code == 1 && refused.err.contains("not how it stands"),
+        "{refused:?}"
+    );
     let written = std::fs::read_to_string(here.path().join("next.src")).unwrap();
     assert!(
         written.contains("Y -0.0") && written.starts_with("DEF slot()"),

@@ -88,6 +88,12 @@ fn up(value: f64) -> String {
     format!("{:.*}", digits.max(0) as usize, whole / power)
 }
 
+/// Three digits that count, the nearest.
+fn nearest(value: f64) -> String {
+    let digits = 2 - value.abs().log10().floor() as i32;
+    format!("{value:.*}", digits.max(0) as usize)
+}
+
 /// A length in millimetres, or in micrometres where it is below a hundredth of one.
 fn length(mm: f64) -> String {
     match mm < 0.01 {
@@ -179,14 +185,14 @@ fn the_numbers_in_the_pdf_are_those_of_the_json() {
                 row(&name, &[torque, format!("{rated}Nm{}%", up(100.0 * share))]);
             }
         }
-        // The cut: force, torque and power of the line with the largest force.
+        // The cut: force, torque and power at the place with the largest force, each to the nearest digit.
         let cut = &found["cutting"]["largest_force"];
         let parts = ["along_feed", "left", "up"].map(|way| number(&cut[format!("force_{way}_n")]));
         let force = parts.iter().map(|part| part * part).sum::<f64>().sqrt();
         let held = [
-            format!("{}N", up(force)),
-            format!("{}Nm", up(number(&cut["torque_n_m"]))),
-            format!("{}W", up(number(&cut["power_w"]))),
+            format!("{}N", nearest(force)),
+            format!("{}Nm", nearest(number(&cut["torque_n_m"]))),
+            format!("{}W", nearest(number(&cut["power_w"]))),
         ];
         row(&cut["line"].to_string(), &held);
         let all = lines.concat();

@@ -21,9 +21,7 @@ impl OwnAngles {
             Language::Rapid => OrientationText::Quaternion,
             Language::Krl => OrientationText::Abc,
             Language::FanucLs => OrientationText::Wpr,
-            Language::Apt | Language::Poses | Language::Siemens | Language::Heidenhain => {
-                return None;
-            }
+            _ => return None,
         };
         let mut feeds = read.path.path.moves.iter().filter(|m| m.is_known_feed());
         let first = feeds.find_map(|m| Some((m.line, m.tool_turn.as_ref()?.start)));
@@ -33,8 +31,13 @@ impl OwnAngles {
     /// An orientation, as in `A 30, B 0, C 0 deg`.
     pub(crate) fn words(&self, turn: &UnitQuaternion<f64>) -> String {
         let numbers = self.text.numbers_of(turn, &[0.0; 4]);
-        // A zero has no sign.
-        let shown = |number: &f64| fixed(number + 0.0, 4).replace("-0.0000", "0.0000");
+        let is_angle = self.text != OrientationText::Quaternion;
+        let shown = |number: &f64| match fixed(*number, 4) {
+            // A zero has no sign, and half a turn is that of the pendant.
+            zero if zero == "-0.0000" => "0.0000".to_owned(),
+            half if is_angle && half == "-180.0000" => "180.0000".to_owned(),
+            other => other,
+        };
         let shown: Vec<String> = numbers.iter().map(shown).collect();
         match (self.text, shown.as_slice()) {
             (OrientationText::Quaternion, _) => format!("quaternion [{}]", shown.join(", ")),
