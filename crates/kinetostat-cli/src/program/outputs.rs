@@ -18,6 +18,7 @@ use crate::program::paper;
 use crate::program::points_table::{self, Listing};
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::json::json;
+use crate::ui::language::LanguageWord;
 use crate::ui::layout;
 
 /// Claimed outputs of a run by what they hold.
@@ -65,7 +66,7 @@ impl RunOutputs {
             program,
             report: claim("report", &targets.report)?,
             pdf: claim(PDF, &targets.pdf)?,
-            language: Language::English,
+            language: LanguageWord::language(targets.language),
             json: claim("result", &targets.json)?,
             points: claim("table of points", &targets.points)?,
             flat: claim(FLAT_PROGRAM, &targets.flat)?,
