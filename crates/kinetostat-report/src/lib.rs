@@ -13,6 +13,7 @@
 //! - `chart`: `plot` draws curves over any two quantities, `section` a quantity over a plane, `panel` values over the
 //!   length of a path. They share `axis`, `outline`, `label` and `title`.
 //! - `drawing`: a machine in space, as lines on paper.
+//! - `vibration`: stability lobes and receptances.
 //! - `turns`: the free turn of a round tool along a path, over all turns that were tried.
 //! - `paper`: the report without pictures, to be signed, as PDF or HTML in three languages.
 //! - `number` and `text` decide how numbers and names look, in one place.
@@ -41,7 +42,9 @@ mod run;
 mod svg;
 mod text;
 mod turns;
+mod vibration;
 
+use kinetostat_chatter::LobeDiagram;
 use kinetostat_machining::{CuttingResult, Run, RunResult, TurnChoice};
 
 use run::shown::Shown;
@@ -53,6 +56,7 @@ pub use chart::section::{Cell, Section};
 pub use drawing::{Drawing, Magnified, Moved, Placed, View};
 pub use paper::language::Language;
 pub use paper::question::{Paper, VerifiedProgram};
+pub use vibration::ReceptanceCurve;
 
 /// Why a report could not be made.
 #[derive(Debug, thiserror::Error)]
@@ -138,4 +142,22 @@ pub fn plot_preview_svg(result: &RunResult) -> String {
 #[must_use]
 pub fn turns_svg(choice: &TurnChoice) -> String {
     turns::draw(choice)
+}
+
+/// Stability lobes as one picture, 760 by 480: depth of cut over the spindle speed, what is unstable shaded, islands included;
+/// flip and Hopf have their own lines, the zeroth order is dashed under its name. A wide range of depths is drawn over
+/// logarithms.
+///
+/// It is a complete SVG document with its own style.
+#[must_use]
+pub fn lobes_svg(diagram: &LobeDiagram, title: &str) -> String {
+    vibration::lobes(diagram, title)
+}
+
+/// Receptances over the frequency as one picture: magnitude and, below it, phase, over logarithms of the frequency.
+///
+/// It is a complete SVG document with its own style.
+#[must_use]
+pub fn receptance_svg(curves: &[ReceptanceCurve], title: &str) -> String {
+    vibration::receptance(curves, title)
 }

@@ -120,6 +120,38 @@ impl Span {
             })
             .collect()
     }
+
+    /// Round ticks of a span of decimal logarithms: powers of ten, and 2 and 5 times them where few of those are in it.
+    pub(crate) fn decade_ticks(self) -> Vec<Tick> {
+        if !self.length().is_finite() || self.length() > 60.0 {
+            return Vec::new();
+        }
+        let (first, last) = (self.low.floor() as i32, self.high.ceil() as i32);
+        let every = ((last - first) as usize / 8).max(1);
+        let between: &[u32] = match self.length() {
+            length if length < 1.2 => &[1, 2, 3, 4, 5, 6, 7, 8, 9],
+            length if length < 3.5 => &[1, 2, 5],
+            _ => &[1],
+        };
+        let mut ticks = Vec::new();
+        for power in (first..=last).step_by(every) {
+            for factor in between {
+                let value = f64::from(*factor).log10() + f64::from(power);
+                if value >= self.low - 1e-9 && value <= self.high + 1e-9 {
+                    let label = match power {
+                        0..=5 => format!("{}", u64::from(*factor) * 10_u64.pow(power as u32)),
+                        -4..=-1 => number::fixed(
+                            f64::from(*factor) * 10_f64.powi(power),
+                            power.unsigned_abs() as usize,
+                        ),
+                        _ => number::typeset(&format!("{factor}e{power}")),
+                    };
+                    ticks.push(Tick { value, label });
+                }
+            }
+        }
+        ticks
+    }
 }
 
 /// The round step (1, 2, 5 times a power of ten) nearest to a length in ratio.
@@ -175,6 +207,18 @@ mod tests {
         );
         assert!(labels(0.0, f64::INFINITY).is_empty());
         assert!(labels(1.0, 1.0).is_empty());
+    }
+
+    #[test]
+    fn ticks_of_logarithms_are_round() {
+        let labels = |low: f64, high: f64| -> Vec<String> {
+            let ticks = Span { low, high }.decade_ticks();
+            ticks.into_iter().map(|t| t.label).collect()
+        };
+        assert_eq!(labels(0.0, 2.0), ["1", "2", "5", "10", "20", "50", "100"]);
+        assert_eq!(labels(-1.0, -0.5), ["0.1", "0.2", "0.3"]);
+        assert_eq!(labels(-2.0, 3.0), ["0.01", "0.1", "1", "10", "100", "1000"]);
+        assert!(labels(0.0, f64::INFINITY).is_empty());
     }
 
     #[test]

@@ -4,6 +4,7 @@
 //! ones dashed, limit and bifurcation points carry their names.
 
 use std::collections::BTreeMap;
+use std::fmt::Write as _;
 
 use crate::chart::axis::{Scale, Span, Tick};
 use crate::chart::dashes::Drawn;
@@ -12,7 +13,7 @@ use crate::chart::outline::path_data;
 use crate::chart::panel::legend;
 use crate::chart::point_names::Names;
 use crate::chart::title::title_lines;
-use crate::svg::{Anchor, Svg};
+use crate::svg::{Anchor, Svg, pixel};
 use crate::{number, text};
 
 const SIZE: (f64, f64) = (760.0, 480.0);
@@ -24,6 +25,26 @@ const STYLE: &str = concat!(
     include_str!("../template/palette.css"),
     include_str!("../template/plot.css")
 );
+
+/// How a plot is drawn beside what it says.
+#[derive(Clone, Copy, Default)]
+pub(crate) struct Look<'a> {
+    /// One unit is as long on both axes.
+    pub(crate) shape: bool,
+    /// Values of the horizontal and of the vertical axis are decimal logarithms.
+    pub(crate) decades: [bool; 2],
+    /// Corners of shaded areas, below all lines; together they are one.
+    pub(crate) areas: &'a [Vec<(f64, f64)>],
+}
+
+impl Look<'_> {
+    fn ticks(&self, axis: usize, span: Span, wanted: usize) -> Vec<Tick> {
+        match self.decades[axis] {
+            true => span.decade_ticks(),
+            false => span.ticks(wanted),
+        }
+    }
+}
 
 /// Colours of lines, distinct also without colour vision; further lines begin again.
 const COLOURS: [&str; 6] = ["c0", "c1", "c2", "c3", "c4", "c5"];
@@ -72,39 +93,35 @@ impl Plot {
     /// The plot as an SVG document with its own style, right on light and on dark pages.
     #[must_use]
     pub fn svg(&self) -> String {
-        self.draw(false, SIZE, 0.0)
+        self.draw(&Look::default(), SIZE, 0.0)
             .document(SIZE, &self.title, STYLE)
     }
 
     /// This plot and, below it, others over the same horizontal quantity, less high and with their frames in line.
     #[must_use]
     pub fn svg_above(&self, others: &[Self]) -> String {
-        let all = || std::iter::once(self).chain(others);
-        let left = all()
-            .filter_map(|plot| plot.spans(false))
-            .map(|(_, y)| gutter(&y))
-            .fold(0.0, f64::max);
-        let mut svg = Svg::default();
-        let mut down = 0.0;
-        for (k, plot) in all().enumerate() {
-            let height = if k == 0 { SIZE.1 } else { LOWER_HEIGHT };
-            svg.below(down, &plot.draw(false, (SIZE.0, height), left));
-            down += height + 8.0;
-        }
-        svg.document((SIZE.0, down - 8.0), &self.title, STYLE)
+        let all: Vec<(&Self, Look<'_>)> = std::iter::once(self)
+            .chain(others)
+            .map(|plot| (plot, Look::default()))
+            .collect();
+        stacked(&all, "")
     }
 
     /// As [`Plot::svg`] with one unit as long on both axes: for shapes.
     #[must_use]
     pub fn shape_svg(&self) -> String {
-        self.draw(true, SIZE, 0.0)
+        let look = Look {
+            shape: true,
+            ..Look::default()
+        };
+        self.draw(&look, SIZE, 0.0)
             .document(SIZE, &self.title, STYLE)
     }
 
     /// The plot as an element for a page that carries [`Plot::style`].
     #[must_use]
     pub fn element(&self) -> String {
-        self.draw(false, SIZE, 0.0)
+        self.draw(&Look::default(), SIZE, 0.0)
             .inline("plot", SIZE, &self.title)
     }
 
@@ -114,16 +131,22 @@ impl Plot {
         STYLE
     }
 
-    fn spans(&self, shape: bool) -> Option<(Span, Span)> {
+    fn spans(&self, look: &Look<'_>) -> Option<(Span, Span)> {
         let points = || {
             let lines = self.lines.iter().flat_map(|l| l.points.iter().copied());
             lines
                 .chain(self.marks.iter().map(|m| m.at))
+                .chain(look.areas.iter().flatten().copied())
                 .filter(|p| p.0.is_finite() && p.1.is_finite())
         };
         let x = Span::of(points().map(|p| p.0))?;
         let y = Span::of(points().map(|p| p.1))?;
-        Some(if shape {
+        // Zero is no value of a logarithm to begin at.
+        let begun = |span: Span, decades: bool| match decades {
+            true => span.widened(),
+            false => span.with_near_zero().widened(),
+        };
+        Some(if look.shape {
             let room = 0.05 * x.length().max(y.length());
             let wide = |s: Span| Span {
                 low: s.low - room,
@@ -132,8 +155,8 @@ impl Plot {
             (wide(x).widened(), wide(y).widened())
         } else {
             (
-                beyond(x.with_near_zero().widened()),
-                y.with_near_zero().widened().padded(0.05, 0.05),
+                beyond(begun(x, look.decades[0])),
+                begun(y, look.decades[1]).padded(0.05, 0.05),
             )
         })
     }
@@ -166,42 +189,43 @@ impl Plot {
     }
 
     /// The plot in a size, its frame at least so far from the left edge.
-    fn draw(&self, shape: bool, size: (f64, f64), least_left: f64) -> Svg {
+    fn draw(&self, look: &Look<'_>, size: (f64, f64), least_left: f64) -> Svg {
         let mut svg = Svg::default();
         svg.rectangle("card", (0.5, 0.5), (size.0 - 1.0, size.1 - 1.0), 10.0);
-        let Some((mut x_span, mut y_span)) = self.spans(shape) else {
+        let Some((mut x_span, mut y_span)) = self.spans(look) else {
             let middle = (0.5 * size.0, 0.5 * size.1);
             svg.text("name", middle, Anchor::Middle, "no points to show");
             return svg;
         };
         let top = self.head(&mut svg);
         let height = size.1 - top - 54.0;
-        if shape {
-            let width = size.0 - gutter(&y_span) - 24.0;
+        if look.shape {
+            let width = size.0 - gutter(&look.ticks(1, y_span, 7)) - 24.0;
             let unit = (x_span.length() / width).max(y_span.length() / height);
             x_span = about(&x_span, unit * width);
             y_span = about(&y_span, unit * height);
         }
-        let y_ticks = y_span.ticks(7);
-        let left = gutter(&y_span).max(least_left);
+        let y_ticks = look.ticks(1, y_span, 7);
+        let left = gutter(&y_ticks).max(least_left);
         let frame = Frame {
             x: left,
             y: top,
             width: size.0 - left - 24.0,
             height,
         };
-        if shape {
+        if look.shape {
             // The labels may need more room than before: the unit stays that of the height.
             x_span = about(&x_span, y_span.length() / height * frame.width);
         }
         let x = Scale::new(x_span, frame.x, frame.right());
         let y = Scale::new(y_span, frame.bottom(), frame.y);
-        self.draw_axes(&mut svg, frame, (&x, &y), [x_span.ticks(8), y_ticks]);
+        self.draw_axes(&mut svg, frame, (&x, &y), [look.ticks(0, x_span, 8), y_ticks]);
         let pixel = |p: &(f64, f64)| {
             let x = x.at(number::drawable(p.0)?);
             let y = y.at(number::drawable(p.1)?);
             Some((x, y))
         };
+        svg.path("unstable", &polygons(look.areas, pixel));
         let mut names = Names::within(frame);
         self.draw_lines(&mut svg, &mut names, pixel);
         self.draw_marks(&mut svg, &mut names, pixel);
@@ -300,9 +324,46 @@ impl Plot {
     }
 }
 
+/// Plots below each other over the same horizontal quantity, their frames in line, with more style.
+pub(crate) fn stacked(plots: &[(&Plot, Look<'_>)], style: &str) -> String {
+    let left = plots
+        .iter()
+        .filter_map(|(plot, look)| Some(look.ticks(1, plot.spans(look)?.1, 7)))
+        .map(|ticks| gutter(&ticks))
+        .fold(0.0, f64::max);
+    let mut svg = Svg::default();
+    let mut down = 0.0;
+    for (k, (plot, look)) in plots.iter().enumerate() {
+        let height = if k == 0 { SIZE.1 } else { LOWER_HEIGHT };
+        svg.below(down, &plot.draw(look, (SIZE.0, height), left));
+        down += height + 8.0;
+    }
+    let title = plots.first().map_or("", |(plot, _)| &plot.title);
+    svg.document((SIZE.0, down - 8.0), title, &[STYLE, style].concat())
+}
+
+/// Path data of areas as one.
+fn polygons(
+    areas: &[Vec<(f64, f64)>],
+    at: impl Fn(&(f64, f64)) -> Option<(f64, f64)>,
+) -> String {
+    let mut data = String::new();
+    for area in areas {
+        let corners: Option<Vec<_>> = area.iter().map(&at).collect();
+        for (k, (x, y)) in corners.into_iter().flatten().enumerate() {
+            let word = if k == 0 { 'M' } else { 'L' };
+            let _ = write!(data, "{word}{} {}", pixel(x), pixel(y));
+        }
+        if !area.is_empty() {
+            data.push('z');
+        }
+    }
+    data
+}
+
 /// Room left of a frame for the numbers and the name of its vertical axis.
-fn gutter(span: &Span) -> f64 {
-    span.ticks(7)
+fn gutter(ticks: &[Tick]) -> f64 {
+    ticks
         .iter()
         .map(|tick| text::width(&tick.label, TEXT_SIZE))
         .fold(0.0, f64::max)

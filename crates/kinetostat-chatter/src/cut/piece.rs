@@ -1,0 +1,79 @@
+//! A stretch of the turn on which the same parts of the same teeth are in the material.
+
+use nalgebra::Matrix3;
+
+use crate::cut::coefficients::Coefficients;
+use crate::cut::directional;
+
+/// An end of the stretch of one edge in the material, as an angle of its places.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum End {
+    /// At a border of the arc.
+    Fixed(f64),
+    /// At the tip or at the top of the edge, which move as the spindle turns: turn plus this.
+    Moving(f64),
+}
+
+impl End {
+    fn at(self, turn: f64) -> f64 {
+        match self {
+            Self::Fixed(angle) => angle,
+            Self::Moving(offset) => turn + offset,
+        }
+    }
+}
+
+/// What is in the material on a piece.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Active {
+    /// A straight edge at turn plus this angle.
+    Edge(f64),
+    /// A helical edge between two ends, with the reciprocal of the lag from tip to top, 1/rad.
+    Swept {
+        /// Lower angle.
+        from: End,
+        /// Upper angle.
+        to: End,
+        /// One over the lag from tip to top, positive.
+        per_lag: f64,
+    },
+    /// The same matrix at all times, N/m^2.
+    Constant(Matrix3<f64>),
+}
+
+/// A stretch of the turn of the spindle on which the directional matrix is smooth.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Piece {
+    /// Turn at which it begins, rad.
+    pub(crate) start: f64,
+    /// Its length, rad.
+    pub(crate) length: f64,
+    /// What is in the material; nothing in air.
+    pub(crate) active: Vec<Active>,
+}
+
+impl Piece {
+    /// Directional matrix [D 8], mean over the depth, sum over the teeth, N/m^2.
+    pub(crate) fn matrix(&self, coefficients: &Coefficients, turn: f64) -> Matrix3<f64> {
+        let mut sum = Matrix3::zeros();
+        for active in &self.active {
+            sum += match *active {
+                Active::Edge(offset) => directional::at(coefficients, turn + offset),
+                Active::Swept { from, to, per_lag } => {
+                    let upper = directional::integral(coefficients, to.at(turn));
+                    (upper - directional::integral(coefficients, from.at(turn))) * per_lag
+                }
+                Active::Constant(matrix) => matrix,
+            };
+        }
+        sum
+    }
+
+    /// The only straight edge, where there is one and nothing else: the matrix has rank one.
+    pub(crate) fn single_edge(&self) -> Option<f64> {
+        match self.active[..] {
+            [Active::Edge(offset)] => Some(offset),
+            _ => None,
+        }
+    }
+}

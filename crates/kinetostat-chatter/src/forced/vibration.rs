@@ -1,0 +1,106 @@
+//! What a tool does under a periodic force.
+
+use std::f64::consts::{PI, TAU};
+
+use nalgebra::{Complex, Vector3};
+
+use crate::cut::{Milled, MillingCut, checked_depth, checked_speed};
+use crate::error::Result;
+use crate::forced::force::PeriodicForce;
+use crate::number::cis;
+use crate::response::ToolResponse;
+
+/// One harmonic of a vibration.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct VibrationHarmonic {
+    /// Its frequency, Hz; 0 is the mean.
+    pub frequency_hz: f64,
+    /// Amplitude of each component with its phase, m.
+    pub displacement: Vector3<Complex<f64>>,
+}
+
+/// Displacement of the tool over the turn of the spindle, in the axes of the cut.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Vibration {
+    per_revolution: usize,
+    harmonics: Vec<VibrationHarmonic>,
+}
+
+impl Vibration {
+    /// `r(t) = Re sum_k G(i k n Omega) c_k e^(i k n Omega t)` (`dynamics.md` section 9).
+    ///
+    /// # Errors
+    /// A speed that is not positive.
+    pub fn new(response: &ToolResponse, force: &PeriodicForce, speed_rpm: f64) -> Result<Self> {
+        let base = checked_speed(speed_rpm)? / 60.0 * force.per_revolution() as f64;
+        let of = |(k, amplitude): (usize, &Vector3<Complex<f64>>)| VibrationHarmonic {
+            frequency_hz: base * k as f64,
+            displacement: response.receptance(base * k as f64) * amplitude,
+        };
+        Ok(Self {
+            per_revolution: force.per_revolution(),
+            harmonics: force.harmonics().iter().enumerate().map(of).collect(),
+        })
+    }
+
+    /// Mean displacement, m: the static deflection, the only part that a compensation of the mean force removes.
+    #[must_use]
+    pub fn mean(&self) -> Vector3<f64> {
+        self.harmonics[0].displacement.map(|value| value.re)
+    }
+
+    /// All harmonics, the mean first.
+    #[must_use]
+    pub fn harmonics(&self) -> &[VibrationHarmonic] {
+        &self.harmonics
+    }
+
+    /// Displacement at a turn of the spindle, rad (tooth 0 at that angle), m.
+    #[must_use]
+    pub fn at(&self, turn: f64) -> Vector3<f64> {
+        let mut sum = Vector3::zeros();
+        for (k, harmonic) in self.harmonics.iter().enumerate() {
+            let turned = cis((k * self.per_revolution) as f64 * turn);
+            sum += harmonic.displacement.map(|value| (turned * value).re);
+        }
+        sum
+    }
+
+    /// Displacement without its mean, root of the mean square of each component, m.
+    #[must_use]
+    pub fn root_mean_square(&self) -> Vector3<f64> {
+        let mut sum = Vector3::zeros();
+        for harmonic in self.harmonics.iter().skip(1) {
+            sum += harmonic.displacement.map(|value| 0.5 * value.norm_sqr());
+        }
+        sum.map(f64::sqrt)
+    }
+
+    /// Error of the wall at heights above the tip, m: positive where the tool has cut too deep.
+    ///
+    /// A point of the wall at height `z` is made when the edge there passes the wall: `phi = 0` in up milling (wall on the
+    /// left), `phi = pi` in down milling, at the turn `phi + z lag` (`cutting.md`, `dynamics.md` section 9). Of all teeth the
+    /// one that leaves least counts: the deepest.
+    ///
+    /// # Errors
+    /// A height that is negative.
+    pub fn surface_error(
+        &self,
+        cut: &MillingCut,
+        milled: Milled,
+        heights: &[f64],
+    ) -> Result<Vec<f64>> {
+        let (angle, into) = match milled {
+            Milled::Up => (0.0, 1.0),
+            Milled::Down => (PI, -1.0),
+        };
+        let pitch = TAU / cut.teeth() as f64;
+        let at = |height: &f64| {
+            checked_depth(*height)?;
+            let turn = angle + height * cut.lag_per_depth();
+            let of = |tooth: usize| into * self.at(turn - pitch * tooth as f64).y;
+            Ok((1..cut.teeth()).map(of).fold(of(0), crate::number::larger))
+        };
+        heights.iter().map(at).collect()
+    }
+}

@@ -1,0 +1,100 @@
+//! One measured curve: motion at a place by a force at another, over the frequency.
+
+use std::f64::consts::TAU;
+
+use nalgebra::Complex;
+
+use crate::error::{ChatterError, ChatterErrorKind, Result};
+use crate::measured::quantity::Motion;
+use crate::number::Complex64;
+use crate::response::ToolResponse;
+
+/// A measured frequency response by a force of 1 N, in SI units.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MeasuredResponse {
+    /// Where and along what it was measured, in the words of its file.
+    pub name: String,
+    /// Number of the place that moves.
+    pub response_node: i64,
+    /// Direction of the motion: 1, 2, 3 for x, y, z, negative against it; 0 where it is not stated.
+    pub response_direction: i32,
+    /// Number of the place of the force.
+    pub reference_node: i64,
+    /// Direction of the force, as that of the motion.
+    pub reference_direction: i32,
+    /// What was measured.
+    pub motion: Motion,
+    /// Frequencies, Hz, rising.
+    pub frequencies_hz: Vec<f64>,
+    /// Motion by force at each: m, m/s or m/s^2 by N.
+    pub values: Vec<Complex<f64>>,
+    /// Whether its units stand in its file; where not, SI units were taken for granted.
+    pub units_stated: bool,
+}
+
+impl MeasuredResponse {
+    /// The curve that a model of a tool has, as if it were measured: direction `i` by force along `j`, of x, y, z from 0.
+    ///
+    /// # Errors
+    /// A direction above 2.
+    pub fn of_model(tool: &ToolResponse, i: usize, j: usize, frequencies_hz: &[f64]) -> Result<Self> {
+        if i > 2 || j > 2 {
+            return Err(ChatterError::new(
+                ChatterErrorKind::Setting,
+                "direction",
+                i.max(j),
+                "0, 1 or 2 for x, y, z",
+            ));
+        }
+        let axes = ["x", "y", "z"];
+        let at = |frequency: &f64| tool.receptance(*frequency)[(i, j)];
+        Ok(Self {
+            name: format!("{} by force along {}", axes[i], axes[j]),
+            response_node: 1,
+            response_direction: i as i32 + 1,
+            reference_node: 1,
+            reference_direction: j as i32 + 1,
+            motion: Motion::Displacement,
+            frequencies_hz: frequencies_hz.to_vec(),
+            values: frequencies_hz.iter().map(at).collect(),
+            units_stated: true,
+        })
+    }
+
+    /// Displacement by force at each frequency above 0, `(Hz, m/N)`: velocity and acceleration are divided by `i w` and its
+    /// square.
+    #[must_use]
+    pub fn receptance(&self) -> Vec<(f64, Complex<f64>)> {
+        let pairs = self.frequencies_hz.iter().zip(&self.values);
+        pairs
+            .filter(|(frequency, _)| **frequency > 0.0)
+            .map(|(frequency, value)| {
+                let rate = Complex64::new(0.0, TAU * frequency);
+                (*frequency, value / rate.powi(self.motion.order()))
+            })
+            .collect()
+    }
+
+    /// Its numbers, if they can be worked with.
+    pub(crate) fn checked(self, line: usize) -> Result<Self> {
+        let fault = |quantity: &str, found: String, expected: &str| {
+            let kind = ChatterErrorKind::File;
+            Err(ChatterError::new(kind, quantity, found, expected).at_line(line))
+        };
+        if self.frequencies_hz.is_empty() {
+            return fault("response", "no points".into(), "at least one");
+        }
+        let rising = self.frequencies_hz.windows(2).all(|pair| pair[1] > pair[0]);
+        let first = self.frequencies_hz[0];
+        if !rising || !(first >= 0.0) || !self.frequencies_hz.iter().all(|f| f.is_finite()) {
+            let found = format!("from {first} Hz, not rising or not finite");
+            return fault("frequencies", found, "rising from 0 Hz or above");
+        }
+        let odd = self.values.iter().position(|v| !(v.re.is_finite() && v.im.is_finite()));
+        if let Some(at) = odd {
+            let found = format!("no finite number at {} Hz", self.frequencies_hz[at]);
+            return fault("response", found, "finite numbers");
+        }
+        Ok(self)
+    }
+}

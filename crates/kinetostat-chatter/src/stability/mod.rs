@@ -1,0 +1,22 @@
+//! Exact stability of a regenerative cut: multipliers of the monodromy operator, and the depths between which it is stable.
+//!
+//! `collocation` solves the modes on a stretch of the period by Chebyshev collocation, split where teeth come and go;
+//! `period` puts the stretches together; `operator` is the monodromy operator at a depth; `krylov` finds its largest
+//! multiplier; `scan` looks along the depth. Source: `dynamics.md` section 10 [D 8].
+
+mod collocation;
+mod krylov;
+mod multiplier;
+mod operator;
+mod period;
+mod regeneration;
+mod scan;
+
+pub use multiplier::{Instability, Multiplier};
+pub use regeneration::Regeneration;
+pub use scan::{Crossing, SpeedStability};
+
+pub(crate) use collocation::Chebyshev;
+pub(crate) use krylov::eigenvalues;
+pub(crate) use operator::Operator;
+pub(crate) use period::Period;

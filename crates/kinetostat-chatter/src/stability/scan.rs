@@ -1,0 +1,320 @@
+//! Depths between which a cut is stable at one speed.
+//!
+//! The depth is scanned upwards from where nothing can chatter, in ratios: coarse where the largest multiplier is far from the
+//! unit circle, fine where it is near, so that islands (a stable stretch above an unstable one) are found. Every crossing is
+//! then closed in on.
+
+use serde::{Deserialize, Serialize};
+
+use crate::cut::checked_depth;
+use crate::error::{ChatterError, ChatterErrorKind, Result};
+use crate::number::larger;
+use crate::stability::krylov;
+use crate::stability::multiplier::{Instability, Multiplier};
+use crate::stability::operator::Operator;
+use crate::stability::period::Period;
+use crate::stability::regeneration::Regeneration;
+
+/// First steps of the scan, as the logarithm of a ratio of depths.
+const COARSE: f64 = 0.22;
+/// Steps beside the unit circle.
+const FINE: f64 = 0.025;
+/// Steps with a change of stability inside are divided to this before it is closed in on.
+const ALONE: f64 = 0.06;
+/// Change of the multiplier's logarithm over that of the depth that is reckoned with at least.
+const SLOPE: f64 = 1.0;
+/// Accuracy of a crossing, share of the depth.
+const CLOSED: f64 = 1e-9;
+/// Change of a crossing with a third more points that is accepted, share of the depth; else points are added.
+const RESOLVED: f64 = 1e-6;
+/// Share of the usual points with which the depth is scanned; each crossing is then closed in on with more.
+const SCANNED: f64 = 0.75;
+/// Most times the usual points.
+const FINEST: f64 = 3.5;
+
+/// A depth at which the cut becomes unstable or stable.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Crossing {
+    /// Depth of cut, m.
+    pub depth: f64,
+    /// Whether the cut is unstable above it.
+    pub unstable_above: bool,
+    /// How it becomes so.
+    pub kind: Instability,
+    /// Strongest frequency of the vibration there, Hz.
+    pub frequency_hz: f64,
+    /// The multiplier there, real and imaginary part.
+    pub multiplier: (f64, f64),
+    /// By how much the depth changed with the last third more points of collocation, share of it.
+    pub resolved: f64,
+}
+
+/// Stability of a cut at one spindle speed, from depth 0 to a largest depth.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SpeedStability {
+    /// Spindle speed, rpm.
+    pub speed_rpm: f64,
+    /// Largest depth that was looked at, m.
+    pub up_to: f64,
+    /// Where stability changes, from the smallest depth upwards; the first is the limit.
+    pub crossings: Vec<Crossing>,
+}
+
+impl SpeedStability {
+    /// The smallest depth at which the cut becomes unstable; `None` where it is stable up to the largest depth.
+    #[must_use]
+    pub fn limit(&self) -> Option<&Crossing> {
+        self.crossings.first()
+    }
+
+    /// All stretches of depth in which the cut is stable, m: those above the first are islands.
+    #[must_use]
+    pub fn stable(&self) -> Vec<(f64, f64)> {
+        let mut all = Vec::new();
+        let mut from = Some(0.0);
+        for crossing in &self.crossings {
+            match (from, crossing.unstable_above) {
+                (Some(low), true) => {
+                    all.push((low, crossing.depth));
+                    from = None;
+                }
+                (None, false) => from = Some(crossing.depth),
+                _ => {}
+            }
+        }
+        all.extend(from.map(|low| (low, self.up_to)));
+        all
+    }
+
+    /// Whether a depth, m, is stable; `None` beyond what was looked at.
+    #[must_use]
+    pub fn is_stable(&self, depth: f64) -> Option<bool> {
+        let within = (0.0..=self.up_to).contains(&depth);
+        let inside = |(low, high): &(f64, f64)| *low <= depth && depth < *high;
+        within.then(|| self.stable().iter().any(inside))
+    }
+}
+
+/// The logarithm of the largest multiplier's size over that of the depth, at one speed.
+struct Along<'a> {
+    regeneration: &'a Regeneration,
+    speed_rpm: f64,
+    fineness: f64,
+    /// The period, where it does not depend on the depth.
+    period: Option<Period>,
+}
+
+impl<'a> Along<'a> {
+    fn new(regeneration: &'a Regeneration, speed_rpm: f64, fineness: f64) -> Result<Self> {
+        let period = match regeneration.cut().pieces_depend_on_depth() {
+            true => None,
+            false => Some(regeneration.period(speed_rpm, 0.0, fineness)?),
+        };
+        Ok(Self {
+            regeneration,
+            speed_rpm,
+            fineness,
+            period,
+        })
+    }
+
+    fn with<T>(&self, depth: f64, of: impl FnOnce(&Operator<'_>) -> Result<T>) -> Result<T> {
+        match &self.period {
+            Some(period) => of(&Operator::new(period, depth)),
+            None => {
+                let period = self
+                    .regeneration
+                    .period(self.speed_rpm, depth, self.fineness)?;
+                of(&Operator::new(&period, depth))
+            }
+        }
+    }
+
+    fn logarithm(&self, depth: f64) -> Result<f64> {
+        self.with(depth, |operator| {
+            let value = krylov::largest(operator.size(), |x| operator.apply(x))?.0;
+            Ok(value.norm().ln())
+        })
+    }
+
+    fn multiplier(&self, depth: f64) -> Result<Multiplier> {
+        self.with(depth, |operator| {
+            let (value, vector) = krylov::largest(operator.size(), |x| operator.apply(x))?;
+            let response = self.regeneration.response();
+            Ok(Multiplier::new(value, &vector, operator, depth, response))
+        })
+    }
+}
+
+/// A place of the scan: logarithms of depth and multiplier.
+#[derive(Clone, Copy)]
+struct Sample {
+    at: f64,
+    log: f64,
+}
+
+impl Regeneration {
+    /// Stability at a spindle speed (rpm) for all depths up to a largest one (m).
+    ///
+    /// ```
+    /// use kinetostat_chatter::{Arc, Coefficients, MillingCut, Mode, Regeneration, ToolResponse};
+    ///
+    /// let mode = Mode::along([1.0, 0.0, 0.0].into(), 0.03993, 922.0, 0.011)?; // kg, Hz
+    /// let cut = MillingCut::new(2, Arc::slot(), Coefficients::new(6e8, 2e8, 0.0)?)?;
+    /// let slot = Regeneration::new(ToolResponse::new(vec![mode])?, cut.into())?;
+    /// let stability = slot.stability_at(5000.0, 1e-3)?; // rpm, m
+    /// let limit = stability.limit().expect("a limit below 1 mm");
+    /// assert!((limit.depth / 0.408628e-3 - 1.0).abs() < 1e-4);
+    /// # Ok::<(), kinetostat_chatter::ChatterError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// A speed or a depth that is not positive, and modes too fast for the speed ([`crate::ToolResponse::with_modes_up_to`]).
+    pub fn stability_at(&self, speed_rpm: f64, up_to: f64) -> Result<SpeedStability> {
+        checked_depth(up_to)?;
+        // Small gain: below this depth no displacement can keep itself up.
+        let certain = (2.0 * self.response().bound() * self.cut().bound()).recip();
+        let mut crossings = Vec::new();
+        if certain < up_to {
+            let along = Along::new(self, speed_rpm, SCANNED)?;
+            for (low, high) in changes(&along, certain.ln(), up_to.ln())? {
+                crossings.push(self.crossing(&along, low, high)?);
+            }
+        } else {
+            // Nothing can chatter; a speed without sense is still one.
+            self.cut().delay(speed_rpm)?;
+        }
+        Ok(SpeedStability {
+            speed_rpm,
+            up_to,
+            crossings,
+        })
+    }
+
+    /// Closes in on a crossing between two samples, with more points until the depth no longer changes.
+    fn crossing(&self, along: &Along<'_>, low: Sample, high: Sample) -> Result<Crossing> {
+        let mut at = root(along, low, high)?;
+        let slope = (high.log - low.log) / (high.at - low.at);
+        let mut fineness = along.fineness;
+        loop {
+            fineness *= 4.0 / 3.0;
+            let finer = Along::new(self, along.speed_rpm, fineness)?;
+            let before = at;
+            at = followed(&finer, before, slope)?;
+            let resolved = (at - before).abs();
+            if resolved <= RESOLVED {
+                let multiplier = finer.multiplier(at.exp())?;
+                return Ok(Crossing {
+                    depth: at.exp(),
+                    unstable_above: low.log < 0.0,
+                    kind: multiplier.kind,
+                    frequency_hz: multiplier.frequency_hz,
+                    multiplier: (multiplier.real, multiplier.imaginary),
+                    resolved,
+                });
+            }
+            if !(fineness <= FINEST) {
+                return Err(ChatterError::new(
+                    ChatterErrorKind::NotConverged,
+                    format!("limit at {} rpm near {:e} m", along.speed_rpm, at.exp()),
+                    format!("changes by {resolved:.1e} of itself with a third more points"),
+                    "a change below 1e-6: take faster modes as springs (ToolResponse::with_modes_up_to)",
+                ));
+            }
+        }
+    }
+}
+
+/// Where the logarithm is 0 near a place where it nearly is: secants from there.
+fn followed(along: &Along<'_>, start: f64, slope: f64) -> Result<f64> {
+    let mut last = Sample {
+        at: start,
+        log: along.logarithm(start.exp())?,
+    };
+    let mut at = start - last.log / slope;
+    for _ in 0..6 {
+        if (at - last.at).abs() < CLOSED {
+            break;
+        }
+        let log = along.logarithm(at.exp())?;
+        let (before, now) = (last, Sample { at, log });
+        last = now;
+        let secant = now.log * (now.at - before.at) / (now.log - before.log);
+        if !secant.is_finite() {
+            break;
+        }
+        at = now.at - secant;
+    }
+    Ok(at)
+}
+
+/// Steps in each of which stability changes once, in order.
+fn changes(along: &Along<'_>, from: f64, to: f64) -> Result<Vec<(Sample, Sample)>> {
+    let sample = |at: f64| -> Result<Sample> {
+        Ok(Sample {
+            at,
+            log: along.logarithm(at.exp())?,
+        })
+    };
+    let steps = ((to - from) / COARSE).ceil().max(1.0);
+    let mut last = sample(from)?;
+    let mut found = Vec::new();
+    let mut slope = SLOPE;
+    for k in 1..=steps as usize {
+        let end = sample(from + (to - from) * k as f64 / steps)?;
+        // Depth first, from below: `waiting` holds the far ends.
+        let mut waiting = vec![end];
+        while let Some(next) = waiting.last().copied() {
+            let step = next.at - last.at;
+            let steep = ((next.log - last.log) / step).abs();
+            slope = larger(SLOPE, larger(0.5 * slope, steep));
+            let change = (last.log < 0.0) != (next.log < 0.0);
+            // Between two samples the line may come so much nearer to the circle than either end.
+            let near = 0.5 * (last.log.abs() + next.log.abs()) < 0.5 * slope * step;
+            let divide = match change {
+                true => step > ALONE,
+                false => near && step > FINE,
+            };
+            if divide {
+                waiting.push(sample(0.5 * (last.at + next.at))?);
+                continue;
+            }
+            if change {
+                found.push((last, next));
+            }
+            last = next;
+            waiting.pop();
+        }
+    }
+    Ok(found)
+}
+
+/// Where the logarithm is 0 between two samples of different sign: Illinois' rule, which never leaves the step.
+fn root(along: &Along<'_>, mut low: Sample, mut high: Sample) -> Result<f64> {
+    let mut side = 0;
+    for _ in 0..80 {
+        let share = low.log / (low.log - high.log);
+        let at = low.at + share.clamp(1e-3, 1.0 - 1e-3) * (high.at - low.at);
+        if high.at - low.at < CLOSED {
+            return Ok(at);
+        }
+        let log = along.logarithm(at.exp())?;
+        if log.abs() < 1e-11 {
+            return Ok(at);
+        }
+        if (log < 0.0) == (low.log < 0.0) {
+            low = Sample { at, log };
+            if side == -1 {
+                high.log *= 0.5;
+            }
+            side = -1;
+        } else {
+            high = Sample { at, log };
+            if side == 1 {
+                low.log *= 0.5;
+            }
+            side = 1;
+        }
+    }
+    Ok(0.5 * (low.at + high.at))
+}

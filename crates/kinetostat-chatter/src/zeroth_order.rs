@@ -1,0 +1,115 @@
+//! The zeroth-order (single-frequency) approximation of Altintas and Budak [D 9].
+//!
+//! It replaces the directional matrix by its mean over the turn. It knows no flip, errs at low immersion, and is **not a
+//! conservative bound**: on robots, whose structural modes meet half tooth frequencies at ordinary speeds, it was 1.6 to 3.7
+//! times too optimistic (`dynamics.md` section 10). Screen with it, confirm with [`crate::Regeneration`]. For turning, whose
+//! matrix is its mean, it is exact.
+
+use std::f64::consts::{PI, TAU};
+
+use serde::{Deserialize, Serialize};
+
+use crate::branches::{Branches, Place, grid};
+use crate::error::Result;
+use crate::number::Complex64;
+use crate::stability::Regeneration;
+
+/// A limit of zeroth order.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ZerothOrderLimit {
+    /// Depth of cut, m.
+    pub depth: f64,
+    /// Chatter frequency, Hz.
+    pub frequency_hz: f64,
+}
+
+/// `a_lim = |lam|^2/(2 Re lam)` [D 9]; none where the real part of `lam = 1/mu` is not positive.
+fn depth(mu: Complex64) -> Option<f64> {
+    let lam = mu.inv();
+    (lam.re > 0.0).then(|| lam.norm_sqr() / (2.0 * lam.re))
+}
+
+/// The limit of zeroth order at a spindle speed, rpm; `None` where no frequency has a limit at this speed.
+///
+/// Each eigenvalue of `G(i w) D0` is followed over the frequency; wherever the phase equation of [D 9] holds for this speed,
+/// its depth counts, and the smallest is the limit.
+///
+/// # Errors
+/// A speed that is not positive.
+pub fn limit(regeneration: &Regeneration, speed_rpm: f64) -> Result<Option<ZerothOrderLimit>> {
+    let delay = regeneration.cut().delay(speed_rpm)?;
+    let branches = of(regeneration);
+    let mut best: Option<ZerothOrderLimit> = None;
+    branches.walk(|from, to| within(&branches, delay, from, to, &mut best));
+    Ok(best)
+}
+
+fn of(regeneration: &Regeneration) -> Branches<'_> {
+    Branches {
+        response: regeneration.response(),
+        mean: regeneration.cut().mean_matrix(),
+    }
+}
+
+/// The smallest depth of all frequencies between two places at which the phase equation holds: `w tau + pi + 2 arg lam` is a
+/// whole number of turns where `e^(-i w tau) = 1 - lam/a_lim`.
+fn within(
+    branches: &Branches<'_>,
+    delay: f64,
+    from: &Place,
+    to: &Place,
+    best: &mut Option<ZerothOrderLimit>,
+) {
+    let phase = |place: &Place| place.frequency * delay + PI + 2.0 * place.argument;
+    let (low, high) = (phase(from), phase(to));
+    let (least, most) = if low < high { (low, high) } else { (high, low) };
+    let mut turn = (least / TAU).ceil();
+    while turn * TAU < most {
+        let place = branches.closed_in(from, to, |place| phase(place) - turn * TAU);
+        if let Some(depth) = depth(place.mu)
+            && best.is_none_or(|best| depth < best.depth)
+        {
+            *best = Some(ZerothOrderLimit {
+                depth,
+                frequency_hz: place.frequency / TAU,
+            });
+        }
+        turn += 1.0;
+    }
+}
+
+/// The smallest limit at any speed, m: the absolute minimum of zeroth order, and its frequency.
+#[must_use]
+pub fn absolute_minimum(regeneration: &Regeneration) -> Option<ZerothOrderLimit> {
+    let branch = of(regeneration);
+    let at = |frequency: f64| {
+        let depths = branch.eigenvalues(frequency).map(depth);
+        depths.into_iter().flatten().reduce(f64::min)
+    };
+    let frequencies = grid(branch.response);
+    let mut best: Option<(usize, f64)> = None;
+    for (i, frequency) in frequencies.iter().enumerate() {
+        if let Some(depth) = at(*frequency)
+            && best.is_none_or(|(_, least)| depth < least)
+        {
+            best = Some((i, depth));
+        }
+    }
+    let (i, _) = best?;
+    let (mut low, mut high) = (
+        frequencies[i.saturating_sub(1)],
+        frequencies[(i + 1).min(frequencies.len() - 1)],
+    );
+    // Golden section: the depth has one minimum between neighbours of the least.
+    let share = 0.5 * (5_f64.sqrt() - 1.0);
+    for _ in 0..80 {
+        let (a, b) = (high - share * (high - low), low + share * (high - low));
+        let of = |frequency| at(frequency).unwrap_or(f64::INFINITY);
+        if of(a) < of(b) { high = b } else { low = a }
+    }
+    let frequency = 0.5 * (low + high);
+    at(frequency).map(|depth| ZerothOrderLimit {
+        depth,
+        frequency_hz: frequency / TAU,
+    })
+}

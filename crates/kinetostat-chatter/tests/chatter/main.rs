@@ -1,0 +1,9 @@
+//! Tests of this crate, one binary.
+#![allow(clippy::unwrap_used)]
+
+mod arm;
+mod coupling;
+mod exact;
+mod forced;
+mod support;
+mod zeroth;

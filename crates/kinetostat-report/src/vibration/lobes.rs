@@ -1,0 +1,182 @@
+//! Stability lobes: depth of cut over the spindle speed, what is unstable shaded.
+
+use kinetostat_chatter::{Crossing, Instability, LobeDiagram, LobePoint};
+
+use crate::chart::plot::{Look, Plot, PlotLine, PlotMark, stacked};
+
+/// A range of limits of more than this ratio is drawn over logarithms.
+const WIDE: f64 = 12.0;
+
+/// Style of what is unstable.
+const STYLE: &str = include_str!("../template/unstable.css");
+
+/// The diagram as a document.
+pub(crate) fn draw(diagram: &LobeDiagram, title: &str) -> String {
+    let decades = is_wide(diagram);
+    // Below the smallest limit nothing happens; a logarithm has to begin somewhere.
+    let floor = match decades {
+        true => 0.5 * smallest(diagram),
+        false => 0.0,
+    };
+    let depth = |value: f64| {
+        let mm = 1e3 * if value > floor { value } else { floor };
+        if decades { mm.log10() } else { mm }
+    };
+    let plot = Plot {
+        title: title.to_owned(),
+        x_label: "spindle speed, rpm".into(),
+        y_label: "depth of cut, mm".into(),
+        lines: lines(diagram, depth),
+        marks: best(diagram, depth),
+    };
+    let areas = areas(diagram, depth);
+    let look = Look {
+        decades: [false, decades],
+        areas: &areas,
+        ..Look::default()
+    };
+    stacked(&[(&plot, look)], STYLE)
+}
+
+fn limits(diagram: &LobeDiagram) -> impl Iterator<Item = f64> + '_ {
+    let limits = diagram.points.iter().filter_map(|p| p.exact.limit());
+    limits.map(|crossing| crossing.depth)
+}
+
+fn smallest(diagram: &LobeDiagram) -> f64 {
+    limits(diagram)
+        .reduce(f64::min)
+        .unwrap_or(1e-3 * diagram.up_to)
+}
+
+fn is_wide(diagram: &LobeDiagram) -> bool {
+    diagram.up_to > WIDE * smallest(diagram)
+}
+
+fn lines(diagram: &LobeDiagram, depth: impl Fn(f64) -> f64 + Copy) -> Vec<PlotLine> {
+    let mut all = Vec::new();
+    for (kind, name, colour) in [
+        (Instability::Hopf, "limit: Hopf (a frequency of its own)", 0),
+        (
+            Instability::Flip,
+            "limit: flip (half the tooth frequency)",
+            1,
+        ),
+    ] {
+        let mut points = Vec::new();
+        for pair in diagram.points.windows(2) {
+            for (a, b) in neighbours(&pair[0], &pair[1]) {
+                // Between two kinds the line is that of the second half's: both are drawn to the middle.
+                let (from, to) = (
+                    (pair[0].exact.speed_rpm, depth(a.depth)),
+                    (pair[1].exact.speed_rpm, depth(b.depth)),
+                );
+                let middle = (0.5 * (from.0 + to.0), 0.5 * (from.1 + to.1));
+                match (a.kind == kind, b.kind == kind) {
+                    (true, true) => points.extend([from, to]),
+                    (true, false) => points.extend([from, middle]),
+                    (false, true) => points.extend([middle, to]),
+                    (false, false) => continue,
+                }
+                points.push((f64::NAN, f64::NAN));
+            }
+        }
+        all.push(PlotLine {
+            name: name.into(),
+            colour,
+            dashed: false,
+            points,
+        });
+    }
+    let zeroth = diagram.points.iter().map(|point| {
+        let limit = point.zeroth_order.map(|limit| limit.depth);
+        let shown = limit.filter(|value| *value <= diagram.up_to);
+        (point.exact.speed_rpm, shown.map_or(f64::NAN, depth))
+    });
+    all.push(PlotLine {
+        name: "zeroth order (no bound)".into(),
+        colour: 5,
+        dashed: true,
+        points: zeroth.collect(),
+    });
+    all.retain(|line| line.points.iter().any(|(_, y)| y.is_finite()));
+    all
+}
+
+/// Crossings of two speeds that belong together: one by one where there are as many, else the limits.
+fn neighbours<'a>(a: &'a LobePoint, b: &'a LobePoint) -> Vec<(&'a Crossing, &'a Crossing)> {
+    let (a, b) = (&a.exact.crossings, &b.exact.crossings);
+    let together = if a.len() == b.len() {
+        a.len()
+    } else {
+        a.len().min(b.len()).min(1)
+    };
+    a.iter().zip(b).take(together).collect()
+}
+
+/// Stretches of depth that are unstable at a speed.
+fn unstable(point: &LobePoint) -> Vec<(f64, f64)> {
+    let mut from = None;
+    let mut all = Vec::new();
+    for crossing in &point.exact.crossings {
+        match (from, crossing.unstable_above) {
+            (None, true) => from = Some(crossing.depth),
+            (Some(low), false) => {
+                all.push((low, crossing.depth));
+                from = None;
+            }
+            _ => {}
+        }
+    }
+    all.extend(from.map(|low| (low, point.exact.up_to)));
+    all
+}
+
+/// What is unstable between the speeds: joined where both have as many stretches, each up to the middle where not.
+fn areas(diagram: &LobeDiagram, depth: impl Fn(f64) -> f64) -> Vec<Vec<(f64, f64)>> {
+    let mut all = Vec::new();
+    for pair in diagram.points.windows(2) {
+        let (a, b) = (unstable(&pair[0]), unstable(&pair[1]));
+        let (left, right) = (pair[0].exact.speed_rpm, pair[1].exact.speed_rpm);
+        let mut between = |(x0, low0, high0): (f64, f64, f64), (x1, low1, high1)| {
+            all.push(vec![
+                (x0, depth(low0)),
+                (x1, depth(low1)),
+                (x1, depth(high1)),
+                (x0, depth(high0)),
+            ]);
+        };
+        if a.len() == b.len() {
+            for ((low0, high0), (low1, high1)) in a.iter().zip(&b) {
+                between((left, *low0, *high0), (right, *low1, *high1));
+            }
+        } else {
+            let middle = 0.5 * (left + right);
+            for (low, high) in &a {
+                between((left, *low, *high), (middle, *low, *high));
+            }
+            for (low, high) in &b {
+                between((middle, *low, *high), (right, *low, *high));
+            }
+        }
+    }
+    all
+}
+
+/// The speed with the largest limit.
+fn best(diagram: &LobeDiagram, depth: impl Fn(f64) -> f64) -> Vec<PlotMark> {
+    let Some((speed, limit)) = diagram.best() else {
+        return Vec::new();
+    };
+    let shown = format!("{speed:.0} rpm: stable to {:.3} mm", 1e3 * limit);
+    let name = match limit < diagram.up_to {
+        true => shown,
+        // Many speeds may be stable to the end of the diagram: none of them is the best.
+        false => return Vec::new(),
+    };
+    vec![PlotMark {
+        at: (speed, depth(limit)),
+        name: name.clone(),
+        detail: format!("largest limit of the speeds that were looked at: {name}"),
+    }]
+}
