@@ -38,7 +38,6 @@ use crate::program::features::refuse_missed_features;
 use crate::program::outputs::RunOutputs;
 use crate::program::{report, solve, summary};
 use crate::ui::failure::{Answer, Failure};
-use crate::ui::language::LanguageWord;
 
 pub(crate) fn run(mut args: CompensateArgs) -> Answer<()> {
     job_after_json(&mut args);
@@ -127,7 +126,6 @@ fn compensate(files: &InputFiles, args: &CompensateArgs) -> Answer<()> {
         .warnings
         .extend(run_warnings::of_run(&model, job));
     outputs.list(flags.all_points, &model);
-    outputs.language = LanguageWord::language(flags.language);
     if let Some(turn) = &turn {
         turn.put_into(&mut run.result.run_inputs);
     }

@@ -17,7 +17,6 @@ use crate::program::aim::Aim;
 use crate::program::outputs::RunOutputs;
 use crate::program::{report, solve, summary};
 use crate::ui::failure::Answer;
-use crate::ui::language::LanguageWord;
 
 pub(crate) fn along_program(args: &DeflectArgs, is_job: bool) -> Answer<()> {
     let files = InputFiles::default();
@@ -70,7 +69,6 @@ pub(crate) fn along_program(args: &DeflectArgs, is_job: bool) -> Answer<()> {
         .warnings
         .extend(run_warnings::of_run(&model, job.as_ref()));
     outputs.list(args.program.all_points, &model);
-    outputs.language = LanguageWord::language(args.program.language);
     outputs.fill(&run, &setting, turn.as_ref())?;
     let note = outputs.note(&run);
     let paths = outputs.files.commit()?;

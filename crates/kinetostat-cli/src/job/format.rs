@@ -19,6 +19,7 @@ use crate::job::source::Source;
 use crate::job::uncertain_table::UncertainTable;
 use crate::job::units_word::UnitsWord;
 use crate::ui::failure::Failure;
+use crate::ui::language::LanguageWord;
 
 /// The version that is read here.
 const SCHEMA: u32 = 1;
@@ -250,6 +251,10 @@ pub(crate) struct TolerancesTable {
 pub(crate) struct OutputTable {
     pub program: Option<Spanned<String>>,
     pub report: Option<Spanned<String>>,
+    /// The report without pictures as PDF, to be signed and filed.
+    pub pdf: Option<Spanned<String>>,
+    /// Language of the reports.
+    pub language: Option<LanguageWord>,
     pub json: Option<Spanned<String>>,
     pub points: Option<Spanned<String>>,
     /// The flat program, where the program is expanded.

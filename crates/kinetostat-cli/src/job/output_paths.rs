@@ -9,6 +9,7 @@ use crate::job::arguments::{ProgramArgs, WritingFlags};
 use crate::job::format::Job;
 use crate::job::job_file::JobFile;
 use crate::ui::failure::Answer;
+use crate::ui::language::LanguageWord;
 
 /// What the compensated program is called among outputs.
 pub(crate) const COMPENSATED_PROGRAM: &str = "compensated program";
@@ -59,6 +60,8 @@ pub(crate) struct OutputPaths {
     pub(crate) report: Option<PathBuf>,
     /// Report without pictures, to be signed.
     pub(crate) pdf: Option<PathBuf>,
+    /// Language of both reports.
+    pub(crate) language: Option<LanguageWord>,
     pub(crate) json: Option<PathBuf>,
     pub(crate) points: Option<PathBuf>,
     /// Of a program that is written flat.
@@ -123,7 +126,10 @@ pub(crate) fn output_paths(
     let mut targets = OutputPaths {
         beside: Vec::new(),
         program: from_job(writing.out, |j| j.output.program.as_ref())?,
-        pdf: flags.pdf.clone(),
+        pdf: from_job(flags.pdf.as_deref(), |j| j.output.pdf.as_ref())?,
+        language: flags
+            .language
+            .or_else(|| job.and_then(|j| j.job.output.language)),
         report: from_job(flags.report.as_deref(), |j| j.output.report.as_ref())?,
         json: from_job(writing.json.filter(|p| *p != Path::new("-")), |j| {
             j.output.json.as_ref()

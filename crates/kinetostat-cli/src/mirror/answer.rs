@@ -7,6 +7,8 @@ use kinetostat_mirror::{
 use kinetostat_program::Accounting;
 use serde::Serialize;
 
+use crate::mirror::features::FeatureMeasured;
+
 #[derive(Serialize)]
 pub(crate) struct MirrorAnswer {
     pub(crate) schema: u32,
@@ -35,6 +37,9 @@ pub(crate) struct MeasurementResult {
     pub(crate) outliers: Vec<Outlier>,
     pub(crate) left_out: Vec<LeftOut>,
     pub(crate) unseen: Vec<Unseen>,
+    /// Features of the job.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub(crate) features: Vec<FeatureMeasured>,
 }
 
 /// From the frame of the measurement to that of the program.
@@ -64,7 +69,7 @@ impl From<&Registration> for RegistrationResult {
 }
 
 impl MeasurementResult {
-    pub(crate) fn of(file: &str, found: &Measurement) -> Self {
+    pub(crate) fn of(file: &str, found: &Measurement, features: Vec<FeatureMeasured>) -> Self {
         Self {
             file: file.to_owned(),
             registration: found.registration.as_ref().map(Into::into),
@@ -72,6 +77,7 @@ impl MeasurementResult {
             outliers: found.outliers.clone(),
             left_out: found.left_out.clone(),
             unseen: found.unseen.clone(),
+            features,
         }
     }
 }

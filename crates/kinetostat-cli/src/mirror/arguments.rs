@@ -6,6 +6,7 @@ use clap::{ArgAction, Args, ValueEnum};
 use kinetostat_mirror::Alignment;
 
 use crate::job::arguments::ReadingArgs;
+use crate::job::robot_arguments::RobotArgs;
 use crate::options::{number, small};
 
 /// How points find their places on the path.
@@ -35,7 +36,8 @@ impl From<AlignWord> for Alignment {
 #[derive(Debug, Args)]
 #[command(after_help = crate::options::EXIT_CODES, after_long_help = HELP)]
 pub(crate) struct MirrorArgs {
-    /// The program as it is drawn, the same in every trial: G-code
+    /// The program as it is drawn, the same in every trial: G-code, or of a robot
+    /// (`kinetostat dialect list`)
     #[arg(value_name = "PROGRAM")]
     pub(crate) program: PathBuf,
     /// Points measured of the last trial (CSV with x_mm,y_mm,z_mm), or a second program; once for each
@@ -45,8 +47,8 @@ pub(crate) struct MirrorArgs {
     /// The state of all trials (TOML), read and written; without it this is the only trial
     #[arg(long, value_name = "FILE")]
     pub(crate) state: Option<PathBuf>,
-    /// Job file with a model (TOML): its compensation comes first, and the mirror corrects what is
-    /// left
+    /// Job file (TOML): the compensation by its model, if it names one, comes first, and the mirror
+    /// corrects what is left; its features are told one by one
     #[arg(long, value_name = "JOB")]
     pub(crate) job: Option<PathBuf>,
     /// Share of the deviation that is mirrored, above 0 and below 2 [default: 1]
@@ -77,6 +79,8 @@ pub(crate) struct MirrorArgs {
     pub(crate) scale: bool,
     #[command(flatten)]
     pub(crate) reading: ReadingArgs,
+    #[command(flatten)]
+    pub(crate) robot: RobotArgs,
     /// How far the straight pieces may leave the corrected path, micrometres [default: 0.5]
     #[arg(long, value_name = "UM", help_heading = "Tolerances", allow_negative_numbers = true, value_parser = number)]
     pub(crate) tolerance_um: Option<f64>,

@@ -150,6 +150,9 @@ fn measurement(m: &MeasurementResult) -> String {
     for unseen in &m.unseen {
         out.push_str(&item(&unseen_text(unseen)));
     }
+    for feature in &m.features {
+        out.push_str(&feature.text());
+    }
     out
 }
 

@@ -16,6 +16,7 @@ use crate::program::aim::Aim;
 use crate::program::flat_lines::WithSources;
 use crate::program::paper;
 use crate::program::points_table::{self, Listing};
+use crate::ui::language::LanguageWord;
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::json::json;
 use crate::ui::layout;
@@ -65,7 +66,7 @@ impl RunOutputs {
             program,
             report: claim("report", &targets.report)?,
             pdf: claim(PDF, &targets.pdf)?,
-            language: Language::English,
+            language: LanguageWord::language(targets.language),
             json: claim("result", &targets.json)?,
             points: claim("table of points", &targets.points)?,
             flat: claim(FLAT_PROGRAM, &targets.flat)?,

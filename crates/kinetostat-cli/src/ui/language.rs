@@ -2,9 +2,11 @@
 
 use clap::ValueEnum;
 use kinetostat_report::Language;
+use serde::Deserialize;
 
 /// Language of reports, as it is named.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, ValueEnum)]
+#[serde(rename_all = "snake_case")]
 pub(crate) enum LanguageWord {
     /// English
     En,

@@ -90,7 +90,7 @@ pub(crate) fn run(args: &VerifyArgs) -> Answer<()> {
         claimed.fill(index, json::json(&answer)?.as_bytes())?;
     }
     if let Some(index) = pdf_out {
-        let language = LanguageWord::language(args.original.language);
+        let language = LanguageWord::language(original.targets.language);
         let of_run = answer.as_run(&found);
         let of = answer.paper(&of_run, language);
         claimed.fill(index, &paper::pdf(&of)?)?;

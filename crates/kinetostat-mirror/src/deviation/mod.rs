@@ -2,12 +2,14 @@
 
 mod kernel;
 mod measure;
+mod on_lines;
 mod outliers;
 mod stations;
 mod unseen;
 
 pub use kernel::{Kernel, Smoothed};
 pub use measure::{DeviationFigures, MeasureSettings, Measurement, measure};
+pub use on_lines::{OnLines, on_lines};
 pub use outliers::Outlier;
 pub use stations::Stations;
 pub use unseen::Unseen;

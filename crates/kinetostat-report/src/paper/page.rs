@@ -10,15 +10,21 @@ h1{font-size:1.5em}h1 small{display:block;font-size:.6em;color:#555;font-weight:
 .box{border:1px solid #888;border-left:6px solid #888;padding:.6em 1em}.good{border-left-color:#1a7f37}.attention{border-left-color:#b35900}.stop{border-left-color:#b00020}\
 dl{display:grid;grid-template-columns:14em 1fr;gap:.2em 1em}dt{color:#555}dd{margin:0;overflow-wrap:anywhere}dd span{display:block}\
 table{border-collapse:collapse;width:100%;font-size:.9em}th,td{text-align:left;padding:.2em .5em;border-bottom:1px solid #ccc;vertical-align:top;overflow-wrap:anywhere}\
-.right{text-align:right;white-space:nowrap}.note{color:#555;font-size:.9em}.sign{margin-top:2.5em;border-top:1px solid #111;padding-top:.2em}\
+.right{text-align:right}.whole{white-space:nowrap;overflow-wrap:normal}.note{color:#555;font-size:.9em}.sign{margin-top:2.5em;border-top:1px solid #111;padding-top:.2em}\
 @media print{h2{break-after:avoid}tr,.box{break-inside:avoid}}";
 
 /// The page; every text is escaped.
 pub(crate) fn html(contents: &Contents) -> String {
+    let date = contents.date.iter().map(|date| {
+        let day = escape(date);
+        format!("<meta name=\"dcterms.date\" content=\"{day}\">\n")
+    });
     let mut out = format!(
-        "<!DOCTYPE html>\n<html lang=\"{}\">\n<head>\n<meta charset=\"utf-8\">\n<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'; base-uri 'none'; form-action 'none'\">\n<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>{}</title>\n<style>{STYLE}</style>\n</head>\n<body>\n<h1><small>{}</small>{}</h1>\n",
+        "<!DOCTYPE html>\n<html lang=\"{}\">\n<head>\n<meta charset=\"utf-8\">\n<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'; base-uri 'none'; form-action 'none'\">\n<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n{}<title>{}</title>\n<style>{STYLE}{}</style>\n</head>\n<body>\n<h1><small>{}</small>{}</h1>\n",
         contents.language.code(),
+        date.collect::<String>(),
         escape(&contents.title),
+        numbered_pages(contents.page_of),
         escape(&contents.kind),
         escape(&contents.title)
     );
@@ -31,6 +37,14 @@ pub(crate) fn html(contents: &Contents) -> String {
         escape(made_by)
     ));
     out
+}
+
+/// Pages are numbered where they are printed, as in the PDF: `page {page} of {pages}` with the browser's counters.
+fn numbered_pages(page_of: &str) -> String {
+    let counted = page_of
+        .replace("{pages}", "\" counter(pages) \"")
+        .replace("{page}", "\" counter(page) \"");
+    format!("@page{{@bottom-right{{content:\"{counted}\"}}}}")
 }
 
 fn block(out: &mut String, block: &Block) {
@@ -95,9 +109,11 @@ fn each(texts: &[String], element: &str) -> String {
 }
 
 fn rows(table: &Table) -> String {
-    let class = |at: usize| match table.columns.get(at).map(|c| c.side) {
-        Some(Side::Right) => " class=\"right\"",
-        _ => "",
+    let class = |at: usize| match table.columns.get(at).map(|c| (c.side, c.wraps)) {
+        Some((Side::Right, false)) => " class=\"right whole\"",
+        Some((Side::Right, true)) => " class=\"right\"",
+        Some((Side::Left, false)) => " class=\"whole\"",
+        Some((Side::Left, true)) | None => "",
     };
     let heads = table.columns.iter().enumerate();
     let heads: String = heads

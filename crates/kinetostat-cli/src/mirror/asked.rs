@@ -1,0 +1,85 @@
+//! What a trial is asked with: the program, its settings and the state of the trials before.
+
+use std::path::Path;
+
+use kinetostat_mirror::{MeasureSettings, MirrorState};
+
+use crate::files::input_files::InputFiles;
+use crate::job::arguments::{ProgramArgs, WritingFlags};
+use crate::job::job_file::JobFile;
+use crate::job::of_model::give_of_model;
+use crate::job::setting::{Setting, setting};
+use crate::mirror::arguments::MirrorArgs;
+use crate::ui::failure::{Answer, Failure};
+
+/// A program (that is drawn, or that was measured) and how it is read and written.
+pub(crate) fn asked(
+    files: &InputFiles,
+    job: Option<&JobFile>,
+    args: &MirrorArgs,
+    program: &Path,
+) -> Answer<Setting> {
+    let flags = flags_of(args, program);
+    let writing = WritingFlags {
+        tolerance_um: args.tolerance_um,
+        decimals: args.decimals,
+        no_header: args.no_header,
+        out: Some(&args.out),
+        ..WritingFlags::default()
+    };
+    let mut setting = setting(files, job, &flags, &writing)?;
+    if setting.flat.is_some() {
+        return Err(setting.within(Failure::input(
+            "mirror takes programs without macros and in one piece, so that trials stay comparable: expand the program first (`kinetostat expand`), and mirror the flat one",
+        )));
+    }
+    if names_model(job) {
+        give_of_model(&mut setting, files, (job, None), &flags)?;
+    }
+    setting.reading.tools = None;
+    Ok(setting)
+}
+
+/// The job names a model, whose compensation comes first.
+pub(crate) fn names_model(job: Option<&JobFile>) -> bool {
+    job.is_some_and(|job| job.job.model.is_some())
+}
+
+pub(crate) fn flags_of(args: &MirrorArgs, program: &Path) -> ProgramArgs {
+    ProgramArgs {
+        program: Some(program.to_owned()),
+        reading: args.reading.clone(),
+        robot: args.robot.clone(),
+        force_overwrite: args.force_overwrite,
+        ..ProgramArgs::default()
+    }
+}
+
+pub(crate) fn settings_of(args: &MirrorArgs) -> MeasureSettings {
+    let usual = MeasureSettings::default();
+    MeasureSettings {
+        smoothing_mm: args.smoothing_mm.unwrap_or(usual.smoothing_mm),
+        window_mm: args.window_mm.unwrap_or(usual.window_mm),
+        align: args.align.map_or(usual.align, Into::into),
+        register: !args.no_register,
+        scale: args.scale,
+    }
+}
+
+pub(crate) fn read_state(files: &InputFiles, path: &Path) -> Answer<MirrorState> {
+    let text = files.text("state", path)?;
+    toml::from_str(&text).map_err(|error| {
+        let before = error.span().map_or(0, |span| span.start);
+        let line = 1 + text.as_bytes()[..before].iter().filter(|b| **b == b'\n').count();
+        Failure::input(format!(
+            "'{}', line {line}: this is no state of trials: {}; name the file that an earlier run wrote with --state",
+            path.display(),
+            error.message()
+        ))
+    })
+}
+
+pub(crate) fn state_text(state: &MirrorState) -> Answer<String> {
+    toml::to_string(state)
+        .map_err(|error| Failure::input(format!("the state cannot be written: {error}")))
+}

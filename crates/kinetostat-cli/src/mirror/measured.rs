@@ -1,0 +1,62 @@
+//! What was measured of a trial, compared with the path.
+
+use std::path::PathBuf;
+
+use kinetostat_mirror::{
+    MeasureSettings, MeasuredFile, MeasuredPoints, Measurement, NominalPath, Repeatability, measure,
+};
+
+use crate::files::hash::sha256;
+use crate::files::input_files::{InputFiles, text_in};
+use crate::job::job_file::JobFile;
+use crate::job::program::read_program;
+use crate::mirror::arguments::MirrorArgs;
+use crate::mirror::asked::asked;
+use crate::ui::failure::{Answer, Failure};
+
+/// All measurements of this trial, compared with the path.
+pub(crate) fn measurements(
+    files: &InputFiles,
+    (job, args): (Option<&JobFile>, &MirrorArgs),
+    (nominal, settings): (&NominalPath<'_>, &MeasureSettings),
+) -> Answer<Vec<(MeasuredFile, Measurement)>> {
+    let one = |path: &PathBuf| {
+        let bytes = files.bytes("measurement", path)?;
+        let file = MeasuredFile {
+            name: path
+                .file_name()
+                .map_or_else(String::new, |n| n.to_string_lossy().into_owned()),
+            sha256: sha256(&bytes),
+        };
+        let name = path.display().to_string();
+        let is_table = path.extension().is_some_and(|e| e == "csv" || e == "txt");
+        let points = match is_table {
+            true => MeasuredPoints::read(&name, &text_in("measurement", path, bytes)?)?,
+            false => {
+                let second = asked(files, job, args, path)?;
+                let read = read_program(&second)?;
+                MeasuredPoints::along(read.path(), 0.1 * settings.smoothing_mm)
+                    .map_err(|error| Failure::from(error).within(&name))?
+            }
+        };
+        let found = measure(nominal, &points, settings);
+        Ok((file, found.map_err(|e| Failure::from(e).within(&name))?))
+    };
+    args.measured.iter().map(one).collect()
+}
+
+/// As given, or from the measurements of this trial where there are several.
+pub(crate) fn repeatability(
+    args: &MirrorArgs,
+    measured: &[(MeasuredFile, Measurement)],
+) -> Answer<Option<Repeatability>> {
+    match args.repeatability_um {
+        Some(um) if um > 0.0 => Ok(Some(Repeatability::OfPoints(1e-3 * um))),
+        Some(um) => Err(Failure::input(format!(
+            "--repeatability-um {um}: a standard deviation above 0 is needed"
+        ))),
+        None => Ok(Repeatability::of_repeats(
+            measured.iter().map(|(_, found)| found),
+        )),
+    }
+}
