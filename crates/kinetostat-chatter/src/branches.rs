@@ -95,14 +95,31 @@ impl Branches<'_> {
 
     /// Between two places of a branch, that at which a function that grows or falls there passes 0.
     pub(crate) fn closed_in(&self, from: &Place, to: &Place, of: impl Fn(&Place) -> f64) -> Place {
+        // Illinois' rule: secants that stay inside.
         let (mut a, mut b) = (*from, *to);
-        let low = of(from);
+        let (mut low, mut high) = (of(from), of(to));
+        let mut side = 0;
         for _ in 0..60 {
-            let middle = self.follow(&a, 0.5 * (a.frequency + b.frequency));
-            if (of(&middle) < 0.0) == (low < 0.0) {
-                a = middle;
+            let share = (low / (low - high)).clamp(1e-6, 1.0 - 1e-6);
+            let place = self.follow(&a, a.frequency + share * (b.frequency - a.frequency));
+            let value = of(&place);
+            if value.abs() < 1e-13 * (1.0 + place.argument.abs())
+                || b.frequency - a.frequency <= 1e-14 * b.frequency
+            {
+                return place;
+            }
+            if (value < 0.0) == (low < 0.0) {
+                (a, low) = (place, value);
+                if side == -1 {
+                    high *= 0.5;
+                }
+                side = -1;
             } else {
-                b = middle;
+                (b, high) = (place, value);
+                if side == 1 {
+                    low *= 0.5;
+                }
+                side = 1;
             }
         }
         a
@@ -133,20 +150,28 @@ impl Branches<'_> {
 /// Two unit vectors at right angles that hold all displacements which change the mean chip.
 fn plane(mean: &Matrix3<f64>) -> [Vector3<f64>; 2] {
     let rows = [0, 1, 2].map(|i| mean.row(i).transpose());
-    let longest = rows.into_iter().fold(Vector3::zeros(), |a, b| {
-        if b.norm() > a.norm() { b } else { a }
-    });
+    let longest = rows.into_iter().fold(
+        Vector3::zeros(),
+        |a, b| {
+            if b.norm() > a.norm() { b } else { a }
+        },
+    );
     let Some(first) = longest.try_normalize(0.0) else {
         return [Vector3::x(), Vector3::y()];
     };
     let across = rows.map(|row| row - first * first.dot(&row));
-    let second = across.into_iter().fold(Vector3::zeros(), |a, b| {
-        if b.norm() > a.norm() { b } else { a }
-    });
+    let second = across.into_iter().fold(
+        Vector3::zeros(),
+        |a, b| {
+            if b.norm() > a.norm() { b } else { a }
+        },
+    );
     let other = match second.norm() > 1e-12 * longest.norm() {
         true => second.normalize(),
         // Rank one: any direction across has a zero eigenvalue.
-        false => first.cross(&first.map(|c| if c.abs() < 0.6 { 1.0 } else { 0.0 })).normalize(),
+        false => first
+            .cross(&first.map(|c| if c.abs() < 0.6 { 1.0 } else { 0.0 }))
+            .normalize(),
     };
     [first, other]
 }
@@ -154,8 +179,14 @@ fn plane(mean: &Matrix3<f64>) -> [Vector3<f64>; 2] {
 /// Frequencies at which the branches are followed, rad/s: close together at the peaks, in ratios elsewhere.
 pub(crate) fn grid(response: &ToolResponse) -> Vec<f64> {
     let modes = response.modes();
-    let fastest = modes.iter().map(|m| m.angular_frequency()).fold(0.0, larger);
-    let slowest = modes.iter().map(|m| m.angular_frequency()).fold(fastest, f64::min);
+    let fastest = modes
+        .iter()
+        .map(|m| m.angular_frequency())
+        .fold(0.0, larger);
+    let slowest = modes
+        .iter()
+        .map(|m| m.angular_frequency())
+        .fold(fastest, f64::min);
     let (from, to) = (1e-3 * slowest, BEYOND * fastest);
     let mut all = vec![from];
     let mut w = from;
@@ -178,4 +209,3 @@ fn turned(before: Complex64, now: Complex64) -> f64 {
     let angle = (before / now).arg();
     if angle.is_finite() { angle } else { 0.0 }
 }
-

@@ -22,17 +22,15 @@ mod response;
 mod stability;
 pub mod zeroth_order;
 
-pub use coupling::{
-    Coupled, CoupledLimit, Process, coupled_limit, coupled_roots, two_axis_limit,
-};
+pub use coupling::{Coupled, CoupledLimit, Process, coupled_limit, coupled_roots, two_axis_limit};
 pub use cut::{Arc, Coefficients, Cut, Linearised, Milled, MillingCut, TurningCut};
 pub use error::{ChatterError, ChatterErrorKind, Result};
 pub use forced::{PeriodicForce, SteadyCut, Vibration, VibrationHarmonic};
 pub use lobes::{LobeDiagram, LobePoint, LobeRequest};
 pub use measured::{
-    Fit, FittedMode, MeasuredResponse, ModePair, Motion, Parameter, Scaled, ShapedMode, UniversalFile,
-    fit_modes, modal_assurance, pair_modes, read_columns, read_universal, scale_parameters,
-    write_universal,
+    Fit, FittedMode, MeasuredResponse, ModePair, Motion, Parameter, Scaled, ShapedMode,
+    UniversalFile, fit_modes, modal_assurance, pair_modes, read_columns, read_universal,
+    scale_parameters, write_universal,
 };
 pub use response::{FeedFrame, Mode, ToolResponse};
 pub use stability::{Crossing, Instability, Multiplier, Regeneration, SpeedStability};

@@ -74,7 +74,7 @@ impl LobeRequest {
         if self.up_to <= 0.0 {
             return setting("largest depth", "0 m".into(), "a depth above 0");
         }
-        if self.refinements > 12 || !(self.fast > 0.0) {
+        if self.refinements > 12 || self.fast.is_nan() || self.fast <= 0.0 {
             let found = format!("{} times, by {}", self.refinements, self.fast);
             return setting(
                 "refinement of lobes",
@@ -169,7 +169,8 @@ fn changes_fast(a: &LobePoint, b: &LobePoint, request: &LobeRequest) -> bool {
     if a.crossings.len() != b.crossings.len() {
         return true;
     }
-    a.crossings.iter().zip(&b.crossings).any(|(a, b)| {
-        a.kind != b.kind || (a.depth / b.depth).ln().abs() > request.fast
-    })
+    a.crossings
+        .iter()
+        .zip(&b.crossings)
+        .any(|(a, b)| a.kind != b.kind || (a.depth / b.depth).ln().abs() > request.fast)
 }

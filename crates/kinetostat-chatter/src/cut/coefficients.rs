@@ -53,10 +53,7 @@ impl Coefficients {
             true,
             "N/m^2",
         )?;
-        for (quantity, value) in [
-            ("radial coefficient", radial),
-            ("axial coefficient", axial),
-        ] {
+        for (quantity, value) in [("radial coefficient", radial), ("axial coefficient", axial)] {
             if !value.is_finite() {
                 let expected = "a finite number, N/m^2";
                 return Err(ChatterError::new(kind, quantity, value, expected));
@@ -82,11 +79,8 @@ impl Coefficients {
     /// # Errors
     /// As [`Self::new`]; ratios above 5 in size, which no material has.
     pub fn with_ratios(tangential: f64, radial: f64, axial: f64) -> Result<Self> {
-        for (quantity, ratio) in [
-            ("radial ratio Kr/Kt", radial),
-            ("axial ratio Ka/Kt", axial),
-        ] {
-            if !(ratio.abs() <= 5.0) {
+        for (quantity, ratio) in [("radial ratio Kr/Kt", radial), ("axial ratio Ka/Kt", axial)] {
+            if ratio.is_nan() || ratio.abs() > 5.0 {
                 let expected = "a ratio, at most 5 in size (or N/m^2 under that name)";
                 return Err(ChatterError::new(
                     ChatterErrorKind::Cut,

@@ -54,7 +54,7 @@ impl MillingCut {
     pub fn with_helix(mut self, helix: f64, diameter: f64) -> Result<Self> {
         let kind = ChatterErrorKind::Cut;
         above(kind, "diameter", diameter, 0.0, true, "m")?;
-        if !(helix.to_degrees().abs() <= 70.0) {
+        if helix.is_nan() || helix.to_degrees().abs() > 70.0 {
             return Err(ChatterError::new(
                 kind,
                 "helix",

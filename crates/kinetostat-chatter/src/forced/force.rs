@@ -54,12 +54,7 @@ impl PeriodicForce {
         let kind = ChatterErrorKind::Setting;
         if per_revolution == 0 {
             let expected = "at least one";
-            return Err(ChatterError::new(
-                kind,
-                "periods a revolution",
-                0,
-                expected,
-            ));
+            return Err(ChatterError::new(kind, "periods a revolution", 0, expected));
         }
         if samples.len() <= 2 * harmonics {
             return Err(ChatterError::new(

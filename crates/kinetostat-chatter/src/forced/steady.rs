@@ -93,7 +93,7 @@ impl Regeneration {
         let steps: Vec<f64> = (0..teeth)
             .map(|j| stands_out[j] - stands_out[(j + 1) % teeth])
             .collect();
-        if let Some(step) = steps.iter().find(|step| !(step.abs() <= feed)) {
+        if let Some(step) = steps.iter().find(|step| step.is_nan() || step.abs() > feed) {
             return Err(ChatterError::new(
                 kind,
                 "run-out",

@@ -136,10 +136,13 @@ fn directions(name: &str) -> (i32, i32) {
 fn columns(names: &[String], frequency: usize, head: usize) -> Result<Vec<Columns>> {
     let mut all = Vec::new();
     let other = |wanted: String, of: &str| {
-        names.iter().position(|name| *name == wanted).ok_or_else(|| {
-            let expected = format!("{wanted} beside it");
-            fault(head, of, "alone", &expected)
-        })
+        names
+            .iter()
+            .position(|name| *name == wanted)
+            .ok_or_else(|| {
+                let expected = format!("{wanted} beside it");
+                fault(head, of, "alone", &expected)
+            })
     };
     for (first, name) in names.iter().enumerate() {
         if first == frequency || name.ends_with("_phase_deg") {
@@ -152,9 +155,17 @@ fn columns(names: &[String], frequency: usize, head: usize) -> Result<Vec<Column
         };
         let stem = &name[..name.len() - unit.len()];
         let (name, parts, second) = if let Some(stem) = stem.strip_suffix("_re") {
-            (stem, Parts::Cartesian, other(format!("{stem}_im{unit}"), name)?)
+            (
+                stem,
+                Parts::Cartesian,
+                other(format!("{stem}_im{unit}"), name)?,
+            )
         } else if let Some(stem) = stem.strip_suffix("_mag") {
-            (stem, Parts::Polar, other(format!("{stem}_phase_deg"), name)?)
+            (
+                stem,
+                Parts::Polar,
+                other(format!("{stem}_phase_deg"), name)?,
+            )
         } else if let Some(stem) = stem.strip_suffix("_im") {
             other(format!("{stem}_re{unit}"), name)?;
             continue;
@@ -172,7 +183,12 @@ fn columns(names: &[String], frequency: usize, head: usize) -> Result<Vec<Column
         });
     }
     match all.is_empty() {
-        true => Err(fault(head, "columns", "a frequency alone", "at least one response")),
+        true => Err(fault(
+            head,
+            "columns",
+            "a frequency alone",
+            "at least one response",
+        )),
         false => Ok(all),
     }
 }

@@ -47,7 +47,10 @@ pub fn modal_assurance(a: &[f64], b: &[f64]) -> Result<f64> {
     let sizes = dot(a, a) * dot(b, b);
     match sizes > 0.0 && sizes.is_finite() {
         true => Ok(dot(a, b).powi(2) / sizes),
-        false => Err(fault("a shape without motion".into(), "finite shapes that move")),
+        false => Err(fault(
+            "a shape without motion".into(),
+            "finite shapes that move",
+        )),
     }
 }
 
@@ -59,7 +62,10 @@ pub fn modal_assurance(a: &[f64], b: &[f64]) -> Result<f64> {
 /// # Errors
 /// Those of [`modal_assurance`]; a frequency that is not positive.
 pub fn pair_modes(measured: &[ShapedMode], model: &[ShapedMode]) -> Result<Vec<ModePair>> {
-    let odd = measured.iter().chain(model).find(|m| !(m.frequency_hz > 0.0));
+    let odd = measured
+        .iter()
+        .chain(model)
+        .find(|m| m.frequency_hz.is_nan() || m.frequency_hz <= 0.0);
     if let Some(mode) = odd {
         return Err(ChatterError::new(
             ChatterErrorKind::Measurement,

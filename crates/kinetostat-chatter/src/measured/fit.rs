@@ -119,7 +119,11 @@ fn table(
     }
     if !(low >= 0.0 && high > low) {
         let found = format!("{low} to {high} Hz");
-        return Err(fault("band", found, "two frequencies, the second above the first"));
+        return Err(fault(
+            "band",
+            found,
+            "two frequencies, the second above the first",
+        ));
     }
     let mut columns = Vec::new();
     let mut frequencies: Vec<f64> = Vec::new();
@@ -187,8 +191,10 @@ fn constants(frequencies: &[f64], curves: &DMatrix<Complex64>, poles: &[Complex6
         true => curves[(i, o)].re,
         false => curves[(i - n, o)].im,
     });
-    let svd = matrix.clone().svd(true, true);
-    let mut solution = svd.solve(&right, 1e-13).ok()?;
+    let factored = matrix.clone().qr();
+    let mut solution = factored
+        .r()
+        .solve_upper_triangular(&(factored.q().transpose() * &right))?;
     let left = &right - &matrix * &solution;
     for (k, length) in lengths.iter().enumerate() {
         solution.row_mut(k).unscale_mut(*length);

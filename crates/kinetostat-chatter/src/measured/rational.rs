@@ -24,7 +24,11 @@ impl Orthogonal {
         let n = frequencies.len();
         let mut values = DMatrix::from_element(n, degree + 1, Complex64::default());
         let norm = |column: &DVector<Complex64>| {
-            let sum: f64 = column.iter().zip(weights).map(|(v, w)| w * v.norm_sqr()).sum();
+            let sum: f64 = column
+                .iter()
+                .zip(weights)
+                .map(|(v, w)| w * v.norm_sqr())
+                .sum();
             sum.sqrt()
         };
         let mut last = DVector::from_element(n, Complex64::default());
@@ -97,7 +101,9 @@ pub(crate) fn poles(
     let order = 2 * modes;
     let above = order + extra;
     let n = frequencies.len();
-    let sizes: Vec<f64> = (0..curves.ncols()).map(|o| curves.column(o).norm()).collect();
+    let sizes: Vec<f64> = (0..curves.ncols())
+        .map(|o| curves.column(o).norm())
+        .collect();
     let mut weights = vec![1.0; n];
     let mut found = None;
     for _ in 0..ROUNDS {
@@ -108,7 +114,7 @@ pub(crate) fn poles(
         let mut rows = DMatrix::zeros(2 * n * curves.ncols(), order + 1);
         for o in 0..curves.ncols() {
             let size = sizes[o];
-            if !(size > 0.0) {
+            if size.is_nan() || size <= 0.0 {
                 continue;
             }
             let product = real(&DMatrix::from_fn(n, order + 1, |i, k| {
@@ -116,17 +122,18 @@ pub(crate) fn poles(
             }));
             // What no numerator can follow.
             let rest = &product - &q * (q.transpose() * &product);
-            rows.view_mut((2 * n * o, 0), (2 * n, order + 1)).copy_from(&rest);
+            rows.view_mut((2 * n * o, 0), (2 * n, order + 1))
+                .copy_from(&rest);
         }
         // The coefficients of length 1 that leave least.
-        let svd = (rows.transpose() * rows).symmetric_eigen();
-        let least = svd
+        let squares = (rows.transpose() * rows).symmetric_eigen();
+        let least = squares
             .eigenvalues
             .iter()
             .enumerate()
             .min_by(|a, b| a.1.total_cmp(b.1))?
             .0;
-        let coefficients: Vec<f64> = svd.eigenvectors.column(least).iter().copied().collect();
+        let coefficients: Vec<f64> = squares.eigenvectors.column(least).iter().copied().collect();
         if !coefficients.iter().all(|c| c.is_finite()) || coefficients[order] == 0.0 {
             return found;
         }
@@ -139,7 +146,7 @@ pub(crate) fn poles(
             *weight = value.norm_sqr().recip();
             most = crate::number::larger(most, *weight);
         }
-        if !(most > 0.0 && most.is_finite()) {
+        if most.is_nan() || most <= 0.0 || most.is_infinite() {
             return found;
         }
         for weight in &mut weights {

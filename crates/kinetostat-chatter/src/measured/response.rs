@@ -37,7 +37,12 @@ impl MeasuredResponse {
     ///
     /// # Errors
     /// A direction above 2.
-    pub fn of_model(tool: &ToolResponse, i: usize, j: usize, frequencies_hz: &[f64]) -> Result<Self> {
+    pub fn of_model(
+        tool: &ToolResponse,
+        i: usize,
+        j: usize,
+        frequencies_hz: &[f64],
+    ) -> Result<Self> {
         if i > 2 || j > 2 {
             return Err(ChatterError::new(
                 ChatterErrorKind::Setting,
@@ -86,11 +91,18 @@ impl MeasuredResponse {
         }
         let rising = self.frequencies_hz.windows(2).all(|pair| pair[1] > pair[0]);
         let first = self.frequencies_hz[0];
-        if !rising || !(first >= 0.0) || !self.frequencies_hz.iter().all(|f| f.is_finite()) {
+        if !rising
+            || first.is_nan()
+            || first < 0.0
+            || !self.frequencies_hz.iter().all(|f| f.is_finite())
+        {
             let found = format!("from {first} Hz, not rising or not finite");
             return fault("frequencies", found, "rising from 0 Hz or above");
         }
-        let odd = self.values.iter().position(|v| !(v.re.is_finite() && v.im.is_finite()));
+        let odd = self
+            .values
+            .iter()
+            .position(|v| !(v.re.is_finite() && v.im.is_finite()));
         if let Some(at) = odd {
             let found = format!("no finite number at {} Hz", self.frequencies_hz[at]);
             return fault("response", found, "finite numbers");

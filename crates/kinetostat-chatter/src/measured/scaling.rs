@@ -93,7 +93,10 @@ pub fn scale_parameters(
         Ok(DVector::from_iterator(measured.len(), each))
     };
     let n = parameters.len();
-    let bounds: Vec<(f64, f64)> = parameters.iter().map(|p| (p.least.ln(), p.most.ln())).collect();
+    let bounds: Vec<(f64, f64)> = parameters
+        .iter()
+        .map(|p| (p.least.ln(), p.most.ln()))
+        .collect();
     let mut logs = DVector::from_iterator(n, parameters.iter().map(|p| p.start.ln()));
     let mut left = left_at(&logs)?;
     let mut damping = 1e-3;
@@ -212,7 +215,11 @@ fn check(parameters: &[Parameter], measured: &[(f64, f64)]) -> Result<()> {
         return Err(ChatterError::new(
             kind,
             "scaling",
-            format!("{} parameters, {} numbers", parameters.len(), measured.len()),
+            format!(
+                "{} parameters, {} numbers",
+                parameters.len(),
+                measured.len()
+            ),
             "at least one of each",
         ));
     }
@@ -220,17 +227,39 @@ fn check(parameters: &[Parameter], measured: &[(f64, f64)]) -> Result<()> {
         if !(p.least > 0.0 && p.least < p.most && p.most.is_finite()) {
             let found = format!("{} to {}", p.least, p.most);
             let expected = "positive ones, the second above the first";
-            return Err(ChatterError::new(kind, format!("bounds of {}", p.name), found, expected));
+            return Err(ChatterError::new(
+                kind,
+                format!("bounds of {}", p.name),
+                found,
+                expected,
+            ));
         }
         if !(p.least..=p.most).contains(&p.start) {
             let expected = format!("{} to {}, its bounds", p.least, p.most);
-            return Err(ChatterError::new(kind, format!("start of {}", p.name), p.start, expected));
+            return Err(ChatterError::new(
+                kind,
+                format!("start of {}", p.name),
+                p.start,
+                expected,
+            ));
         }
     }
     for (value, deviation) in measured {
-        above(kind, "standard deviation of a measured number", *deviation, 0.0, true, "")?;
+        above(
+            kind,
+            "standard deviation of a measured number",
+            *deviation,
+            0.0,
+            true,
+            "",
+        )?;
         if !value.is_finite() {
-            return Err(ChatterError::new(kind, "measured number", value, "a finite one"));
+            return Err(ChatterError::new(
+                kind,
+                "measured number",
+                value,
+                "a finite one",
+            ));
         }
     }
     Ok(())

@@ -46,7 +46,12 @@ pub fn read_universal(text: &str) -> Result<UniversalFile> {
                 continue;
             }
             let shown: String = line.chars().take(40).collect();
-            return Err(fault(start, "universal file", shown, "-1, which begins a data set"));
+            return Err(fault(
+                start,
+                "universal file",
+                shown,
+                "-1, which begins a data set",
+            ));
         }
         let Some((at, number)) = lines.next() else {
             break;
@@ -61,7 +66,12 @@ pub fn read_universal(text: &str) -> Result<UniversalFile> {
             body.push((i, line));
         }
         if !closed {
-            return Err(fault(start, "data set", "no end", "-1 alone in a line at its end"));
+            return Err(fault(
+                start,
+                "data set",
+                "no end",
+                "-1 alone in a line at its end",
+            ));
         }
         sets += 1;
         match number.trim() {
@@ -148,12 +158,19 @@ fn function(
 ) -> Result<std::result::Result<MeasuredResponse, String>> {
     if body.len() < 11 {
         let found = format!("{} lines", body.len());
-        return Err(fault(at, "data set 58", found, "eleven lines before its numbers"));
+        return Err(fault(
+            at,
+            "data set 58",
+            found,
+            "eleven lines before its numbers",
+        ));
     }
     let place = body[5];
     let kind = integer(place, 0, 5, "function type")?;
     if kind != 4 {
-        return Ok(Err(format!("function of type {kind}, no frequency response (4)")));
+        return Ok(Err(format!(
+            "function of type {kind}, no frequency response (4)"
+        )));
     }
     let form = numbers(body[6].1, 10).filter(|form| form.len() >= 5);
     let form = form.ok_or_else(|| {
@@ -166,9 +183,7 @@ fn function(
         return Err(fault(line.0, "abscissa", abscissa, "18, a frequency, Hz"));
     }
     let (motion, size, stated) = unit(body, units)?;
-    let direction = |from, to| -> Result<i32> {
-        Ok(integer(place, from, to, "direction")? as i32)
-    };
+    let direction = |from, to| -> Result<i32> { Ok(integer(place, from, to, "direction")? as i32) };
     let name = [body[0].1, body[1].1].map(str::trim);
     let response = MeasuredResponse {
         name: name[0].to_owned(),
@@ -199,7 +214,12 @@ fn unit(body: &[Line<'_>], units: Option<[f64; 2]>) -> Result<(Motion, f64, bool
         }
     };
     if !matches!(denominator, 0 | 1 | 9 | 13) {
-        return Err(fault(below.0, "denominator", denominator, "9 or 13, a force"));
+        return Err(fault(
+            below.0,
+            "denominator",
+            denominator,
+            "9 or 13, a force",
+        ));
     }
     let written = motion_unit(moved);
     if let (Some(motion), Some((other, _))) = (motion, written)
@@ -238,8 +258,13 @@ fn points(body: &[Line<'_>], form: &[f64]) -> Result<(Vec<f64>, Vec<Complex<f64>
         1 => true,
         other => return Err(fault(line, "spacing", other, "0 (uneven) or 1 (even)")),
     };
-    if even && !(form[4] > 0.0) {
-        return Err(fault(line, "step of the abscissa", form[4], "a positive one"));
+    if even && (form[4].is_nan() || form[4] <= 0.0) {
+        return Err(fault(
+            line,
+            "step of the abscissa",
+            form[4],
+            "a positive one",
+        ));
     }
     let each = usize::from(!even) + 1 + usize::from(complex);
     let width = if double && even { 20 } else { 13 };
@@ -290,7 +315,11 @@ fn mixed(text: &str, double: bool, even: bool, complex: bool) -> Option<Vec<f64>
         if at >= text.trim_end().len() {
             return Some(all);
         }
-        all.push(numbers(column(text, at, at + width), 20)?.first().copied()?);
+        all.push(
+            numbers(column(text, at, at + width), 20)?
+                .first()
+                .copied()?,
+        );
         at += width;
     }
     None

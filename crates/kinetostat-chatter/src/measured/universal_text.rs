@@ -42,7 +42,9 @@ fn number(value: f64, decimals: usize) -> String {
 
 /// A text in a column of 80: one line, no control characters.
 fn plain(text: &str) -> String {
-    let kept = text.chars().map(|c| if c.is_ascii_graphic() { c } else { ' ' });
+    let kept = text
+        .chars()
+        .map(|c| if c.is_ascii_graphic() { c } else { ' ' });
     let kept: String = kept.take(80).collect();
     match kept.trim() {
         "" => "NONE".into(),

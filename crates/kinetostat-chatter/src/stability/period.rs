@@ -155,7 +155,9 @@ fn points(states: &[State], duration: f64, turn: f64, fineness: f64) -> Result<u
         false => Err(ChatterError::new(
             ChatterErrorKind::Setting,
             "mode against spindle speed",
-            format!("a mode at {fastest:.0} Hz vibrates {cycles:.0} times while a tooth is in the cut"),
+            format!(
+                "a mode at {fastest:.0} Hz vibrates {cycles:.0} times while a tooth is in the cut"
+            ),
             "at most about 75 times: take faster modes as springs (ToolResponse::with_modes_up_to), or a higher speed",
         )),
     }

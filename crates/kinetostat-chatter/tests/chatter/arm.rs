@@ -1,10 +1,14 @@
 //! The six-axis arm of the reference values, section D3: its modes from the printed mass and stiffness, its Jacobian from the
 //! table of joints.
 
-use kinetostat_chatter::{FeedFrame, Instability, Milled, Mode, Regeneration, ToolResponse, zeroth_order};
 use kinetostat_chatter::{Arc, Coefficients, MillingCut};
+use kinetostat_chatter::{
+    FeedFrame, Instability, Milled, Mode, Regeneration, ToolResponse, zeroth_order,
+};
 use kinetostat_testing::Worst;
-use nalgebra::{Cholesky, Matrix3, Matrix3x6, Matrix6, Rotation3, SymmetricEigen, Unit, Vector3, Vector6};
+use nalgebra::{
+    Cholesky, Matrix3, Matrix3x6, Matrix6, Rotation3, SymmetricEigen, Unit, Vector3, Vector6,
+};
 
 const JOINTS: [([f64; 3], [f64; 3]); 6] = [
     ([0.0, 0.0, 0.4], [0.0, 0.0, 1.0]),
@@ -16,7 +20,14 @@ const JOINTS: [([f64; 3], [f64; 3]); 6] = [
 ];
 
 fn jacobian() -> Matrix3x6<f64> {
-    let x = [0.2, 0.3509565672, -0.0991920064, 0.2999524539, 0.9000305944, -0.4000291345];
+    let x = [
+        0.2,
+        0.3509565672,
+        -0.0991920064,
+        0.2999524539,
+        0.9000305944,
+        -0.4000291345,
+    ];
     let (mut rotation, mut place) = (Rotation3::identity(), Vector3::zeros());
     let mut axes = Vec::new();
     for ((offset, axis), angle) in JOINTS.into_iter().zip(x) {
@@ -67,7 +78,12 @@ pub fn arm() -> ToolResponse {
 pub fn in_plane(tool: &ToolResponse) -> ToolResponse {
     let flat = Matrix3::from_diagonal(&Vector3::new(1.0, 1.0, 0.0));
     let modes = tool.modes().iter().map(|mode| {
-        Mode::new(flat * mode.shape(), mode.angular_frequency().powi(2), mode.damping_ratio()).unwrap()
+        Mode::new(
+            flat * mode.shape(),
+            mode.angular_frequency().powi(2),
+            mode.damping_ratio(),
+        )
+        .unwrap()
     });
     ToolResponse::new(modes.collect()).unwrap()
 }
@@ -88,7 +104,9 @@ fn modes_and_receptance_as_printed() {
     let mut frequencies: Vec<f64> = arm.modes().iter().map(Mode::frequency_hz).collect();
     frequencies.sort_by(f64::total_cmp);
     let mut worst = Worst::new();
-    let printed = [9.98746752, 11.5425353, 23.2012812, 49.0179614, 53.7168096, 126.52171];
+    let printed = [
+        9.98746752, 11.5425353, 23.2012812, 49.0179614, 53.7168096, 126.52171,
+    ];
     for (found, expected) in frequencies.iter().zip(printed) {
         worst.add(found / expected - 1.0);
     }
@@ -117,8 +135,12 @@ fn zeroth_order_over_the_feed_direction() {
         (120.0, 0.516007, 51.99052),
         (150.0, 0.690314, 51.88575),
     ] {
-        let found = zeroth_order::limit(&fed_at(angle), 3000.0).unwrap().unwrap();
-        worst.add_at(1e3 * found.depth / depth - 1.0, || format!("{angle}: {found:?}"));
+        let found = zeroth_order::limit(&fed_at(angle), 3000.0)
+            .unwrap()
+            .unwrap();
+        worst.add_at(1e3 * found.depth / depth - 1.0, || {
+            format!("{angle}: {found:?}")
+        });
         worst.add(found.frequency_hz / frequency - 1.0);
     }
     assert!(worst.of(12) < 1e-6, "{worst}");
@@ -139,9 +161,13 @@ fn exact_limits_over_the_speed() {
     ] {
         let found = arm.stability_at(speed, 4e-3).unwrap();
         let limit = found.limit().copied().unwrap();
-        exact.add_at(1e3 * limit.depth / printed - 1.0, || format!("{speed}: {limit:?}"));
+        exact.add_at(1e3 * limit.depth / printed - 1.0, || {
+            format!("{speed}: {limit:?}")
+        });
         let of_zeroth = zeroth_order::limit(&arm, speed).unwrap().unwrap();
-        zeroth.add_at(1e3 * of_zeroth.depth / printed_zeroth - 1.0, || format!("{speed}: {of_zeroth:?}"));
+        zeroth.add_at(1e3 * of_zeroth.depth / printed_zeroth - 1.0, || {
+            format!("{speed}: {of_zeroth:?}")
+        });
         if speed == 3000.0 {
             // Trap 2: the zeroth order would call twice the true limit safe; it flips, at half the tooth frequency.
             assert_eq!(limit.kind, Instability::Flip);

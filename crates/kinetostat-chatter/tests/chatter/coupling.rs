@@ -22,7 +22,13 @@ const TABLE: [(f64, f64, f64, f64); 4] = [
 
 fn tool(damping: f64, k: [f64; 2]) -> ToolResponse {
     let mode = |direction, k: f64| {
-        Mode::along(direction, MASS, (k / MASS).sqrt() / std::f64::consts::TAU, damping).unwrap()
+        Mode::along(
+            direction,
+            MASS,
+            (k / MASS).sqrt() / std::f64::consts::TAU,
+            damping,
+        )
+        .unwrap()
     };
     ToolResponse::new(vec![mode(X, k[0]), mode(Y, k[1])]).unwrap()
 }
@@ -38,7 +44,9 @@ fn thresholds_of_the_table() {
     for (chip, force, closed, with_damping) in TABLE {
         let found = two_axis_limit(K[0], K[1], chip.to_radians(), force.to_radians());
         undamped.add(found.unwrap().unwrap() / closed - 1.0);
-        let found = coupled_limit(&tool(0.02, K), &process(chip, force)).unwrap().unwrap();
+        let found = coupled_limit(&tool(0.02, K), &process(chip, force))
+            .unwrap()
+            .unwrap();
         assert_eq!(found.kind, Coupled::Flutter);
         damped.add(found.factor / with_damping - 1.0);
         // On either side, by eigenvalues.
@@ -51,13 +59,18 @@ fn thresholds_of_the_table() {
     assert!(damped.of(4) < 1e-8, "{damped}");
     let (a, b) = (45_f64.to_radians(), 10_f64.to_radians());
     assert_eq!(two_axis_limit(K[0], K[1], a, b).unwrap(), None);
-    assert_eq!(coupled_limit(&tool(0.02, K), &process(45.0, 10.0)).unwrap(), None);
+    assert_eq!(
+        coupled_limit(&tool(0.02, K), &process(45.0, 10.0)).unwrap(),
+        None
+    );
 }
 
 #[test]
 fn a_process_that_pulls_is_a_static_loss() {
     // Force along the displacement: a negative spring of 1e6 N/m.
-    let found = coupled_limit(&tool(0.02, K), &process(0.0, 180.0)).unwrap().unwrap();
+    let found = coupled_limit(&tool(0.02, K), &process(0.0, 180.0))
+        .unwrap()
+        .unwrap();
     assert_eq!(found.kind, Coupled::StaticLoss);
     assert!((found.factor / 1e6 - 1.0).abs() < 1e-9, "{found:?}");
 }
@@ -74,7 +87,10 @@ fn residual_flexibility_counts() {
     let few = all.with_modes_up_to(100.0).unwrap();
     let bare = few.clone().with_residual(Matrix3::zeros()).unwrap();
     let limit = |tool: &ToolResponse| {
-        coupled_limit(tool, &process(60.0, -20.0)).unwrap().unwrap().factor
+        coupled_limit(tool, &process(60.0, -20.0))
+            .unwrap()
+            .unwrap()
+            .factor
     };
     let (exact, with, without) = (limit(&all), limit(&few), limit(&bare));
     assert!((with / exact - 1.0).abs() < 1e-3, "{exact} {with}");

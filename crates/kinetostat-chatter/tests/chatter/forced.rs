@@ -2,7 +2,9 @@
 
 use std::f64::consts::TAU;
 
-use kinetostat_chatter::{Arc, Coefficients, Milled, MillingCut, PeriodicForce, ToolResponse, Vibration};
+use kinetostat_chatter::{
+    Arc, Coefficients, Milled, MillingCut, PeriodicForce, ToolResponse, Vibration,
+};
 use kinetostat_cutting::{Engagement, Feed, Linear, Milling, Shape, Side, Tool, Wall};
 use kinetostat_testing::Worst;
 use nalgebra::{Matrix3, Vector3};
@@ -12,7 +14,14 @@ use crate::support::{aluminium, arc, cut, one_direction, regeneration, two_modes
 const FEED: f64 = 1e-4;
 
 /// Force of one straight tooth of `teeth` on a half-immersion up cut, written down here again, N.
-fn tooth_force(turn: f64, tooth: usize, teeth: usize, depth: f64, k: [f64; 2], chip: impl Fn(f64, f64) -> f64) -> Vector3<f64> {
+fn tooth_force(
+    turn: f64,
+    tooth: usize,
+    teeth: usize,
+    depth: f64,
+    k: [f64; 2],
+    chip: impl Fn(f64, f64) -> f64,
+) -> Vector3<f64> {
     let phi = (turn + TAU * tooth as f64 / teeth as f64).rem_euclid(TAU);
     if phi >= 0.5 * std::f64::consts::PI {
         return Vector3::zeros();
@@ -23,7 +32,14 @@ fn tooth_force(turn: f64, tooth: usize, teeth: usize, depth: f64, k: [f64; 2], c
 }
 
 /// Steady displacement over a revolution by small steps of the modes, chips with or without the tool's own motion.
-fn stepped(tool: &ToolResponse, speed: f64, depth: f64, stands_out: [f64; 2], regenerates: bool, revolutions: usize) -> Vec<Vector3<f64>> {
+fn stepped(
+    tool: &ToolResponse,
+    speed: f64,
+    depth: f64,
+    stands_out: [f64; 2],
+    regenerates: bool,
+    revolutions: usize,
+) -> Vec<Vector3<f64>> {
     let per_tooth = 4000;
     let step = 30.0 / speed / per_tooth as f64;
     let mut modes = vec![(0.0_f64, 0.0_f64); tool.modes().len()];
@@ -32,18 +48,33 @@ fn stepped(tool: &ToolResponse, speed: f64, depth: f64, stands_out: [f64; 2], re
         let at = i % (2 * per_tooth);
         let turn = TAU * (at as f64 + 0.5) / (2 * per_tooth) as f64;
         let place = |modes: &[(f64, f64)]| {
-            tool.modes().iter().zip(modes).fold(Vector3::zeros(), |sum, (mode, (q, _))| sum + mode.shape() * *q)
+            tool.modes()
+                .iter()
+                .zip(modes)
+                .fold(Vector3::zeros(), |sum, (mode, (q, _))| {
+                    sum + mode.shape() * *q
+                })
         };
         let before = track[(at + per_tooth) % (2 * per_tooth)];
         let now = place(&modes);
         // Mid-step displacement by the velocity.
-        let speed_now = tool.modes().iter().zip(&modes).fold(Vector3::zeros(), |sum, (mode, (_, v))| sum + mode.shape() * *v);
+        let speed_now = tool
+            .modes()
+            .iter()
+            .zip(&modes)
+            .fold(Vector3::zeros(), |sum, (mode, (_, v))| {
+                sum + mode.shape() * *v
+            });
         let middle = now + speed_now * (0.5 * step);
         let mut force = Vector3::zeros();
         for j in 0..2 {
             force += tooth_force(turn, j, 2, depth, [6e8, 2e8], |s, c| {
                 let n = Vector3::new(s, c, 0.0);
-                let regenerated = if regenerates { n.dot(&(middle - before)) } else { 0.0 };
+                let regenerated = if regenerates {
+                    n.dot(&(middle - before))
+                } else {
+                    0.0
+                };
                 FEED * s + regenerated + stands_out[j] - stands_out[1 - j]
             });
         }
@@ -123,9 +154,15 @@ fn a_stiff_tool_leaves_the_static_surface() {
     // Far below all modes the tool follows the force: the wall shows the deflection at the moment a tooth makes it.
     let compliance = Matrix3::new(2e-7, 3e-8, 0.0, 3e-8, 4e-7, 1e-8, 0.0, 1e-8, 1e-7);
     let stiff = one_direction().with_static_compliance(compliance).unwrap();
-    let tool = Tool::new(Shape::Flat, 12.0, 4).unwrap().with_helix(38_f64.to_radians()).unwrap();
+    let tool = Tool::new(Shape::Flat, 12.0, 4)
+        .unwrap()
+        .with_helix(38_f64.to_radians())
+        .unwrap();
     let law = Linear::new([796.0, 168.0, 222.0], [27.7, 30.8, 1.4]).unwrap();
-    for (side, wall, milled) in [(Side::Right, Wall::Right, Milled::Down), (Side::Left, Wall::Left, Milled::Up)] {
+    for (side, wall, milled) in [
+        (Side::Right, Wall::Right, Milled::Down),
+        (Side::Left, Wall::Left, Milled::Up),
+    ] {
         let engagement = Engagement::straight(6.0, 4.0, 8.0, side).unwrap();
         let milling = Milling::new(&tool, &law, &engagement, Feed::level(0.1).unwrap());
         let force = PeriodicForce::of_revolution(&milling.revolution(), 600).unwrap();

@@ -1,6 +1,8 @@
 //! The zeroth-order approximation against the reference values, section D5.
 
-use kinetostat_chatter::{Coefficients, Mode, Regeneration, ToolResponse, TurningCut, zeroth_order};
+use kinetostat_chatter::{
+    Coefficients, Mode, Regeneration, ToolResponse, TurningCut, zeroth_order,
+};
 use kinetostat_testing::Worst;
 
 use crate::support::{
@@ -21,7 +23,9 @@ fn limits_as_printed() {
     let mut worst = Worst::new();
     let mut compare = |tool: &Regeneration, speed: f64, expected: f64, name: &str| {
         let (found, _) = limit(tool, speed);
-        worst.add_at((found - expected) / 1e-6, || format!("{name} {speed}: {found} {expected}"));
+        worst.add_at((found - expected) / 1e-6, || {
+            format!("{name} {speed}: {found} {expected}")
+        });
     };
     for (name, immersion, _, printed) in ONE_DIRECTION {
         let tool = regeneration(one_direction(), cut(2, arc(name, immersion), aluminium()));

@@ -33,6 +33,8 @@ pub(crate) struct Look<'a> {
     pub(crate) shape: bool,
     /// Values of the horizontal and of the vertical axis are decimal logarithms.
     pub(crate) decades: [bool; 2],
+    /// The horizontal axis begins where the data do, not at zero.
+    pub(crate) tight: bool,
     /// Corners of shaded areas, below all lines; together they are one.
     pub(crate) areas: &'a [Vec<(f64, f64)>],
 }
@@ -142,7 +144,7 @@ impl Plot {
         let x = Span::of(points().map(|p| p.0))?;
         let y = Span::of(points().map(|p| p.1))?;
         // Zero is no value of a logarithm to begin at.
-        let begun = |span: Span, decades: bool| match decades {
+        let begun = |span: Span, as_it_is: bool| match as_it_is {
             true => span.widened(),
             false => span.with_near_zero().widened(),
         };
@@ -155,7 +157,7 @@ impl Plot {
             (wide(x).widened(), wide(y).widened())
         } else {
             (
-                beyond(begun(x, look.decades[0])),
+                beyond(begun(x, look.decades[0] || look.tight)),
                 begun(y, look.decades[1]).padded(0.05, 0.05),
             )
         })
@@ -219,7 +221,12 @@ impl Plot {
         }
         let x = Scale::new(x_span, frame.x, frame.right());
         let y = Scale::new(y_span, frame.bottom(), frame.y);
-        self.draw_axes(&mut svg, frame, (&x, &y), [look.ticks(0, x_span, 8), y_ticks]);
+        self.draw_axes(
+            &mut svg,
+            frame,
+            (&x, &y),
+            [look.ticks(0, x_span, 8), y_ticks],
+        );
         let pixel = |p: &(f64, f64)| {
             let x = x.at(number::drawable(p.0)?);
             let y = y.at(number::drawable(p.1)?);
@@ -343,10 +350,7 @@ pub(crate) fn stacked(plots: &[(&Plot, Look<'_>)], style: &str) -> String {
 }
 
 /// Path data of areas as one.
-fn polygons(
-    areas: &[Vec<(f64, f64)>],
-    at: impl Fn(&(f64, f64)) -> Option<(f64, f64)>,
-) -> String {
+fn polygons(areas: &[Vec<(f64, f64)>], at: impl Fn(&(f64, f64)) -> Option<(f64, f64)>) -> String {
     let mut data = String::new();
     for area in areas {
         let corners: Option<Vec<_>> = area.iter().map(&at).collect();

@@ -32,6 +32,7 @@ pub(crate) fn draw(diagram: &LobeDiagram, title: &str) -> String {
     let areas = areas(diagram, depth);
     let look = Look {
         decades: [false, decades],
+        tight: true,
         areas: &areas,
         ..Look::default()
     };

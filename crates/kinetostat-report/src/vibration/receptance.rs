@@ -19,17 +19,18 @@ pub struct ReceptanceCurve {
 
 /// The curves as a document.
 pub(crate) fn draw(curves: &[ReceptanceCurve], title: &str) -> String {
-    let line = |number: usize, curve: &ReceptanceCurve, of: &dyn Fn(&Complex<f64>) -> f64| PlotLine {
-        name: curve.name.clone(),
-        colour: number,
-        dashed: curve.dashed,
-        points: curve
-            .frequencies_hz
-            .iter()
-            .zip(&curve.receptance)
-            .map(|(f, value)| (logarithm(*f), of(value)))
-            .collect(),
-    };
+    let line =
+        |number: usize, curve: &ReceptanceCurve, of: &dyn Fn(&Complex<f64>) -> f64| PlotLine {
+            name: curve.name.clone(),
+            colour: number,
+            dashed: curve.dashed,
+            points: curve
+                .frequencies_hz
+                .iter()
+                .zip(&curve.receptance)
+                .map(|(f, value)| (logarithm(*f), of(value)))
+                .collect(),
+        };
     let all = |of: &dyn Fn(&Complex<f64>) -> f64| -> Vec<PlotLine> {
         let numbered = curves.iter().enumerate();
         numbered.map(|(k, curve)| line(k, curve, of)).collect()

@@ -6,3 +6,4 @@ mod common;
 mod drawing;
 mod report;
 mod turns;
+mod vibration;
