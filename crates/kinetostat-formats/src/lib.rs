@@ -98,6 +98,7 @@ pub use model::frame::{Frame, FrameUse};
 pub use model::joint_arm::{BetweenRows, JointArm, TableArm};
 pub use model::language::Language;
 pub use model::motion::{Motion, MotionKind, Runs, Speed, Zone};
+pub use model::orientation::OrientationText;
 pub use model::program::RobotProgram;
 pub use model::stated_arm::StatedArm;
 pub use model::target::{Configuration, PoseTarget, Target};

@@ -48,7 +48,7 @@ mod trial;
 pub use alignment::{AlignedPoint, Alignment, LeftOut};
 pub use deviation::{
     DeviationFigures, Kernel, MeasureSettings, Measurement, OnLines, Outlier, Smoothed, Stations,
-    Unseen, measure, on_lines,
+    Stretch, Unseen, measure, on_lines,
 };
 pub use error::MirrorError;
 pub use kinetostat_program::{Foot, NominalPath, Pass, WhyLeftOut};

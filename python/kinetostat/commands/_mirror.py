@@ -36,6 +36,10 @@ def mirror(
     machine_zero_mm: Sequence[float] | None = None,
     g28_mm: Sequence[float] | None = None,
     g30_mm: Sequence[float] | None = None,
+    correct: Literal["position", "pose"] | None = None,
+    rapid_from_mm_per_s: float | None = None,
+    tool_axis: Literal["x", "y", "z", "-x", "-y", "-z"] | None = None,
+    joint_rows: Literal["joint", "linear"] | None = None,
     tolerance_um: float | None = None,
     decimals: str | float | None = None,
     out: _Path | None = None,
@@ -53,15 +57,16 @@ def mirror(
     Parameters
     ----------
     program : path
-        The program as it is drawn, the same in every trial: G-code
+        The program as it is drawn, the same in every trial: G-code, or of a robot (`kinetostat
+        dialect list`)
     measured : path | Sequence[path]
         Points measured of the last trial (CSV with x_mm,y_mm,z_mm), or a second program; once for
         each measurement of the same trial
     state : path
         The state of all trials (TOML), read and written; without it this is the only trial
     job : path
-        Job file with a model (TOML): its compensation comes first, and the mirror corrects what is
-        left
+        Job file (TOML): the compensation by its model, if it names one, comes first, and the mirror
+        corrects what is left; its features are told one by one
     relaxation : float
         Share of the deviation that is mirrored, above 0 and below 2 [default: 1]
     smoothing_mm : float
@@ -102,6 +107,16 @@ def mirror(
         Reference point of G28 in machine coordinates, mm (with --machine-zero-mm)
     g30_mm : Sequence[float]
         Reference point of G30 in machine coordinates, mm (with --machine-zero-mm)
+    correct : Literal["position", "pose"]
+        What of the tool's pose is corrected, in programs that state its orientation (of robots, and
+        of machines with rotary axes) [default: position]
+    rapid_from_mm_per_s : float
+        Linear motions at this speed or a higher one position the tool in air, mm/s: no load acts
+        there
+    tool_axis : Literal["x", "y", "z", "-x", "-y", "-z"]
+        Axis of the tool from its tip to its holder, in axes of its frame [default: -z]
+    joint_rows : Literal["joint", "linear"]
+        How the controller moves between the rows of a table of joint values
     tolerance_um : float
         How far the straight pieces may leave the corrected path, micrometres [default: 0.5]
     decimals : str | float
@@ -159,6 +174,10 @@ def mirror(
         ("--machine-zero-mm", machine_zero_mm),
         ("--g28-mm", g28_mm),
         ("--g30-mm", g30_mm),
+        ("--correct", correct),
+        ("--rapid-from-mm-per-s", rapid_from_mm_per_s),
+        ("--tool-axis", tool_axis),
+        ("--joint-rows", joint_rows),
         ("--tolerance-um", tolerance_um),
         ("--decimals", decimals),
         ("--out", out),

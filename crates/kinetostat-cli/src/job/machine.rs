@@ -162,7 +162,9 @@ pub(crate) fn machine_setup(
         run_inputs.cut = cut.iter().flat_map(|cut| cut.words.clone()).collect();
         let log = measured.iter().map(|measured| measured.words());
         run_inputs.cut.extend(log);
-        run_inputs.tool_orientation = orientation::description(&placement.tool_orientation);
+        let own = frames.and_then(|frames| frames.own_angles?.standing());
+        run_inputs.tool_orientation =
+            own.unwrap_or_else(|| orientation::description(&placement.tool_orientation));
         run_inputs.stiffnesses = stiffness_list::stiffnesses(&model);
         run_inputs.files = vec![named.file];
         run_inputs.files.extend(files_of_cut);

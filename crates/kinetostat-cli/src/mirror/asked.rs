@@ -8,6 +8,7 @@ use crate::files::input_files::InputFiles;
 use crate::job::arguments::{ProgramArgs, WritingFlags};
 use crate::job::job_file::JobFile;
 use crate::job::of_model::give_of_model;
+use crate::job::robot_arguments::CorrectWord;
 use crate::job::setting::{Setting, setting};
 use crate::mirror::arguments::MirrorArgs;
 use crate::ui::failure::{Answer, Failure};
@@ -32,6 +33,12 @@ pub(crate) fn asked(
         return Err(setting.within(Failure::input(
             "mirror takes programs without macros and in one piece, so that trials stay comparable: expand the program first (`kinetostat expand`), and mirror the flat one",
         )));
+    }
+    let of_pose = args.robot.correct == Some(CorrectWord::Pose);
+    if of_pose && !names_model(job) {
+        return Err(Failure::input(
+            "--correct pose: measured points correct where the tool is, not how it stands; only a model does that (--job with a model)",
+        ));
     }
     if names_model(job) {
         give_of_model(&mut setting, files, (job, None), &flags)?;

@@ -330,3 +330,160 @@ fn a_second_program_is_a_measurement_too() {
     let shift = &found["measurements"][0]["registration"]["shift_mm"];
     assert!((shift[2].as_f64().unwrap() - 0.02).abs() < 1e-9, "{shift}");
 }
+
+/// A circle of 30 mm in RAPID, with straight ways in and out along its tangent; tool and work object are in the program.
+const RAPID: &str = r#"MODULE Ring
+  PERS tooldata tMill:=[TRUE,[[0,0,180],[1,0,0,0]],[5,[0,0,60],[1,0,0,0],0,0,0]];
+  PERS wobjdata wPart:=[FALSE,TRUE,"",[[1800,0,900],[1,0,0,0]],[[0,0,0],[1,0,0,0]]];
+  PROC main()
+    MoveL [[30,-40,20],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v500,fine,tMill\WObj:=wPart;
+    MoveL [[30,-40,0],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v500,fine,tMill\WObj:=wPart;
+    MoveL [[30,0,0],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v10,fine,tMill\WObj:=wPart;
+    MoveC [[0,30,0],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],[[-30,0,0],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v10,fine,tMill\WObj:=wPart;
+    MoveC [[0,-30,0],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],[[30,0,0],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v10,fine,tMill\WObj:=wPart;
+    MoveL [[30,40,0],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v10,fine,tMill\WObj:=wPart;
+    MoveL [[30,40,20],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v500,fine,tMill\WObj:=wPart;
+  ENDPROC
+ENDMODULE
+"#;
+
+/// The heavy arm with drives and tubes of 70 % of the preset's stiffness.
+fn soft_arm(preset: &str) -> String {
+    let mut changed = 0;
+    let keys = ["stiffness_n_m_per_rad = ", "youngs_modulus_gpa = "];
+    let mut text = preset.to_owned();
+    for key in keys {
+        let mut parts = text.split(key);
+        let mut out = parts.next().unwrap().to_owned();
+        for part in parts {
+            let end = part.find([',', '\n']).unwrap();
+            let value: f64 = part[..end].parse().unwrap();
+            out += &format!("{key}{}{}", 0.7 * value, &part[end..]);
+            changed += 1;
+        }
+        text = out;
+    }
+    assert_eq!(changed, 12, "six drives and six tubes");
+    text
+}
+
+/// A robot's own program and an arm of 70 % of its model's stiffness: model and mirror end below 2 um in three trials.
+#[test]
+fn a_robots_program_with_a_model_thirty_percent_off_ends_below_two_micrometres() {
+    let here = workplace();
+    let put = |name: &str, text: &str| std::fs::write(here.path().join(name), text).unwrap();
+    let preset = run(here.path(), &["model", "show", "heavy_6r"])
+        .answered()
+        .out;
+    put("circle.mod", RAPID);
+    put("soft.toml", &soft_arm(&preset));
+    let job = |model: &str| {
+        format!(
+            "schema = 1\nmodel = \"{model}\"\nprogram = \"circle.mod\"\n[load]\nmilling = {{ radial_n = 215, tangential_n = -10, axial_n = -25 }}\n[robot]\nrapid_from_mm_per_s = 100\n[[features]]\nname = \"ring\"\nlines = [8, 9]\ntolerance_um = 5\n[[features]]\nname = \"way back\"\nlines = [11, 11]\n"
+        )
+    };
+    put("model_job.toml", &job("heavy_6r"));
+    put("soft_job.toml", &job("soft.toml"));
+    let fine = ["--decimals", "5", "--tolerance-um", "0.3"];
+    let mut words = vec!["compensate", "model_job.toml", "--out", "trial1.mod"];
+    words.extend(fine);
+    run(here.path(), &words).answered();
+    let mut errors_um = Vec::new();
+    let mut held = Vec::new();
+    for trial in 1..=3 {
+        let (rows, worst) = simulated(here.path(), &format!("trial{trial}.mod"));
+        errors_um.push(worst);
+        let [measured, next] = [
+            format!("trial{trial}.csv"),
+            format!("trial{}.mod", trial + 1),
+        ];
+        put(&measured, &rows);
+        let mut words = vec![
+            "mirror",
+            "circle.mod",
+            "--measured",
+            &measured,
+            "--job",
+            "model_job.toml",
+            "--state",
+            "state.toml",
+            "--no-register",
+            "--window-mm",
+            "3",
+            "--align",
+            "arc-length",
+            "--out",
+            &next,
+            "--json",
+        ];
+        words.extend(fine);
+        let said = run(here.path(), &words).answered();
+        let found: Value = serde_json::from_str(&said.out).unwrap();
+        let features = &found["measurements"][0]["features"];
+        held.push(features[0]["held"].as_bool().unwrap());
+        // A rapid cuts nothing.
+        assert_eq!(features[1]["length_mm"].as_f64(), Some(0.0));
+        assert!(
+            said.err
+                .contains("way back (lines 11 to 11): no feed move lies there")
+        );
+        let written = std::fs::read_to_string(here.path().join(&next)).unwrap();
+        assert!(written.contains("MODULE Ring") && written.contains("PERS tooldata tMill"));
+    }
+    eprintln!("um off the circle, trial by trial: {errors_um:?}");
+    assert!(errors_um[0] > 50.0, "{errors_um:?}");
+    assert!(errors_um[2] < 2.0, "{errors_um:?}");
+    assert_eq!((held[0], held[2]), (false, true));
+}
+
+/// Features of a job without a model, in KRL: where nothing was measured is said by name.
+#[test]
+fn a_feature_without_a_point_is_named() {
+    let here = workplace();
+    let put = |name: &str, text: &str| std::fs::write(here.path().join(name), text).unwrap();
+    put(
+        "slot.src",
+        "DEF slot()\n$VEL.CP=0.01\nPTP {X 0,Y 0,Z 50,A 0,B 0,C 180}\nLIN {X 0,Y 0,Z 0,A 0,B 0,C 180}\nLIN {X 100,Y 0,Z 0,A 0,B 0,C 180}\nLIN {X 100,Y 80,Z 0,A 0,B 0,C 180}\nEND\n",
+    );
+    put(
+        "job.toml",
+        "schema = 1\nprogram = \"slot.src\"\n[robot]\ntool_axis = \"z\"\n[[features]]\nname = \"long side\"\nlines = [5, 5]\ntolerance_um = 30\n[[features]]\nname = \"short side\"\nlines = [6, 6]\n",
+    );
+    let rows = (0..100).map(|x| format!("{x},0.04,0\n"));
+    let rows: String = std::iter::once("x_mm,y_mm,z_mm\n".to_owned())
+        .chain(rows)
+        .collect();
+    put("trial1.csv", &rows);
+    let words = [
+        "mirror",
+        "slot.src",
+        "--measured",
+        "trial1.csv",
+        "--job",
+        "job.toml",
+        "--no-register",
+        "--out",
+        "next.src",
+    ];
+    let said = run(here.path(), &words).answered();
+    let text = said.out.split_whitespace().collect::<Vec<_>>().join(" ");
+    for needle in [
+        "long side (lines 5 to 5): 100 points",
+        "MORE THAN THE 0.0300 mm ALLOWED",
+        "short side (lines 6 to 6): NO POINT WAS MEASURED on its 80 mm",
+    ] {
+        assert!(text.contains(needle), "{needle} in {text}");
+    }
+    let mut of_pose = words.to_vec();
+    of_pose.extend(["--correct", "pose"]);
+    let refused = run(here.path(), &of_pose);
+    assert!(
+        refused.code == 1 && refused.err.contains("not how it stands"),
+        "{refused:?}"
+    );
+    let written = std::fs::read_to_string(here.path().join("next.src")).unwrap();
+    assert!(
+        written.contains("Y -0.0") && written.starts_with("DEF slot()"),
+        "{written}"
+    );
+}

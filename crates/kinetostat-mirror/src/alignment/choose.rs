@@ -78,7 +78,12 @@ pub(crate) fn align(
             }),
         }
     }
-    aligned.sort_by(|a, b| a.along_mm.total_cmp(&b.along_mm));
+    // By pieces, too: the end of one is the beginning of the next.
+    aligned.sort_by(|a, b| {
+        a.along_mm
+            .total_cmp(&b.along_mm)
+            .then(a.piece.cmp(&b.piece))
+    });
     (aligned, left_out)
 }
 

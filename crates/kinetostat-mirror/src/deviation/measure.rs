@@ -145,13 +145,18 @@ pub fn measure(
     };
     let stations = Stations::of(nominal, settings.smoothing_mm);
     let (mut at_points, mut at_stations) = (Vec::new(), Vec::new());
-    for (pass, own) in stations.passes().iter().enumerate() {
-        let first = points.partition_point(|point| point.pass < pass);
-        let end = points.partition_point(|point| point.pass <= pass);
-        let of_pass = &points[first..end];
-        let places: Vec<f64> = of_pass.iter().map(|point| point.along_mm).collect();
-        at_points.extend(kernel.smoothed(of_pass, &places));
-        at_stations.extend(kernel.smoothed(of_pass, &stations.along_mm()[own.clone()]));
+    for stretch in stations.stretches() {
+        let first = points.partition_point(|point| point.piece < stretch.pieces.start);
+        let end = points.partition_point(|point| point.piece < stretch.pieces.end);
+        let own = &points[first..end];
+        let places: Vec<f64> = own.iter().map(|point| point.along_mm).collect();
+        let along = &stations.along_mm()[stretch.stations.clone()];
+        let smoothed = |places: &[f64]| match stretch.closed {
+            true => kernel.smoothed_around(own, places, [along[0], along[along.len() - 1]]),
+            false => kernel.smoothed(own, places),
+        };
+        at_points.extend(smoothed(&places));
+        at_stations.extend(smoothed(along));
     }
     let figures = figures(&points, &at_points, (&stations, &at_stations));
     Ok(Measurement {

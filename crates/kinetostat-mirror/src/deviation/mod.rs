@@ -11,5 +11,5 @@ pub use kernel::{Kernel, Smoothed};
 pub use measure::{DeviationFigures, MeasureSettings, Measurement, measure};
 pub use on_lines::{OnLines, on_lines};
 pub use outliers::Outlier;
-pub use stations::Stations;
+pub use stations::{Stations, Stretch};
 pub use unseen::Unseen;

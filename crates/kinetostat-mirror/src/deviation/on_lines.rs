@@ -86,7 +86,11 @@ fn covered_mm([from, to]: [f64; 2], points: impl Iterator<Item = f64>, reach_mm:
     let (mut covered, mut done) = (0.0, from);
     for at in points {
         let begins = larger(at - reach_mm, done);
-        let ends = if at + reach_mm < to { at + reach_mm } else { to };
+        let ends = if at + reach_mm < to {
+            at + reach_mm
+        } else {
+            to
+        };
         if ends > begins {
             covered += ends - begins;
             done = ends;

@@ -1,63 +1,107 @@
-//! Places along the path at which deviations and corrections are kept.
+//! Places along the path at which deviations and corrections are kept, stretch by stretch.
+//!
+//! A pass is divided at its corners. Each leg is measured across itself: what one leg sees of a deviation is not what the next
+//! one sees, so that a mean over both is neither. A pass that comes back to its beginning without a corner has no end.
+
+use std::ops::Range;
 
 use kinetostat_program::NominalPath;
 
 /// Stations in a smoothing length: on cubic curves between them nothing is lost of what the kernel lets through.
 const IN_SMOOTHING_LENGTH: f64 = 4.0;
 
-/// Places along each pass, evenly from its beginning to its end.
+/// Cosine of the turn (20 degrees) from which on a path has a corner; what is less is a curve in short lines.
+const CORNER: f64 = 0.939_692_620_785_908_4;
+
+/// A pass comes back to where it began if its ends are no farther apart, mm.
+const SAME_MM: f64 = 1e-6;
+
+/// A part of a pass without a corner.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Stretch {
+    /// Index of its pass.
+    pub pass: usize,
+    /// Its pieces of the path.
+    pub pieces: Range<usize>,
+    /// Its stations.
+    pub stations: Range<usize>,
+    /// Its end is its beginning, without a corner between them.
+    pub closed: bool,
+}
+
+/// Places along each stretch, evenly from its beginning to its end.
 ///
 /// ```
 /// use kinetostat_mirror::{NominalPath, Stations};
 /// use kinetostat_program::{Program, ReadOptions, interpret};
 ///
-/// let program = Program::read("G21 G90\nG0 X0 Y0 Z0\nG1 X10 F300\n")?;
+/// let program = Program::read("G21 G90\nG0 X0 Y0 Z0\nG1 X10 F300\nG1 Y5\n")?;
 /// let path = interpret(&program, &ReadOptions::default())?;
 /// let stations = Stations::of(&NominalPath::new(&path)?, 10.0);
-/// assert_eq!(stations.along_mm(), [0.0, 2.5, 5.0, 7.5, 10.0]);
+/// assert_eq!(stations.along_mm(), [0.0, 2.5, 5.0, 7.5, 10.0, 10.0, 12.5, 15.0]);
+/// assert_eq!(stations.stretches()[1].stations, 5..8);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Stations {
     along_mm: Vec<f64>,
-    /// Of each pass, where in the list.
-    passes: Vec<std::ops::Range<usize>>,
+    stretches: Vec<Stretch>,
 }
 
 impl Stations {
-    /// Four stations on a smoothing length, two at least on each pass.
+    /// Four stations on a smoothing length, two at least on each stretch.
     #[must_use]
     pub fn of(nominal: &NominalPath<'_>, smoothing_mm: f64) -> Self {
         let mut along_mm = Vec::new();
-        let mut passes = Vec::new();
-        for pass in nominal.passes() {
-            let [from, to] = pass.along_mm;
-            let parts = ((to - from) * IN_SMOOTHING_LENGTH / smoothing_mm).ceil();
-            let parts = parts.max(1.0) as usize;
-            let first = along_mm.len();
-            along_mm.extend((0..=parts).map(|k| from + (to - from) * (k as f64 / parts as f64)));
-            passes.push(first..along_mm.len());
+        let mut stretches = Vec::new();
+        for (pass, own) in nominal.passes().iter().enumerate() {
+            for pieces in without_corners(nominal, &own.pieces) {
+                let last = &nominal.pieces()[pieces.end - 1];
+                let from = nominal.pieces()[pieces.start].from_mm;
+                let to = last.from_mm + last.length_mm;
+                let parts = ((to - from) * IN_SMOOTHING_LENGTH / smoothing_mm).ceil();
+                let parts = parts.max(1.0) as usize;
+                let first = along_mm.len();
+                along_mm
+                    .extend((0..=parts).map(|k| from + (to - from) * (k as f64 / parts as f64)));
+                stretches.push(Stretch {
+                    pass,
+                    closed: pieces == own.pieces && is_closed(nominal, &pieces),
+                    pieces,
+                    stations: first..along_mm.len(),
+                });
+            }
         }
-        Self { along_mm, passes }
+        Self {
+            along_mm,
+            stretches,
+        }
     }
 
-    /// Their lengths along the path, mm; the end of a pass and the beginning of the next have the same.
+    /// Their lengths along the path, mm; the end of a stretch and the beginning of the next have the same.
     #[must_use]
     pub fn along_mm(&self) -> &[f64] {
         &self.along_mm
     }
 
-    /// Of each pass, which stations are on it.
+    /// The stretches in their order.
     #[must_use]
-    pub fn passes(&self) -> &[std::ops::Range<usize>] {
-        &self.passes
+    pub fn stretches(&self) -> &[Stretch] {
+        &self.stretches
+    }
+
+    /// The stretch of a piece of the path.
+    #[must_use]
+    pub fn stretch_of(&self, piece: usize) -> usize {
+        let after = self.stretches.partition_point(|s| s.pieces.start <= piece);
+        after.saturating_sub(1)
     }
 
     /// The length of path that each of them stands for, mm.
     pub(crate) fn lengths_mm(&self) -> Vec<f64> {
         let mut lengths = vec![0.0; self.along_mm.len()];
-        for pass in &self.passes {
-            for k in pass.start..pass.end - 1 {
+        for stretch in &self.stretches {
+            for k in stretch.stations.start..stretch.stations.end - 1 {
                 let half = 0.5 * (self.along_mm[k + 1] - self.along_mm[k]);
                 lengths[k] += half;
                 lengths[k + 1] += half;
@@ -65,4 +109,33 @@ impl Stations {
         }
         lengths
     }
+}
+
+/// Pieces of a pass, divided at its corners.
+fn without_corners(nominal: &NominalPath<'_>, pass: &Range<usize>) -> Vec<Range<usize>> {
+    let mut found = Vec::new();
+    let mut first = pass.start;
+    for piece in pass.clone() {
+        if piece + 1 == pass.end || !goes_on(nominal, piece, piece + 1) {
+            found.push(first..piece + 1);
+            first = piece + 1;
+        }
+    }
+    found
+}
+
+/// The path goes on from one piece to another without a corner. A move that has no direction at its end has none.
+fn goes_on(nominal: &NominalPath<'_>, before: usize, after: usize) -> bool {
+    let motion = |piece: usize| nominal.motion(&nominal.pieces()[piece]);
+    let directions = motion(before).tangent(1.0).zip(motion(after).tangent(0.0));
+    directions.is_none_or(|(before, after)| before.dot(&after) >= CORNER)
+}
+
+fn is_closed(nominal: &NominalPath<'_>, pieces: &Range<usize>) -> bool {
+    let motion = |piece: usize| nominal.motion(&nominal.pieces()[piece]);
+    let [start, end] = [
+        motion(pieces.start).point(0.0),
+        motion(pieces.end - 1).point(1.0),
+    ];
+    (end - start).norm() <= SAME_MM && goes_on(nominal, pieces.end - 1, pieces.start)
 }

@@ -7,6 +7,7 @@ use nalgebra::Vector3;
 
 use crate::deviation::Stations;
 use crate::error::MirrorError;
+use crate::trial::joined::joined;
 use crate::trial::state::MirrorState;
 use kinetostat_program::NominalPath;
 
@@ -15,16 +16,16 @@ use kinetostat_program::NominalPath;
 enum Place {
     /// It is one of them.
     Piece(usize),
-    /// It lies between two places of the path (pass, length along it in mm), from one share of the way to another.
+    /// It lies between two places of the path (stretch, length along the path in mm), from one share of the way to another.
     Between([(usize, f64); 2], [f64; 2]),
 }
 
-/// The correction of a state along the path: at its stations as stated, between them on cubic curves without a kink; on moves
-/// between two passes evenly from one to the next.
+/// The correction of a state along the path: at its stations as stated, between them on cubic curves without a kink, at corners
+/// joined so that both legs are met; on moves between two passes evenly from one to the next.
 pub struct MirrorField<'a> {
     nominal: &'a NominalPath<'a>,
     stations: Stations,
-    correction_mm: &'a [Vector3<f64>],
+    correction_mm: Vec<Vector3<f64>>,
     slope: Vec<Vector3<f64>>,
     places: Vec<Place>,
 }
@@ -36,18 +37,11 @@ impl<'a> MirrorField<'a> {
     /// The state is of another path.
     pub fn new(nominal: &'a NominalPath<'a>, state: &'a MirrorState) -> Result<Self, MirrorError> {
         state.fits(nominal, &state.program_sha256, &state.settings)?;
-        let stations = Stations::of(nominal, state.settings.smoothing_mm);
-        let correction_mm = &state.correction_mm;
-        let mut slope = vec![Vector3::zeros(); correction_mm.len()];
-        for pass in stations.passes() {
-            for k in pass.clone() {
-                let before = k.saturating_sub(1).max(pass.start);
-                let after = (k + 1).min(pass.end - 1);
-                let way = stations.along_mm()[after] - stations.along_mm()[before];
-                slope[k] = (correction_mm[after] - correction_mm[before]) / way;
-            }
-        }
-        let places = places(nominal);
+        let smoothing_mm = state.settings.smoothing_mm;
+        let stations = Stations::of(nominal, smoothing_mm);
+        let correction_mm = joined(nominal, &stations, &state.correction_mm, smoothing_mm);
+        let slope = slopes(&stations, &correction_mm);
+        let places = places(nominal, &stations);
         Ok(Self {
             nominal,
             stations,
@@ -57,9 +51,9 @@ impl<'a> MirrorField<'a> {
         })
     }
 
-    /// The correction at a length along a pass, mm.
-    fn at_length(&self, pass: usize, along_mm: f64) -> Vector3<f64> {
-        let own = self.stations.passes()[pass].clone();
+    /// The correction at a length along the path, on a stretch, mm.
+    fn at_length(&self, stretch: usize, along_mm: f64) -> Vector3<f64> {
+        let own = self.stations.stretches()[stretch].stations.clone();
         let along = &self.stations.along_mm()[own.clone()];
         let after = along
             .partition_point(|at| *at <= along_mm)
@@ -78,27 +72,49 @@ impl<'a> MirrorField<'a> {
         match self.places[move_index] {
             Place::Piece(index) => {
                 let piece = &self.nominal.pieces()[index];
-                self.at_length(piece.pass, piece.from_mm + share * piece.length_mm)
+                let stretch = self.stations.stretch_of(index);
+                self.at_length(stretch, piece.from_mm + share * piece.length_mm)
             }
             Place::Between(ends, [first, last]) => {
-                let [from, to] = ends.map(|(pass, along_mm)| self.at_length(pass, along_mm));
+                let [from, to] = ends.map(|(stretch, along_mm)| self.at_length(stretch, along_mm));
                 from + (to - from) * (first + (last - first) * share)
             }
         }
     }
 }
 
+/// Slopes of the cubic curves at the stations, by those beside them; around where a stretch has no end.
+fn slopes(stations: &Stations, correction_mm: &[Vector3<f64>]) -> Vec<Vector3<f64>> {
+    let along = stations.along_mm();
+    let mut slopes = vec![Vector3::zeros(); correction_mm.len()];
+    for stretch in stations.stretches() {
+        let own = stretch.stations.clone();
+        for k in own.clone() {
+            let before = k.saturating_sub(1).max(own.start);
+            let after = (k + 1).min(own.end - 1);
+            let way = along[after] - along[before];
+            slopes[k] = (correction_mm[after] - correction_mm[before]) / way;
+        }
+        if stretch.closed {
+            let both = 0.5 * (slopes[own.start] + slopes[own.end - 1]);
+            (slopes[own.start], slopes[own.end - 1]) = (both, both);
+        }
+    }
+    slopes
+}
+
 /// Places of all moves: those between two pieces have a share of the way between them.
-fn places(nominal: &NominalPath<'_>) -> Vec<Place> {
+fn places(nominal: &NominalPath<'_>, stations: &Stations) -> Vec<Place> {
     let (moves, pieces) = (&nominal.path().moves, nominal.pieces());
     let mut places = Vec::with_capacity(moves.len());
     let mut before: Option<(usize, f64)> = None;
     for (index, piece) in pieces.iter().enumerate() {
-        let begins = (piece.pass, piece.from_mm);
+        let stretch = stations.stretch_of(index);
+        let begins = (stretch, piece.from_mm);
         let idle = &moves[places.len()..piece.move_index];
         places.extend(between([before.unwrap_or(begins), begins], idle));
         places.push(Place::Piece(index));
-        before = Some((piece.pass, piece.from_mm + piece.length_mm));
+        before = Some((stretch, piece.from_mm + piece.length_mm));
     }
     if let Some(end) = before {
         places.extend(between([end; 2], &moves[places.len()..]));
@@ -134,7 +150,8 @@ impl CorrectionField for MirrorField<'_> {
             };
         };
         let piece = &self.nominal.pieces()[index];
-        let own = &self.stations.along_mm()[self.stations.passes()[piece.pass].clone()];
+        let stretch = &self.stations.stretches()[self.stations.stretch_of(index)];
+        let own = &self.stations.along_mm()[stretch.stations.clone()];
         let shares = own.iter().map(|at| (at - piece.from_mm) / piece.length_mm);
         Structure {
             breaks: shares

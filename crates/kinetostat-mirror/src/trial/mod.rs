@@ -2,6 +2,7 @@
 
 mod convergence;
 mod field;
+mod joined;
 mod repeatability;
 mod state;
 

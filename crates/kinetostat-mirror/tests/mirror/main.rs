@@ -1,6 +1,7 @@
 //! Measured points against machines whose errors are known in closed form.
 
 mod aligning;
+mod corners;
 mod degenerate;
 mod files;
 mod machine;

@@ -4,6 +4,7 @@ use kinetostat::Pose;
 use kinetostat_formats::{FrameUse, tool_number};
 use nalgebra::{Isometry3, Vector3};
 
+use crate::job::robot::own_angles::OwnAngles;
 use crate::job::robot::read_program::RobotRead;
 
 /// What the program states of tool and work object.
@@ -20,6 +21,8 @@ pub(crate) struct RobotFrames {
     pub(crate) axis_is_open: bool,
     /// The program states how the tool stands.
     pub(crate) states_orientation: bool,
+    /// How the tool stands in the program, in the angles of its controller.
+    pub(crate) own_angles: Option<OwnAngles>,
     /// It was converted: what the job says of part and tool is in it already.
     pub(crate) converted: bool,
 }
@@ -39,6 +42,7 @@ impl RobotFrames {
             axis_is_open: read.axis_is_open(),
             states_orientation: (read.path.path.moves.iter())
                 .any(|motion| motion.tool_turn.is_some()),
+            own_angles: OwnAngles::of(read),
             converted: false,
         }
     }

@@ -30,10 +30,14 @@ fn axis_words(axis: &Vector3<f64>) -> String {
     }
 }
 
+fn is_unturned(pose: &Pose) -> bool {
+    pose.rotation.angle().to_degrees() < 1e-6
+}
+
 fn words(name: &str, pose: &Pose) -> String {
     let tip = triple((1e3 * pose.translation.vector).into(), short);
     let turned = pose.rotation.angle().to_degrees();
-    match turned < 1e-6 {
+    match is_unturned(pose) {
         true => format!("{name}: tip at {tip} mm in the flange, axes of the flange"),
         false => format!(
             "{name}: tip at {tip} mm in the flange, turned by {} deg",
@@ -66,10 +70,14 @@ pub(crate) fn tool_of_robot(
         }
         Some((_, name, Some(pose))) => {
             let axis = axis_words(&frames.tool_axis);
+            let own = frames.own_angles.filter(|_| !is_unturned(pose));
+            let own = own.map_or_else(String::new, |own| {
+                format!(" ({})", own.words(&pose.rotation))
+            });
             Ok((
                 *pose,
                 format!(
-                    "{}; its axis from tip to holder is {axis} of its frame",
+                    "{}{own}; its axis from tip to holder is {axis} of its frame",
                     words(name, pose)
                 ),
             ))

@@ -15,6 +15,7 @@ mod folder;
 pub(crate) mod frames;
 pub(crate) mod joint_arm;
 pub(crate) mod machine;
+mod own_angles;
 pub(crate) mod parquet;
 pub(crate) mod parts;
 pub(crate) mod read_once;

@@ -21,6 +21,8 @@ const LEADING: f32 = 1.38;
 const NAMES: f32 = 128.0;
 /// Room of one signature.
 const SIGNATURE: f32 = 50.0;
+/// A heading with the head of a table of two lines and two rows below it.
+const WITH_TABLE: f32 = 84.0;
 
 /// Something on a page.
 #[derive(Clone, Debug)]
@@ -77,7 +79,19 @@ impl<'a> Setter<'a> {
         setter.y += 2.0;
         setter.text(&contents.title, (LEFT, RIGHT), 15.0, Weight::Bold);
         setter.y += 6.0;
-        for block in &contents.blocks {
+        let blocks = &contents.blocks;
+        for (at, block) in blocks.iter().enumerate() {
+            if let [
+                Block::Heading(_),
+                Block::Note(note) | Block::Paragraph(note),
+                Block::Table(_),
+                ..,
+            ] = &blocks[at..]
+            {
+                // A table's heading and what is said of it stand on its page.
+                let lines = setter.lines(note, RIGHT - LEFT, SMALL, Weight::Regular);
+                setter.room(WITH_TABLE + SIZE * LEADING * lines.len() as f32);
+            }
             setter.block(block);
         }
         setter.pages

@@ -1,0 +1,28 @@
+//! How long a search looks.
+
+/// How long to look.
+#[derive(Clone, Copy, Debug)]
+pub struct Effort {
+    /// Placements that fill the space, of each fixture; by the number of variables without it.
+    pub samples: Option<usize>,
+    /// The best ones apart from each other that are refined.
+    pub starts: usize,
+    /// Next best placements that are listed.
+    pub listed: usize,
+    /// Most places of the program; of a longer one every so many are looked at.
+    pub most_places: usize,
+    /// Whether slices are solved for pictures.
+    pub maps: bool,
+}
+
+impl Default for Effort {
+    fn default() -> Self {
+        Self {
+            samples: None,
+            starts: 6,
+            listed: 10,
+            most_places: 100_000,
+            maps: true,
+        }
+    }
+}
