@@ -75,6 +75,7 @@ pub use near::{NEAR_SINGULAR, NearKind, NearSingular, natural_length, near_singu
 pub use placement::Placement;
 pub use postures::configurations::{Configurations, posture_at};
 pub use result::cutting::{CutPlace, CuttingResult};
+pub use result::envelope::{Envelope, Quantity, StretchRange};
 pub use result::feature::{Feature, FeatureResult, feature_results};
 pub use result::figures::Figures;
 pub use result::force_band::ForceBand;
@@ -82,6 +83,7 @@ pub use result::joints::{
     ArmConfiguration, Elbow, JointsResult, LimitEnd, LimitPlace, MostLoaded, NearestLimit,
     PostureChange, RatingPlace, Shoulder, WayOut, Wrist,
 };
+pub use result::kept_points::KeptPoints;
 pub use result::largest_change::LargestChange;
 pub use result::point::{PointKind, PointResult};
 pub use result::program_place::ProgramPlace;

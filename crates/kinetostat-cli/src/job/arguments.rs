@@ -99,9 +99,13 @@ pub(crate) struct ProgramArgs {
     /// Language of the reports [default: en]. In French and German the HTML report has no pictures either
     #[arg(long, value_enum, value_name = "LANGUAGE", help_heading = "Outputs")]
     pub(crate) language: Option<LanguageWord>,
-    /// Points of the path as a table (CSV); of long programs the worst of every stretch
+    /// Points of the path as a table: CSV, of long programs the worst of every stretch; Parquet with every point where the name ends
+    /// in .parquet
     #[arg(long, value_name = "FILE", help_heading = "Outputs")]
     pub(crate) points: Option<PathBuf>,
+    /// The path as lines for ParaView (VTK): errors, corrections and loads as vectors at its points
+    #[arg(long, value_name = "FILE", help_heading = "Outputs")]
+    pub(crate) vtk: Option<PathBuf>,
     /// Every point in the table, however large it becomes
     #[arg(long, help_heading = "Outputs")]
     pub(crate) all_points: bool,

@@ -71,7 +71,11 @@ pub(crate) fn table(
     }
 }
 
-fn header(run_inputs: &RunInputs, points: &[PointResult], listing: &Listing) -> Vec<String> {
+pub(crate) fn header(
+    run_inputs: &RunInputs,
+    points: &[PointResult],
+    listing: &Listing,
+) -> Vec<String> {
     let mut header: Vec<String> = ["line", "output_line", "kind", "share", "path_mm"]
         .map(String::from)
         .to_vec();
@@ -141,14 +145,26 @@ fn size([x, y, z]: &[f64; 3]) -> f64 {
     x.hypot(*y).hypot(*z)
 }
 
-/// Decimals: 1 nm for errors and corrections (the rounding of a program is 100 nm), 100 nm for places,
-/// 0.01 N, 1e-5 deg; four digits of what is a ratio.
 fn lines(
     run_inputs: &RunInputs,
     listing: &Listing,
     points: &mut dyn Iterator<Item = &PointResult>,
 ) -> Answer<Vec<u8>> {
     let mut writer = csv::Writer::from_writer(Vec::with_capacity(256 * BLOCK));
+    rows(run_inputs, listing, points, |row| {
+        writer.write_record(row).map_err(failed)
+    })?;
+    bytes(writer)
+}
+
+/// The cells of each point. Decimals: 1 nm for errors and corrections (the rounding of a program is 100 nm), 100 nm for places,
+/// 0.01 N, 1e-5 deg; four digits of what is a ratio.
+pub(crate) fn rows(
+    run_inputs: &RunInputs,
+    listing: &Listing,
+    points: &mut dyn Iterator<Item = &PointResult>,
+    mut put: impl FnMut(&[String]) -> Answer<()>,
+) -> Answer<()> {
     let mut row: Vec<String> = Vec::new();
     let joints = JointColumns::of(run_inputs);
     for point in points {
@@ -203,9 +219,9 @@ fn lines(
         row.push(if point.stable { "ok" } else { "unstable" }.into());
         let source = flat_lines::cells(point.line, run_inputs.flat.as_ref());
         row.extend(source.into_iter().flatten());
-        writer.write_record(&row).map_err(failed)?;
+        put(&row)?;
     }
-    bytes(writer)
+    Ok(())
 }
 
 /// Shares below 1e-12 are the rounding of their arithmetic.

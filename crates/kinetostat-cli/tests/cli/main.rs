@@ -56,6 +56,7 @@ mod paper;
 mod places_by_position;
 mod placing;
 mod plausibility_checks;
+mod points_files;
 mod poses;
 mod programs;
 mod refusals;

@@ -5,7 +5,14 @@
 mod netcdf;
 #[cfg(feature = "parquet")]
 mod parquet;
+mod polylines;
+#[cfg(feature = "parquet")]
+mod rows;
 mod vtk;
+
+pub use polylines::{PointQuantity, Polylines};
+#[cfg(feature = "parquet")]
+pub use rows::{Cell, RowColumn, RowsWriter};
 
 /// An axis of a grid.
 #[derive(Clone, Debug, PartialEq)]

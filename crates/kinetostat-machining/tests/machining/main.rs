@@ -12,6 +12,7 @@ mod again;
 mod arm_way;
 mod configurations;
 mod cut_forces;
+mod envelope;
 mod fitted_arcs;
 mod five_axes;
 mod force_band;

@@ -15,3 +15,4 @@ pub(crate) mod loaded;
 pub(crate) mod platform;
 pub(crate) mod stability;
 pub(crate) mod start;
+pub(crate) mod trend;
