@@ -41,7 +41,11 @@ fn no_place_of_a_dense_grid_is_better_for_a_heavy_arm() {
             &task,
             &space,
             &Question::default(),
-            Effort::default(),
+            Effort {
+                samples: Some(100),
+                maps: false,
+                ..Effort::default()
+            },
             &Unwatched,
         );
         let placed = placed.expect("answer");
@@ -56,7 +60,7 @@ fn no_place_of_a_dense_grid_is_better_for_a_heavy_arm() {
         let mut relative = Worst::new();
         relative.add(best.figure.expect("a figure") / own - 1.0);
         assert!(relative.holds(1e-9), "{relative}");
-        const CELLS: usize = 15;
+        const CELLS: usize = 9;
         let share = |k: usize| k as f64 / (CELLS - 1) as f64;
         let places = (0..CELLS * CELLS).map(|i| [share(i % CELLS), share(i / CELLS)]);
         let figures: Vec<f64> = places.filter_map(|shares| largest_mm(&shares)).collect();
@@ -73,7 +77,7 @@ fn no_place_of_a_dense_grid_is_better_for_a_heavy_arm() {
             figures.len()
         );
         assert!(own <= least, "{own} above {least} of the grid");
-        // Cells are 36 by 50 mm: the figure changes by less than a twentieth over one.
-        assert!(own >= 0.95 * least, "{own} far below {least}");
+        // Cells are 63 by 88 mm: the figure changes by less than a tenth over one.
+        assert!(own >= 0.9 * least, "{own} far below {least}");
     });
 }
