@@ -5,3 +5,4 @@ mod arms;
 mod beams;
 mod common;
 mod platforms;
+mod responses;
