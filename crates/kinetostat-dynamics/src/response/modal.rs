@@ -16,9 +16,8 @@ use crate::response::{Quantity, Receptance};
 struct Term {
     squared: f64,
     damping: ModalDamping,
-    /// Motions of the point looked at and of the point pushed, base axes.
+    /// Motion of the point looked at, base axes, and its products with those of the point pushed.
     at: Vector6<f64>,
-    from: Vector6<f64>,
     product: Matrix6<f64>,
 }
 
@@ -84,7 +83,7 @@ impl ModalResponse {
     ///
     /// # Errors
     /// [`Error::Damping`]; [`Error::Question`] where loads have no potential (modes are complex then: ask
-    /// [`LinearDynamics::response`]); [`Error::NotSolved`] where a massless direction has no stiffness left.
+    /// [`LinearDynamics::direct`]); [`Error::NotSolved`] where a massless direction has no stiffness left.
     pub fn new(
         dynamics: &LinearDynamics,
         modes: &Modes,
@@ -111,7 +110,6 @@ impl ModalResponse {
                 squared: mode.squared,
                 damping,
                 at,
-                from,
                 product: at * from.transpose(),
             });
         }
