@@ -1,7 +1,6 @@
 //! One chain about its equilibrium, its end free, held or partly held.
 
 use kinetostat::chain::ChainTangent;
-use kinetostat::model::Role;
 use kinetostat::{Chain, ChainProblem, MotionKind, Wrench};
 use nalgebra::DMatrix;
 
@@ -81,7 +80,6 @@ pub(crate) fn named<'a>(
     prefix: &'a str,
     first: usize,
 ) -> impl Iterator<Item = NamedCoordinate> + 'a {
-    let _ = Role::Spring;
     chain
         .coordinates()
         .iter()

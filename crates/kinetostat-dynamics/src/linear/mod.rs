@@ -44,7 +44,7 @@ pub(crate) struct NamedCoordinate {
 
 /// A machine about a loaded equilibrium: mass, tangent stiffness and the motions of its nodes by independent
 /// coordinates, all at the LOADED posture. `M`, `K - H` and the rest by [`Self::mass`] and its neighbours; modes by
-/// [`Self::modes`]; responses by [`crate::ModalResponse`] and [`Self::response`].
+/// [`Self::modes`]; responses by [`crate::ModalResponse`] and [`Self::direct`].
 ///
 /// The coordinates are those of the limbs (passive and elastic alike, m or rad) where nothing closes a loop and nothing
 /// is held, and independent combinations of them and of the platforms' motions otherwise.

@@ -158,7 +158,6 @@ fn rank_of_mass(mass: &DMatrix<f64>) -> usize {
 
 /// Solves the pencil; matrices symmetric, in natural units.
 pub(crate) fn solve(mass: &DMatrix<f64>, tangent: &DMatrix<f64>) -> Option<Solved> {
-    let n = mass.nrows();
     if mass.iter().chain(tangent.iter()).any(|x| !x.is_finite()) {
         return None;
     }
@@ -178,7 +177,6 @@ pub(crate) fn solve(mass: &DMatrix<f64>, tangent: &DMatrix<f64>) -> Option<Solve
             ..inner
         });
     }
-    let _ = n;
     condensed(mass, tangent)
 }
 

@@ -3,4 +3,13 @@
 
 mod arms;
 mod beams;
+mod circulatory;
 mod common;
+mod derivatives;
+mod knee;
+mod massless;
+mod orthoglide;
+mod platforms;
+mod reduction;
+mod responses;
+mod speed;
