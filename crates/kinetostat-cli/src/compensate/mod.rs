@@ -8,6 +8,7 @@
 pub(crate) mod arguments;
 mod copy;
 mod correction_table;
+mod long;
 
 use std::path::{Path, PathBuf};
 
@@ -64,6 +65,13 @@ pub(crate) fn run(mut args: CompensateArgs) -> Answer<()> {
 }
 
 fn compensate(files: &InputFiles, args: &CompensateArgs) -> Answer<()> {
+    match long::compensate(files, args)? {
+        true => Ok(()),
+        false => compensate_whole(files, args),
+    }
+}
+
+fn compensate_whole(files: &InputFiles, args: &CompensateArgs) -> Answer<()> {
     let job = args
         .run
         .job
