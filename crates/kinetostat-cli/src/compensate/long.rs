@@ -56,12 +56,18 @@ pub(crate) fn compensate(files: &InputFiles, args: &CompensateArgs) -> Answer<bo
         targets: &targets,
     };
     let (mut run, done) = run.run(&mut outputs)?;
-    run.result.warnings.extend(run_warnings::of_run(&model, job));
+    run.result
+        .warnings
+        .extend(run_warnings::of_run(&model, job));
     done.fill(&mut outputs)?;
     outputs.fill_result(&run, &setting)?;
     let paths = outputs.files.commit()?;
     done.remove();
-    let text = format!("{}{}", summary::of_run(&run.result), outputs::written(&paths));
+    let text = format!(
+        "{}{}",
+        summary::of_run(&run.result),
+        outputs::written(&paths)
+    );
     report::print_run(&text, to_screen.then_some(&run.result))?;
     report::refuse_missed_tolerance(&run.result.tolerance, &setting)?;
     Ok(true)

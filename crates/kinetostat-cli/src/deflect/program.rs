@@ -96,7 +96,11 @@ fn run_along(
         outputs.fill_result(&run, &setting)?;
         let paths = outputs.files.commit()?;
         done.remove();
-        let text = format!("{}{}", summary::of_run(&run.result), outputs::written(&paths));
+        let text = format!(
+            "{}{}",
+            summary::of_run(&run.result),
+            outputs::written(&paths)
+        );
         return report::print_run(&text, to_screen.then_some(&run.result)).map(|()| true);
     }
     program::read_program(&setting)?;

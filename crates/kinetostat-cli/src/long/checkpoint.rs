@@ -106,7 +106,9 @@ impl Checkpoint {
 
     /// States that were kept, the last first.
     pub(crate) fn states(&self) -> impl Iterator<Item = State> + '_ {
-        [STATE, STATE_BEFORE].into_iter().filter_map(|name| self.read(name))
+        [STATE, STATE_BEFORE]
+            .into_iter()
+            .filter_map(|name| self.read(name))
     }
 
     /// Keeps a state; the one before stays.
@@ -133,8 +135,9 @@ impl Checkpoint {
 
     /// A value behind its check number.
     fn write(&self, name: &str, value: &impl Serialize) -> Answer<()> {
-        let text = serde_json::to_string(value)
-            .map_err(|error| Failure::input(format!("the state of the run cannot be kept: {error}")))?;
+        let text = serde_json::to_string(value).map_err(|error| {
+            Failure::input(format!("the state of the run cannot be kept: {error}"))
+        })?;
         let new = self.folder.join("new");
         let written = || -> std::io::Result<()> {
             let mut file = fs::File::create(&new)?;
@@ -183,7 +186,11 @@ mod tests {
         let parts: Vec<usize> = kept.states().map(|state| state.parts).collect();
         assert_eq!(parts, [2, 1]);
         let failure = kept.open(&manifest("b"), false).unwrap_err();
-        assert!(failure.plain.contains("the model is another one now"), "{}", failure.plain);
+        assert!(
+            failure.plain.contains("the model is another one now"),
+            "{}",
+            failure.plain
+        );
         let bytes = fs::read(kept.path(STATE)).unwrap();
         fs::write(kept.path(STATE), &bytes[..bytes.len() / 2]).unwrap();
         assert_eq!(kept.states().next().unwrap().parts, 1);

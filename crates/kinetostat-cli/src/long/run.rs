@@ -65,7 +65,10 @@ impl LongRun<'_> {
     fn text(&self) -> Answer<File> {
         let path = &self.setting.program_path;
         File::open(path).map_err(|error| {
-            Failure::input(format!("the program '{}' cannot be read: {error}", path.display()))
+            Failure::input(format!(
+                "the program '{}' cannot be read: {error}",
+                path.display()
+            ))
         })
     }
 
@@ -104,28 +107,55 @@ impl LongRun<'_> {
     fn manifest(&self, length: PartLength) -> Manifest {
         let s = &self.setting;
         let hashes = |files: &[FileRead]| {
-            let all = files.iter().map(|file| format!("{} {}", file.name, file.sha256));
+            let all = files
+                .iter()
+                .map(|file| format!("{} {}", file.name, file.sha256));
             all.collect::<Vec<_>>().join(", ")
         };
         let fields = [
-            ("the version of kinetostat", env!("CARGO_PKG_VERSION").to_owned()),
+            (
+                "the version of kinetostat",
+                env!("CARGO_PKG_VERSION").to_owned(),
+            ),
             ("the command", format!("{:?}", self.aim)),
             ("the program", hashes(&s.program_files)),
             (
                 "the model",
-                format!("{} {:016x}", self.machine.run_inputs.model, self.machine.fingerprint),
+                format!(
+                    "{} {:016x}",
+                    self.machine.run_inputs.model, self.machine.fingerprint
+                ),
             ),
-            ("the way in which the program is read", format!("{:?}", s.reading)),
-            ("a tolerance, or how the program is written", format!("{:?}", s.writing)),
+            (
+                "the way in which the program is read",
+                format!("{:?}", s.reading),
+            ),
+            (
+                "a tolerance, or how the program is written",
+                format!("{:?}", s.writing),
+            ),
             ("the load", format!("{:?}", self.machine.load)),
-            ("the place of the part", format!("{:?}", self.machine.placement)),
+            (
+                "the place of the part",
+                format!("{:?}", self.machine.placement),
+            ),
             ("the tool", self.machine.run_inputs.tool.clone()),
             ("a limit", format!("{:?}", s.limits)),
-            ("the list of points", format!("{:?}", (self.flags.all_points, &self.targets.points))),
-            ("the compensated program's name", format!("{:?}", self.targets.program)),
+            (
+                "the list of points",
+                format!("{:?}", (self.flags.all_points, &self.targets.points)),
+            ),
+            (
+                "the compensated program's name",
+                format!("{:?}", self.targets.program),
+            ),
             ("the length of the parts", format!("{length:?}")),
         ];
-        Manifest(fields.map(|(name, value)| (name.to_owned(), value)).to_vec())
+        Manifest(
+            fields
+                .map(|(name, value)| (name.to_owned(), value))
+                .to_vec(),
+        )
     }
 
     /// A part, as a run takes it.
@@ -181,9 +211,16 @@ impl LongRun<'_> {
         progress.stage("reading", 0);
         let length = part_length(self.flags);
         let survey = self.survey()?;
-        let targets = [&self.targets.program, &self.targets.points, &self.targets.report, &self.targets.json];
+        let targets = [
+            &self.targets.program,
+            &self.targets.points,
+            &self.targets.report,
+            &self.targets.json,
+        ];
         let beside: Option<&PathBuf> = targets.into_iter().flatten().next();
-        let beside = beside.cloned().unwrap_or_else(|| PathBuf::from("kinetostat"));
+        let beside = beside
+            .cloned()
+            .unwrap_or_else(|| PathBuf::from("kinetostat"));
         let kept = Checkpoint::beside(&beside);
         kept.open(&self.manifest(length), self.flags.restart)?;
         let mut work = Work::go_on(&kept, &survey, &self.setting)?;
@@ -195,11 +232,19 @@ impl LongRun<'_> {
         done?;
         progress.finish();
         let reading = survey.warnings.iter();
-        let reading = reading.map(|w| Warning::at_line(WarningCode::Program, w.line, w.text.clone()));
-        let Work { state, program, points, .. } = work;
+        let reading =
+            reading.map(|w| Warning::at_line(WarningCode::Program, w.line, w.text.clone()));
+        let Work {
+            state,
+            program,
+            points,
+            ..
+        } = work;
         let result = state.merged.finish(reading.collect());
         let Some(result) = result else {
-            return Err(self.setting.within(Failure::input("the program has no block")));
+            return Err(self
+                .setting
+                .within(Failure::input("the program has no block")));
         };
         let run = Run {
             points: result.points.clone(),
@@ -207,7 +252,14 @@ impl LongRun<'_> {
             written: None,
             places: Vec::new(),
         };
-        Ok((run, LongFiles { program, points, kept }))
+        Ok((
+            run,
+            LongFiles {
+                program,
+                points,
+                kept,
+            },
+        ))
     }
 
     fn work(
@@ -220,7 +272,8 @@ impl LongRun<'_> {
         let whole = match work.state.of_whole() {
             Some(whole) => whole,
             None => {
-                let mut whole = in_threads(self.flags.threads, || self.look(survey, length, progress))??;
+                let mut whole =
+                    in_threads(self.flags.threads, || self.look(survey, length, progress))??;
                 // Not a number of the file of the state: a machine without any stiffness found is taken as it is.
                 if !whole.stiffness_n_per_mm.is_finite() {
                     whole.stiffness_n_per_mm = 0.0;
@@ -271,14 +324,19 @@ impl LongRun<'_> {
             })??;
             if let Some(written) = &run.written {
                 work.program.append(&written.bytes)?;
-                work.so_far.advance(written).map_err(|error| self.failed(error))?;
+                work.so_far
+                    .advance(written)
+                    .map_err(|error| self.failed(error))?;
             }
             if outputs.points.is_some() {
                 let points = &mut work.points;
                 let inputs = &run.result.run_inputs;
-                points_table::part(inputs, &run.points, (&outputs.listing, count, index == 0), |bytes| {
-                    points.append(bytes)
-                })?;
+                points_table::part(
+                    inputs,
+                    &run.points,
+                    (&outputs.listing, count, index == 0),
+                    |bytes| points.append(bytes),
+                )?;
             }
             work.state.parts = index + 1;
             if last.elapsed() >= every || part.is_last {
@@ -300,14 +358,17 @@ pub(crate) struct LongFiles {
 impl LongFiles {
     /// Writes them beside their targets.
     pub(crate) fn fill(&self, outputs: &mut RunOutputs) -> Answer<()> {
-        for (index, from) in [(outputs.program, &self.program), (outputs.points, &self.points)] {
+        for (index, from) in [
+            (outputs.program, &self.program),
+            (outputs.points, &self.points),
+        ] {
             let Some(index) = index else { continue };
             let mut from = from.reader()?;
             let mut block = vec![0; 1 << 16];
             loop {
-                let count = from
-                    .read(&mut block)
-                    .map_err(|error| Failure::input(format!("what was kept cannot be read: {error}")))?;
+                let count = from.read(&mut block).map_err(|error| {
+                    Failure::input(format!("what was kept cannot be read: {error}"))
+                })?;
                 if count == 0 {
                     break;
                 }

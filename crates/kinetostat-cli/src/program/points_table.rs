@@ -89,9 +89,13 @@ pub(crate) fn part(
         true => (0..points.len()).collect(),
         false => thinned(points, &[], most),
     };
-    listed
-        .chunks(BLOCK)
-        .try_for_each(|block| put(&lines(run_inputs, listing, &mut block.iter().map(|i| &points[*i]))?))
+    listed.chunks(BLOCK).try_for_each(|block| {
+        put(&lines(
+            run_inputs,
+            listing,
+            &mut block.iter().map(|i| &points[*i]),
+        )?)
+    })
 }
 
 fn header(run_inputs: &RunInputs, points: &[PointResult], listing: &Listing) -> Vec<String> {

@@ -125,11 +125,13 @@ impl<'o, R: BufRead> Parts<'o, R> {
         let before = self.reader.lines;
         let behind = self.next + self.length.own.max(1);
         // Lines from the first held to the last that is looked at.
-        self.hold(behind - 1 + self.length.beside - before)?;
+        // One line behind tells that there are more.
+        let beside = self.length.beside.max(1);
+        self.hold(behind - 1 + beside - before)?;
         let end = behind.min(before + self.ends.len() + 1);
         let is_last = end == before + self.ends.len() + 1;
         // The first line that the next part looks at.
-        let next_first = end.saturating_sub(self.length.beside.max(1)).max(before + 1);
+        let next_first = end.saturating_sub(beside).max(before + 1);
         let mut reader = Reader::following(&self.reader);
         let mut interpreter = self.interpreter.following();
         let mut kept = None;
