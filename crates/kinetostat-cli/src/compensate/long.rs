@@ -11,7 +11,7 @@ use crate::job::machine::machine_setup;
 use crate::job::of_model::give_of_model;
 use crate::job::run_warnings;
 use crate::job::setting::{program_path, setting};
-use crate::long::run::LongRun;
+use crate::long::run::{LongRun, survey};
 use crate::long::which::{only_as_a_whole, with_first_lines};
 use crate::program::aim::Aim;
 use crate::program::outputs::RunOutputs;
@@ -47,11 +47,13 @@ pub(crate) fn compensate(files: &InputFiles, args: &CompensateArgs) -> Answer<bo
     let mut outputs = RunOutputs::claim(Aim::Compensate, &targets, existing, &setting.inputs)?;
     outputs.list(flags.all_points, &model);
     let to_screen = args.run.json.as_deref() == Some(Path::new("-"));
+    let found = survey(&mut setting, Aim::Compensate)?;
     let run = LongRun {
         aim: Aim::Compensate,
         machine: &machine,
         model: &model,
-        setting: setting.clone(),
+        setting: &setting,
+        survey: &found,
         flags,
         targets: &targets,
     };

@@ -13,7 +13,7 @@ use crate::job::of_model::give_of_model;
 use crate::job::setting::{program_path, setting};
 use crate::job::turn_arguments::FreeTurnWord;
 use crate::job::{program, run_warnings};
-use crate::long::run::LongRun;
+use crate::long::run::{LongRun, survey};
 use crate::long::which::{only_as_a_whole, with_first_lines};
 use crate::program::aim::Aim;
 use crate::program::outputs::RunOutputs;
@@ -81,11 +81,13 @@ fn run_along(
         }
         let mut outputs = RunOutputs::claim(Aim::Analyse, &chosen, existing, &setting.inputs)?;
         outputs.list(args.program.all_points, &model);
-        let run = LongRun {
+        let found = survey(&mut setting, Aim::Analyse)?;
+    let run = LongRun {
             aim: Aim::Analyse,
             machine: &machine,
             model: &model,
-            setting: setting.clone(),
+            setting: &setting,
+        survey: &found,
             flags: &args.program,
             targets: &chosen,
         };

@@ -34,7 +34,6 @@ use crate::job::values::{NotAllowed, above_zero, chosen, micrometres};
 use crate::ui::failure::{Answer, Failure};
 
 /// Everything that decides a run along a program, the model apart.
-#[derive(Clone)]
 pub(crate) struct Setting {
     /// The program that is run: of an expanded one the flat form.
     pub(crate) program: Vec<u8>,

@@ -37,7 +37,9 @@ pub(crate) struct LongRun<'a> {
     pub(crate) aim: Aim,
     pub(crate) machine: &'a MachineSetup,
     pub(crate) model: &'a Model,
-    pub(crate) setting: Setting,
+    pub(crate) setting: &'a Setting,
+    /// What only the whole program tells.
+    pub(crate) survey: &'a Survey,
     pub(crate) flags: &'a ProgramArgs,
     /// Where the outputs go.
     pub(crate) targets: &'a OutputPaths,
@@ -57,55 +59,57 @@ impl<R: Read> Read for Hashed<R> {
     }
 }
 
-impl LongRun<'_> {
+/// What only the whole of a program tells; its hash takes the place of that of its first lines.
+pub(crate) fn survey(setting: &mut Setting, aim: Aim) -> Answer<Survey> {
+    let progress = Progress::new();
+    progress.stage("reading", 0);
+    let mut hashed = Hashed {
+        from: text(setting)?,
+        hash: Sha256::new(),
+    };
+    let from = BufReader::with_capacity(1 << 16, &mut hashed);
+    let survey = Survey::of(from, &setting.reading).map_err(|error| unread(setting, error))?;
+    let sha256 = hashed.hash.finalize();
+    if let Some(first) = setting.program_files.first_mut() {
+        first.sha256 = sha256.iter().map(|byte| format!("{byte:02x}")).collect();
+    }
+    if let Some(line) = survey.mark_line
+        && !setting.writing.again
+        && aim == Aim::Compensate
+    {
+        let error = kinetostat_program::WriteError::AlreadyCompensated { line };
+        return Err(setting.within(Failure::from(RunError::from(error))));
+    }
+    Ok(survey)
+}
+
+fn unread(setting: &Setting, error: PartError) -> Failure {
+    setting.within(Failure::input(error)).of_program()
+}
+
+fn text(setting: &Setting) -> Answer<File> {
+    let path = &setting.program_path;
+    File::open(path).map_err(|error| {
+        Failure::input(format!(
+            "the program '{}' cannot be read: {error}",
+            path.display()
+        ))
+    })
+}
+
+impl<'a> LongRun<'a> {
     fn failed(&self, error: PartError) -> Failure {
-        self.setting.within(Failure::input(error)).of_program()
+        unread(self.setting, error)
     }
 
-    fn text(&self) -> Answer<File> {
-        let path = &self.setting.program_path;
-        File::open(path).map_err(|error| {
-            Failure::input(format!(
-                "the program '{}' cannot be read: {error}",
-                path.display()
-            ))
-        })
-    }
-
-    /// What only the whole tells, and the program's hash in the place of that of its first lines.
-    fn survey(&mut self) -> Answer<Survey> {
-        let mut hashed = Hashed {
-            from: self.text()?,
-            hash: Sha256::new(),
-        };
-        let from = BufReader::with_capacity(1 << 16, &mut hashed);
-        let survey = Survey::of(from, &self.setting.reading).map_err(|error| self.failed(error))?;
-        let sha256 = hashed.hash.finalize();
-        if let Some(first) = self.setting.program_files.first_mut() {
-            first.sha256 = sha256.iter().map(|byte| format!("{byte:02x}")).collect();
-        }
-        if let Some(line) = survey.mark_line
-            && !self.setting.writing.again
-            && self.aim == Aim::Compensate
-        {
-            let error = kinetostat_program::WriteError::AlreadyCompensated { line };
-            return Err(self.setting.within(Failure::from(RunError::from(error))));
-        }
-        Ok(survey)
-    }
-
-    fn parts<'s>(
-        &'s self,
-        survey: &'s Survey,
-        length: PartLength,
-    ) -> Answer<Parts<'s, BufReader<File>>> {
-        let from = BufReader::with_capacity(1 << 16, self.text()?);
-        Ok(Parts::new(from, (survey, &self.setting.reading), length))
+    fn parts(&self, length: PartLength) -> Answer<Parts<'a, BufReader<File>>> {
+        let from = BufReader::with_capacity(1 << 16, text(self.setting)?);
+        Ok(Parts::new(from, (self.survey, &self.setting.reading), length))
     }
 
     /// What the run is: whatever its bytes depend on.
     fn manifest(&self, length: PartLength) -> Manifest {
-        let s = &self.setting;
+        let s = self.setting;
         let hashes = |files: &[FileRead]| {
             let all = files
                 .iter()
@@ -169,9 +173,9 @@ impl LongRun<'_> {
         let read = ReadProgram::Part(PartRead {
             part,
             so_far,
-            setting: &self.setting,
+            setting: self.setting,
         });
-        with_task(self.aim, self.machine, &self.setting, &read, None, |task| {
+        with_task(self.aim, self.machine, self.setting, &read, None, |task| {
             let mut task = task.clone();
             if as_it_is {
                 // A copy is no compensated program.
@@ -189,11 +193,11 @@ impl LongRun<'_> {
     }
 
     /// A first look at every part: what takes hours to be solved everywhere is refused in seconds.
-    fn look(&self, survey: &Survey, length: PartLength, watch: &Progress) -> Answer<OfWhole> {
+    fn look(&self, length: PartLength, watch: &Progress) -> Answer<OfWhole> {
         let mut whole = OfWhole::default();
-        let nothing = WrittenSoFar::nothing(survey, &self.setting.reading);
-        watch.stage("first look", survey.lines);
-        for part in self.parts(survey, length)? {
+        let nothing = WrittenSoFar::nothing(self.survey, &self.setting.reading);
+        watch.stage("first look", self.survey.lines);
+        for part in self.parts(length)? {
             let part = part.map_err(|error| self.failed(error))?;
             let compensate = self.aim == Aim::Compensate;
             let looked = self.with_part(&part, &nothing, false, |task| {
@@ -206,11 +210,9 @@ impl LongRun<'_> {
     }
 
     /// The run, from its outputs claimed to its result.
-    pub(crate) fn run(mut self, outputs: &mut RunOutputs) -> Answer<(Run, LongFiles)> {
+    pub(crate) fn run(self, outputs: &mut RunOutputs) -> Answer<(Run, LongFiles)> {
         let progress = Progress::new();
-        progress.stage("reading", 0);
         let length = part_length(self.flags);
-        let survey = self.survey()?;
         let targets = [
             &self.targets.program,
             &self.targets.points,
@@ -223,15 +225,15 @@ impl LongRun<'_> {
             .unwrap_or_else(|| PathBuf::from("kinetostat"));
         let kept = Checkpoint::beside(&beside);
         kept.open(&self.manifest(length), self.flags.restart)?;
-        let mut work = Work::go_on(&kept, &survey, &self.setting)?;
-        let done = self.work(&mut work, (&kept, &survey, length), outputs, &progress);
+        let mut work = Work::go_on(&kept, self.survey, self.setting)?;
+        let done = self.work(&mut work, (&kept, length), outputs, &progress);
         if done.is_err() && work.state.parts > 0 {
             // What can be kept is kept; why it ended is said.
             let _ = work.keep(&kept);
         }
         done?;
         progress.finish();
-        let reading = survey.warnings.iter();
+        let reading = self.survey.warnings.iter();
         let reading =
             reading.map(|w| Warning::at_line(WarningCode::Program, w.line, w.text.clone()));
         let Work {
@@ -264,8 +266,8 @@ impl LongRun<'_> {
 
     fn work(
         &self,
-        work: &mut Work<'_>,
-        (kept, survey, length): (&Checkpoint, &Survey, PartLength),
+        work: &mut Work<'a>,
+        (kept, length): (&Checkpoint, PartLength),
         outputs: &RunOutputs,
         progress: &Progress,
     ) -> Answer<()> {
@@ -273,7 +275,7 @@ impl LongRun<'_> {
             Some(whole) => whole,
             None => {
                 let mut whole =
-                    in_threads(self.flags.threads, || self.look(survey, length, progress))??;
+                    in_threads(self.flags.threads, || self.look(length, progress))??;
                 // Not a number of the file of the state: a machine without any stiffness found is taken as it is.
                 if !whole.stiffness_n_per_mm.is_finite() {
                     whole.stiffness_n_per_mm = 0.0;
@@ -282,14 +284,14 @@ impl LongRun<'_> {
                 whole
             }
         };
-        self.pass(work, (kept, survey, length), whole, (outputs, progress))?;
+        self.pass(work, (kept, length), whole, (outputs, progress))?;
         if !work.state.as_it_is && work.state.merged.leaves_as_it_is() {
-            work.begin_anew(kept, survey, &self.setting, whole.stiffness_n_per_mm)?;
+            work.begin_anew(kept, self.survey, self.setting, whole.stiffness_n_per_mm)?;
             let whole = OfWhole {
                 as_it_is: true,
                 ..whole
             };
-            self.pass(work, (kept, survey, length), whole, (outputs, progress))?;
+            self.pass(work, (kept, length), whole, (outputs, progress))?;
         }
         Ok(())
     }
@@ -297,18 +299,18 @@ impl LongRun<'_> {
     /// All parts that are not done yet.
     fn pass(
         &self,
-        work: &mut Work<'_>,
-        (kept, survey, length): (&Checkpoint, &Survey, PartLength),
+        work: &mut Work<'a>,
+        (kept, length): (&Checkpoint, PartLength),
         whole: OfWhole,
         (outputs, progress): (&RunOutputs, &Progress),
     ) -> Answer<()> {
-        let count = survey.lines.div_ceil(length.own.max(1)).max(1);
+        let count = self.survey.lines.div_ceil(length.own.max(1)).max(1);
         let every = match self.flags.part_lines {
             Some(_) => Duration::ZERO,
             None => EVERY,
         };
         let mut last = Instant::now();
-        for (index, part) in self.parts(survey, length)?.enumerate() {
+        for (index, part) in self.parts(length)?.enumerate() {
             let part = part.map_err(|error| self.failed(error))?;
             if index < work.state.parts {
                 continue;
