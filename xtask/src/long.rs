@@ -56,7 +56,14 @@ fn surface(path: &Path, blocks: usize) -> Result<()> {
     let rows = blocks.div_ceil(row) as f64;
     for block in 0..blocks {
         let (line, at) = (block / row, block % row);
-        let x = -20.0 + 40.0 * (if line.is_multiple_of(2) { at } else { row - 1 - at }) as f64 / row as f64;
+        let x = -20.0
+            + 40.0
+                * (if line.is_multiple_of(2) {
+                    at
+                } else {
+                    row - 1 - at
+                }) as f64
+                / row as f64;
         let y = -20.0 + 40.0 * line as f64 / rows;
         let z = 2.0 * (0.2 * x).sin() * (0.15 * y).cos();
         writeln!(file, "G1 X{x:.4} Y{y:.4} Z{z:.4} F1200")?;
@@ -71,7 +78,11 @@ fn question(here: &Path, blocks: usize, out: &str) -> Vec<String> {
     let out = here.join(out);
     let words = "compensate --model orthoglide --tool-length-mm 100 --part-origin-mm 0 0 100 --milling 100 -10 -25 --tolerance-um 5 --threads 1";
     let mut all: Vec<String> = words.split(' ').map(str::to_owned).collect();
-    for (option, path) in [("--program", &program), ("--out", &out), ("--points", &out.with_extension("csv"))] {
+    for (option, path) in [
+        ("--program", &program),
+        ("--out", &out),
+        ("--points", &out.with_extension("csv")),
+    ] {
         all.extend([option.to_owned(), path.display().to_string()]);
     }
     all
@@ -95,9 +106,15 @@ fn measured(here: &Path, blocks: usize) -> Result<(f64, f64)> {
         .context("/usr/bin/time")?;
     let said = String::from_utf8_lossy(&done.stderr).into_owned();
     let figures = said.lines().find_map(|line| line.strip_prefix("figures "));
-    let numbers = figures.map(|line| line.split(' ').map(str::parse::<f64>).collect::<Result<Vec<_>, _>>());
+    let numbers = figures.map(|line| {
+        line.split(' ')
+            .map(str::parse::<f64>)
+            .collect::<Result<Vec<_>, _>>()
+    });
     match numbers {
-        Some(Ok(found)) if done.status.success() && found.len() == 2 => Ok((found[0], found[1] / 1024.0)),
+        Some(Ok(found)) if done.status.success() && found.len() == 2 => {
+            Ok((found[0], found[1] / 1024.0))
+        }
         _ => bail!("{said}"),
     }
 }

@@ -46,8 +46,21 @@ fn place(rows: usize) -> tempfile::TempDir {
 
 fn start(here: &Path, more: &[&str]) -> Child {
     command(here)
-        .args(["compensate", "job.toml", "--part-lines", "150", "--points", "points.csv"])
-        .args(["--json", "result.json", "--report", "report.html", "--all-points"])
+        .args([
+            "compensate",
+            "job.toml",
+            "--part-lines",
+            "150",
+            "--points",
+            "points.csv",
+        ])
+        .args([
+            "--json",
+            "result.json",
+            "--report",
+            "report.html",
+            "--all-points",
+        ])
         .args(more)
         .env("SOURCE_DATE_EPOCH", "1764000000")
         .stdout(Stdio::null())
@@ -58,7 +71,10 @@ fn start(here: &Path, more: &[&str]) -> Child {
 
 fn ended(here: &Path, more: &[&str]) -> (Option<i32>, String) {
     let done = start(here, more).wait_with_output().expect("it ends");
-    (done.status.code(), String::from_utf8_lossy(&done.stderr).into_owned())
+    (
+        done.status.code(),
+        String::from_utf8_lossy(&done.stderr).into_owned(),
+    )
 }
 
 fn outputs(here: &Path) -> BTreeMap<&'static str, Vec<u8>> {
@@ -107,13 +123,19 @@ fn another_question_is_refused_by_the_field_that_differs() {
     let mut child = start(here.path(), &[]);
     while !folder(here.path()).join("state.json").exists() {
         std::thread::sleep(Duration::from_millis(5));
-        assert!(child.try_wait().expect("asked").is_none(), "it ended before it kept anything");
+        assert!(
+            child.try_wait().expect("asked").is_none(),
+            "it ended before it kept anything"
+        );
     }
     child.kill().expect("killed");
     child.wait().expect("ends");
     let (code, said) = ended(here.path(), &["--decimals", "5"]);
     assert_eq!(code, Some(1), "{said}");
-    assert!(said.contains("how the program is written is another one now"), "{said}");
+    assert!(
+        said.contains("how the program is written is another one now"),
+        "{said}"
+    );
     assert!(said.contains("--restart"), "{said}");
     // A damaged state is that before it, or begun anew.
     let state = folder(here.path()).join("state.json");

@@ -78,8 +78,8 @@ pub use field::request::{
 pub use irregular::irregular;
 pub use machine_program::{Gcode, MachineProgram};
 pub use parts::lines::PartError;
-pub use parts::parts::{Part, PartLength, Parts};
 pub use parts::survey::Survey;
+pub use parts::windows::{Part, PartLength, Parts};
 pub use parts::written_so_far::{GcodePart, WrittenSoFar};
 pub use path::closed_circle::{NearlyClosed, angle_about, last_digit_mm};
 pub use path::curve::{Arc, Curve};

@@ -3,9 +3,9 @@
 use std::path::Path;
 
 use crate::compensate::arguments::CompensateArgs;
-use crate::compensate::{target, writing};
 use crate::files::input_files::InputFiles;
 use crate::files::outputs::{self, Existing};
+use crate::job::arguments::WritingFlags;
 use crate::job::job_file::JobFile;
 use crate::job::machine::machine_setup;
 use crate::job::of_model::give_of_model;
@@ -19,18 +19,21 @@ use crate::program::{report, summary};
 use crate::ui::failure::Answer;
 
 /// Compensates a program that is long and can be run in parts; whether it is.
-pub(crate) fn compensate(files: &InputFiles, args: &CompensateArgs) -> Answer<bool> {
-    let job = args.run.job.as_deref();
-    let job = job.map(|path| JobFile::read(files, path)).transpose()?;
-    let job = job.as_ref();
+pub(crate) fn compensate(
+    files: &InputFiles,
+    job: Option<&JobFile>,
+    (args, writing): (&CompensateArgs, &WritingFlags<'_>),
+) -> Answer<bool> {
     let flags = &args.run.program;
-    let other = args.map.is_some() || args.no_compensation || target(job, args).is_some();
     let path = program_path(job, flags)?;
-    let first = with_first_lines(files, &path, flags).filter(|_| !other);
+    let first = with_first_lines(files, &path, flags);
     let Some(files) = &first else {
         return Ok(false);
     };
-    let mut setting = setting(files, job, flags, &writing(args))?;
+    // What is wrong, or another language, is said of the whole.
+    let Ok(mut setting) = setting(files, job, flags, writing) else {
+        return Ok(false);
+    };
     let model_named = args.run.model.as_deref();
     if setting.robot.is_some() || setting.flat.is_some() {
         return Ok(false);

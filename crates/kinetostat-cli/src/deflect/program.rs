@@ -48,7 +48,14 @@ fn run_along(
         ..WritingFlags::default()
     };
     // The program is analysed as it is, also where the job has it written in another language.
-    let mut setting = setting(files, job, &args.program, &flags)?;
+    let mut setting = match setting(files, job, &args.program, &flags) {
+        // What is wrong, or another language, is said of the whole.
+        Err(_) if in_parts => return Ok(false),
+        found => found?,
+    };
+    if in_parts && (setting.robot.is_some() || setting.flat.is_some()) {
+        return Ok(false);
+    }
     setting.write_flat_to(args.program.expansion.flat_program.clone());
     let mut chosen = setting.targets.clone();
     // The job's outputs are those of the compensation: an analysis writes what is named here.
@@ -82,12 +89,12 @@ fn run_along(
         let mut outputs = RunOutputs::claim(Aim::Analyse, &chosen, existing, &setting.inputs)?;
         outputs.list(args.program.all_points, &model);
         let found = survey(&mut setting, Aim::Analyse)?;
-    let run = LongRun {
+        let run = LongRun {
             aim: Aim::Analyse,
             machine: &machine,
             model: &model,
             setting: &setting,
-        survey: &found,
+            survey: &found,
             flags: &args.program,
             targets: &chosen,
         };

@@ -7,6 +7,7 @@ use std::time::{Duration, Instant};
 
 use kinetostat_machining::{
     FileRead, OfWhole, Run, RunError, Warning, WarningCode, Watch, analyse_part, compensate_part,
+    look_at_part,
 };
 use kinetostat_model::Model;
 use kinetostat_program::{Part, PartError, PartLength, Parts, Survey, WrittenSoFar};
@@ -104,7 +105,11 @@ impl<'a> LongRun<'a> {
 
     fn parts(&self, length: PartLength) -> Answer<Parts<'a, BufReader<File>>> {
         let from = BufReader::with_capacity(1 << 16, text(self.setting)?);
-        Ok(Parts::new(from, (self.survey, &self.setting.reading), length))
+        Ok(Parts::new(
+            from,
+            (self.survey, &self.setting.reading),
+            length,
+        ))
     }
 
     /// What the run is: whatever its bytes depend on.
@@ -201,9 +206,9 @@ impl<'a> LongRun<'a> {
             let part = part.map_err(|error| self.failed(error))?;
             let compensate = self.aim == Aim::Compensate;
             let looked = self.with_part(&part, &nothing, false, |task| {
-                whole.look_at(task, compensate, watch)
+                look_at_part(whole, task, compensate, watch)
             })?;
-            self.answered(looked)?;
+            whole = self.answered(looked)?;
             watch.advance(part.next_line() - 1);
         }
         Ok(whole)
@@ -274,8 +279,7 @@ impl<'a> LongRun<'a> {
         let whole = match work.state.of_whole() {
             Some(whole) => whole,
             None => {
-                let mut whole =
-                    in_threads(self.flags.threads, || self.look(length, progress))??;
+                let mut whole = in_threads(self.flags.threads, || self.look(length, progress))??;
                 // Not a number of the file of the state: a machine without any stiffness found is taken as it is.
                 if !whole.stiffness_n_per_mm.is_finite() {
                     whole.stiffness_n_per_mm = 0.0;

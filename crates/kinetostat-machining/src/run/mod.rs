@@ -15,6 +15,7 @@ pub(crate) mod following;
 pub(crate) mod force_band;
 pub(crate) mod joints;
 pub(crate) mod largest_change;
+pub(crate) mod look_at_part;
 pub(crate) mod machines;
 pub(crate) mod merged;
 pub(crate) mod movable;

@@ -1,13 +1,5 @@
 //! What is known of a whole program where a part of it is run.
 
-use kinetostat::number::smaller;
-
-use crate::load::along_path::LoadAlongPath;
-use crate::run::first_look::FirstLook;
-use crate::run::preparation::refuse;
-use crate::task::{RunError, Task};
-use crate::watch::Watch;
-
 /// What is known of a whole program where a part of it is run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OfWhole {
@@ -23,27 +15,5 @@ impl Default for OfWhole {
             stiffness_n_per_mm: f64::INFINITY,
             as_it_is: false,
         }
-    }
-}
-
-impl OfWhole {
-    /// A first look at a part; `compensate`: it is to be corrected. What takes minutes to be solved everywhere is refused here.
-    ///
-    /// # Errors
-    /// A load under which the machine folds over, or corrections that are beyond their limits by far.
-    pub fn look_at(
-        &mut self,
-        task: &Task<'_>,
-        compensate: bool,
-        watch: &dyn Watch,
-    ) -> Result<(), RunError> {
-        let load = LoadAlongPath::with_tools(task.load, task.path(), task.tools);
-        let looked = FirstLook::new(task, &load, watch)?;
-        refuse(match compensate {
-            true => looked.gross(task),
-            false => looked.folding_load(task),
-        })?;
-        self.stiffness_n_per_mm = smaller(self.stiffness_n_per_mm, looked.stiffness());
-        Ok(())
     }
 }

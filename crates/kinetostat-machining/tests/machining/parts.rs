@@ -3,7 +3,8 @@
 use kinetostat::{Directions, Mechanism, Pose};
 use kinetostat_machining::{
     Bounds, CuttingLoad, MergedRun, OfWhole, Placement, ProgramLoad, Run, RunInputs, Task,
-    Unwatched, analyse, analyse_part, compensate_part, compensate_program, straight_tool,
+    Unwatched, analyse, analyse_part, compensate_part, compensate_program, look_at_part,
+    straight_tool,
 };
 use kinetostat_model::Model;
 use kinetostat_program::{
@@ -16,7 +17,9 @@ fn orthoglide() -> Mechanism {
     let mut model = Model::preset("orthoglide").expect("preset");
     for leg in ["leg x", "leg y", "leg z"] {
         let turned = Pose::rotation(Vector3::x() * 1_f64.to_radians());
-        model = model.with_deviation(leg, "line", &turned).expect("deviation");
+        model = model
+            .with_deviation(leg, "line", &turned)
+            .expect("deviation");
     }
     model.mechanism.with_tool(&straight_tool(0.1))
 }
@@ -100,8 +103,8 @@ fn in_parts(
             part: &part,
             so_far: &so_far,
         };
-        with_task(machine, &program, |task| {
-            of_whole.look_at(task, compensate, &Unwatched).expect("look");
+        of_whole = with_task(machine, &program, |task| {
+            look_at_part(of_whole, task, compensate, &Unwatched).expect("look")
         });
     }
     let (mut merged, mut bytes, mut points) = (MergedRun::default(), Vec::new(), Vec::new());
@@ -130,7 +133,10 @@ fn in_parts(
 }
 
 fn close(a: f64, b: f64, relative: f64, what: &str) {
-    assert!((a - b).abs() <= relative * b.abs() + 1e-12, "{what}: {a} {b}");
+    assert!(
+        (a - b).abs() <= relative * b.abs() + 1e-12,
+        "{what}: {a} {b}"
+    );
 }
 
 #[test]
@@ -151,7 +157,10 @@ fn figures_of_parts_together_are_those_of_the_whole() {
     }
     let found = merged.finish(Vec::new()).expect("result").summary;
     let wanted = &all.result.summary;
-    assert_eq!((found.points, found.blocks, found.bytes_in), (wanted.points, wanted.blocks, wanted.bytes_in));
+    assert_eq!(
+        (found.points, found.blocks, found.bytes_in),
+        (wanted.points, wanted.blocks, wanted.bytes_in)
+    );
     close(found.feed_length_mm, wanted.feed_length_mm, 1e-12, "length");
     close(
         found.max_position_error_before_mm,
@@ -176,7 +185,11 @@ fn what_is_compensated_in_parts_is_one_program_within_the_tolerance() {
     let program = Program::read(bytes.clone()).expect("one program");
     let path = interpret(&program, &reading).expect("one path");
     let written = all.written.as_ref().expect("written");
-    let other = interpret(&Program::read(written.bytes.clone()).expect("read"), &reading).expect("path");
+    let other = interpret(
+        &Program::read(written.bytes.clone()).expect("read"),
+        &reading,
+    )
+    .expect("path");
     // Within the ways on which the load comes a place may be divided otherwise; the ends of blocks are the same to the last digits.
     assert!(path.moves.len().abs_diff(other.moves.len()) * 50 < other.moves.len());
     assert!(!merged.leaves_as_it_is());
@@ -189,7 +202,11 @@ fn what_is_compensated_in_parts_is_one_program_within_the_tolerance() {
     assert_eq!(result.summary.bytes_out, bytes.len());
     assert_eq!(result.summary.blocks_out, program.block_count());
     let last = points.last().expect("points");
-    assert!(points.windows(2).all(|pair| pair[0].output_line <= pair[1].output_line));
+    assert!(
+        points
+            .windows(2)
+            .all(|pair| pair[0].output_line <= pair[1].output_line)
+    );
     assert!(last.output_line < program.line_count());
     assert_eq!(result.summary.entry_steps, all.result.summary.entry_steps);
 }

@@ -6,6 +6,6 @@
 //! written program stands between two of them, so that all that is written, put together, is one program.
 
 pub(crate) mod lines;
-pub(crate) mod parts;
 pub(crate) mod survey;
+pub(crate) mod windows;
 pub(crate) mod written_so_far;
