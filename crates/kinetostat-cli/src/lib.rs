@@ -26,6 +26,7 @@ mod files;
 mod force;
 mod import;
 mod job;
+mod long;
 mod machine;
 mod map;
 mod mirror;

@@ -112,6 +112,12 @@ pub(crate) struct ProgramArgs {
     /// Overwrite outputs that exist (never an input)
     #[arg(long, help_heading = "Outputs")]
     pub(crate) force_overwrite: bool,
+    /// Begin a long program anew, though a run of it was interrupted and could go on
+    #[arg(long, help_heading = "Outputs")]
+    pub(crate) restart: bool,
+    /// Lines of a part of a long program (for tests): a program of any length is run in parts
+    #[arg(long, value_name = "N", hide = true, value_parser = whole)]
+    pub(crate) part_lines: Option<usize>,
     /// Number of threads; all cores without it. The result is the same
     #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = whole)]
     pub(crate) threads: Option<usize>,

@@ -125,6 +125,14 @@ impl RunOutputs {
         self.pdf.is_some() || (self.report.is_some() && self.language != Language::English)
     }
 
+    /// Writes the result of a long program beside its targets: JSON and report.
+    pub(crate) fn fill_result(&mut self, run: &Run, setting: &Setting) -> Answer<()> {
+        let (program, points) = (self.program.take(), self.points.take());
+        let filled = self.fill(run, setting, None);
+        (self.program, self.points) = (program, points);
+        filled
+    }
+
     /// Writes a run beside its targets, with the turn that was chosen for it; nothing is in place yet.
     pub(crate) fn fill(
         &mut self,

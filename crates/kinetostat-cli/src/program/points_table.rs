@@ -71,6 +71,33 @@ pub(crate) fn table(
     }
 }
 
+/// The rows of a part of a long program, one of so many, behind those of the parts before it; the header before the first.
+pub(crate) fn part(
+    run_inputs: &RunInputs,
+    points: &[PointResult],
+    (listing, parts, begins): (&Listing, usize, bool),
+    mut put: impl FnMut(&[u8]) -> Answer<()>,
+) -> Answer<()> {
+    let header = header(run_inputs, points, listing);
+    let most = MOST_BYTES / (CELL * header.len()) / parts.max(1);
+    if begins {
+        let mut writer = csv::Writer::from_writer(Vec::new());
+        writer.write_record(&header).map_err(failed)?;
+        put(&bytes(writer)?)?;
+    }
+    let listed = match listing.all {
+        true => (0..points.len()).collect(),
+        false => thinned(points, &[], most),
+    };
+    listed.chunks(BLOCK).try_for_each(|block| {
+        put(&lines(
+            run_inputs,
+            listing,
+            &mut block.iter().map(|i| &points[*i]),
+        )?)
+    })
+}
+
 pub(crate) fn header(
     run_inputs: &RunInputs,
     points: &[PointResult],

@@ -23,6 +23,7 @@ mod load;
 mod map;
 mod measured_forces;
 mod orientation_follows;
+mod parts;
 mod ramp_lengths;
 mod ramps;
 mod robot_programs;
