@@ -95,7 +95,9 @@ fn stepped(
 }
 
 fn worst_apart(vibration: &Vibration, track: &[Vector3<f64>]) -> f64 {
-    let size = track.iter().map(|r| r.norm()).fold(0.0, f64::max);
+    let mut sizes = Worst::new();
+    track.iter().for_each(|r| sizes.add(r.norm()));
+    let size = sizes.value();
     let mut worst = Worst::new();
     for (i, expected) in track.iter().enumerate().step_by(97) {
         let turn = TAU * (i as f64 + 0.5) / track.len() as f64;

@@ -130,9 +130,10 @@ pub fn multiplier(
         .collect();
     let schur = Schur::try_new(DMatrix::from_columns(&columns), f64::EPSILON, 100_000).unwrap();
     let all = schur.complex_eigenvalues();
+    let mut sizes = kinetostat_testing::Worst::new();
     all.iter()
-        .map(|mu: &Complex<f64>| mu.norm())
-        .fold(0.0, f64::max)
+        .for_each(|mu: &Complex<f64>| sizes.add(mu.norm()));
+    sizes.value()
 }
 
 /// The limit of ever more steps, second order assumed.
