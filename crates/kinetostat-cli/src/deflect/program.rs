@@ -2,15 +2,18 @@
 
 use std::path::Path;
 
+use kinetostat_model::Model;
+
 use crate::deflect::arguments::DeflectArgs;
 use crate::files::input_files::InputFiles;
 use crate::files::outputs::{self, Existing};
 use crate::job::arguments::WritingFlags;
 use crate::job::free_turn::FreeTurn;
 use crate::job::job_file::JobFile;
-use crate::job::machine::machine_setup;
+use crate::job::machine::{MachineSetup, machine_setup};
 use crate::job::of_model::give_of_model;
-use crate::job::setting::{program_path, setting};
+use crate::job::output_paths::OutputPaths;
+use crate::job::setting::{Setting, program_path, setting};
 use crate::job::turn_arguments::FreeTurnWord;
 use crate::job::{program, run_warnings};
 use crate::long::run::{LongRun, survey};
@@ -78,38 +81,14 @@ fn run_along(
         (frames.as_ref(), &mut setting.inputs),
     )?;
     setting.turned_by(machine.rotary.clone());
-    let to_screen = args.json.as_deref() == Some(Path::new("-"));
     if in_parts {
         chosen.program = None;
         let whole = only_as_a_whole(&setting, &machine, &args.program).is_some();
         if whole || chosen.pdf.is_some() {
             return Ok(false);
         }
-        let mut outputs = RunOutputs::claim(Aim::Analyse, &chosen, existing, &setting.inputs)?;
-        outputs.list(args.program.all_points, &model);
-        let found = survey(&mut setting, Aim::Analyse)?;
-        let run = LongRun {
-            aim: Aim::Analyse,
-            machine: &machine,
-            model: &model,
-            setting: &setting,
-            survey: &found,
-            flags: &args.program,
-            targets: &chosen,
-        };
-        let (mut run, done) = run.run(&mut outputs)?;
-        let found = run_warnings::of_run(&model, job);
-        run.result.warnings.extend(found);
-        done.fill(&mut outputs)?;
-        outputs.fill_result(&run, &setting)?;
-        let paths = outputs.files.commit()?;
-        done.remove();
-        let text = format!(
-            "{}{}",
-            summary::of_run(&run.result),
-            outputs::written(&paths)
-        );
-        return report::print_run(&text, to_screen.then_some(&run.result)).map(|()| true);
+        let of = (job, existing, chosen);
+        return part_by_part(args, (&machine, &model), setting, of).map(|()| true);
     }
     program::read_program(&setting)?;
     let mut outputs = RunOutputs::claim(Aim::Analyse, &chosen, existing, &setting.inputs)?;
@@ -136,5 +115,37 @@ fn run_along(
         summary::of_run(&run.result),
         outputs::written(&paths)
     );
+    let to_screen = args.json.as_deref() == Some(Path::new("-"));
     report::print_run(&text, to_screen.then_some(&run.result)).map(|()| true)
+}
+
+/// The deflections along a long program, of which the setting has the first lines.
+fn part_by_part(
+    args: &DeflectArgs,
+    (machine, model): (&MachineSetup, &Model),
+    mut setting: Setting,
+    (job, existing, targets): (Option<&JobFile>, Existing, OutputPaths),
+) -> Answer<()> {
+    let mut outputs = RunOutputs::claim(Aim::Analyse, &targets, existing, &setting.inputs)?;
+    outputs.list(args.program.all_points, model);
+    let whole = survey(&mut setting, Aim::Analyse)?;
+    let run = LongRun {
+        aim: Aim::Analyse,
+        machine,
+        model,
+        setting: &setting,
+        survey: &whole,
+        flags: &args.program,
+        targets: &targets,
+    };
+    let (mut run, done) = run.run(&mut outputs)?;
+    let found = run_warnings::of_run(model, job);
+    run.result.warnings.extend(found);
+    done.fill(&mut outputs)?;
+    outputs.fill_result(&run, &setting)?;
+    let paths = outputs.files.commit()?;
+    done.remove();
+    let text = summary::of_run(&run.result) + &outputs::written(&paths);
+    let to_screen = args.json.as_deref() == Some(Path::new("-"));
+    report::print_run(&text, to_screen.then_some(&run.result))
 }

@@ -1,6 +1,6 @@
 //! Programs that are longer than memory: run part by part, and gone on with where they were interrupted.
 //!
-//! `compensate` and `deflect` come here with a program in G-code beyond [`LONG_BYTES`]. The program is read once
+//! `compensate` and `deflect` come here with a long program in G-code ([`which`]). The program is read once
 //! ([`Survey`](kinetostat_program::Survey)), looked at, and run in parts; what is done is kept beside the outputs
 //! ([`checkpoint`]) until they are in place.
 
