@@ -28,6 +28,8 @@ pub(crate) struct Solved {
     pub neutral: DMatrix<f64>,
     /// Massless directions with negative stiffness.
     pub massless_unstable: usize,
+    /// `s`: squares are known to its rounding and no better.
+    pub shift: f64,
 }
 
 /// A factor of `K + s M` with rows and columns in units that make its diagonal one.
@@ -230,6 +232,7 @@ fn by_shift(mass: &DMatrix<f64>, shifted: &Shifted) -> Solved {
         massless: n - kept,
         neutral: DMatrix::zeros(n, 0),
         massless_unstable: 0,
+        shift: shifted.shift,
     }
 }
 
@@ -310,6 +313,7 @@ fn condensed(mass: &DMatrix<f64>, tangent: &DMatrix<f64>) -> Option<Solved> {
         .filter(|&i| own.eigenvalues[i].abs() <= least)
         .collect();
     Some(Solved {
+        shift: inner.shift,
         squared: inner.squared,
         shapes: whole * inner.shapes,
         massless: light.len() - none,
