@@ -9,7 +9,6 @@ mod format;
 mod identical;
 mod internal;
 mod library;
-mod link_masses;
 mod link_matrices;
 mod loads_and_links;
 mod many_loaded;
