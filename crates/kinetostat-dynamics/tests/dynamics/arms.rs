@@ -16,7 +16,6 @@ fn frequencies_are(found: &[f64], expected: &[f64], most: f64) {
     for (found, expected) in found.iter().zip(expected) {
         worst.add(relative(*found, *expected));
     }
-    println!("{found:?}: off by {:?}", worst.measured());
     assert!(worst.of(expected.len()) < most, "{found:?} {expected:?}");
 }
 

@@ -10,6 +10,7 @@ use kinetostat::*;
 use kinetostat_dynamics::{Damping, Held, LinearDynamics, ModalResponse, Quantity, Receptance};
 use nalgebra::{Vector3, vector};
 
+#[allow(clippy::print_stdout)] // what it is for
 fn time(what: &str, mut work: impl FnMut()) {
     work();
     let mut best = f64::INFINITY;
