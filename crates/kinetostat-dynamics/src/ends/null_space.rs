@@ -8,6 +8,11 @@ const DEPENDENT: f64 = 1e-10;
 /// Basis of the null space of `rows` (scaled, k x n), n x m, and the rank of the rows: by Householder reflections with
 /// column pivoting of the transpose, so that redundant conditions do no harm.
 pub(crate) fn null_space(rows: &DMatrix<f64>) -> (DMatrix<f64>, usize) {
+    null_space_below(rows, DEPENDENT)
+}
+
+/// The same with a threshold of one's own for pivots, relative to the largest.
+pub(crate) fn null_space_below(rows: &DMatrix<f64>, dependent: f64) -> (DMatrix<f64>, usize) {
     let n = rows.ncols();
     if rows.nrows() == 0 || n == 0 {
         return (DMatrix::identity(n, n), 0);
@@ -22,7 +27,7 @@ pub(crate) fn null_space(rows: &DMatrix<f64>) -> (DMatrix<f64>, usize) {
         .fold(0.0_f64, |m, x| if x.abs() > m { x.abs() } else { m });
     let rank = diagonal
         .iter()
-        .filter(|x| x.abs() > DEPENDENT * most)
+        .filter(|x| x.abs() > dependent * most)
         .count();
     let mut transposed = DMatrix::identity(n, n);
     qr.q_tr_mul(&mut transposed);

@@ -20,7 +20,7 @@ pub(crate) fn at_centre(
     matrix
 }
 
-/// Inertia of a body about a point from which its centre of mass is at `arm` (base axes, m), as [D2] has it: linear
+/// Inertia of a body about a point from which its centre of mass is at `arm` (base axes, m), as equation D2 of the theory has it: linear
 /// before angular.
 #[must_use]
 pub fn about_point(

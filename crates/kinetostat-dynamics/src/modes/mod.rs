@@ -119,7 +119,7 @@ impl LinearDynamics {
         for (k, &squared) in solved.squared.iter().enumerate() {
             let scaled = solved.shapes.column(k);
             let size = scaled.abs().dot(&(&sizes * scaled.abs()));
-            let nothing = squared.abs() <= NOTHING * size;
+            let nothing = squared.abs() <= NOTHING * size + 1e-12 * solved.shift;
             let kind = match (nothing, squared > 0.0) {
                 (true, _) => ModeKind::Free,
                 (false, true) => ModeKind::Vibration,

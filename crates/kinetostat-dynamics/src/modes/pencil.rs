@@ -9,7 +9,7 @@
 
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
-use crate::ends::null_space::null_space;
+use crate::ends::null_space::{null_space, null_space_below};
 
 /// Pivots of a matrix with ones on its diagonal below this are none.
 const PIVOT: f64 = 1e-13;
@@ -28,6 +28,8 @@ pub(crate) struct Solved {
     pub neutral: DMatrix<f64>,
     /// Massless directions with negative stiffness.
     pub massless_unstable: usize,
+    /// `s`: squares are known to its rounding and no better.
+    pub shift: f64,
 }
 
 /// A factor of `K + s M` with rows and columns in units that make its diagonal one.
@@ -81,7 +83,7 @@ impl Shifted {
         let (least, most) = ratios.fold((f64::INFINITY, 0.0_f64), |(l, m), r| {
             (if r < l { r } else { l }, if r > m { r } else { m })
         });
-        if !(most > 0.0) {
+        if most <= 0.0 {
             // Masses alone: any shift will do.
             return Self::new(mass, tangent, 1.0);
         }
@@ -131,7 +133,7 @@ fn rank_of_mass(mass: &DMatrix<f64>) -> usize {
             step,
             |best, i| if a[(i, i)] > a[(best, best)] { i } else { best },
         );
-        if !(a[(pivot, pivot)] > MASSLESS) {
+        if a[(pivot, pivot)].is_nan() || a[(pivot, pivot)] <= MASSLESS {
             return step;
         }
         a.swap_rows(step, pivot);
@@ -230,6 +232,7 @@ fn by_shift(mass: &DMatrix<f64>, shifted: &Shifted) -> Solved {
         massless: n - kept,
         neutral: DMatrix::zeros(n, 0),
         massless_unstable: 0,
+        shift: shifted.shift,
     }
 }
 
@@ -247,24 +250,10 @@ pub(crate) fn neutral_directions(
     let mut rows = DMatrix::zeros(2 * n, n);
     rows.rows_mut(0, n).copy_from(&(mass / size(mass)));
     rows.rows_mut(n, n).copy_from(&(tangent / size(tangent)));
-    let gram_free = null_space_absolute(&rows);
-    let (rest, _) = null_space(&gram_free.transpose());
-    (gram_free, rest)
-}
-
-/// Null space by singular values below an absolute threshold: noise of a neutral block is no stiffness.
-fn null_space_absolute(rows: &DMatrix<f64>) -> DMatrix<f64> {
-    let n = rows.ncols();
-    // The triangle of the stacked rows has their null space and is square.
-    let r = rows.clone().qr().r();
-    let svd = r.svd(false, true);
-    let Some(v) = svd.v_t else {
-        return DMatrix::zeros(n, 0);
-    };
-    let own: Vec<usize> = (0..n)
-        .filter(|&k| svd.singular_values[k] < 1e-14 * (n as f64))
-        .collect();
-    v.select_rows(&own).transpose()
+    // Absolute for both: each is in units of its own largest entry, and noise of a neutral block is no stiffness.
+    let (neutral, _) = null_space_below(&rows, 1e-13);
+    let (rest, _) = null_space(&neutral.transpose());
+    (neutral, rest)
 }
 
 /// Massless coordinates condensed by the eigenvectors of `M`; [D6].
@@ -310,6 +299,7 @@ fn condensed(mass: &DMatrix<f64>, tangent: &DMatrix<f64>) -> Option<Solved> {
         .filter(|&i| own.eigenvalues[i].abs() <= least)
         .collect();
     Some(Solved {
+        shift: inner.shift,
         squared: inner.squared,
         shapes: whole * inner.shapes,
         massless: light.len() - none,

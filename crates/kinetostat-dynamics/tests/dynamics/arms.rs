@@ -16,7 +16,6 @@ fn frequencies_are(found: &[f64], expected: &[f64], most: f64) {
     for (found, expected) in found.iter().zip(expected) {
         worst.add(relative(*found, *expected));
     }
-    println!("{found:?}: off by {:?}", worst.measured());
     assert!(worst.of(expected.len()) < most, "{found:?} {expected:?}");
 }
 
@@ -117,26 +116,54 @@ fn pendulums_hang_and_stand() {
 fn frame_under_gravity_and_force() {
     let found = |segments: usize, force: [f64; 3]| {
         let mass = LinkMass::of_section(&section(), DENSITY);
-        let link = |length| LinkSpec::beam(section(), length).segments(segments).with_mass(mass);
+        let link = |length| {
+            LinkSpec::beam(section(), length)
+                .segments(segments)
+                .with_mass(mass)
+        };
         let chain = Chain::builder("frame")
             .link_with("one", &link(0.8))
             .rigid(Pose::rotation(vector![0.0, 0.0, -1.2]))
             .link_with("two", &link(0.6))
-            .body("tip body", 4.0, Vector3::zeros(), diagonal(0.02, 0.03, 0.01))
+            .body(
+                "tip body",
+                4.0,
+                Vector3::zeros(),
+                diagonal(0.02, 0.03, 0.01),
+            )
             .build()
             .unwrap();
         let end = EndCondition::wrench(Wrench::new(Vector3::from(force), Vector3::zeros()));
         let mut problem = ChainProblem::new(&chain, end);
         problem.loads.push(Load::gravity(down()));
         let at = solve_chain(&problem, &Settings::default()).unwrap();
-        let d = LinearDynamics::of_chain(&problem, &at.coordinates, &at.wrench, &Held::nothing()).unwrap();
+        let d = LinearDynamics::of_chain(&problem, &at.coordinates, &at.wrench, &Held::nothing())
+            .unwrap();
         assert!(d.asymmetry() < 1e-12, "{}", d.asymmetry());
-        (d.modes().unwrap().frequencies_hz()[..4].to_vec(), at.tip.translation.vector)
+        (
+            d.modes().unwrap().frequencies_hz()[..4].to_vec(),
+            at.tip.translation.vector,
+        )
     };
     for (segments, f, tip, most) in [
-        (1, [6.6955746, 10.174389, 31.525368, 38.890749], [1.017406971, -0.559209752, -0.006382611], 2e-5),
-        (2, [6.6954568, 10.174174, 31.452907, 38.871993], [1.017401866, -0.559210057, -0.00638254], 1e-5),
-        (4, [6.6954596, 10.174158, 31.445643, 38.870189], [1.017399887, -0.559211232, -0.006382525], 5e-6),
+        (
+            1,
+            [6.6955746, 10.174389, 31.525368, 38.890749],
+            [1.017406971, -0.559209752, -0.006382611],
+            2e-5,
+        ),
+        (
+            2,
+            [6.6954568, 10.174174, 31.452907, 38.871993],
+            [1.017401866, -0.559210057, -0.00638254],
+            1e-5,
+        ),
+        (
+            4,
+            [6.6954596, 10.174158, 31.445643, 38.870189],
+            [1.017399887, -0.559211232, -0.006382525],
+            5e-6,
+        ),
     ] {
         let (own, at) = found(segments, [0.0; 3]);
         frequencies_are(&own, &f, most);
@@ -144,7 +171,10 @@ fn frame_under_gravity_and_force() {
     }
     let [one, two, four, eight] = [1, 2, 4, 8].map(|n| found(n, [-1500.0, 800.0, -600.0]).0[0]);
     let orders = [(one - two) / (two - four), (two - four) / (four - eight)];
-    assert!(orders.iter().all(|ratio| (3.8..4.2).contains(ratio)), "{orders:?}");
+    assert!(
+        orders.iter().all(|ratio| (3.8..4.2).contains(ratio)),
+        "{orders:?}"
+    );
     // What the reference tends to, whose own steps fall by a factor of three and more.
     assert!((eight / 6.1627074 - 1.0).abs() < 4e-3);
 }

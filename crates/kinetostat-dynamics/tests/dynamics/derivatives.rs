@@ -85,6 +85,9 @@ fn state(chain: &Chain, r: &mut Irregular) -> Vec<f64> {
         .collect()
 }
 
+/// Axes and place of a body, mass, inertia.
+type Frame = (Matrix3<f64>, Vector3<f64>, f64, Matrix3<f64>);
+
 /// Kinetic energy of velocities along `y` by differences of poses of bodies and slices.
 fn kinetic(chain: &Chain, x: &[f64], y: &[f64]) -> f64 {
     let at = |h: f64| -> Vec<f64> { x.iter().zip(y).map(|(x, y)| x + h * y).collect() };
@@ -122,10 +125,9 @@ fn kinetic(chain: &Chain, x: &[f64], y: &[f64]) -> f64 {
     let now = frames(0.0);
     let mut sum = 0.0;
     for k in 0..now.len() {
-        let rate =
-            |f: &dyn Fn(&(Matrix3<f64>, Vector3<f64>, f64, Matrix3<f64>)) -> Matrix3<f64>| {
-                ((f(&c[k]) - f(&b[k])) * 8.0 - (f(&d[k]) - f(&a[k]))) / (12.0 * h)
-            };
+        let rate = |f: &dyn Fn(&Frame) -> Matrix3<f64>| {
+            ((f(&c[k]) - f(&b[k])) * 8.0 - (f(&d[k]) - f(&a[k]))) / (12.0 * h)
+        };
         let v = rate(&|f| Matrix3::from_columns(&[f.1, Vector3::zeros(), Vector3::zeros()]))
             .column(0)
             .into_owned();

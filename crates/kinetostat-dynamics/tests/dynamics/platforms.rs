@@ -155,7 +155,6 @@ fn dynamics(machine: &Mechanism, wrench: &Wrench) -> (LinearDynamics, MechanismE
 
 fn are(modes: &Modes, first: usize, expected: &[f64]) {
     let found = modes.frequencies_hz();
-    println!("{found:?} {:?}", modes.counts);
     let mut worst = Worst::new();
     for (found, expected) in found[first..].iter().zip(expected) {
         if *expected == 0.0 {

@@ -10,6 +10,7 @@ use kinetostat::*;
 use kinetostat_dynamics::{Damping, Held, LinearDynamics, ModalResponse, Quantity, Receptance};
 use nalgebra::{Vector3, vector};
 
+#[allow(clippy::print_stdout)] // what it is for
 fn time(what: &str, mut work: impl FnMut()) {
     work();
     let mut best = f64::INFINITY;
@@ -36,7 +37,9 @@ fn how_long_it_takes() {
     time("arm6: equilibrium", || {
         std::hint::black_box(solve_chain(&problem, &settings).unwrap());
     });
-    let dynamics = || LinearDynamics::of_chain(&problem, &at.coordinates, &at.wrench, &Held::nothing()).unwrap();
+    let dynamics = || {
+        LinearDynamics::of_chain(&problem, &at.coordinates, &at.wrench, &Held::nothing()).unwrap()
+    };
     time("arm6: linear dynamics", || {
         std::hint::black_box(dynamics());
     });
@@ -46,7 +49,15 @@ fn how_long_it_takes() {
         std::hint::black_box(d.damping_ratios(&modes, &Damping::Ratio(0.03)).unwrap());
     });
     let modes = d.modes().unwrap();
-    let response = ModalResponse::new(&d, &modes, &Damping::Ratio(0.03), d.tool(), d.tool(), usize::MAX).unwrap();
+    let response = ModalResponse::new(
+        &d,
+        &modes,
+        &Damping::Ratio(0.03),
+        d.tool(),
+        d.tool(),
+        usize::MAX,
+    )
+    .unwrap();
     let hz: Vec<f64> = (0..1000).map(|k| 0.2 * f64::from(k)).collect();
     let mut out = vec![Receptance::zeros(); 1000];
     time("arm6: 1000 points of 6 x 6 by modes", || {
@@ -67,13 +78,20 @@ fn how_long_it_takes() {
     for segments in [4, 8, 16, 32] {
         let mass = LinkMass::of_section(&section(), DENSITY);
         let chain = Chain::builder("beam")
-            .link_with("beam", &LinkSpec::beam(section(), 1.0).segments(segments).with_mass(mass))
+            .link_with(
+                "beam",
+                &LinkSpec::beam(section(), 1.0)
+                    .segments(segments)
+                    .with_mass(mass),
+            )
             .build()
             .unwrap();
         let problem = ChainProblem::new(&chain, EndCondition::wrench(Wrench::zero()));
         let x = chain.home_coordinates();
         time(&format!("{segments} segments: linear dynamics"), || {
-            std::hint::black_box(LinearDynamics::of_chain(&problem, &x, &Wrench::zero(), &Held::nothing()).unwrap());
+            std::hint::black_box(
+                LinearDynamics::of_chain(&problem, &x, &Wrench::zero(), &Held::nothing()).unwrap(),
+            );
         });
         let d = LinearDynamics::of_chain(&problem, &x, &Wrench::zero(), &Held::nothing()).unwrap();
         time(&format!("{segments} segments: modes"), || {

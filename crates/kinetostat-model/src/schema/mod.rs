@@ -25,8 +25,7 @@ pub use elastic::{
 };
 pub use element::{
     ActuatorElement, ActuatorKind, BodyElement, Convention, CoupledElement, Element, LinkElement,
-    MassModelWord, NodeElement, ParallelogramElement, PassiveElement, RigidElement, Spring6Element,
-    SpringElement,
+    NodeElement, ParallelogramElement, PassiveElement, RigidElement, Spring6Element, SpringElement,
 };
 pub use joint::{JointKind, PassiveKind};
 pub use knee::Knee;
