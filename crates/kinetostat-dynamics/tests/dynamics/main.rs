@@ -4,3 +4,4 @@
 mod arms;
 mod beams;
 mod common;
+mod platforms;
