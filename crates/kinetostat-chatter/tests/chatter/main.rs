@@ -4,6 +4,8 @@
 mod arm;
 mod coupling;
 mod exact;
+mod fitted;
 mod forced;
 mod support;
+mod universal;
 mod zeroth;
