@@ -62,8 +62,12 @@ impl Damping {
     pub fn check(&self) -> Result<()> {
         let refuse = |text: String| Err(Error::Damping(text));
         let ratio = |z: &f64| match *z {
-            z if !(z.is_finite() && z >= 0.0) => refuse(format!("the ratio is {z}, a number not below zero is needed")),
-            z if z >= 1.0 => refuse(format!("the ratio is {z}: critical damping is 1, and nothing vibrates then (3 % is 0.03)")),
+            z if !(z.is_finite() && z >= 0.0) => refuse(format!(
+                "the ratio is {z}, a number not below zero is needed"
+            )),
+            z if z >= 1.0 => refuse(format!(
+                "the ratio is {z}: critical damping is 1, and nothing vibrates then (3 % is 0.03)"
+            )),
             _ => Ok(()),
         };
         let positive = |what: &str, x: f64| match x.is_finite() && x >= 0.0 {
@@ -75,12 +79,17 @@ impl Damping {
             Self::Ratio(z) => ratio(z),
             Self::Ratios(list) if list.is_empty() => refuse("no ratio is given".to_owned()),
             Self::Ratios(list) => list.iter().try_for_each(ratio),
-            Self::Rayleigh { mass_per_s, stiffness_s } => {
+            Self::Rayleigh {
+                mass_per_s,
+                stiffness_s,
+            } => {
                 positive("the share of the mass", *mass_per_s)?;
                 positive("the share of the stiffness", *stiffness_s)
             }
             Self::Structural { loss_factor } => positive("the loss factor", *loss_factor),
-            Self::Viscous(list) => list.iter().try_for_each(|(name, c)| positive(&format!("the damper of '{name}'"), *c)),
+            Self::Viscous(list) => list
+                .iter()
+                .try_for_each(|(name, c)| positive(&format!("the damper of '{name}'"), *c)),
         }
     }
 }
@@ -111,7 +120,10 @@ impl LinearDynamics {
                     matrix.ger(factor, &force, &force, 1.0);
                 }
             }
-            Damping::Rayleigh { mass_per_s, stiffness_s } => {
+            Damping::Rayleigh {
+                mass_per_s,
+                stiffness_s,
+            } => {
                 matrix += &self.mass * *mass_per_s + &self.elastic * *stiffness_s;
             }
             Damping::Viscous(list) => {
@@ -130,11 +142,18 @@ impl LinearDynamics {
         let found = found.ok_or_else(|| Error::UnknownName {
             what: "joint or spring",
             name: name.to_owned(),
-            known: self.coordinates.iter().map(|c| c.name.as_str()).collect::<Vec<_>>().join(", "),
+            known: self
+                .coordinates
+                .iter()
+                .map(|c| c.name.as_str())
+                .collect::<Vec<_>>()
+                .join(", "),
         })?;
         Ok(match &self.basis {
             Some(basis) => basis.row(found.index).transpose(),
-            None => nalgebra::DVector::from_fn(self.len(), |i, _| f64::from(u8::from(i == found.index))),
+            None => {
+                nalgebra::DVector::from_fn(self.len(), |i, _| f64::from(u8::from(i == found.index)))
+            }
         })
     }
 
@@ -149,7 +168,11 @@ impl LinearDynamics {
         Ok(own.iter().map(|d| larger(d.ratio, 0.5 * d.loss)).collect())
     }
 
-    pub(crate) fn modal_damping(&self, modes: &Modes, damping: &Damping) -> Result<Vec<ModalDamping>> {
+    pub(crate) fn modal_damping(
+        &self,
+        modes: &Modes,
+        damping: &Damping,
+    ) -> Result<Vec<ModalDamping>> {
         damping.check()?;
         let vibrations = modes.modes.iter().scan(0, |count, mode| {
             let own = (mode.kind == ModeKind::Vibration).then_some(*count);
@@ -172,7 +195,11 @@ impl LinearDynamics {
                 .iter()
                 .map(|mode| {
                     let elastic = mode.shape.dot(&(&self.elastic * &mode.shape));
-                    let loss = if mode.squared == 0.0 { 0.0 } else { loss_factor * elastic / mode.squared.abs() };
+                    let loss = if mode.squared == 0.0 {
+                        0.0
+                    } else {
+                        loss_factor * elastic / mode.squared.abs()
+                    };
                     ModalDamping { ratio: 0.0, loss }
                 })
                 .collect(),
@@ -180,7 +207,11 @@ impl LinearDynamics {
                 let matrix = self.damping_matrix(modes, damping)?;
                 let own = modes.modes.iter().map(|mode| {
                     let rate = mode.shape.dot(&(&matrix * &mode.shape));
-                    let ratio = if mode.squared == 0.0 { 0.0 } else { 0.5 * rate / mode.squared.abs().sqrt() };
+                    let ratio = if mode.squared == 0.0 {
+                        0.0
+                    } else {
+                        0.5 * rate / mode.squared.abs().sqrt()
+                    };
                     ModalDamping { ratio, loss: 0.0 }
                 });
                 own.collect()

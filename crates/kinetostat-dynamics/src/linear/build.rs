@@ -117,7 +117,13 @@ impl Whole {
     }
 
     /// All coordinates independent, whether anything has a mass or not.
-    pub fn unconstrained(self, name: &str, tool: usize, length: f64, units: Vec<f64>) -> LinearDynamics {
+    pub fn unconstrained(
+        self,
+        name: &str,
+        tool: usize,
+        length: f64,
+        units: Vec<f64>,
+    ) -> LinearDynamics {
         LinearDynamics {
             name: name.to_owned(),
             mass: self.mass,

@@ -66,19 +66,29 @@ impl LimbResponse {
     /// # Errors
     /// [`Error::Damping`]; [`Error::NotSolved`] at a resonance of a limb with its end held.
     pub fn dynamic_stiffness(&self, damping: &Damping, hz: f64) -> Result<Receptance> {
-        if matches!(damping, Damping::Ratio(_) | Damping::Ratios(_) | Damping::Viscous(_)) {
+        if matches!(
+            damping,
+            Damping::Ratio(_) | Damping::Ratios(_) | Damping::Viscous(_)
+        ) {
             return Err(Error::Damping("modal ratios and dampers by name are those of the whole machine; limb by limb go Rayleigh and structural damping".to_owned()));
         }
-        let none = Modes { modes: Vec::new(), counts: DirectionCounts::default(), neutral: Vec::new() };
+        let none = Modes {
+            modes: Vec::new(),
+            counts: DirectionCounts::default(),
+            neutral: Vec::new(),
+        };
         let w = hz * std::f64::consts::TAU;
         let complex = |m: &Matrix6<f64>| m.map(|x| Complex::new(x, 0.0));
         let mut mass_factor = Complex::new(-w * w, 0.0);
         if let Damping::Rayleigh { mass_per_s, .. } = damping {
             mass_factor.im += w * mass_per_s;
         }
-        let mut sum = complex(&self.platform_stiffness) + complex(&self.platform_mass) * mass_factor;
+        let mut sum =
+            complex(&self.platform_stiffness) + complex(&self.platform_mass) * mass_factor;
         for (limb, shift) in &self.limbs {
-            let own = limb.direct(&none, damping)?.dynamic_stiffness(limb.tool(), hz)?;
+            let own = limb
+                .direct(&none, damping)?
+                .dynamic_stiffness(limb.tool(), hz)?;
             let shift = complex(shift);
             sum += shift.transpose() * own * shift;
         }
@@ -92,9 +102,15 @@ impl LimbResponse {
     pub fn at_hz(&self, damping: &Damping, hz: f64) -> Result<Receptance> {
         let stiffness = self.dynamic_stiffness(damping, hz)?;
         // Metres and radians apart by the sizes of the diagonal.
-        let units: Vec<f64> = (0..6).map(|k| 1.0 / stiffness[(k, k)].norm().sqrt().max(f64::MIN_POSITIVE)).collect();
+        let units: Vec<f64> = (0..6)
+            .map(|k| 1.0 / stiffness[(k, k)].norm().sqrt().max(f64::MIN_POSITIVE))
+            .collect();
         let scaled = DMatrix::from_fn(6, 6, |i, j| stiffness[(i, j)] * (units[i] * units[j]));
-        let inverse = scaled.try_inverse().ok_or_else(|| Error::NotSolved(format!("the platform has no finite response at {hz} Hz")))?;
-        Ok(Matrix6::from_fn(|i, j| inverse[(i, j)] * (units[i] * units[j])))
+        let inverse = scaled.try_inverse().ok_or_else(|| {
+            Error::NotSolved(format!("the platform has no finite response at {hz} Hz"))
+        })?;
+        Ok(Matrix6::from_fn(|i, j| {
+            inverse[(i, j)] * (units[i] * units[j])
+        }))
     }
 }

@@ -51,14 +51,22 @@ impl LinearDynamics {
         };
         let rest = (modes.counts.neutral > 0).then(|| {
             let u = &self.units;
-            let scaled = |a: &DMatrix<f64>| DMatrix::from_fn(self.len(), self.len(), |i, j| a[(i, j)] * u[i] * u[j]);
-            let mut rest = neutral_directions(&scaled(&self.mass), &symmetric(scaled(&self.tangent))).1;
+            let scaled = |a: &DMatrix<f64>| {
+                DMatrix::from_fn(self.len(), self.len(), |i, j| a[(i, j)] * u[i] * u[j])
+            };
+            let mut rest =
+                neutral_directions(&scaled(&self.mass), &symmetric(scaled(&self.tangent))).1;
             for (mut row, unit) in rest.row_iter_mut().zip(u) {
                 row *= *unit;
             }
             rest
         });
-        Ok(DirectResponse { dynamics: self, damping: self.damping_matrix(modes, damping)?, loss, rest })
+        Ok(DirectResponse {
+            dynamics: self,
+            damping: self.damping_matrix(modes, damping)?,
+            loss,
+            rest,
+        })
     }
 }
 
@@ -101,8 +109,17 @@ impl DirectResponse<'_> {
     ///
     /// # Errors
     /// As [`Self::at_hz`].
-    pub fn over(&self, at: Point, from: Point, hz: &[f64], quantity: Quantity) -> Result<Vec<Receptance>> {
-        let (b_at, b_from) = (self.within(self.dynamics.motions(at)), self.within(self.dynamics.motions(from)));
+    pub fn over(
+        &self,
+        at: Point,
+        from: Point,
+        hz: &[f64],
+        quantity: Quantity,
+    ) -> Result<Vec<Receptance>> {
+        let (b_at, b_from) = (
+            self.within(self.dynamics.motions(at)),
+            self.within(self.dynamics.motions(from)),
+        );
         let right = b_from.transpose();
         hz.iter()
             .map(|hz| {
@@ -120,7 +137,10 @@ impl DirectResponse<'_> {
     }
 
     fn resonance(&self, hz: f64) -> Error {
-        Error::NotSolved(format!("'{}' has no finite response at {hz} Hz: an undamped mode or a free direction is there", self.dynamics.name))
+        Error::NotSolved(format!(
+            "'{}' has no finite response at {hz} Hz: an undamped mode or a free direction is there",
+            self.dynamics.name
+        ))
     }
 
     /// Wrench on a point per motion of it while nothing else acts, 6 x 6: the first block of the inverse of
@@ -143,7 +163,10 @@ impl DirectResponse<'_> {
             .collect();
         let rows: Vec<f64> = (0..6)
             .map(|k| {
-                let size: f64 = (0..n).map(|j| (b[(k, j)].re * units[j]).powi(2)).sum::<f64>().sqrt();
+                let size: f64 = (0..n)
+                    .map(|j| (b[(k, j)].re * units[j]).powi(2))
+                    .sum::<f64>()
+                    .sqrt();
                 if size > 0.0 { 1.0 / size } else { 1.0 }
             })
             .collect();
@@ -168,7 +191,10 @@ impl DirectResponse<'_> {
 }
 
 /// `Z^-1 b` with rows and columns in units of the diagonal.
-fn solved(mut z: DMatrix<Complex<f64>>, b: &DMatrix<Complex<f64>>) -> Option<DMatrix<Complex<f64>>> {
+fn solved(
+    mut z: DMatrix<Complex<f64>>,
+    b: &DMatrix<Complex<f64>>,
+) -> Option<DMatrix<Complex<f64>>> {
     let n = z.nrows();
     let units: Vec<f64> = (0..n)
         .map(|i| {

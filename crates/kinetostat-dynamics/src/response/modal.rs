@@ -1,7 +1,7 @@
 //! Response by the sum of modes with residual flexibility: what modes that are left out, and massless coordinates, do at
 //! rest [D 8; MacNeal 1971, Rubin 1975]. At 0 Hz it is the loaded compliance exactly, however few modes are kept.
 
-use nalgebra::{Complex, DMatrix, Matrix3, Matrix6, Vector3, Vector6};
+use nalgebra::{Complex, DMatrix, DVector, Matrix3, Matrix6, Vector3, Vector6};
 
 use crate::damping::{Damping, ModalDamping};
 use crate::error::{Error, Result};
@@ -101,15 +101,28 @@ impl ModalResponse {
         }
         let (b_at, b_from) = (dynamics.motions(at), dynamics.motions(from));
         let own = dynamics.modal_damping(modes, damping)?;
-        let six = |b: &DMatrix<f64>, shape| Vector6::from_column_slice((b * shape).as_slice());
+        let six = |b: &DMatrix<f64>, shape: &DVector<f64>| {
+            Vector6::from_column_slice((b * shape).as_slice())
+        };
         let mut terms = Vec::with_capacity(modes.modes.len());
         for (mode, damping) in modes.modes.iter().zip(own) {
             let (at, from) = (six(&b_at, &mode.shape), six(&b_from, &mode.shape));
-            terms.push(Term { squared: mode.squared, damping, at, from, product: at * from.transpose() });
+            terms.push(Term {
+                squared: mode.squared,
+                damping,
+                at,
+                from,
+                product: at * from.transpose(),
+            });
         }
         let residual = dynamics.flexibility(modes, &b_at, &b_from, &terms, kept)?;
         terms.truncate(kept.max(modes.counts.free + modes.counts.unstable));
-        Ok(Self { terms, residual, same: at == from, damping: damping.clone() })
+        Ok(Self {
+            terms,
+            residual,
+            same: at == from,
+            damping: damping.clone(),
+        })
     }
 
     /// Receptance at a frequency, Hz.
@@ -167,12 +180,29 @@ impl ModalResponse {
     /// [`Error::Question`] for two points.
     pub fn translational(&self) -> Result<TranslationalModes> {
         if !self.same {
-            return Err(Error::Question("modal data of a cut are those of one point, pushed where it is looked at".to_owned()));
+            return Err(Error::Question(
+                "modal data of a cut are those of one point, pushed where it is looked at"
+                    .to_owned(),
+            ));
         }
         Ok(TranslationalModes {
-            shapes: self.terms.iter().map(|t| t.at.fixed_rows::<3>(0).into_owned()).collect(),
+            shapes: self
+                .terms
+                .iter()
+                .map(|t| t.at.fixed_rows::<3>(0).into_owned())
+                .collect(),
             squared: self.terms.iter().map(|t| t.squared).collect(),
-            ratios: self.terms.iter().map(|t| if t.damping.loss > 0.0 { 0.5 * t.damping.loss } else { t.damping.ratio }).collect(),
+            ratios: self
+                .terms
+                .iter()
+                .map(|t| {
+                    if t.damping.loss > 0.0 {
+                        0.5 * t.damping.loss
+                    } else {
+                        t.damping.ratio
+                    }
+                })
+                .collect(),
             residual: self.residual.fixed_view::<3, 3>(0, 0).into_owned(),
         })
     }
@@ -190,7 +220,13 @@ impl ModalResponse {
         }
         let n = direction / along;
         let mut parts: Vec<f64> = (data.shapes.iter().zip(&data.squared))
-            .map(|(shape, squared)| if *squared == 0.0 { 0.0 } else { n.dot(shape).powi(2) / squared })
+            .map(|(shape, squared)| {
+                if *squared == 0.0 {
+                    0.0
+                } else {
+                    n.dot(shape).powi(2) / squared
+                }
+            })
             .collect();
         parts.push(n.dot(&(data.residual * n)));
         let sum: f64 = parts.iter().sum();
@@ -213,7 +249,13 @@ impl LinearDynamics {
         // What is free would have no flexibility at rest: with s M everything has one, and modes are taken out by theirs.
         let shift = match modes.counts.free {
             0 => 0.0,
-            _ => modes.modes.iter().filter(|m| m.kind == ModeKind::Vibration).map(|m| m.squared).next().unwrap_or(1.0),
+            _ => modes
+                .modes
+                .iter()
+                .filter(|m| m.kind == ModeKind::Vibration)
+                .map(|m| m.squared)
+                .next()
+                .unwrap_or(1.0),
         };
         let moved = self.solved_with_shift(shift, &from.transpose(), modes.counts.neutral > 0)?;
         let mut sum = Matrix6::zeros();
@@ -236,11 +278,19 @@ impl LinearDynamics {
     }
 
     fn no_flexibility(&self) -> Error {
-        Error::NotSolved(format!("'{}' has a massless direction without stiffness that its loads couple with others: its flexibility at rest is not defined", self.name))
+        Error::NotSolved(format!(
+            "'{}' has a massless direction without stiffness that its loads couple with others: its flexibility at rest is not defined",
+            self.name
+        ))
     }
 
     /// `(K - H + s M)^-1 b` by the independent coordinates; neutral directions take no part.
-    fn solved_with_shift(&self, shift: f64, b: &DMatrix<f64>, neutral: bool) -> Result<DMatrix<f64>> {
+    fn solved_with_shift(
+        &self,
+        shift: f64,
+        b: &DMatrix<f64>,
+        neutral: bool,
+    ) -> Result<DMatrix<f64>> {
         let n = self.len();
         let u = &self.units;
         let scaled = |a: &DMatrix<f64>| DMatrix::from_fn(n, n, |i, j| a[(i, j)] * u[i] * u[j]);

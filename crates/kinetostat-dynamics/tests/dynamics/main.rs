@@ -3,5 +3,8 @@
 
 mod arms;
 mod beams;
+mod circulatory;
 mod common;
+mod derivatives;
 mod platforms;
+mod responses;

@@ -252,8 +252,8 @@ fn hexapods_without_load() {
     );
 }
 
-#[test]
-fn loaded_hexapod() {
+/// The loaded hexapod of the reference values, and the force on it.
+pub fn loaded() -> (Mechanism, Wrench) {
     let hexapod = Hexapod {
         mass: LegMass(6.0, 3.0, 0.0),
         rest: 0.02,
@@ -262,7 +262,13 @@ fn loaded_hexapod() {
         ..Hexapod::default()
     };
     let force = Wrench::new(vector![3e3, -2e3, -8e3], Vector3::zeros());
-    let (d, at) = dynamics(&hexapod.build(&BASE_B, &PLATFORM_B), &force);
+    (hexapod.build(&BASE_B, &PLATFORM_B), force)
+}
+
+#[test]
+fn loaded_hexapod() {
+    let (machine, force) = loaded();
+    let (d, at) = dynamics(&machine, &force);
     let place = vector![0.003118932, -0.00207875, 0.022414913];
     assert!(
         (at.tool.translation.vector - place).norm() < 1e-9,
