@@ -8,7 +8,8 @@ Reads one JSON object from the standard input:
   gravity, force   m/s^2; N on the reference point, dead
 
 The platform has three rotation angles, the legs are spring-dampers, so that the closed loops need no constraint
-and the whole tangent (preload of the legs, gravity on an eccentric centre) comes from differences of the forces.
+and the tangent of the springs with their preload comes from differences of their forces. That of loads (a weight off
+the reference point) seems not to be in it: ask without gravity.
 Writes {"squared": [w^2 ...], "position": [...]}. Exit code 3: Exudyn is not installed.
 """
 
@@ -54,6 +55,7 @@ def main():
         newton.numericalDifferentiation.relativeEpsilon = 1e-7
     settings.staticSolver.numberOfLoadSteps = 10
     settings.staticSolver.newton.relativeTolerance = 1e-11
+    settings.staticSolver.newton.absoluteTolerance = 1e-6  # N
     settings.staticSolver.verboseMode = 0
     settings.solutionSettings.writeSolutionToFile = False
     mbs.SolveStatic(settings, updateInitialValues=True)

@@ -1,4 +1,7 @@
 //! A machine of closed loops under load against Exudyn: `scripts/platform_exudyn.py`.
+//!
+//! Without weight: the tangent by which Exudyn finds its modes has that of the springs and their preload, but not that of
+//! loads, so that a weight off the reference point is missing in it (7e-4 of `w^2` here). `platform.rs` has such a weight.
 
 use kinetostat::*;
 use kinetostat_testing::Worst;
@@ -40,7 +43,13 @@ fn machine(gravity: Vector3<f64>) -> Mechanism {
             .rigid(Pose::from_parts(Vector3::from(GROUND[k]).into(), turn))
             .passive_universal("foot", Vector3::y(), Vector3::z())
             .translation(vector![way.norm(), 0.0, 0.0])
-            .spring("strut", MotionKind::Prismatic, Vector3::x(), STIFFNESS, REST[k])
+            .spring(
+                "strut",
+                MotionKind::Prismatic,
+                Vector3::x(),
+                STIFFNESS,
+                REST[k],
+            )
             .passive_spherical("ball")
             .rigid(Pose::rotation(turn.scaled_axis()).inverse())
             .build()
@@ -56,8 +65,8 @@ fn figure_loaded_struts_agree_with_exudyn() {
     let mut worst = Worst::new();
     for (gravity, force) in [
         (Vector3::zeros(), Vector3::zeros()),
-        (vector![1.2, -0.7, -9.6], vector![2500.0, -1800.0, -4000.0]),
-        (vector![1.2, -0.7, -9.6], vector![-9000.0, 14000.0, 30000.0]),
+        (Vector3::zeros(), vector![2500.0, -1800.0, -4000.0]),
+        (Vector3::zeros(), vector![-9000.0, 14000.0, 30000.0]),
     ] {
         let rest: Vec<f64> = (0..6).map(|k| way(k).norm() + REST[k]).collect();
         let rows: Vec<Vec<f64>> = (inertia().row_iter())
@@ -76,15 +85,21 @@ fn figure_loaded_struts_agree_with_exudyn() {
         };
         let (squared, position) = (numbers(&answer["squared"]), numbers(&answer["position"]));
         assert_eq!(squared.len(), 6);
-        loaded(&machine(gravity), &Wrench::new(force, Vector3::zeros()), |_, at, dynamics| {
-            let off = at.tool.translation.vector - Vector3::from_row_slice(&position);
-            assert!(off.norm() < 1e-8, "the equilibria are {off:?} apart");
-            let modes = dynamics.modes().unwrap();
-            assert_eq!(modes.counts.vibrating, 6);
-            for (mode, expected) in modes.modes.iter().zip(&squared) {
-                worst.add_at(mode.squared / expected - 1.0, || format!("{force:?}: {} {expected}", mode.squared));
-            }
-        });
+        loaded(
+            &machine(gravity),
+            &Wrench::new(force, Vector3::zeros()),
+            |_, at, dynamics| {
+                let off = at.tool.translation.vector - Vector3::from_row_slice(&position);
+                assert!(off.norm() < 1e-8, "the equilibria are {off:?} apart");
+                let modes = dynamics.modes().unwrap();
+                assert_eq!(modes.counts.vibrating, 6);
+                for (mode, expected) in modes.modes.iter().zip(&squared) {
+                    worst.add_at(mode.squared / expected - 1.0, || {
+                        format!("{force:?}: {} {expected}", mode.squared)
+                    });
+                }
+            },
+        );
     }
     println!("struts, Exudyn: {worst}");
     // Exudyn's tangent is a difference of forces.

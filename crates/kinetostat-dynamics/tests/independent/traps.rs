@@ -26,7 +26,8 @@ fn hinged(chain: &Chain, push: f64) -> f64 {
     let modes = d.modes().unwrap().modes;
     let turns = modes.iter().find(|mode| {
         let motion = d.motions(pin) * &mode.shape;
-        motion[5].abs() > 1e3 * (motion[3].abs() + motion[4].abs()) && motion[5].abs() > motion[0].abs()
+        motion[5].abs() > 1e3 * (motion[3].abs() + motion[4].abs())
+            && motion[5].abs() > motion[0].abs()
     });
     turns.unwrap().frequency_hz()
 }
@@ -73,7 +74,13 @@ fn rotors_sit_before_the_transmission() {
         chain
             .body("arm", 12.0, vector![0.4, 0.1, 0.05], link)
             .translation(vector![0.6, 0.0, 0.1])
-            .spring("elbow", MotionKind::Revolute, vector![0.1, 1.0, 0.2].normalize(), 7e4, 0.0)
+            .spring(
+                "elbow",
+                MotionKind::Revolute,
+                vector![0.1, 1.0, 0.2].normalize(),
+                7e4,
+                0.0,
+            )
             .body("fore", 5.0, vector![0.3, -0.05, 0.1], link)
             .build()
             .unwrap()
@@ -85,9 +92,21 @@ fn rotors_sit_before_the_transmission() {
     };
     let turns = MotionKind::Revolute;
     let joint = 1.0 / (1.0 / servo + 1.0 / gear);
-    let bare = of(&behind(Chain::builder("arm").spring("drive", turns, axis, joint, 0.0)));
-    let rotor = Rotor { joint: "drive".into(), inertia, ratio, servo_stiffness: servo };
-    let found = bare.with_rotors(&[rotor]).unwrap().modes().unwrap().frequencies_hz();
+    let bare = of(&behind(
+        Chain::builder("arm").spring("drive", turns, axis, joint, 0.0),
+    ));
+    let rotor = Rotor {
+        joint: "drive".into(),
+        inertia,
+        ratio,
+        servo_stiffness: servo,
+    };
+    let found = bare
+        .with_rotors(&[rotor])
+        .unwrap()
+        .modes()
+        .unwrap()
+        .frequencies_hz();
     let explicit = of(&behind(
         Chain::builder("arm")
             .spring("servo", turns, axis, servo, 0.0)
@@ -105,7 +124,10 @@ fn rotors_sit_before_the_transmission() {
             .body("armature", 0.0, Vector3::zeros(), along),
     ));
     let trap = trap.modes().unwrap().frequencies_hz();
-    assert!((trap[0] / found[0] - 1.0).abs() > 0.05, "{trap:?} {found:?}");
+    assert!(
+        (trap[0] / found[0] - 1.0).abs() > 0.05,
+        "{trap:?} {found:?}"
+    );
 }
 
 /// Trap 14: a column of true stretch does not have the formula's load, by about P/EA; with stretch taken away it does.
