@@ -8,7 +8,6 @@
 mod agreement;
 mod broken;
 mod loops;
-mod masses;
 mod oracle;
 mod placeholders;
 mod robots;
