@@ -8,7 +8,6 @@ use crate::error::{Error, Part, Place, Result};
 use crate::model::actuator::ActuatorSpec;
 use crate::model::chain::{Actuator, Body, Chain, Coordinate, Drive, Element, Motion, Role, Scale};
 use crate::model::chain_check::{natural_scale, spring_fault, usable};
-use crate::model::link_mass::{LinkMass, MassModel, SegmentMass};
 use crate::model::springs::block::{Segment, SpringBlock, SpringLaw};
 use crate::model::springs::parallelogram::ParallelogramLaw;
 use crate::spatial::{MotionKind, Pose};
@@ -36,7 +35,7 @@ type Mistake = (Option<Part>, String);
 /// Builds a [`Chain`], base first. Mistakes are collected and reported by [`Self::build`].
 #[derive(Clone, Debug)]
 pub struct ChainBuilder {
-    chain: Chain,
+    pub(crate) chain: Chain,
     mistake: Option<Mistake>,
 }
 
@@ -504,39 +503,6 @@ impl ChainBuilder {
             self.motion(kind, axis, Some(Drive { index, ratio: 1.0 }), None);
         }
         self.block(name, first, rest, law);
-    }
-
-    /// Gives the spring written last a mass along it, between the nodes at its ends.
-    pub(crate) fn last_spring_weighs(
-        &mut self,
-        link: &str,
-        mass: &LinkMass,
-        length: f64,
-        shear: [f64; 2],
-    ) {
-        let far = self.chain.nodes.len() - 1;
-        let near = far - 1;
-        match mass.model {
-            MassModel::Consistent => self.chain.segment_masses.push(SegmentMass {
-                link: link.to_owned(),
-                spring: self.chain.springs.len() - 1,
-                near,
-                far,
-                length,
-                mass: *mass,
-                shear,
-            }),
-            MassModel::HalvesAtEnds => {
-                for node in [near, far] {
-                    self.chain.bodies.push(Body {
-                        name: link.to_owned(),
-                        node,
-                        mass: 0.5 * mass.per_length * length,
-                        inertia: Matrix3::zeros(),
-                    });
-                }
-            }
-        }
     }
 
     /// Declares the spring written last a piece of a link.

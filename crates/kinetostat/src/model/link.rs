@@ -19,14 +19,15 @@
 
 use std::f64::consts::PI;
 
-use nalgebra::{Matrix6, Rotation3, Vector3, Vector6};
+use nalgebra::{Matrix3, Matrix6, Rotation3, Vector3, Vector6};
 #[cfg(feature = "serde")]
 use serde::{Deserialize, Serialize};
 
 use crate::error::Part;
 use crate::model::beam::BeamSection;
 use crate::model::builder::ChainBuilder;
-use crate::model::link_mass::{LinkMass, shear_ratios};
+use crate::model::chain::Body;
+use crate::model::link_mass::{LinkMass, MassModel, SegmentMass, shear_ratios};
 use crate::model::springs::block::{Segment, SpringLaw};
 use crate::model::springs::bowing::BowingLaw;
 use crate::model::springs::logarithm::LogarithmLaw;
@@ -444,5 +445,32 @@ impl ChainBuilder {
             along: offset / length,
         });
         self
+    }
+
+    /// Gives the spring written last a mass along it, between the nodes at its ends.
+    fn last_spring_weighs(&mut self, link: &str, mass: &LinkMass, length: f64, shear: [f64; 2]) {
+        let far = self.chain.nodes.len() - 1;
+        let near = far - 1;
+        match mass.model {
+            MassModel::Consistent => self.chain.segment_masses.push(SegmentMass {
+                link: link.to_owned(),
+                spring: self.chain.springs.len() - 1,
+                near,
+                far,
+                length,
+                mass: *mass,
+                shear,
+            }),
+            MassModel::HalvesAtEnds => {
+                for node in [near, far] {
+                    self.chain.bodies.push(Body {
+                        name: link.to_owned(),
+                        node,
+                        mass: 0.5 * mass.per_length * length,
+                        inertia: Matrix3::zeros(),
+                    });
+                }
+            }
+        }
     }
 }
