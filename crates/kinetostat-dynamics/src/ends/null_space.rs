@@ -13,7 +13,10 @@ pub(crate) fn null_space(rows: &DMatrix<f64>) -> (DMatrix<f64>, usize) {
         return (DMatrix::identity(n, n), 0);
     }
     let qr = rows.transpose().col_piv_qr();
-    let diagonal: DVector<f64> = qr.r().diagonal();
+    let triangle = qr.r();
+    let diagonal = DVector::from_fn(triangle.nrows().min(triangle.ncols()), |k, _| {
+        triangle[(k, k)]
+    });
     let most = diagonal
         .iter()
         .fold(0.0_f64, |m, x| if x.abs() > m { x.abs() } else { m });

@@ -116,6 +116,32 @@ impl Whole {
         })
     }
 
+    /// All coordinates independent, whether anything has a mass or not.
+    pub fn unconstrained(
+        self,
+        name: &str,
+        tool: usize,
+        length: f64,
+        units: Vec<f64>,
+    ) -> LinearDynamics {
+        LinearDynamics {
+            name: name.to_owned(),
+            mass: self.mass,
+            tangent: self.tangent,
+            elastic: self.elastic,
+            basis: None,
+            units,
+            blocks: self.blocks,
+            masses: self.masses,
+            springs: self.springs,
+            places: self.places,
+            coordinates: self.coordinates,
+            tool,
+            length,
+            coarse_links: self.coarse_links,
+        }
+    }
+
     /// A platform's mass about its origin, in its six motions.
     pub fn add_platform(&mut self, name: &str, block: usize, matrix: nalgebra::Matrix6<f64>) {
         if matrix.iter().all(|x| *x == 0.0) {

@@ -4,3 +4,5 @@
 mod arms;
 mod beams;
 mod common;
+mod platforms;
+mod responses;
