@@ -95,14 +95,29 @@ impl Branches<'_> {
 
     /// Between two places of a branch, that at which a function that grows or falls there passes 0.
     pub(crate) fn closed_in(&self, from: &Place, to: &Place, of: impl Fn(&Place) -> f64) -> Place {
+        // Illinois' rule: secants that stay inside.
         let (mut a, mut b) = (*from, *to);
-        let low = of(from);
+        let (mut low, mut high) = (of(from), of(to));
+        let mut side = 0;
         for _ in 0..60 {
-            let middle = self.follow(&a, 0.5 * (a.frequency + b.frequency));
-            if (of(&middle) < 0.0) == (low < 0.0) {
-                a = middle;
+            let share = (low / (low - high)).clamp(1e-6, 1.0 - 1e-6);
+            let place = self.follow(&a, a.frequency + share * (b.frequency - a.frequency));
+            let value = of(&place);
+            if value.abs() < 1e-13 * (1.0 + place.argument.abs()) || b.frequency - a.frequency <= 1e-14 * b.frequency {
+                return place;
+            }
+            if (value < 0.0) == (low < 0.0) {
+                (a, low) = (place, value);
+                if side == -1 {
+                    high *= 0.5;
+                }
+                side = -1;
             } else {
-                b = middle;
+                (b, high) = (place, value);
+                if side == 1 {
+                    low *= 0.5;
+                }
+                side = 1;
             }
         }
         a

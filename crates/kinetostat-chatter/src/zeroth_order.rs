@@ -60,6 +60,13 @@ fn within(
     to: &Place,
     best: &mut Option<ZerothOrderLimit>,
 ) {
+    // Places are so close that a depth between them is not far below both of theirs.
+    let ends = [depth(from.mu), depth(to.mu)].into_iter().flatten();
+    match (ends.reduce(f64::min), best.map(|best| best.depth)) {
+        (None, _) => return,
+        (Some(least), Some(best)) if 0.5 * least > best => return,
+        _ => {}
+    }
     let phase = |place: &Place| place.frequency * delay + PI + 2.0 * place.argument;
     let (low, high) = (phase(from), phase(to));
     let (least, most) = if low < high { (low, high) } else { (high, low) };

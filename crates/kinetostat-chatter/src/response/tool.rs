@@ -139,16 +139,4 @@ impl ToolResponse {
         });
         Self::new(kept)?.with_residual(residual)
     }
-
-    /// Most that any force of 1 N can move the point by at any frequency, at most, m/N.
-    pub(crate) fn bound(&self) -> f64 {
-        self.modes.iter().fold(self.residual.norm(), |sum, mode| {
-            let (zeta, w) = (mode.damping_ratio(), mode.angular_frequency());
-            let peak = match zeta < std::f64::consts::FRAC_1_SQRT_2 {
-                true => 2.0 * zeta * (1.0 - zeta * zeta).sqrt(),
-                false => 1.0,
-            };
-            sum + mode.shape().norm_squared() / (w * w * peak)
-        })
-    }
 }

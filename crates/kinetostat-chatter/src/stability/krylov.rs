@@ -9,10 +9,12 @@ use crate::error::{ChatterError, ChatterErrorKind, Result};
 use crate::number::Complex64;
 
 /// Size of the first space that is looked at, and by how much it grows.
-const FIRST: usize = 12;
-const GROWTH: usize = 5;
-/// Residual of an eigenvalue, by its size.
-const ACCURACY: f64 = 1e-10;
+const FIRST: usize = 10;
+const GROWTH: usize = 4;
+/// Residual of an eigenvalue that is to be known well, by its size.
+pub(crate) const ACCURATE: f64 = 1e-10;
+/// Residual where it matters on which side of the unit circle it lies.
+pub(crate) const ROUGH: f64 = 1e-6;
 /// Rounds of the QR iteration.
 const ROUNDS: usize = 10_000;
 
@@ -41,9 +43,10 @@ pub(crate) fn eigenvalues(matrix: DMatrix<f64>) -> Result<Vec<Complex64>> {
     Ok(all)
 }
 
-/// The largest eigenvalue of an operator on vectors of a length, with its vector.
+/// The largest eigenvalue of an operator on vectors of a length to a residual by its size, with its vector.
 pub(crate) fn largest(
     size: usize,
+    accuracy: f64,
     mut apply: impl FnMut(&DVector<f64>) -> Result<DVector<f64>>,
 ) -> Result<(Complex64, DVector<Complex64>)> {
     let mut basis: Vec<DVector<f64>> = vec![start(size).normalize()];
@@ -74,7 +77,7 @@ pub(crate) fn largest(
             let value = *eigenvalues(small.clone())?.first().ok_or_else(no_vector)?;
             let vector = eigenvector(&small, value)?;
             let residual = rest * vector[k - 1].norm();
-            if whole || residual <= ACCURACY * value.norm() {
+            if whole || residual <= accuracy * value.norm() {
                 let mut full = DVector::from_element(size, Complex64::default());
                 for (share, vector) in vector.iter().zip(&basis) {
                     full.zip_apply(vector, |entry, v| *entry += share * v);

@@ -1,14 +1,22 @@
 //! A tool in a regenerative cut.
 
-use crate::cut::Cut;
+use nalgebra::Vector3;
+
+use crate::branches::grid;
+use crate::cut::{Cut, checked_depth, checked_speed};
 use crate::error::{ChatterError, ChatterErrorKind, Result};
-use crate::number::Complex64;
-use crate::cut::{checked_depth, checked_speed};
-use crate::response::ToolResponse;
+use crate::number::{Complex64, larger};
+use crate::response::{Mode, ToolResponse};
 use crate::stability::krylov;
 use crate::stability::multiplier::Multiplier;
 use crate::stability::operator::Operator;
 use crate::stability::period::Period;
+
+/// Change of a multiplier with a third more points that is accepted, share of it.
+const RESOLVED: f64 = 1e-7;
+/// Growth of the number of points, and most times the usual ones.
+const FINER: f64 = 4.0 / 3.0;
+const FINEST: f64 = 4.0;
 
 /// A tool, in the axes of the cut, and what it cuts.
 ///
@@ -26,6 +34,8 @@ use crate::stability::period::Period;
 pub struct Regeneration {
     response: ToolResponse,
     cut: Cut,
+    /// Most that a force of 1 N moves the tool by at any frequency, at most, m/N.
+    gain: f64,
 }
 
 impl Regeneration {
@@ -48,19 +58,16 @@ impl Regeneration {
                 "a positive one: without damping the smallest cut chatters, and no lobe is left to compute",
             ));
         }
-        let mean = cut.mean_matrix();
-        let (bound, flexible) = (response.bound(), {
-            let moved = |along: [f64; 3]| {
-                let along = nalgebra::Vector3::from(along);
-                response.modes().iter().any(|mode| mode.shape().dot(&along).abs() > 0.0)
-                    || (response.residual().transpose() * along).norm() > 0.0
-            };
-            match &cut {
-                Cut::Milling(_) => moved([1.0, 0.0, 0.0]) || moved([0.0, 1.0, 0.0]),
-                Cut::Turning(cut) => moved(cut.factors().0.into()),
-            }
-        });
-        if !(flexible && bound > 0.0 && mean.norm().is_finite()) {
+        let moved = |along: Vector3<f64>| {
+            let of_mode = |mode: &Mode| mode.shape().dot(&along) != 0.0;
+            response.modes().iter().any(of_mode)
+                || (response.residual().transpose() * along).norm() > 0.0
+        };
+        let flexible = match &cut {
+            Cut::Milling(_) => moved(Vector3::x()) || moved(Vector3::y()),
+            Cut::Turning(cut) => moved(cut.factors().0),
+        };
+        if !flexible {
             return Err(ChatterError::new(
                 kind,
                 "flexible directions",
@@ -68,7 +75,12 @@ impl Regeneration {
                 "a mode or residual flexibility across the tool axis (milling) or along the chip direction (turning)",
             ));
         }
-        Ok(Self { response, cut })
+        let gain = peak(&response);
+        Ok(Self {
+            response,
+            cut,
+            gain,
+        })
     }
 
     /// The tool's response, in the axes of the cut.
@@ -77,18 +89,41 @@ impl Regeneration {
         &self.response
     }
 
+    pub(crate) fn gain(&self) -> f64 {
+        self.gain
+    }
+
     /// The cut.
     #[must_use]
     pub fn cut(&self) -> &Cut {
         &self.cut
     }
 
-    /// The largest multiplier of one tooth period at a spindle speed (rpm) and a depth of cut (m).
+    /// The largest multiplier of one tooth period at a spindle speed (rpm) and a depth of cut (m), with points added until it
+    /// changes by less than 1e-7 of itself.
     ///
     /// # Errors
     /// A speed that is not positive, a depth that is negative, and modes too fast for the speed ([`ToolResponse::with_modes_up_to`]).
     pub fn multiplier(&self, speed_rpm: f64, depth: f64) -> Result<Multiplier> {
-        self.multiplier_with(speed_rpm, depth, 1.0)
+        let mut fineness = 1.0;
+        let mut last = self.multiplier_with(speed_rpm, depth, fineness)?;
+        loop {
+            fineness *= FINER;
+            let next = self.multiplier_with(speed_rpm, depth, fineness)?;
+            let change = (next.size() / last.size() - 1.0).abs();
+            if change <= RESOLVED {
+                return Ok(next);
+            }
+            if !(fineness < FINEST) {
+                return Err(ChatterError::new(
+                    ChatterErrorKind::NotConverged,
+                    format!("largest multiplier at {speed_rpm} rpm and {depth:e} m"),
+                    format!("changes by {change:.1e} of itself with a third more points"),
+                    "a change below 1e-7: take faster modes as springs (ToolResponse::with_modes_up_to)",
+                ));
+            }
+            last = next;
+        }
     }
 
     /// As [`Self::multiplier`], with so many times the usual points of collocation: the difference says how exact it is.
@@ -98,7 +133,7 @@ impl Regeneration {
     pub fn multiplier_with(&self, speed_rpm: f64, depth: f64, fineness: f64) -> Result<Multiplier> {
         let period = self.period(speed_rpm, checked_depth(depth)?, fineness)?;
         let operator = Operator::new(&period, depth);
-        let (value, vector) = krylov::largest(operator.size(), |x| operator.apply(x))?;
+        let (value, vector) = krylov::largest(operator.size(), krylov::ACCURATE, |x| operator.apply(x))?;
         Ok(Multiplier::new(value, &vector, &operator, depth, &self.response))
     }
 
@@ -124,4 +159,12 @@ impl Regeneration {
         }
         Period::new(&self.response, &self.cut, speed_rpm, depth, fineness)
     }
+}
+
+/// Largest size of the receptance over all frequencies: at those that are close together at the peaks, and a little more.
+fn peak(response: &ToolResponse) -> f64 {
+    let size = |frequency: f64| response.at(frequency).map(|entry| entry.norm()).norm();
+    let at_peaks = response.modes().iter().map(|m| size(m.angular_frequency()));
+    let all = grid(response).into_iter().map(size).chain(at_peaks);
+    1.05 * all.fold(size(0.0), larger)
 }

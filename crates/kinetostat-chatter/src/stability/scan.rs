@@ -21,9 +21,11 @@ const COARSE: f64 = 0.22;
 const FINE: f64 = 0.025;
 /// Steps with a change of stability inside are divided to this before it is closed in on.
 const ALONE: f64 = 0.06;
-/// Change of the multiplier's logarithm over that of the depth that is reckoned with at least.
-const SLOPE: f64 = 1.0;
-/// Accuracy of a crossing, share of the depth.
+/// Change of the multiplier's logarithm over that of the depth that is reckoned with at least, where the cut is stable and
+/// where it is not: the largest multiplier of light damping hardly moves before another one passes it.
+const SLOPE: [f64; 2] = [0.4, 1.0];
+/// Accuracy of a crossing with the points of the scan, and of the last one, share of the depth.
+const ROUGHLY_CLOSED: f64 = 1e-7;
 const CLOSED: f64 = 1e-9;
 /// Change of a crossing with a third more points that is accepted, share of the depth; else points are added.
 const RESOLVED: f64 = 1e-6;
@@ -130,16 +132,17 @@ impl<'a> Along<'a> {
         }
     }
 
-    fn logarithm(&self, depth: f64) -> Result<f64> {
+    fn logarithm(&self, depth: f64, accuracy: f64) -> Result<f64> {
         self.with(depth, |operator| {
-            let value = krylov::largest(operator.size(), |x| operator.apply(x))?.0;
+            let value = krylov::largest(operator.size(), accuracy, |x| operator.apply(x))?.0;
             Ok(value.norm().ln())
         })
     }
 
     fn multiplier(&self, depth: f64) -> Result<Multiplier> {
         self.with(depth, |operator| {
-            let (value, vector) = krylov::largest(operator.size(), |x| operator.apply(x))?;
+            let (value, vector) =
+                krylov::largest(operator.size(), krylov::ACCURATE, |x| operator.apply(x))?;
             let response = self.regeneration.response();
             Ok(Multiplier::new(value, &vector, operator, depth, response))
         })
@@ -173,7 +176,7 @@ impl Regeneration {
     pub fn stability_at(&self, speed_rpm: f64, up_to: f64) -> Result<SpeedStability> {
         checked_depth(up_to)?;
         // Small gain: below this depth no displacement can keep itself up.
-        let certain = (2.0 * self.response().bound() * self.cut().bound()).recip();
+        let certain = (2.0 * self.gain() * self.cut().bound()).recip();
         let mut crossings = Vec::new();
         if certain < up_to {
             let along = Along::new(self, speed_rpm, SCANNED)?;
@@ -229,14 +232,14 @@ impl Regeneration {
 fn followed(along: &Along<'_>, start: f64, slope: f64) -> Result<f64> {
     let mut last = Sample {
         at: start,
-        log: along.logarithm(start.exp())?,
+        log: along.logarithm(start.exp(), krylov::ACCURATE)?,
     };
     let mut at = start - last.log / slope;
     for _ in 0..6 {
         if (at - last.at).abs() < CLOSED {
             break;
         }
-        let log = along.logarithm(at.exp())?;
+        let log = along.logarithm(at.exp(), krylov::ACCURATE)?;
         let (before, now) = (last, Sample { at, log });
         last = now;
         let secant = now.log * (now.at - before.at) / (now.log - before.log);
@@ -253,13 +256,13 @@ fn changes(along: &Along<'_>, from: f64, to: f64) -> Result<Vec<(Sample, Sample)
     let sample = |at: f64| -> Result<Sample> {
         Ok(Sample {
             at,
-            log: along.logarithm(at.exp())?,
+            log: along.logarithm(at.exp(), krylov::ROUGH)?,
         })
     };
     let steps = ((to - from) / COARSE).ceil().max(1.0);
     let mut last = sample(from)?;
     let mut found = Vec::new();
-    let mut slope = SLOPE;
+    let mut slope = 0.0;
     for k in 1..=steps as usize {
         let end = sample(from + (to - from) * k as f64 / steps)?;
         // Depth first, from below: `waiting` holds the far ends.
@@ -267,9 +270,10 @@ fn changes(along: &Along<'_>, from: f64, to: f64) -> Result<Vec<(Sample, Sample)
         while let Some(next) = waiting.last().copied() {
             let step = next.at - last.at;
             let steep = ((next.log - last.log) / step).abs();
-            slope = larger(SLOPE, larger(0.5 * slope, steep));
+            let least = SLOPE[usize::from(last.log >= 0.0)];
+            slope = larger(least, larger(0.5 * slope, 1.5 * steep));
             let change = (last.log < 0.0) != (next.log < 0.0);
-            // Between two samples the line may come so much nearer to the circle than either end.
+            // Between two samples the line may come so much nearer to the circle than the mean of its ends.
             let near = 0.5 * (last.log.abs() + next.log.abs()) < 0.5 * slope * step;
             let divide = match change {
                 true => step > ALONE,
@@ -295,11 +299,11 @@ fn root(along: &Along<'_>, mut low: Sample, mut high: Sample) -> Result<f64> {
     for _ in 0..80 {
         let share = low.log / (low.log - high.log);
         let at = low.at + share.clamp(1e-3, 1.0 - 1e-3) * (high.at - low.at);
-        if high.at - low.at < CLOSED {
+        if high.at - low.at < ROUGHLY_CLOSED {
             return Ok(at);
         }
-        let log = along.logarithm(at.exp())?;
-        if log.abs() < 1e-11 {
+        let log = along.logarithm(at.exp(), krylov::ACCURATE)?;
+        if log.abs() < 1e-9 {
             return Ok(at);
         }
         if (log < 0.0) == (low.log < 0.0) {

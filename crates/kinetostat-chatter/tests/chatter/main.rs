@@ -3,7 +3,12 @@
 
 mod arm;
 mod coupling;
+mod diagram;
 mod exact;
+mod fitted;
 mod forced;
+mod semi_discretisation;
 mod support;
+mod traps;
+mod universal;
 mod zeroth;
