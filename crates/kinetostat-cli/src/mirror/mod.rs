@@ -137,9 +137,8 @@ impl Claimed {
         let further = setting.targets.beside.iter();
         let beside = further.map(|path| outputs.claim(BESIDE, path));
         let beside = beside.collect::<Answer<_>>()?;
-        let mut claim = |what, path: Option<&PathBuf>| {
-            path.map(|path| outputs.claim(what, path)).transpose()
-        };
+        let mut claim =
+            |what, path: Option<&PathBuf>| path.map(|path| outputs.claim(what, path)).transpose();
         let json = claim("result", args.json.as_ref().filter(|_| !to_screen))?;
         let plot = claim("plot", args.plot.as_ref())?;
         let state = args

@@ -16,9 +16,9 @@ use crate::program::aim::Aim;
 use crate::program::flat_lines::WithSources;
 use crate::program::paper;
 use crate::program::points_table::{self, Listing};
-use crate::ui::language::LanguageWord;
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::json::json;
+use crate::ui::language::LanguageWord;
 use crate::ui::layout;
 
 /// Claimed outputs of a run by what they hold.
