@@ -15,7 +15,10 @@ use crate::ui::warnings;
 
 pub(crate) fn answer_text(query: &PlaceQuery, a: &FrfAnswer) -> String {
     let mut out = query.heading();
-    let (low, high) = (a.frequencies_hz[0], a.frequencies_hz[a.frequencies_hz.len() - 1]);
+    let (low, high) = (
+        a.frequencies_hz[0],
+        a.frequencies_hz[a.frequencies_hz.len() - 1],
+    );
     out.push_str(&wrapped(
         &format!(
             "Frequency response of the tool's tip ({}), {} frequencies from {} to {} Hz, about the equilibrium under the force {} N and the moment {} N m; damping: {}.",
@@ -31,9 +34,17 @@ pub(crate) fn answer_text(query: &PlaceQuery, a: &FrfAnswer) -> String {
     ));
     out.push('\n');
     let mut rows = vec![
-        ["motion", "by", "largest", "unit", "at Hz", "in dB", "at the lowest frequency"]
-            .map(str::to_owned)
-            .to_vec(),
+        [
+            "motion",
+            "by",
+            "largest",
+            "unit",
+            "at Hz",
+            "in dB",
+            "at the lowest frequency",
+        ]
+        .map(str::to_owned)
+        .to_vec(),
     ];
     for c in &a.curves {
         rows.push(vec![
@@ -114,5 +125,8 @@ pub(crate) fn drawn(
             receptance: values,
         });
     }
-    receptance_svg(&curves, &format!("{}: receptance of the tool's tip", a.model))
+    receptance_svg(
+        &curves,
+        &format!("{}: receptance of the tool's tip", a.model),
+    )
 }

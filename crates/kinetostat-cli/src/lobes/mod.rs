@@ -89,10 +89,13 @@ fn cut(args: &LobesArgs) -> Answer<MillingCut> {
     let &[tangential, radial, axial] = args.coefficients_n_per_mm2.as_slice() else {
         return Err(Failure::input("--coefficients-n-per-mm2 needs KT KR KA"));
     };
-    let milled = if args.up { Milled::Up } else { Milled::Down };
+    let milled = match args.up && !args.climb {
+        true => Milled::Up,
+        false => Milled::Down,
+    };
     let arc = Arc::straight(milled, args.immersion).map_err(Failure::input)?;
-    let coefficients = Coefficients::new(1e6 * tangential, 1e6 * radial, 1e6 * axial)
-        .map_err(Failure::input)?;
+    let coefficients =
+        Coefficients::new(1e6 * tangential, 1e6 * radial, 1e6 * axial).map_err(Failure::input)?;
     let cut = MillingCut::new(args.teeth, arc, coefficients).map_err(Failure::input)?;
     match (args.helix_deg, args.diameter_mm) {
         (None, _) => Ok(cut),

@@ -36,9 +36,15 @@ pub(crate) fn answer_text(query: &PlaceQuery, a: &LobesAnswer) -> String {
     ));
     out.push('\n');
     let mut rows = vec![
-        ["rpm", "stable to, mm", "then", "chatter, Hz", "zeroth order, mm"]
-            .map(str::to_owned)
-            .to_vec(),
+        [
+            "rpm",
+            "stable to, mm",
+            "then",
+            "chatter, Hz",
+            "zeroth order, mm",
+        ]
+        .map(str::to_owned)
+        .to_vec(),
     ];
     let every = a.points.len().div_ceil(SHOWN);
     for p in a.points.iter().step_by(every) {
@@ -99,7 +105,10 @@ pub(crate) fn table(a: &LobesAnswer) -> Answer<Vec<u8>> {
     let mut rows = vec![head.map(str::to_owned).to_vec()];
     let some = |x: Option<f64>| x.map_or_else(String::new, cell);
     for p in &a.points {
-        let stretches = p.stable_mm.iter().map(|(low, high)| format!("{low}-{high}"));
+        let stretches = p
+            .stable_mm
+            .iter()
+            .map(|(low, high)| format!("{low}-{high}"));
         rows.push(vec![
             cell(p.speed_rpm),
             some(p.limit_mm),

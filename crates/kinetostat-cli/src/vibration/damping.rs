@@ -41,7 +41,7 @@ impl DampingArgs {
         } else if self.viscous.is_empty() {
             Damping::Undamped
         } else {
-            let read = |text: &String| {
+            let read = |text: &String| -> Answer<(String, f64)> {
                 let (name, value) = text.rsplit_once('=').ok_or_else(|| wrong_damper(text))?;
                 let value = number(value).map_err(|_| wrong_damper(text))?;
                 Ok((name.trim_matches('"').to_owned(), value))

@@ -88,7 +88,8 @@ fn frequencies_of_the_arm_are_those_of_the_reference_values() {
 #[test]
 fn modes_are_written_and_drawn_in_two_phases() {
     let here = arm6();
-    let line = "modes arm6.toml --modes 3 --damping 0.03,0.02 --csv m.csv --plot m.svg --json m.json";
+    let line =
+        "modes arm6.toml --modes 3 --damping 0.03,0.02 --csv m.csv --plot m.svg --json m.json";
     let text = said(here.path(), line).answered();
     assert!(text.out.contains("9.9875"), "{}", text.out);
     let file = std::fs::read_to_string(here.path().join("m.json")).expect("JSON");
@@ -119,11 +120,17 @@ fn responses_of_the_arm_are_those_of_the_reference_values() {
         let curve = curves.iter().find(|c| c["to"] == to && c["from"] == from);
         let curve = curve.expect("the entry");
         assert_eq!(curve["unit"], "m/N");
-        let found = [numbers(&curve["real"])[at], numbers(&curve["imaginary"])[at]];
+        let found = [
+            numbers(&curve["real"])[at],
+            numbers(&curve["imaginary"])[at],
+        ];
         agree(&found, &[re, im], 1e-7);
     }
     let table = std::fs::read_to_string(here.path().join("f.csv")).expect("CSV");
-    assert!(table.starts_with("frequency_hz,x_by_x_real_m_per_n,"), "{table}");
+    assert!(
+        table.starts_with("frequency_hz,x_by_x_real_m_per_n,"),
+        "{table}"
+    );
     let picture = std::fs::read_to_string(here.path().join("f.svg")).expect("SVG");
     assert!(picture.contains("x by force along x"));
 }
@@ -143,7 +150,11 @@ fn limits_of_the_arm_are_those_of_the_reference_values() {
     let line = format!("lobes arm6.toml {cut} --rpm 3000 3600 2 --json");
     let answer = json(&said(here.path(), &line).answered());
     let point = &answer["points"][0];
-    agree(&[point["limit_mm"].as_f64().expect("a limit")], &[0.642_480], 1e-4);
+    agree(
+        &[point["limit_mm"].as_f64().expect("a limit")],
+        &[0.642_480],
+        1e-4,
+    );
     assert_eq!(point["kind"], "flip");
 }
 
@@ -191,6 +202,8 @@ fn what_is_held_does_not_vibrate() {
     let here = arm6();
     let held = json(&said(here.path(), "modes arm6.toml --hold x,y,z --json").answered());
     assert_eq!(held["directions"]["vibrating"], 3);
-    let first = held["modes"][0]["frequency_hz"].as_f64().expect("a frequency");
+    let first = held["modes"][0]["frequency_hz"]
+        .as_f64()
+        .expect("a frequency");
     assert!(first > 9.98746752, "{first}");
 }
