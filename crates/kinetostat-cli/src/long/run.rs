@@ -6,8 +6,8 @@ use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
 use kinetostat_machining::{
-    FileRead, OfWhole, Run, RunError, Warning, WarningCode, Watch, analyse_part, compensate_part,
-    look_at_part,
+    Envelope, FileRead, OfWhole, Run, RunError, Warning, WarningCode, Watch, analyse_part,
+    compensate_part, look_at_part,
 };
 use kinetostat_model::Model;
 use kinetostat_program::{Part, PartError, PartLength, Parts, Survey, WrittenSoFar};
@@ -253,8 +253,11 @@ impl<'a> LongRun<'a> {
                 .setting
                 .within(Failure::input("the program has no block")));
         };
+        let mut envelope = Envelope::default();
+        envelope.extend(&result.points);
         let run = Run {
             points: result.points.clone(),
+            envelope,
             result,
             written: None,
             places: Vec::new(),

@@ -73,5 +73,6 @@ mod tables;
 mod tolerances;
 mod uncertain;
 mod verify;
+mod vibration;
 mod without_motion;
 mod words;

@@ -1,6 +1,7 @@
 //! Modes about the loaded equilibrium: signed frequencies, shapes, and what takes part in them.
 
 pub(crate) mod complex;
+pub(crate) mod moved;
 pub(crate) mod pencil;
 pub(crate) mod shares;
 

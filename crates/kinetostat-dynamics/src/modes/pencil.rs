@@ -163,6 +163,17 @@ pub(crate) fn solve(mass: &DMatrix<f64>, tangent: &DMatrix<f64>) -> Option<Solve
     if mass.iter().chain(tangent.iter()).any(|x| !x.is_finite()) {
         return None;
     }
+    if mass.nrows() == 0 {
+        // Everything is held: there is nothing that could vibrate.
+        return Some(Solved {
+            squared: Vec::new(),
+            shapes: DMatrix::zeros(0, 0),
+            massless: 0,
+            neutral: DMatrix::zeros(0, 0),
+            massless_unstable: 0,
+            shift: 0.0,
+        });
+    }
     if let Some(shifted) = Shifted::find(mass, tangent) {
         return Some(by_shift(mass, &shifted));
     }
