@@ -14,6 +14,7 @@ use crate::{cargo, root, step};
 ///
 /// # Errors
 /// A run that fails, other bytes after a kill, memory or growth beyond what is asked.
+#[allow(clippy::print_stdout)] // figures are the output that was requested
 pub fn run(options: &[&str]) -> Result<()> {
     let (mut blocks, mut kills) = (5_000_000_usize, 20_u64);
     for pair in options.chunks(2) {
@@ -120,6 +121,7 @@ fn measured(here: &Path, blocks: usize) -> Result<(f64, f64)> {
 }
 
 /// Killed at moments over the length of a run, and gone on with.
+#[allow(clippy::print_stdout)] // figures are the output that was requested
 fn killed(here: &Path, blocks: usize, kills: u64, seconds: f64) -> Result<()> {
     eprintln!("== long: killed {kills} times");
     for end in ["ngc", "csv"] {

@@ -9,7 +9,6 @@
 )]
 
 #[path = "cli/common/mod.rs"]
-#[allow(dead_code)]
 mod common;
 
 use std::collections::BTreeMap;

@@ -260,6 +260,7 @@ mod tests {
             "section",
             "tool-diameter-mm",
             "tool-orientation",
+            "viscous",
             "work-offset",
         ];
         assert_eq!(found, known.map(String::from).into());

@@ -116,7 +116,7 @@ pub(crate) struct ProgramArgs {
     #[arg(long, help_heading = "Outputs")]
     pub(crate) restart: bool,
     /// Lines of a part of a long program (for tests): a program of any length is run in parts
-    #[arg(long, value_name = "N", hide = true, value_parser = whole)]
+    #[arg(long, value_name = "N", hide = true, allow_negative_numbers = true, value_parser = whole)]
     pub(crate) part_lines: Option<usize>,
     /// Number of threads; all cores without it. The result is the same
     #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = whole)]

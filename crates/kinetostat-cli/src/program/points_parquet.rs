@@ -105,7 +105,9 @@ const MEANINGS: [(&str, &str); 19] = [
 fn column(name: &str) -> RowColumn {
     let is_text = WORDS.contains(&name);
     let unit = UNITS.iter().find(|(end, _)| name.ends_with(end));
-    let meaning = MEANINGS.iter().find(|(start, _)| name.starts_with(start));
+    // The longest beginning counts: a share of the way to buckling is no share of a block.
+    let own = MEANINGS.iter().filter(|(start, _)| name.starts_with(start));
+    let meaning = own.max_by_key(|(start, _)| start.len());
     let description = match meaning {
         Some((_, meaning)) => *meaning,
         None if ["x_mm", "y_mm", "z_mm"].contains(&name) => {

@@ -39,7 +39,7 @@ fn agree(found: &[f64], expected: &[f64], most: f64) {
 #[test]
 fn frequencies_of_the_arm_are_those_of_the_reference_values() {
     let here = arm6();
-    let weightless = ARM6.replace("gravity_m_per_s2 = [0, 0, -9.81]\n", "");
+    let weightless = ARM6.replace("[0, 0, -9.81]", "[0, 0, 0]");
     assert_ne!(weightless, ARM6);
     std::fs::write(here.path().join("weightless.toml"), weightless).expect("written");
     for (line, expected) in [

@@ -12,7 +12,7 @@ use crate::machine::read;
 
 /// Correction of a path after one trial that was measured every half millimetre with `off`, by place and length.
 fn mirrored(path: &Path, off: impl Fn(f64) -> Vector3<f64>) -> MirrorState {
-    let nominal = NominalPath::new(path).unwrap();
+    let nominal = NominalPath::new(path).expect("a path");
     let count = (nominal.length_mm() / 0.5).round();
     let places = (0..count as usize).map(|k| nominal.length_mm() * ((k as f64 + 0.5) / count));
     let points: Vec<Vector3<f64>> = places.map(|at| nominal.point_at(at) + off(at)).collect();
@@ -21,7 +21,12 @@ fn mirrored(path: &Path, off: impl Fn(f64) -> Vector3<f64>) -> MirrorState {
         align: Alignment::ArcLength,
         ..MeasureSettings::default()
     };
-    let measured = measure(&nominal, &MeasuredPoints::at(&points).unwrap(), &settings).unwrap();
+    let measured = measure(
+        &nominal,
+        &MeasuredPoints::at(&points).expect("points"),
+        &settings,
+    )
+    .expect("a measurement");
     assert!(measured.outliers.is_empty(), "{:?}", measured.outliers);
     let mut state = MirrorState::new(&nominal, "corners", settings);
     let file = MeasuredFile {
@@ -30,12 +35,12 @@ fn mirrored(path: &Path, off: impl Fn(f64) -> Vector3<f64>) -> MirrorState {
     };
     state
         .take(&nominal, &[(file, measured)], 1.0, None)
-        .unwrap();
+        .expect("a trial");
     state
 }
 
 fn correction(path: &Path, field: &MirrorField<'_>, piece: usize, share: f64) -> Vector3<f64> {
-    let nominal = NominalPath::new(path).unwrap();
+    let nominal = NominalPath::new(path).expect("a path");
     let move_index = nominal.pieces()[piece].move_index;
     let motion = &path.moves[move_index];
     let request = Request {
@@ -46,7 +51,10 @@ fn correction(path: &Path, field: &MirrorField<'_>, piece: usize, share: f64) ->
         orientation: None,
         turning: None,
     };
-    field.corrections(&[request])[0].clone().unwrap().shift_mm
+    field.corrections(&[request])[0]
+        .clone()
+        .expect("a correction")
+        .shift_mm
 }
 
 /// What each leg sees of the same shift is another part of it; at the corner the whole shift is put right, and nowhere is more
@@ -150,7 +158,12 @@ fn a_leg_without_points_is_led_from_one_to_the_other() {
         align: Alignment::ArcLength,
         ..MeasureSettings::default()
     };
-    let measured = measure(&nominal, &MeasuredPoints::at(&points).unwrap(), &settings).unwrap();
+    let measured = measure(
+        &nominal,
+        &MeasuredPoints::at(&points).expect("points"),
+        &settings,
+    )
+    .expect("a measurement");
     let mut state = MirrorState::new(&nominal, "leg", settings);
     let file = MeasuredFile {
         name: "trial1.csv".into(),
@@ -158,7 +171,7 @@ fn a_leg_without_points_is_led_from_one_to_the_other() {
     };
     state
         .take(&nominal, &[(file, measured)], 1.0, None)
-        .unwrap();
+        .expect("a trial");
     let field = MirrorField::new(&nominal, &state).unwrap();
     let at = |piece, share| correction(&path, &field, piece, share);
     assert!((at(0, 1.0).y + 0.05).abs() < 1e-3, "{}", at(0, 1.0));

@@ -143,7 +143,10 @@ impl Way {
             let ends = self.inputs[a].iter().zip(&self.inputs[b]);
             let mut all = ends.zip(&self.inputs[i]);
             // Also where one of them is no number.
-            all.any(|((from, to), x)| !((from + (to - from) * share - x).abs() <= STRAIGHT))
+            all.any(|((from, to), x)| {
+                let off = (from + (to - from) * share - x).abs();
+                off.is_nan() || off > STRAIGHT
+            })
         };
         if b - a <= 1 || !(a + 1..b).any(off) {
             return vec![[a, b]];
