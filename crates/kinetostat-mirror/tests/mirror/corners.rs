@@ -67,9 +67,9 @@ fn a_shift_of_the_whole_is_put_right_at_every_corner() {
         let (x, y) = (60.0 + 60.0 * cosine, 60.0 * sine);
         let text = format!("G21 G90\nG0 X0 Y0 Z0\nG1 X60 F600\nG1 X{x:.6} Y{y:.6}\nG0 Z9\nM2\n");
         let (_, path) = read(&text);
-        let nominal = NominalPath::new(&path).unwrap();
+        let nominal = NominalPath::new(&path).expect("a path");
         let state = mirrored(&path, |_| shift);
-        let field = MirrorField::new(&nominal, &state).unwrap();
+        let field = MirrorField::new(&nominal, &state).expect("a field");
         let at = |piece, share| correction(&path, &field, piece, share);
         assert!((at(0, 1.0) - at(1, 0.0)).norm() < 1e-12);
         let mut worst = Worst::new();
@@ -78,7 +78,7 @@ fn a_shift_of_the_whole_is_put_right_at_every_corner() {
             for k in 0..=200 {
                 let share = f64::from(k) / 200.0;
                 let motion = nominal.motion(&nominal.pieces()[piece]);
-                let along = motion.tangent(share).unwrap();
+                let along = motion.tangent(share).expect("a direction");
                 let left = at(piece, share) + shift;
                 worst.add((left - along * along.dot(&left)).norm());
             }
@@ -91,12 +91,12 @@ fn a_shift_of_the_whole_is_put_right_at_every_corner() {
 #[test]
 fn a_closed_contour_has_no_seam() {
     let (_, path) = read("G21 G90\nG0 X30 Y0 Z0\nG3 X30 Y0 I-30 F600\nG0 Z9\nM2\n");
-    let nominal = NominalPath::new(&path).unwrap();
+    let nominal = NominalPath::new(&path).expect("a path");
     let waves = |at: f64| {
         [1.0, 3.0].map(|k| Vector3::new(0.0, 0.0, 0.05 * (k * at / 30.0 + 0.4 * k).cos()))
     };
     let state = mirrored(&path, |at| waves(at).iter().sum());
-    let field = MirrorField::new(&nominal, &state).unwrap();
+    let field = MirrorField::new(&nominal, &state).expect("a field");
     let at = |share| correction(&path, &field, 0, share);
     assert!((at(0.0) - at(1.0)).norm() < 1e-12);
     // The kernel's constant takes 4.4e-4 of it (0.0111 of a point among the 25 that a mean rests on).
@@ -123,9 +123,9 @@ fn contours_with_corners_close() {
         "G0 X0 Y0\nG0 Z0\nG1 X60 F600\nG1 Y40\nG1 X0\nG1 Y0\n",
     ] {
         let (_, path) = read(&format!("G21 G90\nG0 Z9\n{contour}G0 Z9\nM2\n"));
-        let nominal = NominalPath::new(&path).unwrap();
+        let nominal = NominalPath::new(&path).expect("a path");
         let state = mirrored(&path, |_| shift);
-        let field = MirrorField::new(&nominal, &state).unwrap();
+        let field = MirrorField::new(&nominal, &state).expect("a field");
         let last = nominal.pieces().len() - 1;
         let ends = [
             correction(&path, &field, 0, 0.0),
@@ -144,7 +144,7 @@ fn contours_with_corners_close() {
 fn a_leg_without_points_is_led_from_one_to_the_other() {
     let text = "G21 G90\nG0 X0 Y0 Z0\nG1 X60 F600\nG1 Y3\nG1 X0\nG0 Z9\nM2\n";
     let (_, path) = read(text);
-    let nominal = NominalPath::new(&path).unwrap();
+    let nominal = NominalPath::new(&path).expect("a path");
     let mut points = Vec::new();
     for k in 0..=60 {
         let x = f64::from(k);
@@ -172,7 +172,7 @@ fn a_leg_without_points_is_led_from_one_to_the_other() {
     state
         .take(&nominal, &[(file, measured)], 1.0, None)
         .expect("a trial");
-    let field = MirrorField::new(&nominal, &state).unwrap();
+    let field = MirrorField::new(&nominal, &state).expect("a field");
     let at = |piece, share| correction(&path, &field, piece, share);
     assert!((at(0, 1.0).y + 0.05).abs() < 1e-3, "{}", at(0, 1.0));
     assert!((at(2, 0.0).y + 0.02).abs() < 1e-3, "{}", at(2, 0.0));
