@@ -2,7 +2,7 @@
 
 use nalgebra::{Matrix2, Matrix3, Vector3};
 
-use crate::number::{Complex64, larger};
+use crate::number::{Complex64, larger, smaller};
 use crate::response::ToolResponse;
 
 /// Frequencies that are looked at within half the width of a peak.
@@ -186,7 +186,7 @@ pub(crate) fn grid(response: &ToolResponse) -> Vec<f64> {
     let slowest = modes
         .iter()
         .map(|m| m.angular_frequency())
-        .fold(fastest, f64::min);
+        .fold(fastest, smaller);
     let (from, to) = (1e-3 * slowest, BEYOND * fastest);
     let mut all = vec![from];
     let mut w = from;

@@ -11,6 +11,7 @@ use serde::{Deserialize, Serialize};
 use crate::branches::{Branches, Place};
 use crate::cut::Cut;
 use crate::error::{ChatterError, ChatterErrorKind, Result, above};
+use crate::number::smaller;
 use crate::response::ToolResponse;
 use crate::stability::eigenvalues;
 
@@ -137,7 +138,7 @@ fn static_loss(branches: &Branches<'_>) -> Option<CoupledLimit> {
     let factors = real
         .filter(|mu| mu.re > 0.0 && mu.im.abs() <= 1e-9 * mu.norm())
         .map(|mu| mu.inv().re);
-    factors.reduce(f64::min).map(|factor| CoupledLimit {
+    factors.reduce(smaller).map(|factor| CoupledLimit {
         factor,
         kind: Coupled::StaticLoss,
         frequency_hz: 0.0,
@@ -217,5 +218,5 @@ pub fn two_axis_limit(k1: f64, k2: f64, chip: f64, force: f64) -> Result<Option<
     let sum = (chip + force).cos();
     let of = |sign: f64| (k2 - k1) / (sum + sign * root);
     let positive = [of(1.0), of(-1.0)].into_iter().filter(|k| *k >= 0.0);
-    Ok(positive.reduce(f64::min))
+    Ok(positive.reduce(smaller))
 }

@@ -9,6 +9,12 @@ pub(crate) fn larger(a: f64, b: f64) -> f64 {
     if b > a || b.is_nan() { b } else { a }
 }
 
+/// The smaller of two numbers, NaN where one of them is: `f64::min` forgets it.
+#[inline]
+pub(crate) fn smaller(a: f64, b: f64) -> f64 {
+    if b < a || b.is_nan() { b } else { a }
+}
+
 /// `e^(i angle)`.
 #[inline]
 pub(crate) fn cis(angle: f64) -> Complex64 {

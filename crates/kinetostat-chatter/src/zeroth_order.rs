@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::branches::{Branches, Place, grid};
 use crate::error::Result;
-use crate::number::Complex64;
+use crate::number::{Complex64, smaller};
 use crate::stability::Regeneration;
 
 /// A limit of zeroth order.
@@ -62,7 +62,7 @@ fn within(
 ) {
     // Places are so close that a depth between them is not far below both of theirs.
     let ends = [depth(from.mu), depth(to.mu)].into_iter().flatten();
-    match (ends.reduce(f64::min), best.map(|best| best.depth)) {
+    match (ends.reduce(smaller), best.map(|best| best.depth)) {
         (None, _) => return,
         (Some(least), Some(best)) if 0.5 * least > best => return,
         _ => {}
@@ -91,7 +91,7 @@ pub fn absolute_minimum(regeneration: &Regeneration) -> Option<ZerothOrderLimit>
     let branch = of(regeneration);
     let at = |frequency: f64| {
         let depths = branch.eigenvalues(frequency).map(depth);
-        depths.into_iter().flatten().reduce(f64::min)
+        depths.into_iter().flatten().reduce(smaller)
     };
     let frequencies = grid(branch.response);
     let mut best: Option<(usize, f64)> = None;
