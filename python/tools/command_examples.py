@@ -222,6 +222,25 @@ True
 >>> "[mechanism]" in ks.commands.model_show("two_link")
 True
 """,
+    "modes": """
+>>> import kinetostat as ks
+>>> found = ks.commands.modes("heavy_6r", damping=[0.03])
+>>> found["stable"], found["modes"][0]["damping_ratio"]
+(True, 0.03)
+""",
+    "frf": """
+>>> import kinetostat as ks
+>>> found = ks.commands.frf("heavy_6r", damping=[0.03], frequencies=[1, 50, 100])
+>>> [curve["unit"] for curve in found["curves"]], len(found["frequencies_hz"])
+(['m/N', 'm/N', 'm/N'], 100)
+""",
+    "lobes": """
+>>> import kinetostat as ks
+>>> cut = {"teeth": 2, "coefficients_n_per_mm2": [800, 240, 0], "rpm": [3000, 3600, 2]}
+>>> found = ks.commands.lobes("heavy_6r", damping=[0.03], immersion=0.5, up=True, **cut)
+>>> len(found["points"])
+2
+""",
     "place": _with_file(
         "groove.ngc",
         _PROGRAM,

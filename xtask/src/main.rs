@@ -7,6 +7,7 @@ mod counts;
 mod cutting;
 mod figures;
 mod fuzz;
+mod long;
 mod programs;
 mod python;
 mod test;
@@ -34,6 +35,7 @@ Tasks of the project
   cargo xtask figures --builds  those of builds and tests from a clean clone alone: about half an hour
   cargo xtask fuzz [--minutes M] [--seed N]   random chains through every question; --case N
                                 repeats one
+  cargo xtask long [--blocks N] [--kills K]   programs of millions of blocks: memory, growth, kills
   cargo xtask bench-vs-numpy    speed beside vectorised numpy, in one process; needs python3
   cargo xtask bench-vs-numpy --json   the same as a list of {work, kinetostat_us, numpy_us, ratio,
                                 max_relative_difference}
@@ -49,6 +51,7 @@ fn main() -> ExitCode {
         ["book", options @ ..] => book::run(options),
         ["figures", options @ ..] => figures::run(options),
         ["fuzz", options @ ..] => fuzz::run(options),
+        ["long", options @ ..] => long::run(options),
         ["wheel", options @ ..] => python::wheel(options),
         ["counts", options @ ..] => counts::run(options),
         ["bench-vs-numpy", options @ ..] => bench::versus_numpy(options),

@@ -11,6 +11,7 @@
 //! | what would stiffen it most cheaply? | [`shares::stiffening::stiffen`] |
 //! | what does every number of the model file change? | [`sensitivity::sensitivities`] |
 //! | are deflections under a load small? | [`reference_load::under_forces`], [`push_stiffness::PushStiffnesses`] |
+//! | how does it vibrate at a place, and where does its cut chatter? | [`vibration::VibratingMachine`], [`vibration::MachineCut`] |
 //! | what do single limbs and actuators do? | [`limb_motions`], [`joint_motion`] |
 //! | a machine of one limb as a chain whose end is held | [`serial_chain::SerialChain`], [`movable`], [`degenerate`] |
 //! | how far has the tool turned along a curve? | [`rotation::ContinuousRotation`] |
@@ -35,3 +36,4 @@ pub mod rotation;
 pub mod sensitivity;
 pub mod serial_chain;
 pub mod shares;
+pub mod vibration;

@@ -2,7 +2,7 @@
 //! it should.
 //!
 //! One folder per command; commands do not know each other. Below them, from the top down, what they share:
-//! `program` (a run along a program), `end_condition` (how a tool is held), `job` (the query of such a run), `place`
+//! `program` (a run along a program), `vibration` (a machine that vibrates at a place), `end_condition` (how a tool is held), `job` (the query of such a run), `place`
 //! (one place in the workspace), `machine` (what is said of a machine), `options`, `files`, and `ui`, which prints
 //! and knows the exit codes. `command_line` stands above all.
 //!
@@ -24,12 +24,16 @@ mod equilibria;
 mod expand;
 mod files;
 mod force;
+mod frf;
 mod import;
 mod job;
+mod lobes;
+mod long;
 mod machine;
 mod map;
 mod mirror;
 mod model;
+mod modes;
 mod options;
 mod place;
 mod placing;
@@ -41,6 +45,7 @@ mod stiffness;
 mod tolerance;
 mod ui;
 mod verify;
+mod vibration;
 
 use std::ffi::OsString;
 use std::process::ExitCode;
@@ -158,6 +163,9 @@ fn run(command: Command) -> Answer<()> {
         Command::Deflect(args) => deflect::run(*args),
         Command::Stiffness(args) => stiffness::run(&args),
         Command::Shares(args) => shares::run(&args),
+        Command::Modes(args) => modes::run(&args),
+        Command::Frf(args) => frf::run(&args),
+        Command::Lobes(args) => lobes::run(&args),
         Command::Compare(args) => compare::run(&args),
         Command::Map(args) => map::run(&args),
         Command::Mirror(args) => mirror::run(&args),

@@ -75,6 +75,7 @@ pub use near::{NEAR_SINGULAR, NearKind, NearSingular, natural_length, near_singu
 pub use placement::Placement;
 pub use postures::configurations::{Configurations, posture_at};
 pub use result::cutting::{CutPlace, CuttingResult};
+pub use result::envelope::{Envelope, Quantity, StretchRange};
 pub use result::feature::{Feature, FeatureResult, feature_results};
 pub use result::figures::Figures;
 pub use result::force_band::ForceBand;
@@ -82,6 +83,7 @@ pub use result::joints::{
     ArmConfiguration, Elbow, JointsResult, LimitEnd, LimitPlace, MostLoaded, NearestLimit,
     PostureChange, RatingPlace, Shoulder, WayOut, Wrist,
 };
+pub use result::kept_points::KeptPoints;
 pub use result::largest_change::LargestChange;
 pub use result::point::{PointKind, PointResult};
 pub use result::program_place::ProgramPlace;
@@ -94,10 +96,13 @@ pub use result::tolerance::{
     MissedTolerance, ToleranceResult, keeps_as_it_is, of_table, unchanged_text,
 };
 pub use result::uncertainty_band::{BandPlace, ScatteredError, UncertainNumber, UncertaintyBand};
-pub use run::compensate::{analyse, compensate_program};
+pub use run::compensate::{analyse, analyse_part, compensate_part, compensate_program};
 pub use run::conclude::{Run, load_description, of_program};
 pub use run::cutting::{cut_places, cutting_result};
+pub use run::look_at_part::look_at_part;
+pub use run::merged::MergedRun;
 pub use run::movable::{MovableProgram, Reach};
+pub use run::of_whole::OfWhole;
 pub use run::places::wrenches_at;
 pub use run::preparation::with_model_field;
 pub use table::{FieldCorrection, correct_by_field, wide_table};

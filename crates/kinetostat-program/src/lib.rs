@@ -51,6 +51,7 @@ pub mod internal;
 mod irregular;
 mod machine_program;
 mod number;
+mod parts;
 mod path;
 mod reading;
 mod text;
@@ -76,12 +77,17 @@ pub use field::request::{
 };
 pub use irregular::irregular;
 pub use machine_program::{Gcode, MachineProgram};
+pub use parts::lines::PartError;
+pub use parts::survey::Survey;
+pub use parts::windows::{Part, PartLength, Parts};
+pub use parts::written_so_far::{GcodePart, WrittenSoFar};
 pub use path::closed_circle::{NearlyClosed, angle_about, last_digit_mm};
 pub use path::curve::{Arc, Curve};
 pub use path::great_circle::{GreatCircle, OffCircle};
 pub use path::moves::{
     CoordinateWords, ExtraAxis, ExtraMode, Feed, FeedMode, Knowledge, Move, MoveKind, Path, Warning,
 };
+pub use path::part::PathPart;
 pub use path::pause::{Pause, PauseKind};
 pub use path::rotary::{Carries, RotaryAxes, RotaryAxis};
 pub use path::rotary_angles::Unreached;
@@ -103,6 +109,7 @@ pub use writing::options::{Arcs, Circles, WriteOptions};
 pub use writing::plan::{Plan, PlannedMove, PlannedPiece, WrittenEnd, WrittenMove};
 pub use writing::planned_arc::PlannedArc;
 pub use writing::write::write_corrected;
+pub use writing::writer_state::WriterState;
 pub use writing::written::{Corrected, Piece};
 pub use writing::written_arc::WrittenArc;
 pub use writing::written_circle::WrittenCircle;

@@ -64,6 +64,7 @@ def deflect(
     pdf: _Path | None = None,
     language: Literal["en", "fr", "de"] | None = None,
     points: _Path | None = None,
+    vtk: _Path | None = None,
     all_points: bool = False,
     force_overwrite: bool = False,
     threads: int | None = None,
@@ -197,7 +198,10 @@ def deflect(
         Language of the reports [default: en]. In French and German the HTML report has no pictures
         either
     points : path
-        Points of the path as a table (CSV); of long programs the worst of every stretch
+        Points of the path as a table: CSV, of long programs the worst of every stretch; Parquet
+        with every point where the name ends in .parquet
+    vtk : path
+        The path as lines for ParaView (VTK): errors, corrections and loads as vectors at its points
     all_points : bool
         Every point in the table, however large it becomes
     force_overwrite : bool
@@ -270,6 +274,7 @@ def deflect(
         ("--pdf", pdf),
         ("--language", language),
         ("--points", points),
+        ("--vtk", vtk),
         ("--all-points", all_points),
         ("--force-overwrite", force_overwrite),
         ("--threads", threads),

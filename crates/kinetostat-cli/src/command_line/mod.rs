@@ -19,10 +19,13 @@ use crate::engagement::arguments::EngagementArgs;
 use crate::equilibria::arguments::EquilibriaArgs;
 use crate::expand::arguments::ExpandArgs;
 use crate::force::arguments::ForceArgs;
+use crate::frf::arguments::FrfArgs;
 use crate::import::arguments::ImportArgs;
+use crate::lobes::arguments::LobesArgs;
 use crate::map::arguments::MapArgs;
 use crate::mirror::arguments::MirrorArgs;
 use crate::model::arguments::ModelArgs;
+use crate::modes::arguments::ModesArgs;
 use crate::options::EXIT_CODES;
 use crate::placing::arguments::PlacingArgs;
 use crate::reproduce::arguments::ReproduceArgs;
@@ -79,6 +82,9 @@ pub(crate) enum Command {
     Deflect(Box<DeflectArgs>),
     Stiffness(StiffnessArgs),
     Shares(Box<SharesArgs>),
+    Modes(Box<ModesArgs>),
+    Frf(Box<FrfArgs>),
+    Lobes(Box<LobesArgs>),
     Compare(Box<CompareArgs>),
     Map(Box<MapArgs>),
     Mirror(Box<MirrorArgs>),
@@ -254,6 +260,7 @@ mod tests {
             "section",
             "tool-diameter-mm",
             "tool-orientation",
+            "viscous",
             "work-offset",
         ];
         assert_eq!(found, known.map(String::from).into());

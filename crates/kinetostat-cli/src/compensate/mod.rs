@@ -8,6 +8,7 @@
 pub(crate) mod arguments;
 mod copy;
 mod correction_table;
+mod long;
 
 use std::path::{Path, PathBuf};
 
@@ -63,6 +64,16 @@ pub(crate) fn run(mut args: CompensateArgs) -> Answer<()> {
 }
 
 fn compensate(files: &InputFiles, args: &CompensateArgs) -> Answer<()> {
+    let job = args.run.job.as_deref();
+    let job = job.map(|path| JobFile::read(files, path)).transpose()?;
+    let other = args.map.is_some() || args.no_compensation || target(job.as_ref(), args).is_some();
+    match !other && long::compensate(files, job.as_ref(), (args, &writing(args)))? {
+        true => Ok(()),
+        false => compensate_whole(files, args),
+    }
+}
+
+fn compensate_whole(files: &InputFiles, args: &CompensateArgs) -> Answer<()> {
     let job = args
         .run
         .job

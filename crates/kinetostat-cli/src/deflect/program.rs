@@ -2,17 +2,22 @@
 
 use std::path::Path;
 
+use kinetostat_model::Model;
+
 use crate::deflect::arguments::DeflectArgs;
 use crate::files::input_files::InputFiles;
 use crate::files::outputs::{self, Existing};
 use crate::job::arguments::WritingFlags;
 use crate::job::free_turn::FreeTurn;
 use crate::job::job_file::JobFile;
-use crate::job::machine::machine_setup;
+use crate::job::machine::{MachineSetup, machine_setup};
 use crate::job::of_model::give_of_model;
-use crate::job::setting::setting;
+use crate::job::output_paths::OutputPaths;
+use crate::job::setting::{Setting, program_path, setting};
 use crate::job::turn_arguments::FreeTurnWord;
 use crate::job::{program, run_warnings};
+use crate::long::run::{LongRun, survey};
+use crate::long::which::{only_as_a_whole, with_first_lines};
 use crate::program::aim::Aim;
 use crate::program::outputs::RunOutputs;
 use crate::program::{report, solve, summary};
@@ -23,13 +28,36 @@ pub(crate) fn along_program(args: &DeflectArgs, is_job: bool) -> Answer<()> {
     let job = is_job
         .then(|| JobFile::read(&files, Path::new(&args.subject)))
         .transpose()?;
+    // Of a long program the first lines say what it is.
+    let path = program_path(job.as_ref(), &args.program)?;
+    if let Some(first) = with_first_lines(&files, &path, &args.program)
+        && run_along(args, (&first, job.as_ref()), (is_job, true))?
+    {
+        return Ok(());
+    }
+    run_along(args, (&files, job.as_ref()), (is_job, false)).map(drop)
+}
+
+/// The deflections along a program; in parts, whether it can be run so.
+fn run_along(
+    args: &DeflectArgs,
+    (files, job): (&InputFiles, Option<&JobFile>),
+    (is_job, in_parts): (bool, bool),
+) -> Answer<bool> {
     let named = (!is_job).then_some(args.subject.as_str());
     let flags = WritingFlags {
         json: args.json.as_deref(),
         ..WritingFlags::default()
     };
     // The program is analysed as it is, also where the job has it written in another language.
-    let mut setting = setting(&files, job.as_ref(), &args.program, &flags)?;
+    let mut setting = match setting(files, job, &args.program, &flags) {
+        // What is wrong, or another language, is said of the whole.
+        Err(_) if in_parts => return Ok(false),
+        found => found?,
+    };
+    if in_parts && (setting.robot.is_some() || setting.flat.is_some()) {
+        return Ok(false);
+    }
     setting.write_flat_to(args.program.expansion.flat_program.clone());
     let mut chosen = setting.targets.clone();
     // The job's outputs are those of the compensation: an analysis writes what is named here.
@@ -42,17 +70,26 @@ pub(crate) fn along_program(args: &DeflectArgs, is_job: bool) -> Answer<()> {
     });
     chosen.json = args.json.clone().filter(|p| p != Path::new("-"));
     let existing = Existing::forced(args.program.force_overwrite);
-    let model_of_job = (job.as_ref(), named);
-    give_of_model(&mut setting, &files, model_of_job, &args.program)?;
+    let model_of_job = (job, named);
+    give_of_model(&mut setting, files, model_of_job, &args.program)?;
     let frames = setting.robot_frames()?;
     let (machine, model) = machine_setup(
-        &files,
-        job.as_ref(),
+        files,
+        job,
         named,
         &args.program,
         (frames.as_ref(), &mut setting.inputs),
     )?;
     setting.turned_by(machine.rotary.clone());
+    if in_parts {
+        chosen.program = None;
+        let whole = only_as_a_whole(&setting, &machine, &args.program).is_some();
+        if whole || chosen.pdf.is_some() {
+            return Ok(false);
+        }
+        let of = (job, existing, chosen);
+        return part_by_part(args, (&machine, &model), setting, of).map(|()| true);
+    }
     program::read_program(&setting)?;
     let mut outputs = RunOutputs::claim(Aim::Analyse, &chosen, existing, &setting.inputs)?;
     let turn = solve::turn(&machine, &setting)?;
@@ -67,7 +104,7 @@ pub(crate) fn along_program(args: &DeflectArgs, is_job: bool) -> Answer<()> {
     }
     run.result
         .warnings
-        .extend(run_warnings::of_run(&model, job.as_ref()));
+        .extend(run_warnings::of_run(&model, job));
     outputs.list(args.program.all_points, &model);
     outputs.fill(&run, &setting, turn.as_ref())?;
     let note = outputs.note(&run);
@@ -78,6 +115,37 @@ pub(crate) fn along_program(args: &DeflectArgs, is_job: bool) -> Answer<()> {
         summary::of_run(&run.result),
         outputs::written(&paths)
     );
+    let to_screen = args.json.as_deref() == Some(Path::new("-"));
+    report::print_run(&text, to_screen.then_some(&run.result)).map(|()| true)
+}
+
+/// The deflections along a long program, of which the setting has the first lines.
+fn part_by_part(
+    args: &DeflectArgs,
+    (machine, model): (&MachineSetup, &Model),
+    mut setting: Setting,
+    (job, existing, targets): (Option<&JobFile>, Existing, OutputPaths),
+) -> Answer<()> {
+    let mut outputs = RunOutputs::claim(Aim::Analyse, &targets, existing, &setting.inputs)?;
+    outputs.list(args.program.all_points, model);
+    let whole = survey(&mut setting, Aim::Analyse)?;
+    let run = LongRun {
+        aim: Aim::Analyse,
+        machine,
+        model,
+        setting: &setting,
+        survey: &whole,
+        flags: &args.program,
+        targets: &targets,
+    };
+    let (mut run, done) = run.run(&mut outputs)?;
+    let found = run_warnings::of_run(model, job);
+    run.result.warnings.extend(found);
+    done.fill(&mut outputs)?;
+    outputs.fill_result(&run, &setting)?;
+    let paths = outputs.files.commit()?;
+    done.remove();
+    let text = summary::of_run(&run.result) + &outputs::written(&paths);
     let to_screen = args.json.as_deref() == Some(Path::new("-"));
     report::print_run(&text, to_screen.then_some(&run.result))
 }

@@ -66,7 +66,7 @@ pub(crate) fn axis_description(axis: &Vector3<f64>) -> String {
 }
 
 /// Names of directions, with words for groups of them.
-fn list(option: &str, text: &str, driven: Option<usize>) -> Answer<[bool; 6]> {
+pub(crate) fn list(option: &str, text: &str, driven: Option<usize>) -> Answer<[bool; 6]> {
     let mut set = [false; 6];
     for word in text.split([',', ' ']).filter(|w| !w.is_empty()) {
         match word.to_ascii_lowercase().as_str() {

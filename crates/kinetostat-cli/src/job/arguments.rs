@@ -99,15 +99,25 @@ pub(crate) struct ProgramArgs {
     /// Language of the reports [default: en]. In French and German the HTML report has no pictures either
     #[arg(long, value_enum, value_name = "LANGUAGE", help_heading = "Outputs")]
     pub(crate) language: Option<LanguageWord>,
-    /// Points of the path as a table (CSV); of long programs the worst of every stretch
+    /// Points of the path as a table: CSV, of long programs the worst of every stretch; Parquet with every point where the name ends
+    /// in .parquet
     #[arg(long, value_name = "FILE", help_heading = "Outputs")]
     pub(crate) points: Option<PathBuf>,
+    /// The path as lines for ParaView (VTK): errors, corrections and loads as vectors at its points
+    #[arg(long, value_name = "FILE", help_heading = "Outputs")]
+    pub(crate) vtk: Option<PathBuf>,
     /// Every point in the table, however large it becomes
     #[arg(long, help_heading = "Outputs")]
     pub(crate) all_points: bool,
     /// Overwrite outputs that exist (never an input)
     #[arg(long, help_heading = "Outputs")]
     pub(crate) force_overwrite: bool,
+    /// Begin a long program anew, though a run of it was interrupted and could go on
+    #[arg(long, help_heading = "Outputs")]
+    pub(crate) restart: bool,
+    /// Lines of a part of a long program (for tests): a program of any length is run in parts
+    #[arg(long, value_name = "N", hide = true, allow_negative_numbers = true, value_parser = whole)]
+    pub(crate) part_lines: Option<usize>,
     /// Number of threads; all cores without it. The result is the same
     #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = whole)]
     pub(crate) threads: Option<usize>,

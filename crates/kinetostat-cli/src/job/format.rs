@@ -257,6 +257,8 @@ pub(crate) struct OutputTable {
     pub language: Option<LanguageWord>,
     pub json: Option<Spanned<String>>,
     pub points: Option<Spanned<String>>,
+    /// Path with errors, for ParaView.
+    pub vtk: Option<Spanned<String>>,
     /// The flat program, where the program is expanded.
     pub flat_program: Option<Spanned<String>>,
     /// Picture of the turn of the tool, where it is chosen.

@@ -17,6 +17,9 @@ pub(crate) const COMPENSATED_PROGRAM: &str = "compensated program";
 /// What the report to be signed is called among outputs.
 pub(crate) const PDF: &str = "report as PDF";
 
+/// What the path for ParaView is called among outputs.
+pub(crate) const PATH_VTK: &str = "path as VTK";
+
 /// What the flat program is called among outputs.
 pub(crate) const FLAT_PROGRAM: &str = "flat program";
 
@@ -64,6 +67,8 @@ pub(crate) struct OutputPaths {
     pub(crate) language: Option<LanguageWord>,
     pub(crate) json: Option<PathBuf>,
     pub(crate) points: Option<PathBuf>,
+    /// Path with errors, for ParaView.
+    pub(crate) vtk: Option<PathBuf>,
     /// Of a program that is written flat.
     pub(crate) flat: Option<PathBuf>,
     /// Picture of the turn of the tool, where it is chosen.
@@ -81,6 +86,7 @@ impl OutputPaths {
             (PDF, &self.pdf),
             ("result", &self.json),
             ("table of points", &self.points),
+            (PATH_VTK, &self.vtk),
             (FLAT_PROGRAM, &self.flat),
             (TURN_PLOT, &self.turn_plot),
         ]
@@ -135,6 +141,7 @@ pub(crate) fn output_paths(
             j.output.json.as_ref()
         })?,
         points: from_job(flags.points.as_deref(), |j| j.output.points.as_ref())?,
+        vtk: from_job(flags.vtk.as_deref(), |j| j.output.vtk.as_ref())?,
         turn_plot: from_job(flags.turn.turn_plot.as_deref(), |j| {
             j.output.turn_plot.as_ref()
         })?,

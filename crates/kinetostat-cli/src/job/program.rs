@@ -2,7 +2,8 @@
 
 use kinetostat::Directions;
 use kinetostat_program::{
-    Gcode, MachineProgram, Path as ToolPath, Program, ProgramError, faults, interpret,
+    Gcode, GcodePart, MachineProgram, Part, Path as ToolPath, Program, ProgramError, WrittenSoFar,
+    faults, interpret,
 };
 
 use crate::job::expansion::advice::advice;
@@ -15,6 +16,16 @@ use crate::ui::fault_list::fault_list_text;
 pub(crate) enum ReadProgram<'s> {
     Gcode(Box<GcodeRead<'s>>),
     Robot(Box<RobotRead<'s>>),
+    /// A part of a long program.
+    Part(PartRead<'s>),
+}
+
+/// A part of a long program, to be written behind the parts before it.
+#[derive(Clone, Copy)]
+pub(crate) struct PartRead<'s> {
+    pub(crate) part: &'s Part,
+    pub(crate) so_far: &'s WrittenSoFar<'s>,
+    pub(crate) setting: &'s Setting,
 }
 
 /// A program in G-code with its path, and how it was read.
@@ -30,6 +41,7 @@ impl ReadProgram<'_> {
         match self {
             Self::Gcode(read) => &read.path,
             Self::Robot(read) => &read.path.path,
+            Self::Part(read) => &read.part.path,
         }
     }
 
@@ -38,6 +50,8 @@ impl ReadProgram<'_> {
         match self {
             Self::Gcode(read) => read.path = path,
             Self::Robot(read) => read.path.to_mut().path = path,
+            // Programs whose turn is chosen are not run in parts.
+            Self::Part(_) => {}
         }
     }
 
@@ -45,14 +59,14 @@ impl ReadProgram<'_> {
     pub(crate) fn gcode(&self) -> Option<(&Program, &ToolPath)> {
         match self {
             Self::Gcode(read) => Some((&read.program, &read.path)),
-            Self::Robot(_) => None,
+            Self::Robot(_) | Self::Part(_) => None,
         }
     }
 
     /// The program of a robot, if it is one.
     pub(crate) fn robot(&self) -> Option<&RobotRead<'_>> {
         match self {
-            Self::Gcode(_) => None,
+            Self::Gcode(_) | Self::Part(_) => None,
             Self::Robot(read) => Some(read),
         }
     }
@@ -62,6 +76,7 @@ impl ReadProgram<'_> {
         match self {
             Self::Gcode(read) => read.program.line_count(),
             Self::Robot(read) => read.program.files[read.path.file].line_count(),
+            Self::Part(read) => read.part.next_line() - read.part.first_line(),
         }
     }
 
@@ -70,6 +85,7 @@ impl ReadProgram<'_> {
         match self {
             Self::Gcode(read) => read.setting.correct.directions(),
             Self::Robot(read) => read.corrected(),
+            Self::Part(read) => read.setting.correct.directions(),
         }
     }
 
@@ -82,6 +98,10 @@ impl ReadProgram<'_> {
                 reading: &read.setting.reading,
             }),
             Self::Robot(read) => work(&read.correctable()),
+            Self::Part(read) => work(&GcodePart {
+                part: read.part,
+                so_far: read.so_far,
+            }),
         }
     }
 }

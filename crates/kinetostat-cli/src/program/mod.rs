@@ -9,6 +9,8 @@ pub(crate) mod flat_lines;
 mod joint_columns;
 pub(crate) mod outputs;
 pub(crate) mod paper;
+pub(crate) mod path_vtk;
+pub(crate) mod points_parquet;
 pub(crate) mod points_table;
 pub(crate) mod report;
 pub(crate) mod solve;

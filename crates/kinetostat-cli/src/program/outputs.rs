@@ -9,13 +9,14 @@ use kinetostat_report::{Language, Paper, html_of_run_and_turns, turns_svg};
 use crate::files::outputs::{Existing, Outputs};
 use crate::job::free_turn::FreeTurn;
 use crate::job::output_paths::{
-    BESIDE, COMPENSATED_PROGRAM, FLAT_PROGRAM, OutputPaths, PDF, TURN_PLOT,
+    BESIDE, COMPENSATED_PROGRAM, FLAT_PROGRAM, OutputPaths, PATH_VTK, PDF, TURN_PLOT,
 };
 use crate::job::setting::Setting;
 use crate::program::aim::Aim;
 use crate::program::flat_lines::WithSources;
 use crate::program::paper;
 use crate::program::points_table::{self, Listing};
+use crate::program::{path_vtk, points_parquet};
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::json::json;
 use crate::ui::language::LanguageWord;
@@ -31,6 +32,9 @@ pub(crate) struct RunOutputs {
     pub(crate) language: Language,
     pub(crate) json: Option<usize>,
     pub(crate) points: Option<usize>,
+    /// The table of points is a Parquet file.
+    points_as_parquet: bool,
+    pub(crate) vtk: Option<usize>,
     pub(crate) flat: Option<usize>,
     pub(crate) turn_plot: Option<usize>,
     /// Further files of the program.
@@ -69,6 +73,11 @@ impl RunOutputs {
             language: LanguageWord::language(targets.language),
             json: claim("result", &targets.json)?,
             points: claim("table of points", &targets.points)?,
+            points_as_parquet: targets
+                .points
+                .as_deref()
+                .is_some_and(points_parquet::is_named),
+            vtk: claim(PATH_VTK, &targets.vtk)?,
             flat: claim(FLAT_PROGRAM, &targets.flat)?,
             turn_plot: claim(TURN_PLOT, &targets.turn_plot)?,
             beside: match aim {
@@ -97,6 +106,7 @@ impl RunOutputs {
     pub(crate) fn note(&self, run: &Run) -> String {
         let of_points = self
             .points
+            .filter(|_| !self.points_as_parquet)
             .and_then(|_| points_table::note(&run.result.run_inputs, &run.points, &self.listing));
         let of_columns = (!self.widened.is_empty()).then(|| {
             format!(
@@ -113,6 +123,14 @@ impl RunOutputs {
     /// A paper is made, which states the hashes of what was written; the English page does not.
     fn has_paper(&self) -> bool {
         self.pdf.is_some() || (self.report.is_some() && self.language != Language::English)
+    }
+
+    /// Writes the result of a long program beside its targets: JSON and report.
+    pub(crate) fn fill_result(&mut self, run: &Run, setting: &Setting) -> Answer<()> {
+        let (program, points) = (self.program.take(), self.points.take());
+        let filled = self.fill(run, setting, None);
+        (self.program, self.points) = (program, points);
+        filled
     }
 
     /// Writes a run beside its targets, with the turn that was chosen for it; nothing is in place yet.
@@ -147,13 +165,17 @@ impl RunOutputs {
         }
         if let Some(index) = self.points {
             let outputs = &mut self.files;
-            points_table::table(
-                &run.result.run_inputs,
-                &run.points,
-                &self.listing,
-                |bytes| outputs.append(index, bytes),
-            )?;
+            let put = |bytes: &[u8]| outputs.append(index, bytes);
+            let inputs = &run.result.run_inputs;
+            match self.points_as_parquet {
+                true => points_parquet::table(inputs, &run.points, &self.listing, put)?,
+                false => points_table::table(inputs, &run.points, &self.listing, put)?,
+            }
             outputs.complete(index)?;
+        }
+        if let Some(index) = self.vtk {
+            let bytes = path_vtk::vtk(&run.result.run_inputs, &run.points);
+            self.files.fill(index, &bytes)?;
         }
         let of = Paper::of(&run.result)
             .in_language(self.language)

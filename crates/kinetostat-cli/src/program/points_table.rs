@@ -71,7 +71,38 @@ pub(crate) fn table(
     }
 }
 
-fn header(run_inputs: &RunInputs, points: &[PointResult], listing: &Listing) -> Vec<String> {
+/// The rows of a part of a long program, one of so many, behind those of the parts before it; the header before the first.
+pub(crate) fn part(
+    run_inputs: &RunInputs,
+    points: &[PointResult],
+    (listing, parts, begins): (&Listing, usize, bool),
+    mut put: impl FnMut(&[u8]) -> Answer<()>,
+) -> Answer<()> {
+    let header = header(run_inputs, points, listing);
+    let most = MOST_BYTES / (CELL * header.len()) / parts.max(1);
+    if begins {
+        let mut writer = csv::Writer::from_writer(Vec::new());
+        writer.write_record(&header).map_err(failed)?;
+        put(&bytes(writer)?)?;
+    }
+    let listed = match listing.all {
+        true => (0..points.len()).collect(),
+        false => thinned(points, &[], most),
+    };
+    listed.chunks(BLOCK).try_for_each(|block| {
+        put(&lines(
+            run_inputs,
+            listing,
+            &mut block.iter().map(|i| &points[*i]),
+        )?)
+    })
+}
+
+pub(crate) fn header(
+    run_inputs: &RunInputs,
+    points: &[PointResult],
+    listing: &Listing,
+) -> Vec<String> {
     let mut header: Vec<String> = ["line", "output_line", "kind", "share", "path_mm"]
         .map(String::from)
         .to_vec();
@@ -141,14 +172,26 @@ fn size([x, y, z]: &[f64; 3]) -> f64 {
     x.hypot(*y).hypot(*z)
 }
 
-/// Decimals: 1 nm for errors and corrections (the rounding of a program is 100 nm), 100 nm for places,
-/// 0.01 N, 1e-5 deg; four digits of what is a ratio.
 fn lines(
     run_inputs: &RunInputs,
     listing: &Listing,
     points: &mut dyn Iterator<Item = &PointResult>,
 ) -> Answer<Vec<u8>> {
     let mut writer = csv::Writer::from_writer(Vec::with_capacity(256 * BLOCK));
+    rows(run_inputs, listing, points, |row| {
+        writer.write_record(row).map_err(failed)
+    })?;
+    bytes(writer)
+}
+
+/// The cells of each point. Decimals: 1 nm for errors and corrections (the rounding of a program is 100 nm), 100 nm for places,
+/// 0.01 N, 1e-5 deg; four digits of what is a ratio.
+pub(crate) fn rows(
+    run_inputs: &RunInputs,
+    listing: &Listing,
+    points: &mut dyn Iterator<Item = &PointResult>,
+    mut put: impl FnMut(&[String]) -> Answer<()>,
+) -> Answer<()> {
     let mut row: Vec<String> = Vec::new();
     let joints = JointColumns::of(run_inputs);
     for point in points {
@@ -203,9 +246,9 @@ fn lines(
         row.push(if point.stable { "ok" } else { "unstable" }.into());
         let source = flat_lines::cells(point.line, run_inputs.flat.as_ref());
         row.extend(source.into_iter().flatten());
-        writer.write_record(&row).map_err(failed)?;
+        put(&row)?;
     }
-    bytes(writer)
+    Ok(())
 }
 
 /// Shares below 1e-12 are the rounding of their arithmetic.

@@ -16,7 +16,7 @@ use crate::job::arguments::{ProgramArgs, WritingFlags};
 use crate::job::job_file::JobFile;
 use crate::job::machine::{MachineSetup, machine_setup};
 use crate::job::of_model::give_of_model;
-use crate::job::output_paths::PDF;
+use crate::job::output_paths::{PATH_VTK, PDF};
 use crate::job::program::read_program;
 use crate::job::run_warnings;
 use crate::job::setting::{Setting, setting};
@@ -25,6 +25,7 @@ use crate::program::features::put_features;
 use crate::program::paper;
 use crate::program::points_table::{self, Listing};
 use crate::program::solve::{forces_of, with_task};
+use crate::program::{path_vtk, points_parquet};
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::json;
 use crate::ui::language::LanguageWord;
@@ -69,6 +70,7 @@ pub(crate) fn run(args: &VerifyArgs) -> Answer<()> {
         paper::refuse_without_pdf()?;
     }
     let points_out = claim("table of points", &args.original.points)?;
+    let vtk_out = claim(PATH_VTK, &args.original.vtk)?;
 
     let mut found = solved(&machine, (&original, &verified), args.original.threads)?;
     let own_bound = found.run.result.allowed_mm() + rounding_mm(&original);
@@ -101,10 +103,17 @@ pub(crate) fn run(args: &VerifyArgs) -> Answer<()> {
             controller: model.controller.clone(),
         };
         let of_run = (&found.run.result.run_inputs, &found.run.points);
-        points_table::table(of_run.0, of_run.1, &listing, |bytes| {
-            claimed.append(index, bytes)
-        })?;
+        let put = |bytes: &[u8]| claimed.append(index, bytes);
+        let named = args.original.points.as_deref();
+        match named.is_some_and(points_parquet::is_named) {
+            true => points_parquet::table(of_run.0, of_run.1, &listing, put)?,
+            false => points_table::table(of_run.0, of_run.1, &listing, put)?,
+        }
         claimed.complete(index)?;
+    }
+    if let Some(index) = vtk_out {
+        let bytes = path_vtk::vtk(&found.run.result.run_inputs, &found.run.points);
+        claimed.fill(index, &bytes)?;
     }
     let paths = claimed.commit()?;
     let text = format!("{}{}", text::answer_text(&answer), outputs::written(&paths));

@@ -494,6 +494,7 @@ fn numbers_inside_texts_are_refused_with_their_option() {
                 "map orthoglide --x 0 1 2 --y 0 1 2 --z 0 1 2 --plot p.svg --section z=@",
                 "--section",
             ),
+            ("modes heavy_6r --viscous axis=@", "--viscous"),
             ("stiffness model.toml --joints shoulder=@", "--joints"),
             ("stiffness shown.toml --controller J1=@", "--controller"),
             (
@@ -509,7 +510,7 @@ fn numbers_inside_texts_are_refused_with_their_option() {
             count += 1;
         }
     }
-    assert_eq!(count, 84);
+    assert_eq!(count, 90);
 }
 
 /// One of something is reported as one, in summaries, reports and warnings.

@@ -2,7 +2,7 @@
 
 use netcdf3::{DataSet, FileWriter, Version};
 
-use crate::fields::{FieldError, Fields};
+use crate::fields::grid::{FieldError, Fields};
 
 impl Fields {
     /// Writes a NetCDF-3 file with offsets of 64 bits: dimensions z, y, x, a variable for each axis and column.

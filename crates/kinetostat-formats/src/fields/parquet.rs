@@ -10,7 +10,7 @@ use parquet::file::properties::WriterProperties;
 use parquet::file::writer::SerializedFileWriter;
 use parquet::schema::types::Type;
 
-use crate::fields::{FieldError, Fields};
+use crate::fields::grid::{FieldError, Fields};
 
 /// Rows of a group.
 const GROUP: usize = 1 << 20;

@@ -3,7 +3,7 @@
 
 use std::fmt::Write as _;
 
-use crate::fields::Fields;
+use crate::fields::grid::Fields;
 
 /// Longest title that the form allows.
 const TITLE: usize = 255;
@@ -12,14 +12,9 @@ impl Fields {
     /// As a legacy VTK file, doubles, most significant byte first. Coordinates have the unit of their axes.
     #[must_use]
     pub fn vtk(&self) -> Vec<u8> {
-        let title: String = self.title.chars().filter(char::is_ascii).collect();
-        let title = title.replace(['\n', '\r'], " ");
-        let title = &title[..title.len().min(TITLE)];
         let [x, y, z] = self.axes.each_ref().map(|axis| axis.places.len());
-        let mut out = format!(
-            "# vtk DataFile Version 3.0\n{title}\nBINARY\nDATASET RECTILINEAR_GRID\nDIMENSIONS {x} {y} {z}\n"
-        )
-        .into_bytes();
+        let mut out = header(&self.title, "RECTILINEAR_GRID");
+        out.extend_from_slice(format!("DIMENSIONS {x} {y} {z}\n").as_bytes());
         for (axis, letter) in self.axes.iter().zip(["X", "Y", "Z"]) {
             out.extend_from_slice(
                 format!("{letter}_COORDINATES {} double\n", axis.places.len()).as_bytes(),
@@ -40,7 +35,15 @@ impl Fields {
     }
 }
 
-fn numbers(out: &mut Vec<u8>, values: &[f64]) {
+/// The first lines of a file.
+pub(super) fn header(title: &str, kind: &str) -> Vec<u8> {
+    let title: String = title.chars().filter(char::is_ascii).collect();
+    let title = title.replace(['\n', '\r'], " ");
+    let title = &title[..title.len().min(TITLE)];
+    format!("# vtk DataFile Version 3.0\n{title}\nBINARY\nDATASET {kind}\n").into_bytes()
+}
+
+pub(super) fn numbers(out: &mut Vec<u8>, values: &[f64]) {
     for value in values {
         out.extend_from_slice(&value.to_be_bytes());
     }

@@ -2,10 +2,12 @@
 //! terminal, report and JSON say the same. Computes no posture.
 
 pub(crate) mod cutting;
+pub(crate) mod envelope;
 pub(crate) mod feature;
 pub(crate) mod figures;
 pub(crate) mod force_band;
 pub(crate) mod joints;
+pub(crate) mod kept_points;
 pub(crate) mod largest_change;
 pub(crate) mod point;
 pub(crate) mod program_place;
@@ -14,6 +16,7 @@ pub(crate) mod run_result;
 pub(crate) mod selection;
 pub(crate) mod solving;
 pub(crate) mod statements;
+pub(crate) mod stretches;
 pub(crate) mod summary;
 pub(crate) mod tolerance;
 pub(crate) mod uncertainty_band;

@@ -50,6 +50,9 @@ pub struct RunResult {
     pub features: Vec<FeatureResult>,
     /// Places with the largest errors before compensation, worst first; at most ten.
     pub worst_points: Vec<PointResult>,
+    /// Places that are farthest off with the written program, worst first, one of a line of it; at most ten, none where none was written.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub worst_points_after: Vec<PointResult>,
     /// Everything a person should know and did not ask for.
     pub warnings: Vec<Warning>,
     /// Where the program comes nearest to a singular posture, of at most

@@ -43,32 +43,52 @@ pub fn thinned(points: &[PointResult], always: &[usize], most: usize) -> Vec<usi
 
 /// Where the figures of a summary are taken from.
 fn extremes(points: &[PointResult]) -> Vec<usize> {
-    let mut found: Vec<Option<usize>> = vec![
-        farthest(points, |p| size(&p.error_before_mm)),
-        farthest(points, |p| match p.kind {
-            PointKind::Corner | PointKind::Entry => f64::NAN,
-            _ => size(&p.error_before_mm),
-        }),
-        farthest(points, |p| size(&p.error_after_mm)),
-        farthest(points, |p| size(&p.correction_mm)),
-        farthest(points, |p| p.residual_rotation_deg),
-        farthest(points, |p| -p.smallest_stiffness_n_per_mm),
-        farthest(points, |p| p.share_to_buckling.unwrap_or(f64::NAN)),
-        farthest(points, |p| {
-            p.nearest_limit.map_or(f64::NAN, |l| -l.distance)
-        }),
-        farthest(points, |p| {
-            p.most_loaded.map_or(f64::NAN, |d| d.share_of_rating)
-        }),
-        points.iter().position(|p| !p.stable),
-    ];
-    let actuators = points.first().map_or(0, |p| p.actuator_force.len());
-    for i in 0..actuators {
-        let size = |list: &Vec<f64>| list.get(i).map_or(f64::NAN, |x| x.abs());
-        found.push(farthest(points, |p| size(&p.actuator_force)));
-        found.push(farthest(points, |p| size(&p.actuator_correction)));
+    let mut found: Vec<Option<(usize, f64)>> = Vec::new();
+    for (index, point) in points.iter().enumerate() {
+        for (figure, value) in extreme_values(point).enumerate() {
+            if figure >= found.len() {
+                found.resize(figure + 1, None);
+            }
+            let larger = found[figure].is_none_or(|(_, most)| value > most);
+            if larger && !value.is_nan() {
+                found[figure] = Some((index, value));
+            }
+        }
     }
-    found.into_iter().flatten().collect()
+    found
+        .into_iter()
+        .flatten()
+        .map(|(index, _)| index)
+        .collect()
+}
+
+/// What a summary states the largest value of, off rapids, and whether the machine is not stable; NaN where a point has no such value.
+pub(crate) fn extreme_values(p: &PointResult) -> impl Iterator<Item = f64> + '_ {
+    let off_rapids = move |value: f64| match p.kind {
+        PointKind::Rapid => f64::NAN,
+        _ => value,
+    };
+    let of_all = [
+        size(&p.error_before_mm),
+        match p.kind.is_step() {
+            true => f64::NAN,
+            false => size(&p.error_before_mm),
+        },
+        size(&p.error_after_mm),
+        size(&p.correction_mm),
+        p.residual_rotation_deg,
+        -p.smallest_stiffness_n_per_mm,
+        p.share_to_buckling.unwrap_or(f64::NAN),
+        p.nearest_limit.map_or(f64::NAN, |l| -l.distance),
+        p.most_loaded.map_or(f64::NAN, |d| d.share_of_rating),
+    ];
+    let unstable = if p.stable { f64::NAN } else { 1.0 };
+    let of_actuators = p.actuator_force.iter().chain(&p.actuator_correction);
+    of_all
+        .into_iter()
+        .chain(of_actuators.map(|x| x.abs()))
+        .map(off_rapids)
+        .chain([unstable])
 }
 
 /// The cutting point with the largest value; NaN is passed over.

@@ -17,6 +17,7 @@ use crate::run::divide_again::Again;
 use crate::run::following::jump;
 use crate::run::force_band::force_band;
 use crate::run::largest_change::changes;
+use crate::run::of_whole::OfWhole;
 use crate::run::places::places;
 use crate::run::points::solve;
 use crate::run::preparation::{Preparation, refuse};
@@ -31,11 +32,23 @@ use crate::watch::Watch;
 /// # Errors
 /// [`RunError`] naming the line; [`RunError::BeyondLimits`] where a load that no cutting has folds the machine over.
 pub fn analyse(task: &Task<'_>, watch: &dyn Watch) -> Result<Run, RunError> {
-    analysed(task, watch).map_err(|error| with_way_out(task, error))
+    analyse_part(task, None, watch)
 }
 
-fn analysed(task: &Task<'_>, watch: &dyn Watch) -> Result<Run, RunError> {
-    let Preparation { load, course } = Preparation::of_analysis(task, watch)?;
+/// The same of a part of a longer program, of which something is known.
+///
+/// # Errors
+/// As [`analyse`].
+pub fn analyse_part(
+    task: &Task<'_>,
+    whole: Option<&OfWhole>,
+    watch: &dyn Watch,
+) -> Result<Run, RunError> {
+    analysed(task, whole, watch).map_err(|error| with_way_out(task, error))
+}
+
+fn analysed(task: &Task<'_>, whole: Option<&OfWhole>, watch: &dyn Watch) -> Result<Run, RunError> {
+    let Preparation { load, course } = Preparation::of_analysis(task, whole, watch)?;
     let Ramped {
         acting: load,
         findings: ramps,
@@ -57,17 +70,38 @@ fn analysed(task: &Task<'_>, watch: &dyn Watch) -> Result<Run, RunError> {
 /// # Errors
 /// [`RunError`] naming the line; nothing is to be written then.
 pub fn compensate_program(task: &Task<'_>, watch: &dyn Watch) -> Result<Run, RunError> {
-    compensated(task, watch).map_err(|error| with_way_out(task, error))
+    compensate_part(task, None, watch)
 }
 
-fn compensated(task: &Task<'_>, watch: &dyn Watch) -> Result<Run, RunError> {
-    let prepared = Preparation::of_correction(task, watch)?;
+/// The same of a part of a longer program, of which something is known. Whether the program keeps its tolerance as it is, only
+/// the whole tells: a part is corrected, or left as it is where [`OfWhole::as_it_is`] says so.
+///
+/// # Errors
+/// As [`compensate_program`].
+pub fn compensate_part(
+    task: &Task<'_>,
+    whole: Option<&OfWhole>,
+    watch: &dyn Watch,
+) -> Result<Run, RunError> {
+    compensated(task, whole, watch).map_err(|error| with_way_out(task, error))
+}
+
+fn compensated(
+    task: &Task<'_>,
+    whole: Option<&OfWhole>,
+    watch: &dyn Watch,
+) -> Result<Run, RunError> {
+    let prepared = Preparation::of_correction(task, whole, watch)?;
     let (load, course) = (&prepared.load.acting, &prepared.course);
     let field = prepared.field(task);
     let mut again = Again::default();
     let arcs = feed_arcs(task);
+    let as_it_is = whole.is_some_and(|whole| whole.as_it_is);
     let (mut written, mut check, mut points, mut worse, allowed_mm) = loop {
-        let (written, check) = write_and_read_again(task, &again.field(&field), watch)?;
+        let (written, check) = match as_it_is {
+            true => write_and_read_again(task, &NoCorrection, watch)?,
+            false => write_and_read_again(task, &again.field(&field), watch)?,
+        };
         let (points, worse) = solve(
             task,
             || sites_of_written(task, load, &written),
@@ -76,7 +110,7 @@ fn compensated(task: &Task<'_>, watch: &dyn Watch) -> Result<Run, RunError> {
         )?;
         let stable = points.iter().all(|p| p.stable);
         let allowed_mm = bound_mm(&task.writing, arcs, &written.accounting);
-        if !stable || !again.divides(task.path(), &field, &points, allowed_mm) {
+        if !stable || as_it_is || !again.divides(task.path(), &field, &points, allowed_mm) {
             break (written, check, points, worse, allowed_mm);
         }
     };
@@ -96,7 +130,8 @@ fn compensated(task: &Task<'_>, watch: &dyn Watch) -> Result<Run, RunError> {
         }
     }
     refuse(beyond)?;
-    let within_before = written.bytes != task.program.bytes()
+    let within_before = whole.is_none()
+        && written.bytes != task.program.bytes()
         && within_before(&points, task.writing.tolerance_mm, allowed_mm);
     if within_before {
         // As it is, the program keeps what is claimed of a corrected one, which could be farther off.
@@ -127,7 +162,7 @@ fn compensated(task: &Task<'_>, watch: &dyn Watch) -> Result<Run, RunError> {
             true => None,
             false => again.description(allowed_mm),
         },
-        within_before,
+        within_before: within_before || as_it_is,
         changes: changes(task.path(), &written, &task.writing, |line| {
             task.load_on(line).largest_step
         }),

@@ -9,11 +9,12 @@ use crate::checks::unusual::unusual;
 use crate::joints::figures::JointFigures;
 use crate::load::along_path::LoadAlongPath;
 use crate::load::ramp_findings::TooFast;
+use crate::result::envelope::Envelope;
+use crate::result::kept_points::KeptPoints;
 use crate::result::point::{PointKind, PointResult};
 use crate::result::program_place::ProgramPlace;
 use crate::result::run_inputs::{ActuatorColumn, RunInputs, ToolAtCorners};
 use crate::result::run_result::{NearSingularPlace, RESULT_SCHEMA, RunResult};
-use crate::result::selection::{thinned, worst};
 use crate::result::summary::Summary;
 use crate::result::tolerance::ToleranceResult;
 use crate::run::checked::Checked;
@@ -35,6 +36,8 @@ pub struct Run {
     pub result: RunResult,
     /// All points in the order of the path; `result` holds a part of them.
     pub points: Vec<PointResult>,
+    /// The envelope of all points: what is drawn along the path, in constant memory.
+    pub envelope: Envelope,
     /// The compensated program, checked; not yet on disk.
     pub written: Option<Corrected>,
     /// Some of the places on cutting moves, as many as the task asks for: for other machines to be solved there.
@@ -80,7 +83,9 @@ pub(crate) fn conclude(
     if let Some(near) = &near_singularity {
         warnings.insert(0, near_singular_warning(near));
     }
-    let worst = worst(&points);
+    let (mut envelope, mut kept) = (Envelope::default(), KeptPoints::new(RunResult::MAX_POINTS));
+    envelope.extend(&points);
+    kept.extend(&points);
     let mut result = RunResult {
         schema: RESULT_SCHEMA,
         kinetostat_version: env!("CARGO_PKG_VERSION").into(),
@@ -91,7 +96,11 @@ pub(crate) fn conclude(
         uncertainty: None,
         features: Vec::new(),
         run_inputs: run_inputs_of(task, load, &points, written.is_some()),
-        worst_points: worst.iter().map(|&i| points[i].clone()).collect(),
+        worst_points: kept.worst_before(),
+        worst_points_after: match written {
+            Some(_) => kept.worst_after(),
+            None => Vec::new(),
+        },
         warnings,
         near_singularity,
         joints,
@@ -104,13 +113,11 @@ pub(crate) fn conclude(
         &checked.ramps.too_fast,
         task.path(),
     );
-    result.points = thinned(&points, &worst, RunResult::MAX_POINTS)
-        .into_iter()
-        .map(|i| points[i].clone())
-        .collect();
+    result.points = kept.points();
     Run {
         result,
         points,
+        envelope,
         written,
         places: checked.places.clone(),
     }

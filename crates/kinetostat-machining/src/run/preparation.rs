@@ -10,6 +10,7 @@ use crate::load::along_path::LoadAlongPath;
 use crate::load::ramps::Ramped;
 use crate::postures::arm_course::ArmCourse;
 use crate::run::first_look::FirstLook;
+use crate::run::of_whole::OfWhole;
 use crate::task::{RunError, Task};
 use crate::watch::Watch;
 
@@ -32,30 +33,38 @@ impl<'a> Preparation<'a> {
     ///
     /// # Errors
     /// It has no motion; a load that no cutting has folds the machine over.
-    pub fn of_analysis(task: &Task<'a>, watch: &dyn Watch) -> Result<Self, RunError> {
+    pub fn of_analysis(
+        task: &Task<'a>,
+        whole: Option<&OfWhole>,
+        watch: &dyn Watch,
+    ) -> Result<Self, RunError> {
         has_motion(task)?;
         let load = load(task);
         let looked = FirstLook::new(task, &load, watch)?;
         refuse(looked.folding_load(task))?;
-        Ok(Self::with(task, load, &looked))
+        Ok(Self::with(task, load, stiffness(&looked, whole)))
     }
 
     /// Of a program that is corrected.
     ///
     /// # Errors
     /// It has no motion; load or tool are beyond their limits, or corrections by far; its first place has no answer.
-    pub fn of_correction(task: &Task<'a>, watch: &dyn Watch) -> Result<Self, RunError> {
+    pub fn of_correction(
+        task: &Task<'a>,
+        whole: Option<&OfWhole>,
+        watch: &dyn Watch,
+    ) -> Result<Self, RunError> {
         refuse(of_task(task))?;
         has_motion(task)?;
         let load = load(task);
         let looked = FirstLook::new(task, &load, watch)?.beginning_solved()?;
         refuse(looked.gross(task))?;
-        Ok(Self::with(task, load, &looked))
+        Ok(Self::with(task, load, stiffness(&looked, whole)))
     }
 
-    fn with(task: &Task<'a>, load: LoadAlongPath<'a>, looked: &FirstLook) -> Self {
+    fn with(task: &Task<'a>, load: LoadAlongPath<'a>, stiffness: f64) -> Self {
         Self {
-            load: load.ramped(looked.stiffness()),
+            load: load.ramped(stiffness),
             course: ArmCourse::of(task),
         }
     }
@@ -68,6 +77,11 @@ impl<'a> Preparation<'a> {
     }
 }
 
+/// The smallest stiffness that was found; of a part of a longer program that of the whole.
+fn stiffness(looked: &FirstLook, whole: Option<&OfWhole>) -> f64 {
+    whole.map_or_else(|| looked.stiffness(), |whole| whole.stiffness_n_per_mm)
+}
+
 /// What `work` makes of the field of corrections that a compensation of this task is written with.
 ///
 /// # Errors
@@ -77,7 +91,7 @@ pub fn with_model_field<R>(
     watch: &dyn Watch,
     work: impl FnOnce(&dyn CorrectionField) -> R,
 ) -> Result<R, RunError> {
-    let prepared = Preparation::of_correction(task, watch)?;
+    let prepared = Preparation::of_correction(task, None, watch)?;
     Ok(work(&prepared.field(task)))
 }
 
@@ -86,8 +100,11 @@ pub(crate) fn load<'a>(task: &Task<'a>) -> LoadAlongPath<'a> {
     LoadAlongPath::with_tools(task.load, task.path(), task.tools).with_cut(task.cut)
 }
 
-/// Refuses a program that moves nothing.
+/// Refuses a program that moves nothing; a part of a longer one may.
 pub(crate) fn has_motion(task: &Task<'_>) -> Result<(), RunError> {
+    if task.path().part.is_some() {
+        return Ok(());
+    }
     match no_motion(task.path()) {
         Some(reason) => Err(RunError::NoMotion(reason)),
         None => Ok(()),

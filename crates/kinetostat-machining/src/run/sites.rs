@@ -62,12 +62,18 @@ impl Site {
     }
 }
 
-/// Length of the path before every move, mm.
+/// Length of the path before every move, mm; of a part of a longer program counted from the beginning of that, for the moves
+/// that are its own and those behind them.
 pub(crate) fn starts(path: &Path) -> Vec<f64> {
-    let mut length = 0.0;
-    path.moves
-        .iter()
-        .map(|m| {
+    let own = path.own_moves();
+    let before_mm = path.part.as_ref().map_or(0.0, |part| part.before_mm);
+    let mut length = before_mm;
+    let moves = path.moves.iter().enumerate();
+    moves
+        .map(|(index, m)| {
+            if index <= own.start {
+                length = before_mm;
+            }
             let start = length;
             length += known_length(m);
             start
@@ -94,7 +100,10 @@ struct Programmed {
 impl Programmed {
     fn new(path: &Path, spacing_mm: f64) -> Self {
         let cut = path.moves.iter().filter(|m| m.kind == MoveKind::Feed);
-        let length = cut.map(known_length).sum::<f64>();
+        let length = match &path.part {
+            Some(part) => part.whole_feed_mm,
+            None => cut.map(known_length).sum::<f64>(),
+        };
         Self {
             longest_mm: (length / PIECES).min(spacing_mm),
             short_mm: SHORT * spacing_mm,
@@ -164,7 +173,8 @@ pub(crate) fn of_path<'a>(
 ) -> impl Iterator<Item = Site> + 'a {
     let starts = starts(path);
     let programmed = Programmed::new(path, spacing_mm);
-    let moves = path.moves.iter().enumerate();
+    let own = path.own_moves();
+    let moves = own.clone().zip(&path.moves[own]);
     moves.flat_map(move |(i, motion)| {
         let site = |(share, end): (f64, bool)| {
             let desired = motion.point(share);
@@ -221,7 +231,10 @@ pub(crate) fn of_written<'a>(
     let programmed = Programmed::new(path, spacing_mm);
     let pieces = written.pieces.iter().enumerate();
     // Before it the tool stands where nobody corrected it.
-    let first = written.pieces.iter().position(|piece| piece.corrected);
+    let mut first = written.pieces.iter().position(|piece| piece.corrected);
+    if !path.begins() {
+        first = None;
+    }
     pieces.flat_map(move |(index, piece)| {
         let motion = &path.moves[piece.move_index];
         let mut sites = Vec::new();
@@ -279,7 +292,8 @@ pub(crate) fn of_written<'a>(
                 end,
             });
         };
-        let inside = |k: usize| irregular(SEED, index as u64, k as u64);
+        let number = (written.pieces_before() + index) as u64;
+        let inside = |k: usize| irregular(SEED, number, k as u64);
         if let Some(turn) = piece.turn {
             for (place, end) in [(inside(0), false), (1.0, true)] {
                 let step = on_step(piece, &turn, place, load, placement);

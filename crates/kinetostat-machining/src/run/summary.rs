@@ -47,9 +47,7 @@ pub(crate) fn summarise(
         points: points.len(),
         blocks: task.program.statement_count(),
         bytes_in: task.program.bytes().len(),
-        feed_length_mm: task
-            .path()
-            .moves
+        feed_length_mm: task.path().moves[task.path().own_moves()]
             .iter()
             .filter(|m| m.is_known_feed())
             .map(kinetostat_program::Move::length_mm)
@@ -167,6 +165,18 @@ fn of_what_was_written(
 /// that it does not matter into how many pieces a program is divided, nor where they are looked at. What is
 /// cut before the first place of a block counts with that place.
 fn along_path(points: &[&PointResult], value: impl Fn(&PointResult) -> f64) -> f64 {
+    let (sum, length) = summed_along_path(points, &value);
+    if length > 0.0 {
+        return sum / length;
+    }
+    points.iter().map(|p| value(p)).sum::<f64>() / points.len().max(1) as f64
+}
+
+/// The sum of which that mean is made, and the length.
+pub(crate) fn summed_along_path(
+    points: &[&PointResult],
+    value: impl Fn(&PointResult) -> f64,
+) -> (f64, f64) {
     let (mut sum, mut length) = (0.0, 0.0);
     let first = points.first().filter(|p| p.kind == PointKind::Feed);
     if let Some(first) = first {
@@ -189,13 +199,13 @@ fn along_path(points: &[&PointResult], value: impl Fn(&PointResult) -> f64) -> f
         sum += stretch * mean;
         length += stretch;
     }
-    if length > 0.0 {
-        return sum / length;
-    }
-    points.iter().map(|p| value(p)).sum::<f64>() / points.len().max(1) as f64
+    (sum, length)
 }
 
 pub(crate) fn feed_arcs(task: &Task<'_>) -> usize {
+    if let Some(part) = &task.path().part {
+        return part.whole_feed_arcs;
+    }
     let moves = task.path().moves.iter();
     moves
         .filter(|m| m.kind == MoveKind::Feed && matches!(m.curve, Curve::Arc(_)))

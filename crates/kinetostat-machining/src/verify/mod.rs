@@ -70,7 +70,7 @@ fn verified(
     (other, bytes): (&Path, &[u8]),
     watch: &dyn Watch,
 ) -> Result<Verified, RunError> {
-    let prepared = Preparation::of_correction(task, watch)?;
+    let prepared = Preparation::of_correction(task, None, watch)?;
     let guide = guide(task, &prepared.field(task), watch)?;
     watch.stage("places of the original", 0);
     let (pieces, matched) = follow(task.path(), &guide, other)?;

@@ -40,5 +40,6 @@ pub(crate) fn as_written(
         orientations,
         rotary_deg,
         accounting,
+        writer: None,
     }
 }

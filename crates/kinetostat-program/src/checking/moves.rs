@@ -49,7 +49,8 @@ impl Verifier<'_> {
                 ),
             ));
         }
-        let mut expected = (0, 0.0);
+        let own = self.input_path.own_moves();
+        let mut expected = (own.start, 0.0);
         for (index, (piece, read)) in self.pieces.iter().zip(&output_path.moves).enumerate() {
             let Some(motion) = self.input_path.moves.get(piece.move_index) else {
                 return Err(fail(0, piece.output_line, "a piece of no move".to_owned()));
@@ -92,7 +93,7 @@ impl Verifier<'_> {
             let turned = self.check_turned_axes(index, motion, read)?;
             check_extra_axes(motion, piece, (read, turned))?;
         }
-        if expected != (self.input_path.moves.len(), 0.0) {
+        if expected != (own.end, 0.0) {
             return Err(fail(
                 0,
                 0,
@@ -113,7 +114,7 @@ impl Verifier<'_> {
         if motion.known != Knowledge::Nothing {
             return Ok(());
         }
-        let words = match self.input.lines().get(motion.line - 1) {
+        let words = match self.input.line(motion.line) {
             Some(line) => self.input.words(line),
             None => &[],
         };

@@ -17,25 +17,28 @@ use crate::writing::written::Piece;
 impl Verifier<'_> {
     /// Checks all lines of the output in order.
     pub(crate) fn check_text(&mut self) -> Result<(), WriteError> {
-        let mut output = self.output.lines().iter().enumerate();
-        let mut moves = self.input_path.moves.iter().enumerate().peekable();
+        let mut output = self
+            .output
+            .own_lines()
+            .map(|(number, line)| (number - 1, line));
+        let own = self.input_path.own_moves();
+        let mut moves = own.clone().zip(&self.input_path.moves[own]).peekable();
         let mut pieces = self.pieces.iter().peekable();
-        let header_at = lines_above(self.input);
+        let header_at = (self.input.begins()).then(|| lines_above(self.input) + 1);
         let mut blocks = 0;
         if self.input.bytes()[..self.input.first_byte()]
             != self.output.bytes()[..self.output.first_byte()]
         {
             return Err(fail(1, 1, "the byte order mark differs".to_owned()));
         }
-        for (index, line) in self.input.lines().iter().enumerate() {
-            if index == header_at {
+        for (number, line) in self.input.own_lines() {
+            if header_at == Some(number) {
                 self.check_header(&mut output)?;
             }
             let mut group = Vec::new();
             let mut shapes = Vec::new();
             let mut motion = None;
-            if let Some((move_index, found)) = moves.next_if(|(_, motion)| motion.line == index + 1)
-            {
+            if let Some((move_index, found)) = moves.next_if(|(_, motion)| motion.line == number) {
                 motion = Some(found);
                 while let Some(piece) = pieces.next_if(|piece| piece.move_index == move_index) {
                     shapes.push(Shape::of(piece));
@@ -52,7 +55,7 @@ impl Verifier<'_> {
                 group.extend(output.next());
             }
             self.check_group(
-                index + 1,
+                number,
                 line,
                 motion.map(|motion| (motion, shapes.as_slice())),
                 &group,

@@ -43,10 +43,28 @@ pub fn verify_written(
     };
     let output = Program::read(corrected.bytes.clone()).map_err(unreadable)?;
     let output_path = interpret(&output, reading).map_err(unreadable)?;
+    against_input(
+        (input, input_path),
+        (&output, &output_path),
+        corrected,
+        writing,
+    )
+}
+
+/// A written program that was read again, against the program that it was written from.
+///
+/// # Errors
+/// As [`verify_written`].
+pub(crate) fn against_input(
+    (input, input_path): (&Program, &Path),
+    (output, output_path): (&Program, &Path),
+    corrected: &Corrected,
+    writing: &WriteOptions,
+) -> Result<Verification, WriteError> {
     let mut verifier = Verifier {
         input,
         input_path,
-        output: &output,
+        output,
         pieces: &corrected.pieces,
         rotary_deg: &corrected.rotary_deg,
         accounting: &corrected.accounting,
@@ -57,7 +75,7 @@ pub fn verify_written(
             ..Verification::default()
         },
     };
-    verifier.check_moves(&output_path)?;
+    verifier.check_moves(output_path)?;
     verifier.check_text()?;
     Ok(verifier.found)
 }

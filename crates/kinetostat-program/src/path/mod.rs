@@ -10,6 +10,7 @@ pub(crate) mod feed;
 pub(crate) mod great_circle;
 pub(crate) mod moves;
 pub(crate) mod orientation;
+pub(crate) mod part;
 pub(crate) mod pause;
 pub(crate) mod pauses;
 pub(crate) mod poles;

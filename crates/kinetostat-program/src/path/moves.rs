@@ -1,9 +1,12 @@
 //! The path of a program: what [`crate::interpret`] makes of the words.
 
+use std::ops::Range;
+
 use nalgebra::Vector3;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::path::curve::{Curve, NO_LENGTH_MM};
+use crate::path::part::PathPart;
 use crate::path::pause::Pause;
 use crate::path::position_offset::OffsetChange;
 use crate::path::spindle::SpindleChange;
@@ -21,7 +24,7 @@ pub enum MoveKind {
 }
 
 /// How the F word counts.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum FeedMode {
     /// G94: length in a minute.
@@ -33,7 +36,7 @@ pub enum FeedMode {
 }
 
 /// A programmed feed.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Feed {
     /// How the value counts.
     pub mode: FeedMode,
@@ -202,6 +205,8 @@ pub struct Path {
     pub pauses: Vec<Pause>,
     /// What changes between the moves and matters to who writes them.
     pub(crate) events: Vec<Event>,
+    /// What of a longer path this is; `None` of a whole one.
+    pub part: Option<PathPart>,
 }
 
 /// Something the user should know; not an error.
@@ -231,7 +236,7 @@ pub(crate) enum Change {
 }
 
 /// The modal motion word.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub(crate) enum Motion {
     Rapid,
     Feed,
@@ -241,6 +246,24 @@ pub(crate) enum Motion {
 }
 
 impl Path {
+    /// Indices of the moves that are its own: all of them, but for a part of a longer path.
+    pub fn own_moves(&self) -> Range<usize> {
+        match &self.part {
+            Some(part) => part.moves.clone(),
+            None => 0..self.moves.len(),
+        }
+    }
+
+    /// Moves of the whole path before the first of these.
+    pub(crate) fn moves_before(&self) -> usize {
+        self.part.as_ref().map_or(0, |part| part.moves_before)
+    }
+
+    /// Whether nothing of the program comes before its own moves.
+    pub fn begins(&self) -> bool {
+        self.part.as_ref().is_none_or(|part| part.begins)
+    }
+
     /// Number of the tool that the block on a line is made with, as the program says it: by `T` and `M6`;
     /// without any M6 by `T`; without any T by the `H` of `G43`. `None` before the first of them.
     pub fn tool_on(&self, line: usize) -> Option<u32> {

@@ -97,6 +97,7 @@ impl Path {
             tool_changes: Vec::new(),
             spindle_changes: Vec::new(),
             pauses: Vec::new(),
+            part: None,
             events: Vec::new(),
         }
     }

@@ -1,6 +1,7 @@
 //! The position offset of G92.
 
 use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
 
 /// What a block does to the position offset.
 #[derive(Debug, Clone, PartialEq)]
@@ -24,7 +25,7 @@ pub(crate) enum OffsetChange {
 ///
 /// The two differ: the controller takes its commanded position as the reference of G92, and in the
 /// output that is the corrected one.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub(crate) struct PositionOffset {
     pub active_mm: Vector3<f64>,
     saved_mm: Vector3<f64>,

@@ -59,6 +59,11 @@ impl<'p> Block<'p> {
         }
     }
 
+    /// The block on a line, by its number.
+    pub fn on(program: &'p Program, number: usize) -> Result<Self, ProgramError> {
+        Self::of(program, program.index_of(number).unwrap_or(0))
+    }
+
     /// What is understood of a block: words that are refused are left out.
     pub fn understood(program: &'p Program, index: usize) -> Self {
         Self::read(program, index).0
@@ -79,7 +84,7 @@ impl<'p> Block<'p> {
         let line = &program.lines()[index];
         let mut block = Self {
             program,
-            line_number: index + 1,
+            line_number: program.number_of(index),
             line,
             codes: Codes::default(),
             values: [None; 26],

@@ -181,7 +181,7 @@ fn refuse_unknown_tools(path: &Path, program: &Program, known: &[u32]) -> Result
             .iter()
             .any(|motion| (change.line..until).contains(&motion.line));
         if is_used && !known.contains(&change.number) {
-            return Err(Block::of(program, change.line - 1)?.refuse(
+            return Err(Block::on(program, change.line)?.refuse(
                 ProgramErrorKind::Tool,
                 None,
                 &format!(
@@ -212,7 +212,7 @@ fn before_first_tool(
         .filter(unnamed)
         .find(|m| m.kind == MoveKind::Feed);
     if let (Some(cut), false) = (cut, options.tool_before_first) {
-        return Err(Block::of(program, cut.line - 1)?.refuse(
+        return Err(Block::on(program, cut.line)?.refuse(
             ProgramErrorKind::Tool, None,
             "the block cuts before the program has named a tool, and the tools are known by number only",
             "name the tool before it (T1 M6), or give the one that is in the spindle at the start as [tool] in the job file",

@@ -31,6 +31,21 @@ pub struct Program {
     words: Vec<Word>,
     mark_line: Option<usize>,
     semicolon_comments: bool,
+    /// Number of the first line: 1, but where lines before were read elsewhere.
+    first_number: usize,
+    /// What of a longer program this is; `None` of a whole one.
+    part: Option<PartOfText>,
+}
+
+/// What of a longer program the lines are.
+#[derive(Debug, Clone)]
+pub(crate) struct PartOfText {
+    /// Numbers of the lines that are written: the others are there for what they tell of these.
+    pub core: Range<usize>,
+    /// The line ending that the first line of the whole program has.
+    pub usual_ending: Vec<u8>,
+    /// Every motion of the whole program has its own motion word.
+    pub repeats_motion: bool,
 }
 
 impl Program {
@@ -72,18 +87,87 @@ impl Program {
         self.lines.len()
     }
 
-    /// Number of blocks: lines with at least one word.
+    /// Number of blocks: lines with at least one word; of a part of a longer program those that are its own.
     pub fn block_count(&self) -> usize {
-        self.lines
-            .iter()
-            .filter(|line| !line.words.is_empty())
+        self.own_lines()
+            .filter(|(_, line)| !line.words.is_empty())
             .count()
     }
 
     /// Text of a line without its line ending; `line` is counted from 1. `None` beyond the end.
     pub fn line_bytes(&self, line: usize) -> Option<&[u8]> {
-        let line = self.lines.get(line.checked_sub(1)?)?;
+        let line = self.line(line)?;
         Some(&self.bytes[line.start as usize..line.end as usize])
+    }
+
+    /// Lines of the whole program before the first of these.
+    pub(crate) fn lines_before(&self) -> usize {
+        self.first_number.saturating_sub(1)
+    }
+
+    /// Number of a line by its place among these.
+    pub(crate) fn number_of(&self, index: usize) -> usize {
+        self.lines_before() + index + 1
+    }
+
+    /// Place of a line among these by its number.
+    pub(crate) fn index_of(&self, number: usize) -> Option<usize> {
+        number.checked_sub(self.lines_before() + 1)
+    }
+
+    /// A line by its number.
+    pub(crate) fn line(&self, number: usize) -> Option<&Line> {
+        self.lines.get(self.index_of(number)?)
+    }
+
+    /// Numbers of the lines that are its own: of a whole program all of them.
+    pub(crate) fn own_numbers(&self) -> Range<usize> {
+        match &self.part {
+            Some(part) => part.core.clone(),
+            None => self.first_number..self.first_number + self.lines.len(),
+        }
+    }
+
+    /// The lines that are its own, with their numbers.
+    pub(crate) fn own_lines(&self) -> impl Iterator<Item = (usize, &Line)> {
+        let own = self.own_numbers();
+        let all = self.lines.iter().enumerate();
+        let numbered = all.map(|(index, line)| (self.number_of(index), line));
+        numbered.filter(move |(number, _)| own.contains(number))
+    }
+
+    /// The bytes of the lines that are its own, and a byte order mark before them.
+    pub fn own_bytes(&self) -> &[u8] {
+        if self.part.is_none() {
+            return &self.bytes;
+        }
+        let mut own = self.own_lines().map(|(_, line)| line);
+        let (Some(first), begins) = (own.next(), self.begins()) else {
+            return &[];
+        };
+        let last = own.last().unwrap_or(first);
+        let from = if begins { 0 } else { first.start as usize };
+        &self.bytes[from..last.next as usize]
+    }
+
+    /// Whether nothing of the program comes before its own lines.
+    pub(crate) fn begins(&self) -> bool {
+        self.own_numbers().start == 1
+    }
+
+    /// What of a longer program it is.
+    pub(crate) fn part(&self) -> Option<&PartOfText> {
+        self.part.as_ref()
+    }
+
+    /// Says what of a longer program it is.
+    pub(crate) fn set_part(&mut self, part: PartOfText) {
+        self.part = Some(part);
+    }
+
+    /// Whether its comments begin with `;`, as the whole program says it.
+    pub(crate) fn set_semicolons(&mut self, semicolons: bool) {
+        self.semicolon_comments = semicolons;
     }
 
     /// Whether a comment marks the program as one that was written with corrections.
@@ -142,6 +226,9 @@ impl Program {
 
     /// The line ending that the first line has; what inserted lines use where theirs is open.
     pub(crate) fn usual_ending(&self) -> &[u8] {
+        if let Some(part) = &self.part {
+            return &part.usual_ending;
+        }
         match self.lines.first() {
             Some(line) if line.end < line.next => self.ending(line),
             _ => b"\n",
@@ -150,7 +237,10 @@ impl Program {
 
     /// Number of bytes of the byte order mark.
     pub(crate) fn first_byte(&self) -> usize {
-        byte_order_mark(&self.bytes)
+        match self.begins() {
+            true => byte_order_mark(&self.bytes),
+            false => 0,
+        }
     }
 }
 
@@ -160,6 +250,15 @@ fn byte_order_mark(bytes: &[u8]) -> usize {
     } else {
         0
     }
+}
+
+/// What lines before tell of those that follow.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct ReaderState {
+    pub lines: usize,
+    tape_marks: usize,
+    closed: usize,
+    blocks: usize,
 }
 
 /// Divides bytes into lines and words, all of a file or line by line.
@@ -183,6 +282,8 @@ impl Reader {
                 words: Vec::new(),
                 mark_line: None,
                 semicolon_comments: false,
+                first_number: 1,
+                part: None,
             },
             tokens: Vec::new(),
             tape_marks: 0,
@@ -190,6 +291,36 @@ impl Reader {
             blocks: 0,
             added_ending: b"\n".to_vec(),
         }
+    }
+
+    /// Reads what follows lines that were read elsewhere.
+    pub(crate) fn following(state: &ReaderState) -> Self {
+        let mut reader = Self::new(Vec::new());
+        reader.program.first_number = state.lines + 1;
+        (reader.tape_marks, reader.closed) = (state.tape_marks, state.closed);
+        reader.blocks = state.blocks;
+        reader
+    }
+
+    /// What the lines that were read tell of those that follow.
+    pub(crate) fn state(&self) -> ReaderState {
+        ReaderState {
+            lines: self.program.lines_before() + self.program.lines.len(),
+            tape_marks: self.tape_marks,
+            closed: self.closed,
+            blocks: self.blocks,
+        }
+    }
+
+    /// Reads the next line, given with its line ending; a byte order mark may stand before the first of a program.
+    pub(crate) fn next_line(&mut self, text: &[u8]) -> Result<(), ProgramError> {
+        let first = self.program.lines_before() + self.program.lines.len() == 0;
+        let mark = if first { byte_order_mark(text) } else { 0 };
+        let start = self.program.bytes.len() + mark;
+        self.program.bytes.extend_from_slice(text);
+        let (length, _) = first_line(&text[mark..]);
+        let fault = self.read_line(start..start + length, self.program.bytes.len());
+        fault.map_or(Ok(()), Err)
     }
 
     fn read(&mut self) -> Vec<ProgramError> {
@@ -273,7 +404,7 @@ impl Reader {
     }
 
     fn read_line(&mut self, content: Range<usize>, next: usize) -> Option<ProgramError> {
-        let number = self.program.lines.len() + 1;
+        let number = self.program.lines_before() + self.program.lines.len() + 1;
         let first_word = self.program.words.len();
         let mut fault = None;
         let (kind, block_delete) = if self.tape_marks == 2 {

@@ -23,6 +23,7 @@ use crate::writing::options::WriteOptions;
 use crate::writing::output_state::{OutputMove, OutputState, motion_of};
 use crate::writing::piece_account::{AsWritten, PieceAccount};
 use crate::writing::steps::Steps;
+use crate::writing::writer_state::WriterState;
 use crate::writing::written::Corrected;
 
 pub(crate) struct Emitter<'a> {
@@ -38,6 +39,8 @@ pub(crate) struct Emitter<'a> {
     /// The position offset that the input has, and where the input is.
     input_offset: PositionOffset,
     input_position: Vector3<f64>,
+    /// Pieces of the parts before.
+    pieces_before: usize,
     /// See [`Corrected::rotary_deg`].
     rotary_deg: Vec<Vec<f64>>,
     /// Some of them stand otherwise than the program has them.
@@ -50,37 +53,51 @@ impl<'a> Emitter<'a> {
         path: &'a Path,
         options: &'a WriteOptions,
         division: Division,
+        before: Option<&WriterState>,
     ) -> Self {
-        let start = path
-            .moves
+        let own = path.own_moves();
+        let start = path.moves[own.clone()]
             .first()
             .map(|motion| motion.start)
             .unwrap_or_default();
         let accounting = Accounting {
             blocks_in: program.block_count(),
-            bytes_in: program.bytes().len(),
-            moves_in: path.moves.len(),
+            bytes_in: program.own_bytes().len(),
+            moves_in: own.len(),
             evaluations: division.evaluations,
             left_out_mm: division.left_out_mm,
             warnings: path.warnings.clone(),
             ..Accounting::default()
+        };
+        let mut steps = Steps::new(path, options, division);
+        let mut account = PieceAccount::new(path, options, accounting);
+        steps.skip_before(own.start);
+        let state = match before {
+            None => OutputState {
+                position: start,
+                target: start,
+                ..OutputState::default()
+            },
+            Some(before) => {
+                steps.tilt = before.tilt;
+                account.corrected_before = before.corrected;
+                account.accounting.largest_correction_mm = before.largest_correction_mm;
+                before.output.clone()
+            }
         };
         Self {
             program,
             path,
             options,
             style: ProgramStyle::of(program, path),
-            state: OutputState {
-                position: start,
-                target: start,
-                ..OutputState::default()
-            },
+            state,
             bytes: Vec::with_capacity(program.bytes().len() + program.bytes().len() / 4),
-            output_line: 1,
-            account: PieceAccount::new(path, options, accounting),
-            steps: Steps::new(path, options, division),
-            input_offset: PositionOffset::default(),
-            input_position: start,
+            output_line: before.map_or(1, |before| before.output_line),
+            account,
+            steps,
+            input_offset: before.map_or_else(PositionOffset::default, |b| b.input_offset),
+            input_position: before.map_or(start, |before| before.input_position),
+            pieces_before: before.map_or(0, |before| before.pieces),
             rotary_deg: Vec::new(),
             rotary_corrected: false,
         }
@@ -104,21 +121,24 @@ impl<'a> Emitter<'a> {
         let (program, path) = (self.program, self.path);
         self.bytes
             .extend_from_slice(&program.bytes()[..program.first_byte()]);
-        let header_at = lines_above(program);
-        let mut moves = path.moves.iter().enumerate().peekable();
-        let mut events = path.events.iter().peekable();
-        for (index, line) in program.lines().iter().enumerate() {
-            if index == header_at {
+        let header_at = program.begins().then(|| lines_above(program) + 1);
+        let mut moves = path
+            .own_moves()
+            .zip(&path.moves[path.own_moves()])
+            .peekable();
+        let first = program.own_numbers().start;
+        let before = path.events.partition_point(|event| event.line < first);
+        let mut events = path.events[before..].iter().peekable();
+        for (number, line) in program.own_lines() {
+            if header_at == Some(number) {
                 self.write_header();
             }
-            if let Some((move_index, motion)) =
-                moves.next_if(|(_, motion)| motion.line == index + 1)
-            {
+            if let Some((move_index, motion)) = moves.next_if(|(_, motion)| motion.line == number) {
                 self.write_move(line, move_index, motion)?;
             } else {
-                self.carry(index + 1, line)?;
+                self.carry(number, line)?;
             }
-            while let Some(event) = events.next_if(|event| event.line == index + 1) {
+            while let Some(event) = events.next_if(|event| event.line == number) {
                 self.apply(&event.change);
             }
         }
@@ -129,7 +149,9 @@ impl<'a> Emitter<'a> {
         let accounting = &mut self.account.accounting;
         let taken_up = &mut accounting.largest_jump_taken_up_mm;
         *taken_up = larger(*taken_up, self.steps.largest_jump_taken_up_mm);
-        if accounting.blocks_corrected == 0 {
+        // Of a part of a longer program others may be corrected.
+        let is_part = self.program.part().is_some();
+        if accounting.blocks_corrected == 0 && !is_part {
             // Nothing to correct: the program as it is, which no header tells from its copy.
             self.bytes = self.program.bytes().to_vec();
             for piece in &mut self.account.pieces {
@@ -137,8 +159,20 @@ impl<'a> Emitter<'a> {
             }
             accounting.header_lines = 0;
         }
+        let corrected = self.account.any_corrected();
         let (pieces, accounting) = self.account.finish(self.bytes.len());
+        let writer = is_part.then(|| WriterState {
+            output: self.state,
+            tilt: self.steps.tilt,
+            output_line: self.output_line,
+            pieces: self.pieces_before + pieces.len(),
+            input_offset: self.input_offset,
+            input_position: self.input_position,
+            corrected,
+            largest_correction_mm: accounting.largest_correction_mm,
+        });
         Corrected {
+            writer: writer.map(Box::new),
             bytes: self.bytes,
             pieces,
             beside: Vec::new(),

@@ -28,6 +28,7 @@ pub(crate) mod rotary_words;
 pub(crate) mod short_blocks;
 pub(crate) mod steps;
 pub(crate) mod write;
+pub(crate) mod writer_state;
 pub(crate) mod written;
 pub(crate) mod written_arc;
 pub(crate) mod written_circle;

@@ -1,6 +1,7 @@
 //! What the controller that runs the output holds at a line, and the next piece to be written.
 
 use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
 
 use crate::path::moves::{Feed, Motion, Move, MoveKind};
 use crate::path::position_offset::PositionOffset;
@@ -8,7 +9,7 @@ use crate::writing::jump::Turn;
 use crate::writing::written_arc::WrittenArc;
 
 /// What the controller that runs the output holds at a line.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct OutputState {
     /// Where the tool is commanded to be, as written, in mm, part frame.
     pub position: Vector3<f64>,

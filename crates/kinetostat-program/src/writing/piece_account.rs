@@ -44,6 +44,8 @@ pub(crate) struct PieceAccount<'a> {
     rate: Rate,
     rate_in: Rate,
     short: ShortBlocks,
+    /// A piece of an earlier part of the program was corrected.
+    pub corrected_before: bool,
     /// Where the steps at one place began, and where that place is: move and share.
     jump_from: Option<(usize, f64, Vector3<f64>)>,
 }
@@ -59,6 +61,7 @@ impl<'a> PieceAccount<'a> {
             rate: Rate::default(),
             rate_in: Rate::default(),
             short: ShortBlocks::default(),
+            corrected_before: false,
             jump_from: None,
         };
         account.warn_of_axes_never_stated();
@@ -179,7 +182,7 @@ impl<'a> PieceAccount<'a> {
         let entry = match &step.turn {
             Some(turn) => turn.is_entry(self.path),
             // The tool stands where nobody corrected it.
-            None => !self.pieces.iter().any(|piece| piece.corrected),
+            None => !self.any_corrected(),
         };
         let accounting = &mut self.accounting;
         if entry {
@@ -193,6 +196,11 @@ impl<'a> PieceAccount<'a> {
             accounting.largest_corner_step_mm =
                 larger(accounting.largest_corner_step_mm, written_mm);
         }
+    }
+
+    /// A piece was corrected so far.
+    pub fn any_corrected(&self) -> bool {
+        self.corrected_before || self.pieces.iter().any(|piece| piece.corrected)
     }
 
     /// How far the output goes against the direction in which the part is cut.

@@ -250,6 +250,7 @@ impl<'a> Plan<'a> {
             orientations,
             rotary_deg: Vec::new(),
             accounting,
+            writer: None,
         }
     }
 }

@@ -39,7 +39,7 @@ pub(crate) struct Steps<'a> {
     fitted: Vec<Fitted>,
     next_node: usize,
     /// How far the tool is turned where it was last, as [`OutputMove::tilt`].
-    tilt: Vector3<f64>,
+    pub tilt: Vector3<f64>,
     /// Largest jump of the correction without a step of its own, in mm.
     pub largest_jump_taken_up_mm: f64,
 }
@@ -57,6 +57,13 @@ impl<'a> Steps<'a> {
             tilt: Vector3::zeros(),
             largest_jump_taken_up_mm: 0.0,
         }
+    }
+
+    /// Begins with this move.
+    pub fn skip_before(&mut self, move_index: usize) {
+        self.next_node = self
+            .nodes
+            .partition_point(|node| node.move_index < move_index);
     }
 
     fn nodes_of(&mut self, move_index: usize) -> Range<usize> {

@@ -8,6 +8,7 @@ use crate::writing::dividing::beginning::Fitted;
 use crate::writing::dividing::divide::divide;
 use crate::writing::emit::Emitter;
 use crate::writing::options::{Arcs, WriteOptions};
+use crate::writing::writer_state::WriterState;
 use crate::writing::written::Corrected;
 
 /// Writes the program whose commanded path is the path plus the field's correction.
@@ -35,6 +36,20 @@ pub fn write_corrected(
     options: &WriteOptions,
     monitor: &dyn Monitor,
 ) -> Result<Corrected, WriteError> {
+    write_behind(program, path, (field, options), monitor, None)
+}
+
+/// The same of a part of a longer program, from where the writer stands before it.
+///
+/// # Errors
+/// As [`write_corrected`].
+pub(crate) fn write_behind(
+    program: &Program,
+    path: &Path,
+    (field, options): (&dyn CorrectionField, &WriteOptions),
+    monitor: &dyn Monitor,
+    before: Option<&WriterState>,
+) -> Result<Corrected, WriteError> {
     options.check()?;
     if let Some(line) = program.mark_line()
         && !options.again
@@ -45,8 +60,7 @@ pub fn write_corrected(
     for motion in &path.moves {
         let has_words = motion.line > last
             && program
-                .lines()
-                .get(motion.line - 1)
+                .line(motion.line)
                 .is_some_and(|line| !program.words(line).is_empty());
         if !has_words {
             return Err(WriteError::ForeignPath { line: motion.line });
@@ -58,5 +72,5 @@ pub fn write_corrected(
         Arcs::Fit | Arcs::Lines => Fitted::Nothing,
     };
     let division = divide(path, field, (options, &fitted), monitor)?;
-    Emitter::new(program, path, options, division).emit()
+    Emitter::new(program, path, options, division, before).emit()
 }

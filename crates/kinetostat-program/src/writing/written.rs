@@ -7,6 +7,7 @@ use crate::path::curve::Curve;
 use crate::path::moves::{Knowledge, Move, Path};
 use crate::writing::accounting::Accounting;
 use crate::writing::jump::Turn;
+use crate::writing::writer_state::WriterState;
 use crate::writing::written_arc::WrittenArc;
 use crate::writing::written_circle::WrittenCircle;
 
@@ -124,9 +125,19 @@ pub struct Corrected {
     pub rotary_deg: Vec<Vec<f64>>,
     /// What was done.
     pub accounting: Accounting,
+    /// Where the writer of a part of a longer program stands behind it; `None` of a whole one.
+    #[doc(hidden)]
+    pub writer: Option<Box<WriterState>>,
 }
 
 impl Corrected {
+    /// Pieces of the written program before the first of these: 0, but for a part of a longer program.
+    #[must_use]
+    pub fn pieces_before(&self) -> usize {
+        let writer = self.writer.as_ref();
+        writer.map_or(0, |writer| writer.pieces - self.pieces.len())
+    }
+
     /// Its pieces as the moves of a path: where the tool is commanded to go. Moves have the index of their piece and its line in
     /// the output; of what was not corrected nothing is known. `original` is the path that it was written from.
     ///
@@ -182,6 +193,7 @@ impl Corrected {
             spindle_changes: Vec::new(),
             pauses: Vec::new(),
             events: Vec::new(),
+            part: None,
         }
     }
 }

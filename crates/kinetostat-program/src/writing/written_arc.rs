@@ -1,7 +1,7 @@
 //! An arc of the written program, as a controller reads it.
 
 use nalgebra::Vector3;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::path::curve::Arc;
 
@@ -31,7 +31,7 @@ pub(crate) fn slipped(slip: &[f64; 2], part: f64) -> f64 {
 /// assert!((piece.length_mm(&path.moves[1]) - 15.739).abs() < 1e-3);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct WrittenArc {
     /// Axis about which it turns: 2 in the plane of X and Y (G17), 1 in that of Z and X (G18), 0 in that of Y and Z (G19).
     pub normal: usize,

@@ -23,6 +23,7 @@ mod internal;
 mod long_blocks;
 mod map;
 mod nc_files;
+mod parts;
 mod poles;
 mod properties;
 mod real_programs;

@@ -1,6 +1,6 @@
 //! A panel with values over the length of the path.
 
-use kinetostat_machining::{CutPlace, PointKind, PointResult};
+use kinetostat_machining::{CutPlace, Envelope, PointKind, PointResult, Quantity};
 
 use crate::chart::area::area_data;
 use crate::chart::axis::{Scale, Span, Tick};
@@ -82,11 +82,7 @@ impl Along {
     /// None if no point has a place on the path.
     pub(crate) fn of<P: OnPath>(points: &[P]) -> Option<Self> {
         let span = Span::of(points.iter().map(OnPath::path_mm))?;
-        let (factor, label) = if span.high > 20_000.0 {
-            (0.001, "length of the path, m")
-        } else {
-            (1.0, "length of the path, mm")
-        };
+        let (factor, label) = unit_of(span);
         let mut rapids: Vec<(f64, f64)> = Vec::new();
         let mut previous = span.low.min(0.0);
         for point in points {
@@ -101,6 +97,27 @@ impl Along {
             }
             previous = here;
         }
+        Some(Self::over(span, (factor, label), rapids))
+    }
+
+    /// Of points of which the envelope is drawn; none if there are none.
+    pub(crate) fn of_envelope(envelope: &Envelope) -> Option<Self> {
+        let span =
+            Span::of([0.0, envelope.length_mm()].into_iter()).filter(|_| envelope.points() > 0)?;
+        let (factor, label) = unit_of(span);
+        let mut rapids: Vec<(f64, f64)> = Vec::new();
+        for stretch in envelope.along(Quantity::ErrorBefore).filter(|s| s.rapid) {
+            let [from, to] = stretch.path_mm.map(|mm| mm * factor);
+            match rapids.last_mut() {
+                Some(last) if last.1 >= from => last.1 = to,
+                _ => rapids.push((from, to)),
+            }
+        }
+        Some(Self::over(span, (factor, label), rapids))
+    }
+
+    /// A span in mm.
+    fn over(span: Span, (factor, label): (f64, &'static str), rapids: Vec<(f64, f64)>) -> Self {
         let span = span.including(0.0);
         let span = Span {
             low: span.low * factor,
@@ -111,12 +128,40 @@ impl Along {
         } else {
             span.widened()
         };
-        Some(Self {
+        Self {
             span,
             factor,
             label,
             rapids,
-        })
+        }
+    }
+
+    /// A stroke from the lowest to the highest value in each stretch, from the nearer end on; rapids lift the pen.
+    pub(crate) fn envelope(
+        &self,
+        envelope: &Envelope,
+        quantity: Quantity,
+        factor: f64,
+    ) -> Vec<Option<(f64, f64)>> {
+        let mut out: Vec<Option<(f64, f64)>> = Vec::new();
+        for stretch in envelope.along(quantity) {
+            let Some(range) = stretch.range.filter(|_| !stretch.rapid) else {
+                // A stretch without a point is one between two of a long block.
+                if stretch.rapid {
+                    out.push(None);
+                }
+                continue;
+            };
+            let x = 0.5 * (stretch.path_mm[0] + stretch.path_mm[1]) * self.factor;
+            let mut ends = range.map(|value| value * factor);
+            if let Some(Some((_, before))) = out.last()
+                && (before - ends[1]).abs() < (before - ends[0]).abs()
+            {
+                ends.reverse();
+            }
+            out.extend(ends.map(|y| Some((x, y))));
+        }
+        out
     }
 
     pub(crate) fn has_rapids(&self) -> bool {
@@ -140,6 +185,15 @@ impl Along {
                 Some((x, y))
             })
             .collect()
+    }
+}
+
+/// From mm to the unit of a path of this length, and the label of its axis.
+fn unit_of(span: Span) -> (f64, &'static str) {
+    if span.high > 20_000.0 {
+        (0.001, "length of the path, m")
+    } else {
+        (1.0, "length of the path, mm")
     }
 }
 

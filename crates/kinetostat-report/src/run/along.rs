@@ -1,7 +1,7 @@
 //! What changes along the path: errors, forces and corrections of actuators, stiffness and the share of the way to buckling.
 
-use kinetostat_machining::PointResult;
 use kinetostat_machining::number::larger;
+use kinetostat_machining::{PointResult, Quantity};
 
 use crate::chart::axis::Span;
 use crate::chart::label::Frame;
@@ -18,7 +18,7 @@ pub(crate) const MOST_ACTUATORS: usize = 12;
 
 /// The error before and after compensation, one above the other; empty without points.
 pub(crate) fn errors(result: &Shown<'_>, sheet: Sheet) -> String {
-    let Some(along) = Along::of(result.points) else {
+    let Some(along) = result.along() else {
         return String::new();
     };
     let mut panels = Vec::new();
@@ -46,11 +46,11 @@ pub(crate) fn errors(result: &Shown<'_>, sheet: Sheet) -> String {
 
 /// Smallest stiffness and share of the way to buckling along the path.
 pub(crate) fn stiffness(result: &Shown<'_>, sheet: Sheet) -> String {
-    let Some(along) = Along::of(result.points) else {
+    let Some(along) = result.along() else {
         return String::new();
     };
     let mut panels = Vec::new();
-    let values = along.values(result.points, |p| Some(p.smallest_stiffness_n_per_mm));
+    let values = result.curve(&along, Quantity::SmallestStiffness, 1.0);
     if let Some(span) = span_of(&values) {
         panels.push(Panel {
             title: format!(
@@ -69,8 +69,7 @@ pub(crate) fn stiffness(result: &Shown<'_>, sheet: Sheet) -> String {
             marks: Vec::new(),
         });
     }
-    let percent = |p: &PointResult| p.share_to_buckling.map(|share| 100.0 * share);
-    let values = along.values(result.points, percent);
+    let values = result.curve(&along, Quantity::ShareToBuckling, 100.0);
     if let (Some(span), Some(most)) = (span_of(&values), &result.figures.share_to_buckling) {
         // A share far from buckling would be pressed flat by the line at 100 %.
         let near = span.high > 20.0;
@@ -110,7 +109,7 @@ pub(crate) fn stiffness(result: &Shown<'_>, sheet: Sheet) -> String {
 
 /// Forces and corrections of the actuators as small panels; empty without points or actuators.
 pub(crate) fn actuators(result: &Shown<'_>, sheet: Sheet) -> String {
-    let Some(along) = Along::of(result.points) else {
+    let Some(along) = result.along() else {
         return String::new();
     };
     let mut panels = Vec::new();
@@ -124,7 +123,7 @@ pub(crate) fn actuators(result: &Shown<'_>, sheet: Sheet) -> String {
         let name = text::shorten(&actuator.name, 24);
         let turning = actuator.force_unit.contains('m');
         let word = if turning { "torque" } else { "force" };
-        let values = along.values(result.points, |p| p.actuator_force.get(index).copied());
+        let values = result.curve(&along, Quantity::ActuatorForce(index), 1.0);
         let most = result.figures.actuator_force.get(index);
         panels.extend(actuator_panel(
             &name,
@@ -134,7 +133,7 @@ pub(crate) fn actuators(result: &Shown<'_>, sheet: Sheet) -> String {
             values,
         ));
         if result.run_inputs.compensated {
-            let values = along.values(result.points, |p| p.actuator_correction.get(index).copied());
+            let values = result.curve(&along, Quantity::ActuatorCorrection(index), 1.0);
             panels.extend(actuator_panel(
                 &name,
                 "correction",
@@ -182,7 +181,7 @@ fn before_panel(result: &Shown<'_>, along: &Along, sheet: Sheet) -> Option<Panel
         areas,
         series: vec![Series {
             class: "line before",
-            values: along.values(result.points, |p| Some(norm(&p.error_before_mm) * factor)),
+            values: result.curve(along, Quantity::ErrorBefore, factor),
         }],
         limits: Vec::new(),
         marks: worst_marks(result, along, factor, sheet),
@@ -227,7 +226,7 @@ fn after_panel(result: &Shown<'_>, along: &Along) -> Option<Panel> {
         areas: Vec::new(),
         series: vec![Series {
             class: "line after",
-            values: along.values(result.points, |p| Some(norm(&p.error_after_mm) * factor)),
+            values: result.curve(along, Quantity::ErrorAfter, factor),
         }],
         limits,
         marks: mark.into_iter().collect(),

@@ -103,9 +103,26 @@ fn actuator_card(result: &Shown<'_>) -> Value {
     }
 }
 
-/// Rows of the table of worst points, and the units of its errors before and after.
-pub(crate) fn worst(result: &Shown<'_>) -> Value {
-    let shown: Vec<&PointResult> = result.worst_points.iter().take(10).collect();
+/// Tables of the worst places without compensation and, of a compensated program, with it.
+pub(crate) fn worst(result: &Shown<'_>) -> Vec<Value> {
+    let before = "Where the tool is farthest off without compensation, worst first.";
+    let after =
+        "Where it is farthest off with the written program, worst first, one place of a line.";
+    let mut tables = vec![worst_places(
+        result,
+        ("The worst places", before),
+        &result.worst_points,
+    )];
+    if !result.worst_points_after.is_empty() {
+        let title = ("The worst places with compensation", after);
+        tables.push(worst_places(result, title, &result.worst_points_after));
+    }
+    tables
+}
+
+/// Rows of a table of points, and the units of its errors before and after.
+fn worst_places(result: &Shown<'_>, (title, order): (&str, &str), points: &[PointResult]) -> Value {
+    let shown: Vec<&PointResult> = points.iter().take(10).collect();
     let unit_of = |error: fn(&PointResult) -> f64| {
         number::length_unit(number::largest(shown.iter().map(|p| error(p))).unwrap_or(0.0))
     };
@@ -125,7 +142,7 @@ pub(crate) fn worst(result: &Shown<'_>) -> Value {
             }
         })
         .collect();
-    context! { rows, before_unit => before.0, after_unit => after.0 }
+    context! { title, order, rows, before_unit => before.0, after_unit => after.0 }
 }
 
 /// Of a line of a flat program the one that it came from.

@@ -1,6 +1,6 @@
 //! The error along the path if the force of the cut is larger or smaller by the spread of its coefficients.
 
-use kinetostat_machining::{ForceBand, PointKind, PointResult};
+use kinetostat_machining::{ForceBand, PointKind, PointResult, Quantity};
 
 use crate::chart::axis::Span;
 use crate::chart::panel::{Along, Area, Panel, Series};
@@ -38,7 +38,7 @@ pub(crate) fn panel(result: &Shown<'_>, along: &Along) -> Option<Panel> {
         areas: vec![area(result, along, factor, ends)],
         series: vec![Series {
             class: "line after",
-            values: along.values(result.points, |p| Some(norm(&p.error_after_mm) * factor)),
+            values: result.curve(along, Quantity::ErrorAfter, factor),
         }],
         limits: Vec::new(),
         marks: Vec::new(),

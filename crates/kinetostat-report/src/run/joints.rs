@@ -1,6 +1,6 @@
 //! Joint values along the path between their limits, and how near limits and ratings are.
 
-use kinetostat_machining::{ActuatorColumn, PointKind};
+use kinetostat_machining::{ActuatorColumn, PointKind, Quantity};
 use minijinja::{Value, context};
 
 use crate::chart::axis::Span;
@@ -13,7 +13,7 @@ use crate::text;
 /// Joint values over the path as small panels, with the limits that the model states; empty where no joint has limits.
 pub(crate) fn figure(result: &Shown<'_>, sheet: Sheet) -> String {
     let actuators = &result.run_inputs.actuators;
-    let Some(along) = Along::of(result.points).filter(|_| actuators.iter().any(limited)) else {
+    let Some(along) = result.along().filter(|_| actuators.iter().any(limited)) else {
         return String::new();
     };
     let drawn = actuators.iter().take(MOST_ACTUATORS).enumerate();
@@ -38,7 +38,7 @@ fn panel(
     index: usize,
     actuator: &ActuatorColumn,
 ) -> Option<Panel> {
-    let values = along.values(result.points, |p| p.actuator_command.get(index).copied());
+    let values = result.curve(along, Quantity::ActuatorCommand(index), 1.0);
     let span = Span::of(values.iter().flatten().map(|value| value.1))?;
     let unit = text::shorten(&actuator.motion_unit, 8);
     let [low, high] = result.joints.ranges.get(index).copied()?;

@@ -1,10 +1,10 @@
 //! One small picture of a run: the path from above and the error along it.
 
-use kinetostat_machining::PointKind;
+use kinetostat_machining::{PointKind, Quantity};
 
 use crate::chart::axis::{Span, Tick};
 use crate::chart::label::Frame;
-use crate::chart::panel::{Along, Panel, Series};
+use crate::chart::panel::{Panel, Series};
 use crate::number::{self, norm};
 use crate::run::plan;
 use crate::run::shown::Shown;
@@ -47,7 +47,7 @@ pub(crate) fn draw(result: &Shown<'_>) -> String {
 
 /// The error before and after over powers of ten; says if there was anything to draw.
 fn errors(svg: &mut Svg, result: &Shown<'_>) -> bool {
-    let Some(along) = Along::of(result.points) else {
+    let Some(along) = result.along() else {
         return false;
     };
     let largest = |error: fn(&kinetostat_machining::PointResult) -> f64| {
@@ -66,19 +66,21 @@ fn errors(svg: &mut Svg, result: &Shown<'_>) -> bool {
         low: low.max(high - MOST_DECADES),
         high,
     };
-    let curve = |error: fn(&kinetostat_machining::PointResult) -> [f64; 3]| {
-        along.values(result.points, |p| {
-            Some(norm(&error(p)).log10().clamp(span.low, span.high))
-        })
+    let curve = |quantity: Quantity| -> Vec<Option<(f64, f64)>> {
+        let values = result.curve(&along, quantity, 1.0).into_iter();
+        let shown = |value: f64| value.log10().clamp(span.low, span.high);
+        values
+            .map(|at| at.map(|(x, value)| (x, shown(value))))
+            .collect()
     };
     let mut series = vec![Series {
         class: "line before",
-        values: curve(|p| p.error_before_mm),
+        values: curve(Quantity::ErrorBefore),
     }];
     if after.is_some() {
         series.push(Series {
             class: "line after",
-            values: curve(|p| p.error_after_mm),
+            values: curve(Quantity::ErrorAfter),
         });
     }
     let panel = Panel {

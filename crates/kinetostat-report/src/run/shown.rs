@@ -2,14 +2,17 @@
 
 use std::ops::Deref;
 
-use kinetostat_machining::{Figures, PointResult, Run, RunResult, TurnChoice};
+use kinetostat_machining::{Envelope, Figures, PointResult, Quantity, Run, RunResult, TurnChoice};
 
+use crate::chart::panel::Along;
 use crate::number::typeset;
 
 /// A result, the points that are drawn (of a run all of them), and its figures in type.
 pub(crate) struct Shown<'a> {
     pub(crate) result: &'a RunResult,
     pub(crate) points: &'a [PointResult],
+    /// The envelope of all points, where there are more than are drawn one by one.
+    pub(crate) envelope: Option<&'a Envelope>,
     pub(crate) figures: Figures,
     /// The turn of the tool about its axis, where it was chosen for the run, and in words.
     pub(crate) turns: Option<(&'a TurnChoice, &'a str)>,
@@ -28,6 +31,7 @@ impl<'a> Shown<'a> {
         Self {
             result,
             points: &result.points,
+            envelope: None,
             figures: in_type(result),
             turns: None,
         }
@@ -37,8 +41,31 @@ impl<'a> Shown<'a> {
         Self {
             result: &run.result,
             points: &run.points,
+            envelope: Some(&run.envelope)
+                .filter(|envelope| envelope.points() > RunResult::MAX_POINTS),
             figures: in_type(&run.result),
             turns: None,
+        }
+    }
+
+    /// The axis along the path; none if no point has a place on it.
+    pub(crate) fn along(&self) -> Option<Along> {
+        match self.envelope {
+            Some(envelope) => Along::of_envelope(envelope),
+            None => Along::of(self.points),
+        }
+    }
+
+    /// A quantity over the path, in a unit that is so much smaller; of many points the lowest and the highest value in each stretch.
+    pub(crate) fn curve(
+        &self,
+        along: &Along,
+        quantity: Quantity,
+        factor: f64,
+    ) -> Vec<Option<(f64, f64)>> {
+        match self.envelope {
+            Some(envelope) => along.envelope(envelope, quantity, factor),
+            None => along.values(self.points, |p| quantity.of(p).map(|value| value * factor)),
         }
     }
 

@@ -1,7 +1,7 @@
 //! Loaded postures: what is wanted of them, and where the answers go.
 
 use crate::batch::compiled::{BLOCKS, Batch, LOADED_BLOCKS, in_parallel, left};
-use crate::batch::limb::loaded::{EXACT, FORETOLD, IN_USE};
+use crate::batch::limb::loaded::{EXACT, IN_USE};
 use crate::batch::limb::shape::springs;
 use crate::batch::machine::group::{Places, Standing};
 use crate::batch::machine::kept;
@@ -140,6 +140,14 @@ impl BatchEquilibrium {
             stiffness_against_force: stiffness,
             share_to_buckling: (!share_to_buckling.is_nan()).then_some(share_to_buckling),
         })
+    }
+
+    /// Takes the stability of all postures: stable (one or zero), stiffness, share to buckling or NaN.
+    pub(crate) fn set_stabilities(&mut self, stabilities: &[[f64; 3]]) {
+        self.stability.reset(3, stabilities.len());
+        for (i, numbers) in stabilities.iter().enumerate() {
+            self.stability.set_row(i, |k| numbers[k]);
+        }
     }
 
     /// Pose of the tool of one posture, base from tool.
@@ -441,10 +449,9 @@ impl Batch {
             return;
         };
         let tool = &self.mechanism.platforms()[self.mechanism.tool()];
-        let precision = match (places.have_a_start(), self.along) {
-            (true, _) => FORETOLD,
-            (false, true) => IN_USE,
-            (false, false) => EXACT,
+        let precision = match places.have_a_start() || self.along {
+            true => IN_USE,
+            false => EXACT,
         };
         // On a path only the first posture of each lane's run has no start from its neighbour.
         let blocks = if self.along { BLOCKS } else { LOADED_BLOCKS };

@@ -19,6 +19,7 @@
 //! threads or the width of the vectors. Along a path ([`AlongPath`]) it depends on the places before it in the list that
 //! is computed at once, too, far below what is written of it.
 
+mod assessed;
 mod buffers;
 mod commanded;
 mod compiled;

@@ -13,6 +13,7 @@
 
 use std::f64::consts::{PI, TAU};
 
+use crate::batch::assessed::{Postures, numbers};
 use crate::batch::compiled::Batch;
 use crate::batch::equilibria::BatchEquilibrium;
 use crate::batch::equilibria::Details;
@@ -100,10 +101,38 @@ impl AlongPath {
         found.ok().filter(|found| self.continued(poses, found))
     }
 
-    /// As [`Self::rest`], with stiffness and stability.
+    /// As [`Self::rest`], with the stability ([`BatchEquilibrium::stability`]): in some of the places, and in between where it is shown to go evenly,
+    /// to a ten-thousandth.
     #[must_use]
     pub fn with_stability(&self, poses: &[Pose], wrenches: &[Wrench]) -> Option<BatchEquilibrium> {
         let batch = self.batch.as_ref().filter(|_| self.stability_by_kernels)?;
+        let mut found = self.rest(poses, wrenches)?;
+        let postures = Postures {
+            poses,
+            wrenches,
+            size: self.length,
+        };
+        // What kernels do not decide is found by the general engine, one after the other.
+        let by_kernels = found.status.iter().all(|s| *s == Status::Vectorised);
+        let evenly = by_kernels.then(|| {
+            postures.stabilities(|wanted| {
+                let poses: Vec<Pose> = wanted.iter().map(|i| poses[*i]).collect();
+                let wrenches: Vec<Wrench> = wanted.iter().map(|i| wrenches[*i]).collect();
+                let some = batch
+                    .equilibrium(&poses, &wrenches, Details::Stability)
+                    .ok()?;
+                let own = 0..wanted.len();
+                own.map(|k| match some.status[k] {
+                    Status::Vectorised => numbers(&some, k),
+                    _ => None,
+                })
+                .collect()
+            })
+        });
+        if let Some(stabilities) = evenly.flatten() {
+            found.set_stabilities(&stabilities);
+            return Some(found);
+        }
         let found = batch.equilibrium(poses, wrenches, Details::Stability);
         found.ok().filter(|found| self.continued(poses, found))
     }

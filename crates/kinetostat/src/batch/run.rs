@@ -178,12 +178,14 @@ impl WithSimd for Job<'_> {
                                 machine.start_with(simd, &group, target, known)
                             }
                             Places::Poses(poses) if first > from => {
-                                machine.go_on(simd, group.target(simd, poses), directions)
+                                let place = group.target(simd, poses);
+                                machine.go_on(simd, (place, &wrench), directions)
                             }
                             Places::Poses(poses) => {
                                 machine.start_at(simd, group.target(simd, poses))
                             }
                         };
+                        machine.load = wrench;
                         let good = machine.converge(simd, &wrench, directions, start);
                         machine.answer(simd, &group, &wrench, good, &mut answers);
                     }

@@ -31,6 +31,7 @@ pub(crate) mod stability;
 pub(crate) mod stiffness;
 pub(crate) mod sweep;
 pub(crate) mod system;
+pub(crate) mod tangent;
 
 pub use compliance::CartesianCompliance;
 pub use directions::{Direction, DirectionKind, Share};
@@ -43,3 +44,4 @@ pub use problem::{ChainProblem, EndCondition, Prescribed};
 pub use residual::Residual;
 pub use stability::{ShapeStability, ShapeState};
 pub use stiffness::{ChainStiffness, unloaded_stiffness};
+pub use tangent::ChainTangent;

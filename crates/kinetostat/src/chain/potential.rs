@@ -68,6 +68,10 @@ pub fn load_energy(problem: &ChainProblem<'_>, coordinates: &[f64]) -> Result<Op
                     .bodies()
                     .iter()
                     .map(|b| -b.mass * gravity.dot(&kinematics.node_position(b.node)))
+                    .chain(
+                        (chain.segment_masses().iter())
+                            .map(|s| s.weight_energy(&kinematics, gravity)),
+                    )
                     .sum(),
             ),
             Load::Custom(load) => load.energy(&kinematics),

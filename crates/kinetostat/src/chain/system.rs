@@ -191,7 +191,7 @@ impl System {
         let growing = pattern.iter().map(|load| (load, grown));
         for (load, factor) in loads.iter().map(|load| (load, factor)).chain(growing) {
             load.add_wrenches(chain, &self.kinematics, factor, &mut self.wrenches);
-            load.add_tangents(&self.kinematics, factor, &mut self.tangents);
+            load.add_tangents(chain, &self.kinematics, factor, &mut self.tangents);
         }
         self.wrenches.push((chain.tip(), *wrench));
         if let Some(sweep) = &mut self.sweep {

@@ -15,6 +15,7 @@
 use nalgebra::{DMatrix, DVector, Matrix6, Vector6};
 
 use crate::chain::residual::Residual;
+use crate::chain::tangent::ChainTangent;
 use crate::error::Result;
 use crate::machine::equilibrium::{MechanismEquilibrium, conclude};
 use crate::machine::platforms::parts::Unknowns;
@@ -123,7 +124,44 @@ pub struct WorkTerm {
     pub work: f64,
 }
 
+/// Tangents of a machine at a state with all coordinates of its limbs and all motions of its platforms kept.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub struct MachineTangents {
+    /// Of every limb, as it is built; with six motions of its base where it starts at a platform that moves.
+    pub limbs: Vec<ChainTangent>,
+    /// What the arms of the limbs' forces, weights and loads on platforms add, 6P x 6P (moving platforms, about their
+    /// origins, base axes): `hat(f) hat(s)` and the like [R 5.28 corrected].
+    pub platforms: DMatrix<f64>,
+}
+
 impl Posture {
+    /// Tangents at a state with everything kept, and nothing solved: what dynamics starts from.
+    ///
+    /// # Errors
+    /// A state of another machine.
+    pub fn tangents_at(&self, state: &MechanismState, wrench: &Wrench) -> Result<MachineTangents> {
+        check_state(&self.mechanism, state)?;
+        let solver = self.evaluated(state.clone(), wrench, 1.0);
+        let size = 6 * (state.platforms.len() - 1);
+        let mut platforms = DMatrix::zeros(size, size);
+        let mut add = |on: usize, by: usize, block: &Matrix6<f64>| {
+            let mut view = platforms.view_mut((6 * (on - 1), 6 * (by - 1)), (6, 6));
+            view += block;
+        };
+        for (i, limb) in self.mechanism.limbs().iter().enumerate() {
+            add(limb.to, limb.to, &solver.turned_force(i, state));
+        }
+        solver.add_platform_loads(state, &mut add);
+        let limbs = solver.linear.into_iter();
+        Ok(MachineTangents {
+            limbs: limbs
+                .map(|linear| ChainTangent::of(linear.system))
+                .collect(),
+            platforms,
+        })
+    }
+
     /// The same posture of the machine as drawn: without weights and other loads of its model, without deviations.
     #[must_use]
     pub fn as_drawn(&self) -> Self {

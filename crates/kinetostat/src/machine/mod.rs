@@ -37,7 +37,9 @@ pub use assembly::LinearAssembly;
 pub use constraints::{Overconstraint, SelfStress};
 pub use equilibrium::{LimbEquilibrium, MechanismEquilibrium, PlatformStability};
 pub use inverse::limb::{LimbPosture, inverse_kinematics};
-pub use linearised::{LinearisedMachine, MachineMotion, MachineResidual, WorkOf, WorkTerm};
+pub use linearised::{
+    LinearisedMachine, MachineMotion, MachineResidual, MachineTangents, WorkOf, WorkTerm,
+};
 pub use negative_stiffness::NegativeNetStiffness;
 pub use posture::Posture;
 pub use request::PostureRequest;

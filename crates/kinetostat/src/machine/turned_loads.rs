@@ -47,7 +47,8 @@ impl PlatformSolver<'_> {
             if limb.from == 0 {
                 continue;
             }
-            let weightless = limb.actual.bodies().is_empty();
+            let weightless =
+                limb.actual.bodies().is_empty() && limb.actual.segment_masses().is_empty();
             loaded |= self.loads[i]
                 .iter()
                 .any(|load| !(weightless && matches!(load, Load::Gravity(_))));

@@ -35,7 +35,7 @@ type Mistake = (Option<Part>, String);
 /// Builds a [`Chain`], base first. Mistakes are collected and reported by [`Self::build`].
 #[derive(Clone, Debug)]
 pub struct ChainBuilder {
-    chain: Chain,
+    pub(crate) chain: Chain,
     mistake: Option<Mistake>,
 }
 
@@ -58,6 +58,7 @@ impl ChainBuilder {
                 springs: Vec::new(),
                 nodes: Vec::new(),
                 bodies: Vec::new(),
+                segment_masses: Vec::new(),
                 scale: Scale {
                     length: 1.0,
                     stiffness: 1.0,

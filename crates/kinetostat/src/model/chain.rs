@@ -12,6 +12,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::error::{Error, Place, Result};
 use crate::model::limits::check_number;
+use crate::model::link_mass::SegmentMass;
 use crate::model::springs::block::SpringBlock;
 use crate::spatial::{MotionKind, Pose};
 
@@ -153,6 +154,8 @@ pub struct Chain {
     pub(crate) springs: Vec<SpringBlock>,
     pub(crate) nodes: Vec<String>,
     pub(crate) bodies: Vec<Body>,
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub(crate) segment_masses: Vec<SegmentMass>,
     pub(crate) scale: Scale,
 }
 
@@ -213,6 +216,12 @@ impl Chain {
     #[must_use]
     pub fn bodies(&self) -> &[Body] {
         &self.bodies
+    }
+
+    /// Masses along elastic links, segment by segment (those of [`crate::model::MassModel::Consistent`]; the others are bodies).
+    #[must_use]
+    pub fn segment_masses(&self) -> &[SegmentMass] {
+        &self.segment_masses
     }
 
     /// Natural length and stiffness.

@@ -165,6 +165,12 @@ impl Kinematics {
         )
     }
 
+    /// Rotation (base from node) and position of a node, m.
+    #[must_use]
+    pub fn frame(&self, node: usize) -> (Matrix3<f64>, Vector3<f64>) {
+        self.nodes[node]
+    }
+
     /// Position of a node, m.
     #[must_use]
     pub fn node_position(&self, node: usize) -> Vector3<f64> {

@@ -19,13 +19,15 @@
 
 use std::f64::consts::PI;
 
-use nalgebra::{Matrix6, Rotation3, Vector3, Vector6};
+use nalgebra::{Matrix3, Matrix6, Rotation3, Vector3, Vector6};
 #[cfg(feature = "serde")]
 use serde::{Deserialize, Serialize};
 
 use crate::error::Part;
 use crate::model::beam::BeamSection;
 use crate::model::builder::ChainBuilder;
+use crate::model::chain::Body;
+use crate::model::link_mass::{LinkMass, MassModel, SegmentMass, shear_ratios};
 use crate::model::springs::block::{Segment, SpringLaw};
 use crate::model::springs::bowing::BowingLaw;
 use crate::model::springs::logarithm::LogarithmLaw;
@@ -105,6 +107,9 @@ pub struct LinkSpec {
     pub segments: usize,
     /// Convention of the segments.
     pub convention: LinkConvention,
+    /// Mass along it; none where its mass is neglected or written as bodies.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub mass: Option<LinkMass>,
 }
 
 impl LinkSpec {
@@ -116,6 +121,7 @@ impl LinkSpec {
             length,
             segments: 1,
             convention: LinkConvention::default(),
+            mass: None,
         }
     }
 
@@ -128,6 +134,7 @@ impl LinkSpec {
             length,
             segments: 1,
             convention: LinkConvention::default(),
+            mass: None,
         }
     }
 
@@ -135,6 +142,27 @@ impl LinkSpec {
     #[must_use]
     pub fn segments(mut self, count: usize) -> Self {
         self.segments = count;
+        self
+    }
+
+    /// The same link with a mass along it. Its segments then have a node at each end: `NAME.near` at the root, and
+    /// `SEGMENT.far` behind every segment.
+    ///
+    /// ```
+    /// # use kinetostat::*;
+    /// use kinetostat::model::LinkMass;
+    ///
+    /// let bar = BeamSection::tube(2.1e11, 8.0e10, 0.04, 0.03); // Pa, m
+    /// let spec = LinkSpec::beam(bar, 0.8).segments(2).with_mass(LinkMass::of_section(&bar, 7850.0));
+    /// let boom = Chain::builder("boom").link_with("bar", &spec).build()?;
+    /// assert_eq!(boom.nodes(), ["bar.near", "bar.1.far", "bar.2.far", "tip"]);
+    /// let total: f64 = boom.segment_masses().iter().map(model::SegmentMass::total).sum();
+    /// assert!((total - 7850.0 * bar.area * 0.8).abs() < 1e-12); // kg
+    /// # Ok::<(), Error>(())
+    /// ```
+    #[must_use]
+    pub fn with_mass(mut self, mass: LinkMass) -> Self {
+        self.mass = Some(mass);
         self
     }
 
@@ -190,6 +218,16 @@ impl LinkSpec {
         } else {
             end
         })
+    }
+
+    /// Shear ratios of a segment from its stiffness in the coordinates of its convention.
+    fn shear(&self, matrix: &Matrix6<f64>) -> [f64; 2] {
+        let h = self.piece();
+        match self.convention {
+            LinkConvention::Middle => shear_ratios(&moved(matrix, h), h),
+            LinkConvention::ConstantStrain => [0.0; 2],
+            _ => shear_ratios(matrix, h),
+        }
     }
 
     /// Smaller bending stiffness `EI` of the link, N m^2; zero where a matrix has none.
@@ -299,8 +337,15 @@ impl ChainBuilder {
             );
             return self;
         }
+        if let Some(fault) = spec.mass.and_then(|mass| mass.fault()) {
+            self.fault_of(Part::Link, name, fault);
+            return self;
+        }
         let bending_stiffness = spec.bending_stiffness();
         let h = spec.piece();
+        if spec.mass.is_some() {
+            self = self.node(&format!("{name}.near"));
+        }
         let law_of = |matrix: Matrix6<f64>| {
             let linear =
                 || SpringLaw::Linear(nalgebra::DMatrix::from_fn(6, 6, |i, j| matrix[(i, j)]));
@@ -319,8 +364,8 @@ impl ChainBuilder {
             }
         };
         for k in 1..=spec.segments {
-            let (law, share, rotations_first) = match of(k - 1) {
-                Ok(matrix) => law_of(matrix),
+            let (shear, (law, share, rotations_first)) = match of(k - 1) {
+                Ok(matrix) => (spec.shear(&matrix), law_of(matrix)),
                 Err(reason) => {
                     self.fault_of(Part::Link, name, reason.to_string());
                     return self;
@@ -347,6 +392,10 @@ impl ChainBuilder {
             });
             if share < 1.0 {
                 self = self.rigid(Pose::translation((1.0 - share) * h, 0.0, 0.0));
+            }
+            if let Some(mass) = &spec.mass {
+                self = self.node(&format!("{own}.far"));
+                self.last_spring_weighs(name, mass, h, shear);
             }
         }
         self
@@ -396,5 +445,32 @@ impl ChainBuilder {
             along: offset / length,
         });
         self
+    }
+
+    /// Gives the spring written last a mass along it, between the nodes at its ends.
+    fn last_spring_weighs(&mut self, link: &str, mass: &LinkMass, length: f64, shear: [f64; 2]) {
+        let far = self.chain.nodes.len() - 1;
+        let near = far - 1;
+        match mass.model {
+            MassModel::Consistent => self.chain.segment_masses.push(SegmentMass {
+                link: link.to_owned(),
+                spring: self.chain.springs.len() - 1,
+                near,
+                far,
+                length,
+                mass: *mass,
+                shear,
+            }),
+            MassModel::HalvesAtEnds => {
+                for node in [near, far] {
+                    self.chain.bodies.push(Body {
+                        name: link.to_owned(),
+                        node,
+                        mass: 0.5 * mass.per_length * length,
+                        inertia: Matrix3::zeros(),
+                    });
+                }
+            }
+        }
     }
 }

@@ -4,12 +4,25 @@ use nalgebra::Vector3;
 
 use crate::error::{ProgramError, ProgramErrorKind};
 use crate::path::curve::Curve;
-use crate::path::moves::{Knowledge, Path};
+use crate::path::moves::{Knowledge, Path, Warning};
 use crate::reading::block::Block;
 use crate::reading::interpreting::interpreter::Interpreter;
 use crate::text::program::Program;
 
 impl Interpreter<'_> {
+    /// The path of a part of a longer program, which states these axes anywhere. What is to be said of the whole is said
+    /// elsewhere.
+    pub(crate) fn finish_part(
+        mut self,
+        program: &Program,
+        stated: [bool; 3],
+    ) -> Result<Path, ProgramError> {
+        self.places.stated = stated;
+        let mut path = self.finish(program)?;
+        path.warnings.clear();
+        Ok(path)
+    }
+
     pub(crate) fn finish(mut self, program: &Program) -> Result<Path, ProgramError> {
         self.note_what_is_known(program)?;
         self.warn_of_unknown_beginning();
@@ -28,6 +41,7 @@ impl Interpreter<'_> {
             spindle_changes: self.spindle.finish(),
             pauses: self.pauses,
             events: self.events,
+            part: None,
         };
         self.tools.finish(&mut path, program, self.options)?;
         path.warnings.extend(path.rotary_findings());
@@ -49,7 +63,7 @@ impl Interpreter<'_> {
                 (false, false) => Knowledge::Nothing,
             };
             if motion.known != Knowledge::Whole && motion.curve != Curve::Line {
-                let block = Block::of(program, motion.line - 1)?;
+                let block = Block::on(program, motion.line)?;
                 return Err(block.refuse(
                     ProgramErrorKind::Ambiguous, None,
                     "the arc is made before the program has stated all axes it moves later",
@@ -72,12 +86,21 @@ impl Interpreter<'_> {
         let Some((first, _)) = unknown.next() else {
             return;
         };
-        let line = first.line;
-        let count = 1 + unknown.count();
-        let (blocks, carried) = match count {
-            1 => ("1 block moves".to_owned(), "it is"),
-            _ => (format!("{count} blocks move"), "they are"),
-        };
-        self.warn(line, &format!("{blocks} before the program has stated where the tool is; {carried} carried unchanged (a start position changes this: --start-position-mm, or start_position_mm under [reading] in the job file)"));
+        let found = unknown_beginning(first.line, 1 + unknown.count());
+        self.warnings.push(found);
+    }
+}
+
+/// So many blocks, the first of them on this line, come before the program states where the tool is.
+pub(crate) fn unknown_beginning(line: usize, count: usize) -> Warning {
+    let (blocks, carried) = match count {
+        1 => ("1 block moves".to_owned(), "it is"),
+        _ => (format!("{count} blocks move"), "they are"),
+    };
+    Warning {
+        line,
+        text: format!(
+            "{blocks} before the program has stated where the tool is; {carried} carried unchanged (a start position changes this: --start-position-mm, or start_position_mm under [reading] in the job file)"
+        ),
     }
 }

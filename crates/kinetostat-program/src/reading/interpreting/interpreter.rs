@@ -83,9 +83,25 @@ impl<'o> Interpreter<'o> {
             places: self.places.clone(),
             ended: self.ended,
             first_system: self.first_system,
+            no_feed_warned: self.no_feed_warned,
             spindle: self.spindle.following(),
             ..Self::new(self.options)
         }
+    }
+
+    /// The motions that were read since the last call, each with the axes that are known before and after it.
+    pub(crate) fn take_moves(&mut self) -> impl Iterator<Item = (Move, [[bool; 3]; 2])> + use<> {
+        self.events.clear();
+        self.pauses.clear();
+        let known = std::mem::take(&mut self.knowledge).into_iter();
+        let known = known.map(|(before, after, _)| [before, after]);
+        std::mem::take(&mut self.moves).into_iter().zip(known)
+    }
+
+    /// Puts a motion in the place of all that were taken.
+    pub(crate) fn put_move(&mut self, motion: Move) {
+        self.moves.push(motion);
+        self.knowledge.push(([true; 3], [true; 3], false));
     }
 
     /// The last motion that was read.

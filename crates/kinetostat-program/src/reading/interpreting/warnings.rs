@@ -15,7 +15,7 @@ impl Interpreter<'_> {
         let text = program.bytes()[program.content(&program.lines()[index])].trim_ascii_start();
         let comment = text.starts_with(b"(") || text.starts_with(b";");
         if !comment && text.iter().any(u8::is_ascii_alphanumeric) {
-            self.repeated.note(index + 1, "text follows the closing tape mark %: it is carried unchanged, and is taken to be for people");
+            self.repeated.note(program.number_of(index), "text follows the closing tape mark %: it is carried unchanged, and is taken to be for people");
         }
     }
 

@@ -21,14 +21,16 @@ impl ProgramStyle {
     pub fn of(program: &Program, path: &Path) -> Self {
         let names_motion = |motion: &Move| {
             program
-                .lines()
-                .get(motion.line - 1)
+                .line(motion.line)
                 .is_some_and(|line| motion_word(program.words(line)).is_some())
         };
         Self {
             stated: path.stated,
             tool_axis: path.tool_axis,
-            repeats_motion: path.moves.iter().all(names_motion),
+            repeats_motion: match program.part() {
+                Some(part) => part.repeats_motion,
+                None => path.moves.iter().all(names_motion),
+            },
         }
     }
 }

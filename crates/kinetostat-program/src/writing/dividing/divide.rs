@@ -125,8 +125,10 @@ fn answer(
             requests.push(queries.request(stretch.move_index, stretch.at(part)));
         }
         if stretch.course != Course::Cubic || stretch.fitted {
-            requests
-                .push(queries.request(stretch.move_index, stretch.at(stretch.irregular_part())));
+            requests.push(queries.request(
+                stretch.move_index,
+                stretch.at(stretch.irregular_part(queries.path)),
+            ));
         }
     }
     let mut answers = queries.evaluate(&requests)?.into_iter();
@@ -135,7 +137,7 @@ fn answer(
         let stretch = &mut open[i];
         stretch.quarters = Some([answer(), answer()]);
         if stretch.course != Course::Cubic || stretch.fitted {
-            stretch.irregular = Some((stretch.irregular_part(), answer()));
+            stretch.irregular = Some((stretch.irregular_part(queries.path), answer()));
         }
     }
     Ok(())

@@ -73,9 +73,10 @@ impl Stretch {
     }
 
     /// The part of the stretch that follows no pattern.
-    pub fn irregular_part(&self) -> f64 {
+    pub fn irregular_part(&self, path: &Path) -> f64 {
+        let number = path.moves_before() + self.move_index;
         // Not near the places that are evaluated anyway.
-        let place = irregular(SEED, self.move_index as u64, self.share[0].to_bits());
+        let place = irregular(SEED, number as u64, self.share[0].to_bits());
         0.25 * ((4.0 * place).floor() + 0.2 + 0.6 * (4.0 * place).fract())
     }
 

@@ -62,13 +62,7 @@ pub(crate) const IN_USE: Precision = Precision {
     torque: 1e-10,
     last: 1e-7,
     place: 1e-12,
-    ahead: 1.0,
-};
-
-/// Of one machine of many, which starts next to where it stands.
-pub(crate) const FORETOLD: Precision = Precision {
     ahead: 10.0,
-    ..IN_USE
 };
 
 /// Springs turn less than this, rad: see [`crate::batch::limb::outwards`].
@@ -80,7 +74,7 @@ pub(crate) struct LoadedLimb<S: Simd> {
     pub coordinates: Vec<Lanes<S>>,
     pub commands: Vec<Lanes<S>>,
     /// Passive joints of the unloaded limb.
-    unloaded: Vec<Lanes<S>>,
+    pub unloaded: Vec<Lanes<S>>,
     /// Torque on every coordinate.
     pub torque: Vec<Lanes<S>>,
     /// Of the platform on the limb's tip, about the tip, base axes.

@@ -11,6 +11,7 @@ use crate::batch::limb::reach::{Joints, Target};
 use crate::batch::limb::shape::Shape;
 use crate::batch::limb::unloaded::ForwardPass;
 use crate::batch::machine::corrector::AttachedLimb;
+use crate::batch::machine::trend::Trend;
 use crate::batch::numbers::lanes::Lanes;
 use crate::batch::numbers::symmetric::Symmetric;
 use crate::batch::numbers::vectors::{Mat3, Vec3, identity};
@@ -56,6 +57,10 @@ pub(crate) struct Machine<S: Simd> {
     pub target: Target<S>,
     /// One in the lanes whose last posture was found.
     pub found: Lanes<S>,
+    /// The wrench on the tool of the posture at hand.
+    pub load: [Lanes<S>; 6],
+    /// How the machine went on to its last posture of a path.
+    pub trend: Trend<S>,
     /// Where the tool is.
     pub rotation: Mat3<S>,
     pub point: Vec3<S>,
@@ -98,6 +103,8 @@ impl<S: Simd> Machine<S> {
             place: nowhere,
             target: nowhere,
             found: zero,
+            load: [zero; 6],
+            trend: Trend::new(simd),
             rotation: identity(simd),
             point: [Lanes::new(simd, 0.0); 3],
             forces: vec![Lanes::new(simd, 0.0); actual.iter().map(|a| a.commands).sum()],

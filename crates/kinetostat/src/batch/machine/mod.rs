@@ -9,9 +9,11 @@
 pub(crate) mod compensate;
 pub(crate) mod converge;
 pub(crate) mod corrector;
+pub(crate) mod extrapolated;
 pub(crate) mod group;
 pub(crate) mod kept;
 pub(crate) mod loaded;
 pub(crate) mod platform;
 pub(crate) mod stability;
 pub(crate) mod start;
+pub(crate) mod trend;

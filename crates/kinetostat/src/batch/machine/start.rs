@@ -48,6 +48,7 @@ impl<S: Simd> Machine<S> {
         let one = Lanes::new(simd, 1.0);
         (self.place, self.target) = (place, place);
         (self.rotation, self.point) = (place.rotation, place.point);
+        self.trend.forget(simd);
         for (joints, plan) in self.joints.iter_mut().zip(self.nominal.iter()) {
             joints.home(simd, plan, one);
         }
@@ -164,11 +165,18 @@ impl<S: Simd> Machine<S> {
     }
 
     /// The machine commanded to the next place of a path: it goes there as it is bent, with the correction that it has in
-    /// these directions. Lanes whose posture was not found start from home. One in the lanes that can go on.
+    /// these directions, and as far as it changed on the way to where it is. Lanes whose posture was not found start from home. One in the lanes
+    /// that can go on.
     #[inline(always)]
-    pub fn go_on(&mut self, simd: S, place: Target<S>, directions: Option<Directions>) -> Lanes<S> {
+    pub fn go_on(
+        &mut self,
+        simd: S,
+        (place, wrench): (Target<S>, &[Lanes<S>; 6]),
+        directions: Option<Directions>,
+    ) -> Lanes<S> {
         let (zero, one) = (Lanes::new(simd, 0.0), Lanes::new(simd, 1.0));
         let lost = (zero + REGULAR).where_less(self.found, zero, one);
+        let share = self.look_back(simd, (&place, wrench), lost);
         let shift = minus(&place.point, &self.place.point);
         let turn = product_transposed(&place.rotation, &self.place.rotation);
         let rotation = product(&turn, &self.rotation);
@@ -191,6 +199,7 @@ impl<S: Simd> Machine<S> {
             self.target.rotation[k] = select(lost, place.rotation[k], along);
         }
         self.place = place;
+        self.joints_go_on(share, corrected);
         for (joints, plan) in self.joints.iter_mut().zip(self.nominal.iter()) {
             joints.home(simd, plan, lost);
         }
@@ -202,6 +211,7 @@ impl<S: Simd> Machine<S> {
             limb.forget(plan, lost);
         }
         self.limbs_follow();
+        self.limbs_go_on(share);
         good.least_of(self.update_compliance(simd, lost))
     }
 

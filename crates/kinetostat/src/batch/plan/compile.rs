@@ -26,6 +26,9 @@ impl Plan {
         if passive.len() > 6 {
             return Err(NoKernel::PassiveJoints(chain.name().to_owned()));
         }
+        if !chain.segment_masses().is_empty() {
+            return Err(NoKernel::LinksWithMass(chain.name().to_owned()));
+        }
         let mut writer = Writer {
             chain,
             passive: &passive,

@@ -61,7 +61,7 @@ pub fn check_tangents(
         all
     };
     let mut tangents = Vec::new();
-    load.add_tangents(&kinematics, 1.0, &mut tangents);
+    load.add_tangents(chain, &kinematics, 1.0, &mut tangents);
     // Also of what cancels within a body.
     let mut list = Vec::new();
     load.add_wrenches(chain, &kinematics, 1.0, &mut list);

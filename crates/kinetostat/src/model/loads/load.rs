@@ -314,10 +314,17 @@ impl Load {
     ) {
         match self {
             Self::Dead { node, wrench } => out.push((*node, *wrench * factor)),
-            Self::Gravity(gravity) => out.extend(chain.bodies().iter().map(|body| {
-                let weight = Wrench::new(gravity * (body.mass * factor), Vector3::zeros());
-                (body.node, weight)
-            })),
+            Self::Gravity(gravity) => {
+                out.extend(chain.bodies().iter().map(|body| {
+                    let weight = Wrench::new(gravity * (body.mass * factor), Vector3::zeros());
+                    (body.node, weight)
+                }));
+                for segment in chain.segment_masses() {
+                    let weight = segment.weight(kinematics, gravity);
+                    out.push((segment.near, weight.near * factor));
+                    out.push((segment.far, weight.far * factor));
+                }
+            }
             Self::Custom(load) => {
                 let first = out.len();
                 load.wrenches(kinematics, out);
@@ -331,15 +338,25 @@ impl Load {
     /// Appends the tangents, multiplied by `factor`.
     pub(crate) fn add_tangents(
         &self,
+        chain: &Chain,
         kinematics: &Kinematics,
         factor: f64,
         out: &mut Vec<NodeTangent>,
     ) {
-        if let Self::Custom(load) = self {
-            let first = out.len();
-            load.tangents(kinematics, out);
-            for tangent in &mut out[first..] {
-                tangent.matrix *= factor;
+        match self {
+            Self::Dead { .. } => {}
+            Self::Gravity(gravity) => {
+                for segment in chain.segment_masses() {
+                    let weight = segment.weight(kinematics, gravity);
+                    out.extend(weight.tangents(segment, factor));
+                }
+            }
+            Self::Custom(load) => {
+                let first = out.len();
+                load.tangents(kinematics, out);
+                for tangent in &mut out[first..] {
+                    tangent.matrix *= factor;
+                }
             }
         }
     }

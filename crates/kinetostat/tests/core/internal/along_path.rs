@@ -191,3 +191,59 @@ fn the_thread_that_solves_a_path_does_not_matter() {
         assert!(here.tool.row(i).eq(elsewhere.tool.row(i)), "{i}");
     }
 }
+
+/// Along a smooth path, around its corner, and where the load comes, goes and turns while the tool stands: what is said of places that were not looked
+/// at is what is found there.
+#[test]
+fn stability_between_places_is_as_where_it_is_looked_at() {
+    for machine in [sliders(), gantry()] {
+        let home = machine.platforms()[machine.tool()].home;
+        let along = AlongPath::new(&machine);
+        let (smooth, turning) = path(&home, 64);
+        let finely: Vec<Pose> = (0..64_u32)
+            .map(|i| Pose::translation(1e-4 * f64::from(i), -2e-5 * f64::from(i), 0.0) * home)
+            .collect();
+        let load = |i: usize, most: f64| {
+            let share = match i {
+                0..20 => 1.0,
+                20..30 => 0.1 * (30 - i) as f64,
+                30..40 => 0.0,
+                _ => -1.0,
+            };
+            Wrench::new(
+                Vector3::new(most * share, 0.3 * most, -40.0),
+                Vector3::zeros(),
+            )
+        };
+        let of = |most: f64| (0..64).map(|i| load(i, most)).collect::<Vec<_>>();
+        let still = vec![home; 64];
+        for (poses, wrenches) in [
+            (&smooth, &turning),
+            (&finely, &turning),
+            (&finely, &of(200.0)),
+            (&still, &of(500.0)),
+            (&finely, &vec![load(0, 300.0); 64]),
+        ] {
+            let found = along.with_stability(poses, wrenches).expect("a path");
+            let all = Batch::new(&machine);
+            let all = all
+                .equilibrium(poses, wrenches, Details::Stability)
+                .expect("sizes");
+            for i in 0..64 {
+                let (x, y) = (
+                    found.stability(i).expect("told"),
+                    all.stability(i).expect("found"),
+                );
+                assert_eq!(x.stable, y.stable);
+                let shares = (x.share_to_buckling, y.share_to_buckling);
+                let off = (x.stiffness_against_force / y.stiffness_against_force - 1.0).abs();
+                assert!(off < 2e-4, "{}, {i}: {off:e}", machine.name());
+                assert_eq!(shares.0.is_some(), shares.1.is_some());
+                if let (Some(x), Some(y)) = shares {
+                    let off = (x - y).abs() / y.abs().max(0.01);
+                    assert!(off < 2e-4, "{}, {i}: {x} for {y}", machine.name());
+                }
+            }
+        }
+    }
+}

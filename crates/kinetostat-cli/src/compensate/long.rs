@@ -1,0 +1,79 @@
+//! A long program, compensated in parts.
+
+use std::path::Path;
+
+use crate::compensate::arguments::CompensateArgs;
+use crate::files::input_files::InputFiles;
+use crate::files::outputs::{self, Existing};
+use crate::job::arguments::WritingFlags;
+use crate::job::job_file::JobFile;
+use crate::job::machine::machine_setup;
+use crate::job::of_model::give_of_model;
+use crate::job::run_warnings;
+use crate::job::setting::{program_path, setting};
+use crate::long::run::{LongRun, survey};
+use crate::long::which::{only_as_a_whole, with_first_lines};
+use crate::program::aim::Aim;
+use crate::program::outputs::RunOutputs;
+use crate::program::{report, summary};
+use crate::ui::failure::Answer;
+
+/// Compensates a program that is long and can be run in parts; whether it is.
+pub(crate) fn compensate(
+    files: &InputFiles,
+    job: Option<&JobFile>,
+    (args, writing): (&CompensateArgs, &WritingFlags<'_>),
+) -> Answer<bool> {
+    let flags = &args.run.program;
+    let path = program_path(job, flags)?;
+    let first = with_first_lines(files, &path, flags);
+    let Some(files) = &first else {
+        return Ok(false);
+    };
+    // What is wrong, or another language, is said of the whole.
+    let Ok(mut setting) = setting(files, job, flags, writing) else {
+        return Ok(false);
+    };
+    let model_named = args.run.model.as_deref();
+    if setting.robot.is_some() || setting.flat.is_some() {
+        return Ok(false);
+    }
+    give_of_model(&mut setting, files, (job, model_named), flags)?;
+    let with = (None, &mut setting.inputs);
+    let (machine, model) = machine_setup(files, job, model_named, flags, with)?;
+    setting.turned_by(machine.rotary.clone());
+    if only_as_a_whole(&setting, &machine, flags).is_some() {
+        return Ok(false);
+    }
+    let existing = Existing::forced(flags.force_overwrite);
+    let targets = setting.targets.clone();
+    let mut outputs = RunOutputs::claim(Aim::Compensate, &targets, existing, &setting.inputs)?;
+    outputs.list(flags.all_points, &model);
+    let to_screen = args.run.json.as_deref() == Some(Path::new("-"));
+    let found = survey(&mut setting, Aim::Compensate)?;
+    let run = LongRun {
+        aim: Aim::Compensate,
+        machine: &machine,
+        model: &model,
+        setting: &setting,
+        survey: &found,
+        flags,
+        targets: &targets,
+    };
+    let (mut run, done) = run.run(&mut outputs)?;
+    run.result
+        .warnings
+        .extend(run_warnings::of_run(&model, job));
+    done.fill(&mut outputs)?;
+    outputs.fill_result(&run, &setting)?;
+    let paths = outputs.files.commit()?;
+    done.remove();
+    let text = format!(
+        "{}{}",
+        summary::of_run(&run.result),
+        outputs::written(&paths)
+    );
+    report::print_run(&text, to_screen.then_some(&run.result))?;
+    report::refuse_missed_tolerance(&run.result.tolerance, &setting)?;
+    Ok(true)
+}

@@ -1,0 +1,111 @@
+//! `kinetostat frf`: how the tool's tip answers to a harmonic force on it, over the frequency.
+//!
+//! It takes a model, a place, a load and damping, and gives entries of the 6 x 6 receptance (or mobility, accelerance).
+
+mod answer;
+pub(crate) mod arguments;
+mod measured;
+mod text;
+
+use kinetostat_dynamics::{Damping, Quantity};
+use kinetostat_machining::{Warning, WarningCode};
+
+use crate::files::answer_files::{ClaimedFiles, Shown};
+use crate::files::input_files::InputFiles;
+use crate::frf::answer::{FrfAnswer, curves};
+use crate::frf::arguments::{FrfArgs, QuantityWord};
+use crate::ui::failure::{Answer, Failure};
+use crate::vibration::damping::words;
+use crate::vibration::subject;
+
+/// Most frequencies of a response.
+const MOST: f64 = 200_000.0;
+
+pub(crate) fn run(args: &FrfArgs) -> Answer<()> {
+    let frequencies = frequencies(&args.frequencies)?;
+    let entries = args.entries();
+    if args.outputs.plot.is_some() && !entries.iter().any(|(to, from)| *to < 3 && *from < 3) {
+        return Err(Failure::input(
+            "--plot draws motions along axes by forces along axes; there is none among --to and --from",
+        ));
+    }
+    let query = subject::query(&args.machine)?;
+    let damping = args.damping.law()?;
+    let held = subject::held(args.hold.as_deref())?;
+    let mut inputs = query.inputs.clone();
+    inputs.extend(args.measured.clone());
+    let files = ClaimedFiles::claim(&args.outputs, &inputs)?;
+    let measured = match &args.measured {
+        Some(path) => measured::read(&InputFiles::default(), path)?,
+        None => Vec::new(),
+    };
+    let posture = query.posture()?;
+    let machine = subject::machine(&query, &posture, &held)?;
+    let response = machine
+        .tool_response(&damping, args.modes.unwrap_or(usize::MAX))
+        .map_err(subject::refused)?;
+    let quantity = match args.quantity {
+        QuantityWord::Receptance => Quantity::Displacement,
+        QuantityWord::Mobility => Quantity::Velocity,
+        QuantityWord::Accelerance => Quantity::Acceleration,
+    };
+    let mut warnings = query.warnings.clone();
+    warnings.extend(subject::limits(&machine, &posture));
+    if damping == Damping::Undamped {
+        warnings.push(Warning::new(
+            WarningCode::Model,
+            "without damping (--damping 0.03, for one) resonances have no height: peaks are as high as a frequency happens to lie near".to_owned(),
+        ));
+    }
+    let answer = FrfAnswer {
+        schema: 1,
+        kinetostat_version: env!("CARGO_PKG_VERSION"),
+        model: query.name.clone(),
+        model_source: query.source.clone(),
+        tool: query.tool_words.clone(),
+        place: query.answer(),
+        force_n: query.wrench.force().into(),
+        moment_n_m: query.wrench.moment().into(),
+        hold: args.hold.clone(),
+        damping: words(&damping),
+        quantity: args.quantity.word(),
+        natural_frequencies_hz: machine.modes.frequencies_hz(),
+        frequencies_hz: frequencies.clone(),
+        curves: curves(
+            &entries,
+            args.quantity,
+            &frequencies,
+            &response.over(&frequencies, quantity),
+        ),
+        measured: measured.iter().map(|m| m.name.clone()).collect(),
+        warnings,
+    };
+    let receptance = response.over(&frequencies, Quantity::Displacement);
+    let shown = Shown {
+        text: text::answer_text(&query, &answer),
+        csv: text::table(&answer)?,
+        svg: text::drawn(&answer, &entries, &receptance, &measured),
+        failure: None,
+    };
+    files.finish(&shown, &answer)
+}
+
+/// Evenly spaced frequencies, Hz.
+fn frequencies(of: &[f64]) -> Answer<Vec<f64>> {
+    let &[low, high, count] = of else {
+        return Err(Failure::input("--frequencies needs LO HI N"));
+    };
+    if !(low > 0.0 && high > low && high.is_finite()) {
+        return Err(Failure::input(format!(
+            "--frequencies {low} {high}: frequencies in Hz are needed, the first above 0 and the second above the first"
+        )));
+    }
+    if !(2.0..=MOST).contains(&count) || count.fract() != 0.0 {
+        return Err(Failure::input(format!(
+            "--frequencies: N is {count}; a whole number from 2 to {MOST} is needed"
+        )));
+    }
+    let count = count as usize;
+    let step = (high - low) / (count - 1) as f64;
+    Ok((0..count).map(|i| low + step * i as f64).collect())
+}

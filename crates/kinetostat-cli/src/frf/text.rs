@@ -1,0 +1,132 @@
+//! The answer of `frf` for a person, as a table and as a drawing.
+
+use kinetostat_chatter::MeasuredResponse;
+use kinetostat_dynamics::Receptance;
+use kinetostat_report::{ReceptanceCurve, receptance_svg};
+
+use crate::frf::answer::FrfAnswer;
+use crate::frf::arguments::AXES;
+use crate::place::query::PlaceQuery;
+use crate::ui::csv_table::{cell, written};
+use crate::ui::failure::Answer;
+use crate::ui::layout::{columns, wrapped};
+use crate::ui::numbers::{load_triple, number};
+use crate::ui::warnings;
+
+pub(crate) fn answer_text(query: &PlaceQuery, a: &FrfAnswer) -> String {
+    let mut out = query.heading();
+    let (low, high) = (
+        a.frequencies_hz[0],
+        a.frequencies_hz[a.frequencies_hz.len() - 1],
+    );
+    out.push_str(&wrapped(
+        &format!(
+            "Frequency response of the tool's tip ({}), {} frequencies from {} to {} Hz, about the equilibrium under the force {} N and the moment {} N m; damping: {}.",
+            a.quantity,
+            a.frequencies_hz.len(),
+            number(low, 5),
+            number(high, 5),
+            load_triple(a.force_n),
+            load_triple(a.moment_n_m),
+            a.damping
+        ),
+        0,
+    ));
+    out.push('\n');
+    let mut rows = vec![
+        [
+            "motion",
+            "by",
+            "largest",
+            "unit",
+            "at Hz",
+            "in dB",
+            "at the lowest frequency",
+        ]
+        .map(str::to_owned)
+        .to_vec(),
+    ];
+    for c in &a.curves {
+        rows.push(vec![
+            c.to.to_owned(),
+            c.from.to_owned(),
+            number(c.peak, 4),
+            c.unit.clone(),
+            number(c.peak_hz, 5),
+            number(20.0 * c.peak.log10(), 4),
+            number(c.real[0].hypot(c.imaginary[0]), 4),
+        ]);
+    }
+    out.push_str(&columns(&rows, 0));
+    out.push_str(&wrapped(
+        "dB: 20 log10 of the magnitude by 1 of its unit.",
+        0,
+    ));
+    let list: Vec<String> = (a.natural_frequencies_hz.iter())
+        .filter(|f| **f <= high)
+        .map(|f| number(*f, 5))
+        .collect();
+    out.push_str(&wrapped(
+        &format!("Natural frequencies up to there, Hz: {}", list.join(", ")),
+        0,
+    ));
+    out.push_str(&warnings::warnings(&a.warnings));
+    out
+}
+
+/// One row for each frequency; real part, imaginary part, magnitude and phase of each entry.
+pub(crate) fn table(a: &FrfAnswer) -> Answer<Vec<u8>> {
+    let mut head = vec!["frequency_hz".to_owned()];
+    for c in &a.curves {
+        let unit = c
+            .unit
+            .replace("(N m)", "n_m")
+            .replace('N', "n")
+            .replace("^2", "2")
+            .replace('/', "_per_");
+        let name = format!("{}_by_{}", c.to, c.from);
+        head.extend(["real", "imaginary", "magnitude"].map(|p| format!("{name}_{p}_{unit}")));
+        head.push(format!("{name}_phase_deg"));
+    }
+    let mut rows = vec![head];
+    for (i, f) in a.frequencies_hz.iter().enumerate() {
+        let mut row = vec![cell(*f)];
+        for c in &a.curves {
+            let (re, im) = (c.real[i], c.imaginary[i]);
+            row.extend([re, im, re.hypot(im), im.atan2(re).to_degrees()].map(cell));
+        }
+        rows.push(row);
+    }
+    written(&rows)
+}
+
+/// Receptances of forces along axes, and what was measured, dashed.
+pub(crate) fn drawn(
+    a: &FrfAnswer,
+    entries: &[(usize, usize)],
+    receptance: &[Receptance],
+    measured: &[MeasuredResponse],
+) -> String {
+    let own = entries.iter().filter(|(to, from)| *to < 3 && *from < 3);
+    let mut curves: Vec<ReceptanceCurve> = own
+        .map(|&(to, from)| ReceptanceCurve {
+            name: format!("{} by force along {}", AXES[to], AXES[from]),
+            dashed: false,
+            frequencies_hz: a.frequencies_hz.clone(),
+            receptance: receptance.iter().map(|m| m[(to, from)]).collect(),
+        })
+        .collect();
+    for response in measured {
+        let (frequencies_hz, values) = response.receptance().into_iter().unzip();
+        curves.push(ReceptanceCurve {
+            name: format!("measured: {}", response.name),
+            dashed: true,
+            frequencies_hz,
+            receptance: values,
+        });
+    }
+    receptance_svg(
+        &curves,
+        &format!("{}: receptance of the tool's tip", a.model),
+    )
+}

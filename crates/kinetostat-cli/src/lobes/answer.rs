@@ -1,0 +1,86 @@
+//! The answer of `lobes`, stable names with units.
+
+use kinetostat_chatter::{Instability, LobeDiagram};
+use kinetostat_machining::Warning;
+use serde::Serialize;
+
+use crate::place::query::PlaceAnswer;
+
+#[derive(Serialize)]
+pub(crate) struct LobesAnswer {
+    pub(crate) schema: u32,
+    pub(crate) kinetostat_version: &'static str,
+    pub(crate) model: String,
+    pub(crate) model_source: String,
+    pub(crate) tool: String,
+    pub(crate) place: PlaceAnswer,
+    pub(crate) force_n: [f64; 3],
+    pub(crate) moment_n_m: [f64; 3],
+    /// In words.
+    pub(crate) damping: String,
+    /// Base axes, across the tool axis.
+    pub(crate) feed_direction: [f64; 3],
+    /// From the tip towards the spindle, base axes.
+    pub(crate) tool_axis: [f64; 3],
+    pub(crate) teeth: usize,
+    /// Width of cut by diameter.
+    pub(crate) immersion: f64,
+    pub(crate) milled: &'static str,
+    /// Tangential, radial, axial.
+    pub(crate) coefficients_n_per_mm2: Vec<f64>,
+    /// Modes that vibrate; those above count by their flexibility at rest.
+    pub(crate) modes_hz: Vec<f64>,
+    /// Largest depth that was looked at.
+    pub(crate) depth_limit_mm: f64,
+    pub(crate) best: Option<Best>,
+    pub(crate) points: Vec<Point>,
+    pub(crate) warnings: Vec<Warning>,
+}
+
+/// The speed with the largest limit.
+#[derive(Serialize)]
+pub(crate) struct Best {
+    pub(crate) speed_rpm: f64,
+    pub(crate) depth_mm: f64,
+}
+
+impl From<(f64, f64)> for Best {
+    fn from((speed_rpm, depth): (f64, f64)) -> Self {
+        Self {
+            speed_rpm,
+            depth_mm: 1e3 * depth,
+        }
+    }
+}
+
+/// Limits at one speed.
+#[derive(Serialize)]
+pub(crate) struct Point {
+    pub(crate) speed_rpm: f64,
+    /// Exact; null: stable up to the largest depth.
+    pub(crate) limit_mm: Option<f64>,
+    /// `flip` or `hopf`.
+    pub(crate) kind: Option<Instability>,
+    pub(crate) chatter_hz: Option<f64>,
+    /// All stretches of depth that are stable; those above the first are islands.
+    pub(crate) stable_mm: Vec<(f64, f64)>,
+    /// Zeroth order, no bound.
+    pub(crate) zeroth_order_mm: Option<f64>,
+}
+
+pub(crate) fn points(diagram: &LobeDiagram) -> Vec<Point> {
+    let one = |point: &kinetostat_chatter::LobePoint| {
+        let limit = point.exact.limit();
+        Point {
+            speed_rpm: point.exact.speed_rpm,
+            limit_mm: limit.map(|c| 1e3 * c.depth),
+            kind: limit.map(|c| c.kind),
+            chatter_hz: limit.map(|c| c.frequency_hz),
+            stable_mm: (point.exact.stable().into_iter())
+                .map(|(low, high)| (1e3 * low, 1e3 * high))
+                .collect(),
+            zeroth_order_mm: point.zeroth_order.map(|z| 1e3 * z.depth),
+        }
+    };
+    diagram.points.iter().map(one).collect()
+}

@@ -1,0 +1,161 @@
+//! `kinetostat lobes`: at which spindle speed and depth a milling cut of a machine chatters at a place.
+//!
+//! It takes a model, a place, a load, damping, a tool and a cut, and gives exact limits over the spindle speed, with those
+//! of zeroth order beside them under their own name.
+
+mod answer;
+pub(crate) mod arguments;
+mod text;
+
+use kinetostat::Pose;
+use kinetostat_analysis::vibration::{MachineCut, MachineCutError};
+use kinetostat_chatter::{Arc, Coefficients, FeedFrame, LobeRequest, Milled, MillingCut};
+use kinetostat_dynamics::{Damping, Held};
+use kinetostat_report::lobes_svg;
+use nalgebra::Vector3;
+
+use crate::files::answer_files::{ClaimedFiles, Shown};
+use crate::lobes::answer::LobesAnswer;
+use crate::lobes::arguments::LobesArgs;
+use crate::options::vector;
+use crate::ui::failure::{Answer, Failure};
+use crate::vibration::{damping::words, subject};
+
+pub(crate) fn run(args: &LobesArgs) -> Answer<()> {
+    let damping = args.damping.law()?;
+    if damping == Damping::Undamped {
+        return Err(Failure::input(
+            "lobes need damping: without it the smallest cut chatters at every speed. Give measured ratios, or for a first look --damping 0.03",
+        ));
+    }
+    let cut = cut(args)?;
+    let request = request(args)?;
+    let query = subject::query(&args.machine)?;
+    let files = ClaimedFiles::claim(&args.outputs, &query.inputs)?;
+    let frame = frame(args, &query.target)?;
+    let posture = query.posture()?;
+    let machine = subject::machine(&query, &posture, &Held::nothing())?;
+    let regeneration = MachineCut {
+        machine: &machine,
+        damping: &damping,
+        frame,
+        cut,
+        modes_up_to_hz: args.modes_up_to_hz,
+    }
+    .regeneration()
+    .map_err(refused)?;
+    let modes_hz: Vec<f64> = (regeneration.response().modes().iter())
+        .map(kinetostat_chatter::Mode::frequency_hz)
+        .collect();
+    let diagram = regeneration
+        .lobes(&request)
+        .map_err(|e| Failure::unanswered(format!("lobes: {e}")))?;
+    let mut warnings = query.warnings.clone();
+    warnings.extend(subject::limits(&machine, &posture));
+    let axis = |k: usize| frame.rotation().column(k).into_owned();
+    let answer = LobesAnswer {
+        schema: 1,
+        kinetostat_version: env!("CARGO_PKG_VERSION"),
+        model: query.name.clone(),
+        model_source: query.source.clone(),
+        tool: query.tool_words.clone(),
+        place: query.answer(),
+        force_n: query.wrench.force().into(),
+        moment_n_m: query.wrench.moment().into(),
+        damping: words(&damping),
+        feed_direction: axis(0).into(),
+        tool_axis: axis(2).into(),
+        teeth: args.teeth,
+        immersion: args.immersion,
+        milled: if args.up { "up" } else { "down" },
+        coefficients_n_per_mm2: args.coefficients_n_per_mm2.clone(),
+        modes_hz,
+        depth_limit_mm: args.depth_mm,
+        best: diagram.best().map(Into::into),
+        points: answer::points(&diagram),
+        warnings,
+    };
+    let title = format!("{}: depth of cut at which the tool chatters", query.name);
+    let shown = Shown {
+        text: text::answer_text(&query, &answer),
+        csv: text::table(&answer)?,
+        svg: lobes_svg(&diagram, &title),
+        failure: None,
+    };
+    files.finish(&shown, &answer)
+}
+
+fn cut(args: &LobesArgs) -> Answer<MillingCut> {
+    let &[tangential, radial, axial] = args.coefficients_n_per_mm2.as_slice() else {
+        return Err(Failure::input("--coefficients-n-per-mm2 needs KT KR KA"));
+    };
+    if tangential > 50.0 && radial != 0.0 && radial.abs() < 5.0 {
+        return Err(Failure::input(format!(
+            "--coefficients-n-per-mm2: KR is {radial} beside KT {tangential}; it looks like a ratio. In N/mm^2 it is {}",
+            radial * tangential
+        )));
+    }
+    let milled = match args.up && !args.climb {
+        true => Milled::Up,
+        false => Milled::Down,
+    };
+    let arc = Arc::straight(milled, args.immersion).map_err(Failure::input)?;
+    let coefficients =
+        Coefficients::new(1e6 * tangential, 1e6 * radial, 1e6 * axial).map_err(Failure::input)?;
+    let cut = MillingCut::new(args.teeth, arc, coefficients).map_err(Failure::input)?;
+    match (args.helix_deg, args.diameter_mm) {
+        (None, _) => Ok(cut),
+        (Some(_), None) => Err(Failure::input(
+            "--helix-deg needs --diameter-mm: the edge lags behind its tip by both",
+        )),
+        (Some(helix), Some(diameter)) => cut
+            .with_helix(helix.to_radians(), 1e-3 * diameter)
+            .map_err(Failure::input),
+    }
+}
+
+fn request(args: &LobesArgs) -> Answer<LobeRequest> {
+    let &[low, high, count] = args.rpm.as_slice() else {
+        return Err(Failure::input("--rpm needs LO HI N"));
+    };
+    if !(2.0..=20_000.0).contains(&count) || count.fract() != 0.0 {
+        return Err(Failure::input(format!(
+            "--rpm: N is {count}; a whole number from 2 to 20000 is needed"
+        )));
+    }
+    if !(low > 0.0 && high > low && high.is_finite()) {
+        return Err(Failure::input(format!(
+            "--rpm {low} {high}: spindle speeds above 0 are needed, the second above the first"
+        )));
+    }
+    if !(args.depth_mm > 0.0 && args.depth_mm <= 1e3) {
+        return Err(Failure::input(format!(
+            "--depth-mm is {}; a depth above 0 and of at most 1000 mm is needed",
+            args.depth_mm
+        )));
+    }
+    Ok(LobeRequest::new(
+        low,
+        high,
+        count as usize,
+        1e-3 * args.depth_mm,
+    ))
+}
+
+/// Feed, and the tool's axis: z of the tool's tip points out of the spindle.
+fn frame(args: &LobesArgs, target: &Pose) -> Answer<FeedFrame> {
+    let axis = match &args.tool_axis {
+        Some(axis) => vector("--tool-axis", axis)?,
+        None => target.rotation * -Vector3::z(),
+    };
+    let feed = vector("--feed-direction", &args.feed_direction)?;
+    FeedFrame::new(feed, axis).map_err(Failure::input)
+}
+
+fn refused(error: MachineCutError) -> Failure {
+    match error {
+        MachineCutError::Machine(error) => subject::refused(error),
+        MachineCutError::Cut(error) => Failure::input(error),
+        _ => Failure::unanswered(error),
+    }
+}

@@ -1,0 +1,122 @@
+//! The answer of `lobes` for a person, and as a table.
+
+use kinetostat_chatter::Instability;
+
+use crate::lobes::answer::{LobesAnswer, Point};
+use crate::place::query::PlaceQuery;
+use crate::ui::csv_table::{cell, written};
+use crate::ui::failure::Answer;
+use crate::ui::layout::{columns, wrapped};
+use crate::ui::numbers::{number, short, triple};
+use crate::ui::warnings;
+
+/// Most speeds that are shown to a person; JSON, table and drawing have all.
+const SHOWN: usize = 25;
+
+pub(crate) fn answer_text(query: &PlaceQuery, a: &LobesAnswer) -> String {
+    let mut out = query.heading();
+    out.push_str(&wrapped(
+        &format!(
+            "{}-milling, {} teeth, immersion {}, feed along {}, tool axis {}, {} N/mm^2; damping: {}; {} modes up to {} Hz.",
+            a.milled,
+            a.teeth,
+            a.immersion,
+            triple(a.feed_direction, |x| number(x, 3)),
+            triple(a.tool_axis, |x| number(x, 3)),
+            a.coefficients_n_per_mm2
+                .iter()
+                .map(|x| short(*x))
+                .collect::<Vec<_>>()
+                .join(" "),
+            a.damping,
+            a.modes_hz.len(),
+            number(a.modes_hz.last().copied().unwrap_or(f64::NAN), 4)
+        ),
+        0,
+    ));
+    out.push('\n');
+    let mut rows = vec![
+        [
+            "rpm",
+            "stable to, mm",
+            "then",
+            "chatter, Hz",
+            "zeroth order, mm",
+        ]
+        .map(str::to_owned)
+        .to_vec(),
+    ];
+    let every = a.points.len().div_ceil(SHOWN);
+    for p in a.points.iter().step_by(every) {
+        rows.push(vec![
+            number(p.speed_rpm, 5),
+            p.limit_mm.map_or_else(
+                || format!("all {}", short(a.depth_limit_mm)),
+                |x| number(x, 4),
+            ),
+            word(p).to_owned(),
+            p.chatter_hz.map_or_else(String::new, |x| number(x, 4)),
+            p.zeroth_order_mm.map_or_else(String::new, |x| number(x, 4)),
+        ]);
+    }
+    out.push_str(&columns(&rows, 0));
+    if every > 1 {
+        out.push_str(&wrapped(
+            &format!("Every {every}th speed is shown; files have all."),
+            0,
+        ));
+    }
+    if let Some(best) = &a.best {
+        out.push_str(&wrapped(
+            &format!(
+                "Deepest stable cut of these speeds: {} mm at {} rpm.",
+                number(best.depth_mm, 4),
+                number(best.speed_rpm, 5)
+            ),
+            0,
+        ));
+    }
+    out.push_str(&wrapped(
+        "The limits are as true as masses, stiffness and damping of the model; modes of spindle and tool are in them only if the model has them. The limit of zeroth order is no bound.",
+        0,
+    ));
+    out.push_str(&warnings::warnings(&a.warnings));
+    out
+}
+
+fn word(p: &Point) -> &'static str {
+    match p.kind {
+        None => "",
+        Some(Instability::Flip) => "flip",
+        Some(_) => "Hopf",
+    }
+}
+
+/// One row for each speed.
+pub(crate) fn table(a: &LobesAnswer) -> Answer<Vec<u8>> {
+    let head = [
+        "speed_rpm",
+        "limit_mm",
+        "kind",
+        "chatter_hz",
+        "stable_mm",
+        "zeroth_order_mm",
+    ];
+    let mut rows = vec![head.map(str::to_owned).to_vec()];
+    let some = |x: Option<f64>| x.map_or_else(String::new, cell);
+    for p in &a.points {
+        let stretches = p
+            .stable_mm
+            .iter()
+            .map(|(low, high)| format!("{low}-{high}"));
+        rows.push(vec![
+            cell(p.speed_rpm),
+            some(p.limit_mm),
+            word(p).to_lowercase(),
+            some(p.chatter_hz),
+            stretches.collect::<Vec<_>>().join(" "),
+            some(p.zeroth_order_mm),
+        ]);
+    }
+    written(&rows)
+}

@@ -1,0 +1,201 @@
+//! What is kept of a run that takes long: enough to go on, never half of anything.
+//!
+//! A folder beside the outputs holds a manifest (of what the run is), a state (what is done, with a check number), the state
+//! before that, and the outputs as far as they are. A state is written beside the old one and renamed; outputs are synced before,
+//! and cut back to its lengths when the run goes on. With the outputs in place the folder goes.
+
+use std::fs;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use kinetostat_machining::{MergedRun, OfWhole};
+use kinetostat_program::WriterState;
+use serde::de::DeserializeOwned;
+use serde::{Deserialize, Serialize};
+
+use crate::files::hash::{FNV1A, fnv1a};
+use crate::files::journal::Contents;
+use crate::ui::failure::{Answer, Failure};
+use crate::ui::system_error::description;
+
+/// What a run is, field by field with its value in words: another value is another run.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub(crate) struct Manifest(pub(crate) Vec<(String, String)>);
+
+impl Manifest {
+    /// The first field that another run has otherwise.
+    fn differs_in(&self, other: &Self) -> Option<&str> {
+        let both = self.0.iter().zip(&other.0);
+        let found = both.into_iter().find(|(a, b)| a != b);
+        let longer = || (self.0.len() != other.0.len()).then_some("the settings");
+        found.map(|(a, _)| a.0.as_str()).or_else(longer)
+    }
+}
+
+/// How far a run is.
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+pub(crate) struct State {
+    /// Parts that are done.
+    pub(crate) parts: usize,
+    pub(crate) as_it_is: bool,
+    /// Smallest stiffness that the first look found; not there as long as it goes on.
+    pub(crate) stiffness_n_per_mm: Option<f64>,
+    pub(crate) merged: MergedRun,
+    pub(crate) writer: Option<WriterState>,
+    pub(crate) program: Contents,
+    pub(crate) points: Contents,
+}
+
+impl State {
+    pub(crate) fn of_whole(&self) -> Option<OfWhole> {
+        Some(OfWhole {
+            stiffness_n_per_mm: self.stiffness_n_per_mm?,
+            as_it_is: self.as_it_is,
+        })
+    }
+}
+
+/// The folder of a run.
+pub(crate) struct Checkpoint {
+    folder: PathBuf,
+}
+
+const MANIFEST: &str = "manifest.json";
+const STATE: &str = "state.json";
+const STATE_BEFORE: &str = "state-before.json";
+
+impl Checkpoint {
+    /// The folder beside an output.
+    pub(crate) fn beside(output: &Path) -> Self {
+        let mut name = output.file_name().unwrap_or_default().to_owned();
+        name.push(".kinetostat-part");
+        Self {
+            folder: output.with_file_name(name),
+        }
+    }
+
+    fn refused(&self, error: &std::io::Error) -> Failure {
+        Failure::input(format!(
+            "what is done so far cannot be kept in '{}': {}; what was kept before is not lost, and the same command goes on from there",
+            self.folder.display(),
+            description(error)
+        ))
+    }
+
+    /// Begins a run, or goes on with one that was interrupted: whether there may be one. `restart`: what was kept is thrown away.
+    pub(crate) fn open(&self, manifest: &Manifest, restart: bool) -> Answer<bool> {
+        if restart {
+            self.remove();
+        }
+        let kept: Option<Manifest> = self.read(MANIFEST);
+        match kept.as_ref().map(|kept| kept.differs_in(manifest)) {
+            Some(None) => Ok(true),
+            Some(Some(field)) => Err(Failure::input(format!(
+                "'{}' keeps a run that was interrupted, and {field} is another one now: give the same question to go on with it, or --restart to begin anew (or delete the folder)",
+                self.folder.display()
+            ))),
+            None => {
+                // Nothing, or not whole: begun anew.
+                self.remove();
+                fs::create_dir_all(&self.folder).map_err(|error| self.refused(&error))?;
+                self.write(MANIFEST, manifest)?;
+                Ok(false)
+            }
+        }
+    }
+
+    /// States that were kept, the last first.
+    pub(crate) fn states(&self) -> impl Iterator<Item = State> + '_ {
+        [STATE, STATE_BEFORE]
+            .into_iter()
+            .filter_map(|name| self.read(name))
+    }
+
+    /// Keeps a state; the one before stays.
+    pub(crate) fn keep(&self, state: &State) -> Answer<()> {
+        let own = self.folder.join(STATE);
+        if own.exists() {
+            let kept = fs::rename(&own, self.folder.join(STATE_BEFORE));
+            kept.map_err(|error| self.refused(&error))?;
+        }
+        self.write(STATE, state)
+    }
+
+    pub(crate) fn path(&self, name: &str) -> PathBuf {
+        self.folder.join(name)
+    }
+
+    /// The run is over: nothing is left.
+    pub(crate) fn remove(&self) {
+        for name in [MANIFEST, STATE, STATE_BEFORE, "new", "program", "points"] {
+            let _ = fs::remove_file(self.folder.join(name));
+        }
+        let _ = fs::remove_dir(&self.folder);
+    }
+
+    /// A value behind its check number.
+    fn write(&self, name: &str, value: &impl Serialize) -> Answer<()> {
+        let text = serde_json::to_string(value).map_err(|error| {
+            Failure::input(format!("the state of the run cannot be kept: {error}"))
+        })?;
+        let new = self.folder.join("new");
+        let written = || -> std::io::Result<()> {
+            let mut file = fs::File::create(&new)?;
+            writeln!(file, "{:016x}", fnv1a(FNV1A, text.as_bytes()))?;
+            file.write_all(text.as_bytes())?;
+            file.sync_all()?;
+            fs::rename(&new, self.folder.join(name))?;
+            if let Ok(folder) = fs::File::open(&self.folder) {
+                let _ = folder.sync_all();
+            }
+            Ok(())
+        };
+        written().map_err(|error| self.refused(&error))
+    }
+
+    /// A value, if it is there and whole.
+    fn read<T: DeserializeOwned>(&self, name: &str) -> Option<T> {
+        let text = fs::read_to_string(self.folder.join(name)).ok()?;
+        let (check, text) = text.split_once('\n')?;
+        let whole = check == format!("{:016x}", fnv1a(FNV1A, text.as_bytes()));
+        whole.then(|| serde_json::from_str(text).ok()).flatten()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn manifest(model: &str) -> Manifest {
+        let fields = [("the version", "1"), ("the model", model)];
+        Manifest(fields.map(|(a, b)| (a.to_owned(), b.to_owned())).to_vec())
+    }
+
+    #[test]
+    fn another_question_is_named_and_a_damaged_state_is_that_before() {
+        let here = tempfile::tempdir().unwrap();
+        let kept = Checkpoint::beside(&here.path().join("out.ngc"));
+        assert!(!kept.open(&manifest("a"), false).unwrap());
+        let state = |parts| State {
+            parts,
+            ..State::default()
+        };
+        kept.keep(&state(1)).unwrap();
+        kept.keep(&state(2)).unwrap();
+        assert!(kept.open(&manifest("a"), false).unwrap());
+        let parts: Vec<usize> = kept.states().map(|state| state.parts).collect();
+        assert_eq!(parts, [2, 1]);
+        let failure = kept.open(&manifest("b"), false).unwrap_err();
+        assert!(
+            failure.plain.contains("the model is another one now"),
+            "{}",
+            failure.plain
+        );
+        let bytes = fs::read(kept.path(STATE)).unwrap();
+        fs::write(kept.path(STATE), &bytes[..bytes.len() / 2]).unwrap();
+        assert_eq!(kept.states().next().unwrap().parts, 1);
+        assert!(!kept.open(&manifest("b"), true).unwrap());
+        kept.remove();
+        assert_eq!(fs::read_dir(here.path()).unwrap().count(), 0);
+    }
+}

@@ -1,0 +1,95 @@
+//! An output that grows part by part, and is cut back to what is known to be whole.
+
+use std::fs::{File, OpenOptions};
+use std::io::{BufReader, Read, Seek, SeekFrom, Write};
+use std::path::{Path, PathBuf};
+
+use crate::files::journal::Contents;
+use crate::ui::failure::{Answer, Failure};
+use crate::ui::system_error::description;
+
+/// An output that grows part by part.
+pub(crate) struct Partial {
+    path: PathBuf,
+    file: File,
+    contents: Contents,
+}
+
+fn refused(path: &Path, error: &std::io::Error) -> Failure {
+    Failure::input(format!(
+        "what is done so far cannot be kept in '{}': {}; nothing of it is lost, and the same command goes on from there",
+        path.display(),
+        description(error)
+    ))
+}
+
+impl Partial {
+    /// An empty one.
+    pub(crate) fn create(path: PathBuf) -> Answer<Self> {
+        let file = OpenOptions::new()
+            .read(true)
+            .write(true)
+            .create(true)
+            .truncate(true)
+            .open(&path)
+            .map_err(|error| refused(&path, &error))?;
+        Ok(Self {
+            path,
+            file,
+            contents: Contents::default(),
+        })
+    }
+
+    /// One of which these contents are whole; `None` where they are not there.
+    pub(crate) fn reopen(path: PathBuf, contents: Contents) -> Option<Self> {
+        let mut file = OpenOptions::new().read(true).write(true).open(&path).ok()?;
+        let mut found = Contents::default();
+        let mut rest = contents.bytes;
+        let mut block = vec![0; 1 << 16];
+        while rest > 0 {
+            let most = block.len().min(usize::try_from(rest).unwrap_or(usize::MAX));
+            let count = file.read(&mut block[..most]).ok()?;
+            if count == 0 {
+                return None;
+            }
+            found.append(&block[..count]);
+            rest -= count as u64;
+        }
+        if found != contents {
+            return None;
+        }
+        file.set_len(contents.bytes).ok()?;
+        file.seek(SeekFrom::End(0)).ok()?;
+        Some(Self {
+            path,
+            file,
+            contents,
+        })
+    }
+
+    /// What it holds so far.
+    pub(crate) fn contents(&self) -> Contents {
+        self.contents
+    }
+
+    pub(crate) fn append(&mut self, bytes: &[u8]) -> Answer<()> {
+        let written = self.file.write_all(bytes);
+        written.map_err(|error| refused(&self.path, &error))?;
+        self.contents.append(bytes);
+        Ok(())
+    }
+
+    /// All that was appended is on the disk.
+    pub(crate) fn sync(&self) -> Answer<()> {
+        let done = self.file.sync_data();
+        done.map_err(|error| refused(&self.path, &error))
+    }
+
+    /// Its bytes from the beginning.
+    pub(crate) fn reader(&self) -> Answer<BufReader<File>> {
+        let file = File::open(&self.path);
+        Ok(BufReader::new(
+            file.map_err(|error| refused(&self.path, &error))?,
+        ))
+    }
+}

@@ -1,0 +1,462 @@
+//! A program that is run in parts: surveyed, looked at, run, and put in place.
+
+use std::fs::File;
+use std::io::{BufReader, Read};
+use std::path::PathBuf;
+use std::time::{Duration, Instant};
+
+use kinetostat_machining::{
+    Envelope, FileRead, OfWhole, Run, RunError, Warning, WarningCode, Watch, analyse_part,
+    compensate_part, look_at_part,
+};
+use kinetostat_model::Model;
+use kinetostat_program::{Part, PartError, PartLength, Parts, Survey, WrittenSoFar};
+use sha2::{Digest, Sha256};
+
+use crate::job::arguments::ProgramArgs;
+use crate::job::machine::MachineSetup;
+use crate::job::output_paths::OutputPaths;
+use crate::job::program::{PartRead, ReadProgram};
+use crate::job::setting::Setting;
+use crate::long::checkpoint::{Checkpoint, Manifest, State};
+use crate::long::partial::Partial;
+use crate::long::which::part_length;
+use crate::machine::model_warnings::with_model_warning;
+use crate::program::aim::Aim;
+use crate::program::outputs::RunOutputs;
+use crate::program::points_table;
+use crate::program::solve::with_task;
+use crate::ui::failure::{Answer, Failure};
+use crate::ui::progress::Progress;
+use crate::ui::threads::in_threads;
+
+/// How often what is done is kept.
+const EVERY: Duration = Duration::from_secs(5);
+
+/// A long program with all that is said about it.
+pub(crate) struct LongRun<'a> {
+    pub(crate) aim: Aim,
+    pub(crate) machine: &'a MachineSetup,
+    pub(crate) model: &'a Model,
+    pub(crate) setting: &'a Setting,
+    /// What only the whole program tells.
+    pub(crate) survey: &'a Survey,
+    pub(crate) flags: &'a ProgramArgs,
+    /// Where the outputs go.
+    pub(crate) targets: &'a OutputPaths,
+}
+
+/// Reads and counts what it reads.
+struct Hashed<R> {
+    from: R,
+    hash: Sha256,
+}
+
+impl<R: Read> Read for Hashed<R> {
+    fn read(&mut self, to: &mut [u8]) -> std::io::Result<usize> {
+        let count = self.from.read(to)?;
+        self.hash.update(&to[..count]);
+        Ok(count)
+    }
+}
+
+/// What only the whole of a program tells; its hash takes the place of that of its first lines.
+pub(crate) fn survey(setting: &mut Setting, aim: Aim) -> Answer<Survey> {
+    let progress = Progress::new();
+    progress.stage("reading", 0);
+    let mut hashed = Hashed {
+        from: text(setting)?,
+        hash: Sha256::new(),
+    };
+    let from = BufReader::with_capacity(1 << 16, &mut hashed);
+    let survey = Survey::of(from, &setting.reading).map_err(|error| unread(setting, error))?;
+    let sha256 = hashed.hash.finalize();
+    if let Some(first) = setting.program_files.first_mut() {
+        first.sha256 = sha256.iter().map(|byte| format!("{byte:02x}")).collect();
+    }
+    if let Some(line) = survey.mark_line
+        && !setting.writing.again
+        && aim == Aim::Compensate
+    {
+        let error = kinetostat_program::WriteError::AlreadyCompensated { line };
+        return Err(setting.within(Failure::from(RunError::from(error))));
+    }
+    Ok(survey)
+}
+
+fn unread(setting: &Setting, error: PartError) -> Failure {
+    setting.within(Failure::input(error)).of_program()
+}
+
+fn text(setting: &Setting) -> Answer<File> {
+    let path = &setting.program_path;
+    File::open(path).map_err(|error| {
+        Failure::input(format!(
+            "the program '{}' cannot be read: {error}",
+            path.display()
+        ))
+    })
+}
+
+impl<'a> LongRun<'a> {
+    fn failed(&self, error: PartError) -> Failure {
+        unread(self.setting, error)
+    }
+
+    fn parts(&self, length: PartLength) -> Answer<Parts<'a, BufReader<File>>> {
+        let from = BufReader::with_capacity(1 << 16, text(self.setting)?);
+        Ok(Parts::new(
+            from,
+            (self.survey, &self.setting.reading),
+            length,
+        ))
+    }
+
+    /// What the run is: whatever its bytes depend on.
+    fn manifest(&self, length: PartLength) -> Manifest {
+        let s = self.setting;
+        let hashes = |files: &[FileRead]| {
+            let all = files
+                .iter()
+                .map(|file| format!("{} {}", file.name, file.sha256));
+            all.collect::<Vec<_>>().join(", ")
+        };
+        let fields = [
+            (
+                "the version of kinetostat",
+                env!("CARGO_PKG_VERSION").to_owned(),
+            ),
+            ("the command", format!("{:?}", self.aim)),
+            ("the program", hashes(&s.program_files)),
+            (
+                "the model",
+                format!(
+                    "{} {:016x}",
+                    self.machine.run_inputs.model, self.machine.fingerprint
+                ),
+            ),
+            (
+                "the way in which the program is read",
+                format!("{:?}", s.reading),
+            ),
+            (
+                "a tolerance, or how the program is written",
+                format!("{:?}", s.writing),
+            ),
+            ("the load", format!("{:?}", self.machine.load)),
+            (
+                "the place of the part",
+                format!("{:?}", self.machine.placement),
+            ),
+            ("the tool", self.machine.run_inputs.tool.clone()),
+            ("a limit", format!("{:?}", s.limits)),
+            (
+                "the list of points",
+                format!("{:?}", (self.flags.all_points, &self.targets.points)),
+            ),
+            (
+                "the compensated program's name",
+                format!("{:?}", self.targets.program),
+            ),
+            ("the length of the parts", format!("{length:?}")),
+        ];
+        Manifest(
+            fields
+                .map(|(name, value)| (name.to_owned(), value))
+                .to_vec(),
+        )
+    }
+
+    /// A part, as a run takes it.
+    fn with_part<R>(
+        &self,
+        part: &Part,
+        so_far: &WrittenSoFar<'_>,
+        as_it_is: bool,
+        work: impl FnOnce(&kinetostat_machining::Task<'_>) -> R,
+    ) -> Answer<R> {
+        let read = ReadProgram::Part(PartRead {
+            part,
+            so_far,
+            setting: self.setting,
+        });
+        with_task(self.aim, self.machine, self.setting, &read, None, |task| {
+            let mut task = task.clone();
+            if as_it_is {
+                // A copy is no compensated program.
+                task.writing.header = None;
+            }
+            work(&task)
+        })
+    }
+
+    fn answered<T>(&self, result: Result<T, RunError>) -> Answer<T> {
+        result.map_err(|error| {
+            let failure = self.setting.within(Failure::from(error));
+            with_model_warning(failure, self.model)
+        })
+    }
+
+    /// A first look at every part: what takes hours to be solved everywhere is refused in seconds.
+    fn look(&self, length: PartLength, watch: &Progress) -> Answer<OfWhole> {
+        let mut whole = OfWhole::default();
+        let nothing = WrittenSoFar::nothing(self.survey, &self.setting.reading);
+        watch.stage("first look", self.survey.lines);
+        for part in self.parts(length)? {
+            let part = part.map_err(|error| self.failed(error))?;
+            let compensate = self.aim == Aim::Compensate;
+            let looked = self.with_part(&part, &nothing, false, |task| {
+                look_at_part(whole, task, compensate, watch)
+            })?;
+            whole = self.answered(looked)?;
+            watch.advance(part.next_line() - 1);
+        }
+        Ok(whole)
+    }
+
+    /// The run, from its outputs claimed to its result.
+    pub(crate) fn run(self, outputs: &mut RunOutputs) -> Answer<(Run, LongFiles)> {
+        let progress = Progress::new();
+        let length = part_length(self.flags);
+        let targets = [
+            &self.targets.program,
+            &self.targets.points,
+            &self.targets.report,
+            &self.targets.json,
+        ];
+        let beside: Option<&PathBuf> = targets.into_iter().flatten().next();
+        let beside = beside
+            .cloned()
+            .unwrap_or_else(|| PathBuf::from("kinetostat"));
+        let kept = Checkpoint::beside(&beside);
+        kept.open(&self.manifest(length), self.flags.restart)?;
+        let mut work = Work::go_on(&kept, self.survey, self.setting)?;
+        let done = self.work(&mut work, (&kept, length), outputs, &progress);
+        if done.is_err() && work.state.parts > 0 {
+            // What can be kept is kept; why it ended is said.
+            let _ = work.keep(&kept);
+        }
+        done?;
+        progress.finish();
+        let reading = self.survey.warnings.iter();
+        let reading =
+            reading.map(|w| Warning::at_line(WarningCode::Program, w.line, w.text.clone()));
+        let Work {
+            state,
+            program,
+            points,
+            ..
+        } = work;
+        let result = state.merged.finish(reading.collect());
+        let Some(result) = result else {
+            return Err(self
+                .setting
+                .within(Failure::input("the program has no block")));
+        };
+        let mut envelope = Envelope::default();
+        envelope.extend(&result.points);
+        let run = Run {
+            points: result.points.clone(),
+            envelope,
+            result,
+            written: None,
+            places: Vec::new(),
+        };
+        Ok((
+            run,
+            LongFiles {
+                program,
+                points,
+                kept,
+            },
+        ))
+    }
+
+    fn work(
+        &self,
+        work: &mut Work<'a>,
+        (kept, length): (&Checkpoint, PartLength),
+        outputs: &RunOutputs,
+        progress: &Progress,
+    ) -> Answer<()> {
+        let whole = match work.state.of_whole() {
+            Some(whole) => whole,
+            None => {
+                let mut whole = in_threads(self.flags.threads, || self.look(length, progress))??;
+                // Not a number of the file of the state: a machine without any stiffness found is taken as it is.
+                if !whole.stiffness_n_per_mm.is_finite() {
+                    whole.stiffness_n_per_mm = 0.0;
+                }
+                work.state.stiffness_n_per_mm = Some(whole.stiffness_n_per_mm);
+                whole
+            }
+        };
+        self.pass(work, (kept, length), whole, (outputs, progress))?;
+        if !work.state.as_it_is && work.state.merged.leaves_as_it_is() {
+            work.begin_anew(kept, self.survey, self.setting, whole.stiffness_n_per_mm)?;
+            let whole = OfWhole {
+                as_it_is: true,
+                ..whole
+            };
+            self.pass(work, (kept, length), whole, (outputs, progress))?;
+        }
+        Ok(())
+    }
+
+    /// All parts that are not done yet.
+    fn pass(
+        &self,
+        work: &mut Work<'a>,
+        (kept, length): (&Checkpoint, PartLength),
+        whole: OfWhole,
+        (outputs, progress): (&RunOutputs, &Progress),
+    ) -> Answer<()> {
+        let count = self.survey.lines.div_ceil(length.own.max(1)).max(1);
+        let every = match self.flags.part_lines {
+            Some(_) => Duration::ZERO,
+            None => EVERY,
+        };
+        let mut last = Instant::now();
+        for (index, part) in self.parts(length)?.enumerate() {
+            let part = part.map_err(|error| self.failed(error))?;
+            if index < work.state.parts {
+                continue;
+            }
+            let run = self.with_part(&part, &work.so_far, whole.as_it_is, |task| {
+                let run = in_threads(self.flags.threads, || match self.aim {
+                    Aim::Analyse => analyse_part(task, Some(&whole), progress),
+                    Aim::Compensate => compensate_part(task, Some(&whole), progress),
+                })?;
+                let run = self.answered(run)?;
+                work.state.merged.add(task, &run);
+                Ok::<_, Failure>(run)
+            })??;
+            if let Some(written) = &run.written {
+                work.program.append(&written.bytes)?;
+                work.so_far
+                    .advance(written)
+                    .map_err(|error| self.failed(error))?;
+            }
+            if outputs.points.is_some() {
+                let points = &mut work.points;
+                let inputs = &run.result.run_inputs;
+                points_table::part(
+                    inputs,
+                    &run.points,
+                    (&outputs.listing, count, index == 0),
+                    |bytes| points.append(bytes),
+                )?;
+            }
+            work.state.parts = index + 1;
+            if last.elapsed() >= every || part.is_last {
+                work.keep(kept)?;
+                last = Instant::now();
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Files of a run that is done, to be put in place.
+pub(crate) struct LongFiles {
+    program: Partial,
+    points: Partial,
+    kept: Checkpoint,
+}
+
+impl LongFiles {
+    /// Writes them beside their targets.
+    pub(crate) fn fill(&self, outputs: &mut RunOutputs) -> Answer<()> {
+        for (index, from) in [
+            (outputs.program, &self.program),
+            (outputs.points, &self.points),
+        ] {
+            let Some(index) = index else { continue };
+            let mut from = from.reader()?;
+            let mut block = vec![0; 1 << 16];
+            loop {
+                let count = from.read(&mut block).map_err(|error| {
+                    Failure::input(format!("what was kept cannot be read: {error}"))
+                })?;
+                if count == 0 {
+                    break;
+                }
+                outputs.files.append(index, &block[..count])?;
+            }
+            outputs.files.complete(index)?;
+        }
+        Ok(())
+    }
+
+    /// All is in place: nothing is kept.
+    pub(crate) fn remove(self) {
+        self.kept.remove();
+    }
+}
+
+/// What is done of a run.
+struct Work<'s> {
+    state: State,
+    so_far: WrittenSoFar<'s>,
+    program: Partial,
+    points: Partial,
+}
+
+impl<'s> Work<'s> {
+    /// From the last state that is whole with its files, or from nothing.
+    fn go_on(kept: &Checkpoint, survey: &'s Survey, setting: &'s Setting) -> Answer<Self> {
+        for state in kept.states() {
+            let program = Partial::reopen(kept.path("program"), state.program);
+            let points = Partial::reopen(kept.path("points"), state.points);
+            let (Some(program), Some(points)) = (program, points) else {
+                continue;
+            };
+            let mut so_far = WrittenSoFar::nothing(survey, &setting.reading);
+            if let Some(writer) = &state.writer
+                && so_far.go_on(program.reader()?, writer.clone()).is_err()
+            {
+                continue;
+            }
+            return Ok(Self {
+                state,
+                so_far,
+                program,
+                points,
+            });
+        }
+        Self::nothing(kept, survey, setting)
+    }
+
+    fn nothing(kept: &Checkpoint, survey: &'s Survey, setting: &'s Setting) -> Answer<Self> {
+        Ok(Self {
+            state: State::default(),
+            so_far: WrittenSoFar::nothing(survey, &setting.reading),
+            program: Partial::create(kept.path("program"))?,
+            points: Partial::create(kept.path("points"))?,
+        })
+    }
+
+    /// Once more, with the program left as it is.
+    fn begin_anew(
+        &mut self,
+        kept: &Checkpoint,
+        survey: &'s Survey,
+        setting: &'s Setting,
+        stiffness_n_per_mm: f64,
+    ) -> Answer<()> {
+        *self = Self::nothing(kept, survey, setting)?;
+        self.state.as_it_is = true;
+        self.state.stiffness_n_per_mm = Some(stiffness_n_per_mm);
+        self.keep(kept)
+    }
+
+    /// Keeps how far it is, the files before the state that names their lengths.
+    fn keep(&mut self, kept: &Checkpoint) -> Answer<()> {
+        self.program.sync()?;
+        self.points.sync()?;
+        self.state.writer = self.so_far.writer().cloned();
+        self.state.program = self.program.contents();
+        self.state.points = self.points.contents();
+        kept.keep(&self.state)
+    }
+}

@@ -1,0 +1,190 @@
+//! The answer of `modes` for a person, and as a table.
+
+use kinetostat_dynamics::{DirectionCounts, EnergyShare, ModeKind};
+
+use crate::modes::answer::{ModeAnswer, ModesAnswer};
+use crate::place::query::PlaceQuery;
+use crate::ui::csv_cell::text as safe_cell;
+use crate::ui::csv_table::{cell, written};
+use crate::ui::failure::Answer;
+use crate::ui::layout::{columns, item, wrapped};
+use crate::ui::numbers::{fixed, load_triple, number, triple};
+use crate::ui::warnings;
+
+/// Shares of energy below this are not shown to a person; JSON and table have all.
+const SHOWN: f64 = 0.05;
+
+pub(crate) fn answer_text(query: &PlaceQuery, a: &ModesAnswer) -> String {
+    let mut out = query.heading();
+    let hold = match &a.hold {
+        Some(list) => format!("held in {list}"),
+        None => "free".to_owned(),
+    };
+    out.push_str(&wrapped(
+        &format!(
+            "Small vibrations about the equilibrium under the force {} N and the moment {} N m on the tool, with weights and preloads; the tool is {hold}; damping: {}; mass of the model {} kg.",
+            load_triple(a.force_n),
+            load_triple(a.moment_n_m),
+            a.damping,
+            number(a.total_mass_kg, 5)
+        ),
+        0,
+    ));
+    if !a.stable {
+        out.push_str(&wrapped(
+            "The equilibrium is NOT stable: what has a negative frequency (square below zero) runs away.",
+            0,
+        ));
+    }
+    out.push('\n');
+    let mut rows = vec![
+        ["mode", "Hz", "damping, %", "the tool moves along", "turns"]
+            .map(str::to_owned)
+            .to_vec(),
+    ];
+    rows.extend(a.modes.iter().map(row));
+    out.push_str(&columns(&rows, 0));
+    out.push_str(&wrapped(
+        "Along: motion of the tip, base axes, its largest part 1. Turns: rad for 1 m of that largest part.",
+        0,
+    ));
+    out.push_str("\nWhat moves, and what is strained\n");
+    for mode in &a.modes {
+        let strained = match largest(&mode.elastic_energy) {
+            words if words.is_empty() => "no spring".to_owned(),
+            words => words,
+        };
+        out.push_str(&item(&format!(
+            "mode {}, {} Hz: kinetic energy {}; elastic energy {strained}",
+            mode.number,
+            number(mode.frequency_hz, 4),
+            largest(&mode.kinetic_energy),
+        )));
+    }
+    out.push_str("\nDirections\n");
+    for line in directions(&a.directions) {
+        out.push_str(&item(&line));
+    }
+    if !a.neutral.is_empty() {
+        out.push_str(&item(&format!(
+            "in neutral directions take part: {}",
+            a.neutral.join(", ")
+        )));
+    }
+    if a.mode_count > a.modes.len() {
+        out.push_str(&item(&format!(
+            "{} higher modes are not shown (--modes)",
+            a.mode_count - a.modes.len()
+        )));
+    }
+    out.push_str(&warnings::warnings(&a.warnings));
+    out
+}
+
+fn row(mode: &ModeAnswer) -> Vec<String> {
+    let word = match mode.kind {
+        ModeKind::Free => " free",
+        ModeKind::Unstable => " unstable",
+        _ => "",
+    };
+    let along = mode.tool_translation_per_sqrt_kg;
+    let most = along.into_iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+    let (along, turns) = match most > 0.0 {
+        true => (
+            triple(along.map(|x| x / most), |x| fixed(x, 2)),
+            triple(
+                mode.tool_rotation_rad_per_m_sqrt_kg.map(|x| x / most),
+                |x| number(x, 2),
+            ),
+        ),
+        false => ("does not move".to_owned(), String::new()),
+    };
+    vec![
+        format!("{}{word}", mode.number),
+        number(mode.frequency_hz, 5),
+        mode.damping_ratio
+            .map_or_else(|| "-".to_owned(), |z| fixed(100.0 * z, 2)),
+        along,
+        turns,
+    ]
+}
+
+/// The largest shares in words.
+fn largest(shares: &[EnergyShare]) -> String {
+    let shown = shares.iter().filter(|s| s.share >= SHOWN);
+    let each = shown.map(|s| format!("{} {} %", s.name, fixed(100.0 * s.share, 0)));
+    each.collect::<Vec<_>>().join(", ")
+}
+
+fn directions(c: &DirectionCounts) -> Vec<String> {
+    let lines = [
+        (c.vibrating, "vibrate"),
+        (c.free, "are free: mass without stiffness, frequency 0"),
+        (c.unstable, "are UNSTABLE: negative stiffness"),
+        (
+            c.massless,
+            "are massless: they follow at once and have no mode",
+        ),
+        (
+            c.massless_unstable,
+            "are massless and UNSTABLE: no frequency tells of them",
+        ),
+        (c.neutral, "are neutral: neither mass nor stiffness"),
+        (
+            c.rigid,
+            "of the tool are rigid: the machine cannot move that way",
+        ),
+    ];
+    let some = lines.into_iter().filter(|(count, _)| *count > 0);
+    some.map(|(count, words)| format!("{count} {words}"))
+        .collect()
+}
+
+/// One row for each mode and part; the shares of a part in one row.
+pub(crate) fn table(a: &ModesAnswer) -> Answer<Vec<u8>> {
+    let head = [
+        "mode",
+        "kind",
+        "frequency_hz",
+        "squared_rad_per_s_2",
+        "damping_ratio",
+        "x_per_sqrt_kg",
+        "y_per_sqrt_kg",
+        "z_per_sqrt_kg",
+        "rx_rad_per_m_sqrt_kg",
+        "ry_rad_per_m_sqrt_kg",
+        "rz_rad_per_m_sqrt_kg",
+        "energy",
+        "part",
+        "share",
+    ];
+    let mut rows = vec![head.map(str::to_owned).to_vec()];
+    for mode in &a.modes {
+        let kind = match mode.kind {
+            ModeKind::Free => "free",
+            ModeKind::Unstable => "unstable",
+            _ => "vibration",
+        };
+        let mut own = vec![
+            mode.number.to_string(),
+            kind.to_owned(),
+            cell(mode.frequency_hz),
+            cell(mode.squared_rad_per_s_2),
+            mode.damping_ratio.map_or_else(String::new, cell),
+        ];
+        own.extend(mode.tool_translation_per_sqrt_kg.map(cell));
+        own.extend(mode.tool_rotation_rad_per_m_sqrt_kg.map(cell));
+        let energies = [
+            ("kinetic", &mode.kinetic_energy),
+            ("elastic", &mode.elastic_energy),
+        ];
+        for (energy, shares) in energies {
+            for share in shares {
+                let mut row = own.clone();
+                row.extend([energy.to_owned(), safe_cell(&share.name), cell(share.share)]);
+                rows.push(row);
+            }
+        }
+    }
+    written(&rows)
+}

@@ -1,0 +1,25 @@
+//! Options that say which machine vibrates, where, under which load.
+
+use clap::Args;
+
+use crate::options::number;
+use crate::place::arguments::PlaceArgs;
+
+/// The machine, its place and its load.
+#[derive(Debug, Args)]
+pub(crate) struct VibrationArgs {
+    /// Preset or model file
+    #[arg(value_name = "MODEL")]
+    pub(crate) model: String,
+    #[command(flatten)]
+    pub(crate) place: PlaceArgs,
+    /// Distance of the tool's tip along z of the flange, mm
+    #[arg(long, value_name = "L", allow_negative_numbers = true, value_parser = number)]
+    pub(crate) tool_length_mm: Option<f64>,
+    /// Constant force on the tool's tip, N, about whose equilibrium the machine vibrates
+    #[arg(long, num_args = 3, value_names = ["FX", "FY", "FZ"], allow_negative_numbers = true, value_parser = number)]
+    pub(crate) force: Option<Vec<f64>>,
+    /// Constant moment on the tool about its tip, N m
+    #[arg(long, num_args = 3, value_names = ["MX", "MY", "MZ"], allow_negative_numbers = true, value_parser = number)]
+    pub(crate) moment: Option<Vec<f64>>,
+}

@@ -1,0 +1,7 @@
+//! A machine that vibrates at a place: what `modes`, `frf` and `lobes` share.
+//!
+//! It takes a model, a place, a load, what holds the tool, and damping, and gives the machine about its equilibrium.
+
+pub(crate) mod arguments;
+pub(crate) mod damping;
+pub(crate) mod subject;

@@ -1,0 +1,84 @@
+//! The machine of a question about vibrations.
+
+use kinetostat::{Directions, Posture};
+use kinetostat_analysis::vibration::VibratingMachine;
+use kinetostat_dynamics::{Error, Held};
+use kinetostat_machining::{Warning, WarningCode};
+
+use crate::end_condition::holding::list;
+use crate::files::input_files::InputFiles;
+use crate::place::query::{PlaceQuery, place_query};
+use crate::ui::failure::{Answer, Failure};
+use crate::vibration::arguments::VibrationArgs;
+
+/// The place and the load that are asked for.
+pub(crate) fn query(args: &VibrationArgs) -> Answer<PlaceQuery> {
+    place_query(
+        &InputFiles::default(),
+        &args.model,
+        &args.place,
+        args.tool_length_mm,
+        args.force.as_deref(),
+        args.moment.as_deref(),
+    )
+}
+
+/// Directions by name in which the tool is held while it vibrates.
+pub(crate) fn held(text: Option<&str>) -> Answer<Held> {
+    let Some(text) = text else {
+        return Ok(Held::nothing());
+    };
+    let [x, y, z, rx, ry, rz] = list("--hold", text, None)?;
+    let mut held = Held::directions(Directions::NONE);
+    held.directions = [x, y, z, rx, ry, rz];
+    Ok(held)
+}
+
+/// The machine about its equilibrium.
+pub(crate) fn machine(
+    query: &PlaceQuery,
+    posture: &Posture,
+    held: &Held,
+) -> Answer<VibratingMachine> {
+    VibratingMachine::at(posture, &query.wrench, held).map_err(refused)
+}
+
+/// Why there is no answer.
+pub(crate) fn refused(error: Error) -> Failure {
+    match error {
+        Error::Statics(error) => error.into(),
+        Error::NoMass(name) => Failure::input(format!(
+            "'{name}' has no mass anywhere, so it has no frequencies. Add masses to the model file: {{ body = \"upper arm mass\", mass_kg = 270, centre_of_mass_mm = [0, 0, -625], inertia_kg_m2 = [[..], [..], [..]] }} behind a joint or link of a chain, or mass_kg, centre_of_mass_mm and inertia_kg_m2 of a moving body (platform)"
+        )),
+        Error::NotSolved(_) => Failure::unanswered(error),
+        _ => Failure::input(error),
+    }
+}
+
+/// What limits the answer: loads without a potential, parts without mass.
+pub(crate) fn limits(machine: &VibratingMachine, posture: &Posture) -> Vec<Warning> {
+    let mut warnings = Vec::new();
+    if machine.dynamics.is_circulatory() {
+        warnings.push(Warning::new(
+            WarningCode::NoPotential,
+            "loads have no potential (a moment that does not turn with the tool): frequencies and stability are those of the symmetric part of the stiffness, and flutter is not judged".to_owned(),
+        ));
+    }
+    let without = machine.without_mass(posture);
+    if !without.is_empty() {
+        warnings.push(Warning::new(
+            WarningCode::Model,
+            format!(
+                "without mass in the model: {}. Own vibrations of these parts are missing, and frequencies are too high",
+                without.join(", ")
+            ),
+        ));
+    }
+    if !machine.equilibrium.stable() {
+        warnings.push(Warning::new(
+            WarningCode::NotStable,
+            "the equilibrium under the load is not stable".to_owned(),
+        ));
+    }
+    warnings
+}

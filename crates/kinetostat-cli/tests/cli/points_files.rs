@@ -1,0 +1,127 @@
+//! Points of a run as Parquet and as lines for ParaView, read back by pyarrow, polars and vtk where they are installed.
+
+// Helpers of tests, which clippy does not count as tests.
+#![allow(clippy::unwrap_used)]
+
+use std::path::Path;
+use std::process::Command;
+
+use crate::common::{run, workplace};
+
+/// Two cuts behind rapids, off the axes of the machine.
+const PART: &str = "G21 G90\nG0 X-12 Y-9 Z5\nG0 Z0\nG1 X21 Y-4 F600\nG1 X25 Y13\nG1 X-11 Y17 Z-1\nG0 Z5\nG0 X30 Y-20\nG0 Z-1\nG1 X31 Y20\nG0 Z5\nM2\n";
+
+const JOB: &str = "schema = 1\nmodel = \"orthoglide\"\nprogram = \"part.ngc\"\n[placement]\npart_origin_mm = [3, -2, 97]\n[tool]\nlength_mm = 100\n[load]\nmilling = { radial_n = 215, tangential_n = -10, axial_n = -25 }\n[output]\nprogram = \"out.ngc\"\npoints = \"p.parquet\"\nvtk = \"p.vtk\"\njson = \"out.json\"\n";
+
+/// Reads all files and compares numbers; says which package is missing.
+const READ: &str = r#"
+import csv, math, sys
+try:
+    import pyarrow.parquet as pq, polars, vtk
+except ImportError as error:
+    print("MISSING", error); sys.exit(0)
+rows = list(csv.DictReader(open("p.csv")))
+table = pq.read_table("p.parquet")
+assert polars.read_parquet("p.parquet").shape == (len(rows), len(rows[0])) == table.shape, table.shape
+meta = {k.decode(): v.decode() for k, v in pq.ParquetFile("p.parquet").metadata.metadata.items()}
+assert meta["unit.error_before_x_mm"] == "mm" and meta["unit.force_x_n"] == "N", meta
+assert meta["model"] == "orthoglide" or "orthoglide" in meta["model"], meta
+for name in table.column_names:
+    assert "unit." + name in meta and meta["description." + name] != "", name
+    for cell, row in zip(table.column(name).to_pylist(), rows):
+        if isinstance(cell, str):
+            assert cell == row[name], (name, cell)
+        else:
+            assert (row[name] == "" and math.isnan(cell)) or cell == float(row[name]), (name, cell)
+reader = vtk.vtkPolyDataReader(); reader.SetFileName("p.vtk"); reader.ReadAllVectorsOn(); reader.ReadAllScalarsOn(); reader.Update()
+data = reader.GetOutput()
+assert data.GetNumberOfPoints() == len(rows), data.GetNumberOfPoints()
+rapids = [i for i, row in enumerate(rows) if row["kind"] == "rapid"]
+assert data.GetNumberOfLines() == len(rapids) + (0 not in rapids)
+worst = 0.0
+for i, row in enumerate(rows):
+    for name, key, digits in [("error_before_mm", "error_before_%s_mm", 5.1e-7), ("error_after_mm", "error_after_%s_mm", 5.1e-7), ("correction_mm", "correction_%s_mm", 5.1e-7), ("force_n", "force_%s_n", 5.1e-3)]:
+        vector = data.GetPointData().GetArray(name).GetTuple3(i)
+        for axis, x in zip("xyz", vector):
+            assert abs(x - float(row[key % axis])) <= digits, (i, name, axis)
+    place = data.GetPoint(i)
+    for axis, x in zip("xyz", place):
+        assert abs(x - float(row[axis + "_mm"])) <= 5.1e-5
+    worst = max(worst, abs(float(row["error_before_x_mm"])))
+assert worst > 1e-3
+print("READ", len(rows))
+"#;
+
+fn python() -> String {
+    std::env::var("KINETOSTAT_PYTHON").unwrap_or_else(|_| "python3".into())
+}
+
+#[test]
+fn points_are_read_back_as_parquet_and_vtk() {
+    let here = workplace();
+    let at = here.path();
+    std::fs::write(at.join("part.ngc"), PART).unwrap();
+    std::fs::write(at.join("job.toml"), JOB).unwrap();
+    let output = run(at, &["compensate", "job.toml"]);
+    assert_eq!(output.code, 0, "{output:?}");
+    let again = [
+        "compensate",
+        "job.toml",
+        "--points",
+        "p.csv",
+        "--vtk",
+        "q.vtk",
+    ];
+    let output = run(at, &[&again[..], &["--force-overwrite"]].concat());
+    assert_eq!(output.code, 0, "{output:?}");
+    let [one, other] = ["p.vtk", "q.vtk"].map(|name| std::fs::read(at.join(name)).unwrap());
+    assert!(one == other && one.starts_with(b"# vtk DataFile"));
+    let parquet = std::fs::read(at.join("p.parquet")).unwrap();
+    assert!(parquet.starts_with(b"PAR1") && parquet.ends_with(b"PAR1"));
+    // At most 25 bytes a value.
+    let table = std::fs::read_to_string(at.join("p.csv")).unwrap();
+    let values = table.matches([',', '\n']).count();
+    assert!(
+        table.len() <= 25 * values,
+        "{} bytes of {values}",
+        table.len()
+    );
+    read_back(at);
+    // The same of a program that was verified.
+    let verify = "verify out.ngc --job job.toml --points v.parquet --vtk v.vtk";
+    let output = run(at, &verify.split(' ').collect::<Vec<_>>());
+    assert_eq!(output.code, 0, "{output:?}");
+    assert!(
+        std::fs::read(at.join("v.parquet"))
+            .unwrap()
+            .starts_with(b"PAR1")
+    );
+    assert!(
+        std::fs::read(at.join("v.vtk"))
+            .unwrap()
+            .starts_with(b"# vtk")
+    );
+}
+
+fn read_back(at: &Path) {
+    let made = Command::new(python())
+        .args(["-c", READ])
+        .current_dir(at)
+        .output();
+    let Ok(made) = made else {
+        eprintln!(
+            "SKIPPED: reading back by pyarrow, polars and vtk: no python3 (KINETOSTAT_PYTHON names one)"
+        );
+        return;
+    };
+    let said = String::from_utf8_lossy(&made.stdout);
+    if said.starts_with("MISSING") {
+        eprintln!("SKIPPED: reading back by pyarrow, polars and vtk: {said}");
+        return;
+    }
+    let fault = String::from_utf8_lossy(&made.stderr);
+    assert!(
+        made.status.success() && said.starts_with("READ"),
+        "{said}{fault}"
+    );
+}

@@ -1,0 +1,209 @@
+//! `modes`, `frf`, `lobes`: the arm of the reference values (`shared/theory/dynamics-reference-values.md`, D3, D5), files
+//! and refusals.
+
+use crate::common::{Said, run, workplace};
+use kinetostat_testing::Worst;
+use serde_json::Value;
+use std::path::Path;
+
+const ARM6: &str = include_str!("vibration_models/arm6.toml");
+
+fn said(here: &Path, line: &str) -> Said {
+    run(here, &line.split(' ').collect::<Vec<_>>())
+}
+
+fn json(said: &Said) -> Value {
+    serde_json::from_str(&said.out).expect("JSON")
+}
+
+fn numbers(list: &Value) -> Vec<f64> {
+    let list = list.as_array().expect("a list");
+    list.iter().map(|x| x.as_f64().expect("a number")).collect()
+}
+
+fn arm6() -> tempfile::TempDir {
+    let here = workplace();
+    std::fs::write(here.path().join("arm6.toml"), ARM6).expect("written");
+    here
+}
+
+fn agree(found: &[f64], expected: &[f64], most: f64) {
+    let mut worst = Worst::new();
+    for (found, expected) in found.iter().zip(expected) {
+        worst.add((found / expected - 1.0).abs());
+    }
+    assert_eq!(found.len(), expected.len());
+    assert!(worst.of(expected.len()) < most, "{found:?} {expected:?}");
+}
+
+#[test]
+fn frequencies_of_the_arm_are_those_of_the_reference_values() {
+    let here = arm6();
+    let weightless = ARM6.replace("[0, 0, -9.81]", "[0, 0, 0]");
+    assert_ne!(weightless, ARM6);
+    std::fs::write(here.path().join("weightless.toml"), weightless).expect("written");
+    for (line, expected) in [
+        (
+            "modes arm6.toml --json",
+            [
+                9.98746752, 11.5425353, 23.2012812, 49.0179614, 53.7168096, 126.52171,
+            ],
+        ),
+        (
+            "modes weightless.toml --json",
+            [
+                9.98843848, 11.548195, 23.2094663, 49.0171568, 53.7168814, 126.524245,
+            ],
+        ),
+        (
+            "modes arm6.toml --force 0 0 -9000 --json",
+            [
+                10.0068189, 11.523062, 23.1889537, 49.2481057, 53.8574826, 126.550804,
+            ],
+        ),
+    ] {
+        let answer = json(&said(here.path(), line).answered());
+        let modes = answer["modes"].as_array().expect("modes");
+        let found: Vec<f64> = modes
+            .iter()
+            .map(|m| m["frequency_hz"].as_f64().expect("a frequency"))
+            .collect();
+        agree(&found, &expected, 1e-8);
+        assert_eq!(answer["directions"]["vibrating"], 6);
+        assert_eq!(answer["stable"], true);
+        assert_eq!(answer["total_mass_kg"], 835.0);
+        for mode in modes {
+            for energy in ["kinetic_energy", "elastic_energy"] {
+                let shares = mode[energy].as_array().expect("shares");
+                let sum: f64 = shares
+                    .iter()
+                    .map(|s| s["share"].as_f64().expect("a share"))
+                    .sum();
+                assert!((sum - 1.0).abs() < 1e-12, "{energy} {sum}");
+            }
+        }
+    }
+}
+
+#[test]
+fn modes_are_written_and_drawn_in_two_phases() {
+    let here = arm6();
+    let line =
+        "modes arm6.toml --modes 3 --damping 0.03,0.02 --csv m.csv --plot m.svg --json m.json";
+    let text = said(here.path(), line).answered();
+    assert!(text.out.contains("9.9875"), "{}", text.out);
+    let file = std::fs::read_to_string(here.path().join("m.json")).expect("JSON");
+    let answer: Value = serde_json::from_str(&file).expect("JSON");
+    let ratio = |k: usize| answer["modes"][k]["damping_ratio"].as_f64();
+    assert_eq!([ratio(0), ratio(1), ratio(2)], [0.03, 0.02, 0.02].map(Some));
+    let picture = std::fs::read_to_string(here.path().join("m.svg")).expect("SVG");
+    assert_eq!(picture.matches("<svg").count(), 7);
+    assert!(picture.contains("phase 270 deg"));
+    let table = std::fs::read_to_string(here.path().join("m.csv")).expect("CSV");
+    assert_eq!(table.lines().count(), 1 + 3 * 12);
+}
+
+#[test]
+fn responses_of_the_arm_are_those_of_the_reference_values() {
+    let here = arm6();
+    let line = "frf arm6.toml --damping 0.03 --frequencies 10 25 2 --from x,z --to x,y,z --json --csv f.csv --plot f.svg";
+    let answer = json(&said(here.path(), line).answered());
+    let expected = [
+        ("x", "x", 0, 1.038_451_45e-6, -8.419_249_25e-8),
+        ("y", "x", 0, -8.644_044_13e-7, 1.666_911_64e-7),
+        ("z", "z", 0, -5.898_510_87e-7, -1.657_196e-5),
+        ("z", "x", 1, -9.408_316_92e-7, -3.179_316_84e-7),
+        ("y", "z", 1, -1.782_707_26e-7, -7.954_187_59e-8),
+    ];
+    let curves = answer["curves"].as_array().expect("curves");
+    for (to, from, at, re, im) in expected {
+        let curve = curves.iter().find(|c| c["to"] == to && c["from"] == from);
+        let curve = curve.expect("the entry");
+        assert_eq!(curve["unit"], "m/N");
+        let found = [
+            numbers(&curve["real"])[at],
+            numbers(&curve["imaginary"])[at],
+        ];
+        agree(&found, &[re, im], 1e-7);
+    }
+    let table = std::fs::read_to_string(here.path().join("f.csv")).expect("CSV");
+    assert!(
+        table.starts_with("frequency_hz,x_by_x_real_m_per_n,"),
+        "{table}"
+    );
+    let picture = std::fs::read_to_string(here.path().join("f.svg")).expect("SVG");
+    assert!(picture.contains("x by force along x"));
+}
+
+#[test]
+fn limits_of_the_arm_are_those_of_the_reference_values() {
+    let here = arm6();
+    let cut = "--damping 0.03 --teeth 2 --immersion 0.5 --up --coefficients-n-per-mm2 800 240 0 --tool-axis 0 0 1";
+    let line = format!("lobes arm6.toml {cut} --rpm 600 6000 7 --json --csv l.csv --plot l.svg");
+    let answer = json(&said(here.path(), &line).answered());
+    let points = answer["points"].as_array().expect("points");
+    let of = |key: &str, k: usize| points[k][key].as_f64().expect("a limit");
+    let exact = [0, 1, 6].map(|k| of("limit_mm", k));
+    agree(&exact, &[0.792_692, 0.705_773, 2.190_751], 1e-4);
+    let zeroth = [0, 1, 6].map(|k| of("zeroth_order_mm", k));
+    agree(&zeroth, &[1.303_056, 2.622_993, 2.189_935], 1e-4);
+    let line = format!("lobes arm6.toml {cut} --rpm 3000 3600 2 --json");
+    let answer = json(&said(here.path(), &line).answered());
+    let point = &answer["points"][0];
+    agree(
+        &[point["limit_mm"].as_f64().expect("a limit")],
+        &[0.642_480],
+        1e-4,
+    );
+    assert_eq!(point["kind"], "flip");
+}
+
+#[test]
+fn questions_without_an_answer_are_refused_by_name() {
+    let here = arm6();
+    for (line, words) in [
+        ("modes stewart_gough_a", "mass_kg"),
+        ("modes arm6.toml --modes 0", "--modes"),
+        ("modes arm6.toml --damping 3", "critical"),
+        ("modes arm6.toml --damping -0.1", "below zero"),
+        ("modes arm6.toml --hold w", "'w'"),
+        ("modes arm6.toml --viscous q9=3", "q6"),
+        ("frf arm6.toml --frequencies 0 10 5", "--frequencies"),
+        ("frf arm6.toml --frequencies 1 10 1.5", "whole"),
+        (
+            "lobes arm6.toml --teeth 2 --coefficients-n-per-mm2 800 240 0 --rpm 1000 2000 3",
+            "damping",
+        ),
+        (
+            "lobes arm6.toml --damping 0.03 --teeth 2 --coefficients-n-per-mm2 800 0.3 0 --rpm 1000 2000 3",
+            "ratio",
+        ),
+        (
+            "lobes arm6.toml --damping 0.03 --teeth 2 --coefficients-n-per-mm2 800 240 0 --rpm 2000 1000 3",
+            "spindle speed",
+        ),
+        (
+            "lobes arm6.toml --damping 0.03 --teeth 2 --coefficients-n-per-mm2 800 240 0 --rpm 1000 2000 3 --tool-axis 1 0 0",
+            "feed",
+        ),
+        (
+            "lobes arm6.toml --damping 0.03 --coefficients-n-per-mm2 800 240 0 --rpm 1000 2000 3",
+            "--teeth",
+        ),
+    ] {
+        let said = said(here.path(), line);
+        assert_eq!(said.code, 1, "{line}: {said:?}");
+        assert!(said.err.contains(words), "{line}: {}", said.err);
+    }
+}
+
+#[test]
+fn what_is_held_does_not_vibrate() {
+    let here = arm6();
+    let held = json(&said(here.path(), "modes arm6.toml --hold x,y,z --json").answered());
+    assert_eq!(held["directions"]["vibrating"], 3);
+    let first = held["modes"][0]["frequency_hz"]
+        .as_f64()
+        .expect("a frequency");
+    assert!(first > 9.98746752, "{first}");
+}

@@ -1,0 +1,221 @@
+//! Damping, by name: each result says which it was.
+
+use nalgebra::DMatrix;
+
+use kinetostat::number::larger;
+
+use crate::error::{Error, Result};
+use crate::linear::LinearDynamics;
+use crate::modes::{ModeKind, Modes};
+
+/// How vibrations are damped.
+///
+/// ```
+/// use kinetostat_dynamics::Damping;
+///
+/// assert!(Damping::Ratio(0.03).check().is_ok()); // 3 % in every mode
+/// assert!(Damping::Ratio(3.0).check().is_err(), "per cent are no ratio");
+/// ```
+#[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Damping {
+    /// None.
+    #[default]
+    Undamped,
+    /// The same ratio `zeta` in every vibration about the loaded equilibrium: typical robots have 0.01 to 0.04.
+    Ratio(f64),
+    /// Ratios of the lowest vibrations, as measured; the last one counts for all above.
+    Ratios(Vec<f64>),
+    /// `C = a M + b K`, `K` the material stiffness of the springs.
+    Rayleigh {
+        /// `a`, 1/s.
+        mass_per_s: f64,
+        /// `b`, s.
+        stiffness_s: f64,
+    },
+    /// Loss factor `eta` of the material: `K (1 + i eta)`, not of the loads' tangent. In the frequency domain alone.
+    Structural {
+        /// `eta`.
+        loss_factor: f64,
+    },
+    /// Viscous dampers on joints and springs by name, N s/m or N m s/rad.
+    Viscous(Vec<(String, f64)>),
+}
+
+impl Damping {
+    /// Its name, for results.
+    #[must_use]
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Undamped => "undamped",
+            Self::Ratio(_) | Self::Ratios(_) => "modal",
+            Self::Rayleigh { .. } => "Rayleigh",
+            Self::Structural { .. } => "structural",
+            Self::Viscous(_) => "viscous joints",
+        }
+    }
+
+    /// Refuses numbers that no damping has.
+    ///
+    /// # Errors
+    /// [`Error::Damping`]: negative, not finite, a ratio of 1 and above.
+    pub fn check(&self) -> Result<()> {
+        let refuse = |text: String| Err(Error::Damping(text));
+        let ratio = |z: &f64| match *z {
+            z if !(z.is_finite() && z >= 0.0) => refuse(format!(
+                "the ratio is {z}, a number not below zero is needed"
+            )),
+            z if z >= 1.0 => refuse(format!(
+                "the ratio is {z}: critical damping is 1, and nothing vibrates then (3 % is 0.03)"
+            )),
+            _ => Ok(()),
+        };
+        let positive = |what: &str, x: f64| match x.is_finite() && x >= 0.0 {
+            true => Ok(()),
+            false => refuse(format!("{what} is {x}, a number not below zero is needed")),
+        };
+        match self {
+            Self::Undamped => Ok(()),
+            Self::Ratio(z) => ratio(z),
+            Self::Ratios(list) if list.is_empty() => refuse("no ratio is given".to_owned()),
+            Self::Ratios(list) => list.iter().try_for_each(ratio),
+            Self::Rayleigh {
+                mass_per_s,
+                stiffness_s,
+            } => {
+                positive("the share of the mass", *mass_per_s)?;
+                positive("the share of the stiffness", *stiffness_s)
+            }
+            Self::Structural { loss_factor } => positive("the loss factor", *loss_factor),
+            Self::Viscous(list) => list
+                .iter()
+                .try_for_each(|(name, c)| positive(&format!("the damper of '{name}'"), *c)),
+        }
+    }
+}
+
+/// What damps one mode: a share of critical damping, and a loss factor.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct ModalDamping {
+    pub ratio: f64,
+    pub loss: f64,
+}
+
+impl LinearDynamics {
+    /// Damping matrix `C` by independent coordinates, for modal, Rayleigh and viscous damping; zero for structural.
+    ///
+    /// # Errors
+    /// As [`Damping::check`]; a joint that does not exist.
+    pub fn damping_matrix(&self, modes: &Modes, damping: &Damping) -> Result<DMatrix<f64>> {
+        damping.check()?;
+        let n = self.len();
+        let mut matrix = DMatrix::zeros(n, n);
+        match damping {
+            Damping::Undamped | Damping::Structural { .. } => {}
+            Damping::Ratio(_) | Damping::Ratios(_) => {
+                // C = sum M phi 2 zeta w phi^T M: nothing on massless coordinates.
+                for (mode, own) in modes.modes.iter().zip(self.modal_damping(modes, damping)?) {
+                    let force = &self.mass * &mode.shape;
+                    let factor = 2.0 * own.ratio * mode.squared.abs().sqrt();
+                    matrix.ger(factor, &force, &force, 1.0);
+                }
+            }
+            Damping::Rayleigh {
+                mass_per_s,
+                stiffness_s,
+            } => {
+                matrix += &self.mass * *mass_per_s + &self.elastic * *stiffness_s;
+            }
+            Damping::Viscous(list) => {
+                for (name, c) in list {
+                    let row = self.motion_of_coordinate(name)?;
+                    matrix.ger(*c, &row, &row, 1.0);
+                }
+            }
+        }
+        Ok(matrix)
+    }
+
+    /// How much a joint or spring coordinate moves by the independent ones.
+    fn motion_of_coordinate(&self, name: &str) -> Result<nalgebra::DVector<f64>> {
+        let found = self.coordinates.iter().find(|c| c.name == name);
+        let found = found.ok_or_else(|| Error::UnknownName {
+            what: "joint or spring",
+            name: name.to_owned(),
+            known: self
+                .coordinates
+                .iter()
+                .map(|c| c.name.as_str())
+                .collect::<Vec<_>>()
+                .join(", "),
+        })?;
+        Ok(match &self.basis {
+            Some(basis) => basis.row(found.index).transpose(),
+            None => {
+                nalgebra::DVector::from_fn(self.len(), |i, _| f64::from(u8::from(i == found.index)))
+            }
+        })
+    }
+
+    /// Share of critical damping of every mode: given, or what Rayleigh's damping, the material or dampers on joints do
+    /// in it (couplings between modes are left out: the direct response has them). Free and unstable modes have none of
+    /// those that go by ratio.
+    ///
+    /// # Errors
+    /// As [`Self::damping_matrix`].
+    pub fn damping_ratios(&self, modes: &Modes, damping: &Damping) -> Result<Vec<f64>> {
+        let own = self.modal_damping(modes, damping)?;
+        Ok(own.iter().map(|d| larger(d.ratio, 0.5 * d.loss)).collect())
+    }
+
+    pub(crate) fn modal_damping(
+        &self,
+        modes: &Modes,
+        damping: &Damping,
+    ) -> Result<Vec<ModalDamping>> {
+        damping.check()?;
+        let vibrations = modes.modes.iter().scan(0, |count, mode| {
+            let own = (mode.kind == ModeKind::Vibration).then_some(*count);
+            *count += usize::from(own.is_some());
+            Some(own)
+        });
+        let by_list = |list: &[f64]| -> Vec<ModalDamping> {
+            vibrations
+                .clone()
+                .map(|own| own.map_or(0.0, |k| list[k.min(list.len() - 1)]))
+                .map(|ratio| ModalDamping { ratio, loss: 0.0 })
+                .collect()
+        };
+        Ok(match damping {
+            Damping::Undamped => vec![ModalDamping::default(); modes.modes.len()],
+            Damping::Ratio(ratio) => by_list(&[*ratio]),
+            Damping::Ratios(list) => by_list(list),
+            Damping::Structural { loss_factor } => modes
+                .modes
+                .iter()
+                .map(|mode| {
+                    let elastic = mode.shape.dot(&(&self.elastic * &mode.shape));
+                    let loss = if mode.squared == 0.0 {
+                        0.0
+                    } else {
+                        loss_factor * elastic / mode.squared.abs()
+                    };
+                    ModalDamping { ratio: 0.0, loss }
+                })
+                .collect(),
+            Damping::Rayleigh { .. } | Damping::Viscous(_) => {
+                let matrix = self.damping_matrix(modes, damping)?;
+                let own = modes.modes.iter().map(|mode| {
+                    let rate = mode.shape.dot(&(&matrix * &mode.shape));
+                    let ratio = if mode.squared == 0.0 {
+                        0.0
+                    } else {
+                        0.5 * rate / mode.squared.abs().sqrt()
+                    };
+                    ModalDamping { ratio, loss: 0.0 }
+                });
+                own.collect()
+            }
+        })
+    }
+}

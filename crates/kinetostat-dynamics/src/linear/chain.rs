@@ -1,0 +1,91 @@
+//! One chain about its equilibrium, its end free, held or partly held.
+
+use kinetostat::chain::ChainTangent;
+use kinetostat::{Chain, ChainProblem, MotionKind, Wrench};
+use nalgebra::DMatrix;
+
+use crate::ends::Held;
+use crate::error::Result;
+use crate::linear::build::Whole;
+use crate::linear::limb::LimbShare;
+use crate::linear::{LinearDynamics, NamedCoordinate};
+
+/// Natural units of a chain's coordinates: a slide by the natural length, a turn by a radian.
+pub(crate) fn units(chain: &Chain, length: f64) -> impl Iterator<Item = f64> + '_ {
+    chain.coordinates().iter().map(move |c| match c.kind {
+        MotionKind::Prismatic => length,
+        MotionKind::Revolute => 1.0,
+    })
+}
+
+/// Names of links in one segment.
+pub(crate) fn coarse_links<'a>(
+    chain: &'a Chain,
+    prefix: &'a str,
+) -> impl Iterator<Item = String> + 'a {
+    let links = chain.springs().iter().filter_map(|s| s.segment.as_ref());
+    links
+        .clone()
+        .filter(move |s| links.clone().filter(|other| other.link == s.link).count() == 1)
+        .map(move |s| format!("{prefix}{}", s.link))
+}
+
+/// Rows `axes^T J` of the held directions, in units of a natural length.
+pub(crate) fn held_rows(held: &Held, motions: &DMatrix<f64>, length: f64) -> DMatrix<f64> {
+    let axes = held.axes.matrix();
+    let all: Vec<usize> = (0..6).filter(|&k| held.directions[k]).collect();
+    DMatrix::from_fn(all.len(), motions.ncols(), |row, j| {
+        let k = all[row];
+        let part = 3 * (k / 3);
+        let along: f64 = (0..3)
+            .map(|i| axes[(i, k % 3)] * motions[(part + i, j)])
+            .sum();
+        if k < 3 { along / length } else { along }
+    })
+}
+
+impl LinearDynamics {
+    /// A chain at coordinates (m, rad) at which it is in equilibrium under the loads of `problem` and a wrench on its
+    /// end; `held` are the directions in which the end does not move.
+    ///
+    /// # Errors
+    /// Wrong input as in [`kinetostat::solve_chain`]; [`crate::Error::NoMass`]; [`crate::Error::Inertia`].
+    pub fn of_chain(
+        problem: &ChainProblem<'_>,
+        coordinates: &[f64],
+        wrench: &Wrench,
+        held: &Held,
+    ) -> Result<Self> {
+        let chain = problem.chain;
+        let tangent = ChainTangent::at(problem, coordinates, wrench)?;
+        let length = chain.scale().length;
+        let n = chain.coordinate_count();
+        let share = LimbShare::new(chain, "", 0, &tangent)?;
+        let rows = (!held.is_free()).then(|| {
+            let tip = DMatrix::from_fn(6, n, |i, j| share.tip[(i, j)]);
+            held_rows(held, &tip, length)
+        });
+        let units: Vec<f64> = units(chain, length).collect();
+        let mut whole = Whole::sized(units.clone(), vec![(0..n).collect()]);
+        whole.add_limb(0, share);
+        whole.coordinates.extend(named(chain, "", 0));
+        whole.coarse_links.extend(coarse_links(chain, ""));
+        whole.constrained(chain.name(), None, rows, chain.tip(), length, units)
+    }
+}
+
+/// Joints and springs of a chain as places of dampers.
+pub(crate) fn named<'a>(
+    chain: &'a Chain,
+    prefix: &'a str,
+    first: usize,
+) -> impl Iterator<Item = NamedCoordinate> + 'a {
+    chain
+        .coordinates()
+        .iter()
+        .enumerate()
+        .map(move |(i, c)| NamedCoordinate {
+            name: format!("{prefix}{}", c.name),
+            index: first + i,
+        })
+}

@@ -1,0 +1,194 @@
+//! A machine of platforms and limbs about an equilibrium [D4, D5].
+
+use kinetostat::spatial::shift_matrix;
+use kinetostat::{MechanismEquilibrium, Posture};
+use nalgebra::{DMatrix, Matrix6xX};
+
+use crate::ends::Held;
+use crate::error::Result;
+use crate::linear::build::Whole;
+use crate::linear::chain::{coarse_links, held_rows, named, units};
+use crate::linear::limb::LimbShare;
+use crate::linear::{LinearDynamics, Place};
+use crate::mass::body;
+
+impl LinearDynamics {
+    /// A machine at an equilibrium of a posture; `held` are the directions in which the tool does not move.
+    ///
+    /// Masses are those of bodies, links and platforms of the machine as it is built, at the loaded posture. Closures
+    /// are met exactly, whatever they are worth twice: over-constraint, redundant joints and limbs that cannot move in
+    /// some direction need nothing from the caller.
+    ///
+    /// # Errors
+    /// A state of another machine; [`crate::Error::NoMass`]; [`crate::Error::Inertia`].
+    ///
+    /// ```
+    /// # use kinetostat::nalgebra::{Matrix3, Vector3, vector};
+    /// # use kinetostat::*;
+    /// use kinetostat_dynamics::{Held, LinearDynamics};
+    ///
+    /// let slide = ActuatorSpec::new(MotionKind::Prismatic, Vector3::x(), 1e6); // N/m
+    /// let rail = Chain::builder("rail").actuator("trolley", slide).build()?;
+    /// let mut crane = Mechanism::builder("crane");
+    /// let hook = Platform { mass: 25.0, ..Platform::new("hook", Pose::identity()) }; // kg
+    /// let hook = crane.platform(hook);
+    /// let crane = crane.limb(Limb::between("rail", 0, hook, rail)).build()?;
+    /// let posture = crane.posture(&Pose::identity())?;
+    /// let at = posture.deflected_by(&Wrench::zero())?;
+    /// let modes = LinearDynamics::of_machine(&posture, &at, &Held::nothing())?.modes()?;
+    /// let hertz = (1e6_f64 / 25.0).sqrt() / std::f64::consts::TAU;
+    /// assert!((modes.modes[0].frequency_hz() - hertz).abs() < 1e-9);
+    /// assert_eq!(modes.counts.rigid, 5, "the hook moves along the rail and nowhere else");
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn of_machine(posture: &Posture, at: &MechanismEquilibrium, held: &Held) -> Result<Self> {
+        Self::of_state(posture, &at.state, &at.wrench, held)
+    }
+
+    /// The same at a state that is known to be in equilibrium under a wrench on the tool.
+    ///
+    /// # Errors
+    /// As [`Self::of_machine`].
+    pub fn of_state(
+        posture: &Posture,
+        state: &kinetostat::machine::MechanismState,
+        wrench: &kinetostat::Wrench,
+        held: &Held,
+    ) -> Result<Self> {
+        let machine = posture.mechanism();
+        let tangents = posture.tangents_at(state, wrench)?;
+        let length = machine.natural_length();
+        let limbs = machine.limbs();
+        let moving = machine.platforms().len() - 1;
+        let mut firsts = Vec::with_capacity(limbs.len());
+        let mut all = Vec::new();
+        for limb in limbs {
+            firsts.push(all.len());
+            all.extend(units(&limb.actual, length));
+        }
+        let motions = all.len();
+        for _ in 0..moving {
+            all.extend([length, length, length, 1.0, 1.0, 1.0]);
+        }
+        let platform = |p: usize| motions + 6 * (p - 1)..motions + 6 * p;
+        let mut blocks: Vec<Vec<usize>> = (limbs.iter().zip(&firsts))
+            .map(|(limb, &first)| {
+                let own = first..first + limb.actual.coordinate_count();
+                match limb.from {
+                    0 => own.collect(),
+                    base => own.chain(platform(base)).collect(),
+                }
+            })
+            .collect();
+        blocks.extend((1..=moving).map(|p| platform(p).collect::<Vec<_>>()));
+        let mut whole = Whole::sized(all, blocks);
+        let mut tips = Vec::with_capacity(limbs.len());
+        for (i, (limb, at)) in limbs.iter().zip(&tangents.limbs).enumerate() {
+            let prefix = match limbs.len() {
+                1 => String::new(),
+                _ => format!("{}.", limb.name),
+            };
+            let share = LimbShare::new(&limb.actual, &prefix, i, at)?;
+            let arm = state.platforms[limb.to].rotation * limb.platform_from_tip.translation.vector;
+            // Motion of the platform's origin that goes with the limb's tip.
+            let tip = DMatrix::from_fn(6, share.tip.ncols(), |r, c| share.tip[(r, c)]);
+            tips.push(shift_matrix(&-arm) * Matrix6xX::from_fn(tip.ncols(), |r, c| tip[(r, c)]));
+            whole.add_limb(i, share);
+            whole
+                .coordinates
+                .extend(named(&limb.actual, &prefix, firsts[i]));
+            whole
+                .coarse_links
+                .extend(coarse_links(&limb.actual, &prefix));
+        }
+        let mut view = whole
+            .tangent
+            .view_mut((motions, motions), (6 * moving, 6 * moving));
+        view += &tangents.platforms;
+        for (p, own) in machine.platforms().iter().enumerate().skip(1) {
+            body::check(&own.name, own.mass, &own.inertia)?;
+            let pose = &state.platforms[p];
+            let rotation = *pose.rotation.to_rotation_matrix().matrix();
+            let arm = rotation * own.centre_of_mass;
+            whole.add_platform(
+                &own.name,
+                limbs.len() + p - 1,
+                body::about_point(own.mass, &own.inertia, &rotation, &arm),
+            );
+            whole.places.push(Place {
+                name: own.name.clone(),
+                position: pose.translation.vector,
+                block: limbs.len() + p - 1,
+                motions: Matrix6xX::identity(6),
+            });
+        }
+        let tool = whole.places.len() - moving + machine.tool() - 1;
+        closed(whole, posture, &tips, held, tool, length)
+    }
+}
+
+/// Platforms follow the first limb that leads to them; what is left of the closures becomes conditions.
+fn closed(
+    whole: Whole,
+    posture: &Posture,
+    tips: &[Matrix6xX<f64>],
+    held: &Held,
+    tool: usize,
+    length: f64,
+) -> Result<LinearDynamics> {
+    let machine = posture.mechanism();
+    let limbs = machine.limbs();
+    let moving = machine.platforms().len() - 1;
+    let n = whole.units.len();
+    let free = n - 6 * moving;
+    let mut start = DMatrix::zeros(n, free);
+    start.view_mut((0, 0), (free, free)).fill_with_identity();
+    let mut placed = vec![false; moving + 1];
+    placed[0] = true;
+    let mut leads = vec![false; limbs.len()];
+    while let Some(next) = limbs.iter().position(|l| placed[l.from] && !placed[l.to]) {
+        let motion = of_tip(&whole, next, &tips[next], &start);
+        start
+            .view_mut((free + 6 * (limbs[next].to - 1), 0), (6, free))
+            .copy_from(&motion);
+        placed[limbs[next].to] = true;
+        leads[next] = true;
+    }
+    let others: Vec<usize> = (0..limbs.len()).filter(|&i| !leads[i]).collect();
+    // A platform that only limbs to it from beyond lead to keeps its six motions as unknowns of its own.
+    let lost: Vec<usize> = (1..=moving).filter(|&p| !placed[p]).collect();
+    let kept = free + 6 * lost.len();
+    let mut start = start.resize_horizontally(kept, 0.0);
+    for (k, p) in lost.iter().enumerate() {
+        for i in 0..6 {
+            start[(free + 6 * (p - 1) + i, free + 6 * k + i)] = 1.0;
+        }
+    }
+    let held_motions = DMatrix::from_fn(6, kept, |i, j| {
+        start[(free + 6 * (machine.tool() - 1) + i, j)]
+    });
+    let hands = held_rows(held, &held_motions, length);
+    let mut rows = DMatrix::zeros(6 * others.len() + hands.nrows(), kept);
+    for (k, &i) in others.iter().enumerate() {
+        let motion = of_tip(&whole, i, &tips[i], &start);
+        let platform = start.rows(free + 6 * (limbs[i].to - 1), 6);
+        let mut own = motion - platform;
+        own.rows_mut(0, 3).scale_mut(1.0 / length);
+        rows.rows_mut(6 * k, 6).copy_from(&own);
+    }
+    rows.rows_mut(6 * others.len(), hands.nrows())
+        .copy_from(&hands);
+    let mut start_units = whole.units[..free].to_vec();
+    for _ in &lost {
+        start_units.extend([length, length, length, 1.0, 1.0, 1.0]);
+    }
+    let name = machine.name().to_owned();
+    whole.constrained(&name, Some(start), Some(rows), tool, length, start_units)
+}
+
+/// Motion of a platform's origin as the tip of a limb has it, by the unknowns of `start`, 6 x m.
+fn of_tip(whole: &Whole, limb: usize, tip: &Matrix6xX<f64>, start: &DMatrix<f64>) -> DMatrix<f64> {
+    let own = start.select_rows(&whole.blocks[limb]);
+    let motion = tip * own;
+    DMatrix::from_fn(6, motion.ncols(), |i, j| motion[(i, j)])
+}

@@ -1,0 +1,161 @@
+//! Modes about the loaded equilibrium: signed frequencies, shapes, and what takes part in them.
+
+pub(crate) mod complex;
+pub(crate) mod mode;
+pub(crate) mod moved;
+pub(crate) mod pencil;
+pub(crate) mod shares;
+
+use nalgebra::{DMatrix, DVector};
+
+use crate::error::{Error, Result};
+use crate::linear::LinearDynamics;
+pub use mode::{Mode, ModeKind};
+pub use shares::EnergyShare;
+
+/// How many directions there are of each kind.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[non_exhaustive]
+pub struct DirectionCounts {
+    /// Modes that vibrate.
+    pub vibrating: usize,
+    /// Mass without stiffness: frequency zero.
+    pub free: usize,
+    /// Negative stiffness.
+    pub unstable: usize,
+    /// Stiffness without mass: they follow at once, and have no mode.
+    pub massless: usize,
+    /// Massless directions of negative stiffness: no frequency tells of them, yet the equilibrium does not hold.
+    pub massless_unstable: usize,
+    /// Neither mass nor stiffness, such as the spin of a slender strut between two ball joints.
+    pub neutral: usize,
+    /// Motions of the tool that the machine cannot make, of six.
+    pub rigid: usize,
+}
+
+/// All modes of a machine about an equilibrium.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub struct Modes {
+    /// By ascending `w^2`: unstable ones first, then free ones.
+    pub modes: Vec<Mode>,
+    /// Directions of each kind.
+    pub counts: DirectionCounts,
+    /// Names of the joints and springs that take part in neutral directions.
+    pub neutral: Vec<String>,
+}
+
+impl Modes {
+    /// Signed frequencies, Hz, ascending.
+    #[must_use]
+    pub fn frequencies_hz(&self) -> Vec<f64> {
+        self.modes.iter().map(Mode::frequency_hz).collect()
+    }
+
+    /// No mode goes away and no massless direction does; free directions are allowed. For loads with a potential.
+    #[must_use]
+    pub fn stable(&self) -> bool {
+        self.counts.unstable == 0 && self.counts.massless_unstable == 0
+    }
+}
+
+/// Below this share of the stiffnesses that act in a mode, what is left of them is rounding.
+const NOTHING: f64 = 1e-11;
+
+impl LinearDynamics {
+    /// Modes without damping; of the symmetric part of `K - H`. Where loads have no potential
+    /// ([`Self::is_circulatory`]) see [`Self::complex_modes`].
+    ///
+    /// # Errors
+    /// [`Error::NotSolved`] where the matrices are no numbers or no shift makes them definite.
+    pub fn modes(&self) -> Result<Modes> {
+        let scaled = |a: &DMatrix<f64>| {
+            let u = &self.units;
+            DMatrix::from_fn(a.nrows(), a.ncols(), |i, j| {
+                0.5 * (a[(i, j)] + a[(j, i)]) * u[i] * u[j]
+            })
+        };
+        let (mass, tangent) = (scaled(&self.mass), scaled(&self.tangent));
+        let solved = pencil::solve(&mass, &tangent).ok_or_else(|| {
+            Error::NotSolved(format!(
+                "the modes of '{}' were not found: mass or stiffness is no number",
+                self.name
+            ))
+        })?;
+        let sizes = tangent.abs();
+        let mut modes = Vec::with_capacity(solved.squared.len());
+        for (k, &squared) in solved.squared.iter().enumerate() {
+            let scaled = solved.shapes.column(k);
+            let size = scaled.abs().dot(&(&sizes * scaled.abs()));
+            let nothing = squared.abs() <= NOTHING * size + 1e-12 * solved.shift;
+            let kind = match (nothing, squared > 0.0) {
+                (true, _) => ModeKind::Free,
+                (false, true) => ModeKind::Vibration,
+                (false, false) => ModeKind::Unstable,
+            };
+            let shape = DVector::from_fn(scaled.len(), |i, _| scaled[i] * self.units[i]);
+            let tool = self.motion_at(self.tool, &shape);
+            modes.push(Mode {
+                squared: if nothing { 0.0 } else { squared },
+                kind,
+                shape,
+                tool,
+            });
+        }
+        modes.sort_by(|a, b| a.squared.total_cmp(&b.squared));
+        let of = |kind| modes.iter().filter(|m| m.kind == kind).count();
+        let counts = DirectionCounts {
+            vibrating: of(ModeKind::Vibration),
+            free: of(ModeKind::Free),
+            unstable: of(ModeKind::Unstable),
+            massless: solved.massless,
+            massless_unstable: solved.massless_unstable,
+            neutral: solved.neutral.ncols(),
+            rigid: self.rigid_directions(),
+        };
+        let neutral = self.names_in(&solved.neutral);
+        Ok(Modes {
+            modes,
+            counts,
+            neutral,
+        })
+    }
+
+    /// Motions of the tool that no coordinate makes.
+    fn rigid_directions(&self) -> usize {
+        let mut motions = self.motions_of(self.tool);
+        for k in 0..6 {
+            let unit = if k < 3 { 1.0 / self.length } else { 1.0 };
+            for (j, u) in self.units.iter().enumerate() {
+                motions[(k, j)] *= unit * u;
+            }
+        }
+        let gram = &motions * motions.transpose();
+        let values = gram.symmetric_eigenvalues();
+        let most = values
+            .iter()
+            .fold(0.0_f64, |m, x| if *x > m { *x } else { m });
+        // Squares: a millionth of the largest motion is none.
+        values.iter().filter(|v| **v <= 1e-14 * most).count()
+    }
+
+    /// Names of the coordinates with a share in the columns of a basis.
+    fn names_in(&self, basis: &DMatrix<f64>) -> Vec<String> {
+        if basis.ncols() == 0 {
+            return Vec::new();
+        }
+        let mut own = basis.clone();
+        for (mut row, unit) in own.row_iter_mut().zip(&self.units) {
+            row *= *unit;
+        }
+        let all = match &self.basis {
+            Some(whole) => whole * own,
+            None => own,
+        };
+        let named = self
+            .coordinates
+            .iter()
+            .filter(|c| all.row(c.index).norm() > 1e-6 * all.norm());
+        named.map(|c| c.name.clone()).collect()
+    }
+}

@@ -1,0 +1,38 @@
+//! A mode, and what it is.
+
+use nalgebra::{DVector, Vector6};
+
+/// What a mode is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "snake_case")]
+#[non_exhaustive]
+pub enum ModeKind {
+    /// It swings about the equilibrium.
+    Vibration,
+    /// Nothing holds it: mass without stiffness. Its frequency is zero within rounding.
+    Free,
+    /// It goes away: negative stiffness. Its frequency is written with a minus sign.
+    Unstable,
+}
+
+/// A mode of vibration.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub struct Mode {
+    /// `w^2`, (rad/s)^2; negative where the equilibrium is unstable. Zero exactly for a free direction.
+    pub squared: f64,
+    /// What it is.
+    pub kind: ModeKind,
+    /// Its shape by the independent coordinates, normalised by mass: `phi^T M phi = 1`.
+    pub shape: DVector<f64>,
+    /// Motion of the tool in it, base axes at the tool's origin: m and rad, in units of `1 / sqrt(kg)`.
+    pub tool: Vector6<f64>,
+}
+
+impl Mode {
+    /// Frequency, Hz; `-sqrt(-w^2) / 2 pi` of an unstable one.
+    #[must_use]
+    pub fn frequency_hz(&self) -> f64 {
+        self.squared.abs().sqrt().copysign(self.squared) / std::f64::consts::TAU
+    }
+}

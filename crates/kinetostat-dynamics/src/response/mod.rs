@@ -1,0 +1,34 @@
+//! Responses to harmonic forces: by the sum of modes with residual flexibility, directly, and by limbs.
+
+pub(crate) mod by_limbs;
+pub(crate) mod direct;
+pub(crate) mod modal;
+
+use nalgebra::{Complex, Matrix6};
+
+/// 6 x 6: motion (m, rad) of one point by force and moment (N, N m) on another, base axes.
+pub type Receptance = Matrix6<Complex<f64>>;
+
+/// Which motion is asked for.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Quantity {
+    /// Displacement: receptance, m/N.
+    #[default]
+    Displacement,
+    /// Velocity: mobility, m/(N s).
+    Velocity,
+    /// Acceleration: accelerance, 1/kg. What accelerometers measure.
+    Acceleration,
+}
+
+impl Quantity {
+    /// What a displacement is multiplied with at `w` (rad/s).
+    pub(crate) fn factor(self, w: f64) -> Complex<f64> {
+        match self {
+            Self::Displacement => Complex::new(1.0, 0.0),
+            Self::Velocity => Complex::new(0.0, w),
+            Self::Acceleration => Complex::new(-w * w, 0.0),
+        }
+    }
+}

@@ -1,0 +1,333 @@
+//! Response by the sum of modes with residual flexibility: what modes that are left out, and massless coordinates, do at
+//! rest [D 8; MacNeal 1971, Rubin 1975]. At 0 Hz it is the loaded compliance exactly, however few modes are kept.
+
+use nalgebra::{Complex, DMatrix, DVector, Matrix3, Matrix6, Vector3, Vector6};
+
+use crate::damping::{Damping, ModalDamping};
+use crate::error::{Error, Result};
+use crate::linear::LinearDynamics;
+use crate::linear::places::Point;
+use crate::modes::pencil::{neutral_directions, symmetric};
+use crate::modes::{ModeKind, Modes};
+use crate::response::{Quantity, Receptance};
+
+/// One mode as two points see it.
+#[derive(Clone, Debug)]
+struct Term {
+    squared: f64,
+    damping: ModalDamping,
+    /// Motion of the point looked at, base axes, and its products with those of the point pushed.
+    at: Vector6<f64>,
+    product: Matrix6<f64>,
+}
+
+impl Term {
+    /// `1 / (w_k^2 (1 + i eta) - w^2 + 2 i zeta w_k w)`.
+    fn factor(&self, w: f64) -> Complex<f64> {
+        let own = self.squared.abs().sqrt();
+        let imaginary = self.damping.loss * self.squared.abs() + 2.0 * self.damping.ratio * own * w;
+        Complex::new(self.squared - w * w, imaginary).inv()
+    }
+}
+
+/// Modal data of the translations of one point: what lobes are computed from.
+///
+/// The receptance is `sum_k phi_k phi_k^T / (w_k^2 - w^2 + 2 i zeta_k w_k w) + residual`, base axes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TranslationalModes {
+    /// Mode shapes at the point, normalised by mass, `1/sqrt(kg)`.
+    pub shapes: Vec<Vector3<f64>>,
+    /// Signed squares of the angular frequencies, (rad/s)^2; negative where unstable, zero where free.
+    pub squared: Vec<f64>,
+    /// Shares of critical damping.
+    pub ratios: Vec<f64>,
+    /// Residual flexibility of everything else, m/N.
+    pub residual: Matrix3<f64>,
+}
+
+/// Response between two points by a sum of modes.
+///
+/// ```
+/// # use kinetostat::nalgebra::{Matrix3, Vector3, vector};
+/// # use kinetostat::*;
+/// use kinetostat_dynamics::{Damping, Held, LinearDynamics, ModalResponse, Quantity};
+///
+/// let slide = ActuatorSpec::new(MotionKind::Prismatic, Vector3::x(), 4e6); // N/m
+/// let table = Chain::builder("table").actuator("slide", slide).body("table", 40.0, Vector3::zeros(), Matrix3::zeros()).build()?;
+/// let problem = ChainProblem::new(&table, EndCondition::wrench(Wrench::zero()));
+/// let at = solve_chain(&problem, &Settings::default())?;
+/// let dynamics = LinearDynamics::of_chain(&problem, &at.coordinates, &at.wrench, &Held::nothing())?;
+/// let modes = dynamics.modes()?;
+/// let tool = dynamics.tool();
+/// let response = ModalResponse::new(&dynamics, &modes, &Damping::Ratio(0.02), tool, tool, usize::MAX)?;
+/// assert!((response.at_hz(0.0)[(0, 0)].re * 4e6 - 1.0).abs() < 1e-12, "at rest the spring alone");
+/// let resonance = modes.modes[0].frequency_hz();
+/// assert!((response.at_hz(resonance)[(0, 0)].norm() * 4e6 * 2.0 * 0.02 - 1.0).abs() < 1e-9);
+/// let curve = response.over(&[10.0, 20.0, 40.0], Quantity::Acceleration); // what an accelerometer shows
+/// assert_eq!(curve.len(), 3);
+/// // What lobes need:
+/// let data = response.translational()?;
+/// assert!((data.shapes[0].x.powi(2) - 1.0 / 40.0).abs() < 1e-12 && data.ratios == [0.02]);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct ModalResponse {
+    terms: Vec<Term>,
+    residual: Matrix6<f64>,
+    same: bool,
+    damping: Damping,
+}
+
+impl ModalResponse {
+    /// Motion of `at` by what acts on `from`; the lowest `kept` modes swing, the others follow as at rest.
+    ///
+    /// # Errors
+    /// [`Error::Damping`]; [`Error::Question`] where loads have no potential (modes are complex then: ask
+    /// [`LinearDynamics::direct`]); [`Error::NotSolved`] where a massless direction has no stiffness left.
+    pub fn new(
+        dynamics: &LinearDynamics,
+        modes: &Modes,
+        damping: &Damping,
+        at: Point,
+        from: Point,
+        kept: usize,
+    ) -> Result<Self> {
+        if dynamics.is_circulatory() {
+            return Err(Error::Question(format!(
+                "loads on '{}' have no potential (dead moments or followers): its modes are complex and no sum of real ones is its response; ask for the direct response",
+                dynamics.name
+            )));
+        }
+        let (b_at, b_from) = (dynamics.motions(at), dynamics.motions(from));
+        let own = dynamics.modal_damping(modes, damping)?;
+        let six = |b: &DMatrix<f64>, shape: &DVector<f64>| {
+            Vector6::from_column_slice((b * shape).as_slice())
+        };
+        let mut terms = Vec::with_capacity(modes.modes.len());
+        for (mode, damping) in modes.modes.iter().zip(own) {
+            let (at, from) = (six(&b_at, &mode.shape), six(&b_from, &mode.shape));
+            terms.push(Term {
+                squared: mode.squared,
+                damping,
+                at,
+                product: at * from.transpose(),
+            });
+        }
+        let residual = dynamics.flexibility(modes, &b_at, &b_from, &terms, kept)?;
+        terms.truncate(kept.max(modes.counts.free + modes.counts.unstable));
+        Ok(Self {
+            terms,
+            residual,
+            same: at == from,
+            damping: damping.clone(),
+        })
+    }
+
+    /// Receptance at a frequency, Hz.
+    #[must_use]
+    pub fn at_hz(&self, hz: f64) -> Receptance {
+        self.over(&[hz], Quantity::Displacement)[0]
+    }
+
+    /// Response at many frequencies, Hz.
+    #[must_use]
+    pub fn over(&self, hz: &[f64], quantity: Quantity) -> Vec<Receptance> {
+        let mut out = vec![Receptance::zeros(); hz.len()];
+        self.over_into(hz, quantity, &mut out);
+        out
+    }
+
+    /// The same into a list that exists already; of the two the shorter counts.
+    pub fn over_into(&self, hz: &[f64], quantity: Quantity, out: &mut [Receptance]) {
+        for (hz, into) in hz.iter().zip(out) {
+            let w = hz * std::f64::consts::TAU;
+            let (mut re, mut im) = (self.residual, Matrix6::zeros());
+            for term in &self.terms {
+                let factor = term.factor(w);
+                for k in 0..36 {
+                    re.as_mut_slice()[k] += factor.re * term.product.as_slice()[k];
+                    im.as_mut_slice()[k] += factor.im * term.product.as_slice()[k];
+                }
+            }
+            let by = quantity.factor(w);
+            for k in 0..36 {
+                let value = Complex::new(re.as_slice()[k], im.as_slice()[k]);
+                into.as_mut_slice()[k] = match quantity {
+                    Quantity::Displacement => value,
+                    _ => value * by,
+                };
+            }
+        }
+    }
+
+    /// Residual flexibility: what is not in the sum of modes, 6 x 6.
+    #[must_use]
+    pub fn residual(&self) -> &Matrix6<f64> {
+        &self.residual
+    }
+
+    /// Damping that it has.
+    #[must_use]
+    pub fn damping(&self) -> &Damping {
+        &self.damping
+    }
+
+    /// Modal data of the translations, of a point that is pushed where it is looked at.
+    ///
+    /// # Errors
+    /// [`Error::Question`] for two points.
+    pub fn translational(&self) -> Result<TranslationalModes> {
+        if !self.same {
+            return Err(Error::Question(
+                "modal data of a cut are those of one point, pushed where it is looked at"
+                    .to_owned(),
+            ));
+        }
+        Ok(TranslationalModes {
+            shapes: self
+                .terms
+                .iter()
+                .map(|t| t.at.fixed_rows::<3>(0).into_owned())
+                .collect(),
+            squared: self.terms.iter().map(|t| t.squared).collect(),
+            ratios: self
+                .terms
+                .iter()
+                .map(|t| {
+                    if t.damping.loss > 0.0 {
+                        0.5 * t.damping.loss
+                    } else {
+                        t.damping.ratio
+                    }
+                })
+                .collect(),
+            residual: self.residual.fixed_view::<3, 3>(0, 0).into_owned(),
+        })
+    }
+
+    /// Share of every mode in the compliance at rest along a direction of force (base axes); together with that of the
+    /// residual, last, they add to one.
+    ///
+    /// # Errors
+    /// [`Error::Question`] for two points, or a direction that is none.
+    pub fn static_shares(&self, direction: &Vector3<f64>) -> Result<Vec<f64>> {
+        let data = self.translational()?;
+        let along = direction.norm();
+        if !(along.is_finite() && along > 0.0) {
+            return Err(Error::Question("the direction has no length".to_owned()));
+        }
+        let n = direction / along;
+        let mut parts: Vec<f64> = (data.shapes.iter().zip(&data.squared))
+            .map(|(shape, squared)| {
+                if *squared == 0.0 {
+                    0.0
+                } else {
+                    n.dot(shape).powi(2) / squared
+                }
+            })
+            .collect();
+        parts.push(n.dot(&(data.residual * n)));
+        let sum: f64 = parts.iter().sum();
+        parts.iter_mut().for_each(|part| *part /= sum);
+        Ok(parts)
+    }
+}
+
+impl LinearDynamics {
+    /// `B (K - H)^-1 B^T` less the `kept` lowest modes at rest. Free modes are left out of both.
+    fn flexibility(
+        &self,
+        modes: &Modes,
+        at: &DMatrix<f64>,
+        from: &DMatrix<f64>,
+        terms: &[Term],
+        kept: usize,
+    ) -> Result<Matrix6<f64>> {
+        let kept = kept.max(modes.counts.free + modes.counts.unstable);
+        // What is free would have no flexibility at rest: with s M everything has one, and modes are taken out by theirs.
+        let shift = match modes.counts.free {
+            0 => 0.0,
+            _ => modes
+                .modes
+                .iter()
+                .filter(|m| m.kind == ModeKind::Vibration)
+                .map(|m| m.squared)
+                .next()
+                .unwrap_or(1.0),
+        };
+        let moved = self.solved_with_shift(shift, &from.transpose(), modes.counts.neutral > 0)?;
+        let mut sum = Matrix6::zeros();
+        let all = at * moved;
+        sum.copy_from(&all);
+        for (k, term) in terms.iter().enumerate() {
+            let with_shift = term.squared + shift;
+            let of_mode = match (shift == 0.0, k < kept) {
+                (true, true) => 1.0 / with_shift,
+                (true, false) => 0.0,
+                (false, true) => 1.0 / with_shift,
+                (false, false) => 1.0 / with_shift - 1.0 / term.squared,
+            };
+            sum -= term.product * of_mode;
+        }
+        match sum.iter().all(|x| x.is_finite()) {
+            true => Ok(sum),
+            false => Err(self.no_flexibility()),
+        }
+    }
+
+    fn no_flexibility(&self) -> Error {
+        Error::NotSolved(format!(
+            "'{}' has a massless direction without stiffness that its loads couple with others: its flexibility at rest is not defined",
+            self.name
+        ))
+    }
+
+    /// `(K - H + s M)^-1 b` by the independent coordinates; neutral directions take no part.
+    fn solved_with_shift(
+        &self,
+        shift: f64,
+        b: &DMatrix<f64>,
+        neutral: bool,
+    ) -> Result<DMatrix<f64>> {
+        let n = self.len();
+        let u = &self.units;
+        let scaled = |a: &DMatrix<f64>| DMatrix::from_fn(n, n, |i, j| a[(i, j)] * u[i] * u[j]);
+        let (mass, tangent) = (scaled(&self.mass), scaled(&self.tangent));
+        let mut right = DMatrix::from_fn(n, b.ncols(), |i, j| b[(i, j)] * u[i]);
+        let basis = neutral.then(|| neutral_directions(&mass, &symmetric(tangent.clone())).1);
+        let mut a = tangent + mass * shift;
+        if let Some(rest) = &basis {
+            a = rest.tr_mul(&(a * rest));
+            right = rest.tr_mul(&right);
+        }
+        let mut x = solve_scaled(a, right).ok_or_else(|| self.no_flexibility())?;
+        if let Some(rest) = &basis {
+            x = rest * x;
+        }
+        Ok(DMatrix::from_fn(n, b.ncols(), |i, j| x[(i, j)] * u[i]))
+    }
+}
+
+/// `A^-1 b` with rows and columns in units of the diagonal.
+fn solve_scaled(mut a: DMatrix<f64>, mut b: DMatrix<f64>) -> Option<DMatrix<f64>> {
+    let n = a.nrows();
+    let units: Vec<f64> = (0..n)
+        .map(|i| {
+            let own = a[(i, i)].abs();
+            if own > 0.0 { 1.0 / own.sqrt() } else { 1.0 }
+        })
+        .collect();
+    for j in 0..n {
+        for i in 0..n {
+            a[(i, j)] *= units[i] * units[j];
+        }
+    }
+    for (mut row, unit) in b.row_iter_mut().zip(&units) {
+        row *= *unit;
+    }
+    let mut x = a.lu().solve(&b)?;
+    for (mut row, unit) in x.row_iter_mut().zip(&units) {
+        row *= *unit;
+    }
+    Some(x)
+}

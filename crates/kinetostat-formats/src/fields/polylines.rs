@@ -1,0 +1,75 @@
+//! Lines in space with numbers and vectors at their points, as VTK's legacy form of polygonal data: ParaView, `vtk` and `meshio` read it.
+
+use crate::fields::vtk::{header, numbers};
+
+/// A quantity at every point of lines.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PointQuantity {
+    /// Its name with its unit, letters, digits and `_`, as in `force_n`.
+    pub name: String,
+    /// One number of every point, three of a vector, nine of a tensor row by row.
+    pub width: usize,
+    /// Point after point.
+    pub values: Vec<f64>,
+}
+
+/// Lines in space.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Polylines {
+    /// What it is of.
+    pub title: String,
+    /// Points, in one unit.
+    pub points: Vec<[f64; 3]>,
+    /// Of each line how many of the points are its own, in their order; points of no line stand at the end.
+    pub lines: Vec<usize>,
+    /// What is known at the points.
+    pub quantities: Vec<PointQuantity>,
+}
+
+impl Polylines {
+    /// As a legacy VTK file, doubles, most significant byte first. Numbers that do not exist are NaN.
+    #[must_use]
+    pub fn vtk(&self) -> Vec<u8> {
+        let mut out = header(&self.title, "POLYDATA");
+        let put = |out: &mut Vec<u8>, text: String| out.extend_from_slice(text.as_bytes());
+        put(&mut out, format!("POINTS {} double\n", self.points.len()));
+        numbers(&mut out, self.points.as_flattened());
+        let in_lines: usize = self.lines.iter().sum();
+        let alone = self.points.len().saturating_sub(in_lines);
+        let mut first = 0_usize;
+        let index = |out: &mut Vec<u8>, i: usize| {
+            // The form has 32 bits.
+            out.extend_from_slice(&i32::try_from(i).unwrap_or(i32::MAX).to_be_bytes());
+        };
+        if alone > 0 {
+            put(&mut out, format!("VERTICES {alone} {}\n", 2 * alone));
+            for k in in_lines..self.points.len() {
+                index(&mut out, 1);
+                index(&mut out, k);
+            }
+            out.push(b'\n');
+        }
+        let size = self.lines.len() + in_lines;
+        put(&mut out, format!("LINES {} {size}\n", self.lines.len()));
+        for count in &self.lines {
+            index(&mut out, *count);
+            (first..first + count).for_each(|k| index(&mut out, k));
+            first += count;
+        }
+        out.push(b'\n');
+        put(&mut out, format!("POINT_DATA {}\n", self.points.len()));
+        for quantity in &self.quantities {
+            let name = &quantity.name;
+            put(
+                &mut out,
+                match quantity.width {
+                    3 => format!("VECTORS {name} double\n"),
+                    9 => format!("TENSORS {name} double\n"),
+                    _ => format!("SCALARS {name} double 1\nLOOKUP_TABLE default\n"),
+                },
+            );
+            numbers(&mut out, &quantity.values);
+        }
+        out
+    }
+}

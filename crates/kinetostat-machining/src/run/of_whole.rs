@@ -1,0 +1,19 @@
+//! What is known of a whole program where a part of it is run.
+
+/// What is known of a whole program where a part of it is run.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct OfWhole {
+    /// Smallest stiffness against a force at the places that a first look took, N/mm; infinite before the first.
+    pub stiffness_n_per_mm: f64,
+    /// The program is left as it is: it keeps its tolerance so, or nothing can be written.
+    pub as_it_is: bool,
+}
+
+impl Default for OfWhole {
+    fn default() -> Self {
+        Self {
+            stiffness_n_per_mm: f64::INFINITY,
+            as_it_is: false,
+        }
+    }
+}

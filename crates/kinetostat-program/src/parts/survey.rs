@@ -1,0 +1,210 @@
+//! What only the whole of a program tells, found in one reading that keeps nothing of it.
+
+use std::io::BufRead;
+
+use crate::parts::lines::{Lines, PartError};
+use crate::path::curve::Curve;
+use crate::path::moves::{Move, MoveKind, Warning};
+use crate::reading::interpreting::interpreter::Interpreter;
+use crate::reading::options::ReadOptions;
+use crate::text::line::first_line;
+use crate::text::program::{Reader, ReaderState};
+use crate::writing::blocks::block_text::motion_word;
+
+/// Lines that are in memory at a time.
+const BLOCK: usize = 4096;
+
+/// What only the whole of a program tells.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Survey {
+    /// Lines of the program.
+    pub lines: usize,
+    /// Lines with words.
+    pub blocks: usize,
+    /// Bytes of the program.
+    pub bytes: u64,
+    /// Motions.
+    pub moves: usize,
+    /// Length of the feed moves from known places, mm.
+    pub feed_mm: f64,
+    /// Arcs at feed.
+    pub feed_arcs: usize,
+    /// Whether X, Y, Z are ever stated.
+    pub stated: [bool; 3],
+    /// What may surprise, with lines.
+    pub warnings: Vec<Warning>,
+    /// Line of the mark of a compensated program.
+    pub mark_line: Option<usize>,
+    /// Its comments begin with `;`.
+    pub(crate) semicolons: bool,
+    /// The ending of its first line.
+    pub(crate) usual_ending: Vec<u8>,
+    /// Every motion has its own motion word.
+    pub(crate) repeats_motion: bool,
+}
+
+/// Feed moves by the axes that are known before them: which of them count is clear only when all axes are that are stated.
+#[derive(Debug, Clone, Copy, Default)]
+struct ByKnown {
+    feed_mm: f64,
+}
+
+/// Blocks by the axes that are known behind them.
+#[derive(Debug, Clone, Copy, Default)]
+struct Behind {
+    moves: usize,
+    first_line: usize,
+}
+
+fn index_of(known: [bool; 3]) -> usize {
+    (0..3).map(|axis| usize::from(known[axis]) << axis).sum()
+}
+
+fn covers(index: usize, stated: [bool; 3]) -> bool {
+    (0..3).all(|axis| index >> axis & 1 == 1 || !stated[axis])
+}
+
+/// A survey that is being made.
+struct Surveyor {
+    found: Survey,
+    before: [ByKnown; 8],
+    behind: [Behind; 8],
+    first_feed: Option<Move>,
+}
+
+impl Survey {
+    /// Reads a program once.
+    ///
+    /// ```
+    /// use kinetostat_program::{ReadOptions, Survey};
+    ///
+    /// let text = "G21 G90\nG0 X0 Y0 Z5\nG1 Z0 F300\nG1 X100\nM2\n";
+    /// let found = Survey::of(text.as_bytes(), &ReadOptions::default())?;
+    /// assert_eq!((found.lines, found.blocks, found.moves), (5, 5, 3));
+    /// assert_eq!((found.feed_mm, found.stated), (105.0, [true; 3]));
+    /// # Ok::<(), kinetostat_program::PartError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// The file cannot be read; the first line that cannot be followed.
+    pub fn of(text: impl BufRead, options: &ReadOptions) -> Result<Self, PartError> {
+        let mut lines = Lines::new(text);
+        let mut interpreter = Interpreter::new(options);
+        let mut state = ReaderState::default();
+        let mut surveyor = Surveyor {
+            found: Survey {
+                usual_ending: b"\n".to_vec(),
+                repeats_motion: true,
+                ..Survey::default()
+            },
+            before: Default::default(),
+            behind: Default::default(),
+            first_feed: None,
+        };
+        let mut line = Vec::new();
+        loop {
+            let mut reader = Reader::following(&state);
+            let mut count = 0;
+            while count < BLOCK {
+                line.clear();
+                if !lines.next(&mut line)? {
+                    break;
+                }
+                if surveyor.found.lines == 0 {
+                    surveyor.note_ending(&line);
+                }
+                surveyor.found.lines += 1;
+                surveyor.found.bytes += line.len() as u64;
+                reader.next_line(&line)?;
+                interpreter.run_line(reader.program(), count)?;
+                count += 1;
+            }
+            surveyor.note(&reader, &mut interpreter);
+            state = reader.state();
+            if count < BLOCK {
+                return surveyor.finish(interpreter, &reader);
+            }
+        }
+    }
+
+    /// Why a program that is read with these options cannot be taken in parts; `None` where it can.
+    #[must_use]
+    pub fn only_as_a_whole(options: &ReadOptions) -> Option<&'static str> {
+        if options.rotary.is_some() {
+            return Some("the machine has rotary axes that turn the tool in the part");
+        }
+        if options.tools.is_some() {
+            return Some("several tools are named");
+        }
+        None
+    }
+}
+
+impl Surveyor {
+    fn note_ending(&mut self, line: &[u8]) {
+        let (_, ending) = first_line(line);
+        if !ending.is_empty() {
+            self.found.usual_ending = ending.to_vec();
+        }
+    }
+
+    fn note(&mut self, reader: &Reader, interpreter: &mut Interpreter<'_>) {
+        let program = reader.program();
+        self.found.blocks += program.block_count();
+        self.found.semicolons |= program.uses_semicolons();
+        self.found.mark_line = self.found.mark_line.or(program.mark_line());
+        for (motion, [before, after]) in interpreter.take_moves() {
+            self.found.moves += 1;
+            let line = program.line(motion.line);
+            let named = line.is_some_and(|line| motion_word(program.words(line)).is_some());
+            self.found.repeats_motion &= named;
+            if motion.words.is_to_machine() {
+                continue;
+            }
+            let behind = &mut self.behind[index_of(after)];
+            if behind.moves == 0 {
+                behind.first_line = motion.line;
+            }
+            behind.moves += 1;
+            if motion.kind != MoveKind::Feed {
+                continue;
+            }
+            self.found.feed_arcs += usize::from(matches!(motion.curve, Curve::Arc(_)));
+            self.before[index_of(before)].feed_mm += motion.length_mm();
+            self.first_feed.get_or_insert(motion);
+        }
+    }
+
+    fn finish(
+        mut self,
+        mut interpreter: Interpreter<'_>,
+        reader: &Reader,
+    ) -> Result<Survey, PartError> {
+        let stated = interpreter.places.stated;
+        // For warnings that depend on whether a block has cut before.
+        if let Some(first) = self.first_feed.take() {
+            interpreter.put_move(Move {
+                curve: Curve::Line,
+                ..first
+            });
+        }
+        let path = interpreter.finish(reader.program())?;
+        let counts = (0..8).filter(|index| covers(*index, stated));
+        self.found.feed_mm = counts.map(|index| self.before[index].feed_mm).sum();
+        let unknown = (0..8).filter(|index| !covers(*index, stated));
+        let unknown: Vec<Behind> = unknown.map(|index| self.behind[index]).collect();
+        let count: usize = unknown.iter().map(|behind| behind.moves).sum();
+        self.found.stated = stated;
+        self.found.warnings = path.warnings;
+        let first = unknown.iter().filter(|behind| behind.moves > 0);
+        if let Some(line) = first.map(|behind| behind.first_line).min() {
+            self.found
+                .warnings
+                .push(crate::reading::interpreting::finish::unknown_beginning(
+                    line, count,
+                ));
+            self.found.warnings.sort_by_key(|warning| warning.line);
+        }
+        Ok(self.found)
+    }
+}

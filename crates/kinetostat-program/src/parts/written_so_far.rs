@@ -1,0 +1,170 @@
+//! Where a written program stands between two parts of the program that it is written from.
+
+use std::io::BufRead;
+
+use crate::checking::verifier::Verification;
+use crate::checking::verify::against_input;
+use crate::error::{ProgramError, WriteError};
+use crate::field::request::{CorrectionField, Monitor};
+use crate::machine_program::MachineProgram;
+use crate::parts::lines::{Lines, PartError};
+use crate::parts::survey::Survey;
+use crate::parts::windows::Part;
+use crate::path::moves::Path;
+use crate::reading::interpreting::interpreter::Interpreter;
+use crate::reading::options::ReadOptions;
+use crate::text::line::first_line;
+use crate::text::program::{PartOfText, Program, Reader, ReaderState};
+use crate::writing::options::WriteOptions;
+use crate::writing::write::write_behind;
+use crate::writing::writer_state::WriterState;
+use crate::writing::written::Corrected;
+
+/// Where a written program stands: what a controller that has run it so far holds, and where its writer does.
+pub struct WrittenSoFar<'o> {
+    survey: &'o Survey,
+    reader: ReaderState,
+    interpreter: Interpreter<'o>,
+    writer: Option<WriterState>,
+}
+
+impl<'o> WrittenSoFar<'o> {
+    /// Nothing is written yet.
+    #[must_use]
+    pub fn nothing(survey: &'o Survey, reading: &'o ReadOptions) -> Self {
+        Self {
+            survey,
+            reader: ReaderState::default(),
+            interpreter: Interpreter::new(reading),
+            writer: None,
+        }
+    }
+
+    /// These lines were written, and the writer stands so behind them: from what an interrupted run has left.
+    ///
+    /// # Errors
+    /// They cannot be read.
+    pub fn go_on(&mut self, written: impl BufRead, writer: WriterState) -> Result<(), PartError> {
+        let mut lines = Lines::new(written);
+        let mut line = Vec::new();
+        let mut reader = Reader::following(&self.reader);
+        let mut count = 0;
+        loop {
+            line.clear();
+            if !lines.next(&mut line)? {
+                break;
+            }
+            reader.next_line(&line)?;
+            self.interpreter.run_line(reader.program(), count)?;
+            count += 1;
+            if count == 4096 {
+                drop(self.interpreter.take_moves());
+                reader = Reader::following(&reader.state());
+                count = 0;
+            }
+        }
+        self.reader = reader.state();
+        self.interpreter = self.interpreter.following();
+        self.writer = Some(writer);
+        Ok(())
+    }
+
+    /// A part was written, and is in its place.
+    ///
+    /// # Errors
+    /// It cannot be read.
+    pub fn advance(&mut self, written: &Corrected) -> Result<(), PartError> {
+        match &written.writer {
+            Some(writer) => self.go_on(written.bytes.as_slice(), (**writer).clone()),
+            None => Ok(()),
+        }
+    }
+
+    /// Where the writer stands; `None` before the first part.
+    #[must_use]
+    pub fn writer(&self) -> Option<&WriterState> {
+        self.writer.as_ref()
+    }
+
+    /// Lines of the written program so far.
+    #[must_use]
+    pub fn lines(&self) -> usize {
+        self.reader.lines
+    }
+
+    /// What was written of a part, read again behind all that was written before.
+    fn read_again(&self, bytes: &[u8]) -> Result<(Program, Path), ProgramError> {
+        let mut reader = Reader::following(&self.reader);
+        let mut interpreter = self.interpreter.following();
+        let (mut start, mut index) = (0, 0);
+        while start < bytes.len() {
+            let (length, ending) = first_line(&bytes[start..]);
+            let next = start + length + ending.len();
+            reader.next_line(&bytes[start..next])?;
+            interpreter.run_line(reader.program(), index)?;
+            (start, index) = (next, index + 1);
+        }
+        let mut program = reader.into_program();
+        let before = self.reader.lines;
+        program.set_part(PartOfText {
+            core: before + 1..before + index + 1,
+            usual_ending: self.survey.usual_ending.clone(),
+            repeats_motion: false,
+        });
+        let path = interpreter.finish_part(&program, self.survey.stated)?;
+        Ok((program, path))
+    }
+}
+
+/// A part of a program in G-code, to be written behind the parts before it.
+pub struct GcodePart<'a> {
+    /// The part.
+    pub part: &'a Part,
+    /// What is written of those before it.
+    pub so_far: &'a WrittenSoFar<'a>,
+}
+
+impl MachineProgram for GcodePart<'_> {
+    fn bytes(&self) -> &[u8] {
+        self.part.program.own_bytes()
+    }
+
+    fn statement_count(&self) -> usize {
+        self.part.program.block_count()
+    }
+
+    fn path(&self) -> &Path {
+        &self.part.path
+    }
+
+    fn write(
+        &self,
+        field: &dyn CorrectionField,
+        options: &WriteOptions,
+        monitor: &dyn Monitor,
+    ) -> Result<Corrected, WriteError> {
+        let (program, path) = (&self.part.program, &self.part.path);
+        write_behind(
+            program,
+            path,
+            (field, options),
+            monitor,
+            self.so_far.writer(),
+        )
+    }
+
+    fn verify(
+        &self,
+        written: &Corrected,
+        options: &WriteOptions,
+    ) -> Result<Verification, WriteError> {
+        let again = self.so_far.read_again(&written.bytes);
+        let (output, output_path) = again.map_err(|error| WriteError::Verification {
+            line: 0,
+            output_line: error.line,
+            what: format!("it cannot be read again: {error}"),
+        })?;
+        let input = (&self.part.program, &self.part.path);
+        against_input(input, (&output, &output_path), written, options)
+    }
+}

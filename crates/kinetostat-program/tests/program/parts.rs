@@ -1,0 +1,270 @@
+//! Programs that are read and written part by part: what comes is what comes of the whole.
+
+use std::io::Write;
+use std::path::PathBuf;
+
+use kinetostat_program::*;
+use nalgebra::Vector3;
+
+/// Programs of the shared data, or nothing (said plainly) where it is absent.
+fn real_programs() -> Vec<(String, Vec<u8>)> {
+    let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data/gcode");
+    let Ok(entries) = std::fs::read_dir(&folder) else {
+        let _ = writeln!(
+            std::io::stderr(),
+            "SKIPPED: no shared data beside the checkout, the real programs were not read in parts"
+        );
+        return Vec::new();
+    };
+    let paths = entries.map(|entry| entry.unwrap().path());
+    let gcode = paths.filter(|path| path.extension().is_some_and(|end| end == "gcode"));
+    let named = gcode.map(|path| (path.display().to_string(), std::fs::read(&path).unwrap()));
+    let mut programs: Vec<(String, Vec<u8>)> = named.collect();
+    programs.sort();
+    assert!(programs.len() >= 8, "the shared data has become smaller");
+    programs
+}
+
+/// Modes, offsets, units, increments, arcs, dwells, tape marks and line endings of all kinds.
+const MODES: &str = "%\r\nO0007\r\nG21 G90 G17 (part)\r\nG0 X0 Y0 Z5\r\nG1 Z-1 F300\r\nX10\rY10\nG2 X20 Y0 I0 J-10 F600\n\
+G91 X1 Y1\nX1 Y-1\nG90 G92 X0\nX5 Y5\n(still)\nG4 P1\nG20 X1 Y1 F20\nG93 X2 F3\nX3 F2\nG94 F25\nG21 Y3 F500\nG92.1\n\
+G54 X1\nG0 Z5\nS1000 M3\nG1 Z-1\nG3 X11 I5 J0\nX0 Y0 I-5\nG1 X7\nM5\nM2\n%\nnobody reads this\n";
+
+fn programs() -> Vec<(String, Vec<u8>)> {
+    let mut all = real_programs();
+    let lines: String = (0..400)
+        .map(|i| format!("G1 X{:.3} Y{:.3}\n", f64::from(i % 20), 0.3 * f64::from(i)))
+        .collect();
+    all.push(("modes".to_owned(), MODES.as_bytes().to_vec()));
+    let zigzag = format!("G21 G90 G0 X0 Y0 Z2\nG1 Z0 F1000\n{lines}G0 Z5\nM30\n");
+    all.push(("zigzag".to_owned(), zigzag.into_bytes()));
+    all
+}
+
+fn readings() -> ReadOptions {
+    let mut reading = ReadOptions::default();
+    reading.units = Some(Units::Millimetres);
+    reading
+}
+
+fn length(own: usize, beside: usize) -> PartLength {
+    PartLength { own, beside }
+}
+
+/// The whole path and what a survey says, of programs that can be read; the others are refused on the same line.
+fn whole(name: &str, text: &[u8], reading: &ReadOptions) -> Option<(Program, Path, Survey)> {
+    let survey = Survey::of(text, reading);
+    let read = Program::read(text);
+    let read = read.and_then(|program| interpret(&program, reading).map(|path| (program, path)));
+    match (read, survey) {
+        (Ok((program, path)), Ok(survey)) => Some((program, path, survey)),
+        (Err(error), Err(PartError::Program(found))) => {
+            // A survey goes line by line: it finds the first fault of all, where the whole first tells what it cannot divide into
+            // words.
+            let first = &faults(text, reading)[0];
+            assert_eq!(first.line, found.line, "{name}");
+            assert!(found.line <= error.line, "{name}");
+            None
+        }
+        (path, survey) => panic!("{name}: {:?} {:?}", path.err(), survey.err()),
+    }
+}
+
+#[test]
+fn a_survey_tells_what_the_whole_does() {
+    let reading = readings();
+    let mut read = 0;
+    for (name, text) in programs() {
+        let Some((program, path, survey)) = whole(&name, &text, &reading) else {
+            continue;
+        };
+        read += 1;
+        assert_eq!(survey.lines, program.line_count(), "{name}");
+        assert_eq!(survey.blocks, program.block_count(), "{name}");
+        assert_eq!(survey.bytes, text.len() as u64, "{name}");
+        assert_eq!(survey.moves, path.moves.len(), "{name}");
+        assert_eq!(survey.stated, path.stated, "{name}");
+        assert_eq!(survey.warnings, path.warnings, "{name}");
+        let feed = path.moves.iter().filter(|motion| motion.is_known_feed());
+        let feed_mm: f64 = feed.map(Move::length_mm).sum();
+        assert!((survey.feed_mm - feed_mm).abs() <= 1e-9 * feed_mm, "{name}");
+    }
+    assert!(read >= 2);
+}
+
+#[test]
+fn moves_of_parts_are_those_of_the_whole_bit_by_bit() {
+    let reading = readings();
+    for (name, text) in programs() {
+        let Some((_, path, survey)) = whole(&name, &text, &reading) else {
+            continue;
+        };
+        for (own, beside) in [(1, 0), (2, 3), (7, 7), (50, 1), (1000, 64)] {
+            if text.len() > 200_000 && own < 50 {
+                continue;
+            }
+            let (mut moves, mut next, mut pauses) = (Vec::new(), 1, 0);
+            for part in Parts::new(text.as_slice(), (&survey, &reading), length(own, beside)) {
+                let part = part.unwrap_or_else(|error| panic!("{name}: {error}"));
+                assert_eq!(part.first_line(), next, "{name}");
+                next = part.next_line();
+                let own_moves = part.path.own_moves();
+                assert_eq!(
+                    part.path.part.as_ref().unwrap().moves_before + own_moves.start,
+                    moves.len()
+                );
+                let lines = part.first_line()..part.next_line();
+                pauses += part
+                    .path
+                    .pauses
+                    .iter()
+                    .filter(|p| lines.contains(&p.line))
+                    .count();
+                moves.extend_from_slice(&part.path.moves[own_moves]);
+            }
+            assert_eq!(next, survey.lines + 1, "{name}");
+            assert_eq!(pauses, path.pauses.len(), "{name}");
+            // Debug tells every bit of a number.
+            assert!(
+                format!("{moves:?}") == format!("{:?}", path.moves),
+                "{name}, {own} lines"
+            );
+        }
+    }
+}
+
+/// Written and checked part by part.
+fn in_parts(
+    (name, text): (&str, &[u8]),
+    field: &dyn CorrectionField,
+    (reading, writing): (&ReadOptions, &WriteOptions),
+    length: PartLength,
+) -> (Vec<u8>, usize) {
+    let survey = Survey::of(text, reading).unwrap();
+    let mut so_far = WrittenSoFar::nothing(&survey, reading);
+    let mut bytes = Vec::new();
+    let mut pieces = 0;
+    for part in Parts::new(text, (&survey, reading), length) {
+        let part = part.unwrap();
+        let program = GcodePart {
+            part: &part,
+            so_far: &so_far,
+        };
+        let written = program.write(field, writing, &Unwatched).unwrap();
+        let found = program.verify(&written, writing);
+        let found = found.unwrap_or_else(|error| {
+            panic!(
+                "{name}: {error}\n{}",
+                String::from_utf8_lossy(&written.bytes)
+            )
+        });
+        assert_eq!(found.moves, written.pieces.len());
+        assert_eq!(written.pieces_before(), pieces);
+        pieces += written.pieces.len();
+        bytes.extend_from_slice(&written.bytes);
+        so_far.advance(&written).unwrap();
+    }
+    (bytes, pieces)
+}
+
+/// A smooth field of some tenths of a millimetre.
+fn smooth(request: &Request) -> Result<Vector3<f64>, FieldFailure> {
+    let p = request.position_mm / 60.0;
+    let field = Vector3::new(
+        (p.x + p.y).sin(),
+        (p.y - p.z).cos(),
+        (0.7 * p.x + 1.0).sin(),
+    );
+    Ok(0.1 * field)
+}
+
+/// A field that turns with the feed: it jumps at corners.
+fn beside_the_feed(request: &Request) -> Result<Vector3<f64>, FieldFailure> {
+    let along = request.tangent.unwrap_or_default();
+    Ok(Vector3::z().cross(&along) * 0.05 + 1e-4 * request.position_mm)
+}
+
+#[test]
+fn what_is_written_in_parts_is_what_is_written_of_the_whole() {
+    let reading = readings();
+    let mut written_anew = 0;
+    let mut wide = WriteOptions::default();
+    wide.tolerance_mm = 0.01;
+    let mut straight = wide.clone();
+    straight.arcs = Arcs::Lines;
+    let fields: [&dyn CorrectionField; 2] = [&smooth, &beside_the_feed];
+    for (name, text) in programs() {
+        let Some((program, path, _)) = whole(&name, &text, &reading) else {
+            continue;
+        };
+        if text.len() > 200_000 {
+            continue;
+        }
+        for (field, writing) in fields.iter().zip([&wide, &straight]) {
+            let all = write_corrected(&program, &path, *field, writing, &Unwatched);
+            let Ok(all) = all else { continue };
+            written_anew += 1;
+            for (own, beside) in [(40, 8), (333, 20)] {
+                let found = in_parts(
+                    (&name, &text),
+                    *field,
+                    (&reading, writing),
+                    length(own, beside),
+                );
+                assert_eq!(found.1, all.pieces.len(), "{name}");
+                let same = found.0 == all.bytes;
+                assert!(
+                    same,
+                    "{name}, {own} lines: {}",
+                    first_difference(&found.0, &all.bytes)
+                );
+            }
+        }
+    }
+    assert!(written_anew >= 4);
+}
+
+fn first_difference(a: &[u8], b: &[u8]) -> String {
+    let [a, b] = [a, b].map(|bytes| String::from_utf8_lossy(bytes).into_owned());
+    let both = a.lines().zip(b.lines()).enumerate();
+    let found = both.into_iter().find(|(_, (a, b))| a != b);
+    format!("{found:?}")
+}
+
+#[test]
+fn an_interrupted_program_is_written_on_from_the_state_that_was_kept() {
+    let reading = readings();
+    let writing = WriteOptions::default();
+    let (_, text) = programs().pop().unwrap();
+    let survey = Survey::of(text.as_slice(), &reading).unwrap();
+    let (whole, _) = in_parts(
+        ("zigzag", &text),
+        &smooth,
+        (&reading, &writing),
+        length(50, 8),
+    );
+    for stop in [1, 4, 7] {
+        let mut so_far = WrittenSoFar::nothing(&survey, &reading);
+        let mut bytes = Vec::new();
+        for (index, part) in
+            Parts::new(text.as_slice(), (&survey, &reading), length(50, 8)).enumerate()
+        {
+            let part = part.unwrap();
+            if index == stop {
+                // All that is left are the bytes and the state of the writer.
+                let writer = so_far.writer().unwrap().clone();
+                so_far = WrittenSoFar::nothing(&survey, &reading);
+                so_far.go_on(bytes.as_slice(), writer).unwrap();
+            }
+            let program = GcodePart {
+                part: &part,
+                so_far: &so_far,
+            };
+            let written = program.write(&smooth, &writing, &Unwatched).unwrap();
+            program.verify(&written, &writing).unwrap();
+            bytes.extend_from_slice(&written.bytes);
+            so_far.advance(&written).unwrap();
+        }
+        assert!(bytes == whole);
+    }
+}

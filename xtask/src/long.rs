@@ -1,0 +1,160 @@
+//! `cargo xtask long`: programs of millions of blocks, their memory and growth, killed and gone on with. A soak, not for CI.
+
+use std::fs;
+use std::io::{BufWriter, Write};
+use std::path::Path;
+use std::process::{Command, Stdio};
+use std::time::{Duration, Instant};
+
+use anyhow::{Context, Result, bail};
+
+use crate::{cargo, root, step};
+
+/// `--blocks N` (5 000 000) and `--kills K` (20).
+///
+/// # Errors
+/// A run that fails, other bytes after a kill, memory or growth beyond what is asked.
+#[allow(clippy::print_stdout)] // figures are the output that was requested
+pub fn run(options: &[&str]) -> Result<()> {
+    let (mut blocks, mut kills) = (5_000_000_usize, 20_u64);
+    for pair in options.chunks(2) {
+        match pair {
+            ["--blocks", count] => blocks = count.parse().context("--blocks")?,
+            ["--kills", count] => kills = count.parse().context("--kills")?,
+            _ => bail!("cargo xtask long [--blocks N] [--kills K]"),
+        }
+    }
+    let build = ["build", "--release", "-p", "kinetostat-cli"];
+    step("long: release build", cargo().args(build))?;
+    let here = root().join("target/long");
+    fs::create_dir_all(&here)?;
+    let mut times = Vec::new();
+    for share in [100, 10, 1] {
+        let count = blocks / share;
+        surface(&here.join(format!("{count}.ngc")), count)?;
+        eprintln!("== long: {count} blocks");
+        let (seconds, memory_mb) = measured(&here, count)?;
+        println!(
+            r#"figure {{"name": "long program: memory with {count} blocks", "measured": {memory_mb:.0}, "asked": 300, "unit": "MB", "holds": {}}}"#,
+            memory_mb < 300.0
+        );
+        times.push((count as f64, seconds));
+    }
+    let ((a, first), (b, last)) = (times[0], times[2]);
+    let growth = (last / first).ln() / (b / a).ln();
+    println!(
+        r#"figure {{"name": "long program: growth of the time", "measured": {growth:.3}, "asked": 1.03, "unit": "exponent", "holds": {}}}"#,
+        (growth - 1.0).abs() <= 0.03
+    );
+    killed(&here, blocks, kills, times[2].1)
+}
+
+/// A surface in zigzag of so many blocks.
+fn surface(path: &Path, blocks: usize) -> Result<()> {
+    let mut file = BufWriter::new(fs::File::create(path)?);
+    writeln!(file, "G21 G90 G17\nG0 X-20 Y-20 Z5\nG1 Z0 F300")?;
+    let row = 2000;
+    let rows = blocks.div_ceil(row) as f64;
+    for block in 0..blocks {
+        let (line, at) = (block / row, block % row);
+        let x = -20.0
+            + 40.0
+                * (if line.is_multiple_of(2) {
+                    at
+                } else {
+                    row - 1 - at
+                }) as f64
+                / row as f64;
+        let y = -20.0 + 40.0 * line as f64 / rows;
+        let z = 2.0 * (0.2 * x).sin() * (0.15 * y).cos();
+        writeln!(file, "G1 X{x:.4} Y{y:.4} Z{z:.4} F1200")?;
+    }
+    writeln!(file, "G0 Z5\nM2")?;
+    file.flush()?;
+    Ok(())
+}
+
+fn question(here: &Path, blocks: usize, out: &str) -> Vec<String> {
+    let program = here.join(format!("{blocks}.ngc"));
+    let out = here.join(out);
+    let words = "compensate --model orthoglide --tool-length-mm 100 --part-origin-mm 0 0 100 --milling 100 -10 -25 --tolerance-um 5 --threads 1 --part-lines 20000";
+    let mut all: Vec<String> = words.split(' ').map(str::to_owned).collect();
+    for (option, path) in [
+        ("--program", &program),
+        ("--out", &out),
+        ("--points", &out.with_extension("csv")),
+    ] {
+        all.extend([option.to_owned(), path.display().to_string()]);
+    }
+    all
+}
+
+fn binary() -> std::path::PathBuf {
+    root().join("target/release/kinetostat")
+}
+
+/// Processor time in seconds and peak memory in MB of an uninterrupted run.
+fn measured(here: &Path, blocks: usize) -> Result<(f64, f64)> {
+    for end in ["ngc", "csv"] {
+        let _ = fs::remove_file(here.join(format!("whole.{end}")));
+    }
+    let done = Command::new("/usr/bin/time")
+        .args(["-f", "figures %U %M"])
+        .arg(binary())
+        .args(question(here, blocks, "whole.ngc"))
+        .stdout(Stdio::null())
+        .output()
+        .context("/usr/bin/time")?;
+    let said = String::from_utf8_lossy(&done.stderr).into_owned();
+    let figures = said.lines().find_map(|line| line.strip_prefix("figures "));
+    let numbers = figures.map(|line| {
+        line.split(' ')
+            .map(str::parse::<f64>)
+            .collect::<Result<Vec<_>, _>>()
+    });
+    match numbers {
+        Some(Ok(found)) if done.status.success() && found.len() == 2 => {
+            Ok((found[0], found[1] / 1024.0))
+        }
+        _ => bail!("{said}"),
+    }
+}
+
+/// Killed at moments over the length of a run, and gone on with.
+#[allow(clippy::print_stdout)] // figures are the output that was requested
+fn killed(here: &Path, blocks: usize, kills: u64, seconds: f64) -> Result<()> {
+    eprintln!("== long: killed {kills} times");
+    for end in ["ngc", "csv"] {
+        let _ = fs::remove_file(here.join(format!("killed.{end}")));
+    }
+    let began = Instant::now();
+    let mut done = 0;
+    for kill in 0..=kills {
+        let mut child = Command::new(binary())
+            .args(question(here, blocks, "killed.ngc"))
+            .stdout(Stdio::null())
+            .spawn()?;
+        if kill < kills {
+            // Moments without a pattern: golden section.
+            let part = (0.618_034 * (kill + 1) as f64).fract();
+            std::thread::sleep(Duration::from_secs_f64(2.0 * part * seconds / kills as f64));
+            child.kill()?;
+            done += u64::from(!child.wait()?.success());
+        } else if !child.wait()?.success() {
+            bail!("the run that goes on failed");
+        }
+    }
+    let same = ["ngc", "csv"].iter().all(|end| {
+        let read = |name: &str| fs::read(here.join(format!("{name}.{end}"))).ok();
+        read("whole").is_some() && read("whole") == read("killed")
+    });
+    println!(
+        r#"figure {{"name": "long program: kills after which the bytes are the same", "measured": {}, "asked": {kills}, "unit": "kills", "holds": {same}}}"#,
+        if same { done } else { 0 }
+    );
+    eprintln!("== long: {:.0} s", began.elapsed().as_secs_f64());
+    match same {
+        true => Ok(()),
+        false => bail!("other bytes after kills"),
+    }
+}
