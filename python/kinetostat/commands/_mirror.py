@@ -66,7 +66,7 @@ def mirror(
         The state of all trials (TOML), read and written; without it this is the only trial
     job : path
         Job file (TOML): the compensation by its model, if it names one, comes first, and the mirror
-        corrects what is left; its features are told one by one
+        corrects what is left; each of its features gets figures of its own
     relaxation : float
         Share of the deviation that is mirrored, above 0 and below 2 [default: 1]
     smoothing_mm : float

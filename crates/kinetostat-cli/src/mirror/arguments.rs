@@ -48,7 +48,7 @@ pub(crate) struct MirrorArgs {
     #[arg(long, value_name = "FILE")]
     pub(crate) state: Option<PathBuf>,
     /// Job file (TOML): the compensation by its model, if it names one, comes first, and the mirror
-    /// corrects what is left; its features are told one by one
+    /// corrects what is left; each of its features gets figures of its own
     #[arg(long, value_name = "JOB")]
     pub(crate) job: Option<PathBuf>,
     /// Share of the deviation that is mirrored, above 0 and below 2 [default: 1]

@@ -11,7 +11,7 @@ use crate::ui::failure::{Answer, Failure};
 pub(crate) struct DampingArgs {
     /// Ratio to critical damping of all modes (0.03 is 3 %), or one for each of the lowest modes, the
     /// last for all above
-    #[arg(long, num_args = 1.., value_name = "RATIO", value_delimiter = ',', allow_negative_numbers = true, value_parser = number, help_heading = "Damping", conflicts_with_all = ["rayleigh", "loss_factor", "viscous"])]
+    #[arg(long, num_args = 1.., value_name = "RATIO", allow_negative_numbers = true, value_parser = number, help_heading = "Damping", conflicts_with_all = ["rayleigh", "loss_factor", "viscous"])]
     pub(crate) damping: Vec<f64>,
     /// C = A M + B K: A in 1/s, B in s
     #[arg(long, num_args = 2, value_names = ["A", "B"], allow_negative_numbers = true, value_parser = number, help_heading = "Damping", conflicts_with_all = ["loss_factor", "viscous"])]

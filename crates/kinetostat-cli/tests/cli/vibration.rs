@@ -89,7 +89,7 @@ fn frequencies_of_the_arm_are_those_of_the_reference_values() {
 fn modes_are_written_and_drawn_in_two_phases() {
     let here = arm6();
     let line =
-        "modes arm6.toml --modes 3 --damping 0.03,0.02 --csv m.csv --plot m.svg --json m.json";
+        "modes arm6.toml --modes 3 --damping 0.03 0.02 --csv m.csv --plot m.svg --json m.json";
     let text = said(here.path(), line).answered();
     assert!(text.out.contains("9.9875"), "{}", text.out);
     let file = std::fs::read_to_string(here.path().join("m.json")).expect("JSON");

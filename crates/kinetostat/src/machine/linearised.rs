@@ -140,6 +140,27 @@ impl Posture {
     ///
     /// # Errors
     /// A state of another machine.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// # use kinetostat::nalgebra::{Vector3, vector};
+    /// # use kinetostat::*;
+    /// # let slide = |axis, stiffness| ActuatorSpec::new(MotionKind::Prismatic, axis, stiffness);
+    /// let table = Chain::builder("table")
+    ///     .actuator("long", slide(Vector3::x(), 8e7)) // N/m
+    ///     .actuator("cross", slide(Vector3::y(), 2e7))
+    ///     .build()?;
+    /// let table = Mechanism::serial(table, Pose::identity(), Vector3::zeros())?;
+    /// let posture = table.posture(&Pose::identity())?.as_drawn();
+    /// let pushed = Wrench::new(vector![300.0, 0.0, 0.0], Vector3::zeros()); // N
+    /// let equilibrium = posture.deflected_by(&pushed)?;
+    /// let tangents = posture.tangents_at(&equilibrium.state, &pushed)?;
+    /// // The slides' stiffness on the diagonal; no moving platform but the tool.
+    /// let springs = &tangents.limbs[0].springs; // N/m
+    /// assert_eq!((springs[(0, 0)], springs[(0, 1)], springs[(1, 1)]), (8e7, 0.0, 2e7));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn tangents_at(&self, state: &MechanismState, wrench: &Wrench) -> Result<MachineTangents> {
         check_state(&self.mechanism, state)?;
         let solver = self.evaluated(state.clone(), wrench, 1.0);
