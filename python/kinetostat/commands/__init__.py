@@ -22,10 +22,13 @@ from kinetostat.commands._engagement import engagement
 from kinetostat.commands._equilibria import equilibria
 from kinetostat.commands._expand import expand
 from kinetostat.commands._force import force
+from kinetostat.commands._frf import frf
 from kinetostat.commands._import import import_link_displacements, import_matrix, import_urdf
+from kinetostat.commands._lobes import lobes
 from kinetostat.commands._map import map
 from kinetostat.commands._mirror import mirror
 from kinetostat.commands._model import model_compare, model_draw, model_list, model_schema, model_show
+from kinetostat.commands._modes import modes
 from kinetostat.commands._place import place
 from kinetostat.commands._reproduce import reproduce
 from kinetostat.commands._shares import shares
@@ -49,9 +52,11 @@ __all__ = [
     "equilibria",
     "expand",
     "force",
+    "frf",
     "import_link_displacements",
     "import_matrix",
     "import_urdf",
+    "lobes",
     "map",
     "mirror",
     "model_compare",
@@ -59,6 +64,7 @@ __all__ = [
     "model_list",
     "model_schema",
     "model_show",
+    "modes",
     "place",
     "reproduce",
     "run",

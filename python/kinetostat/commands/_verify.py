@@ -63,6 +63,8 @@ def verify(
     vtk: _Path | None = None,
     all_points: bool = False,
     force_overwrite: bool = False,
+    restart: bool = False,
+    part_lines: int | None = None,
     threads: int | None = None,
     tolerance_um: float | None = None,
     against: _Path | None = None,
@@ -192,6 +194,10 @@ def verify(
         Every point in the table, however large it becomes
     force_overwrite : bool
         Overwrite outputs that exist (never an input)
+    restart : bool
+        Begin a long program anew, though a run of it was interrupted and could go on
+    part_lines : int
+        Lines of a part of a long program (for tests): a program of any length is run in parts
     threads : int
         Number of threads; all cores without it. The result is the same
     tolerance_um : float
@@ -271,6 +277,8 @@ def verify(
         ("--vtk", vtk),
         ("--all-points", all_points),
         ("--force-overwrite", force_overwrite),
+        ("--restart", restart),
+        ("--part-lines", part_lines),
         ("--threads", threads),
         ("--tolerance-um", tolerance_um),
         ("--against", against),

@@ -1,5 +1,6 @@
 //! The answer of `modes` for a person, and as a table.
 
+use kinetostat::number::larger;
 use kinetostat_dynamics::{DirectionCounts, EnergyShare, ModeKind};
 
 use crate::modes::answer::{ModeAnswer, ModesAnswer};
@@ -88,7 +89,7 @@ fn row(mode: &ModeAnswer) -> Vec<String> {
         _ => "",
     };
     let along = mode.tool_translation_per_sqrt_kg;
-    let most = along.into_iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+    let most = along.into_iter().map(f64::abs).fold(0.0, larger);
     let (along, turns) = match most > 0.0 {
         true => (
             triple(along.map(|x| x / most), |x| fixed(x, 2)),

@@ -101,8 +101,8 @@ impl AlongPath {
         found.ok().filter(|found| self.continued(poses, found))
     }
 
-    /// As [`Self::rest`], with the stability ([`BatchEquilibrium::stability`]): in some of the places, and in between where it is shown to go evenly,
-    /// to a ten-thousandth.
+    /// As [`Self::rest`], with the stability ([`BatchEquilibrium::stability`]): in some of the places, and in between from a parabola where
+    /// it is shown to be one, to a ten-millionth.
     #[must_use]
     pub fn with_stability(&self, poses: &[Pose], wrenches: &[Wrench]) -> Option<BatchEquilibrium> {
         let batch = self.batch.as_ref().filter(|_| self.stability_by_kernels)?;

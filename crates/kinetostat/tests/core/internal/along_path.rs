@@ -237,11 +237,11 @@ fn stability_between_places_is_as_where_it_is_looked_at() {
                 assert_eq!(x.stable, y.stable);
                 let shares = (x.share_to_buckling, y.share_to_buckling);
                 let off = (x.stiffness_against_force / y.stiffness_against_force - 1.0).abs();
-                assert!(off < 2e-4, "{}, {i}: {off:e}", machine.name());
+                assert!(off < 1e-7, "{}, {i}: {off:e}", machine.name());
                 assert_eq!(shares.0.is_some(), shares.1.is_some());
                 if let (Some(x), Some(y)) = shares {
                     let off = (x - y).abs() / y.abs().max(0.01);
-                    assert!(off < 2e-4, "{}, {i}: {x} for {y}", machine.name());
+                    assert!(off < 1e-7, "{}, {i}: {x} for {y}", machine.name());
                 }
             }
         }
