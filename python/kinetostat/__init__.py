@@ -30,10 +30,26 @@ from kinetostat.program import Corrected, correct_program
 from kinetostat.progress import bar
 from kinetostat.results import Equilibria, Stiffnesses, Targets
 from kinetostat.spatial import pose, rotation_from_vector, rotation_vector, wrench
-from kinetostat.status import DirectionKind, FoundBy, Status
+from kinetostat.status import DirectionKind, FoundBy, ModeKind, Status
 
 if _TYPE_CHECKING:
-    from kinetostat import assembly, commands, compensation, curves, cutting, maps, measured, plot, shapes, shares, sweep, tolerance, view
+    from kinetostat import (
+        assembly,
+        chatter,
+        commands,
+        compensation,
+        curves,
+        cutting,
+        maps,
+        measured,
+        plot,
+        shapes,
+        shares,
+        sweep,
+        tolerance,
+        vibration,
+        view,
+    )
     from kinetostat import symbolic as symbolic
 
 __version__ = _core.VERSION
@@ -54,6 +70,7 @@ __all__ = [
     "LimitViolation",
     "Machine",
     "MachineBuilder",
+    "ModeKind",
     "ModelEquilibria",
     "ModelError",
     "PlausibilityWarning",
@@ -67,6 +84,7 @@ __all__ = [
     "__version__",
     "assembly",
     "bar",
+    "chatter",
     "commands",
     "compensation",
     "correct_program",
@@ -86,6 +104,7 @@ __all__ = [
     "spatial",
     "sweep",
     "tolerance",
+    "vibration",
     "view",
     "wrench",
 ]
@@ -97,6 +116,7 @@ if hasattr(_os, "register_at_fork"):
 # Modules that are imported when they are asked for: `import kinetostat` stays quick.
 _WHEN_ASKED = (
     "assembly",
+    "chatter",
     "commands",
     "compensation",
     "curves",
@@ -109,6 +129,7 @@ _WHEN_ASKED = (
     "sweep",
     "symbolic",  # not in __all__: it needs SymPy, and `from kinetostat import *` does not
     "tolerance",
+    "vibration",
     "view",
 )
 

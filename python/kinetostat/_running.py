@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import dataclasses
 import json
+import keyword
 import os
 import re
 import tempfile
@@ -82,11 +83,17 @@ def arguments(**names: str) -> Iterator[None]:
         _ARGUMENTS.reset(before)
 
 
+def _argument(option: str) -> str:
+    """The argument of an option by its name without dashes before it: with _ for -, and behind a word of Python's own, as in ``from_``."""
+    name = option.replace("-", "_")
+    return f"{name}_" if keyword.iskeyword(name) else name
+
+
 def in_words_of_python(message: str) -> str:
     """A message of a command with the names of arguments for those of options: with _ for -, or as :func:`arguments` says."""
 
     def argument(option: re.Match[str]) -> str:
-        name = option[1].replace("-", "_")
+        name = _argument(option[1])
         return _ARGUMENTS.get().get(name, name) + ("=N" if option[2] else "")
 
     return re.sub(r"(?<![\w-])--([a-z][a-z-]*)( N\b)?", argument, message)
@@ -115,7 +122,7 @@ def _shape(row: Any) -> tuple[int, ...] | None:
 
 def _option(option: str, value: Any) -> list[str]:
     """An option of the command line with its value; an argument without an option has its name without dashes."""
-    name = option.removeprefix("--").replace("-", "_")
+    name = _argument(option.removeprefix("--"))
     head = [option] if option.startswith("--") else []
     if value is None or value is False:
         return []

@@ -245,8 +245,8 @@ class LimbBuilder:
         """
         return self._add({"node": text("name", name)})
 
-    def body(self, name: str, mass: float, centre: ArrayLike = (0.0, 0.0, 0.0)) -> LimbBuilder:
-        """A mass, kg, with its centre in the frame reached there, m.
+    def body(self, name: str, mass: float, centre: ArrayLike = (0.0, 0.0, 0.0), *, inertia: ArrayLike | None = None) -> LimbBuilder:
+        """A mass, kg, with its centre in the frame reached there, m, and its inertia (3, 3) about the centre, kg m^2, for vibrations.
 
         Examples
         --------
@@ -254,7 +254,15 @@ class LimbBuilder:
         12.0
         """
         where = one("centre", centre, (3,)).tolist()
-        return self._add({"body": text("name", name), "mass_kg": real("mass", mass), "centre_of_mass_m": where})
+        about = or_none(one, "inertia", inertia, (3, 3))
+        return self._add(
+            {
+                "body": text("name", name),
+                "mass_kg": real("mass", mass),
+                "centre_of_mass_m": where,
+                "inertia_kg_m2": None if about is None else about.tolist(),
+            }
+        )
 
     def element(self, element: Mapping[str, Any]) -> LimbBuilder:
         """Any other element, with the keys of the model file.
@@ -330,7 +338,15 @@ class MachineBuilder:
         self._limbs: list[tuple[LimbBuilder, dict[str, Any]]] = []
         self._loads: list[dict[str, Any]] = []
 
-    def platform(self, name: str, home: ArrayLike, *, mass: float | None = None, centre: ArrayLike | None = None) -> None:
+    def platform(
+        self,
+        name: str,
+        home: ArrayLike,
+        *,
+        mass: float | None = None,
+        centre: ArrayLike | None = None,
+        inertia: ArrayLike | None = None,
+    ) -> None:
         """A moving body; the last one carries the tool.
 
         Parameters
@@ -343,6 +359,8 @@ class MachineBuilder:
             kg.
         centre : array_like, shape (3,), optional
             Centre of mass in the platform's frame, m.
+        inertia : array_like, shape (3, 3), optional
+            About the centre of mass, axes of the platform, kg m^2, for vibrations.
 
         Examples
         --------
@@ -353,6 +371,8 @@ class MachineBuilder:
             table["mass_kg"] = real("mass", mass)
         if centre is not None:
             table["centre_of_mass_m"] = one("centre", centre, (3,)).tolist()
+        if inertia is not None:
+            table["inertia_kg_m2"] = one("inertia", inertia, (3, 3)).tolist()
         self._platforms.append(table)
 
     def section(self, name: str, **values: Any) -> None:

@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from kinetostat.problem import EquilibriumProblem
     from kinetostat.shapes import Shapes
     from kinetostat.shares import Shares
+    from kinetostat.vibration import Vibration
 
 __all__ = ["Direction", "Equilibrium", "LimitViolation", "Posture", "Stiffness"]
 
@@ -377,6 +378,34 @@ class Posture:
         # A copy: what the caller does with its array later is not part of this equilibrium.
         given = one("pose", pose, (4, 4)).copy()
         return Equilibrium(self, self._native.held_at(given[None]), ("held_at", given))
+
+    def vibration(self, wrench: ArrayLike = (0.0,) * 6, *, held: Sequence[str] = ()) -> Vibration:
+        """Modes about the equilibrium under a wrench on the tool.
+
+        Parameters
+        ----------
+        wrench : array_like, shape (6,)
+            Force and moment (N, N m), base axes, about the tool's reference point.
+        held : Sequence[str]
+            Directions of ``x y z rx ry rz`` (base axes) in which the tool is held while the machine vibrates.
+
+        Raises
+        ------
+        ArgumentError
+            The machine has no mass anywhere, or a mass that no body has.
+        UnansweredError
+            No equilibrium was found.
+
+        Examples
+        --------
+        >>> import kinetostat as ks
+        >>> arm = ks.Machine.preset("heavy_6r").posture().vibration([0, 0, -500, 0, 0, 0])
+        >>> bool(0 < arm.frequencies_hz[0] < arm.frequencies_hz[1])
+        True
+        """
+        from kinetostat.vibration import vibration_of
+
+        return vibration_of(self, wrench, held)
 
     def under(self, model: ForceModel, **options: Any) -> ModelEquilibria:
         """Equilibrium under a wrench that depends on where the tool is; see :func:`kinetostat.equilibrium_under`.

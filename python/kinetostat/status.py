@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import enum
 
-__all__ = ["DirectionKind", "FoundBy", "Status"]
+__all__ = ["DirectionKind", "FoundBy", "ModeKind", "Status"]
 
 
 class Status(enum.IntEnum):
@@ -66,3 +66,20 @@ class DirectionKind(enum.Enum):
     """The machine goes away by itself."""
     RIGID = "rigid"
     """Nothing gives way."""
+
+
+class ModeKind(enum.Enum):
+    """What a mode of vibration is.
+
+    Examples
+    --------
+    >>> [kind.value for kind in ModeKind]
+    ['vibration', 'free', 'unstable']
+    """
+
+    VIBRATION = "vibration"
+    """It swings about the equilibrium."""
+    FREE = "free"
+    """Mass that nothing holds: frequency zero."""
+    UNSTABLE = "unstable"
+    """It goes away; its frequency is negative."""

@@ -10,6 +10,7 @@
 
 mod arrays;
 mod batch;
+mod chatter;
 mod columns;
 mod command;
 mod elsewhere;
@@ -22,6 +23,7 @@ mod posture;
 mod program;
 mod stiffness;
 mod tolerance;
+mod vibration;
 mod work;
 
 use pyo3::prelude::*;
@@ -30,6 +32,8 @@ use pyo3::prelude::*;
 mod _core {
     #[pymodule_export]
     use crate::batch::{equilibrium_of_many, stiffness_of_many, targets_of_many};
+    #[pymodule_export]
+    use crate::chatter::{lobes_of, multipliers_of};
     #[pymodule_export]
     use crate::command::{command_tree, run_as_process, run_command};
     #[pymodule_export]
@@ -50,6 +54,8 @@ mod _core {
     use crate::stiffness::Stiffness;
     #[pymodule_export]
     use crate::tolerance::{drawn_numbers, sobol_design, sobol_of_answers, tolerance_of_machine};
+    #[pymodule_export]
+    use crate::vibration::{Vibration, vibration_of};
     #[pymodule_export]
     use crate::work::forked;
 

@@ -1,0 +1,212 @@
+"""Vibrations and chatter: reference values (theory of dynamics, D3 and D5), random arms against numpy, invariants, refusals."""
+
+from __future__ import annotations
+
+import pickle
+from pathlib import Path
+
+import numpy as np
+import pytest
+from numpy_robots import hat, turn
+
+import kinetostat as ks
+from kinetostat import chatter
+from kinetostat.vibration import Damping
+
+ARM6 = Path(__file__).resolve().parents[2] / "crates/kinetostat-cli/tests/cli/vibration_models/arm6.toml"
+GRAVITY = np.array([0.0, 0.0, -9.81])
+
+
+@pytest.fixture(scope="module")
+def arm() -> ks.Posture:
+    return ks.Machine.open(ARM6).posture()
+
+
+@pytest.mark.parametrize(
+    ("force", "expected"),
+    [
+        ((0, 0, 0), [9.98746752, 11.5425353, 23.2012812, 49.0179614, 53.7168096, 126.52171]),
+        ((0, 0, -9000), [10.0068189, 11.523062, 23.1889537, 49.2481057, 53.8574826, 126.550804]),
+    ],
+)
+def test_frequencies_of_the_reference_arm(arm, force, expected):
+    with np.testing.suppress_warnings() as quiet:
+        quiet.filter(ks.PlausibilityWarning)
+        found = arm.vibration([*force, 0, 0, 0])
+    np.testing.assert_allclose(found.frequencies_hz, expected, rtol=1e-8)
+    assert found.stable
+    assert not found.circulatory
+    assert found.mass == 835.0
+    assert set(found.kinds) == {ks.ModeKind.VIBRATION}
+    assert found.counts.vibrating == 6
+
+
+def test_receptance_of_the_reference_arm(arm):
+    found = arm.vibration().response([0.0, 10.0, 25.0], 0.03)[:, :3, :3]
+    still = [[7.75385244e-7, -2.33069765e-7, 8.29027517e-8], [-2.33069765e-7, 1.37678996e-6, 7.84729328e-8]]
+    np.testing.assert_allclose(found[0, :2].real, still, rtol=1e-8)
+    np.testing.assert_allclose(found[1, 2, 2], -5.89851087e-07 - 1.65719600e-05j, rtol=1e-7)
+    np.testing.assert_allclose(found[2, 0, 2], -9.40831692e-07 - 3.17931684e-07j, rtol=1e-7)
+
+
+def test_both_ways_to_a_response_agree_and_it_is_reciprocal(arm):
+    vibration = arm.vibration([200, -300, 100, 5, 0, 0])
+    hz = np.linspace(1, 200, 17)
+    for damping in (Damping.ratio([0.03, 0.01]), Damping.rayleigh(2.0, 1e-4), Damping.viscous(joint_1=900.0, joint_3=400.0)):
+        if "viscous" in repr(damping):
+            direct = vibration.response(hz, damping, direct=True)
+            assert np.abs(direct - direct.swapaxes(1, 2)).max() <= 1e-9 * np.abs(direct).max()
+            continue
+        summed, direct = vibration.response(hz, damping), vibration.response(hz, damping, direct=True)
+        assert np.abs(summed - direct).max() <= 1e-9 * np.abs(direct).max()
+    fast = vibration.response(hz, 0.03, quantity="acceleration")
+    w = 2 * np.pi * hz[:, None, None]
+    np.testing.assert_allclose(fast, -(w**2) * vibration.response(hz, 0.03), rtol=1e-12, atol=0)
+
+
+def test_modes_are_normalised_and_shares_add_to_one(arm):
+    found = arm.vibration()
+    m, k = found.mass_matrix, found.tangent
+    np.testing.assert_allclose(found.shapes @ m @ found.shapes.T, np.eye(6), atol=1e-12)
+    squared = np.sign(found.frequencies_hz) * (2 * np.pi * found.frequencies_hz) ** 2
+    np.testing.assert_allclose(found.shapes @ k @ found.shapes.T, np.diag(squared), atol=1e-9 * squared.max())
+    for mode in range(6):
+        shares = found.shares(mode)
+        for own in (shares.kinetic, shares.elastic):
+            assert abs(sum(own.values()) - 1) < 1e-12
+            assert min(own.values()) > -1e-12
+
+
+def random_arm(seed):
+    """An arm of revolute joints with a body behind each, as a machine and as numbers."""
+    rng = np.random.default_rng(seed)
+    count = int(rng.integers(2, 7))
+    limb, parts = ks.LimbBuilder("arm"), []
+    for i in range(count):
+        move = ks.pose(rng.uniform(-0.6, 0.6, 3), ks.rotation_from_vector(rng.uniform(-1, 1, 3)))
+        axis = "xyz"[rng.integers(3)]
+        stiffness, mass = float(rng.uniform(1e4, 1e6)), float(rng.uniform(5, 80))
+        centre = rng.uniform(-0.2, 0.2, 3)
+        half = rng.uniform(-1, 1, (3, 3))
+        inertia = half @ half.T + np.eye(3)
+        limb.rigid(move).actuator(f"joint_{i}", "revolute", axis, stiffness=stiffness).body(f"body_{i}", mass, centre, inertia=inertia)
+        parts.append((move, np.eye(3)["xyz".index(axis)], stiffness, mass, centre, inertia))
+    builder = ks.MachineBuilder(f"random_{seed}", gravity=[0.0, 0.0, 0.0])
+    builder.limb(limb)
+    return builder.machine(), parts
+
+
+@pytest.mark.parametrize("seed", range(10))
+def test_mass_matrices_and_frequencies_of_random_arms(seed):
+    machine, parts = random_arm(seed)
+    found = machine.posture_at_joints(np.zeros(len(parts))).vibration()
+    at, columns = np.eye(4), []
+    mass = np.zeros((len(parts), len(parts)))
+    for i, (move, axis, _, m, centre, inertia) in enumerate(parts):
+        at = at @ move
+        columns.append((at[:3, :3] @ axis, at[:3, 3]))
+        r, place = at[:3, :3], at[:3, :3] @ centre + at[:3, 3]
+        linear, turning = np.zeros((3, len(parts))), np.zeros((3, len(parts)))
+        for j in range(i + 1):
+            turning[:, j] = columns[j][0]
+            linear[:, j] = hat(columns[j][0]) @ (place - columns[j][1])
+        mass += m * linear.T @ linear + turning.T @ r @ inertia @ r.T @ turning
+    stiffness = np.diag([part[2] for part in parts])
+    np.testing.assert_allclose(found.mass_matrix, mass, rtol=1e-9, atol=1e-9 * np.abs(mass).max())
+    squared = np.sort(np.linalg.eigvals(np.linalg.solve(mass, stiffness)).real)
+    np.testing.assert_allclose(found.frequencies_hz, np.sqrt(squared) / (2 * np.pi), rtol=1e-9)
+
+
+def test_a_held_tool_and_pickles(arm):
+    held = arm.vibration(held=["x", "y", "z"])
+    assert held.counts.vibrating == 3
+    assert held.frequencies_hz[0] > arm.vibration().frequencies_hz[0]
+    again = pickle.loads(pickle.dumps(held))
+    assert again.held == ("x", "y", "z")
+    np.testing.assert_array_equal(again.frequencies_hz, held.frequencies_hz)
+
+
+@pytest.mark.parametrize(
+    ("question", "said"),
+    [
+        (lambda arm: arm.vibration(held=["up"]), "held is"),
+        (lambda arm: arm.vibration(held="xyz"), "held is"),
+        (lambda arm: arm.vibration([1, 2, 3]), r"\(3,\), expected \(6,\)"),
+        (lambda arm: arm.vibration().response([1.0], 1.5), "critical damping is 1"),
+        (lambda arm: arm.vibration().response([1.0], -0.1), "not below zero"),
+        (lambda arm: arm.vibration().response([np.nan], 0.03), "finite"),
+        (lambda arm: arm.vibration().response([[1.0]], 0.03), r"\(1, 1\), expected \(f,\)"),
+        (lambda arm: arm.vibration().response([1.0], 0.03, at="nowhere"), "nowhere"),
+        (lambda arm: arm.vibration().response([1.0], 0.03, quantity="jerk"), "jerk"),
+        (lambda arm: arm.vibration().response([1.0], 0.03, modes=2, direct=True), "exclude"),
+        (lambda arm: arm.vibration().shares(6), "mode 6 of 6"),
+        (lambda arm: ks.Machine.preset("orthoglide").posture().vibration(), "no mass anywhere"),
+    ],
+)
+def test_what_makes_no_sense_is_refused(arm, question, said):
+    with pytest.raises(ks.ArgumentError, match=said):
+        question(arm)
+
+
+# Chatter ------------------------------------------------------------------------------------------------------------
+
+ONE_MODE = {"stiffness": [0.03993 * (2 * np.pi * 922) ** 2], "frequencies_hz": [922], "damping_ratios": [0.011]}
+
+
+@pytest.mark.parametrize(
+    ("immersion", "up", "expected", "zeroth"),
+    [
+        (1.0, True, [0.408628, 3.009212, 0.401360], [0.369919, 2.129513, 0.356293]),
+        (0.5, True, [0.260279, 1.601949, 0.251865], [0.254252, 1.463653, 0.244887]),
+        (0.5, False, [0.847204, 1.564793, 1.447859], [0.921829, 1.599953, 2.794410]),
+    ],
+)
+def test_lobes_of_the_reference_values(immersion, up, expected, zeroth):
+    tip = chatter.tool_modes([[1, 0, 0]], **ONE_MODE)
+    cut = chatter.MillingCut(2, immersion, up, (6e8, 2e8, 0.0))
+    found = chatter.lobes(tip, cut, [5000, 9000, 17000], up_to=10e-3)
+    np.testing.assert_allclose(found.limit * 1e3, expected, rtol=1e-4)
+    np.testing.assert_allclose(found.zeroth_order * 1e3, zeroth, rtol=3e-6)
+    assert all(stable[0] == (0.0, limit) for stable, limit in zip(found.stable, found.limit, strict=True))
+
+
+def test_multipliers_of_the_reference_values():
+    tip = chatter.tool_modes([[1, 0, 0]], **ONE_MODE)
+    slot = chatter.MillingCut(2, 1.0, True, (6e8, 2e8, 0.0))
+    found = chatter.multipliers(tip, slot, 5000.0, [0.2e-3, 0.5e-3, 1e-3], threads=1)
+    np.testing.assert_allclose(found, [0.81974278, 1.07397559, 1.40647353], rtol=1e-6)
+
+
+def test_an_arm_chatters_as_its_own_modes_do(arm):
+    tip = arm.vibration().tool_modes(0.03)
+    cut = chatter.MillingCut(2, 0.5, True, (8e8, 2.4e8, 0.0))
+    found = chatter.lobes(tip, cut, np.linspace(2000, 4000, 5), up_to=5e-3)
+    below, above = (chatter.multipliers(tip, cut, found.speeds_rpm, found.limit * k) for k in (0.999, 1.001))
+    assert np.all(below < 1)
+    assert np.all(above > 1)
+    # Turned about the tool's axis together: the same limits.
+    r = turn(np.array([0.0, 0.0, 1.0]), 0.7)
+    turned = ks.vibration.ToolModes(tip.shapes @ r.T, tip.squared, tip.damping_ratios, r @ tip.residual @ r.T)
+    fed = chatter.MillingCut(2, 0.5, True, (8e8, 2.4e8, 0.0), feed=tuple(r[:, 0]))
+    again = chatter.lobes(turned, fed, found.speeds_rpm, up_to=5e-3)
+    np.testing.assert_allclose(again.limit, found.limit, rtol=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [
+        ({"teeth": 0}, "teeth"),
+        ({"immersion": 1.5}, "immersion"),
+        ({"coefficients": (-1.0, 0.0, 0.0)}, "coefficient"),
+        ({"feed": (0.0, 0.0, 1.0)}, "feed"),
+    ],
+)
+def test_cuts_that_make_no_sense_are_refused(change, said):
+    tip = chatter.tool_modes([[1, 0, 0]], **ONE_MODE)
+    given = {"teeth": 2, "immersion": 0.5, "up": True, "coefficients": (8e8, 2.4e8, 0.0)}
+    with pytest.raises(ks.ArgumentError, match=said):
+        chatter.lobes(tip, chatter.MillingCut(**{**given, **change}), [5000.0], up_to=1e-3)
+    with pytest.raises(ks.ArgumentError, match="speed"):
+        chatter.lobes(tip, chatter.MillingCut(**given), [-5000.0], up_to=1e-3)
+    with pytest.raises(ks.ArgumentError, match=r"stiffness has shape \(2,\), expected \(1,\)"):
+        chatter.tool_modes([[1, 0, 0]], **{**ONE_MODE, "stiffness": [1e6, 1e6]})
