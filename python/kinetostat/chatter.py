@@ -249,6 +249,6 @@ def multipliers(
     except ValueError:
         raise ArgumentError(f"speeds_rpm has shape {given.shape} and depths {deep.shape}: they do not broadcast") from None
     shape = given.shape
-    flat = [np.ascontiguousarray(array, dtype=float).reshape(-1) for array in (given, deep)]
-    found = _core.multipliers_of(*_modes(tool), cut._native(), *flat, thread_count(threads), progress)
+    speeds, deep = (np.ascontiguousarray(array, dtype=float).reshape(-1) for array in (given, deep))
+    found = _core.multipliers_of(*_modes(tool), cut._native(), speeds, deep, thread_count(threads), progress)
     return found.reshape(shape)

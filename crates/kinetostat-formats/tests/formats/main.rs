@@ -30,6 +30,7 @@ mod making;
 mod numbers;
 mod orientations;
 mod paths;
+mod points_of_paths;
 mod poses;
 mod rapid;
 mod real_files;
