@@ -121,7 +121,7 @@ class DirectionCounts:
     >>> import kinetostat as ks
     >>> counts = ks.Machine.preset("heavy_6r").posture().vibration().counts
     >>> counts.vibrating, counts.free
-    (6, 0)
+    (36, 0)
     """
 
     vibrating: int
@@ -167,7 +167,7 @@ class ToolModes:
     >>> import kinetostat as ks
     >>> tip = ks.Machine.preset("heavy_6r").posture().vibration().tool_modes(0.03)
     >>> tip.shapes.shape, tip.squared.shape, tip.residual.shape
-    ((6, 3), (6,), (3, 3))
+    ((36, 3), (36,), (3, 3))
     """
 
     shapes: Floats
@@ -191,7 +191,7 @@ class Vibration:
     >>> import kinetostat as ks
     >>> arm = ks.Machine.preset("heavy_6r").posture().vibration()
     >>> arm.stable, arm.frequencies_hz.shape
-    (True, (6,))
+    (True, (36,))
     """
 
     __slots__ = ("_native", "held", "posture")
@@ -281,7 +281,7 @@ class Vibration:
         >>> import kinetostat as ks
         >>> lowest = ks.Machine.preset("heavy_6r").posture().vibration().shares(0)
         >>> max(lowest.elastic, key=lowest.elastic.get)
-        'joint_1'
+        'joint 2'
         """
         kinetic, elastic = self._native.shares(mode)
         return ModeShares(dict(kinetic), dict(elastic))

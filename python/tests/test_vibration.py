@@ -52,7 +52,7 @@ def test_receptance_of_the_reference_arm(arm):
 def test_both_ways_to_a_response_agree_and_it_is_reciprocal(arm):
     vibration = arm.vibration([200, -300, 100, 0, 0, 0])
     hz = np.linspace(1, 200, 17)
-    for damping in (Damping.ratio([0.03, 0.01]), Damping.rayleigh(2.0, 1e-4), Damping.viscous(joint_1=900.0, joint_3=400.0)):
+    for damping in (Damping.ratio([0.03, 0.01]), Damping.rayleigh(2.0, 1e-4), Damping.viscous(q1=900.0, q3=400.0)):
         # By modes only what is diagonal in them: dampers, and K without the loads' part, are not.
         if "ratio" not in repr(damping):
             direct = vibration.response(hz, damping, direct=True)
