@@ -11,6 +11,7 @@ use nalgebra::Vector3;
 use crate::expand::arguments::ExpandArgs;
 use crate::files::input_files::InputFiles;
 use crate::files::outputs::{Existing, Outputs, written};
+use crate::job::expansion::arguments::NO_COMMENTS;
 use crate::job::expansion::flat::{Flattened, flattened};
 use crate::job::expansion::settings::{folders, settings};
 use crate::job::file_endings::{Written, refuse_other_ending};
@@ -70,7 +71,8 @@ pub(crate) fn run(args: &ExpandArgs) -> Answer<()> {
 
 /// A program of SINUMERIK or Heidenhain.
 fn of_control(args: &ExpandArgs, language: Language, bytes: Vec<u8>) -> Answer<()> {
-    if let Some(option) = args.with.given_for_gcode() {
+    let other = args.with.given_for_gcode();
+    if let Some(option) = other.filter(|option| *option != NO_COMMENTS) {
         return Err(Failure::input(format!(
             "{option} is for programs in G-code; leave it out"
         )));
@@ -90,7 +92,7 @@ fn of_control(args: &ExpandArgs, language: Language, bytes: Vec<u8>) -> Answer<(
     };
     let called = with_called_files(&mut source, &args.program, &folders)?;
     source.settings.reading.slash_blocks = slash_blocks(None, &args.reading);
-    let (text, flat) = flat_text(&source, false)?;
+    let (text, flat) = flat_text(&source, !args.with.no_comments)?;
     let Some(out) = &args.out else {
         return print_bytes(text.file.bytes());
     };

@@ -231,19 +231,35 @@ fn programs_of_controls_are_converted_with_expand() {
             "{flat}"
         );
         // Stated by the user, where it means nothing.
-        for command in [
-            format!(
-                "convert {} --expand --no-comments --to gcode --out three.nc",
-                source.main
-            ),
-            format!("expand {} --no-comments", source.main),
-        ] {
-            let said = run(here, &words(&command));
-            assert!(
-                said.code == 1 && said.err.contains("--no-comments is for"),
-                "{said:?}"
-            );
-        }
+        let command = format!(
+            "convert {} --expand --no-comments --to gcode --out three.nc",
+            source.main
+        );
+        let said = run(here, &words(&command));
+        assert!(
+            said.code == 1 && said.err.contains("--no-comments is for"),
+            "{said:?}"
+        );
+        // Every block of what is written flat says its line, unless that is not wanted.
+        let shown = |more: &str| {
+            let line = format!("expand {}{more}", source.main);
+            run(here, &words(&line)).answered()
+        };
+        let (with, without) = (shown(""), shown(" --no-comments"));
+        assert!(
+            with.contains(" ;line 3\n") && with.contains(&format!(";{}, line 2\n", source.called)),
+            "{with}"
+        );
+        let bare: Vec<&str> = with
+            .lines()
+            .map(|l| l.split(" ;").next().unwrap())
+            .collect();
+        let plain: Vec<&str> = without
+            .lines()
+            .map(|l| l.split(" ;").next().unwrap())
+            .collect();
+        assert_eq!(bare, plain);
+        assert!(!without.contains(" ;line 3\n"), "{without}");
     }
 }
 

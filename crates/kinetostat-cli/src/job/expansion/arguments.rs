@@ -29,6 +29,9 @@ pub(crate) struct ExpansionArgs {
     pub(crate) goes_on: bool,
 }
 
+/// What `kinetostat expand` understands of every language.
+pub(crate) const NO_COMMENTS: &str = "--no-comments";
+
 impl ExpansionArgs {
     /// The first option that was given.
     pub(crate) fn given(&self) -> Option<&'static str> {
@@ -42,7 +45,7 @@ impl ExpansionArgs {
             ("--tool-diameter-mm", !self.tool_diameter_mm.is_empty()),
             ("--parameter", !self.parameter.is_empty()),
             ("--dialect", self.dialect.is_some()),
-            ("--no-comments", self.no_comments),
+            (NO_COMMENTS, self.no_comments),
         ];
         all.into_iter()
             .find_map(|(name, given)| given.then_some(name))
