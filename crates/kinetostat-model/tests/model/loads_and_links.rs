@@ -3,7 +3,7 @@
 use kinetostat::{
     Anchor, BeamSection, LengthLaw, LinkSpec, Load, MechanismEquilibrium, PlatformLoad, Pose,
     Wrench,
-    model::{LinkConvention, SpringLaw},
+    model::{LinkConvention, LinkMass, MassModel, SpringLaw},
 };
 use kinetostat_model::{Model, preset_text};
 use kinetostat_testing::LargestEntry;
@@ -627,4 +627,72 @@ chain = "arm"
         let error = read(wrong).expect_err(wrong).to_string();
         assert!(error.contains(says), "{error}");
     }
+}
+
+/// Masses along the links of a model's limb, written in a file and built in the core.
+#[test]
+fn mass_along_a_link_is_the_core_s() {
+    let halves = MassModel::HalvesAtEnds;
+    let thin = |per_length| LinkMass {
+        per_length,
+        rotary: [0.0; 3],
+        model: MassModel::Consistent,
+    };
+    for (written, segments, mass) in [
+        (
+            "density_kg_m3 = 2700",
+            1,
+            LinkMass::of_section(&tube(), 2700.0),
+        ),
+        (
+            "density_kg_m3 = 2700, segments = 3, mass_model = \"halves_at_ends\"",
+            3,
+            LinkMass::of_section(&tube(), 2700.0).with_model(halves),
+        ),
+        ("mass_kg_per_m = 4.5, segments = 2", 2, thin(4.5)),
+        (
+            "mass_kg_per_m = 4.5, convention = \"translations_first\", mass_model = \"along_the_link\"",
+            1,
+            thin(4.5),
+        ),
+    ] {
+        let model = arm(&format!("{STRAIGHT}, {written}"), "");
+        let segment_masses = model.mechanism.limbs()[0].nominal.segment_masses();
+        assert_eq!(segment_masses.len(), segments, "{written}");
+        let spec = LinkSpec::beam(tube(), 0.6)
+            .segments(segments)
+            .with_mass(mass);
+        let built = kinetostat::Chain::builder("arm")
+            .link_with("boom", &spec)
+            .build()
+            .expect("chain");
+        for (found, expected) in segment_masses.iter().zip(built.segment_masses()) {
+            assert!(
+                (found.total() - expected.total()).abs() <= 1e-14 * expected.total(),
+                "{written}"
+            );
+        }
+        // By hand, of a tube of 40 and 36 mm: pi (0.02^2 - 0.018^2) 2700 0.6.
+        let by_hand = if written.starts_with("density") {
+            std::f64::consts::PI * (0.02_f64.powi(2) - 0.018_f64.powi(2)) * 2700.0 * 0.6
+        } else {
+            4.5 * 0.6
+        };
+        let total: f64 = segment_masses.iter().map(|m| m.total()).sum();
+        assert!((total - by_hand).abs() <= 1e-12 * by_hand, "{written}");
+        // Written and read again, it is the same.
+        let text = model.to_toml().expect("written");
+        assert_eq!(
+            Model::from_toml(&text, "again.toml")
+                .expect("read")
+                .mechanism,
+            model.mechanism
+        );
+    }
+    assert!(
+        arm(STRAIGHT, "").mechanism.limbs()[0]
+            .nominal
+            .segment_masses()
+            .is_empty()
+    );
 }
