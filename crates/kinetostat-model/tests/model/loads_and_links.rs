@@ -657,8 +657,7 @@ fn mass_along_a_link_is_the_core_s() {
         ),
     ] {
         let model = arm(&format!("{STRAIGHT}, {written}"), "");
-        let segment_masses = model.mechanism.limbs()[0].nominal.segment_masses();
-        assert_eq!(segment_masses.len(), segments, "{written}");
+        let chain = &model.mechanism.limbs()[0].nominal;
         let spec = LinkSpec::beam(tube(), 0.6)
             .segments(segments)
             .with_mass(mass);
@@ -666,11 +665,27 @@ fn mass_along_a_link_is_the_core_s() {
             .link_with("boom", &spec)
             .build()
             .expect("chain");
-        for (found, expected) in segment_masses.iter().zip(built.segment_masses()) {
-            assert!(
-                (found.total() - expected.total()).abs() <= 1e-14 * expected.total(),
-                "{written}"
-            );
+        let along = |c: &kinetostat::Chain| -> Vec<f64> {
+            c.segment_masses().iter().map(|m| m.total()).collect()
+        };
+        let at_ends = |c: &kinetostat::Chain| -> Vec<f64> {
+            (c.bodies().iter().filter(|b| b.name == "boom"))
+                .map(|b| b.mass)
+                .collect()
+        };
+        let found = [along(chain), at_ends(chain)];
+        let ends = if mass.model == halves {
+            2 * segments
+        } else {
+            0
+        };
+        let pieces = if mass.model == halves { 0 } else { segments };
+        assert_eq!(found.each_ref().map(Vec::len), [pieces, ends], "{written}");
+        for (found, expected) in found.iter().zip([along(&built), at_ends(&built)]) {
+            assert_eq!(found.len(), expected.len(), "{written}");
+            for (f, e) in found.iter().zip(&expected) {
+                assert!((f - e).abs() <= 1e-14 * e, "{written}: {f} {e}");
+            }
         }
         // By hand, of a tube of 40 and 36 mm: pi (0.02^2 - 0.018^2) 2700 0.6.
         let by_hand = if written.starts_with("density") {
@@ -678,7 +693,7 @@ fn mass_along_a_link_is_the_core_s() {
         } else {
             4.5 * 0.6
         };
-        let total: f64 = segment_masses.iter().map(|m| m.total()).sum();
+        let total: f64 = found.iter().flatten().sum();
         assert!((total - by_hand).abs() <= 1e-12 * by_hand, "{written}");
         // Written and read again, it is the same.
         let text = model.to_toml().expect("written");
