@@ -1,4 +1,4 @@
-"""Poses and gravity torques of a URDF by Pinocchio, for comparison with the import.
+"""Poses, gravity torques and mass matrices of a URDF by Pinocchio, for comparison with the import.
 
 Reads one JSON object from the standard input:
   urdf      path of the file
@@ -9,7 +9,8 @@ Other joints stand at zero; mimic joints are set here from the file, and their t
 those of the joint that they follow.
 
 Writes {"poses": [[12 numbers: three rows of the 3x4 matrix base from tip], ...],
-        "torques": [[torque that holds the joint against gravity, N m or N], ...]}.
+        "torques": [[torque that holds the joint against gravity, N m or N], ...],
+        "masses": [[rows of the mass matrix by the independent joints, one after the other], ...]}.
 Gravity is 9.81 m/s^2 against z of the root link. Exit code 3: Pinocchio is not installed.
 """
 
@@ -65,7 +66,16 @@ def main():
         else:
             q[joint.idx_q] = value
 
-    poses, torques = [], []
+    # Velocities of all joints by those of the independent ones.
+    rates = np.zeros((model.nv, len(asked["joints"])))
+    for column, name in enumerate(asked["joints"]):
+        if model.existJointName(name):
+            rates[model.joints[model.getJointId(name)].idx_v, column] = 1.0
+        for follower, (source, multiplier, _) in followers.items():
+            if source == name and model.existJointName(follower):
+                rates[model.joints[model.getJointId(follower)].idx_v, column] = multiplier
+
+    poses, torques, masses = [], [], []
     for posture in asked["values"]:
         q = pin.neutral(model)
         values = dict(zip(asked["joints"], posture))
@@ -87,7 +97,10 @@ def main():
                     torque += multiplier * each[model.joints[model.getJointId(follower)].idx_v]
             total.append(float(torque))
         torques.append(total)
-    json.dump({"poses": poses, "torques": torques, "version": pin.__version__}, sys.stdout)
+        mass = np.triu(pin.crba(model, data, q))
+        mass = mass + np.triu(mass, 1).T
+        masses.append((rates.T @ mass @ rates).ravel().tolist())
+    json.dump({"poses": poses, "torques": torques, "masses": masses, "version": pin.__version__}, sys.stdout)
 
 
 main()

@@ -479,6 +479,9 @@ fn link(section: &str, name: Option<String>, vector: [f64; 3]) -> Element {
         vector_m: Some(vector),
         segments: None,
         convention: None,
+        density_kg_m3: None,
+        mass_kg_per_m: None,
+        mass_model: None,
         source: None,
         assumption: None,
     })

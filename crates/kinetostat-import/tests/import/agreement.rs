@@ -143,12 +143,11 @@ pub fn with_oracle(urdf: &str, imported: &Imported, count: usize) -> Difference 
     })
 }
 
-/// Against Pinocchio; `None` where it is not installed.
-pub fn with_pinocchio(urdf: &str, imported: &Imported, count: usize) -> Option<Difference> {
+/// What Pinocchio says of these postures; `None` where it is not installed.
+pub fn ask_pinocchio(urdf: &str, imported: &Imported, postures: &[Vec<f64>]) -> Option<Value> {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("robot.urdf");
     std::fs::write(&path, urdf).unwrap();
-    let postures = postures(imported, count);
     let request = json!({
         "urdf": path, "base": imported.base, "tip": imported.tip,
         "joints": imported.actuators, "values": postures,
@@ -179,14 +178,21 @@ pub fn with_pinocchio(urdf: &str, imported: &Imported, count: usize) -> Option<D
         return None;
     }
     assert!(output.status.success(), "the script failed");
-    let found: Value = serde_json::from_slice(&output.stdout).unwrap();
-    let list = |v: &Value| -> Vec<f64> {
-        v.as_array()
-            .unwrap()
-            .iter()
-            .map(|x| x.as_f64().unwrap())
-            .collect()
-    };
+    Some(serde_json::from_slice(&output.stdout).unwrap())
+}
+
+/// Numbers of a list; NaN where there is none.
+pub fn list(value: &Value) -> Vec<f64> {
+    let numbers = value.as_array().unwrap();
+    (numbers.iter())
+        .map(|x| x.as_f64().unwrap_or(f64::NAN))
+        .collect()
+}
+
+/// Against Pinocchio; `None` where it is not installed.
+pub fn with_pinocchio(urdf: &str, imported: &Imported, count: usize) -> Option<Difference> {
+    let postures = postures(imported, count);
+    let found = ask_pinocchio(urdf, imported, &postures)?;
     Some(compare(imported, &postures, |i| {
         let rows = list(&found["poses"][i]);
         let mut pose = Matrix4::identity();

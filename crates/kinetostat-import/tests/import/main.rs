@@ -8,6 +8,7 @@
 mod agreement;
 mod broken;
 mod loops;
+mod masses;
 mod oracle;
 mod placeholders;
 mod robots;

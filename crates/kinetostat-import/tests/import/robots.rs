@@ -7,7 +7,7 @@ use kinetostat_testing::Worst;
 use crate::agreement::{side_branches, with_oracle, with_pinocchio};
 use crate::{data, figure_at_most, notices};
 
-const ROBOTS: [(&str, usize); 8] = [
+pub const ROBOTS: [(&str, usize); 8] = [
     ("abb_irb6640", 6),
     ("abb_irb6640_185_280", 6),
     ("fanuc_m900ib700", 6),
@@ -18,7 +18,7 @@ const ROBOTS: [(&str, usize); 8] = [
     ("kuka_lbr_iiwa_14_r820", 7),
 ];
 
-fn robot(name: &str, options: UrdfOptions) -> Option<(String, Imported)> {
+pub fn robot(name: &str, options: UrdfOptions) -> Option<(String, Imported)> {
     let path = data()?.join(format!("{name}.urdf"));
     let text = read_text("URDF file", &path).unwrap_or_else(|e| panic!("{e}"));
     let options = {

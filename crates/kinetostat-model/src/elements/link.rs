@@ -1,6 +1,8 @@
 //! Links and parallelograms: an offset, an elasticity and the axes in which it is one.
 
-use kinetostat::{LinkSpec, Pose, model::LinkConvention, spatial::turn_matrix};
+use kinetostat::model::{LinkConvention, LinkMass, MassModel};
+use kinetostat::number::short;
+use kinetostat::{LinkSpec, Pose, spatial::turn_matrix};
 use nalgebra::{Unit, UnitQuaternion, Vector3};
 
 use crate::elements::elastic::{Elastic, along};
@@ -9,7 +11,7 @@ use crate::elements::part::Part;
 use crate::elements::placement::frame_along;
 use crate::elements::quantity::{DEG, MM, choice, forbid, pick, positive};
 use crate::problem::{Finding, KeyPath};
-use crate::schema::{Convention, LinkElement, ParallelogramElement};
+use crate::schema::{Convention, LinkElement, MassModelWord, ParallelogramElement};
 
 /// More pieces of one link are a typing error.
 const MOST_SEGMENTS: u32 = 100;
@@ -38,7 +40,8 @@ pub(crate) fn link(
     let axis = Unit::new_normalize(offset);
     let elasticity = elastic.named(&place.key("link"), &e.link)?;
     let convention = convention(e.convention.unwrap_or_default());
-    if convention == LinkConvention::TranslationsFirst && segments == 1 {
+    let mass = mass(place, e, &elasticity)?;
+    if convention == LinkConvention::TranslationsFirst && segments == 1 && mass.is_none() {
         // In the axes of the frame, which does not turn.
         let matrix = match elasticity {
             Elasticity::Matrix(matrix) => *matrix,
@@ -70,7 +73,8 @@ pub(crate) fn link(
             LinkSpec::matrix(own.transpose() * *matrix * own, length)
         }
     };
-    let spec = spec.segments(segments as usize).convention(convention);
+    let mut spec = spec.segments(segments as usize).convention(convention);
+    spec.mass = mass;
     let turned = |rotation| Pose::from_parts(Vector3::zeros().into(), rotation);
     let mut parts = Vec::new();
     if slanted {
@@ -119,6 +123,73 @@ fn offset(place: &KeyPath, e: &LinkElement) -> Result<Vector3<f64>, Option<Findi
             Vector3::new(length.value, 0.0, 0.0)
         }
     })
+}
+
+/// The mass along a link, if one is written.
+fn mass(
+    place: &KeyPath,
+    e: &LinkElement,
+    elasticity: &Elasticity,
+) -> Result<Option<LinkMass>, Option<Finding>> {
+    let density = [choice("density_kg_m3", e.density_kg_m3, 1.0)];
+    let per_length = [choice("mass_kg_per_m", e.mass_kg_per_m, 1.0)];
+    let model = match e.mass_model.unwrap_or_default() {
+        MassModelWord::AlongTheLink => MassModel::Consistent,
+        MassModelWord::HalvesAtEnds => MassModel::HalvesAtEnds,
+    };
+    if pick(place, "density", &density)?.is_some() {
+        forbid(
+            place,
+            &per_length,
+            "the density gives the mass already",
+            "keep one of them",
+        )?;
+        let given = positive(place, "density", &density)?;
+        // Rigidities are a section with moduli of one: its area is a stiffness.
+        let Elasticity::Section(section) = elasticity else {
+            return Err(Some(Finding::new(
+                &place.key(given.key),
+                "a density needs a section of one shape, and this link has a matrix or a shape that changes",
+                "write mass_kg_per_m",
+            )));
+        };
+        if section.youngs_modulus == 1.0 {
+            return Err(Some(Finding::new(
+                &place.key(given.key),
+                "a density needs the area of the section, and rigidities have none",
+                "write mass_kg_per_m",
+            )));
+        }
+        if !(100.0..=25_000.0).contains(&given.value) {
+            return Err(Some(Finding::new(
+                &place.key(given.key),
+                format!(
+                    "a density of {} kg/m^3 is that of no solid",
+                    short(given.value)
+                ),
+                "steel has 7850 kg/m^3, aluminium 2700, carbon fibre 1600; check the unit",
+            )));
+        }
+        return Ok(Some(
+            LinkMass::of_section(section, given.value).with_model(model),
+        ));
+    }
+    if pick(place, "mass per length", &per_length)?.is_some() {
+        let given = positive(place, "mass per length", &per_length)?;
+        return Ok(Some(LinkMass {
+            per_length: given.value,
+            rotary: [0.0; 3],
+            model,
+        }));
+    }
+    if e.mass_model.is_some() {
+        return Err(Some(Finding::new(
+            &place.key("mass_model"),
+            "the link has no mass to put anywhere",
+            "write density_kg_m3 or mass_kg_per_m beside it",
+        )));
+    }
+    Ok(None)
 }
 
 fn convention(written: Convention) -> LinkConvention {

@@ -43,8 +43,8 @@ numbers! {
     } through {} beside {}
     Spring6Element { rest_translation_mm, rest_translation_m, rest_rotation_deg, rest_rotation_rad }
         through { spring6 } beside { name, source, assumption }
-    LinkElement { length_mm, length_m, vector_mm, vector_m } through {}
-        beside { link, name, segments, convention, source, assumption }
+    LinkElement { length_mm, length_m, vector_mm, vector_m, density_kg_m3, mass_kg_per_m } through {}
+        beside { link, name, segments, convention, mass_model, source, assumption }
     ParallelogramElement { length_mm, length_m, width_mm, width_m, home_deg, home_rad } through {}
         beside { parallelogram, name, source, assumption }
     CoupledElement { axis, ratio } through {} beside { coupled, motion, source, assumption }

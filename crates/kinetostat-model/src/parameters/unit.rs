@@ -86,7 +86,7 @@ pub(crate) type Unit = (ParameterKind, &'static str, f64);
 use ParameterKind as K;
 
 /// By the end of the key, the longest first.
-const BY_ENDING: [(&str, Unit); 32] = [
+const BY_ENDING: [(&str, Unit); 34] = [
     ("_n_mm_per_rad", (K::RotationalStiffness, "N mm/rad", MM)),
     ("_n_m_per_rad", (K::RotationalStiffness, "N m/rad", 1.0)),
     ("_mm_per_turn", (K::Lead, "mm/turn", MM)),
@@ -95,6 +95,8 @@ const BY_ENDING: [(&str, Unit); 32] = [
     ("_deg_per_mm", (K::Ratio, "deg/mm", DEG / MM)),
     ("_n_per_mm", (K::Stiffness, "N/mm", 1.0 / MM)),
     ("_n_per_m", (K::Stiffness, "N/m", 1.0)),
+    ("_kg_per_m", (K::Mass, "kg/m", 1.0)),
+    ("_kg_m3", (K::Mass, "kg/m^3", 1.0)),
     ("_m_per_s2", (K::Acceleration, "m/s^2", 1.0)),
     ("_n_mm2", (K::Rigidity, "N mm^2", 1e-6)),
     ("_n_m2", (K::Rigidity, "N m^2", 1.0)),

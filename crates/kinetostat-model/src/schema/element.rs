@@ -246,10 +246,30 @@ pub struct LinkElement {
     pub segments: Option<u32>,
     /// How a piece bends, 'bowing' if not given. All have the same unloaded stiffness.
     pub convention: Option<Convention>,
+    /// Density of the material, kg/m^3: the link of a section gets its mass along it, which weighs and swings. Without it
+    /// the link has no mass, and its bodies have it all.
+    pub density_kg_m3: Option<f64>,
+    /// Mass per length, kg/m, instead of a density: for links that are known by a matrix, by rigidities or by a shape that
+    /// changes.
+    pub mass_kg_per_m: Option<f64>,
+    /// Where the mass is, 'along_the_link' if not given.
+    pub mass_model: Option<MassModelWord>,
     /// Where the figures come from.
     pub source: Option<String>,
     /// What is assumed.
     pub assumption: Option<String>,
+}
+
+/// Where the mass of a link is.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum MassModelWord {
+    /// Along the link, moving as it bends.
+    #[default]
+    AlongTheLink,
+    /// Half of every piece at each of its ends: coarser, and a link hinged at both ends has no vibration of its own in one
+    /// piece.
+    HalvesAtEnds,
 }
 
 /// How a piece of a link bends, and what energy that costs.

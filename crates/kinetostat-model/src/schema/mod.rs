@@ -25,7 +25,8 @@ pub use elastic::{
 };
 pub use element::{
     ActuatorElement, ActuatorKind, BodyElement, Convention, CoupledElement, Element, LinkElement,
-    NodeElement, ParallelogramElement, PassiveElement, RigidElement, Spring6Element, SpringElement,
+    MassModelWord, NodeElement, ParallelogramElement, PassiveElement, RigidElement, Spring6Element,
+    SpringElement,
 };
 pub use joint::{JointKind, PassiveKind};
 pub use knee::Knee;

@@ -3,7 +3,7 @@
 use kinetostat::{
     Anchor, BeamSection, LengthLaw, LinkSpec, Load, MechanismEquilibrium, PlatformLoad, Pose,
     Wrench,
-    model::{LinkConvention, SpringLaw},
+    model::{LinkConvention, LinkMass, MassModel, SpringLaw},
 };
 use kinetostat_model::{Model, preset_text};
 use kinetostat_testing::LargestEntry;
@@ -627,4 +627,87 @@ chain = "arm"
         let error = read(wrong).expect_err(wrong).to_string();
         assert!(error.contains(says), "{error}");
     }
+}
+
+/// Masses along the links of a model's limb, written in a file and built in the core.
+#[test]
+fn mass_along_a_link_is_the_core_s() {
+    let halves = MassModel::HalvesAtEnds;
+    let thin = |per_length| LinkMass {
+        per_length,
+        rotary: [0.0; 3],
+        model: MassModel::Consistent,
+    };
+    for (written, segments, mass) in [
+        (
+            "density_kg_m3 = 2700",
+            1,
+            LinkMass::of_section(&tube(), 2700.0),
+        ),
+        (
+            "density_kg_m3 = 2700, segments = 3, mass_model = \"halves_at_ends\"",
+            3,
+            LinkMass::of_section(&tube(), 2700.0).with_model(halves),
+        ),
+        ("mass_kg_per_m = 4.5, segments = 2", 2, thin(4.5)),
+        (
+            "mass_kg_per_m = 4.5, convention = \"translations_first\", mass_model = \"along_the_link\"",
+            1,
+            thin(4.5),
+        ),
+    ] {
+        let model = arm(&format!("{STRAIGHT}, {written}"), "");
+        let chain = &model.mechanism.limbs()[0].nominal;
+        let spec = LinkSpec::beam(tube(), 0.6)
+            .segments(segments)
+            .with_mass(mass);
+        let built = kinetostat::Chain::builder("arm")
+            .link_with("boom", &spec)
+            .build()
+            .expect("chain");
+        let along = |c: &kinetostat::Chain| -> Vec<f64> {
+            c.segment_masses().iter().map(|m| m.total()).collect()
+        };
+        let at_ends = |c: &kinetostat::Chain| -> Vec<f64> {
+            (c.bodies().iter().filter(|b| b.name == "boom"))
+                .map(|b| b.mass)
+                .collect()
+        };
+        let found = [along(chain), at_ends(chain)];
+        let ends = if mass.model == halves {
+            2 * segments
+        } else {
+            0
+        };
+        let pieces = if mass.model == halves { 0 } else { segments };
+        assert_eq!(found.each_ref().map(Vec::len), [pieces, ends], "{written}");
+        for (found, expected) in found.iter().zip([along(&built), at_ends(&built)]) {
+            assert_eq!(found.len(), expected.len(), "{written}");
+            for (f, e) in found.iter().zip(&expected) {
+                assert!((f - e).abs() <= 1e-14 * e, "{written}: {f} {e}");
+            }
+        }
+        // By hand, of a tube of 40 and 36 mm: pi (0.02^2 - 0.018^2) 2700 0.6.
+        let by_hand = if written.starts_with("density") {
+            std::f64::consts::PI * (0.02_f64.powi(2) - 0.018_f64.powi(2)) * 2700.0 * 0.6
+        } else {
+            4.5 * 0.6
+        };
+        let total: f64 = found.iter().flatten().sum();
+        assert!((total - by_hand).abs() <= 1e-12 * by_hand, "{written}");
+        // Written and read again, it is the same.
+        let text = model.to_toml().expect("written");
+        assert_eq!(
+            Model::from_toml(&text, "again.toml")
+                .expect("read")
+                .mechanism,
+            model.mechanism
+        );
+    }
+    assert!(
+        arm(STRAIGHT, "").mechanism.limbs()[0]
+            .nominal
+            .segment_masses()
+            .is_empty()
+    );
 }
