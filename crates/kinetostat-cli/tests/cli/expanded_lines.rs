@@ -243,7 +243,7 @@ fn programs_of_controls_are_converted_with_expand() {
         // Every block of what is written flat says its line, unless that is not wanted.
         let shown = |more: &str| {
             let line = format!("expand {}{more}", source.main);
-            run(here, &words(&line)).answered()
+            run(here, &words(&line)).answered().out
         };
         let (with, without) = (shown(""), shown(" --no-comments"));
         assert!(
