@@ -51,7 +51,14 @@ impl State {
         Some(OfWhole {
             stiffness_n_per_mm: self.stiffness_n_per_mm?,
             as_it_is: self.as_it_is,
+            ..OfWhole::default()
         })
+    }
+
+    /// What the first look found; where no place was solved it looks again, for a file has no infinite number.
+    pub(crate) fn note(&mut self, whole: &OfWhole) {
+        let found = Some(whole.stiffness_n_per_mm);
+        self.stiffness_n_per_mm = found.filter(|stiffness| stiffness.is_finite());
     }
 }
 

@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 
 use kinetostat_machining::{
     Envelope, FileRead, OfWhole, Run, RunError, Warning, WarningCode, Watch, analyse_part,
-    compensate_part, look_at_part,
+    compensate_part, look_at_part, places_of_part,
 };
 use kinetostat_model::Model;
 use kinetostat_program::{Part, PartError, PartLength, Parts, Survey, WrittenSoFar};
@@ -190,6 +190,14 @@ impl<'a> LongRun<'a> {
         })
     }
 
+    /// Ctrl-C between two parts, and where parts that are done are read over.
+    fn refuse_if_cancelled(&self, watch: &Progress) -> Answer<()> {
+        match watch.cancelled() {
+            true => self.answered(Err(RunError::Cancelled)),
+            false => Ok(()),
+        }
+    }
+
     fn answered<T>(&self, result: Result<T, RunError>) -> Answer<T> {
         result.map_err(|error| {
             let failure = self.setting.within(Failure::from(error));
@@ -201,6 +209,13 @@ impl<'a> LongRun<'a> {
     fn look(&self, length: PartLength, watch: &Progress) -> Answer<OfWhole> {
         let mut whole = OfWhole::default();
         let nothing = WrittenSoFar::nothing(self.survey, &self.setting.reading);
+        watch.stage("counting places", self.survey.lines);
+        for part in self.parts(length)? {
+            let part = part.map_err(|error| self.failed(error))?;
+            self.refuse_if_cancelled(watch)?;
+            whole.places += self.with_part(&part, &nothing, false, places_of_part)?;
+            watch.advance(part.next_line() - 1);
+        }
         watch.stage("first look", self.survey.lines);
         for part in self.parts(length)? {
             let part = part.map_err(|error| self.failed(error))?;
@@ -232,7 +247,7 @@ impl<'a> LongRun<'a> {
         kept.open(&self.manifest(length), self.flags.restart)?;
         let mut work = Work::go_on(&kept, self.survey, self.setting)?;
         let done = self.work(&mut work, (&kept, length), outputs, &progress);
-        if done.is_err() && work.state.parts > 0 {
+        if done.is_err() && work.state.parts > 0 && work.is_whole {
             // What can be kept is kept; why it ended is said.
             let _ = work.keep(&kept);
         }
@@ -282,18 +297,14 @@ impl<'a> LongRun<'a> {
         let whole = match work.state.of_whole() {
             Some(whole) => whole,
             None => {
-                let mut whole = in_threads(self.flags.threads, || self.look(length, progress))??;
-                // Not a number of the file of the state: a machine without any stiffness found is taken as it is.
-                if !whole.stiffness_n_per_mm.is_finite() {
-                    whole.stiffness_n_per_mm = 0.0;
-                }
-                work.state.stiffness_n_per_mm = Some(whole.stiffness_n_per_mm);
+                let whole = in_threads(self.flags.threads, || self.look(length, progress))??;
+                work.state.note(&whole);
                 whole
             }
         };
         self.pass(work, (kept, length), whole, (outputs, progress))?;
         if !work.state.as_it_is && work.state.merged.leaves_as_it_is() {
-            work.begin_anew(kept, self.survey, self.setting, whole.stiffness_n_per_mm)?;
+            work.begin_anew(kept, (self.survey, self.setting), &whole)?;
             let whole = OfWhole {
                 as_it_is: true,
                 ..whole
@@ -319,6 +330,7 @@ impl<'a> LongRun<'a> {
         let mut last = Instant::now();
         for (index, part) in self.parts(length)?.enumerate() {
             let part = part.map_err(|error| self.failed(error))?;
+            self.refuse_if_cancelled(progress)?;
             if index < work.state.parts {
                 continue;
             }
@@ -328,6 +340,7 @@ impl<'a> LongRun<'a> {
                     Aim::Compensate => compensate_part(task, Some(&whole), progress),
                 })?;
                 let run = self.answered(run)?;
+                work.is_whole = false;
                 work.state.merged.add(task, &run);
                 Ok::<_, Failure>(run)
             })??;
@@ -348,6 +361,7 @@ impl<'a> LongRun<'a> {
                 )?;
             }
             work.state.parts = index + 1;
+            work.is_whole = true;
             if last.elapsed() >= every || part.is_last {
                 work.keep(kept)?;
                 last = Instant::now();
@@ -397,6 +411,8 @@ impl LongFiles {
 /// What is done of a run.
 struct Work<'s> {
     state: State,
+    /// Result and files are those of the same parts: not while a part is being taken into them, which a full disk may end.
+    is_whole: bool,
     so_far: WrittenSoFar<'s>,
     program: Partial,
     points: Partial,
@@ -419,6 +435,7 @@ impl<'s> Work<'s> {
             }
             return Ok(Self {
                 state,
+                is_whole: true,
                 so_far,
                 program,
                 points,
@@ -430,6 +447,7 @@ impl<'s> Work<'s> {
     fn nothing(kept: &Checkpoint, survey: &'s Survey, setting: &'s Setting) -> Answer<Self> {
         Ok(Self {
             state: State::default(),
+            is_whole: true,
             so_far: WrittenSoFar::nothing(survey, &setting.reading),
             program: Partial::create(kept.path("program"))?,
             points: Partial::create(kept.path("points"))?,
@@ -440,13 +458,12 @@ impl<'s> Work<'s> {
     fn begin_anew(
         &mut self,
         kept: &Checkpoint,
-        survey: &'s Survey,
-        setting: &'s Setting,
-        stiffness_n_per_mm: f64,
+        (survey, setting): (&'s Survey, &'s Setting),
+        whole: &OfWhole,
     ) -> Answer<()> {
         *self = Self::nothing(kept, survey, setting)?;
         self.state.as_it_is = true;
-        self.state.stiffness_n_per_mm = Some(stiffness_n_per_mm);
+        self.state.note(whole);
         self.keep(kept)
     }
 
