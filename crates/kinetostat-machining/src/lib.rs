@@ -76,7 +76,9 @@ pub use placement::Placement;
 pub use postures::configurations::{Configurations, posture_at};
 pub use result::cutting::{CutPlace, CuttingResult};
 pub use result::envelope::{Envelope, Quantity, StretchRange};
-pub use result::feature::{Feature, FeatureResult, feature_results};
+pub use result::feature::{
+    Feature, FeatureResult, add_to_features, feature_results, judge_features,
+};
 pub use result::figures::Figures;
 pub use result::force_band::ForceBand;
 pub use result::joints::{

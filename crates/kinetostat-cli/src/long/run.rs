@@ -6,13 +6,16 @@ use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
 use kinetostat_machining::{
-    Envelope, FileRead, OfWhole, Run, RunError, Warning, WarningCode, Watch, analyse_part,
-    compensate_part, look_at_part, places_of_part,
+    Envelope, FeatureResult, FileRead, OfWhole, Run, RunError, Warning, WarningCode, Watch,
+    add_to_features, analyse_part, compensate_part, judge_features, look_at_part, places_of_part,
 };
 use kinetostat_model::Model;
 use kinetostat_program::{Part, PartError, PartLength, Parts, Survey, WrittenSoFar};
 use sha2::{Digest, Sha256};
 
+use crate::files::journal::Contents;
+use crate::files::origin;
+use crate::files::outputs::Outputs;
 use crate::job::arguments::ProgramArgs;
 use crate::job::machine::MachineSetup;
 use crate::job::output_paths::OutputPaths;
@@ -21,11 +24,11 @@ use crate::job::setting::Setting;
 use crate::long::checkpoint::{Checkpoint, Manifest, State};
 use crate::long::partial::Partial;
 use crate::long::which::part_length;
-use crate::machine::model_warnings::with_model_warning;
 use crate::program::aim::Aim;
+use crate::program::features::put_found;
 use crate::program::outputs::RunOutputs;
 use crate::program::points_table;
-use crate::program::solve::with_task;
+use crate::program::solve::{failure_of, too_many_blocks, with_task};
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::progress::Progress;
 use crate::ui::threads::in_threads;
@@ -60,8 +63,13 @@ impl<R: Read> Read for Hashed<R> {
     }
 }
 
-/// What only the whole of a program tells; its hash takes the place of that of its first lines.
-pub(crate) fn survey(setting: &mut Setting, aim: Aim) -> Answer<Survey> {
+fn hex(hash: &[u8]) -> String {
+    hash.iter().map(|byte| format!("{byte:02x}")).collect()
+}
+
+/// What only the whole of a program tells; its hash takes the place of that of its first lines. `None` where it cannot be read,
+/// or moves nothing: all that is wrong with it is said of the whole.
+pub(crate) fn survey(setting: &mut Setting, aim: Aim) -> Answer<Option<Survey>> {
     let progress = Progress::new();
     progress.stage("reading", 0);
     let mut hashed = Hashed {
@@ -69,10 +77,15 @@ pub(crate) fn survey(setting: &mut Setting, aim: Aim) -> Answer<Survey> {
         hash: Sha256::new(),
     };
     let from = BufReader::with_capacity(1 << 16, &mut hashed);
-    let survey = Survey::of(from, &setting.reading).map_err(|error| unread(setting, error))?;
-    let sha256 = hashed.hash.finalize();
+    let survey = match Survey::of(from, &setting.reading) {
+        Err(PartError::Program(_)) => return Ok(None),
+        found => found.map_err(|error| unread(setting, error))?,
+    };
+    if survey.moves == 0 {
+        return Ok(None);
+    }
     if let Some(first) = setting.program_files.first_mut() {
-        first.sha256 = sha256.iter().map(|byte| format!("{byte:02x}")).collect();
+        first.sha256 = hex(&hashed.hash.finalize());
     }
     if let Some(line) = survey.mark_line
         && !setting.writing.again
@@ -81,7 +94,7 @@ pub(crate) fn survey(setting: &mut Setting, aim: Aim) -> Answer<Survey> {
         let error = kinetostat_program::WriteError::AlreadyCompensated { line };
         return Err(setting.within(Failure::from(RunError::from(error))));
     }
-    Ok(survey)
+    Ok(Some(survey))
 }
 
 fn unread(setting: &Setting, error: PartError) -> Failure {
@@ -158,6 +171,7 @@ impl<'a> LongRun<'a> {
                 "the compensated program's name",
                 format!("{:?}", self.targets.program),
             ),
+            ("the features", format!("{:?}", s.features)),
             ("the length of the parts", format!("{length:?}")),
         ];
         Manifest(
@@ -193,16 +207,14 @@ impl<'a> LongRun<'a> {
     /// Ctrl-C between two parts, and where parts that are done are read over.
     fn refuse_if_cancelled(&self, watch: &Progress) -> Answer<()> {
         match watch.cancelled() {
-            true => self.answered(Err(RunError::Cancelled)),
+            true => Err(self.setting.within(Failure::from(RunError::Cancelled))),
             false => Ok(()),
         }
     }
 
-    fn answered<T>(&self, result: Result<T, RunError>) -> Answer<T> {
-        result.map_err(|error| {
-            let failure = self.setting.within(Failure::from(error));
-            with_model_warning(failure, self.model)
-        })
+    fn answered<T>(&self, result: Result<T, RunError>, part: &Part) -> Answer<T> {
+        let with = (self.machine, self.model);
+        result.map_err(|error| failure_of(error, with, self.setting, &part.path))
     }
 
     /// A first look at every part: what takes hours to be solved everywhere is refused in seconds.
@@ -223,7 +235,7 @@ impl<'a> LongRun<'a> {
             let looked = self.with_part(&part, &nothing, false, |task| {
                 look_at_part(whole, task, compensate, watch)
             })?;
-            whole = self.answered(looked)?;
+            whole = self.answered(looked, &part)?;
             watch.advance(part.next_line() - 1);
         }
         Ok(whole)
@@ -243,7 +255,7 @@ impl<'a> LongRun<'a> {
         let beside = beside
             .cloned()
             .unwrap_or_else(|| PathBuf::from("kinetostat"));
-        let kept = Checkpoint::beside(&beside);
+        let mut kept = Checkpoint::beside(&beside);
         kept.open(&self.manifest(length), self.flags.restart)?;
         let mut work = Work::go_on(&kept, self.survey, self.setting)?;
         let done = self.work(&mut work, (&kept, length), outputs, &progress);
@@ -263,11 +275,22 @@ impl<'a> LongRun<'a> {
             ..
         } = work;
         let result = state.merged.finish(reading.collect());
-        let Some(result) = result else {
+        let Some(mut result) = result else {
             return Err(self
                 .setting
                 .within(Failure::input("the program has no block")));
         };
+        let found = too_many_blocks(self.setting, &result.summary);
+        result.warnings.extend(found);
+        let (written, allowed_mm) = match self.aim {
+            Aim::Analyse => (false, self.setting.writing.tolerance_mm),
+            Aim::Compensate => (true, result.tolerance.allowed_mm),
+        };
+        let mut features = state.features;
+        judge_features(&mut features, &self.setting.features, allowed_mm, written);
+        put_found(&mut result, features);
+        // The day on which it was finished.
+        result.run_inputs.date = origin::day();
         let mut envelope = Envelope::default();
         envelope.extend(&result.points);
         let run = Run {
@@ -339,9 +362,12 @@ impl<'a> LongRun<'a> {
                     Aim::Analyse => analyse_part(task, Some(&whole), progress),
                     Aim::Compensate => compensate_part(task, Some(&whole), progress),
                 })?;
-                let run = self.answered(run)?;
+                let run = self.answered(run, &part)?;
                 work.is_whole = false;
                 work.state.merged.add(task, &run);
+                let features = &mut work.state.features;
+                let written = run.written.is_some();
+                add_to_features(features, &run.points, |point| Some(point.line), written);
                 Ok::<_, Failure>(run)
             })??;
             if let Some(written) = &run.written {
@@ -380,24 +406,25 @@ pub(crate) struct LongFiles {
 
 impl LongFiles {
     /// Writes them beside their targets.
-    pub(crate) fn fill(&self, outputs: &mut RunOutputs) -> Answer<()> {
-        for (index, from) in [
-            (outputs.program, &self.program),
-            (outputs.points, &self.points),
-        ] {
-            let Some(index) = index else { continue };
-            let mut from = from.reader()?;
-            let mut block = vec![0; 1 << 16];
-            loop {
-                let count = from.read(&mut block).map_err(|error| {
-                    Failure::input(format!("what was kept cannot be read: {error}"))
-                })?;
-                if count == 0 {
-                    break;
-                }
-                outputs.files.append(index, &block[..count])?;
-            }
-            outputs.files.complete(index)?;
+    pub(crate) fn fill(&self, outputs: &mut RunOutputs, targets: &OutputPaths) -> Answer<()> {
+        self.or_kept(self.fill_all(outputs, targets))
+    }
+
+    /// An answer about putting outputs in place; where they cannot be, it is said that nothing is lost.
+    pub(crate) fn or_kept<T>(&self, answer: Answer<T>) -> Answer<T> {
+        answer.map_err(|failure| self.kept.with_advice(failure))
+    }
+
+    fn fill_all(&self, outputs: &mut RunOutputs, targets: &OutputPaths) -> Answer<()> {
+        if let Some(index) = outputs.program {
+            let sha256 = put(&self.program, &mut outputs.files, index)?;
+            // A paper states what was written.
+            let made = targets.program.iter();
+            let made = made.map(|path| origin::hashed("written program", path, sha256.clone()));
+            outputs.made.extend(made);
+        }
+        if let Some(index) = outputs.points {
+            put(&self.points, &mut outputs.files, index)?;
         }
         Ok(())
     }
@@ -406,6 +433,32 @@ impl LongFiles {
     pub(crate) fn remove(self) {
         self.kept.remove();
     }
+}
+
+/// Puts a file that was kept into a claimed output; its hash.
+fn put(from: &Partial, outputs: &mut Outputs, index: usize) -> Answer<String> {
+    let mut reader = from.reader()?;
+    let mut block = vec![0; 1 << 16];
+    let (mut hash, mut found) = (Sha256::new(), Contents::default());
+    loop {
+        let count = reader
+            .read(&mut block)
+            .map_err(|error| Failure::input(format!("what was kept cannot be read: {error}")))?;
+        if count == 0 {
+            break;
+        }
+        hash.update(&block[..count]);
+        found.append(&block[..count]);
+        outputs.append(index, &block[..count])?;
+    }
+    // Something else may have written there.
+    if found != from.contents() {
+        return Err(Failure::input(
+            "what was kept of the run was changed by something else: give --restart to begin anew",
+        ));
+    }
+    outputs.complete(index)?;
+    Ok(hex(&hash.finalize()))
 }
 
 /// What is done of a run.
@@ -446,7 +499,10 @@ impl<'s> Work<'s> {
 
     fn nothing(kept: &Checkpoint, survey: &'s Survey, setting: &'s Setting) -> Answer<Self> {
         Ok(Self {
-            state: State::default(),
+            state: State {
+                features: FeatureResult::without_points(&setting.features),
+                ..State::default()
+            },
             is_whole: true,
             so_far: WrittenSoFar::nothing(survey, &setting.reading),
             program: Partial::create(kept.path("program"))?,

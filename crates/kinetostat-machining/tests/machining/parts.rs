@@ -3,8 +3,8 @@
 use kinetostat::{Directions, Mechanism, Pose};
 use kinetostat_machining::{
     Bounds, CuttingLoad, MergedRun, OfWhole, Placement, ProgramLoad, Run, RunInputs, Task,
-    Unwatched, analyse, analyse_part, compensate_part, compensate_program, look_at_part, places_of_part,
-    straight_tool,
+    Unwatched, analyse, analyse_part, compensate_part, compensate_program, look_at_part,
+    places_of_part, straight_tool,
 };
 use kinetostat_model::Model;
 use kinetostat_program::{
@@ -193,7 +193,10 @@ fn what_is_compensated_in_parts_is_one_program_within_the_tolerance() {
     let program = Program::read(bytes.clone()).expect("one program");
     interpret(&program, &reading).expect("one path");
     let written = all.written.as_ref().expect("written");
-    assert!(bytes == written.bytes, "other bytes than those of the whole");
+    assert!(
+        bytes == written.bytes,
+        "other bytes than those of the whole"
+    );
     assert!(!merged.leaves_as_it_is());
     // As it is kept between two parts.
     let kept = merged.clone();
