@@ -77,7 +77,7 @@ fn surface(path: &Path, blocks: usize) -> Result<()> {
 fn question(here: &Path, blocks: usize, out: &str) -> Vec<String> {
     let program = here.join(format!("{blocks}.ngc"));
     let out = here.join(out);
-    let words = "compensate --model orthoglide --tool-length-mm 100 --part-origin-mm 0 0 100 --milling 100 -10 -25 --tolerance-um 5 --threads 1 --part-lines 20000";
+    let words = "compensate --model orthoglide --tool-length-mm 100 --part-origin-mm 0 0 100 --milling 100 -10 -25 --tolerance-um 5 --threads 1 --force-overwrite";
     let mut all: Vec<String> = words.split(' ').map(str::to_owned).collect();
     for (option, path) in [
         ("--program", &program),

@@ -18,6 +18,7 @@ use std::process::{Child, Stdio};
 use std::time::Duration;
 
 use common::command;
+use serde_json::Value;
 
 /// A wavy surface in zigzag.
 fn surface(rows: usize) -> String {
@@ -43,23 +44,13 @@ fn place(rows: usize) -> tempfile::TempDir {
     here
 }
 
-fn start(here: &Path, more: &[&str]) -> Child {
+/// The command in parts of 150 lines, or (`parts` is nothing) as a whole.
+fn start(here: &Path, parts: &[&str], more: &[&str]) -> Child {
     command(here)
-        .args([
-            "compensate",
-            "job.toml",
-            "--part-lines",
-            "150",
-            "--points",
-            "points.csv",
-        ])
-        .args([
-            "--json",
-            "result.json",
-            "--report",
-            "report.html",
-            "--all-points",
-        ])
+        .args(["compensate", "job.toml", "--points", "points.csv"])
+        .args(["--json", "result.json", "--report", "report.html"])
+        .args(["--all-points", "--force-overwrite"])
+        .args(parts)
         .args(more)
         .env("SOURCE_DATE_EPOCH", "1764000000")
         .stdout(Stdio::null())
@@ -68,12 +59,32 @@ fn start(here: &Path, more: &[&str]) -> Child {
         .expect("the command starts")
 }
 
+const PARTS: [&str; 2] = ["--part-lines", "150"];
+
+fn end(child: Child) -> (Option<i32>, String) {
+    let done = child.wait_with_output().expect("it ends");
+    let words = String::from_utf8_lossy(&done.stderr);
+    let words: Vec<&str> = words.split_whitespace().collect();
+    (done.status.code(), words.join(" "))
+}
+
 fn ended(here: &Path, more: &[&str]) -> (Option<i32>, String) {
-    let done = start(here, more).wait_with_output().expect("it ends");
-    (
-        done.status.code(),
-        String::from_utf8_lossy(&done.stderr).into_owned(),
-    )
+    end(start(here, &PARTS, more))
+}
+
+/// A run that was killed when it had kept this many states.
+fn interrupted(here: &Path, states: usize) {
+    let mut child = start(here, &PARTS, &[]);
+    let name = ["state.json", "state-before.json"][states - 1];
+    while !folder(here).join(name).exists() {
+        std::thread::sleep(Duration::from_millis(2));
+        assert!(
+            child.try_wait().expect("asked").is_none(),
+            "it ended before it kept anything"
+        );
+    }
+    child.kill().expect("killed");
+    child.wait().expect("ends");
 }
 
 fn outputs(here: &Path) -> BTreeMap<&'static str, Vec<u8>> {
@@ -82,53 +93,89 @@ fn outputs(here: &Path) -> BTreeMap<&'static str, Vec<u8>> {
     read.into_iter().collect()
 }
 
+#[track_caller]
+fn assert_same(found: &BTreeMap<&str, Vec<u8>>, wanted: &BTreeMap<&str, Vec<u8>>, what: &str) {
+    for (name, bytes) in wanted {
+        assert!(*bytes == found[name], "{name} differs: {what}");
+    }
+}
+
 fn folder(here: &Path) -> std::path::PathBuf {
     here.join("out.ngc.kinetostat-part")
 }
 
-#[test]
-fn a_killed_run_goes_on_and_ends_with_the_same_bytes() {
-    let whole = place(20);
+/// What an uninterrupted run writes.
+fn uninterrupted(rows: usize) -> BTreeMap<&'static str, Vec<u8>> {
+    let whole = place(rows);
     let (code, said) = ended(whole.path(), &[]);
     assert_eq!(code, Some(0), "{said}");
     assert!(!folder(whole.path()).exists());
-    let wanted = outputs(whole.path());
+    outputs(whole.path())
+}
+
+#[test]
+fn a_killed_run_goes_on_and_ends_with_the_same_bytes() {
+    let wanted = uninterrupted(20);
     let here = place(20);
     let mut kills = 0;
     // Later and later, so that it ends in any case.
     for round in 0_u64.. {
-        let mut child = start(here.path(), &[]);
+        let mut child = start(here.path(), &PARTS, &[]);
         std::thread::sleep(Duration::from_millis(150 + 137 * round % 400 + 60 * round));
         if child.try_wait().expect("asked").is_none() {
             child.kill().expect("killed");
             kills += 1;
         }
-        let status = child.wait().expect("ends");
-        if status.success() {
-            break;
+        let (code, said) = end(child);
+        match code {
+            None => {}
+            Some(0) => break,
+            Some(_) => panic!("{said}"),
         }
     }
     assert!(kills > 0);
-    let found = outputs(here.path());
-    for (name, bytes) in &wanted {
-        assert!(bytes == &found[name], "{name} differs after {kills} kills");
-    }
+    let what = format!("after {kills} kills");
+    assert_same(&outputs(here.path()), &wanted, &what);
     assert!(!folder(here.path()).exists());
 }
 
 #[test]
 fn another_question_is_refused_by_the_field_that_differs() {
     let here = place(12);
-    let mut child = start(here.path(), &[]);
-    while !folder(here.path()).join("state.json").exists() {
-        std::thread::sleep(Duration::from_millis(5));
-        assert!(
-            child.try_wait().expect("asked").is_none(),
-            "it ended before it kept anything"
-        );
+    interrupted(here.path(), 1);
+    let job = fs::read_to_string(here.path().join("job.toml")).expect("a job");
+    let program = fs::read_to_string(here.path().join("part.ngc")).expect("a program");
+    let other_job = |from: &str, to: &str| {
+        assert!(job.contains(from));
+        job.replace(from, to)
+    };
+    let whole_way = [
+        (
+            "model = \"orthoglide\"",
+            "model = \"hexaglide\"",
+            "the model",
+        ),
+        ("length_mm = 100", "length_mm = 101", "the tool"),
+        ("radial_n = 215", "radial_n = 214", "the load"),
+        ("[0, 0, 100]", "[0, 0, 101]", "the place of the part"),
+    ];
+    for (from, to, field) in whole_way {
+        fs::write(here.path().join("job.toml"), other_job(from, to)).expect("written");
+        let (code, said) = ended(here.path(), &[]);
+        assert_eq!(code, Some(1), "{field}: {said}");
+        let words = format!("{field} is another one now");
+        assert!(said.contains(&words), "{field}: {said}");
     }
-    child.kill().expect("killed");
-    child.wait().expect("ends");
+    fs::write(here.path().join("job.toml"), &job).expect("written");
+    fs::write(
+        here.path().join("part.ngc"),
+        program.replace("F800", "F801"),
+    )
+    .expect("written");
+    let (code, said) = ended(here.path(), &[]);
+    assert_eq!(code, Some(1), "{said}");
+    assert!(said.contains("the program is another one now"), "{said}");
+    fs::write(here.path().join("part.ngc"), &program).expect("written");
     let (code, said) = ended(here.path(), &["--decimals", "5"]);
     assert_eq!(code, Some(1), "{said}");
     assert!(
@@ -136,13 +183,129 @@ fn another_question_is_refused_by_the_field_that_differs() {
         "{said}"
     );
     assert!(said.contains("--restart"), "{said}");
-    // A damaged state is that before it, or begun anew.
-    let state = folder(here.path()).join("state.json");
-    let bytes = fs::read(&state).expect("a state");
-    fs::write(&state, &bytes[..bytes.len() / 3]).expect("damaged");
+    // Another version.
+    let manifest = folder(here.path()).join("manifest.json");
+    let kept = fs::read_to_string(&manifest).expect("a manifest");
+    let version = env!("CARGO_PKG_VERSION");
+    assert!(kept.contains(version));
+    let (_, text) = kept.split_once('\n').expect("a check number");
+    let other = text.replace(version, "0.0.1");
+    let check = fnv1a(other.as_bytes());
+    fs::write(&manifest, format!("{check:016x}\n{other}")).expect("written");
     let (code, said) = ended(here.path(), &[]);
+    assert_eq!(code, Some(1), "{said}");
+    assert!(
+        said.contains("the version of kinetostat is another one now"),
+        "{said}"
+    );
+    let (code, said) = ended(here.path(), &["--restart"]);
     assert_eq!(code, Some(0), "{said}");
-    let whole = place(12);
-    assert_eq!(ended(whole.path(), &[]).0, Some(0));
-    assert!(outputs(here.path()) == outputs(whole.path()));
+    assert_same(&outputs(here.path()), &uninterrupted(12), "begun anew");
+}
+
+/// The check number before what is kept, by its public definition.
+fn fnv1a(bytes: &[u8]) -> u64 {
+    let next = |hash: u64, byte: &u8| (hash ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3);
+    bytes.iter().fold(0xcbf2_9ce4_8422_2325, next)
+}
+
+#[test]
+fn what_is_damaged_is_computed_again() {
+    let wanted = uninterrupted(12);
+    let cut = |here: &Path, name: &str| {
+        let path = folder(here).join(name);
+        let bytes = fs::read(&path).expect(name);
+        fs::write(&path, &bytes[..bytes.len() / 3]).expect("damaged");
+    };
+    let both = ["state.json", "state-before.json"];
+    let cases: [&[&str]; 6] = [
+        &both[..1],
+        &both,
+        &["program"],
+        &["points"],
+        &["manifest.json"],
+        &["program", "points", "state.json"],
+    ];
+    for damaged in cases {
+        let here = place(12);
+        interrupted(here.path(), 2);
+        // Killed between two steps of keeping it may have only the older of both.
+        let there = |name: &&&str| folder(here.path()).join(name).exists();
+        for name in damaged.iter().filter(there) {
+            cut(here.path(), name);
+        }
+        let (code, said) = ended(here.path(), &[]);
+        assert_eq!(code, Some(0), "{damaged:?}: {said}");
+        assert_same(&outputs(here.path()), &wanted, &format!("{damaged:?}"));
+    }
+}
+
+/// Numbers that are the same but for the last digits, and everything else that is the same; `thinned` points and what the solver
+/// needed depend on how a program is run.
+fn compare(found: &Value, wanted: &Value, at: &str) {
+    match (found, wanted) {
+        (Value::Object(found), Value::Object(wanted)) => {
+            let keys =
+                |map: &serde_json::Map<String, Value>| map.keys().cloned().collect::<Vec<_>>();
+            assert_eq!(keys(found), keys(wanted), "{at}");
+            for (key, value) in wanted {
+                if !["points", "solving"].contains(&key.as_str()) || value.is_number() {
+                    compare(&found[key], value, &format!("{at}.{key}"));
+                }
+            }
+        }
+        (Value::Array(found), Value::Array(wanted)) => {
+            assert_eq!(found.len(), wanted.len(), "{at}: {found:?} {wanted:?}");
+            for (index, (found, wanted)) in found.iter().zip(wanted).enumerate() {
+                compare(found, wanted, &format!("{at}[{index}]"));
+            }
+        }
+        (Value::Number(found), Value::Number(wanted)) => {
+            let [a, b] = [found, wanted].map(|number| number.as_f64().expect("a number"));
+            assert!((a - b).abs() <= 1e-7 * b.abs() + 1e-9, "{at}: {a} {b}");
+        }
+        _ => assert_eq!(found, wanted, "{at}"),
+    }
+}
+
+#[test]
+fn a_run_in_parts_is_the_run_as_a_whole() {
+    let features = "\n[[features]]\nname = \"near\"\nlines = [3, 300]\ntolerance_um = 400\n\n[[features]]\nname = \"far\"\nlines = [301, 640]\n";
+    for more in [
+        &[][..],
+        &["--tolerance-um", "10"],
+        &["--max-blocks-per-second", "50"],
+    ] {
+        let [parts, whole] = [&PARTS[..], &[]].map(|parts| {
+            let here = place(12);
+            let job = format!("{}{features}", common::JOB);
+            fs::write(here.path().join("job.toml"), job).expect("written");
+            let (code, said) = end(start(here.path(), parts, more));
+            assert_eq!(code, Some(0), "{said}");
+            outputs(here.path())
+        });
+        assert!(
+            parts["out.ngc"] == whole["out.ngc"],
+            "other programs, {more:?}"
+        );
+        let table =
+            |of: &BTreeMap<_, Vec<u8>>| String::from_utf8_lossy(&of["points.csv"]).lines().count();
+        assert_eq!(table(&parts), table(&whole));
+        let [found, wanted] = [&parts, &whole]
+            .map(|of| serde_json::from_slice::<Value>(&of["result.json"]).expect("a result"));
+        compare(&found, &wanted, "result");
+    }
+}
+
+#[test]
+fn what_makes_a_long_program_run_as_a_whole_is_said() {
+    let here = place(4);
+    let (code, said) = ended(here.path(), &["--vtk", "path.vtk"]);
+    assert_eq!(code, Some(0), "{said}");
+    assert!(
+        said.contains("is run as a whole, for its path is written for ParaView (--vtk)"),
+        "{said}"
+    );
+    let (code, said) = end(start(here.path(), &[], &["--vtk", "path.vtk"]));
+    assert_eq!((code, said.as_str()), (Some(0), ""), "a short program");
 }

@@ -76,7 +76,9 @@ pub use placement::Placement;
 pub use postures::configurations::{Configurations, posture_at};
 pub use result::cutting::{CutPlace, CuttingResult};
 pub use result::envelope::{Envelope, Quantity, StretchRange};
-pub use result::feature::{Feature, FeatureResult, feature_results};
+pub use result::feature::{
+    Feature, FeatureResult, add_to_features, feature_results, judge_features,
+};
 pub use result::figures::Figures;
 pub use result::force_band::ForceBand;
 pub use result::joints::{
@@ -99,7 +101,7 @@ pub use result::uncertainty_band::{BandPlace, ScatteredError, UncertainNumber, U
 pub use run::compensate::{analyse, analyse_part, compensate_part, compensate_program};
 pub use run::conclude::{Run, load_description, of_program};
 pub use run::cutting::{cut_places, cutting_result};
-pub use run::look_at_part::look_at_part;
+pub use run::look_at_part::{look_at_part, places_of_part};
 pub use run::merged::MergedRun;
 pub use run::movable::{MovableProgram, Reach};
 pub use run::of_whole::OfWhole;

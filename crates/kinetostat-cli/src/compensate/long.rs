@@ -12,8 +12,9 @@ use crate::job::of_model::give_of_model;
 use crate::job::run_warnings;
 use crate::job::setting::{program_path, setting};
 use crate::long::run::{LongRun, survey};
-use crate::long::which::{only_as_a_whole, with_first_lines};
+use crate::long::which::{only_as_a_whole, say_as_a_whole, whole_by_setting, with_first_lines};
 use crate::program::aim::Aim;
+use crate::program::features::refuse_missed_features;
 use crate::program::outputs::RunOutputs;
 use crate::program::{report, summary};
 use crate::ui::failure::Answer;
@@ -35,22 +36,28 @@ pub(crate) fn compensate(
         return Ok(false);
     };
     let model_named = args.run.model.as_deref();
-    if setting.robot.is_some() || setting.flat.is_some() {
+    let whole = whole_by_setting(&setting);
+    if !whole.is_empty() {
+        say_as_a_whole(&path, flags, &whole);
         return Ok(false);
     }
     give_of_model(&mut setting, files, (job, model_named), flags)?;
     let with = (None, &mut setting.inputs);
     let (machine, model) = machine_setup(files, job, model_named, flags, with)?;
     setting.turned_by(machine.rotary.clone());
-    if only_as_a_whole(&setting, &machine, flags).is_some() {
+    let targets = setting.targets.clone();
+    let whole = only_as_a_whole(&setting, &machine, &targets);
+    if !whole.is_empty() {
+        say_as_a_whole(&path, flags, &whole);
         return Ok(false);
     }
     let existing = Existing::forced(flags.force_overwrite);
-    let targets = setting.targets.clone();
     let mut outputs = RunOutputs::claim(Aim::Compensate, &targets, existing, &setting.inputs)?;
     outputs.list(flags.all_points, &model);
     let to_screen = args.run.json.as_deref() == Some(Path::new("-"));
-    let found = survey(&mut setting, Aim::Compensate)?;
+    let Some(found) = survey(&mut setting, Aim::Compensate)? else {
+        return Ok(false);
+    };
     let run = LongRun {
         aim: Aim::Compensate,
         machine: &machine,
@@ -64,9 +71,9 @@ pub(crate) fn compensate(
     run.result
         .warnings
         .extend(run_warnings::of_run(&model, job));
-    done.fill(&mut outputs)?;
-    outputs.fill_result(&run, &setting)?;
-    let paths = outputs.files.commit()?;
+    done.fill(&mut outputs, &targets)?;
+    done.or_kept(outputs.fill_result(&run, &setting))?;
+    let paths = done.or_kept(outputs.files.commit())?;
     done.remove();
     let text = format!(
         "{}{}",
@@ -75,5 +82,6 @@ pub(crate) fn compensate(
     );
     report::print_run(&text, to_screen.then_some(&run.result))?;
     report::refuse_missed_tolerance(&run.result.tolerance, &setting)?;
+    refuse_missed_features(&run.result.features, &setting)?;
     Ok(true)
 }

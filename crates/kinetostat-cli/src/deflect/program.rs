@@ -17,7 +17,7 @@ use crate::job::setting::{Setting, program_path, setting};
 use crate::job::turn_arguments::FreeTurnWord;
 use crate::job::{program, run_warnings};
 use crate::long::run::{LongRun, survey};
-use crate::long::which::{only_as_a_whole, with_first_lines};
+use crate::long::which::{only_as_a_whole, say_as_a_whole, whole_by_setting, with_first_lines};
 use crate::program::aim::Aim;
 use crate::program::outputs::RunOutputs;
 use crate::program::{report, solve, summary};
@@ -55,7 +55,9 @@ fn run_along(
         Err(_) if in_parts => return Ok(false),
         found => found?,
     };
-    if in_parts && (setting.robot.is_some() || setting.flat.is_some()) {
+    let whole = whole_by_setting(&setting);
+    if in_parts && !whole.is_empty() {
+        say_as_a_whole(&setting.program_path, &args.program, &whole);
         return Ok(false);
     }
     setting.write_flat_to(args.program.expansion.flat_program.clone());
@@ -83,12 +85,13 @@ fn run_along(
     setting.turned_by(machine.rotary.clone());
     if in_parts {
         chosen.program = None;
-        let whole = only_as_a_whole(&setting, &machine, &args.program).is_some();
-        if whole || chosen.pdf.is_some() {
+        let whole = only_as_a_whole(&setting, &machine, &chosen);
+        if !whole.is_empty() {
+            say_as_a_whole(&setting.program_path, &args.program, &whole);
             return Ok(false);
         }
         let of = (job, existing, chosen);
-        return part_by_part(args, (&machine, &model), setting, of).map(|()| true);
+        return part_by_part(args, (&machine, &model), setting, of);
     }
     program::read_program(&setting)?;
     let mut outputs = RunOutputs::claim(Aim::Analyse, &chosen, existing, &setting.inputs)?;
@@ -119,16 +122,18 @@ fn run_along(
     report::print_run(&text, to_screen.then_some(&run.result)).map(|()| true)
 }
 
-/// The deflections along a long program, of which the setting has the first lines.
+/// The deflections along a long program, and whether it can be read in parts, of which the setting has the first lines.
 fn part_by_part(
     args: &DeflectArgs,
     (machine, model): (&MachineSetup, &Model),
     mut setting: Setting,
     (job, existing, targets): (Option<&JobFile>, Existing, OutputPaths),
-) -> Answer<()> {
+) -> Answer<bool> {
     let mut outputs = RunOutputs::claim(Aim::Analyse, &targets, existing, &setting.inputs)?;
     outputs.list(args.program.all_points, model);
-    let whole = survey(&mut setting, Aim::Analyse)?;
+    let Some(whole) = survey(&mut setting, Aim::Analyse)? else {
+        return Ok(false);
+    };
     let run = LongRun {
         aim: Aim::Analyse,
         machine,
@@ -141,11 +146,12 @@ fn part_by_part(
     let (mut run, done) = run.run(&mut outputs)?;
     let found = run_warnings::of_run(model, job);
     run.result.warnings.extend(found);
-    done.fill(&mut outputs)?;
-    outputs.fill_result(&run, &setting)?;
-    let paths = outputs.files.commit()?;
+    done.fill(&mut outputs, &targets)?;
+    done.or_kept(outputs.fill_result(&run, &setting))?;
+    let paths = done.or_kept(outputs.files.commit())?;
     done.remove();
     let text = summary::of_run(&run.result) + &outputs::written(&paths);
     let to_screen = args.json.as_deref() == Some(Path::new("-"));
-    report::print_run(&text, to_screen.then_some(&run.result))
+    report::print_run(&text, to_screen.then_some(&run.result))?;
+    Ok(true)
 }

@@ -9,6 +9,11 @@ use crate::files::hash::sha256;
 
 /// A file with its hash; its directory is left out: a report may be passed on.
 pub(crate) fn file(what: &str, path: &Path, bytes: &[u8]) -> FileRead {
+    hashed(what, path, sha256(bytes))
+}
+
+/// The same of a file whose hash is known.
+pub(crate) fn hashed(what: &str, path: &Path, sha256: String) -> FileRead {
     let name = path.file_name().map_or_else(
         || path.display().to_string(),
         |n| n.to_string_lossy().into_owned(),
@@ -16,7 +21,7 @@ pub(crate) fn file(what: &str, path: &Path, bytes: &[u8]) -> FileRead {
     FileRead {
         what: what.to_owned(),
         name,
-        sha256: sha256(bytes),
+        sha256,
     }
 }
 

@@ -8,7 +8,7 @@ use std::fs;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use kinetostat_machining::{MergedRun, OfWhole};
+use kinetostat_machining::{FeatureResult, MergedRun, OfWhole};
 use kinetostat_program::WriterState;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
@@ -41,6 +41,7 @@ pub(crate) struct State {
     /// Smallest stiffness that the first look found; not there as long as it goes on.
     pub(crate) stiffness_n_per_mm: Option<f64>,
     pub(crate) merged: MergedRun,
+    pub(crate) features: Vec<FeatureResult>,
     pub(crate) writer: Option<WriterState>,
     pub(crate) program: Contents,
     pub(crate) points: Contents,
@@ -51,14 +52,25 @@ impl State {
         Some(OfWhole {
             stiffness_n_per_mm: self.stiffness_n_per_mm?,
             as_it_is: self.as_it_is,
+            ..OfWhole::default()
         })
+    }
+
+    /// What the first look found; where no place was solved it looks again, for a file has no infinite number.
+    pub(crate) fn note(&mut self, whole: &OfWhole) {
+        let found = Some(whole.stiffness_n_per_mm);
+        self.stiffness_n_per_mm = found.filter(|stiffness| stiffness.is_finite());
     }
 }
 
 /// The folder of a run.
 pub(crate) struct Checkpoint {
     folder: PathBuf,
+    /// Locked as long as this run lives: two of them would write into one another's files.
+    lock: Option<fs::File>,
 }
+
+const LOCK: &str = "lock";
 
 const MANIFEST: &str = "manifest.json";
 const STATE: &str = "state.json";
@@ -71,6 +83,7 @@ impl Checkpoint {
         name.push(".kinetostat-part");
         Self {
             folder: output.with_file_name(name),
+            lock: None,
         }
     }
 
@@ -83,9 +96,10 @@ impl Checkpoint {
     }
 
     /// Begins a run, or goes on with one that was interrupted: whether there may be one. `restart`: what was kept is thrown away.
-    pub(crate) fn open(&self, manifest: &Manifest, restart: bool) -> Answer<bool> {
+    pub(crate) fn open(&mut self, manifest: &Manifest, restart: bool) -> Answer<bool> {
+        self.take()?;
         if restart {
-            self.remove();
+            self.clear();
         }
         let kept: Option<Manifest> = self.read(MANIFEST);
         match kept.as_ref().map(|kept| kept.differs_in(manifest)) {
@@ -96,12 +110,36 @@ impl Checkpoint {
             ))),
             None => {
                 // Nothing, or not whole: begun anew.
-                self.remove();
-                fs::create_dir_all(&self.folder).map_err(|error| self.refused(&error))?;
+                self.clear();
                 self.write(MANIFEST, manifest)?;
                 Ok(false)
             }
         }
+    }
+
+    /// Makes the folder and locks it. A disk without locks is trusted.
+    fn take(&mut self) -> Answer<()> {
+        fs::create_dir_all(&self.folder).map_err(|error| self.refused(&error))?;
+        let lock = fs::File::create(self.folder.join(LOCK));
+        let lock = lock.map_err(|error| self.refused(&error))?;
+        if let Err(fs::TryLockError::WouldBlock) = lock.try_lock() {
+            return Err(Failure::input(format!(
+                "another run writes the same output just now, and keeps what is done in '{}': wait until it has ended, or choose another output",
+                self.folder.display()
+            )));
+        }
+        self.lock = Some(lock);
+        Ok(())
+    }
+
+    /// What is said where outputs cannot be put in place.
+    pub(crate) fn with_advice(&self, mut failure: Failure) -> Failure {
+        failure.plain.push_str(&format!(
+            "; all that was computed is kept in '{}', and the same command goes on from there",
+            self.folder.display()
+        ));
+        failure.styled = None;
+        failure
     }
 
     /// States that were kept, the last first.
@@ -126,11 +164,17 @@ impl Checkpoint {
     }
 
     /// The run is over: nothing is left.
-    pub(crate) fn remove(&self) {
+    pub(crate) fn remove(mut self) {
+        self.clear();
+        self.lock = None;
+        let _ = fs::remove_file(self.folder.join(LOCK));
+        let _ = fs::remove_dir(&self.folder);
+    }
+
+    fn clear(&self) {
         for name in [MANIFEST, STATE, STATE_BEFORE, "new", "program", "points"] {
             let _ = fs::remove_file(self.folder.join(name));
         }
-        let _ = fs::remove_dir(&self.folder);
     }
 
     /// A value behind its check number.
@@ -174,7 +218,7 @@ mod tests {
     #[test]
     fn another_question_is_named_and_a_damaged_state_is_that_before() {
         let here = tempfile::tempdir().unwrap();
-        let kept = Checkpoint::beside(&here.path().join("out.ngc"));
+        let mut kept = Checkpoint::beside(&here.path().join("out.ngc"));
         assert!(!kept.open(&manifest("a"), false).unwrap());
         let state = |parts| State {
             parts,
@@ -183,6 +227,13 @@ mod tests {
         kept.keep(&state(1)).unwrap();
         kept.keep(&state(2)).unwrap();
         assert!(kept.open(&manifest("a"), false).unwrap());
+        let mut other = Checkpoint::beside(&here.path().join("out.ngc"));
+        let failure = other.open(&manifest("a"), false).unwrap_err();
+        assert!(
+            failure.plain.contains("another run writes"),
+            "{}",
+            failure.plain
+        );
         let parts: Vec<usize> = kept.states().map(|state| state.parts).collect();
         assert_eq!(parts, [2, 1]);
         let failure = kept.open(&manifest("b"), false).unwrap_err();

@@ -6,13 +6,16 @@ use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
 use kinetostat_machining::{
-    Envelope, FileRead, OfWhole, Run, RunError, Warning, WarningCode, Watch, analyse_part,
-    compensate_part, look_at_part,
+    Envelope, FeatureResult, FileRead, OfWhole, Run, RunError, Warning, WarningCode, Watch,
+    add_to_features, analyse_part, compensate_part, judge_features, look_at_part, places_of_part,
 };
 use kinetostat_model::Model;
 use kinetostat_program::{Part, PartError, PartLength, Parts, Survey, WrittenSoFar};
 use sha2::{Digest, Sha256};
 
+use crate::files::journal::Contents;
+use crate::files::origin;
+use crate::files::outputs::Outputs;
 use crate::job::arguments::ProgramArgs;
 use crate::job::machine::MachineSetup;
 use crate::job::output_paths::OutputPaths;
@@ -21,11 +24,11 @@ use crate::job::setting::Setting;
 use crate::long::checkpoint::{Checkpoint, Manifest, State};
 use crate::long::partial::Partial;
 use crate::long::which::part_length;
-use crate::machine::model_warnings::with_model_warning;
 use crate::program::aim::Aim;
+use crate::program::features::put_found;
 use crate::program::outputs::RunOutputs;
 use crate::program::points_table;
-use crate::program::solve::with_task;
+use crate::program::solve::{failure_of, too_many_blocks, with_task};
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::progress::Progress;
 use crate::ui::threads::in_threads;
@@ -60,8 +63,13 @@ impl<R: Read> Read for Hashed<R> {
     }
 }
 
-/// What only the whole of a program tells; its hash takes the place of that of its first lines.
-pub(crate) fn survey(setting: &mut Setting, aim: Aim) -> Answer<Survey> {
+fn hex(hash: &[u8]) -> String {
+    hash.iter().map(|byte| format!("{byte:02x}")).collect()
+}
+
+/// What only the whole of a program tells; its hash takes the place of that of its first lines. `None` where it cannot be read,
+/// or moves nothing: all that is wrong with it is said of the whole.
+pub(crate) fn survey(setting: &mut Setting, aim: Aim) -> Answer<Option<Survey>> {
     let progress = Progress::new();
     progress.stage("reading", 0);
     let mut hashed = Hashed {
@@ -69,10 +77,15 @@ pub(crate) fn survey(setting: &mut Setting, aim: Aim) -> Answer<Survey> {
         hash: Sha256::new(),
     };
     let from = BufReader::with_capacity(1 << 16, &mut hashed);
-    let survey = Survey::of(from, &setting.reading).map_err(|error| unread(setting, error))?;
-    let sha256 = hashed.hash.finalize();
+    let survey = match Survey::of(from, &setting.reading) {
+        Err(PartError::Program(_)) => return Ok(None),
+        found => found.map_err(|error| unread(setting, error))?,
+    };
+    if survey.moves == 0 {
+        return Ok(None);
+    }
     if let Some(first) = setting.program_files.first_mut() {
-        first.sha256 = sha256.iter().map(|byte| format!("{byte:02x}")).collect();
+        first.sha256 = hex(&hashed.hash.finalize());
     }
     if let Some(line) = survey.mark_line
         && !setting.writing.again
@@ -81,7 +94,7 @@ pub(crate) fn survey(setting: &mut Setting, aim: Aim) -> Answer<Survey> {
         let error = kinetostat_program::WriteError::AlreadyCompensated { line };
         return Err(setting.within(Failure::from(RunError::from(error))));
     }
-    Ok(survey)
+    Ok(Some(survey))
 }
 
 fn unread(setting: &Setting, error: PartError) -> Failure {
@@ -158,6 +171,7 @@ impl<'a> LongRun<'a> {
                 "the compensated program's name",
                 format!("{:?}", self.targets.program),
             ),
+            ("the features", format!("{:?}", s.features)),
             ("the length of the parts", format!("{length:?}")),
         ];
         Manifest(
@@ -190,17 +204,30 @@ impl<'a> LongRun<'a> {
         })
     }
 
-    fn answered<T>(&self, result: Result<T, RunError>) -> Answer<T> {
-        result.map_err(|error| {
-            let failure = self.setting.within(Failure::from(error));
-            with_model_warning(failure, self.model)
-        })
+    /// Ctrl-C between two parts, and where parts that are done are read over.
+    fn refuse_if_cancelled(&self, watch: &Progress) -> Answer<()> {
+        match watch.cancelled() {
+            true => Err(self.setting.within(Failure::from(RunError::Cancelled))),
+            false => Ok(()),
+        }
+    }
+
+    fn answered<T>(&self, result: Result<T, RunError>, part: &Part) -> Answer<T> {
+        let with = (self.machine, self.model);
+        result.map_err(|error| failure_of(error, with, self.setting, &part.path))
     }
 
     /// A first look at every part: what takes hours to be solved everywhere is refused in seconds.
     fn look(&self, length: PartLength, watch: &Progress) -> Answer<OfWhole> {
         let mut whole = OfWhole::default();
         let nothing = WrittenSoFar::nothing(self.survey, &self.setting.reading);
+        watch.stage("counting places", self.survey.lines);
+        for part in self.parts(length)? {
+            let part = part.map_err(|error| self.failed(error))?;
+            self.refuse_if_cancelled(watch)?;
+            whole.places += self.with_part(&part, &nothing, false, places_of_part)?;
+            watch.advance(part.next_line() - 1);
+        }
         watch.stage("first look", self.survey.lines);
         for part in self.parts(length)? {
             let part = part.map_err(|error| self.failed(error))?;
@@ -208,7 +235,7 @@ impl<'a> LongRun<'a> {
             let looked = self.with_part(&part, &nothing, false, |task| {
                 look_at_part(whole, task, compensate, watch)
             })?;
-            whole = self.answered(looked)?;
+            whole = self.answered(looked, &part)?;
             watch.advance(part.next_line() - 1);
         }
         Ok(whole)
@@ -228,11 +255,11 @@ impl<'a> LongRun<'a> {
         let beside = beside
             .cloned()
             .unwrap_or_else(|| PathBuf::from("kinetostat"));
-        let kept = Checkpoint::beside(&beside);
+        let mut kept = Checkpoint::beside(&beside);
         kept.open(&self.manifest(length), self.flags.restart)?;
         let mut work = Work::go_on(&kept, self.survey, self.setting)?;
         let done = self.work(&mut work, (&kept, length), outputs, &progress);
-        if done.is_err() && work.state.parts > 0 {
+        if done.is_err() && work.state.parts > 0 && work.is_whole {
             // What can be kept is kept; why it ended is said.
             let _ = work.keep(&kept);
         }
@@ -248,11 +275,22 @@ impl<'a> LongRun<'a> {
             ..
         } = work;
         let result = state.merged.finish(reading.collect());
-        let Some(result) = result else {
+        let Some(mut result) = result else {
             return Err(self
                 .setting
                 .within(Failure::input("the program has no block")));
         };
+        let found = too_many_blocks(self.setting, &result.summary);
+        result.warnings.extend(found);
+        let (written, allowed_mm) = match self.aim {
+            Aim::Analyse => (false, self.setting.writing.tolerance_mm),
+            Aim::Compensate => (true, result.tolerance.allowed_mm),
+        };
+        let mut features = state.features;
+        judge_features(&mut features, &self.setting.features, allowed_mm, written);
+        put_found(&mut result, features);
+        // The day on which it was finished.
+        result.run_inputs.date = origin::day();
         let mut envelope = Envelope::default();
         envelope.extend(&result.points);
         let run = Run {
@@ -282,18 +320,14 @@ impl<'a> LongRun<'a> {
         let whole = match work.state.of_whole() {
             Some(whole) => whole,
             None => {
-                let mut whole = in_threads(self.flags.threads, || self.look(length, progress))??;
-                // Not a number of the file of the state: a machine without any stiffness found is taken as it is.
-                if !whole.stiffness_n_per_mm.is_finite() {
-                    whole.stiffness_n_per_mm = 0.0;
-                }
-                work.state.stiffness_n_per_mm = Some(whole.stiffness_n_per_mm);
+                let whole = in_threads(self.flags.threads, || self.look(length, progress))??;
+                work.state.note(&whole);
                 whole
             }
         };
         self.pass(work, (kept, length), whole, (outputs, progress))?;
         if !work.state.as_it_is && work.state.merged.leaves_as_it_is() {
-            work.begin_anew(kept, self.survey, self.setting, whole.stiffness_n_per_mm)?;
+            work.begin_anew(kept, (self.survey, self.setting), &whole)?;
             let whole = OfWhole {
                 as_it_is: true,
                 ..whole
@@ -319,6 +353,7 @@ impl<'a> LongRun<'a> {
         let mut last = Instant::now();
         for (index, part) in self.parts(length)?.enumerate() {
             let part = part.map_err(|error| self.failed(error))?;
+            self.refuse_if_cancelled(progress)?;
             if index < work.state.parts {
                 continue;
             }
@@ -327,8 +362,12 @@ impl<'a> LongRun<'a> {
                     Aim::Analyse => analyse_part(task, Some(&whole), progress),
                     Aim::Compensate => compensate_part(task, Some(&whole), progress),
                 })?;
-                let run = self.answered(run)?;
+                let run = self.answered(run, &part)?;
+                work.is_whole = false;
                 work.state.merged.add(task, &run);
+                let features = &mut work.state.features;
+                let written = run.written.is_some();
+                add_to_features(features, &run.points, |point| Some(point.line), written);
                 Ok::<_, Failure>(run)
             })??;
             if let Some(written) = &run.written {
@@ -348,6 +387,7 @@ impl<'a> LongRun<'a> {
                 )?;
             }
             work.state.parts = index + 1;
+            work.is_whole = true;
             if last.elapsed() >= every || part.is_last {
                 work.keep(kept)?;
                 last = Instant::now();
@@ -366,24 +406,25 @@ pub(crate) struct LongFiles {
 
 impl LongFiles {
     /// Writes them beside their targets.
-    pub(crate) fn fill(&self, outputs: &mut RunOutputs) -> Answer<()> {
-        for (index, from) in [
-            (outputs.program, &self.program),
-            (outputs.points, &self.points),
-        ] {
-            let Some(index) = index else { continue };
-            let mut from = from.reader()?;
-            let mut block = vec![0; 1 << 16];
-            loop {
-                let count = from.read(&mut block).map_err(|error| {
-                    Failure::input(format!("what was kept cannot be read: {error}"))
-                })?;
-                if count == 0 {
-                    break;
-                }
-                outputs.files.append(index, &block[..count])?;
-            }
-            outputs.files.complete(index)?;
+    pub(crate) fn fill(&self, outputs: &mut RunOutputs, targets: &OutputPaths) -> Answer<()> {
+        self.or_kept(self.fill_all(outputs, targets))
+    }
+
+    /// An answer about putting outputs in place; where they cannot be, it is said that nothing is lost.
+    pub(crate) fn or_kept<T>(&self, answer: Answer<T>) -> Answer<T> {
+        answer.map_err(|failure| self.kept.with_advice(failure))
+    }
+
+    fn fill_all(&self, outputs: &mut RunOutputs, targets: &OutputPaths) -> Answer<()> {
+        if let Some(index) = outputs.program {
+            let sha256 = put(&self.program, &mut outputs.files, index)?;
+            // A paper states what was written.
+            let made = targets.program.iter();
+            let made = made.map(|path| origin::hashed("written program", path, sha256.clone()));
+            outputs.made.extend(made);
+        }
+        if let Some(index) = outputs.points {
+            put(&self.points, &mut outputs.files, index)?;
         }
         Ok(())
     }
@@ -394,9 +435,37 @@ impl LongFiles {
     }
 }
 
+/// Puts a file that was kept into a claimed output; its hash.
+fn put(from: &Partial, outputs: &mut Outputs, index: usize) -> Answer<String> {
+    let mut reader = from.reader()?;
+    let mut block = vec![0; 1 << 16];
+    let (mut hash, mut found) = (Sha256::new(), Contents::default());
+    loop {
+        let count = reader
+            .read(&mut block)
+            .map_err(|error| Failure::input(format!("what was kept cannot be read: {error}")))?;
+        if count == 0 {
+            break;
+        }
+        hash.update(&block[..count]);
+        found.append(&block[..count]);
+        outputs.append(index, &block[..count])?;
+    }
+    // Something else may have written there.
+    if found != from.contents() {
+        return Err(Failure::input(
+            "what was kept of the run was changed by something else: give --restart to begin anew",
+        ));
+    }
+    outputs.complete(index)?;
+    Ok(hex(&hash.finalize()))
+}
+
 /// What is done of a run.
 struct Work<'s> {
     state: State,
+    /// Result and files are those of the same parts: not while a part is being taken into them, which a full disk may end.
+    is_whole: bool,
     so_far: WrittenSoFar<'s>,
     program: Partial,
     points: Partial,
@@ -419,6 +488,7 @@ impl<'s> Work<'s> {
             }
             return Ok(Self {
                 state,
+                is_whole: true,
                 so_far,
                 program,
                 points,
@@ -429,7 +499,11 @@ impl<'s> Work<'s> {
 
     fn nothing(kept: &Checkpoint, survey: &'s Survey, setting: &'s Setting) -> Answer<Self> {
         Ok(Self {
-            state: State::default(),
+            state: State {
+                features: FeatureResult::without_points(&setting.features),
+                ..State::default()
+            },
+            is_whole: true,
             so_far: WrittenSoFar::nothing(survey, &setting.reading),
             program: Partial::create(kept.path("program"))?,
             points: Partial::create(kept.path("points"))?,
@@ -440,13 +514,12 @@ impl<'s> Work<'s> {
     fn begin_anew(
         &mut self,
         kept: &Checkpoint,
-        survey: &'s Survey,
-        setting: &'s Setting,
-        stiffness_n_per_mm: f64,
+        (survey, setting): (&'s Survey, &'s Setting),
+        whole: &OfWhole,
     ) -> Answer<()> {
         *self = Self::nothing(kept, survey, setting)?;
         self.state.as_it_is = true;
-        self.state.stiffness_n_per_mm = Some(stiffness_n_per_mm);
+        self.state.note(whole);
         self.keep(kept)
     }
 

@@ -4,19 +4,19 @@ use std::fs::File;
 use std::io::{BufRead, BufReader};
 use std::path::Path;
 
-use kinetostat_program::{PartLength, Survey};
-use kinetostat_report::Language;
+use kinetostat_program::PartLength;
 
 use crate::files::input_files::InputFiles;
 use crate::job::arguments::ProgramArgs;
 use crate::job::machine::MachineSetup;
+use crate::job::output_paths::OutputPaths;
 use crate::job::setting::Setting;
 use crate::job::turn_arguments::FreeTurnWord;
-use crate::ui::language::LanguageWord;
+use crate::program::points_parquet;
+use crate::ui::{layout, screen};
 
-/// Programs of more bytes are long. To be 1 MB, beyond which a whole program takes some hundred megabytes of memory, once
-/// `tests/long.rs` and `cargo xtask long` have passed: until then only `--part-lines` asks for parts.
-const LONG_BYTES: Option<u64> = None;
+/// Programs of more bytes are long: a whole one takes some hundred megabytes of memory beyond that.
+const LONG_BYTES: u64 = 1 << 20;
 
 /// Most bytes of the first lines.
 const FIRST_BYTES: usize = 1 << 20;
@@ -35,17 +35,34 @@ pub(crate) fn part_length(flags: &ProgramArgs) -> PartLength {
     }
 }
 
+/// The size of a program that is to be run in parts, bytes; `None` of a short one, and where there is none.
+fn long_bytes(path: &Path, flags: &ProgramArgs) -> Option<u64> {
+    let length = std::fs::metadata(path).ok()?.len();
+    (length > LONG_BYTES || flags.part_lines.is_some()).then_some(length)
+}
+
+/// Says of a long program why it is run as a whole, which takes memory and cannot be gone on with. It is no warning: the answer is
+/// the same.
+pub(crate) fn say_as_a_whole(path: &Path, flags: &ProgramArgs, reasons: &[&str]) {
+    let Some(bytes) = long_bytes(path, flags).filter(|_| !reasons.is_empty()) else {
+        return;
+    };
+    let text = format!(
+        "note: the program has {:.1} MB and is run as a whole, for {}: it takes memory in proportion to its length, and a run that is interrupted begins anew",
+        bytes as f64 * 1e-6,
+        reasons.join(", and ")
+    );
+    // Text for people beside the answer: it is no reason to end.
+    let _ = screen::print(screen::Stream::Err, &layout::wrapped(&text, 0));
+}
+
 /// The files of a run with the first lines of its program in place of it, where that is long.
 pub(crate) fn with_first_lines(
     files: &InputFiles,
     path: &Path,
     flags: &ProgramArgs,
 ) -> Option<InputFiles> {
-    let length = std::fs::metadata(path).ok()?.len();
-    let is_long = LONG_BYTES.is_some_and(|most| length > most);
-    if !is_long && flags.part_lines.is_none() {
-        return None;
-    }
+    long_bytes(path, flags)?;
     let mut from = BufReader::new(File::open(path).ok()?);
     let mut first = Vec::new();
     for _ in 0..FIRST_LINES {
@@ -58,37 +75,73 @@ pub(crate) fn with_first_lines(
     Some(files)
 }
 
-/// Why a program is run as a whole, however long it is; `None` where it can be run in parts.
+/// Why a program of which no machine is known yet is run as a whole, however long it is; nothing where it may be run in parts.
+pub(crate) fn whole_by_setting(setting: &Setting) -> Vec<&'static str> {
+    let cases = [
+        (
+            setting.robot.is_some(),
+            "it is a program of a robot (or of another language than G-code)",
+        ),
+        (
+            setting.flat.is_some(),
+            "its loops and subprograms are expanded",
+        ),
+    ];
+    holding(&cases)
+}
+
+/// Why a program is run as a whole, however long it is; nothing where it can be run in parts.
 pub(crate) fn only_as_a_whole(
     setting: &Setting,
     machine: &MachineSetup,
-    flags: &ProgramArgs,
-) -> Option<&'static str> {
+    targets: &OutputPaths,
+) -> Vec<&'static str> {
     let cases = [
-        (setting.robot.is_some(), "it is a program of a robot"),
-        (setting.flat.is_some(), "it is expanded"),
-        (machine.cut.is_some(), "forces are computed from the cut"),
-        (machine.measured.is_some(), "forces were measured"),
-        (setting.forces.is_some(), "forces are given along it"),
-        (!machine.tools.is_empty(), "several tools are named"),
-        (setting.uncertain.is_some(), "its scatter is asked for"),
-        (!setting.features.is_empty(), "features are named"),
+        (
+            machine.cut.is_some(),
+            "its forces are computed from the cut",
+        ),
+        (machine.measured.is_some(), "its forces were measured"),
+        (
+            setting.forces.is_some(),
+            "its forces are given place by place",
+        ),
+        (
+            !machine.tools.is_empty() || setting.reading.tools.is_some(),
+            "it has several tools",
+        ),
+        (
+            setting.uncertain.is_some(),
+            "its scatter is asked for (--uncertain)",
+        ),
         (
             setting.free_turn != FreeTurnWord::AsStated,
-            "the turn of the tool is chosen",
+            "the turn of the tool is chosen (--free-turn)",
         ),
-        (setting.targets.pdf.is_some(), "a paper is asked for"),
         (
-            LanguageWord::language(flags.language) != Language::English,
-            "a paper is asked for",
+            targets
+                .points
+                .as_deref()
+                .is_some_and(points_parquet::is_named),
+            "its points are written as Parquet (as CSV they are not a reason)",
+        ),
+        (
+            targets.vtk.is_some(),
+            "its path is written for ParaView (--vtk)",
         ),
         (
             machine.placement.orientation_follows,
-            "the orientation of the tool follows from place to place",
+            "the orientation of the tool follows from its place",
+        ),
+        (
+            setting.reading.rotary.is_some(),
+            "rotary axes turn the tool in the part",
         ),
     ];
-    let found = cases.into_iter().find(|(holds, _)| *holds);
-    found
-        .map(|(_, why)| why)
-        .or_else(|| Survey::only_as_a_whole(&setting.reading))
+    holding(&cases)
+}
+
+fn holding(cases: &[(bool, &'static str)]) -> Vec<&'static str> {
+    let found = cases.iter().filter(|(holds, _)| *holds);
+    found.map(|(_, why)| *why).collect()
 }

@@ -1,7 +1,7 @@
 //! How a run stands to the features of its job.
 
 use kinetostat_machining::{
-    FeatureResult, PointResult, Run, Warning, WarningCode, feature_results,
+    FeatureResult, PointResult, Run, RunResult, Warning, WarningCode, feature_results,
 };
 
 use crate::job::setting::Setting;
@@ -22,9 +22,14 @@ pub(crate) fn put_features(run: &mut Run, setting: &Setting, allowed_mm: f64) {
     };
     let written = run.written.is_some();
     let found = feature_results(&setting.features, &run.points, line_of, allowed_mm, written);
+    put_found(&mut run.result, found);
+}
+
+/// Puts what was found of the features into a result, and says of which there is nothing to say.
+pub(crate) fn put_found(result: &mut RunResult, found: Vec<FeatureResult>) {
     for feature in found.iter().filter(|feature| feature.points == 0) {
         let [first, last] = feature.lines;
-        run.result.warnings.push(Warning::new(
+        result.warnings.push(Warning::new(
             WarningCode::EmptyFeature,
             format!(
                 "the feature {}, lines {first} to {last}: nothing is cut there, so that nothing can be said of it; compare its lines with the program",
@@ -32,7 +37,7 @@ pub(crate) fn put_features(run: &mut Run, setting: &Setting, allowed_mm: f64) {
             ),
         ));
     }
-    run.result.features = found;
+    result.features = found;
 }
 
 /// A table of features, or nothing.

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use kinetostat_machining::Run;
+use kinetostat_machining::{FileRead, Run};
 use kinetostat_model::Model;
 use kinetostat_report::{Language, Paper, html_of_run_and_turns, turns_svg};
 
@@ -40,6 +40,8 @@ pub(crate) struct RunOutputs {
     /// Further files of the program.
     pub(crate) beside: Vec<usize>,
     pub(crate) listing: Listing,
+    /// Written files of a long program, for the paper.
+    pub(crate) made: Vec<FileRead>,
     /// Columns of a written table that have another type than before.
     widened: Vec<String>,
 }
@@ -89,6 +91,7 @@ impl RunOutputs {
                 Aim::Analyse => Vec::new(),
             },
             listing: Listing::default(),
+            made: Vec::new(),
             widened: Vec::new(),
             files: outputs,
         })
@@ -146,7 +149,7 @@ impl RunOutputs {
         if let Some(index) = self.flat {
             self.files.fill(index, &setting.program)?;
         }
-        let mut made = Vec::new();
+        let mut made = std::mem::take(&mut self.made);
         if let (Some(index), Some(written)) = (self.program, &run.written) {
             let written = setting.as_files(written)?;
             if self.has_paper() {

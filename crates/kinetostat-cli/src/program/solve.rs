@@ -5,8 +5,8 @@ use kinetostat::number::larger;
 use kinetostat_machining::number::{largest, length_setting, setting as setting_of};
 use kinetostat_machining::{
     Bounds, CuttingLoad, ForceAlongPath, LoadAlongPath, MeasuredReport, ProgramLoad, Run, RunError,
-    Task, Tool, Warning, WarningCode, Watch, analyse, compensate_program, load_description,
-    origin_in_metres,
+    Summary, Task, Tool, Warning, WarningCode, Watch, analyse, compensate_program,
+    load_description, origin_in_metres,
 };
 use kinetostat_model::Model;
 use kinetostat_program::{MachineProgram, Path as ToolPath, WriteError};
@@ -231,19 +231,7 @@ pub(crate) fn turned(
         };
         Ok::<_, Failure>((result, parts))
     })??;
-    let mut run = result.map_err(|error| {
-        let of_machine = may_come_from_machine(&error);
-        let failure = setting.within(Failure::from(error));
-        if !of_machine {
-            return failure;
-        }
-        // What is no warning without an answer may be the reason why there is none.
-        let failure = match origin_in_metres(&machine.mechanism, &machine.placement, path) {
-            Some(doubt) => failure.with_reason(&doubt.message),
-            None => failure,
-        };
-        with_model_warning(failure, model)
-    })?;
+    let mut run = result.map_err(|error| failure_of(error, (machine, model), setting, path))?;
     if let Some((own, file)) = &uncertain {
         let with = (*own, file);
         in_threads(threads, || {
@@ -260,15 +248,9 @@ pub(crate) fn turned(
         let first = of_first_place(read, arm.as_ref(), &run.points);
         run.result.warnings.extend(first);
     }
-    if let Some(limit) = setting.max_blocks_per_second
-        && let Some(most) = run.result.summary.blocks_per_second
-        && most > limit
-    {
-        run.result.warnings.push(Warning::new(WarningCode::BlocksPerSecond, format!(
-            "the written program asks for up to {} blocks per second, more than the {limit} that were stated: the machine may stutter. Widen the tolerance (path_um, chord_um) or cut more slowly",
-            largest(most, "")
-        )));
-    }
+    run.result
+        .warnings
+        .extend(too_many_blocks(setting, &run.result.summary));
     let allowed_mm = match aim {
         Aim::Analyse => setting.writing.tolerance_mm,
         Aim::Compensate => run.result.tolerance.allowed_mm,
@@ -277,6 +259,35 @@ pub(crate) fn turned(
     let found = std::mem::take(&mut run.result.warnings);
     run.result.warnings = of_warnings(found, setting.flat.as_ref());
     Ok(run)
+}
+
+/// A program with more blocks per second than a controller takes, as stated.
+pub(crate) fn too_many_blocks(setting: &Setting, summary: &Summary) -> Option<Warning> {
+    let (limit, most) = (setting.max_blocks_per_second?, summary.blocks_per_second?);
+    (most > limit).then(|| Warning::new(WarningCode::BlocksPerSecond, format!(
+        "the written program asks for up to {} blocks per second, more than the {limit} that were stated: the machine may stutter. Widen the tolerance (path_um, chord_um) or cut more slowly",
+        largest(most, "")
+    )))
+}
+
+/// Why a run has no answer, with what may be the reason.
+pub(crate) fn failure_of(
+    error: RunError,
+    (machine, model): (&MachineSetup, &Model),
+    setting: &Setting,
+    path: &ToolPath,
+) -> Failure {
+    let of_machine = may_come_from_machine(&error);
+    let failure = setting.within(Failure::from(error));
+    if !of_machine {
+        return failure;
+    }
+    // What is no warning without an answer may be the reason why there is none.
+    let failure = match origin_in_metres(&machine.mechanism, &machine.placement, path) {
+        Some(doubt) => failure.with_reason(&doubt.message),
+        None => failure,
+    };
+    with_model_warning(failure, model)
 }
 
 /// Whether a wrong model, or a part at a wrong place, can be why a run ends: the machine does not get somewhere, gives way too much or

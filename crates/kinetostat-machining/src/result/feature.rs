@@ -39,6 +39,19 @@ pub struct FeatureResult {
     pub held: Option<bool>,
 }
 
+impl FeatureResult {
+    /// What is known of features before the first point.
+    #[must_use]
+    pub fn without_points(features: &[Feature]) -> Vec<Self> {
+        let of = |feature: &Feature| Self {
+            name: feature.name.clone(),
+            lines: feature.lines,
+            ..Self::default()
+        };
+        features.iter().map(of).collect()
+    }
+}
+
 /// How a run stands to features: `points` are those of the whole run, `line_of` the line of the user's program that a point belongs
 /// to, `allowed_mm` what counts where a feature states no tolerance. `written` says whether there is a second program.
 ///
@@ -57,15 +70,20 @@ pub fn feature_results(
     allowed_mm: f64,
     written: bool,
 ) -> Vec<FeatureResult> {
-    let mut results: Vec<FeatureResult> = features
-        .iter()
-        .map(|feature| FeatureResult {
-            name: feature.name.clone(),
-            lines: feature.lines,
-            allowed_mm: feature.tolerance_mm.unwrap_or(allowed_mm),
-            ..FeatureResult::default()
-        })
-        .collect();
+    let mut results = FeatureResult::without_points(features);
+    add_to_features(&mut results, points, line_of, written);
+    judge_features(&mut results, features, allowed_mm, written);
+    results
+}
+
+/// Takes the next points of a run into what was found of features, which begins as [`FeatureResult::without_points`]; the other
+/// arguments are those of [`feature_results`].
+pub fn add_to_features(
+    results: &mut [FeatureResult],
+    points: &[PointResult],
+    line_of: impl Fn(&PointResult) -> Option<usize>,
+    written: bool,
+) {
     for point in points.iter().filter(|p| p.kind != PointKind::Rapid) {
         let Some(line) = line_of(point) else { continue };
         let inside = |result: &&mut FeatureResult| {
@@ -93,7 +111,17 @@ pub fn feature_results(
             }
         }
     }
-    for result in &mut results {
+}
+
+/// The verdicts, once all points were taken.
+pub fn judge_features(
+    results: &mut [FeatureResult],
+    features: &[Feature],
+    allowed_mm: f64,
+    written: bool,
+) {
+    for (result, feature) in results.iter_mut().zip(features) {
+        result.allowed_mm = feature.tolerance_mm.unwrap_or(allowed_mm);
         let counts = match written {
             true => result.error_after_mm,
             false => result.error_before_mm,
@@ -101,7 +129,6 @@ pub fn feature_results(
         // NaN keeps no tolerance.
         result.held = counts.map(|mm| mm <= result.allowed_mm);
     }
-    results
 }
 
 /// The larger of both; NaN stays.

@@ -21,6 +21,11 @@ const FIRST_LOOKS: usize = 8;
 /// solved everywhere.
 const GROSS: f64 = 10.0;
 
+/// How many places a first look could take.
+pub(crate) fn count_sites(task: &Task<'_>, load: &LoadAlongPath<'_>) -> usize {
+    of_path(task.path(), load, &task.placement, spacing_mm(task)).count()
+}
+
 /// A few places of a program, each solved by itself.
 pub(crate) struct FirstLook {
     /// Those that have an answer.
@@ -42,15 +47,32 @@ impl FirstLook {
         load: &LoadAlongPath<'_>,
         watch: &dyn Watch,
     ) -> Result<Self, RunError> {
-        let sites = || of_path(task.path(), load, &task.placement, spacing_mm(task));
-        let every = sites().count().div_ceil(FIRST_LOOKS).max(1);
+        let all = count_sites(task, load);
+        Self::of_whole(task, load, (all, 0), watch)
+    }
+
+    /// Those of the few places of a whole program that lie on a part of it: the program has so many places that could be looked
+    /// at, and so many of them lie before the part.
+    ///
+    /// # Errors
+    /// [`RunError::Cancelled`].
+    pub fn of_whole(
+        task: &Task<'_>,
+        load: &LoadAlongPath<'_>,
+        (all, before): (usize, usize),
+        watch: &dyn Watch,
+    ) -> Result<Self, RunError> {
+        let sites = of_path(task.path(), load, &task.placement, spacing_mm(task));
+        let every = all.div_ceil(FIRST_LOOKS).max(1);
+        // Places are counted from the beginning of the whole program.
+        let first = before.next_multiple_of(every) - before;
         let machines = Machines::new(task);
         let mut look = Self {
             points: Vec::new(),
             first: None,
             not_converged: false,
         };
-        for (index, site) in sites().step_by(every).enumerate() {
+        for (index, site) in sites.skip(first).step_by(every).enumerate() {
             if watch.cancelled() {
                 return Err(RunError::Cancelled);
             }
