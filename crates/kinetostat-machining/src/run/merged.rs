@@ -8,7 +8,7 @@ use crate::near::natural_length;
 use crate::result::joints::{JointsResult, LimitPlace};
 use crate::result::point::{PointKind, PointResult, size};
 use crate::result::run_result::RunResult;
-use crate::result::selection::{thinned, worst};
+use crate::result::selection::{farthest_off, thinned, worst};
 use crate::result::summary::Summary;
 use crate::result::tolerance::{MissedTolerance, keeps_as_it_is};
 use crate::run::conclude::Run;
@@ -58,6 +58,7 @@ pub struct MergedRun {
     feed_blocks_out: f64,
     box_mm: Option<[[f64; 3]; 2]>,
     worst: Vec<PointResult>,
+    worst_after: Vec<PointResult>,
     points: Vec<PointResult>,
     further_warnings: usize,
 }
@@ -103,6 +104,13 @@ impl MergedRun {
         if self.worst.len() > 60 {
             self.worst = chosen.iter().map(|i| self.worst[*i].clone()).collect();
         }
+        self.worst_after
+            .extend(run.result.worst_points_after.iter().cloned());
+        let farthest = farthest_off(&self.worst_after);
+        self.worst_after = farthest
+            .iter()
+            .map(|i| self.worst_after[*i].clone())
+            .collect();
         let kept = thinned(&run.points, &[], RunResult::MAX_POINTS / 16);
         self.points
             .extend(kept.iter().map(|i| run.points[*i].clone()));
@@ -113,6 +121,7 @@ impl MergedRun {
         let next = RunResult {
             points: Vec::new(),
             worst_points: Vec::new(),
+            worst_points_after: Vec::new(),
             ..run.result.clone()
         };
         let warnings = match &mut self.result {
@@ -191,6 +200,7 @@ impl MergedRun {
             result.tolerance.missed = None;
         }
         let chosen = worst(&self.worst);
+        result.worst_points_after = self.worst_after;
         result.worst_points = chosen.iter().map(|i| self.worst[*i].clone()).collect();
         let kept = thinned(&self.points, &[], RunResult::MAX_POINTS);
         result.points = kept.iter().map(|i| self.points[*i].clone()).collect();
