@@ -262,16 +262,9 @@ fn compare(found: &Value, wanted: &Value, at: &str) {
         }
         (Value::Number(found), Value::Number(wanted)) => {
             let [a, b] = [found, wanted].map(|number| number.as_f64().expect("a number"));
-            // Two kinds of figures are not the same, which docs/design.md says. The kernels compute stability in some places of a
-            // stretch and fill it in between (`batch/path.rs`), and which places these are depends on where a part begins (found:
-            // 7e-4 of the stiffness, 6e-4 of the way to buckling). A peak of blocks per second is not seen across a seam.
-            let others = [
-                "share_to_buckling",
-                "smallest_stiffness_n_per_mm",
-                "blocks_per_second",
-                "blocks_per_second_after",
-            ];
-            let (relative, least) = match others.iter().any(|end| at.ends_with(end)) {
+            // A peak of blocks per second is not seen across a seam, which docs/design.md says.
+            let of_seams = ["blocks_per_second", "blocks_per_second_after"];
+            let (relative, least) = match of_seams.iter().any(|end| at.ends_with(end)) {
                 true => (1e-3, 1e-3),
                 false => (1e-7, 1e-9),
             };

@@ -469,5 +469,8 @@ fn an_interrupt_leaves_nothing_half_written() {
     assert_eq!(killed.code, 0, "{killed:?}");
     let status = child.wait().unwrap();
     assert_eq!(status.code(), Some(130), "{status:?}");
-    assert_eq!(contents(here.path()), before);
+    // A long program goes on from what is kept in a folder of its own; nothing else is there.
+    let mut after = contents(here.path());
+    after.retain(|path, _| !path.to_string_lossy().contains(".kinetostat-part"));
+    assert_eq!(after, before);
 }

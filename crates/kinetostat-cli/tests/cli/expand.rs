@@ -106,7 +106,12 @@ fn programs_of_controls_find_their_subprograms_in_folders() {
     for (main, text, name, subprogram, flat) in CONTROLS {
         let here = tempfile::tempdir().unwrap();
         std::fs::write(here.path().join(main), text).unwrap();
-        let expand = |more: &[&str]| run(here.path(), &[&["expand", main][..], more].concat());
+        let expand = |more: &[&str]| {
+            run(
+                here.path(),
+                &[&["expand", main, "--no-comments"][..], more].concat(),
+            )
+        };
         let said = expand(&[]);
         assert_eq!(said.code, 1, "{said:?}");
         assert!(said.err.contains("--subprograms FOLDER"), "{said:?}");

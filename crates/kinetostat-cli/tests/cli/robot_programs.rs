@@ -371,7 +371,7 @@ fn programs_of_controls_with_loops_are_run_once_and_compensated_flat() {
         ];
         let flat = read(here, &format!("{stem}-flat.{ending}"));
         assert!(!flat.contains(looped), "{flat}");
-        let printed = run(here, &["expand", name]).answered();
+        let printed = run(here, &["expand", name, "--no-comments"]).answered();
         assert_eq!(printed.out, flat);
         // Both slots are there, each line of points with the line of the program that it came from.
         let output = read(here, &format!("{stem}-compensated.{ending}"));
