@@ -119,6 +119,8 @@ impl Checkpoint {
 
     /// Makes the folder and locks it. A disk without locks is trusted.
     fn take(&mut self) -> Answer<()> {
+        // Its own lock of before would keep it out, too.
+        self.lock = None;
         fs::create_dir_all(&self.folder).map_err(|error| self.refused(&error))?;
         let lock = fs::File::create(self.folder.join(LOCK));
         let lock = lock.map_err(|error| self.refused(&error))?;

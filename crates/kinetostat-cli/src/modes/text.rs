@@ -46,7 +46,7 @@ pub(crate) fn answer_text(query: &PlaceQuery, a: &ModesAnswer) -> String {
     rows.extend(a.modes.iter().map(row));
     out.push_str(&columns(&rows, 0));
     out.push_str(&wrapped(
-        "Along: motion of the tip, base axes, its largest part 1. Turns: rad for 1 m of that largest part.",
+        "Along: motion of the tip, base axes, its largest part 1. Turns: rad for 1 m of that largest part; where it turns in place, their largest part is 1.",
         0,
     ));
     out.push_str("\nWhat moves, and what is strained\n");
@@ -82,6 +82,21 @@ pub(crate) fn answer_text(query: &PlaceQuery, a: &ModesAnswer) -> String {
     out
 }
 
+/// Below this share of the largest part (of a turn: metres for a radian) a number is rounding.
+const NOTHING: f64 = 1e-9;
+
+fn largest_of(parts: [f64; 3]) -> f64 {
+    parts.into_iter().map(f64::abs).fold(0.0, larger)
+}
+
+/// A part beside the largest one, 0 where it is rounding.
+fn clean(part: f64, largest: f64) -> f64 {
+    match part.abs() > NOTHING * largest {
+        true => part,
+        false => 0.0,
+    }
+}
+
 fn row(mode: &ModeAnswer) -> Vec<String> {
     let word = match mode.kind {
         ModeKind::Free => " free",
@@ -89,16 +104,16 @@ fn row(mode: &ModeAnswer) -> Vec<String> {
         _ => "",
     };
     let along = mode.tool_translation_per_sqrt_kg;
-    let most = along.into_iter().map(f64::abs).fold(0.0, larger);
-    let (along, turns) = match most > 0.0 {
-        true => (
-            triple(along.map(|x| x / most), |x| fixed(x, 2)),
-            triple(
-                mode.tool_rotation_rad_per_m_sqrt_kg.map(|x| x / most),
-                |x| number(x, 2),
-            ),
+    let turns = mode.tool_rotation_rad_per_m_sqrt_kg;
+    let (most, most_turned) = (largest_of(along), largest_of(turns));
+    let shown_turns = |by: f64| triple(turns.map(|x| clean(x, most_turned) / by), |x| number(x, 2));
+    let (along, turns) = match (most > NOTHING * most_turned, most_turned > 0.0) {
+        (true, _) => (
+            triple(along.map(|x| clean(x, most) / most), |x| fixed(x, 2)),
+            shown_turns(most),
         ),
-        false => ("does not move".to_owned(), String::new()),
+        (false, true) => ("it turns in place".to_owned(), shown_turns(most_turned)),
+        (false, false) => ("does not move".to_owned(), String::new()),
     };
     vec![
         format!("{}{word}", mode.number),
