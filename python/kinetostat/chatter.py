@@ -14,7 +14,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from kinetostat import _core
-from kinetostat._arrays import Floats, finite, positive, thread_count
+from kinetostat._arguments import flag, of_kind, or_none, told
+from kinetostat._arrays import Floats, finite, one, positive, real, thread_count, whole_number
 from kinetostat.errors import ArgumentError
 from kinetostat.vibration import ToolModes
 
@@ -50,7 +51,16 @@ class MillingCut:
     """Helix angle (rad) and tool diameter (m): the edge lags behind its tip; none for straight teeth."""
 
     def _native(self) -> _Cut:
-        return _Cut(self.teeth, self.up, self.immersion, list(self.coefficients), self.helix, list(self.feed), list(self.tool_axis))
+        helix = or_none(one, "helix", self.helix, (2,))
+        return _Cut(
+            whole_number("teeth", self.teeth, 1, 1000),
+            flag("up", self.up),
+            real("immersion", self.immersion),
+            one("coefficients", self.coefficients, (3,)).tolist(),
+            None if helix is None else (float(helix[0]), float(helix[1])),
+            one("feed", self.feed, (3,)).tolist(),
+            one("tool_axis", self.tool_axis, (3,)).tolist(),
+        )
 
 
 @dataclasses.dataclass(frozen=True)
@@ -143,12 +153,14 @@ def tool_modes(directions: ArrayLike, *, stiffness: ArrayLike, frequencies_hz: A
     return ToolModes(shapes, squared, ratios, np.zeros((3, 3)))
 
 
-def _modes(tool: ToolModes) -> tuple[Floats, Floats, Floats, Floats]:
+def _asked(tool: ToolModes, cut: MillingCut) -> tuple[Floats, Floats, Floats, Floats, _Cut]:
+    of_kind("tool", tool, ToolModes, "a kinetostat.vibration.ToolModes")
     return (
         finite("shapes", tool.shapes),
         finite("squared", tool.squared),
         finite("damping_ratios", tool.damping_ratios),
         finite("residual", tool.residual),
+        of_kind("cut", cut, MillingCut, "a kinetostat.chatter.MillingCut")._native(),
     )
 
 
@@ -200,7 +212,7 @@ def lobes(
     (0.409, False)
     """
     speeds, depth = _speeds("speeds_rpm", speeds_rpm), positive("up_to", up_to)
-    found = _core.lobes_of(*_modes(tool), cut._native(), speeds, depth, thread_count(threads), progress)
+    found = _core.lobes_of(*_asked(tool, cut), speeds, depth, thread_count(threads), told(progress))
     return Lobes(speeds_rpm=speeds, up_to=depth, **found)
 
 
@@ -250,5 +262,5 @@ def multipliers(
         raise ArgumentError(f"speeds_rpm has shape {given.shape} and depths {deep.shape}: they do not broadcast") from None
     shape = given.shape
     speeds, deep = (np.ascontiguousarray(array, dtype=float).reshape(-1) for array in (given, deep))
-    found = _core.multipliers_of(*_modes(tool), cut._native(), speeds, deep, thread_count(threads), progress)
+    found = _core.multipliers_of(*_asked(tool, cut), speeds, deep, thread_count(threads), told(progress))
     return found.reshape(shape)

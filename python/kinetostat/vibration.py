@@ -11,7 +11,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from kinetostat import _core
-from kinetostat._arrays import Floats, finite, real, whole_number
+from kinetostat._arguments import flag, of_kind, one_of, or_none, text, texts
+from kinetostat._arrays import Floats, finite, one, real, whole_number
 from kinetostat.errors import ArgumentError
 from kinetostat.posture import _DEFLECTED, Equilibrium, Posture
 from kinetostat.status import ModeKind
@@ -109,7 +110,7 @@ class Damping:
 
 def _law(damping: Damping | float) -> str:
     """Damping, or the ratio of all modes, as the core reads it."""
-    return damping._json if isinstance(damping, Damping) else Damping.ratio(damping)._json
+    return damping._json if isinstance(damping, Damping) else Damping.ratio(real("damping", damping))._json
 
 
 @dataclasses.dataclass(frozen=True)
@@ -283,7 +284,7 @@ class Vibration:
         >>> max(lowest.elastic, key=lowest.elastic.get)
         'joint 2'
         """
-        kinetic, elastic = self._native.shares(mode)
+        kinetic, elastic = self._native.shares(whole_number("mode", mode, 0, _ALL_MODES))
         return ModeShares(dict(kinetic), dict(elastic))
 
     def damping_ratios(self, damping: Damping | float) -> Floats:
@@ -356,10 +357,11 @@ class Vibration:
         hz = finite("frequencies_hz", frequencies_hz)
         if hz.ndim != 1:
             raise ArgumentError(f"frequencies_hz has shape {hz.shape}, expected (f,)")
-        if direct and modes is not None:
+        asked = one_of("quantity", quantity, ("displacement", "velocity", "acceleration"))
+        if flag("direct", direct) and modes is not None:
             raise ArgumentError("modes and direct exclude each other: the direct solution has all modes")
         kept = None if direct else _ALL_MODES if modes is None else whole_number("modes", modes, 0, _ALL_MODES)
-        return self._native.response(hz, _law(damping), at, by, quantity, kept)
+        return self._native.response(hz, _law(damping), or_none(text, "at", at), or_none(text, "by", by), asked, kept)
 
     def tool_modes(self, damping: Damping | float) -> ToolModes:
         """Modal data of the tool's tip.
@@ -392,9 +394,10 @@ def vibration_of(posture: Posture, wrench: ArrayLike, held: Sequence[str]) -> Vi
     >>> vibration_of(ks.Machine.preset("heavy_6r").posture(), [0, 0, 0, 0, 0, 0], ["x", "y", "z"]).held
     ('x', 'y', 'z')
     """
-    unknown = [name for name in held if name not in _AXES]
-    if isinstance(held, str) or unknown:
-        raise ArgumentError(f"held is {held!r}: give a list of directions of {', '.join(_AXES)}")
-    x, y, z, rx, ry, rz = (name in held for name in _AXES)
-    native = _core.vibration_of(posture._native, wrench, (x, y, z, rx, ry, rz))
-    return Vibration(posture, native, tuple(name for name in _AXES if name in held))
+    of_kind("posture", posture, Posture, "a kinetostat.Posture")
+    directions = texts("held", held, f"a list of {', '.join(_AXES)}")
+    for index, name in enumerate(directions):
+        one_of(f"held[{index}]", name, _AXES)
+    x, y, z, rx, ry, rz = (name in directions for name in _AXES)
+    native = _core.vibration_of(posture._native, one("wrench", wrench, (6,)), (x, y, z, rx, ry, rz))
+    return Vibration(posture, native, tuple(name for name in _AXES if name in directions))

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 import kinetostat as ks
-from kinetostat import commands, maps, measured, shares, sweep, symbolic, tolerance
+from kinetostat import chatter, commands, maps, measured, shares, sweep, symbolic, tolerance, vibration
 from kinetostat.sweep._example import squares
 
 MACHINE = ks.Machine.preset("orthoglide")
@@ -25,7 +25,12 @@ MAP = MACHINE.map(x=[-0.02, 0.02], y=[0.0, 0.03])
 SPREAD = {"chain.leg.q2.length_mm": tolerance.normal(0.01)}
 PUSH = {"direction": [1, 0, 0], "displacement": (0, -0.002), "points": 10}
 
-MADE = {"Posture", "Stiffness", "Equilibrium", "Machine"}
+VIBRATION = ARM.posture().vibration()
+TAPPED = {"stiffness": [1.34e6], "frequencies_hz": [922], "damping_ratios": [0.011]}
+TIP = chatter.tool_modes([[1, 0, 0]], **TAPPED)
+CUT = chatter.MillingCut(2, 1.0, True, (6e8, 2e8, 0.0))
+
+MADE = {"Posture", "Stiffness", "Equilibrium", "Machine", "Vibration", "Damping"}
 """Classes whose objects functions of the package make, from what its compiled part gives them."""
 
 SOME_ELSE = {"RayExecutor"}
@@ -173,6 +178,18 @@ def arguments(folder: Path) -> dict[str, tuple[Callable[..., Any], dict[str, Any
         "kinetostat.symbolic.leg": (symbolic.leg, {"direction": [0, 0, 1], "stiffness": "k"}),
         "kinetostat.symbolic.substitute": (symbolic.substitute, {"expression": symbolic.beam().matrix, "values": {"E": 1}}),
         "kinetostat.symbolic.with_passive_joint": (symbolic.with_passive_joint, {"link": symbolic.planar_beam(), "joint": "rz"}),
+        "kinetostat.Posture.vibration": (ARM.posture().vibration, {"wrench": wrench, "held": ["x"]}),
+        "kinetostat.vibration.vibration_of": (vibration.vibration_of, {"posture": ARM.posture(), "wrench": wrench, "held": ["x"]}),
+        "kinetostat.vibration.Vibration.damping_ratios": (VIBRATION.damping_ratios, {"damping": 0.03}),
+        "kinetostat.vibration.Vibration.response": (VIBRATION.response, {"frequencies_hz": [1.0], "damping": 0.03}),
+        "kinetostat.vibration.Vibration.shares": (VIBRATION.shares, {"mode": 0}),
+        "kinetostat.vibration.Vibration.tool_modes": (VIBRATION.tool_modes, {"damping": 0.03}),
+        "kinetostat.vibration.Damping.ratio": (vibration.Damping.ratio, {"ratio": 0.03}),
+        "kinetostat.vibration.Damping.rayleigh": (vibration.Damping.rayleigh, {"mass_per_s": 2.0, "stiffness_s": 1e-4}),
+        "kinetostat.vibration.Damping.structural": (vibration.Damping.structural, {"loss_factor": 0.05}),
+        "kinetostat.chatter.lobes": (chatter.lobes, {"tool": TIP, "cut": CUT, "speeds_rpm": [5000.0], "up_to": 1e-3}),
+        "kinetostat.chatter.multipliers": (chatter.multipliers, {"tool": TIP, "cut": CUT, "speeds_rpm": [5000.0], "depths": [1e-3]}),
+        "kinetostat.chatter.tool_modes": (chatter.tool_modes, {"directions": [[1, 0, 0]], **TAPPED}),
         "kinetostat.tolerance.Distribution": (tolerance.Distribution, {"word": "normal", "spread": 1.0}),
         "kinetostat.tolerance.MachineSamples.column": (drawn.column, {"name": "error_mm"}),
         "kinetostat.tolerance.draws": (tolerance.draws, {"values": [1.0], "spread": [tolerance.normal(1)], "n": 16}),
