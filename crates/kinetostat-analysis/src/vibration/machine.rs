@@ -1,4 +1,4 @@
-//! Equilibrium and modes of a machine under a load, what lacks mass, motion of all parts in a mode [D 3].
+//! Equilibrium and modes of a machine under a load, parts without mass, motion of all parts in a mode [D 3].
 
 use kinetostat::machine::MechanismState;
 use kinetostat::spatial::moved;

@@ -1,4 +1,4 @@
-//! How a machine vibrates at a place under a load: equilibrium, modes, what lacks mass, motion of all parts in a mode, and the cut that it makes.
+//! How a machine vibrates at a place under a load: equilibrium, modes, parts without mass, motion of all parts in a mode, and the cut that it makes.
 //!
 //! Sections of the theory of vibrations are cited as [D 3]. SI units.
 

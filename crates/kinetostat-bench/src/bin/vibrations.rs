@@ -1,6 +1,5 @@
 //! Processor time of what elasto-dynamics is asked for, with the times that are asked: modes of an arm of six axes, a
-//! response by the sum of modes, modes of a machine of six elastic legs, a lobe diagram, and modes by the number of a
-//! link's segments. `cargo run --release -p kinetostat-bench --bin vibrations`.
+//! response by the sum of modes, a lobe diagram, and modes by the number of a link's segments. `cargo run --release -p kinetostat-bench --bin vibrations`.
 
 #![allow(clippy::print_stdout, reason = "the table is what was asked for")]
 
@@ -9,85 +8,31 @@ use std::time::Instant;
 
 use anyhow::Result;
 use kinetostat::model::LinkMass;
-use kinetostat::{BeamSection, Chain, ChainProblem, EndCondition, LinkSpec, Load, MotionKind};
-use kinetostat::{Settings, Wrench, solve_chain};
+use kinetostat::{BeamSection, Chain, ChainProblem, EndCondition, LinkSpec, Load};
+use kinetostat::{Posture, Settings, Wrench, solve_chain};
+use kinetostat_analysis::vibration::{MachineCut, VibratingMachine};
 use kinetostat_chatter as chatter;
-use kinetostat_dynamics::{Damping, Held, LinearDynamics, ModalResponse, Quantity, Receptance};
+use kinetostat_dynamics::{Damping, Held, LinearDynamics, Quantity, Receptance};
+use kinetostat_model::Model;
 use nalgebra::{Matrix3, Vector3, vector};
 
-/// Offset, axis, mass, centre, inertia, stiffness and rest of the joints of the arm of the reference values, D3.
-type Joint = ([f64; 3], usize, f64, [f64; 3], [f64; 3], f64, f64);
-const ARM: [Joint; 6] = [
-    (
-        [0.0, 0.0, 0.4],
-        2,
-        300.0,
-        [0.1, 0.0, 0.2],
-        [15.0, 18.0, 14.0],
-        4.2e6,
-        0.2,
-    ),
-    (
-        [0.35, 0.0, 0.4],
-        1,
-        220.0,
-        [0.0, 0.05, 0.55],
-        [28.0, 27.0, 4.0],
-        3.9e6,
-        0.35,
-    ),
-    (
-        [0.0, 0.0, 1.15],
-        1,
-        180.0,
-        [0.35, -0.04, 0.1],
-        [4.0, 14.0, 13.0],
-        2.6e6,
-        -0.1,
-    ),
-    (
-        [0.6, 0.0, 0.12],
-        0,
-        60.0,
-        [0.35, 0.0, 0.0],
-        [0.8, 2.6, 2.6],
-        7.5e5,
-        0.3,
-    ),
-    (
-        [0.6, 0.0, 0.0],
-        1,
-        30.0,
-        [0.05, 0.0, 0.0],
-        [0.3, 0.35, 0.3],
-        6e5,
-        0.9,
-    ),
-    (
-        [0.2, 0.0, 0.0],
-        0,
-        45.0,
-        [0.15, 0.02, -0.12],
-        [0.9, 1.0, 0.5],
-        3.5e5,
-        -0.4,
-    ),
-];
+/// The arm of the reference values, D3, as the tests of the command line have it.
+const ARM: &str = include_str!("../../../kinetostat-cli/tests/cli/vibration_models/arm6.toml");
 
-fn arm() -> Result<Chain> {
-    let mut chain = Chain::builder("arm");
-    for (i, (offset, axis, mass, centre, inertia, stiffness, rest)) in ARM.into_iter().enumerate() {
-        let mut along = Vector3::zeros();
-        along[axis] = 1.0;
-        let inertia = Matrix3::from_diagonal(&Vector3::from(inertia));
-        let name = format!("axis {i}");
-        chain = chain
-            .translation(offset.into())
-            .spring(&name, MotionKind::Revolute, along, stiffness, rest)
-            .home(&name, rest)
-            .body(&format!("body {i}"), mass, centre.into(), inertia);
-    }
-    Ok(chain.translation(vector![0.25, 0.0, -0.30]).build()?)
+const DAMPING: Damping = Damping::Ratio(0.03);
+
+fn arm() -> Result<Posture> {
+    let machine = Model::from_toml(ARM, "arm6.toml")?.mechanism;
+    let home = machine.platforms()[machine.tool()].home;
+    Ok(machine.posture(&home)?)
+}
+
+fn vibrating(posture: &Posture) -> Result<VibratingMachine> {
+    Ok(VibratingMachine::at(
+        posture,
+        &Wrench::zero(),
+        &Held::nothing(),
+    )?)
 }
 
 fn in_gravity(chain: &Chain) -> ChainProblem<'_> {
@@ -95,16 +40,6 @@ fn in_gravity(chain: &Chain) -> ChainProblem<'_> {
     problem.posture = chain.home_coordinates();
     problem.loads.push(Load::gravity(vector![0.0, 0.0, -9.81]));
     problem
-}
-
-fn about(problem: &ChainProblem<'_>) -> Result<LinearDynamics> {
-    let at = solve_chain(problem, &Settings::default())?;
-    Ok(LinearDynamics::of_chain(
-        problem,
-        &at.coordinates,
-        &at.wrench,
-        &Held::nothing(),
-    )?)
 }
 
 /// Shortest time of a call among rounds of calls, ms. The rounds are short, so that one of them is undisturbed.
@@ -124,30 +59,20 @@ fn line(what: &str, found: f64, asked: &str) {
     println!("{what:<62} {found:>10.4} ms   asked {asked}");
 }
 
-fn lobes(dynamics: &LinearDynamics) -> Result<f64> {
-    let modes = dynamics.modes()?;
-    let tool = dynamics.tool();
-    let response = ModalResponse::new(
-        dynamics,
-        &modes,
-        &Damping::Ratio(0.03),
-        tool,
-        tool,
-        usize::MAX,
-    )?;
-    let data = response.translational()?;
-    let list = data.shapes.iter().zip(&data.squared).zip(&data.ratios);
-    let list: Result<Vec<chatter::Mode>, _> = list
-        .map(|((shape, squared), ratio)| chatter::Mode::new(*shape, *squared, *ratio))
-        .collect();
-    let tool = chatter::ToolResponse::new(list?)?.with_residual(data.residual)?;
+fn lobes(machine: &VibratingMachine) -> Result<f64> {
     let cut = chatter::MillingCut::new(
         2,
         chatter::Arc::straight(chatter::Milled::Up, 0.5)?,
         chatter::Coefficients::new(8e8, 2.4e8, 0.0)?,
     )?;
-    let frame = chatter::FeedFrame::vertical(0.0)?;
-    let regeneration = chatter::Regeneration::new(tool.in_frame(&frame), cut.into())?;
+    let regeneration = MachineCut {
+        machine,
+        damping: &DAMPING,
+        frame: chatter::FeedFrame::vertical(0.0)?,
+        cut,
+        modes_up_to_hz: f64::INFINITY,
+    }
+    .regeneration()?;
     let request = chatter::LobeRequest::new(1000.0, 6000.0, 200, 4e-3);
     let alone = rayon::ThreadPoolBuilder::new().num_threads(1).build()?;
     alone.install(|| shortest(2, 1, || Ok(regeneration.lobes(&request)?)))
@@ -173,25 +98,15 @@ fn by_segments(segments: usize) -> Result<f64> {
 }
 
 fn main() -> Result<()> {
-    let chain = arm()?;
-    let problem = in_gravity(&chain);
-    let found = shortest(50, 100, || Ok(about(&problem)?.modes()?))?;
+    let posture = arm()?;
+    let found = shortest(50, 100, || vibrating(&posture))?;
     line(
         "arm of six axes: equilibrium, masses, modes",
         found,
         "<= 4.3 / 50 = 0.086",
     );
-    let dynamics = about(&problem)?;
-    let modes = dynamics.modes()?;
-    let tool = dynamics.tool();
-    let response = ModalResponse::new(
-        &dynamics,
-        &modes,
-        &Damping::Ratio(0.03),
-        tool,
-        tool,
-        usize::MAX,
-    )?;
+    let machine = vibrating(&posture)?;
+    let response = machine.tool_response(&DAMPING, usize::MAX)?;
     let hz: Vec<f64> = (0..1000).map(|i| 0.13 * f64::from(i)).collect();
     let mut out = vec![Receptance::zeros(); hz.len()];
     let found = shortest(50, 20, || {
@@ -205,7 +120,7 @@ fn main() -> Result<()> {
     );
     line(
         "arm of six axes: 200 speeds of a lobe diagram, one thread",
-        lobes(&dynamics)?,
+        lobes(&machine)?,
         "<= 2000",
     );
     for segments in [4, 8, 16, 32] {

@@ -239,8 +239,7 @@ fn the_zero_frequency_load_is_the_singular_load() {
             }
             low
         };
-        // In the plane of the smaller... of both planes the softer one is about y: it buckles at 3/7 of this load, so
-        // the plane is told by its determinant.
+        // The plane bent about y is softer and buckles at 3/7 of this load: the determinant is that of the plane x-y alone.
         let plane: Vec<usize> = (0..segments).flat_map(|k| [6 * k + 1, 6 * k + 5]).collect();
         let part = |a: &nalgebra::DMatrix<f64>| a.select_rows(&plane).select_columns(&plane);
         let singular = bisect(&|load| part(dynamics(load).tangent()).determinant() > 0.0);

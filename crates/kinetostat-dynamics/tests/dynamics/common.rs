@@ -26,7 +26,7 @@ pub fn about(problem: &ChainProblem<'_>, held: &Held) -> LinearDynamics {
 }
 
 /// A beam of segments with mass that only bends in the plane x-y and stretches: other coordinates are held by springs
-/// worlds stiffer would change them, so all six stay, and modes are told apart by their shapes.
+/// worlds stiffer would change them, so all six stay, and modes are identified by their shapes.
 pub fn plane_frequencies(dynamics: &LinearDynamics, place: &str) -> Vec<f64> {
     let point = dynamics.place(place).unwrap();
     let modes = dynamics.modes().unwrap();

@@ -172,7 +172,7 @@ impl Envelope {
     /// Most stretches that are kept: more than half as many are left, which is more than a picture has columns.
     pub const MOST_STRETCHES: usize = 2048;
 
-    /// Takes the next point. Values that are no numbers are passed over.
+    /// Takes the next point. Values that are not finite are skipped.
     pub fn add(&mut self, point: &PointResult) {
         self.points += 1;
         if point.kind == PointKind::Rapid {

@@ -28,7 +28,8 @@ pub fn look_at_part(
     watch: &dyn Watch,
 ) -> Result<OfWhole, RunError> {
     let load: LoadAlongPath<'_> = load(task);
-    let looked = FirstLook::new(task, &load, watch)?;
+    let here = count_sites(task, &load);
+    let looked = FirstLook::of_whole(task, &load, (here, 0), watch)?;
     refuse(match compensate {
         true => looked.gross(task),
         false => looked.folding_load(task),
@@ -37,7 +38,7 @@ pub fn look_at_part(
     let of_whole = FirstLook::of_whole(task, &load, counted, watch)?;
     Ok(OfWhole {
         stiffness_n_per_mm: smaller(before.stiffness_n_per_mm, of_whole.stiffness()),
-        places_before: before.places_before + count_sites(task, &load),
+        places_before: before.places_before + here,
         ..before
     })
 }

@@ -66,7 +66,7 @@ fn a_stretch_has_the_range_of_its_points() {
     }
 }
 
-/// Long rapids are rapids in the envelope, and a number that is none is passed over.
+/// Long rapids are rapids in the envelope, and NaN is skipped.
 #[test]
 fn rapids_and_missing_numbers() {
     let at = |path_mm: f64, kind: PointKind, error: f64| {
