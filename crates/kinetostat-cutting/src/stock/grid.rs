@@ -42,8 +42,9 @@ const _: () = assert!(size_of::<Column>() as u64 == BYTES_PER_CELL);
 ///
 /// **Slivers are air**: an arc of at most 1.2 cells that is nowhere deeper than `cell^2 / (2 radius)` in the material (0.015 mm at
 /// D/20). By so much a circle leaves its tangent within a cell. Its force is below 1 % of that of a slot with a law without edge
-/// force; a tool that goes along its own wall again has none. An arc of at most twice that length is air as well where the
-/// distances of the walls, interpolated in the cell, do not show it: ways that crossed at sharp angles leave none.
+/// force; a tool that goes along its own wall again has none. An arc of at most twice that length, or of any length and nowhere
+/// deeper than a 500th of a cell, is air as well where the distances of the walls, interpolated in the cell, do not show it:
+/// ways that crossed at sharp angles or bent leave none.
 ///
 /// Likewise up to a cell where walls at two heights lie less than one and a half cells apart, and at the steep walls of a mesh
 /// or a map of heights. On ramps, what was cut already may seem to be in contact by up to a cell on the rim at each side; on

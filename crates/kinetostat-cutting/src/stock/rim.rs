@@ -11,8 +11,10 @@ use crate::stock::grid::{Column, Stock};
 
 /// Most bands of height at one place.
 const BANDS: usize = 16;
-/// Where a short arc is looked at again, as shares of it.
+/// Where a short or shallow arc is looked at again, as shares of it.
 const SHARES: [f64; 3] = [0.25, 0.5, 0.75];
+/// Depth of a shallow arc, as a share of a cell: where a wall begins to bend, its place is off by half of that.
+const SHALLOW: f64 = 2e-3;
 /// Tops that differ by less than this share of a cell are in one band.
 const BAND: f64 = 0.1;
 
@@ -250,15 +252,18 @@ impl Rim {
                 depth_in(stock, place, level, stand, radius) - tolerance
             };
             range.arcs_but(sliver, value, &mut self.arcs);
-            // A short arc may be the corner of two walls of which a cell knows one: what made both walls vanishes from the
-            // interpolated distances.
+            // A short arc may be the corner of two walls of which a cell knows one, and a shallow one the bend of a wall: what
+            // made them vanishes from the interpolated distances.
             self.arcs.retain(|[from, to]| {
-                to - from > 2.0 * sliver.arc
-                    || SHARES.iter().any(|share| {
-                        let (sin, cos) = (from + share * (to - from)).sin_cos();
-                        let place = stand.place(radius, [sin, cos]);
-                        interpolated(stock, place, level, stand, radius) > tolerance
-                    })
+                let long = to - from > 2.0 * sliver.arc;
+                SHARES.iter().any(|share| {
+                    let (sin, cos) = (from + share * (to - from)).sin_cos();
+                    let place = stand.place(radius, [sin, cos]);
+                    let is_deep =
+                        || depth_in(stock, place, level, stand, radius) > SHALLOW * stock.cell;
+                    long && is_deep()
+                        || interpolated(stock, place, level, stand, radius) > tolerance
+                })
             });
             if self.arcs.is_empty() {
                 break;

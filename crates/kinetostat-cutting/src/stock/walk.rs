@@ -61,6 +61,8 @@ impl Probe {
     /// and has stations on both sides; what is met between two stations in air is looked for in the sweep, so that no wall
     /// wider than a cell is missed. Air outside the stock is one step. What the move itself has removed before a station
     /// needs no second look: of a convex tool on a straight way it lies nowhere before the part of the envelope that cuts.
+    /// A move shorter than a quarter of a cell is looked at that far from its start, beyond its end: what follows it there may
+    /// be seen too early by as much.
     ///
     /// # Errors
     /// A place beyond 100 m.
