@@ -91,7 +91,7 @@ pub use making::gcode_events::events_of_gcode;
 pub use making::joint_table::{JointStart, JointTable, JointTableError, joint_table};
 pub use making::limits::MakeLanguage;
 pub use making::make::{Made, make};
-pub use making::of_robot::{base_of_robot, make_of_robot};
+pub use making::of_robot::{base_of_robot, make_of_flat_robot, make_of_robot};
 pub use making::robot_events::events_of_robot;
 pub use making::template::{PlacesUnknown, Rapids, StatedFrame, StatedTool, Template, Zones};
 pub use model::frame::{Frame, FrameUse};

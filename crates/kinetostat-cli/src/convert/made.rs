@@ -1,7 +1,7 @@
 //! The program in the other language.
 
 use kinetostat_formats::{
-    Made, MakeError, MakeLanguage, SourceEvent, events_of_gcode, make, make_of_robot,
+    Made, MakeError, MakeLanguage, events_of_gcode, make, make_of_flat_robot,
 };
 
 use crate::convert::template_file::TemplateFile;
@@ -24,7 +24,10 @@ pub(crate) fn made(
         if let Some(turned) = turned {
             path.path = turned.path.clone();
         }
-        let done = make_of_robot(robot.program, &path, &template.template, language);
+        let program = robot.program;
+        let done = make_of_flat_robot(program, &path, &template.template, language, |line| {
+            place(setting, line)
+        });
         return done.map_err(refused);
     }
     if language == MakeLanguage::Gcode {
@@ -36,21 +39,18 @@ pub(crate) fn made(
         .gcode()
         .map_or_else(Vec::new, |(program, path)| events_of_gcode(program, path));
     for event in &mut events {
-        place(setting, event);
+        if let Some(place) = place(setting, event.line) {
+            event.place = place;
+        }
     }
     let path = turned.map_or(read.path(), |turned| &turned.path);
     make(path, &events, &template.template, language).map_err(refused)
 }
 
-/// A line of an expanded program is that of the file that it came from.
-fn place(setting: &Setting, event: &mut SourceEvent) {
-    let found = setting
-        .flat
-        .as_ref()
-        .and_then(|flat| flat.source_of(event.line));
-    if let Some((file, line)) = found {
-        event.place = format!("{file}, line {line}");
-    }
+/// Where a line of an expanded program came from.
+fn place(setting: &Setting, line: usize) -> Option<String> {
+    let (file, line) = setting.flat.as_ref()?.source_of(line)?;
+    Some(format!("{file}, line {line}"))
 }
 
 fn refused(setting: &Setting, template: &TemplateFile, all: &[MakeError]) -> Failure {

@@ -171,6 +171,22 @@ fn an_expanded_program_names_the_lines_of_its_files() {
     );
 }
 
+/// SINUMERIK is run by the readers of robots' programs; its notes name the lines of its file all the same.
+#[test]
+fn an_expanded_program_of_sinumerik_names_the_lines_of_its_file() {
+    let here = place();
+    let text = "G17 G90 G54\nT1 D1\nM3 S5000\nG0 X0 Y0 Z50\nR1=0\nREPEAT_PART:\nG1 X=R1 F600\nR1=R1+10\nM8\nIF R1<30 GOTOB REPEAT_PART\nG0 Z50\nM30\n";
+    std::fs::write(here.path().join("part.mpf"), text).unwrap();
+    run(
+        here.path(),
+        &words("convert part.mpf --expand --to csv --out part.csv --template cell.toml"),
+    )
+    .answered();
+    let table = read(here.path(), "part.csv");
+    assert!(table.contains("part.mpf, line 12: M30"), "{table}");
+    assert_eq!(table.matches("part.mpf, line 9: M8").count(), 3, "{table}");
+}
+
 #[test]
 fn what_is_wrong_is_named_and_nothing_is_written() {
     let here = place();

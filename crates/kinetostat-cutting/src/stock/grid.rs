@@ -47,8 +47,8 @@ const _: () = assert!(size_of::<Column>() as u64 == BYTES_PER_CELL);
 /// ways that crossed at sharp angles or bent leave none.
 ///
 /// Likewise up to a cell where walls at two heights lie less than one and a half cells apart, and at the steep walls of a mesh
-/// or a map of heights. On ramps, what was cut already may seem to be in contact by up to a cell on the rim at each side; on
-/// steep ones by more.
+/// or a map of heights. On ramps, what was cut already may seem to be in contact by up to a cell and a quarter on the rim at each
+/// side; on steep ones by more.
 ///
 /// **What it cannot know**: undercuts and cavities (the greatest height counts), tools whose axis is not z, what is cut by
 /// T-slot or lollipop cutters, shanks and holders that rub, the cone of a face mill beyond twice its diameter at the tip.

@@ -80,6 +80,16 @@ pub(crate) struct Course {
 }
 
 impl Course {
+    /// Where events stood before the program was written flat.
+    pub(crate) fn show_places(&mut self, place: impl Fn(usize) -> Option<String>) {
+        let placed = self.events.iter_mut().map(|(_, event)| event);
+        for event in placed.chain(&mut self.left_out) {
+            if let Some(place) = place(event.line) {
+                event.place = place;
+            }
+        }
+    }
+
     /// In the order of the lines.
     pub(crate) fn of_lines(path: &Path, events: &[SourceEvent]) -> Self {
         let in_order = path

@@ -9,14 +9,14 @@ use crate::making::course::Course;
 use crate::making::crowded::crowded;
 use crate::making::events::SourceEvent;
 use crate::making::fault::{MakeError, MakeFinding};
+use crate::making::frames_said::of_frames;
 use crate::making::limits::MakeLanguage;
 use crate::making::names::{checked, parts_checked};
 use crate::making::numbers::short;
 use crate::making::parts::parts;
 use crate::making::plan::plan;
-use crate::making::stated::is_number_zero;
 use crate::making::step::{MadeMotion, Step, Way};
-use crate::making::template::{Rapids, StatedTool, Template};
+use crate::making::template::{Rapids, Template};
 use crate::making::{apt, csv, gcode, krl, ls, rapid, stated};
 
 /// A made program.
@@ -244,57 +244,6 @@ fn taken_for_granted(
         if steps.iter().any(waits) {
             say("pauses are G4 X, in seconds: where the controller takes P, write G4 P with the number in its unit".to_owned());
         }
-    }
-}
-
-fn of_frames(template: &Template, language: MakeLanguage, say: &mut impl FnMut(String)) {
-    let base_number = template.base.number.unwrap_or(1);
-    let tool = &template.tool.frame;
-    let several = !template.tools.is_empty();
-    match language {
-        MakeLanguage::FanucLs => {
-            say(match base_number {
-                0 => "user frame 0 is the world frame of the robot, which cannot be set: the places are in its axes; the tool frame is that of the controller: set it there to where the tip is".to_owned(),
-                number => format!(
-                    "user frame {number} and the tool frame are those of the controller: set them there to where part and tip are"
-                ),
-            });
-        }
-        _ => {
-            if template.base.pose.is_none() {
-                let name = match (language, &template.base.name) {
-                    (_, Some(name)) => name.clone(),
-                    (MakeLanguage::Rapid, None) => format!("wobj{base_number}"),
-                    _ => format!("BASE_DATA[{base_number}]"),
-                };
-                say(format!(
-                    "where the part is, is not stated: {name} of the controller counts"
-                ));
-            }
-            if tool.pose.is_none() && !several {
-                let number = tool.number.unwrap_or(1);
-                let name = match (language, &tool.name) {
-                    (_, Some(name)) => name.clone(),
-                    (MakeLanguage::Rapid, None) => format!("tool{number}"),
-                    _ => format!("TOOL_DATA[{number}]"),
-                };
-                say(format!(
-                    "where the tool's tip is, is not stated: {name} of the controller counts"
-                ));
-            }
-        }
-    }
-    let declared = |tool: &&StatedTool| tool.frame.pose.is_some() && !is_number_zero(&tool.frame);
-    let tools = template.tools.values();
-    let tools: Vec<&StatedTool> = match several {
-        true => tools.filter(declared).collect(),
-        false => std::iter::once(&template.tool).filter(declared).collect(),
-    };
-    if language == MakeLanguage::Rapid && tools.iter().any(|tool| tool.mass_kg.is_none()) {
-        say(match several {
-            true => "the mass of a tool is not stated: 1 kg is written".to_owned(),
-            false => "the mass of the tool is not stated: 1 kg is written".to_owned(),
-        });
     }
 }
 

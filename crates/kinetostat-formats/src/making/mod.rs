@@ -24,6 +24,7 @@ pub(crate) mod dynamics;
 pub(crate) mod event_kind;
 pub(crate) mod events;
 pub(crate) mod fault;
+pub(crate) mod frames_said;
 pub(crate) mod gcode;
 pub(crate) mod gcode_events;
 pub(crate) mod heidenhain_events;

@@ -50,6 +50,21 @@ pub fn make_of_robot(
     template: &Template,
     language: MakeLanguage,
 ) -> Result<Made, Vec<MakeError>> {
+    make_of_flat_robot(program, robot, template, language, |_| None)
+}
+
+/// The same of a program that was written flat; `place` names where a line of it came from (`'hole.mpf', line 12`), for the
+/// notes.
+///
+/// # Errors
+/// Those of [`make_of_robot`].
+pub fn make_of_flat_robot(
+    program: &RobotProgram,
+    robot: &RobotPath,
+    template: &Template,
+    language: MakeLanguage,
+    place: impl Fn(usize) -> Option<String>,
+) -> Result<Made, Vec<MakeError>> {
     let mut faults = not_once(program);
     faults.extend(arcs_from_elsewhere(program, robot));
     faults.extend(computed_frames(program, template));
@@ -96,6 +111,7 @@ pub fn make_of_robot(
     }
     let moved = moved_frames(robot, [&given, &template.tool.frame]);
     let mut course = course_of(program, robot);
+    course.show_places(place);
     course.configurations = configurations::kept(program, robot, language);
     if template.configuration.is_some() {
         // What the template states holds, and the rest of the source's would not go with it.

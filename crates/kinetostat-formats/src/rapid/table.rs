@@ -325,7 +325,10 @@ const OTHERS: [StatementRow; 205] = [
     line("WriteAnyBin", Carried, INSTRUCTIONS),
     line("WriteVar", Carried, INSTRUCTIONS),
     line("Stop", Carried, INSTRUCTIONS),
-    line("StepBwdPath", Carried, INSTRUCTIONS),
+    line("StepBwdPath", Refused {
+        reason: "it goes back along the way that was run",
+        remedy: "take the event routine that steps back into a module of its own",
+    }, INSTRUCTIONS),
     line("SyncMoveOn", Carried, SYNCHRONISED),
     line("SyncMoveOff", Carried, SYNCHRONISED),
     line("SyncMoveResume", Carried, SYNCHRONISED),

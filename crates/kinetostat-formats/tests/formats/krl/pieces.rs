@@ -171,13 +171,14 @@ fn brake_holds_on_the_path_and_resume_leaves_it() {
         vec![SourceFile::new("part.src", text)],
         &ReadOptions::default(),
     );
-    let rapid = "MODULE M\nPROC main()\nStopMove;\nStartMove;\nClearPath;\nENDPROC\nENDMODULE\n";
+    let rapid = "MODULE M\nPROC main()\nStopMove;\nStartMove;\nClearPath;\nStepBwdPath 30,1;\nENDPROC\nENDMODULE\n";
     let others = read_rapid(
         vec![SourceFile::new("m.mod", rapid)],
         &ReadOptions::default(),
     );
     let (errors, others) = (errors.unwrap_err(), others.unwrap_err());
-    assert_eq!((errors.len(), others.len()), (1, 1));
+    assert_eq!((errors.len(), others.len()), (1, 2));
     assert_eq!((errors[0].line, others[0].line), (2, 5));
     assert_eq!(errors[0].reason, others[0].reason);
+    assert!(others[1].reason.contains("goes back along the way"));
 }

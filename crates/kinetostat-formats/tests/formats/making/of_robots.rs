@@ -143,7 +143,7 @@ fn frames_of_number_0_are_those_of_the_controller() {
         &made,
         "user frame 0 is the world frame of the robot, which cannot be set"
     ));
-    assert!(!said(&made, "set them there"));
+    assert!(!said(&made, "set it there"));
     let text = text_of(
         &world(&Template::default(), MakeLanguage::Rapid).unwrap(),
         0,
@@ -156,10 +156,9 @@ fn frames_of_number_0_are_those_of_the_controller() {
     let elsewhere = krl("{X 100,Y 0,Z 0,A 0,B 0,C 0}");
     let made = elsewhere(&Template::default(), MakeLanguage::FanucLs).unwrap();
     assert!(text_of(&made, 0).contains("UFRAME_NUM=1 ;"));
-    assert!(said(
-        &made,
-        "user frame 1 and the tool frame are those of the controller"
-    ));
+    let six = "user frame 1 is that of the controller: set it there to X 100.000000, Y 0.000000, Z 0.000000 mm, W 0.00000000, P 0.00000000, R 0.00000000 deg, as it was stated in the robot's axes";
+    assert!(said(&made, six), "{:?}", made.findings);
+    assert!(!said(&made, "tool frame"), "{:?}", made.findings);
     let mut template = Template::default();
     template.base.number = Some(0);
     template.base.pose = Some(nalgebra::Isometry3::translation(100.0, 0.0, 0.0));
