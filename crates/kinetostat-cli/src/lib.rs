@@ -9,6 +9,7 @@
 //! The command itself calls [`main`]; another program, as the Python package, calls [`run_inside`].
 
 mod assemble;
+mod chatter;
 mod check;
 mod command_line;
 mod compare;
@@ -166,6 +167,7 @@ fn run(command: Command) -> Answer<()> {
         Command::Modes(args) => modes::run(&args),
         Command::Frf(args) => frf::run(&args),
         Command::Lobes(args) => lobes::run(&args),
+        Command::Chatter(args) => chatter::run(&args),
         Command::Compare(args) => compare::run(&args),
         Command::Map(args) => map::run(&args),
         Command::Mirror(args) => mirror::run(&args),

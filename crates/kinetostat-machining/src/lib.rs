@@ -49,7 +49,7 @@ pub use cut::measured_report::{ActsOn, MeasuredAxes, MeasuredReport};
 pub use cut::origin::ForceOrigin;
 pub use cut::profile::ForceAlongPath;
 pub use cut::question::CutQuestion;
-pub use cut::station::CutStation;
+pub use cut::station::{ContactArc, CutStation};
 pub use field::ModelField;
 pub use flat_program::FlatProgram;
 pub use free_turn::choice::{

@@ -4,6 +4,7 @@
 
 mod cut;
 mod machine;
+pub mod program;
 
 pub use cut::{MachineCut, MachineCutError};
 pub use machine::VibratingMachine;

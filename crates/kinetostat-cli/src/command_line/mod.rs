@@ -7,6 +7,7 @@ pub(crate) mod negative_numbers;
 use clap::{Parser, Subcommand};
 
 use crate::assemble::arguments::AssembleArgs;
+use crate::chatter::arguments::ChatterArgs;
 use crate::check::arguments::CheckArgs;
 use crate::compare::arguments::CompareArgs;
 use crate::compensate::arguments::CompensateArgs;
@@ -85,6 +86,7 @@ pub(crate) enum Command {
     Modes(Box<ModesArgs>),
     Frf(Box<FrfArgs>),
     Lobes(Box<LobesArgs>),
+    Chatter(Box<ChatterArgs>),
     Compare(Box<CompareArgs>),
     Map(Box<MapArgs>),
     Mirror(Box<MirrorArgs>),

@@ -16,8 +16,11 @@ pub(crate) struct Drive<'a> {
 }
 
 impl CutQuestion {
-    /// The entry of the tool that the block on a line is made with.
-    pub(crate) fn tool_on(&self, path: &Path, line: usize) -> Result<usize, CutFailure> {
+    /// The entry (index) of the tool that the block on a line is made with.
+    ///
+    /// # Errors
+    /// The program names a tool that is not known here, or none where there is none for all blocks.
+    pub fn tool_on(&self, path: &Path, line: usize) -> Result<usize, CutFailure> {
         let number = path.tool_on(line);
         let of = |number: Option<u32>| self.tools.iter().position(|tool| tool.number == number);
         let own = number.and_then(|number| of(Some(number)));

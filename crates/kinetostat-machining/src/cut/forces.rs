@@ -1,7 +1,7 @@
 //! The forces of a program's cuts.
 
 use kinetostat::Wrench;
-use kinetostat_cutting::{CutError, Edge, Engagement, Feed, Milling, Stock};
+use kinetostat_cutting::{CutError, Edge, Engagement, Feed, Milling, Rotation, Stock};
 use kinetostat_program::{Move, MoveKind, Path};
 use nalgebra::{Rotation3, Vector3};
 
@@ -11,7 +11,7 @@ use crate::cut::finding::{CutFindingKind, Findings};
 use crate::cut::force::ForceOf;
 use crate::cut::profile::ForceAlongPath;
 use crate::cut::question::CutQuestion;
-use crate::cut::station::{ACROSS, CutStation, SHORT_MM};
+use crate::cut::station::{ACROSS, ContactArc, CutStation, SHORT_MM};
 use crate::cut::walk::{Met, Walk};
 use crate::watch::Watch;
 
@@ -171,6 +171,9 @@ impl CutQuestion {
                 torque_n_m: 1e-3 * torque,
                 depth_mm: met.engagement.depth_mm(),
                 arc: arc_of(&met.engagement),
+                contact: (drive.rotation == Rotation::Clockwise)
+                    .then(|| ContactArc::of(&met.engagement))
+                    .flatten(),
                 chip_mm: cut.turning(drive.rotation).largest_chip_mm(),
                 feed_per_tooth_mm: drive.per_tooth_mm,
                 rpm: drive.rpm,

@@ -1,6 +1,9 @@
 //! What acts on the tool at one place of a cut.
 
+use std::f64::consts::TAU;
+
 use kinetostat::Wrench;
+use kinetostat_cutting::{Edge, Engagement};
 use nalgebra::Vector3;
 use serde::Serialize;
 
@@ -31,12 +34,56 @@ pub struct CutStation {
     pub depth_mm: f64,
     /// Sum of the arcs in contact at the lowest height, rad: pi in a slot, 0 in air.
     pub arc: f64,
+    /// Where the side is in contact, seen along the feed as a spindle does that turns clockwise; `None` in air, of an end alone and
+    /// of a spindle that turns the other way.
+    pub contact: Option<ContactArc>,
     /// Thickest place of a chip, mm; 0 in air.
     pub chip_mm: f64,
     /// Feed per tooth, mm; 0 in air.
     pub feed_per_tooth_mm: f64,
     /// Speed of the spindle, rpm; 0 in air.
     pub rpm: f64,
+}
+
+/// The narrowest arc that holds all contact of the side.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct ContactArc {
+    /// Where a tooth comes in, rad, 0 to 2 pi: 0 is to the left of the feed, pi/2 ahead.
+    pub entry: f64,
+    /// Where it leaves, rad, beyond the entry.
+    pub exit: f64,
+    /// Whether contact is this arc at all heights, within 3 degrees.
+    pub is_even: bool,
+}
+
+/// Ends of arcs that differ by less are the same, rad.
+const EVEN: f64 = 0.052;
+
+impl ContactArc {
+    /// Of an engagement; `None` where its side is not in contact, or has no gap of its own (arcs on all sides).
+    pub(crate) fn of(engagement: &Engagement) -> Option<Self> {
+        let side = engagement.contacts.iter().filter(|c| c.edge == Edge::Side);
+        let arcs: Vec<[f64; 2]> = side.map(|c| [c.entry, c.exit]).collect();
+        let first = arcs.first()?;
+        // Turns of the others are chosen so that they lie nearest to the first.
+        let middle = 0.5 * (first[0] + first[1]);
+        let near = |arc: &[f64; 2]| {
+            let turns = ((0.5 * (arc[0] + arc[1]) - middle) / TAU).round() * TAU;
+            arc.map(|angle| angle - turns)
+        };
+        let (mut entry, mut exit, mut is_even) = (first[0], first[1], true);
+        for [from, to] in arcs.iter().map(near) {
+            is_even &= (from - first[0]).abs() < EVEN && (to - first[1]).abs() < EVEN;
+            entry = if from < entry { from } else { entry };
+            exit = if to > exit { to } else { exit };
+        }
+        let turns = (entry / TAU).floor() * TAU;
+        (exit - entry <= TAU).then_some(Self {
+            entry: entry - turns,
+            exit: exit - turns,
+            is_even,
+        })
+    }
 }
 
 impl CutStation {
@@ -48,6 +95,7 @@ impl CutStation {
             torque_n_m: 0.0,
             depth_mm: 0.0,
             arc: 0.0,
+            contact: None,
             chip_mm: 0.0,
             feed_per_tooth_mm: 0.0,
             rpm: 0.0,

@@ -1,0 +1,174 @@
+//! Whether the cut at one place chatters.
+
+use kinetostat::Wrench;
+use kinetostat_chatter::{Arc, Coefficients, FeedFrame, Instability, MillingCut, Regeneration};
+use kinetostat_dynamics::Held;
+use kinetostat_machining::{LoadAlongPath, posture_at};
+use nalgebra::Vector3;
+
+use crate::vibration::cut::{MachineCut, MachineCutError};
+use crate::vibration::machine::VibratingMachine;
+use crate::vibration::program::question::{ChatterQuestion, ProgramChatterError};
+use crate::vibration::program::site::CutSite;
+
+/// Depths are looked at up to so many times that of the program.
+const DEEPER: f64 = 3.0;
+
+/// What is said of the cut at a place.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Verdict {
+    /// Vibrations die away.
+    Stable,
+    /// They grow.
+    Chatters,
+    /// Why nothing is said.
+    NotJudged(String),
+}
+
+/// A place of a program with its limit.
+#[derive(Clone, Debug, PartialEq)]
+pub struct JudgedSite {
+    /// The place.
+    pub site: CutSite,
+    /// What is said of it.
+    pub verdict: Verdict,
+    /// Depth at which the cut becomes unstable at the speed of the program, mm; `None` where it does not up to `looked_up_to_mm`.
+    pub limit_mm: Option<f64>,
+    /// Largest depth that was looked at, mm.
+    pub looked_up_to_mm: f64,
+    /// Strongest frequency of the vibration at the limit, Hz.
+    pub chatter_hz: Option<f64>,
+    /// How the cut becomes unstable there.
+    pub kind: Option<Instability>,
+    /// Lowest frequency of the machine there, Hz.
+    pub first_hz: Option<f64>,
+    /// Places of the program that this one stands for.
+    pub places: usize,
+}
+
+impl JudgedSite {
+    /// Whether something is said of it.
+    #[must_use]
+    pub fn is_judged(&self) -> bool {
+        !matches!(self.verdict, Verdict::NotJudged(_))
+    }
+
+    fn not_judged(site: &CutSite, places: usize, why: impl Into<String>) -> Self {
+        Self {
+            site: *site,
+            verdict: Verdict::NotJudged(why.into()),
+            limit_mm: None,
+            looked_up_to_mm: 0.0,
+            chatter_hz: None,
+            kind: None,
+            first_hz: None,
+            places,
+        }
+    }
+}
+
+impl ChatterQuestion<'_> {
+    /// Judges a place that stands for several.
+    pub(crate) fn judge(
+        &self,
+        load: &LoadAlongPath<'_>,
+        site: &CutSite,
+        places: usize,
+    ) -> Result<JudgedSite, ProgramChatterError> {
+        let Some(contact) = site.station.contact else {
+            let why = "the side of the tool has no arc of contact of its own, or the spindle turns to the left";
+            return Ok(JudgedSite::not_judged(site, places, why));
+        };
+        if contact.exit - contact.entry <= 0.0 {
+            let why = "the arc of contact has no length";
+            return Ok(JudgedSite::not_judged(site, places, why));
+        }
+        let regeneration = match self.regeneration(load, site)? {
+            Ok(regeneration) => regeneration,
+            Err(why) => return Ok(JudgedSite::not_judged(site, places, why)),
+        };
+        let depth = 1e-3 * site.station.depth_mm;
+        let up_to = DEEPER * depth;
+        let at = |line: usize| move |error| ProgramChatterError::Cut { line, error };
+        let found = regeneration
+            .stability_at(site.station.rpm, up_to)
+            .map_err(at(site.line))?;
+        let limit = found.limit();
+        let modes = regeneration.response().modes();
+        Ok(JudgedSite {
+            site: *site,
+            verdict: match found.is_stable(depth) {
+                Some(true) => Verdict::Stable,
+                _ => Verdict::Chatters,
+            },
+            limit_mm: limit.map(|crossing| 1e3 * crossing.depth),
+            looked_up_to_mm: 1e3 * up_to,
+            chatter_hz: limit.map(|crossing| crossing.frequency_hz),
+            kind: limit.map(|crossing| crossing.kind),
+            first_hz: modes
+                .iter()
+                .map(kinetostat_chatter::Mode::frequency_hz)
+                .reduce(|a, b| if b < a { b } else { a }),
+            places,
+        })
+    }
+
+    /// The cut there with the machine in its posture; in the inner result why nothing can be said of it.
+    pub(crate) fn regeneration(
+        &self,
+        load: &LoadAlongPath<'_>,
+        site: &CutSite,
+    ) -> Result<Result<Regeneration, String>, ProgramChatterError> {
+        let (line, task) = (site.line, self.task);
+        let motion = &task.path().moves[site.move_index];
+        let placement = task.placement.on(motion, site.station.share);
+        let orientation = placement.orientation_on(motion, site.station.share);
+        let pose = placement.pose(&site.position_mm, orientation);
+        let frame = FeedFrame::new(
+            placement.to_base_axes(&site.direction),
+            placement.to_base_axes(&Vector3::z()),
+        );
+        let Ok(frame) = frame else {
+            return Ok(Err("the tool goes along its axis".to_owned()));
+        };
+        let mechanism = load
+            .tool_of(site.move_index)
+            .map_or(task.mechanism, |tool| tool.mechanism);
+        let wrench: Wrench = load.wrench(&placement, site.move_index, site.station.share);
+        let of_machine = |error| ProgramChatterError::Machine { line, error };
+        let machine = posture_at(mechanism, &pose)
+            .map_err(Into::into)
+            .and_then(|posture| VibratingMachine::at(&posture, &wrench, &Held::nothing()))
+            .map_err(of_machine)?;
+        let cut = self.milling(site)?;
+        let of_cut = MachineCut {
+            machine: &machine,
+            damping: self.damping,
+            frame,
+            cut,
+            modes_up_to_hz: self.modes_up_to_hz,
+        };
+        match of_cut.regeneration() {
+            Ok(regeneration) => Ok(Ok(regeneration)),
+            Err(MachineCutError::NoVibration(why)) => Ok(Err(why)),
+            Err(MachineCutError::Machine(error)) => Err(of_machine(error)),
+            Err(MachineCutError::Cut(error)) => Err(ProgramChatterError::Cut { line, error }),
+        }
+    }
+
+    /// The cut itself: its arc, the tool's edges, and the law of force at the mean thickness of its chips.
+    fn milling(&self, site: &CutSite) -> Result<MillingCut, ProgramChatterError> {
+        let line = site.line;
+        let of_cut = |error| ProgramChatterError::Cut { line, error };
+        let contact = site.station.contact.map(|c| [c.entry, c.exit]);
+        let [entry, exit] = contact.unwrap_or([0.0, 0.0]);
+        let arc = Arc::new(entry, exit).map_err(of_cut)?;
+        let tool = self.tool_of(site)?;
+        // Where a tooth goes backwards over the arc, the chip is as thick as elsewhere on it.
+        let mean_mm = site.station.feed_per_tooth_mm * arc.mean_sine().abs();
+        let thinnest_mm = 1e-3 * site.station.feed_per_tooth_mm;
+        let chip_mm = if mean_mm > thinnest_mm { mean_mm } else { thinnest_mm };
+        let law = Coefficients::linearised(&*tool.law, 1e-3 * chip_mm).map_err(of_cut)?;
+        MillingCut::of_tool(&tool.tool, arc, law.coefficients).map_err(of_cut)
+    }
+}

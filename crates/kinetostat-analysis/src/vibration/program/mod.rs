@@ -1,0 +1,15 @@
+//! Where a program chatters, and with which spindle speed and depth it does not [D 10].
+//!
+//! The cut of a program changes slowly: places that follow each other with the same tool, speed, arc, depth, heading and posture are one
+//! group and judged once, at the deepest of them. At each the modes are those of the machine in its posture there, under the
+//! mean force of the cut; the limit of depth at the speed of the program is exact for one arc at all heights.
+
+mod judge;
+mod question;
+mod site;
+mod stretches;
+
+pub use judge::{JudgedSite, Verdict};
+pub use question::{ChatterQuestion, ProgramChatter, ProgramChatterError};
+pub use site::CutSite;
+pub use stretches::ChatterStretch;

@@ -1,0 +1,113 @@
+//! Places of a program at which the tool cuts, and which of them are alike.
+
+use std::ops::Range;
+
+use kinetostat_machining::{CutStation, ForceAlongPath};
+use kinetostat_program::Path;
+use nalgebra::Vector3;
+
+/// Relative change of depth and feed per tooth, and change of the ends of the arc and of the heading (rad), beyond which a cut
+/// is another one.
+const SAME_SIZE: f64 = 0.05;
+const SAME_ANGLE: f64 = 0.1;
+
+/// A place of a program at which the tool cuts.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CutSite {
+    /// Index of its move in the path.
+    pub move_index: usize,
+    /// Line of the program, from 1.
+    pub line: usize,
+    /// Length of the path up to here, mm.
+    pub path_mm: f64,
+    /// Place of the tip, mm, part frame.
+    pub position_mm: Vector3<f64>,
+    /// Of the motion, a unit vector in axes of the part.
+    pub direction: Vector3<f64>,
+    /// The cut.
+    pub station: CutStation,
+}
+
+/// All places with a chip, in the order of the path.
+pub(crate) fn sites(forces: &ForceAlongPath, path: &Path) -> Vec<CutSite> {
+    let mut all = Vec::new();
+    let mut start_mm = 0.0;
+    for (move_index, motion) in path.moves.iter().enumerate() {
+        let length = motion.length_mm();
+        let cuts = |station: &&CutStation| station.rpm > 0.0 && station.depth_mm > 0.0;
+        for station in forces.stations(move_index).iter().filter(cuts) {
+            let Some(direction) = motion.tangent(station.share) else {
+                continue;
+            };
+            all.push(CutSite {
+                move_index,
+                line: motion.line,
+                path_mm: start_mm + station.share * length,
+                position_mm: motion.point(station.share),
+                direction,
+                station: *station,
+            });
+        }
+        // Of a move without a known place the length is none.
+        start_mm += if length.is_finite() { length } else { 0.0 };
+    }
+    all
+}
+
+/// Places that are alike (`tools` are theirs), one range for each group: at most `most` of them, for which they may differ by more; and by how many
+/// times more.
+pub(crate) fn groups(
+    sites: &[CutSite],
+    tools: &[usize],
+    every_mm: f64,
+    most: usize,
+) -> (Vec<Range<usize>>, f64) {
+    let mut wider = 1.0;
+    loop {
+        let found = groups_within(sites, tools, every_mm, wider);
+        // Tools and speeds alone may be more.
+        if found.len() <= most || wider > 1e3 {
+            return (found, wider);
+        }
+        wider *= 1.5;
+    }
+}
+
+fn groups_within(
+    sites: &[CutSite],
+    tools: &[usize],
+    every_mm: f64,
+    wider: f64,
+) -> Vec<Range<usize>> {
+    let mut all = Vec::new();
+    let mut first = 0;
+    for (i, site) in sites.iter().enumerate() {
+        let reference = &sites[first];
+        let same = tools[i] == tools[first]
+            && is_alike(site, reference, wider)
+            && (site.position_mm - reference.position_mm).norm() <= every_mm * wider;
+        if !same {
+            all.push(first..i);
+            first = i;
+        }
+    }
+    if first < sites.len() {
+        all.push(first..sites.len());
+    }
+    all
+}
+
+fn is_alike(site: &CutSite, reference: &CutSite, wider: f64) -> bool {
+    let (a, b) = (&site.station, &reference.station);
+    let size = |a: f64, b: f64| (a - b).abs() <= SAME_SIZE * wider * b.abs();
+    let angle = |a: f64, b: f64| (a - b).abs() <= SAME_ANGLE * wider;
+    let arcs = match (a.contact, b.contact) {
+        (Some(a), Some(b)) => angle(a.entry, b.entry) && angle(a.exit, b.exit),
+        (None, None) => true,
+        _ => false,
+    };
+    arcs && a.rpm == b.rpm
+        && size(a.depth_mm, b.depth_mm)
+        && size(a.feed_per_tooth_mm, b.feed_per_tooth_mm)
+        && site.direction.angle(&reference.direction) <= SAME_ANGLE * wider
+}

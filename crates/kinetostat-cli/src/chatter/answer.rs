@@ -1,0 +1,181 @@
+//! The answer of `chatter`, stable names with units.
+
+use kinetostat_analysis::vibration::program::{JudgedSite, ProgramChatter, Verdict};
+use kinetostat_chatter::Instability;
+use kinetostat_machining::{FlatProgram, Warning, WarningCode};
+use serde::Serialize;
+
+#[derive(Serialize)]
+pub(crate) struct ChatterAnswer {
+    pub(crate) schema: u32,
+    pub(crate) kinetostat_version: &'static str,
+    pub(crate) program: String,
+    pub(crate) model: String,
+    pub(crate) material: String,
+    /// In words.
+    pub(crate) damping: String,
+    /// Places of the program at which the tool cuts.
+    pub(crate) places_in_cut: usize,
+    pub(crate) places_judged: usize,
+    /// Whether a judged place chatters.
+    pub(crate) chatters: bool,
+    /// The place with the least limit by its depth.
+    pub(crate) nearest: Option<Place>,
+    /// Stretches that chatter, in the order of the program.
+    pub(crate) stretches: Vec<Stretch>,
+    pub(crate) places: Vec<Place>,
+    pub(crate) warnings: Vec<Warning>,
+}
+
+/// A place of the program, for those that are like it.
+#[derive(Clone, Serialize)]
+pub(crate) struct Place {
+    pub(crate) line: usize,
+    /// Of a program that was expanded: where the line comes from.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) source: Option<String>,
+    pub(crate) path_mm: f64,
+    /// Part frame.
+    pub(crate) position_mm: [f64; 3],
+    pub(crate) rpm: f64,
+    pub(crate) depth_mm: f64,
+    /// Arc in contact: 0 is to the left of the feed, 90 ahead.
+    pub(crate) entry_deg: Option<f64>,
+    pub(crate) exit_deg: Option<f64>,
+    pub(crate) feed_per_tooth_mm: f64,
+    /// `stable`, `chatters`, or `not judged`.
+    pub(crate) verdict: &'static str,
+    pub(crate) reason: Option<String>,
+    /// Depth at which the cut becomes unstable at this speed; null: not up to `looked_up_to_mm`.
+    pub(crate) limit_mm: Option<f64>,
+    pub(crate) looked_up_to_mm: f64,
+    pub(crate) chatter_hz: Option<f64>,
+    /// `flip` or `hopf`.
+    pub(crate) kind: Option<Instability>,
+    /// Lowest frequency of the machine there.
+    pub(crate) first_hz: Option<f64>,
+    /// Places of the program that are like it.
+    pub(crate) places: usize,
+}
+
+/// Lines in a row that chatter.
+#[derive(Serialize)]
+pub(crate) struct Stretch {
+    pub(crate) first_line: usize,
+    pub(crate) last_line: usize,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) source: Option<String>,
+    pub(crate) from_path_mm: f64,
+    pub(crate) to_path_mm: f64,
+    pub(crate) rpm: f64,
+    pub(crate) depth_mm: f64,
+    /// Does not chatter anywhere in the stretch at this speed.
+    pub(crate) stable_depth_mm: f64,
+    /// Nearest speed at which the depths of the program do not chatter; null: none within half and one and a half times, or not
+    /// tried.
+    pub(crate) stable_rpm: Option<f64>,
+    /// Speeds are tried for the worst stretches.
+    pub(crate) speeds_tried: bool,
+    pub(crate) chatter_hz: f64,
+    pub(crate) kind: Instability,
+}
+
+impl ChatterAnswer {
+    pub(crate) fn new(
+        (found, flat): (&ProgramChatter, Option<&FlatProgram>),
+        program: &str,
+        (model, material, damping): (&str, &str, String),
+        mut warnings: Vec<Warning>,
+    ) -> Self {
+        let source = |line: usize| {
+            let (file, line) = flat?.source_of(line)?;
+            Some(format!("{file}, line {line}"))
+        };
+        let of_site = |judged: &JudgedSite| place(judged, source(judged.site.line));
+        warnings.extend(limits(found));
+        Self {
+            schema: 1,
+            kinetostat_version: env!("CARGO_PKG_VERSION"),
+            program: program.to_owned(),
+            model: model.to_owned(),
+            material: material.to_owned(),
+            damping,
+            places_in_cut: found.places,
+            places_judged: found.sites.iter().filter(|site| site.is_judged()).count(),
+            chatters: !found.stretches.is_empty(),
+            nearest: found.nearest().map(of_site),
+            stretches: (found.stretches.iter())
+                .map(|s| Stretch {
+                    first_line: s.lines[0],
+                    last_line: s.lines[1],
+                    source: source(s.lines[0]),
+                    from_path_mm: s.path_mm[0],
+                    to_path_mm: s.path_mm[1],
+                    rpm: s.rpm,
+                    depth_mm: s.depth_mm,
+                    stable_depth_mm: s.stable_depth_mm,
+                    stable_rpm: s.stable_rpm,
+                    speeds_tried: s.speeds_tried,
+                    chatter_hz: s.chatter_hz,
+                    kind: s.kind,
+                })
+                .collect(),
+            places: found.sites.iter().map(of_site).collect(),
+            warnings,
+        }
+    }
+}
+
+fn place(judged: &JudgedSite, source: Option<String>) -> Place {
+    let (site, station) = (&judged.site, &judged.site.station);
+    let (verdict, reason) = match &judged.verdict {
+        Verdict::Stable => ("stable", None),
+        Verdict::Chatters => ("chatters", None),
+        Verdict::NotJudged(why) => ("not judged", Some(why.clone())),
+    };
+    Place {
+        line: site.line,
+        source,
+        path_mm: site.path_mm,
+        position_mm: site.position_mm.into(),
+        rpm: station.rpm,
+        depth_mm: station.depth_mm,
+        entry_deg: station.contact.map(|c| c.entry.to_degrees()),
+        exit_deg: station.contact.map(|c| c.exit.to_degrees()),
+        feed_per_tooth_mm: station.feed_per_tooth_mm,
+        verdict,
+        reason,
+        limit_mm: judged.limit_mm,
+        looked_up_to_mm: judged.looked_up_to_mm,
+        chatter_hz: judged.chatter_hz,
+        kind: judged.kind,
+        first_hz: judged.first_hz,
+        places: judged.places,
+    }
+}
+
+/// What the answer does not say.
+fn limits(found: &ProgramChatter) -> Vec<Warning> {
+    let mut all = Vec::new();
+    let mut say = |text: String| all.push(Warning::new(WarningCode::Cut, text));
+    for (why, line, places) in found.not_judged() {
+        say(format!(
+            "{places} of {} places are not judged, the first on line {line}: {why}",
+            found.places
+        ));
+    }
+    let uneven = found.uneven();
+    if uneven > 0 {
+        say(format!(
+            "at {uneven} of {} places the arc in contact differs with the height: the widest was taken for the whole depth, which is no bound",
+            found.places
+        ));
+    }
+    if found.wider > 1.0 {
+        say(format!(
+            "the cut changes so often that places that differ by {:.1} times more than usual were judged together (--most-places)",
+            found.wider
+        ));
+    }
+    all
+}
