@@ -130,6 +130,8 @@ pub enum WarningCode {
     TimeUnknown,
     /// A cut that nobody makes: its feed, depth, speed or run-out.
     ImplausibleCut,
+    /// Cuts of which it is not said whether they chatter, or said of another arc than theirs.
+    ChatterNotJudged,
     /// A fitted coefficient that hardly any material has.
     ImplausibleCoefficient,
     /// A fitted coefficient that is hardly known.

@@ -157,7 +157,7 @@ fn place(judged: &JudgedSite, source: Option<String>) -> Place {
 /// What the answer does not say.
 fn limits(found: &ProgramChatter) -> Vec<Warning> {
     let mut all = Vec::new();
-    let mut say = |text: String| all.push(Warning::new(WarningCode::Cut, text));
+    let mut say = |text: String| all.push(Warning::new(WarningCode::ChatterNotJudged, text));
     for (why, line, places) in found.not_judged() {
         say(format!(
             "{places} of {} places are not judged, the first on line {line}: {why}",

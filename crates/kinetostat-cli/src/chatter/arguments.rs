@@ -30,7 +30,7 @@ pub(crate) struct ChatterArgs {
     #[command(flatten)]
     pub(crate) damping: DampingArgs,
     /// Modes above this count by their flexibility at rest, Hz
-    #[arg(long, value_name = "F", allow_negative_numbers = true, value_parser = number, default_value = "1000")]
+    #[arg(long, value_name = "F", allow_negative_numbers = true, value_parser = number, default_value = "300")]
     pub(crate) modes_up_to_hz: f64,
     /// Places of one cut that are farther apart are judged by themselves, mm
     #[arg(long, value_name = "MM", allow_negative_numbers = true, value_parser = number, default_value = "25")]

@@ -25,7 +25,11 @@ pub(crate) fn drawing(a: &ChatterAnswer) -> String {
         x_label: "path, mm".into(),
         y_label: "depth of cut, mm".into(),
         lines: vec![
-            line("stable up to (at most 3 times the depth is looked at)", 0, &limit),
+            line(
+                "stable up to (at most 3 times the depth is looked at)",
+                0,
+                &limit,
+            ),
             line("depth of the program", 2, &|p| p.depth_mm),
             line("chatters", 1, &chatters),
         ],

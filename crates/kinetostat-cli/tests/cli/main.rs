@@ -9,6 +9,7 @@ mod absurd;
 mod assemble;
 mod axes_alone;
 mod book;
+mod chatter;
 mod checks_under_load;
 mod commands;
 mod controller;

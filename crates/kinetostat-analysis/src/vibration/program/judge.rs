@@ -1,7 +1,9 @@
 //! Whether the cut at one place chatters.
 
 use kinetostat::Wrench;
-use kinetostat_chatter::{Arc, Coefficients, FeedFrame, Instability, MillingCut, Regeneration};
+use kinetostat_chatter::{
+    Arc, Coefficients, Crossing, FeedFrame, Instability, MillingCut, Regeneration,
+};
 use kinetostat_dynamics::Held;
 use kinetostat_machining::{LoadAlongPath, posture_at};
 use nalgebra::Vector3;
@@ -11,8 +13,9 @@ use crate::vibration::machine::VibratingMachine;
 use crate::vibration::program::question::{ChatterQuestion, ProgramChatterError};
 use crate::vibration::program::site::CutSite;
 
-/// Depths are looked at up to so many times that of the program.
-const DEEPER: f64 = 3.0;
+/// Depths are looked at up to so many times that of the program, one after the other until there is a limit: far beyond their
+/// limits cuts grow by so much in one period that nothing can be said in numbers.
+const DEPTHS: [f64; 4] = [0.125, 0.5, 1.0, 3.0];
 
 /// What is said of the cut at a place.
 #[derive(Clone, Debug, PartialEq)]
@@ -67,6 +70,37 @@ impl JudgedSite {
     }
 }
 
+/// The limit at a spindle speed, looked for up to a depth, m, and, where the cut is stable up to it, a few times deeper.
+pub(crate) struct Limit {
+    pub limit: Option<Crossing>,
+    /// m.
+    pub looked_up_to: f64,
+}
+
+impl Limit {
+    /// Islands above the limit are not looked for: the tool passes the limit on its way there.
+    pub fn of(
+        regeneration: &Regeneration,
+        rpm: f64,
+        depth: f64,
+        deepest: f64,
+    ) -> kinetostat_chatter::Result<Self> {
+        let mut found = Self {
+            limit: None,
+            looked_up_to: 0.0,
+        };
+        for share in DEPTHS.into_iter().filter(|share| *share <= deepest) {
+            found.looked_up_to = share * depth;
+            let stability = regeneration.stability_at(rpm, found.looked_up_to)?;
+            found.limit = stability.limit().copied();
+            if found.limit.is_some() {
+                break;
+            }
+        }
+        Ok(found)
+    }
+}
+
 impl ChatterQuestion<'_> {
     /// Judges a place that stands for several.
     pub(crate) fn judge(
@@ -88,21 +122,21 @@ impl ChatterQuestion<'_> {
             Err(why) => return Ok(JudgedSite::not_judged(site, places, why)),
         };
         let depth = 1e-3 * site.station.depth_mm;
-        let up_to = DEEPER * depth;
-        let at = |line: usize| move |error| ProgramChatterError::Cut { line, error };
-        let found = regeneration
-            .stability_at(site.station.rpm, up_to)
-            .map_err(at(site.line))?;
-        let limit = found.limit();
+        let found = Limit::of(&regeneration, site.station.rpm, depth, f64::INFINITY);
+        let found = match found {
+            Ok(found) => found,
+            Err(error) => return Ok(JudgedSite::not_judged(site, places, error.to_string())),
+        };
+        let limit = found.limit;
         let modes = regeneration.response().modes();
         Ok(JudgedSite {
             site: *site,
-            verdict: match found.is_stable(depth) {
-                Some(true) => Verdict::Stable,
-                _ => Verdict::Chatters,
+            verdict: match limit.is_some_and(|crossing| crossing.depth <= depth) {
+                true => Verdict::Chatters,
+                false => Verdict::Stable,
             },
             limit_mm: limit.map(|crossing| 1e3 * crossing.depth),
-            looked_up_to_mm: 1e3 * up_to,
+            looked_up_to_mm: 1e3 * found.looked_up_to,
             chatter_hz: limit.map(|crossing| crossing.frequency_hz),
             kind: limit.map(|crossing| crossing.kind),
             first_hz: modes
@@ -134,7 +168,11 @@ impl ChatterQuestion<'_> {
         let mechanism = load
             .tool_of(site.move_index)
             .map_or(task.mechanism, |tool| tool.mechanism);
-        let wrench: Wrench = load.wrench(&placement, site.move_index, site.station.share);
+        // A dead moment has no potential, and its part in the modes is that of newton metres beside the stiffness of the joints.
+        let force = load
+            .wrench(&placement, site.move_index, site.station.share)
+            .force();
+        let wrench = Wrench::new(force, Vector3::zeros());
         let of_machine = |error| ProgramChatterError::Machine { line, error };
         let machine = posture_at(mechanism, &pose)
             .map_err(Into::into)
@@ -167,7 +205,11 @@ impl ChatterQuestion<'_> {
         // Where a tooth goes backwards over the arc, the chip is as thick as elsewhere on it.
         let mean_mm = site.station.feed_per_tooth_mm * arc.mean_sine().abs();
         let thinnest_mm = 1e-3 * site.station.feed_per_tooth_mm;
-        let chip_mm = if mean_mm > thinnest_mm { mean_mm } else { thinnest_mm };
+        let chip_mm = if mean_mm > thinnest_mm {
+            mean_mm
+        } else {
+            thinnest_mm
+        };
         let law = Coefficients::linearised(&*tool.law, 1e-3 * chip_mm).map_err(of_cut)?;
         MillingCut::of_tool(&tool.tool, arc, law.coefficients).map_err(of_cut)
     }

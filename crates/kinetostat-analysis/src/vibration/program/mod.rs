@@ -2,7 +2,7 @@
 //!
 //! The cut of a program changes slowly: places that follow each other with the same tool, speed, arc, depth, heading and posture are one
 //! group and judged once, at the deepest of them. At each the modes are those of the machine in its posture there, under the
-//! mean force of the cut; the limit of depth at the speed of the program is exact for one arc at all heights.
+//! mean force of the cut (without its moment about the tip); the limit of depth at the speed of the program is exact for one arc at all heights.
 
 mod judge;
 mod question;

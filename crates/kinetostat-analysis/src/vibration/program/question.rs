@@ -80,7 +80,10 @@ impl ChatterQuestion<'_> {
     /// [`ProgramChatterError`], the first in the order of the program.
     pub fn along(&self, watch: &dyn Watch) -> Result<ProgramChatter, ProgramChatterError> {
         let all = sites(self.forces, self.task.path());
-        let tools: Vec<usize> = all.iter().map(|s| self.index_of(s)).collect::<Result<_, _>>()?;
+        let tools: Vec<usize> = all
+            .iter()
+            .map(|s| self.index_of(s))
+            .collect::<Result<_, _>>()?;
         let (groups, wider) = groups(&all, &tools, self.every_mm, self.most);
         let load = LoadAlongPath::with_tools(self.task.load, self.task.path(), self.task.tools)
             .with_cut(self.task.cut);
@@ -93,12 +96,12 @@ impl ChatterQuestion<'_> {
                     return Err(ProgramChatterError::Cancelled);
                 }
                 let own = &all[range.clone()];
-                let deepest = own.iter().reduce(|a, b| {
-                    match b.station.depth_mm > a.station.depth_mm {
-                        true => b,
-                        false => a,
-                    }
-                });
+                let deepest =
+                    own.iter()
+                        .reduce(|a, b| match b.station.depth_mm > a.station.depth_mm {
+                            true => b,
+                            false => a,
+                        });
                 let site = deepest.unwrap_or(&own[0]);
                 let found = self.judge(&load, site, own.len());
                 watch.advance(done.fetch_add(1, Ordering::Relaxed) + 1);
@@ -156,7 +159,10 @@ impl ProgramChatter {
     #[must_use]
     pub fn nearest(&self) -> Option<&JudgedSite> {
         let share = |site: &JudgedSite| site.limit_mm.map(|l| l / site.site.station.depth_mm);
-        let known = self.sites.iter().filter_map(|site| Some((share(site)?, site)));
+        let known = self
+            .sites
+            .iter()
+            .filter_map(|site| Some((share(site)?, site)));
         known
             .min_by(|a, b| a.0.total_cmp(&b.0))
             .map(|(_, site)| site)

@@ -2,12 +2,13 @@
 
 use kinetostat_chatter::Instability;
 use kinetostat_machining::{LoadAlongPath, Watch};
+use rayon::prelude::*;
 
-use crate::vibration::program::judge::{JudgedSite, Verdict};
+use crate::vibration::program::judge::{JudgedSite, Limit, Verdict};
 use crate::vibration::program::question::{ChatterQuestion, ProgramChatterError};
 
 /// Spindle speeds that are tried, by that of the program: from, to, and how many.
-const SPEEDS: (f64, f64, usize) = (0.5, 1.5, 41);
+const SPEEDS: (f64, f64, usize) = (0.5, 1.5, 21);
 /// Places of a stretch at which a speed is tried.
 const TRIED: usize = 6;
 /// Stretches for which other speeds are looked for; the worst ones.
@@ -54,7 +55,9 @@ pub(crate) fn stretches(
             continue;
         };
         let station = &site.site.station;
-        let own = all.last_mut().filter(|(s, _)| goes_on && s.rpm == station.rpm);
+        let own = all
+            .last_mut()
+            .filter(|(s, _)| goes_on && s.rpm == station.rpm);
         goes_on = true;
         match own {
             Some((stretch, sites)) => {
@@ -121,13 +124,12 @@ fn stable_rpm(
             continue;
         };
         let depth = 1e-3 * site.station.depth_mm;
-        for (speed, is_stable) in speeds.iter().zip(&mut stable).filter(|(_, s)| **s) {
-            let multiplier = regeneration.multiplier(*speed, depth);
-            let line = site.line;
-            let multiplier =
-                multiplier.map_err(|error| ProgramChatterError::Cut { line, error })?;
-            *is_stable = multiplier.size() < 1.0;
-        }
+        let still = speeds.par_iter().zip(&mut stable).filter(|(_, s)| **s);
+        still.for_each(|(speed, is_stable)| {
+            // Where no multiplier is found nothing is known to be stable.
+            let found = Limit::of(&regeneration, *speed, depth, 1.0);
+            *is_stable = found.is_ok_and(|found| found.limit.is_none());
+        });
     }
     let alone = |k: usize| {
         let beside = [k.checked_sub(1), Some(k + 1)];
@@ -136,6 +138,10 @@ fn stable_rpm(
     };
     let good = (0..count).filter(|k| stable[*k] && !alone(*k));
     Ok(good
-        .min_by(|a, b| (speeds[*a] - rpm).abs().total_cmp(&(speeds[*b] - rpm).abs()))
+        .min_by(|a, b| {
+            (speeds[*a] - rpm)
+                .abs()
+                .total_cmp(&(speeds[*b] - rpm).abs())
+        })
         .map(|k| speeds[k]))
 }

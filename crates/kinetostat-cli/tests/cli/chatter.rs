@@ -1,0 +1,204 @@
+//! `chatter`: the lines of a program that chatter, held against `lobes` at their places and against the program itself, changed
+//! as the answer says.
+
+use std::path::Path;
+
+use serde_json::Value;
+
+use crate::common::{Said, run, workplace};
+
+/// A slot along x, one along y (both 1 mm deep), and one that is 4 mm deep; the tool goes in from beside the block.
+const PROGRAM: &str = "G21 G90 G17\nT1 M6\nS3000 M3\nG0 X-10 Y0 Z5\nG1 Z-1 F600\nG1 X40\nG0 Z5\nG0 X20 Y-20\nG1 Z-1\nG1 Y-60\nG0 Z5\n\
+    G0 X-10 Y20\nG1 Z-4 F600\nG1 X40\nG0 Z5\nM30\n";
+
+const JOB: &str = r#"schema = 1
+model = "heavy_6r"
+program = "slots.ngc"
+[placement]
+part_origin_mm = [1450, 70, 500]
+[tool]
+length_mm = 200
+cutter = { shape = "flat", diameter_mm = 12, teeth = 2, helix_deg = 30 }
+[material]
+name = "linear aluminium"
+[stock]
+block_mm = [[0, -70, -10], [50, 40, 0]]
+cell_mm = 0.3
+"#;
+
+fn here(program: &str) -> tempfile::TempDir {
+    let here = workplace();
+    std::fs::write(here.path().join("slots.ngc"), program).expect("written");
+    std::fs::write(here.path().join("job.toml"), JOB).expect("written");
+    here
+}
+
+fn said(here: &Path, line: &str) -> Said {
+    run(here, &line.split(' ').collect::<Vec<_>>())
+}
+
+fn answer(here: &Path) -> Value {
+    let said = said(here, "chatter job.toml --damping 0.03 --json").answered();
+    serde_json::from_str(&said.out).expect("JSON")
+}
+
+fn list<'a>(of: &'a Value, name: &str) -> &'a Vec<Value> {
+    of[name].as_array().expect("a list")
+}
+
+fn number(of: &Value, name: &str) -> f64 {
+    of[name].as_f64().expect("a number")
+}
+
+/// The stretch of a line.
+fn stretch(answer: &Value, line: u64) -> Option<&Value> {
+    list(answer, "stretches").iter().find(|s| {
+        let of = |name: &str| s[name].as_u64().expect("a line");
+        (of("first_line")..=of("last_line")).contains(&line)
+    })
+}
+
+#[test]
+fn what_the_answer_says_of_a_program_holds_for_the_changed_program() {
+    let first = here(PROGRAM);
+    let found = answer(first.path());
+    assert_eq!(found["chatters"], true, "{found}");
+    let deep = stretch(&found, 14).expect("the deep slot chatters");
+    let (limit, rpm) = (number(deep, "stable_depth_mm"), number(deep, "rpm"));
+    assert_eq!(rpm, 3000.0);
+    assert!(limit > 0.0 && limit < 4.0, "{deep}");
+    // Whatever else is deeper than its limit chatters, too.
+    for place in list(&found, "places") {
+        let verdict = place["verdict"].as_str().expect("a word");
+        let below = place["limit_mm"]
+            .as_f64()
+            .is_none_or(|l| number(place, "depth_mm") < l);
+        assert!(
+            verdict == "not judged" || (verdict == "stable") == below,
+            "{place}"
+        );
+    }
+    for (share, chatters) in [(0.97, false), (1.03, true)] {
+        let depth = share * limit;
+        let other = here(&PROGRAM.replace("Z-4", &format!("Z-{depth:.4}")));
+        let found = answer(other.path());
+        assert_eq!(stretch(&found, 14).is_some(), chatters, "{depth} {found}");
+    }
+    if let Some(rpm) = deep["stable_rpm"].as_f64() {
+        // The feed per tooth stays.
+        let feed = 600.0 * rpm / 3000.0;
+        let other = PROGRAM
+            .replace("S3000", &format!("S{rpm:.1}"))
+            .replace("F600", &format!("F{feed:.2}"));
+        let found = answer(here(&other).path());
+        assert!(stretch(&found, 14).is_none(), "{found}");
+    }
+}
+
+/// Another command at the same place under the same force, with a slot by its width.
+#[test]
+fn limits_of_slots_are_those_of_lobes_at_their_places() {
+    let first = here(PROGRAM);
+    let found = answer(first.path());
+    let mut compared = 0;
+    for (line, feed) in [(6, "1 0 0"), (10, "0 -1 0"), (14, "1 0 0")] {
+        let of_line = |p: &&Value| p["line"] == line && number(p, "exit_deg") > 179.9;
+        let Some(place) = list(&found, "places").iter().find(of_line) else {
+            panic!("no slot on line {line}: {found}");
+        };
+        let Some(limit) = place["limit_mm"].as_f64() else {
+            continue;
+        };
+        let at: Vec<f64> = list(place, "position_mm")
+            .iter()
+            .filter_map(Value::as_f64)
+            .collect();
+        let at = [at[0] + 1450.0, at[1] + 70.0, at[2] + 500.0]
+            .map(|x| x.to_string())
+            .join(" ");
+        let words = format!(
+            "lobes heavy_6r --at {at} --tool-length-mm 200 --damping 0.03 --teeth 2 --helix-deg 30 --diameter-mm 12 \
+             --coefficients-n-per-mm2 796 168 -222 --immersion 1 --modes-up-to-hz 300 --tool-axis 0 0 1 --feed-direction {feed} --rpm 3000 3001 2 --depth-mm 12 --json"
+        );
+        let other = said(first.path(), &words).answered();
+        let other: Value = serde_json::from_str(&other.out).expect("JSON");
+        let expected = number(&list(&other, "points")[0], "limit_mm");
+        // The force of the cut (tens of newtons) hardly changes the modes.
+        assert!(
+            (limit / expected - 1.0).abs() < 2e-3,
+            "{line}: {limit} {expected}"
+        );
+        compared += 1;
+    }
+    assert!(compared >= 2, "{compared}");
+}
+
+#[test]
+fn what_has_no_answer_is_named() {
+    let here = here(PROGRAM);
+    let at = here.path();
+    let refused = |line: &str, part: &str| {
+        let said = said(at, line);
+        assert_eq!(said.code, 1, "{said:?}");
+        assert!(said.err.contains(part), "{said:?}");
+    };
+    refused("chatter job.toml", "chatter needs damping");
+    refused(
+        "chatter job.toml --damping 0.03 --every-mm 0",
+        "--every-mm is 0",
+    );
+    refused(
+        "chatter job.toml --damping 0.03 --most-places 0",
+        "--most-places is 0",
+    );
+    let write = |text: String| std::fs::write(at.join("other.toml"), text).expect("written");
+    write(JOB.replace("\"flat\"", "\"ball\""));
+    refused("chatter other.toml --damping 0.03", "a flat end mill");
+    write(
+        JOB.split("[material]")
+            .next()
+            .unwrap_or_default()
+            .to_owned(),
+    );
+    refused(
+        "chatter other.toml --damping 0.03",
+        "says nothing of the cut",
+    );
+    write(
+        JOB.replace("\"heavy_6r\"", "\"orthoglide\"")
+            .replace("[1450, 70, 500]", "[0, 0, 0]"),
+    );
+    refused("chatter other.toml --damping 0.03", "has no mass anywhere");
+}
+
+/// A spindle that turns to the left is not judged, and that is said.
+#[test]
+fn a_spindle_that_turns_to_the_left_is_not_judged() {
+    let here = here(&PROGRAM.replace("M3", "M4"));
+    let found = answer(here.path());
+    assert_eq!(
+        (&found["chatters"], &found["places_judged"]),
+        (&false.into(), &0.into())
+    );
+    let said = list(&found, "warnings").iter().any(|w| {
+        w["message"]
+            .as_str()
+            .is_some_and(|text| text.contains("are not judged"))
+    });
+    assert!(said, "{found}");
+}
+
+#[test]
+fn files_hold_all_places() {
+    let here = here(PROGRAM);
+    let line = "chatter job.toml --damping 0.03 --csv all.csv --plot all.svg --json all.json";
+    let said = said(here.path(), line).answered();
+    assert!(said.out.contains("Lines that chatter"), "{}", said.out);
+    let read = |name: &str| std::fs::read_to_string(here.path().join(name)).expect("read");
+    let found: Value = serde_json::from_str(&read("all.json")).expect("JSON");
+    assert_eq!(
+        read("all.csv").lines().count(),
+        1 + list(&found, "places").len()
+    );
+    assert!(read("all.svg").contains("depth of the program"));
+}
