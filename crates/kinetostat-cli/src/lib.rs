@@ -77,7 +77,19 @@ pub fn main() -> ExitCode {
 pub fn run_as_process(words: impl Iterator<Item = OsString>) -> u8 {
     answer(words, || {
         progress::catch_interrupts(journal::remove_temporary);
+        keep_quiet_about_broken_tables();
     })
+}
+
+/// What the library of Parquet asserts of a broken file is caught where the file is read, and said there.
+fn keep_quiet_about_broken_tables() {
+    let usual = std::panic::take_hook();
+    std::panic::set_hook(Box::new(move |panic| {
+        let place = panic.location().map(std::panic::Location::file);
+        if !place.is_some_and(|file| file.contains("parquet-")) {
+            usual(panic);
+        }
+    }));
 }
 
 /// What a command that ran inside another program leaves.

@@ -117,7 +117,8 @@ fn refuse_senseless(args: &ChatterArgs) -> Answer<()> {
         ("--every-mm", args.every_mm, "mm"),
         ("--modes-up-to-hz", args.modes_up_to_hz, "Hz"),
     ];
-    if let Some((name, value, unit)) = positive.into_iter().find(|(_, value, _)| !(*value > 0.0)) {
+    let senseless = |(_, value, _): &(&str, f64, &str)| value.is_nan() || *value <= 0.0;
+    if let Some((name, value, unit)) = positive.into_iter().find(senseless) {
         return Err(Failure::input(format!(
             "{name} is {value}; a number above 0 is needed, {unit}"
         )));

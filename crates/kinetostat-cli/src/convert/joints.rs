@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use kinetostat::{Mechanism, Pose, PostureRequest};
 use kinetostat_formats::{
-    BetweenRows, FrameUse, JointStart, Made, TableArm, Template, joint_table,
+    BetweenRows, FrameUse, JointStart, Language, Made, Rapids, TableArm, Template, joint_table,
 };
 use kinetostat_machining::number::counted;
 use kinetostat_model::Model;
@@ -48,6 +48,7 @@ pub(crate) fn as_joints(
     let mut start = JointStart::default();
     start.tolerance_mm = template.tolerance_mm;
     start.base = base;
+    start.straight_rapids = template.rapids == Rapids::Linear && goes_straight(read);
     start.near = match &template.start_joints_deg {
         Some(joints) => joints.clone(),
         None => {
@@ -84,8 +85,15 @@ pub(crate) fn as_joints(
         *bytes = done.bytes;
     }
     let [mm, rad] = done.departure;
+    let rapids = match done.rapid_departure_mm > template.tolerance_mm {
+        true => format!(
+            ". In rapids all joints move in step from one end to the other, up to {:.3} mm beside the straight way at their middle",
+            done.rapid_departure_mm
+        ),
+        false => String::new(),
+    };
     Ok(format!(
-        "{} of joint values of {}, as {}, each next to the one before; they give the poses within {mm:.1e} mm and {rad:.1e} rad. From row to row {}. To read them: --joint-rows {}, and the tool in the flange",
+        "{} of joint values of {}, as {}, each next to the one before; they give the poses within {mm:.1e} mm and {rad:.1e} rad. From row to row {}. To read them: --joint-rows {}, and the tool in the flange{rapids}",
         counted(done.rows.len(), "row"),
         asked.model.name(),
         match &asked.model.controller {
@@ -102,6 +110,15 @@ pub(crate) fn as_joints(
             BetweenRows::Linear => "linear",
         }
     ))
+}
+
+/// Whether rapids of the source are straight: those of robots' languages move all joints in step.
+fn goes_straight(read: &ReadProgram<'_>) -> bool {
+    let language = read.robot().map(|robot| robot.program.language);
+    matches!(
+        language,
+        None | Some(Language::Siemens | Language::Heidenhain | Language::Apt)
+    )
 }
 
 /// The line of the source that a line of the made table is of.

@@ -111,6 +111,42 @@ fn joint_values_give_the_poses_of_the_program() {
     run(here, &words(line)).answered();
 }
 
+/// Where all joints move in step, rapids of G-code are divided as cuts are; those of a robot's own joint motions are not, and that is
+/// said.
+#[test]
+fn rapids_go_straight_where_the_source_has_them_straight() {
+    let here = place();
+    let here = here.path();
+    let text = "G21 G90\nG0 X0 Y-400 Z5\nG0 X0 Y400 Z5\nG1 Z-1 F600\nG1 X50\nG0 Z5\nM30\n";
+    std::fs::write(here.join("far.ngc"), text).unwrap();
+    let cell = "schema = 1\ntool_orientation = { a_b_c_kuka_deg = [0, 0, 180] }\n[base]\npose = { position_mm = [1600, 0, 600] }\n[tool]\npose = { position_mm = [0, 0, 180] }\n";
+    std::fs::write(here.join("far.toml"), cell).unwrap();
+    let line = "convert far.ngc --to joints --model heavy_6r --joint-rows joint --template far.toml --out far.csv";
+    run(here, &words(line)).answered();
+    // Read again as poses, each row is on the straight way of x = 1600 until the cut.
+    let line = "convert far.csv --to csv --model heavy_6r --joint-rows joint --out far_poses.csv";
+    run(here, &words(line)).answered();
+    let rows = poses(here, "far_poses.csv");
+    let high: Vec<_> = rows.iter().filter(|row| row[1] < 399.0).collect();
+    assert!(high.len() > 20, "{}", high.len());
+    let stepped = largest(high.windows(2).map(|pair| (pair[1][1] - pair[0][1]).abs()));
+    assert!(stepped < 60.0, "{stepped}");
+    let line = "convert part.mod --to joints --model heavy_6r --joint-rows joint --out p.csv";
+    let said = run(here, &words(line)).answered();
+    let joint = "MoveJ [[0,0,50]";
+    assert!(
+        PART.contains(joint) && !said.out.contains("In rapids"),
+        "{}",
+        said.out
+    );
+    let far = PART.replacen("    MoveL", "    MoveJ [[0,400,50],[0,0.17364817766693033,0.984807753012208,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v500,z10,tMill\\WObj:=wPart;\n    MoveL", 1);
+    std::fs::write(here.join("far.mod"), far).unwrap();
+    let line = "convert far.mod --to joints --model heavy_6r --joint-rows joint --out p2.csv";
+    let said = run(here, &words(line)).answered();
+    let text = said.out.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(text.contains("In rapids all joints move in step"), "{text}");
+}
+
 /// Joint values are places in the robot's base, whatever base the template has for parts.
 #[test]
 fn joint_values_stay_where_they_are_beside_a_base_of_the_template() {

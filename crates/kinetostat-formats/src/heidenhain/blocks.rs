@@ -5,6 +5,12 @@ use std::ops::Range;
 use crate::heidenhain::words::{Word, words_of};
 use crate::text::source::beginning;
 
+/// Why a further line of a cycle is refused.
+pub(crate) const STRAY: &str =
+    "the line before goes on here (`~`), and this is no parameter of its cycle";
+/// What to do.
+pub(crate) const STRAY_REMEDY: &str = "take the `~` at the end of the line before away";
+
 /// A block.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Block {
@@ -19,6 +25,22 @@ pub(crate) struct Block {
 }
 
 impl Block {
+    /// Of a cycle: what stands on a further line and is no parameter of it (`Q200=+2`).
+    pub(crate) fn no_parameter(&self, bytes: &[u8]) -> Option<Range<usize>> {
+        let mut at = self.text.start;
+        while at < self.text.end {
+            at = next_line(bytes, at);
+            let line = at..next_line(bytes, at).min(self.text.end);
+            let rest = bytes.get(line.clone())?;
+            let blanks = rest.len() - rest.trim_ascii_start().len();
+            let first = rest.get(blanks);
+            if first.is_some_and(|byte| !matches!(byte, b'Q' | b'q' | b';' | b'*' | b'~')) {
+                return Some(line.start + blanks..line.end);
+            }
+        }
+        None
+    }
+
     /// Its words; none of a comment.
     pub(crate) fn words(&self, bytes: &[u8]) -> Vec<Word> {
         words_of(bytes, &self.text)

@@ -157,6 +157,11 @@ impl PathWords {
                 self.aside = true;
                 self.compensation = Some(at);
             }
+            b"F" | b"FMAX" | b"FAUTO" | b"FU" | b"FZ" | b"FT" | b"FMAXT"
+                if self.feed != FeedWord::None =>
+            {
+                return Err(Odd::Twice(at));
+            }
             b"F" => {
                 let next = words.get(at + 1);
                 let follows = |name: &str| next.is_some_and(|next| next.is(name));

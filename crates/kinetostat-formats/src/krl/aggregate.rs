@@ -128,6 +128,10 @@ pub(crate) fn position_of(
             span: file.span(value_tokens),
             value,
         };
+        let of_this_name = |other: &&(Name, Range<usize>)| other.0 == *name;
+        if aggregate.members.iter().filter(of_this_name).count() > 1 {
+            return Err("it states a component twice");
+        }
         let slot = |names: [&str; 6]| names.iter().position(|capitals| name.is(capitals));
         if let Some(index) = slot(PLACE) {
             position.numbers[index] = Some(text(number));

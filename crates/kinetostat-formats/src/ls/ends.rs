@@ -106,19 +106,26 @@ impl<'o> Ends<'o> {
         let position = place.positions.all.get(number).ok_or_else(missing)?;
         let mut displaced = displaced.map(|reason| (reason.to_owned(), unknown));
         let is_computed = place.before.map_or([false; 2], |b| b.is_computed);
-        for (letters, word, own, now, is_computed) in [
-            ("UF", "UFRAME_NUM", position.frame, in_force, is_computed[0]),
-            (
-                "UT",
-                "UTOOL_NUM",
-                position.tool,
-                tool_in_force,
-                is_computed[1],
-            ),
+        let one_way = place.before.map_or([None; 2], |b| b.on_one_way);
+        for (which, letters, word, own, now) in [
+            (0, "UF", "UFRAME_NUM", position.frame, in_force),
+            (1, "UT", "UTOOL_NUM", position.tool, tool_in_force),
         ] {
+            let is_computed = is_computed[which];
+            if let (Some(own), Some(other)) = (own, one_way[which])
+                && own != other
+            {
+                let reason = format!(
+                    "P[{number}] is taught with {letters} {own}, but {word} is {other} here, if the run came by where it is set"
+                );
+                displaced.get_or_insert((
+                    reason,
+                    "set it on all ways, or leave such motions as written (unknown_targets = \"left_as_written\" under [robot] in a job file)",
+                ));
+            }
             if let (Some(own), None, true) = (own, now, is_computed) {
                 let reason = format!(
-                    "P[{number}] is taught with {letters} {own}, but which {word} is in force here, the run computes"
+                    "P[{number}] is taught with {letters} {own}, but which {word} is in force here, the run decides"
                 );
                 displaced.get_or_insert((
                     reason,

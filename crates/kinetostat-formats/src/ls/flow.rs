@@ -22,8 +22,10 @@ pub(crate) enum Last {
 pub(crate) struct State {
     pub frame: Option<u32>,
     pub tool: Option<u32>,
-    /// Frame and tool have numbers that the run computes, on one way at least.
+    /// Which numbers frame and tool have, the run decides: it computes them on one way at least, or they differ from way to way.
     pub is_computed: [bool; 2],
+    /// Numbers of frame and tool on one way, where they are not known on another.
+    pub on_one_way: [Option<u32>; 2],
     pub last: Last,
 }
 
@@ -32,15 +34,33 @@ impl State {
         frame: None,
         tool: None,
         is_computed: [false; 2],
+        on_one_way: [None; 2],
         last: Last::Unknown,
     };
 
+    /// The numbers of frame and tool, if only on one way.
+    fn numbers(&self) -> [Option<u32>; 2] {
+        let [frame, tool] = self.on_one_way;
+        [self.frame.or(frame), self.tool.or(tool)]
+    }
+
     fn merged(self, other: Self) -> Self {
         let same = |one: Option<u32>, other: Option<u32>| one.filter(|one| Some(*one) == other);
+        let both = [same(self.frame, other.frame), same(self.tool, other.tool)];
+        let (own, others) = (self.numbers(), other.numbers());
+        let differs = |which: usize| {
+            let pair = own[which].zip(others[which]);
+            pair.is_some_and(|(one, other)| one != other)
+        };
         Self {
-            frame: same(self.frame, other.frame),
-            tool: same(self.tool, other.tool),
-            is_computed: [0, 1].map(|which| self.is_computed[which] || other.is_computed[which]),
+            frame: both[0],
+            tool: both[1],
+            is_computed: [0, 1]
+                .map(|which| self.is_computed[which] || other.is_computed[which] || differs(which)),
+            on_one_way: [0, 1].map(|which| match both[which] {
+                Some(_) => None,
+                None => own[which].or(others[which]),
+            }),
             last: match self.last == other.last {
                 true => self.last,
                 false => Last::Unknown,
@@ -201,11 +221,13 @@ impl<'p> Flow<'p> {
             Step::Frame(to) => Some(State {
                 frame: number(to),
                 is_computed: [*to == Number::Computed, state.is_computed[1]],
+                on_one_way: [None, state.on_one_way[1]],
                 ..state
             }),
             Step::Tool(to) => Some(State {
                 tool: number(to),
                 is_computed: [state.is_computed[0], *to == Number::Computed],
+                on_one_way: [state.on_one_way[0], None],
                 ..state
             }),
             Step::Call(_) => match self.programs[program].called.get(&at) {

@@ -3,6 +3,7 @@
 use std::ops::Range;
 
 use crate::text::number::NumberText;
+use crate::text::source::beginning;
 
 /// What is wrong with a line: where, why, what to do.
 pub(crate) type Fault = (Range<usize>, &'static str, &'static str);
@@ -48,7 +49,7 @@ impl Layout {
         let mut layout = Self::default();
         let mut section = Section::Before;
         let mut open: Option<Line> = None;
-        let mut at = 0;
+        let mut at = beginning(bytes);
         while at < bytes.len() {
             let next = next_line(bytes, at);
             let line = bytes[at..next].trim_ascii_end();

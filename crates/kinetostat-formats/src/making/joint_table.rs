@@ -25,6 +25,8 @@ pub struct JointStart {
     pub near: Vec<f64>,
     /// How far the tool may leave straight ways where all joints move in step, mm.
     pub tolerance_mm: f64,
+    /// Rapids go straight, too; otherwise all joints move in step from one end of them to the other.
+    pub straight_rapids: bool,
 }
 
 impl Default for JointStart {
@@ -33,6 +35,7 @@ impl Default for JointStart {
             base: Isometry3::identity(),
             near: Vec::new(),
             tolerance_mm: 1e-3,
+            straight_rapids: true,
         }
     }
 }
@@ -47,6 +50,8 @@ pub struct JointTable {
     pub rows: Vec<(usize, Vec<f64>)>,
     /// How far the poses of the written joint values are from those of the table, mm and rad.
     pub departure: [f64; 2],
+    /// How far the middle of a rapid is from the straight way where all joints move in step and it is not divided, mm.
+    pub rapid_departure_mm: f64,
 }
 
 /// A row of a table of poses that becomes no joint values.
@@ -118,6 +123,7 @@ pub fn joint_table(
         text: String::new(),
         rows: Vec::new(),
         departure: [0.0; 2],
+        rapid_departure_mm: 0.0,
     };
     let mut head_is_read = false;
     for (index, line) in text.lines().enumerate() {
@@ -149,6 +155,7 @@ pub fn joint_table(
         bytes: table.text.into_bytes(),
         rows: table.rows,
         departure: table.departure,
+        rapid_departure_mm: table.rapid_departure_mm,
     })
 }
 
@@ -166,6 +173,7 @@ struct Table<'a> {
     text: String,
     rows: Vec<(usize, Vec<f64>)>,
     departure: [f64; 2],
+    rapid_departure_mm: f64,
 }
 
 impl Table<'_> {
@@ -184,15 +192,24 @@ impl Table<'_> {
         let turn = UnitQuaternion::try_new(Quaternion::new(qw, qx, qy, qz), 1e-3);
         let pose = Isometry3::from_parts(Vector3::new(x, y, z).into(), turn.ok_or_else(other)?);
         let pose = self.start.base * pose;
-        let is_cut = rest.ends_with(",0");
+        let is_straight = self.start.straight_rapids || rest.ends_with(",0");
         let before = self.before.take();
         let joints = match &before {
             None => self.joints_next_to(line, &pose, &self.start.near)?,
             Some((from, near)) => {
                 let joints = self.joints_next_to(line, &pose, near)?;
-                if is_cut && self.arm.between == BetweenRows::Joint {
-                    let way = [(from, near.as_slice()), (&pose, joints.as_slice())];
-                    self.rows_between(line, way, rest, MOST_HALVINGS)?;
+                let way = [(from, near.as_slice()), (&pose, joints.as_slice())];
+                match (self.arm.between, is_straight) {
+                    (BetweenRows::Joint, true) => {
+                        self.rows_between(line, way, rest, MOST_HALVINGS)?;
+                    }
+                    (BetweenRows::Joint, false) => {
+                        let [off_mm, _] = self.in_the_middle(way).1;
+                        if off_mm > self.rapid_departure_mm || off_mm.is_nan() {
+                            self.rapid_departure_mm = off_mm;
+                        }
+                    }
+                    (BetweenRows::Linear, _) => {}
                 }
                 joints
             }
@@ -222,6 +239,22 @@ impl Table<'_> {
         })
     }
 
+    /// The pose halfway along the straight way, and how far the tool is from it where all joints move in step.
+    fn in_the_middle(
+        &self,
+        [(from, near), (to, joints)]: [(&Isometry3<f64>, &[f64]); 2],
+    ) -> (Isometry3<f64>, [f64; 2]) {
+        let middle: Vec<f64> = (near.iter().zip(joints))
+            .map(|(a, b)| 0.5 * (a + b))
+            .collect();
+        let place = 0.5 * (from.translation.vector + to.translation.vector);
+        let turn = (from.rotation.inverse() * to.rotation).scaled_axis();
+        let turn = from.rotation * UnitQuaternion::from_scaled_axis(0.5 * turn);
+        let straight = Isometry3::from_parts(place.into(), turn);
+        let off = apart(&straight, &self.arm.arm.tool_pose(&middle));
+        (straight, off)
+    }
+
     /// Rows between two, so that the tool stays near the straight way where all joints move in step.
     fn rows_between(
         &mut self,
@@ -230,14 +263,7 @@ impl Table<'_> {
         rest: &str,
         halvings: u32,
     ) -> Result<(), JointTableError> {
-        let middle: Vec<f64> = (near.iter().zip(joints))
-            .map(|(a, b)| 0.5 * (a + b))
-            .collect();
-        let place = 0.5 * (from.translation.vector + to.translation.vector);
-        let turn = (from.rotation.inverse() * to.rotation).scaled_axis();
-        let turn = from.rotation * UnitQuaternion::from_scaled_axis(0.5 * turn);
-        let straight = Isometry3::from_parts(place.into(), turn);
-        let [off_mm, off_rad] = apart(&straight, &self.arm.arm.tool_pose(&middle));
+        let (straight, [off_mm, off_rad]) = self.in_the_middle([(from, near), (to, joints)]);
         // A turn by a thousandth of a degree is as good as one micrometre.
         let is_near =
             off_mm <= self.start.tolerance_mm && off_rad <= (self.start.tolerance_mm).to_radians();

@@ -9,7 +9,7 @@ use crate::making::fault::{MakeError, MakeFinding};
 use crate::making::limits::MakeLanguage;
 use crate::making::stated::{has_own_zero, is_identity, is_mass, of_tool};
 use crate::making::template::{StatedFrame, StatedTool};
-use crate::model::frame::FrameUse;
+use crate::model::frame::{Frame, FrameUse};
 use crate::model::language::Language;
 use crate::model::motion::Motion;
 use crate::model::program::RobotProgram;
@@ -87,6 +87,11 @@ pub(crate) fn tools_of_source(
             |motion| same_frame(&motion.tool, tool),
             of_tool(&stated, language),
         ));
+        if !is_open && language.is_of_an_arm() {
+            let of_this_tool = |motion: &Motion| same_frame(&motion.tool, tool);
+            made.faults
+                .extend(faults_at(program, of_this_tool, of_no_number(tool)));
+        }
         made.findings.extend(renamed(
             program,
             (tool, own),
@@ -102,6 +107,19 @@ pub(crate) fn tools_of_source(
         }
     }
     made
+}
+
+/// `$TOOL` itself has no number that another program could name: where it is must be known.
+fn of_no_number(tool: &FrameUse) -> Vec<MakeError> {
+    match &tool.frame {
+        Frame::Unknown { reason } if tool.name.starts_with("$TOOL") => {
+            vec![MakeError::of_template(
+                format!("where the tool's tip is, is not known: {reason}"),
+                "state the tool in the template as [tool]",
+            )]
+        }
+        _ => Vec::new(),
+    }
 }
 
 /// Faults of what the source itself states, by the line of the first motion that uses it.

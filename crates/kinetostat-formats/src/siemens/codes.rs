@@ -30,7 +30,11 @@ impl Reader<'_> {
                 _ => None,
             };
             let Some(number) = number else {
-                return self.fault(&item.span, "its number is no whole one", "write it as G1");
+                return self.fault(
+                    &item.span,
+                    "its number is no whole one: the control has no such code",
+                    "correct it",
+                );
             };
             return self.g_code(number, item, words);
         }

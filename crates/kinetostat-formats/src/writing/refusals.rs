@@ -7,12 +7,12 @@ pub(crate) type Reason = (&'static str, &'static str);
 
 pub(super) const NO_END: Reason = (
     "the motion has no pose that could be corrected",
-    "leave its pieces out",
+    "write its target as numbers in one place of the program",
 );
 
 pub(super) const NO_VIA: Reason = (
     "through which place its circle goes is not known from the text",
-    "leave its pieces out, or state that place",
+    "write that place as numbers",
 );
 
 pub(super) const NO_JOINTS: Reason = (

@@ -1,6 +1,6 @@
 //! The run, block by block.
 
-use crate::heidenhain::blocks::Block;
+use crate::heidenhain::blocks::{Block, STRAY, STRAY_REMEDY};
 use crate::heidenhain::expand::run::{Fault, Frame, Next, Run};
 use crate::heidenhain::expand::values::begins_value;
 use crate::heidenhain::words::{Value, Word};
@@ -136,6 +136,9 @@ impl Run<'_> {
             b"QS" => {}
             // Its parameters are what it finds.
             b"TCH" => self.write(file.part(&block.text), at)?,
+            b"CYCL" | b"CYCLE" if block.no_parameter(file.bytes()).is_some() => {
+                return Err(self.fault(at, STRAY, STRAY_REMEDY));
+            }
             b"CYCL" | b"CYCLE" => self.cycle(at, &words)?,
             _ => return self.path(at, &words),
         }

@@ -2,10 +2,34 @@
 
 use std::ops::Range;
 
-use crate::heidenhain::blocks::Block;
+use crate::heidenhain::blocks::{Block, STRAY, STRAY_REMEDY};
 use crate::heidenhain::datum::{Bend, Change, PARAMETER, change};
 use crate::heidenhain::reading::walker::{Reader, TILTED, TILTED_REMEDY};
 use crate::heidenhain::words::{Value, Word};
+
+/// Cycles that do nothing before they are called: drilling, pockets, studs, slots, contours, threads, gears.
+fn acts_where_called(cycle: u32) -> bool {
+    matches!(
+        cycle,
+        1..=6
+            | 15..=18
+            | 21..=25
+            | 27..=29
+            | 39
+            | 200..=219
+            | 225
+            | 230..=233
+            | 240
+            | 241
+            | 251..=258
+            | 262..=267
+            | 272..=278
+            | 286
+            | 287
+            | 291
+            | 292
+    )
+}
 
 impl Reader<'_> {
     pub(crate) fn cycle(&mut self, block: &Block, words: &[Word], span: &Range<usize>) {
@@ -27,9 +51,10 @@ impl Reader<'_> {
         let mut parts = text.splitn(2, ['.', ',']);
         let mut part = || parts.next().and_then(|text| text.parse::<u32>().ok());
         let (cycle, part) = (part().unwrap_or(0), part().unwrap_or(0));
-        if matches!(cycle, 1..=6 | 12 | 15..=18 | 21..=25 | 27..=29 | 200..=219 | 222..=290)
-            && cycle != 247
-        {
+        if let Some(stray) = block.no_parameter(self.file.bytes()) {
+            return self.fault(&stray, STRAY, STRAY_REMEDY);
+        }
+        if acts_where_called(cycle) {
             self.state.cycle = Some(cycle);
         }
         match (cycle, part) {
@@ -55,12 +80,19 @@ impl Reader<'_> {
                 };
                 self.state.lost();
             }
-            (12 | 26 | 220 | 221 | 235 | 400..=499, _) => self.fault(
+            // Orientation of the spindle, contours and their data, tolerance, data of a gear.
+            (9 | 13 | 14 | 19 | 20 | 30 | 32 | 270 | 271 | 285, _) => {}
+            _ if acts_where_called(cycle) => {}
+            (12 | 26 | 220 | 221 | 224 | 235 | 238 | 239 | 400..=499 | 800 | 801, _) => self.fault(
                 span,
                 "the cycle moves the tool or the coordinates where it is defined",
                 "take it into a program of its own",
             ),
-            _ => {}
+            _ => self.fault(
+                span,
+                "what the cycle does where it is defined is not known",
+                "take it into a program of its own",
+            ),
         }
     }
 

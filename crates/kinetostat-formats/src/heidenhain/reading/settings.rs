@@ -62,12 +62,13 @@ impl Reader<'_> {
         if let Some(speed) = words.iter().find(|word| word.is("S")).and_then(Word::value) {
             self.state.turns_per_minute = Some(speed).filter(|speed| *speed > 0.0);
         }
+        // Without a number the tool stays, and may become longer all the same.
         let name = match &call.value {
             Value::Number(number) => format!("TOOL:{}", number.value),
             Value::Text(text) => {
                 format!("TOOL:{}", String::from_utf8_lossy(self.file.part(text)))
             }
-            _ => return,
+            _ => self.state.tool.clone(),
         };
         let longer = words[2..].iter().any(|word| word.is("DL") || word.is("DR"));
         if name != self.state.tool || longer {

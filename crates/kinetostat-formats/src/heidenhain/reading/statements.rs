@@ -101,6 +101,15 @@ impl Reader<'_> {
             "COUNT",
         ];
         self.tip_function(words);
+        if words.get(1).is_some_and(|word| word.is("MODE"))
+            && !words.get(2).is_some_and(|word| word.is("MILL"))
+        {
+            return self.fault(
+                span,
+                "the machine turns or grinds from here on: X is a diameter, and cycles are others",
+                "take this part into a program of its own, written for milling (FUNCTION MODE MILL)",
+            );
+        }
         self.not_below_zero(&words[1..], &["TIME"], "the dwell");
         let named = words.get(1);
         if !named.is_some_and(|word| known.iter().any(|name| word.is(name))) {

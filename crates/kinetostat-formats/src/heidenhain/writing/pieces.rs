@@ -22,7 +22,7 @@ impl Writer<'_> {
         if motion.target.pose().is_none() {
             return Err((
                 "the motion has no place that could be corrected".to_owned(),
-                "leave its pieces out",
+                "write its place as numbers",
             ));
         }
         for piece in before.iter().copied().chain([last]) {

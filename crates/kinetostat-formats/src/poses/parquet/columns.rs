@@ -36,7 +36,16 @@ pub(crate) fn words(error: ParquetError) -> String {
 
 impl Columns {
     /// Reads all of a file.
+    ///
+    /// The library asserts what a whole file holds (pages inside of it, a dictionary before those that refer to one, lengths of
+    /// texts); a panic in it says that the file is broken, and ends nothing else: what it had made is dropped.
     pub(crate) fn read(bytes: &[u8]) -> Result<Self, String> {
+        std::panic::catch_unwind(|| Self::read_whole(bytes)).unwrap_or_else(|_| {
+            Err("its pages do not hold what its end says of them: the file is broken, write it anew".to_owned())
+        })
+    }
+
+    fn read_whole(bytes: &[u8]) -> Result<Self, String> {
         let reader = SerializedFileReader::new(Bytes::copy_from_slice(bytes)).map_err(words)?;
         let metadata = reader.metadata().file_metadata().clone();
         let rows = usize::try_from(metadata.num_rows()).unwrap_or(usize::MAX);

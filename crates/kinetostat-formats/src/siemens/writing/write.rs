@@ -120,7 +120,7 @@ impl Writer<'_> {
             if !pieces.is_empty() {
                 return Err((
                     "the motion has no pose that could be corrected",
-                    "leave its pieces out",
+                    "write its place as numbers",
                 ));
             }
             self.left();

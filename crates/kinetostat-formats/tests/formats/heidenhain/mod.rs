@@ -9,6 +9,7 @@ mod paths;
 mod properties;
 mod random;
 mod real;
+mod refused_words;
 mod tool_axes;
 mod zero_change;
 

@@ -317,3 +317,35 @@ fn an_element_that_is_assigned_is_said_to_be() {
         "{found:?}"
     );
 }
+
+/// Two values for one coordinate, and a tool of which one number changes: nobody knows where the tip is.
+#[test]
+fn a_component_stated_twice_and_a_tool_changed_in_part_are_refused() {
+    let text = |lines: &str| {
+        let text = format!(
+            "DEF part()\n$BASE={{X 1800,Y 0,Z 900,A 0,B 0,C 0}}\n$TOOL={{X 0,Y 0,Z 180,A 0,B 0,C 0}}\n$VEL.CP=0.02\nPTP {{X 0,Y 0,Z 50,A 0,B 0,C 180}}\n{lines}\nEND\n"
+        );
+        read_krl(
+            vec![SourceFile::new("part.src", text)],
+            &ReadOptions::default(),
+        )
+    };
+    let twice = text("LIN {X 7,X 8,Y 0,Z 7,A 0,B 0,C 180}").unwrap_err();
+    assert!(
+        twice[0].line == 6 && twice[0].reason.contains("twice"),
+        "{}",
+        twice[0]
+    );
+    let changed = "LIN {X 0,Y 0,Z 0,A 0,B 0,C 180}\n$TOOL.Z=250\nLIN {X 100,Y 0,Z 0,A 0,B 0,C 180}";
+    let program = text(changed).unwrap();
+    let robot = path_of(&program, &PathOptions::default()).unwrap();
+    for into in [
+        MakeLanguage::Krl,
+        MakeLanguage::Rapid,
+        MakeLanguage::FanucLs,
+    ] {
+        let refused = make_of_robot(&program, &robot, &Template::default(), into).unwrap_err();
+        let told = |fault: &MakeError| fault.reason.contains("where the tool's tip is");
+        assert!(refused.iter().any(told), "{refused:?}");
+    }
+}

@@ -2,7 +2,7 @@
 
 use kinetostat_formats::*;
 
-use super::{EVERYTHING, position, read_with, with_lines};
+use super::{EVERYTHING, position, read_with, with_lines, written};
 
 fn errors(text: &str) -> Vec<(usize, String)> {
     let found = read_with(text.as_bytes(), &ReadOptions::default()).expect_err("it is refused");
@@ -125,7 +125,7 @@ fn frames_and_tools_must_be_those_in_force() {
             .contains("P[1] is taught with UT 1, but UTOOL_NUM is 5 here"),
         "{found:?}"
     );
-    // Known again behind both branches, unknown where they differ; which of them a register says, is refused.
+    // Known again behind both branches; where they differ, and where a register says which, it is refused.
     let read = |lines: &[&str]| read_with(with_lines(lines).as_bytes(), &ReadOptions::default());
     let branch = |one: &'static str, other: &'static str| {
         [
@@ -138,7 +138,8 @@ fn frames_and_tools_must_be_those_in_force() {
         ]
     };
     assert!(read(&branch("  UFRAME_NUM=3 ;", "  UFRAME_NUM=3 ;")).is_err());
-    assert!(read(&branch("  UFRAME_NUM=3 ;", "  UFRAME_NUM=2 ;")).is_ok());
+    assert!(read(&branch("  UFRAME_NUM=3 ;", "  UFRAME_NUM=2 ;")).is_err());
+    assert!(read(&branch("  UFRAME_NUM=2 ;", "  UFRAME_NUM=2 ;")).is_ok());
     assert!(
         read(&[
             "  UFRAME_NUM=3 ;",
@@ -316,4 +317,52 @@ fn statements_stand_once_in_their_table() {
     let mut names: Vec<&str> = LS_STATEMENTS.iter().map(|row| row.name).collect();
     names.sort_unstable();
     assert!(names.windows(2).all(|pair| pair[0] != pair[1]));
+}
+
+/// Which frame counts depends on the way that the run takes.
+#[test]
+fn a_frame_that_is_set_in_a_branch_is_refused_where_it_would_be_another() {
+    let lines = |branch: &[&str]| {
+        let mut all = vec!["  UFRAME_NUM=2 ;", "  UTOOL_NUM=1 ;", "J P[1] 10% FINE ;"];
+        all.extend_from_slice(branch);
+        all.push("L P[2] 20mm/sec FINE ;");
+        with_lines(&all)
+    };
+    let read = |text: &str| read_with(text.as_bytes(), &ReadOptions::default());
+    for branch in [
+        &["  IF (R[1]=1) THEN ;", "  UFRAME_NUM=3 ;", "  ENDIF ;"][..],
+        &["  IF R[1]=1,UFRAME_NUM=3 ;"][..],
+        &["  IF (R[1]=1) THEN ;", "  UTOOL_NUM=3 ;", "  ENDIF ;"][..],
+    ] {
+        let errors = read(&lines(branch)).unwrap_err();
+        assert_eq!(errors.len(), 1, "{branch:?} {errors:?}");
+        let reason = &errors[0].reason;
+        let known = ["the run decides", "if the run came by"];
+        assert!(known.iter().any(|part| reason.contains(part)), "{reason}");
+    }
+    // The same frame on both ways is the same frame.
+    let same = ["  IF (R[1]=1) THEN ;", "  UFRAME_NUM=2 ;", "  ENDIF ;"];
+    assert_eq!(read(&lines(&same)).unwrap().motions.len(), 2);
+    // Nothing is stated on one way, and another frame than that of the position on the other.
+    let open = [
+        "  IF (R[1]=1) THEN ;",
+        "  UFRAME_NUM=3 ;",
+        "  ENDIF ;",
+        "L P[2] 20mm/sec FINE ;",
+    ];
+    let errors = read(&with_lines(&open)).unwrap_err();
+    assert!(
+        errors[0].reason.contains("if the run came by"),
+        "{}",
+        errors[0]
+    );
+}
+
+#[test]
+fn a_byte_order_mark_is_no_part_of_the_program() {
+    let text = with_lines(&["L P[1] 20mm/sec FINE ;"]);
+    let marked = [b"\xef\xbb\xbf", text.as_bytes()].concat();
+    let program = read_with(&marked, &ReadOptions::default()).unwrap();
+    assert_eq!(program.motions.len(), 1);
+    assert_eq!(written(&program, &[]).as_bytes(), marked);
 }

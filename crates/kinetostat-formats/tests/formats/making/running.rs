@@ -205,7 +205,7 @@ fn a_frame_that_the_run_computes_is_refused() {
         let refused = read_ls(file(), &ReadOptions::default()).unwrap_err();
         assert_eq!(refused.len(), 1, "{refused:?}");
         assert!(
-            refused[0].to_string().contains("the run computes"),
+            refused[0].to_string().contains("the run decides"),
             "{}",
             refused[0]
         );

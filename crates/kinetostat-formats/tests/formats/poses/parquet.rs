@@ -104,3 +104,25 @@ fn what_does_not_fit_is_refused_in_words() {
         assert!(table_of_parquet(broken).unwrap_err().contains("no Parquet"));
     }
 }
+
+/// A broken file has no table, and never ends the program: each byte of the part that says where columns lie, changed.
+#[test]
+fn a_changed_byte_is_refused_or_read_and_never_panics() {
+    let (mut read, mut refused) = (0, 0);
+    for original in [SLOT, NUMBERS] {
+        for at in original.len().saturating_sub(1500)..original.len() {
+            for byte in [0, 131, 245, 255] {
+                let mut broken = original.to_vec();
+                broken[at] = byte;
+                match table_of_parquet(&broken) {
+                    Ok(_) => read += 1,
+                    Err(words) => {
+                        assert!(!words.is_empty());
+                        refused += 1;
+                    }
+                }
+            }
+        }
+    }
+    assert!(read > 100 && refused > 100, "{read} {refused}");
+}
