@@ -22,6 +22,12 @@ _CRANE = (
     '<child link="boom"/><axis xyz="0 1 0"/><limit lower="-1" upper="1" effort="0" velocity="1"/></joint></robot>'
 )
 
+_SLOT = (
+    'schema = 1\nmodel = "heavy_6r"\nprogram = "slot.ngc"\n[placement]\npart_origin_mm = [1450, 70, 500]\n[tool]\nlength_mm = 200\n'
+    'cutter = { shape = "flat", diameter_mm = 12, teeth = 2 }\n[material]\nname = "linear aluminium"\n'
+    '[engagement]\nwidth_mm = 12\ndepth_mm = 3\npart = "right"\n'
+)
+
 
 def _with_file(name: str, text: str, rest: str) -> str:
     return _FILE.format(name=name, text=text).strip() + "\n" + textwrap.dedent(rest).strip()
@@ -34,6 +40,18 @@ EXAMPLES: dict[str, str] = {
 >>> found["over_constraint"]["degree"], found["most_strained_limb"]
 (3, 'leg x')
 """,
+    "chatter": _with_file(
+        "slot.toml",
+        _SLOT,
+        """
+        ...     _ = Path(folder, "slot.ngc").write_text(
+        ...         "G21 G90 G17\\nT1 M6\\nS3000 M3\\nG0 X0 Y0 Z5\\nG1 Z-3 F600\\nG1 X40\\nG0 Z5\\nM30\\n"
+        ...     )
+        ...     found = ks.commands.chatter(file, damping=[0.03])
+        >>> found["chatters"], [stretch["first_line"] for stretch in found["stretches"]]
+        (True, [6])
+        """,
+    ),
     "check": """
 >>> import kinetostat as ks
 >>> found = ks.commands.check("orthoglide", force=[100, 0, 0])
