@@ -11,6 +11,10 @@
 #[path = "cli/common/mod.rs"]
 mod common;
 
+#[cfg(target_os = "linux")]
+#[path = "long/disk_full.rs"]
+mod disk_full;
+
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
@@ -299,6 +303,18 @@ fn a_run_in_parts_is_the_run_as_a_whole() {
     }
 }
 
+/// The command in parts with these options and no further outputs.
+fn only(here: &Path, options: &[&str]) -> Child {
+    command(here)
+        .args(["compensate", "job.toml", "--force-overwrite"])
+        .args(PARTS)
+        .args(options)
+        .stdout(Stdio::null())
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("the command starts")
+}
+
 #[test]
 fn what_makes_a_long_program_run_as_a_whole_is_said() {
     let here = place(4);
@@ -308,6 +324,34 @@ fn what_makes_a_long_program_run_as_a_whole_is_said() {
         said.contains("is run as a whole, for its path is written for ParaView (--vtk)"),
         "{said}"
     );
+    // Whether they answer here is another question.
+    let cases: [(&[&str], &str); 3] = [
+        (
+            &["--map", "table.csv"],
+            "for its corrections are those of a table (--map)",
+        ),
+        (
+            &["--no-compensation"],
+            "for it is written without a correction (--no-compensation)",
+        ),
+        (
+            &["--to", "krl"],
+            "for it is written in another language (--to)",
+        ),
+    ];
+    for (options, words) in cases {
+        let (_, said) = end(only(here.path(), options));
+        assert!(said.contains(words), "{said}");
+    }
+    let verify = command(here.path())
+        .args(["verify", "out.ngc", "--job", "job.toml"])
+        .args(PARTS)
+        .stdout(Stdio::null())
+        .stderr(Stdio::piped())
+        .spawn();
+    let (_, said) = end(verify.expect("the command starts"));
+    let words = "for each place of it is found on the other program (verify)";
+    assert_eq!(said.matches(words).count(), 2, "{said}");
     let (code, said) = end(start(here.path(), &[], &["--vtk", "path.vtk"]));
     assert_eq!((code, said.as_str()), (Some(0), ""), "a short program");
 }

@@ -87,6 +87,46 @@ pub fn fixed(value: f64, decimals: usize) -> String {
     }
 }
 
+/// As [`fixed`], without zeros at the end: what fills the cells of long tables.
+///
+/// ```
+/// use kinetostat::number::fixed_and_short;
+/// assert_eq!([-0.124_806_5, 100.0, -1e-9].map(|x| fixed_and_short(x, 6)), ["-0.124807", "100", "0"]);
+/// ```
+#[must_use]
+pub fn fixed_and_short(value: f64, decimals: usize) -> String {
+    let exactly = || without_zeros(&fixed(value, decimals)).to_owned();
+    in_whole_numbers(value, decimals).unwrap_or_else(exactly)
+}
+
+/// Powers of ten by which a number is made a whole one.
+const POWERS: [u32; 8] = [1, 10, 100, 1_000, 10_000, 100_000, 1_000_000, 10_000_000];
+
+/// [`fixed_and_short`] by arithmetic of whole numbers. `None` where the product in floating point may not tell which way it is
+/// rounded: near to halfway between two whole numbers, and beyond twelve digits.
+fn in_whole_numbers(value: f64, decimals: usize) -> Option<String> {
+    let power = *POWERS.get(decimals)?;
+    let scaled = value.abs() * f64::from(power);
+    // The product is off by less than 1e-4 here.
+    let (whole, rest) = (scaled.floor(), scaled.fract());
+    let is_small = scaled < 1e12 && value.abs() < 1e9;
+    if !is_small || (rest - 0.5).abs() < 1e-3 {
+        return None;
+    }
+    let number = whole as u64 + u64::from(rest > 0.5);
+    let power = u64::from(power);
+    let (units, mut rest) = (number / power, number % power);
+    let sign = if value < 0.0 && number > 0 { "-" } else { "" };
+    if rest == 0 {
+        return Some(format!("{sign}{units}"));
+    }
+    let mut width = decimals;
+    while rest.is_multiple_of(10) {
+        (rest, width) = (rest / 10, width - 1);
+    }
+    Some(format!("{sign}{units}.{rest:0width$}"))
+}
+
 /// A number as somebody set it: no digits that mean nothing.
 #[must_use]
 pub fn setting(value: f64) -> String {
@@ -388,4 +428,52 @@ fn rounded(value: f64, digits: usize, rounding: Rounding) -> f64 {
         size * scale
     };
     if result.is_finite() { result } else { value }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn decimals_are_those_of_the_standard_library() {
+        let halves = [
+            0.5,
+            1.5,
+            0.125,
+            2.000_05,
+            0.000_000_5,
+            1.005,
+            -0.045,
+            4_095.999_95,
+        ];
+        let mut state = 0x2545_f491_4f6c_dd1d_u64;
+        let mut random = || {
+            state ^= state << 13;
+            state ^= state >> 7;
+            state ^= state << 17;
+            (state >> 11) as f64 / (1_u64 << 53) as f64
+        };
+        let mut numbers: Vec<f64> = halves.to_vec();
+        for size in [1e-7, 1e-3, 1.0, 37.0, 1e4, 3e8, 2e10] {
+            numbers.extend((0..4000).map(|_| size * (2.0 * random() - 1.0)));
+            // Numbers of few digits, as programs have them.
+            numbers.extend((0..1000).map(|_| (size * 1e4 * random()).round() * 1e-4));
+        }
+        for value in numbers.into_iter().filter(|x| x.abs() < 1e9) {
+            for decimals in 0..=8 {
+                let text = format!("{value:.decimals$}");
+                let text = match text.contains('.') {
+                    true => text.trim_end_matches('0').trim_end_matches('.'),
+                    false => &text,
+                };
+                let wanted = if text == "-0" { "0" } else { text };
+                assert_eq!(
+                    fixed_and_short(value, decimals),
+                    wanted,
+                    "{value:e} {decimals}"
+                );
+            }
+        }
+        assert_eq!(fixed_and_short(f64::NAN, 3), MISSING);
+    }
 }

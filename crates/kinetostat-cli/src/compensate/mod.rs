@@ -30,10 +30,11 @@ use crate::job::free_turn::FreeTurn;
 use crate::job::job_file::JobFile;
 use crate::job::machine::{MachineSetup, machine_setup};
 use crate::job::of_model::give_of_model;
-use crate::job::setting::{Setting, setting};
+use crate::job::setting::{Setting, program_path, setting};
 use crate::job::target_word::RobotWord;
 use crate::job::turn_arguments::FreeTurnWord;
 use crate::job::{program, run_warnings};
+use crate::long::which::{holding, say_as_a_whole};
 use crate::program::aim::Aim;
 use crate::program::features::refuse_missed_features;
 use crate::program::outputs::RunOutputs;
@@ -66,11 +67,28 @@ pub(crate) fn run(mut args: CompensateArgs) -> Answer<()> {
 fn compensate(files: &InputFiles, args: &CompensateArgs) -> Answer<()> {
     let job = args.run.job.as_deref();
     let job = job.map(|path| JobFile::read(files, path)).transpose()?;
-    let other = args.map.is_some() || args.no_compensation || target(job.as_ref(), args).is_some();
-    match !other && long::compensate(files, job.as_ref(), (args, &writing(args)))? {
-        true => Ok(()),
-        false => compensate_whole(files, args),
+    let whole = holding(&[
+        (
+            args.map.is_some(),
+            "its corrections are those of a table (--map)",
+        ),
+        (
+            args.no_compensation,
+            "it is written without a correction (--no-compensation)",
+        ),
+        (
+            target(job.as_ref(), args).is_some(),
+            "it is written in another language (--to)",
+        ),
+    ]);
+    if whole.is_empty() {
+        if long::compensate(files, job.as_ref(), (args, &writing(args)))? {
+            return Ok(());
+        }
+    } else if let Ok(path) = program_path(job.as_ref(), &args.run.program) {
+        say_as_a_whole(&path, &args.run.program, &whole);
     }
+    compensate_whole(files, args)
 }
 
 fn compensate_whole(files: &InputFiles, args: &CompensateArgs) -> Answer<()> {

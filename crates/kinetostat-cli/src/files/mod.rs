@@ -5,6 +5,7 @@
 
 pub(crate) mod answer_files;
 pub(crate) mod hash;
+pub(crate) mod held_folder;
 pub(crate) mod input_files;
 pub(crate) mod journal;
 pub(crate) mod origin;

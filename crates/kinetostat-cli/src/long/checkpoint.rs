@@ -14,6 +14,7 @@ use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
 use crate::files::hash::{FNV1A, fnv1a};
+use crate::files::held_folder::{LOCK, hold};
 use crate::files::journal::Contents;
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::system_error::description;
@@ -70,8 +71,6 @@ pub(crate) struct Checkpoint {
     lock: Option<fs::File>,
 }
 
-const LOCK: &str = "lock";
-
 const MANIFEST: &str = "manifest.json";
 const STATE: &str = "state.json";
 const STATE_BEFORE: &str = "state-before.json";
@@ -117,19 +116,18 @@ impl Checkpoint {
         }
     }
 
-    /// Makes the folder and locks it. A disk without locks is trusted.
+    /// Makes the folder and locks it.
     fn take(&mut self) -> Answer<()> {
         // Its own lock of before would keep it out, too.
         self.lock = None;
         fs::create_dir_all(&self.folder).map_err(|error| self.refused(&error))?;
-        let lock = fs::File::create(self.folder.join(LOCK));
-        let lock = lock.map_err(|error| self.refused(&error))?;
-        if let Err(fs::TryLockError::WouldBlock) = lock.try_lock() {
+        let lock = hold(&self.folder).map_err(|error| self.refused(&error))?;
+        let Some(lock) = lock else {
             return Err(Failure::input(format!(
                 "another run writes the same output just now, and keeps what is done in '{}': wait until it has ended, or choose another output",
                 self.folder.display()
             )));
-        }
+        };
         self.lock = Some(lock);
         Ok(())
     }

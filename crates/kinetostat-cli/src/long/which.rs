@@ -141,7 +141,8 @@ pub(crate) fn only_as_a_whole(
     holding(&cases)
 }
 
-fn holding(cases: &[(bool, &'static str)]) -> Vec<&'static str> {
+/// The reasons that hold.
+pub(crate) fn holding(cases: &[(bool, &'static str)]) -> Vec<&'static str> {
     let found = cases.iter().filter(|(holds, _)| *holds);
     found.map(|(_, why)| *why).collect()
 }

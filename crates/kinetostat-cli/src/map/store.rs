@@ -1,17 +1,22 @@
 //! Places that are known already, kept in a directory while the rest is solved: a run that was stopped goes on from there.
 //!
 //! `manifest.json` says for which question the rows are; `rows.bin` holds rows of 64-bit numbers (least byte first), one for each
-//! place in the order of the grid. Rows of a block that is not whole are solved again.
+//! place in the order of the grid, and behind each block of them a check number. A block that is not whole is solved again with
+//! all that follows it. One run at a time writes there.
 
 use std::collections::BTreeMap;
 use std::fs::{self, File, OpenOptions};
 use std::io::{BufReader, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
 
 use kinetostat::chain::FoundBy;
 use kinetostat_machining::{Grid, MapPlace, PlaceState};
 
+use crate::files::hash::{FNV1A, fnv1a};
+use crate::files::held_folder::hold;
 use crate::ui::failure::{Answer, Failure};
+use crate::ui::system_error::description;
 
 /// Places that are kept together, as a map solves them.
 const BLOCK: usize = kinetostat_machining::MAP_BLOCK;
@@ -25,6 +30,11 @@ const FOUND: [FoundBy; 5] = [
     FoundBy::Continuation,
 ];
 
+/// Bytes of the check number behind a block.
+const CHECK: usize = 8;
+/// How often what is solved is put on the disk, whatever happens to the computer.
+const EVERY: Duration = Duration::from_secs(5);
+
 /// What a map is of, each word of it by its name.
 pub(crate) type Manifest = BTreeMap<String, String>;
 
@@ -35,6 +45,9 @@ pub(crate) struct Store {
     width: usize,
     /// Places that are known.
     pub(crate) known: usize,
+    last_on_disk: Instant,
+    /// Locked as long as this run lives.
+    _lock: File,
 }
 
 impl Store {
@@ -48,7 +61,12 @@ impl Store {
         let refuse = |path: &Path, what: &dyn std::fmt::Display| {
             Failure::input(format!("--resume: '{}': {what}", path.display()))
         };
-        fs::create_dir_all(directory).map_err(|e| refuse(directory, &e))?;
+        fs::create_dir_all(directory).map_err(|e| refuse(directory, &description(&e)))?;
+        let lock = hold(directory).map_err(|e| refuse(directory, &description(&e)))?;
+        let Some(lock) = lock else {
+            let what = "another run keeps its rows there just now: wait until it has ended, or give another directory";
+            return Err(refuse(directory, &what));
+        };
         let named = directory.join("manifest.json");
         let path = directory.join("rows.bin");
         match fs::read_to_string(&named) {
@@ -79,14 +97,8 @@ impl Store {
             .open(&path)
             .map_err(|e| refuse(&path, &e))?;
         let width = USUAL + values;
-        let bytes = rows.metadata().map_err(|e| refuse(&path, &e))?.len() as usize;
-        let whole = (bytes / (8 * width)).min(places);
-        let known = if whole == places {
-            whole
-        } else {
-            whole - whole % BLOCK
-        };
-        let end = (8 * width * known) as u64;
+        let known = whole_places(&rows, width, places).map_err(|e| refuse(&path, &e))?;
+        let end = bytes_of(known, width);
         rows.set_len(end)
             .and_then(|()| rows.seek(SeekFrom::Start(end)))
             .map_err(|e| refuse(&path, &e))?;
@@ -95,11 +107,17 @@ impl Store {
             rows,
             width,
             known,
+            last_on_disk: Instant::now(),
+            _lock: lock,
         })
     }
 
     fn failed(&self, error: &std::io::Error) -> Failure {
-        Failure::input(format!("--resume: '{}': {error}", self.path.display()))
+        Failure::input(format!(
+            "--resume: '{}': {}; nothing of what was kept is lost, and the same command goes on from there",
+            self.path.display(),
+            description(error)
+        ))
     }
 
     /// Known places, block by block.
@@ -120,6 +138,8 @@ impl Store {
                 let row: Vec<f64> = numbers.iter().map(|b| f64::from_le_bytes(*b)).collect();
                 places.push(self.place(grid, place, &row)?);
             }
+            let mut check = [0; CHECK];
+            reader.read_exact(&mut check).map_err(|e| self.failed(&e))?;
             each(&places)?;
         }
         Ok(())
@@ -149,14 +169,42 @@ impl Store {
         Ok(own)
     }
 
-    /// Keeps the next places.
+    /// Keeps the next block of places.
     pub(crate) fn keep(&mut self, bytes: &[u8]) -> Answer<()> {
         let written = self.rows.write_all(bytes);
-        written.map_err(|e| self.failed(&e))
+        written.map_err(|e| self.failed(&e))?;
+        if self.last_on_disk.elapsed() >= EVERY {
+            self.rows.sync_data().map_err(|e| self.failed(&e))?;
+            self.last_on_disk = Instant::now();
+        }
+        Ok(())
     }
 }
 
-/// Rows of places.
+/// Bytes of so many places, whole blocks but for the last of a map.
+fn bytes_of(places: usize, width: usize) -> u64 {
+    (8 * width * places + CHECK * places.div_ceil(BLOCK)) as u64
+}
+
+/// Places of the blocks that are whole, up to the first that is not.
+fn whole_places(rows: &File, width: usize, places: usize) -> std::io::Result<usize> {
+    let mut reader = BufReader::new(rows);
+    let mut block = Vec::new();
+    for first in (0..places).step_by(BLOCK) {
+        block.resize(8 * width * BLOCK.min(places - first) + CHECK, 0);
+        match reader.read_exact(&mut block) {
+            Err(error) if error.kind() == std::io::ErrorKind::UnexpectedEof => return Ok(first),
+            read => read?,
+        }
+        let (numbers, check) = block.split_at(block.len() - CHECK);
+        if fnv1a(FNV1A, numbers).to_le_bytes() != check {
+            return Ok(first);
+        }
+    }
+    Ok(places)
+}
+
+/// Rows of a block of places with its check number.
 pub(crate) fn rows(places: &[MapPlace]) -> Vec<u8> {
     let mut out = Vec::new();
     for place in places {
@@ -177,6 +225,8 @@ pub(crate) fn rows(places: &[MapPlace]) -> Vec<u8> {
             out.extend_from_slice(&number.to_le_bytes());
         }
     }
+    let check = fnv1a(FNV1A, &out);
+    out.extend_from_slice(&check.to_le_bytes());
     out
 }
 

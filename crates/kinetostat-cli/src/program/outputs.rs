@@ -177,7 +177,7 @@ impl RunOutputs {
             outputs.complete(index)?;
         }
         if let Some(index) = self.vtk {
-            let bytes = path_vtk::vtk(&run.result.run_inputs, &run.points);
+            let bytes = path_vtk::vtk(run);
             self.files.fill(index, &bytes)?;
         }
         let of = Paper::of(&run.result)

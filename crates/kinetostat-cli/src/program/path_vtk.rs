@@ -1,15 +1,23 @@
-//! The path of a run as lines for ParaView: errors, corrections and loads as vectors at its points.
+//! The path of a run as lines for ParaView: errors, corrections and loads as vectors at its points, and at some of them the compliance
+//! as a tensor, which is drawn as an ellipsoid.
+
+use std::collections::BTreeMap;
 
 use kinetostat_formats::fields::{PointQuantity, Polylines};
-use kinetostat_machining::{PointKind, PointResult, RunInputs, thinned};
+use kinetostat_machining::{PointKind, PointResult, Run, thinned};
 
 /// Most points of a file: of longer programs the worst of every stretch, as in the table of points.
 const MOST: usize = 200_000;
 
 /// A legacy VTK file, program coordinates in mm. A line for each run of cutting moves; rapids are left out.
-pub(crate) fn vtk(run_inputs: &RunInputs, points: &[PointResult]) -> Vec<u8> {
+pub(crate) fn vtk(run: &Run) -> Vec<u8> {
+    let (run_inputs, points) = (&run.result.run_inputs, &run.points);
+    let compliances = Compliances::of(run);
+    let known: Vec<usize> = (0..points.len())
+        .filter(|i| compliances.at(&points[*i]).is_some())
+        .collect();
     let kept: Vec<&PointResult> = match points.len() > MOST {
-        true => thinned(points, &[], MOST)
+        true => thinned(points, &known, MOST)
             .into_iter()
             .map(|i| &points[i])
             .collect(),
@@ -46,6 +54,9 @@ pub(crate) fn vtk(run_inputs: &RunInputs, points: &[PointResult]) -> Vec<u8> {
         }),
         number("stable", |p| f64::from(u8::from(p.stable))),
     ]);
+    if !known.is_empty() {
+        quantities.extend(compliances.quantities(&kept));
+    }
     Polylines {
         title: format!("{} on {}, mm, N", run_inputs.program, run_inputs.model),
         points: kept.iter().map(|p| p.position_mm).collect(),
@@ -53,4 +64,42 @@ pub(crate) fn vtk(run_inputs: &RunInputs, points: &[PointResult]) -> Vec<u8> {
         quantities,
     }
     .vtk()
+}
+
+/// The compliances that are known at some points, by the move and the share of it.
+struct Compliances(BTreeMap<(usize, u64), [[f64; 3]; 3]>);
+
+impl Compliances {
+    fn of(run: &Run) -> Self {
+        let known = run.places.iter().filter_map(|place| {
+            let at = (place.move_index, place.share.to_bits());
+            Some((at, place.compliance_um_per_n?))
+        });
+        Self(known.collect())
+    }
+
+    fn at(&self, point: &PointResult) -> Option<&[[f64; 3]; 3]> {
+        // On a step the load is on its way from one to another.
+        let feed = point.kind == PointKind::Feed;
+        let at = (point.move_index, point.share.to_bits());
+        feed.then(|| self.0.get(&at)).flatten()
+    }
+
+    /// The tensors, no numbers where none is known, and where they are.
+    fn quantities(&self, kept: &[&PointResult]) -> [PointQuantity; 2] {
+        let tensor = |p: &&PointResult| *self.at(p).unwrap_or(&[[f64::NAN; 3]; 3]);
+        let has = |p: &&PointResult| f64::from(u8::from(self.at(p).is_some()));
+        [
+            PointQuantity {
+                name: "compliance_um_per_n".to_owned(),
+                width: 9,
+                values: kept.iter().flat_map(tensor).flatten().collect(),
+            },
+            PointQuantity {
+                name: "has_compliance".to_owned(),
+                width: 1,
+                values: kept.iter().map(has).collect(),
+            },
+        ]
+    }
 }

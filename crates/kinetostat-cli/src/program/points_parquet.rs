@@ -46,7 +46,7 @@ const UNITS: [(&str, &str); 5] = [
 
 /// Beginnings (or all) of names with what they are, longer ones first.
 #[cfg(feature = "parquet")]
-const MEANINGS: [(&str, &str); 19] = [
+const MEANINGS: [(&str, &str); 30] = [
     ("line", "line of the input program, from 1"),
     (
         "output_line",
@@ -99,6 +99,32 @@ const MEANINGS: [(&str, &str); 19] = [
         "largest share of the way to buckling of any limb, 1 is buckling",
     ),
     ("status", "ok or unstable"),
+    (
+        "nearest_limit",
+        "joint that is nearest to an end of its range, and which end",
+    ),
+    (
+        "most_loaded_drive",
+        "drive that carries the largest share of its rating",
+    ),
+    ("shoulder", "side on which the shoulder stands"),
+    ("elbow", "side to which the elbow is bent"),
+    ("wrist", "side to which the wrist is turned"),
+    ("configuration", "number of the configuration of the arm"),
+    (
+        "shoulder_from_singular",
+        "distance of the wrist's centre from the axis of joint 1",
+    ),
+    (
+        "elbow_from_singular",
+        "angle of the elbow from the stretched arm",
+    ),
+    (
+        "wrist_from_singular",
+        "angle of joint 5 from where axes 4 and 6 are in line",
+    ),
+    ("source_line", "line in the file that it was expanded from"),
+    ("source_file", "file that it was expanded from"),
 ];
 
 #[cfg(feature = "parquet")]

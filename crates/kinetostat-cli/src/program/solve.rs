@@ -165,7 +165,10 @@ pub(crate) fn with_task<R>(
                 limits: setting.limits,
                 ..machine.bounds.clone()
             },
-            places: setting.uncertain.as_ref().map_or(0, |_| PLACES),
+            places: match setting.uncertain.is_some() || setting.targets.vtk.is_some() {
+                true => PLACES,
+                false => 0,
+            },
         })
     };
     Ok(read.with(made))

@@ -1,24 +1,20 @@
 //! Cells of tables: digits that mean something, and text that no spreadsheet takes for a formula.
 
-use kinetostat_machining::number::{Rounding, fixed, significant, without_zeros};
+use kinetostat_machining::number::{Rounding, fixed_and_short, significant, without_zeros};
 
 /// At most so many decimals, without zeros at the end.
 pub(crate) fn decimals(value: f64, most: usize) -> String {
     if !value.is_finite() {
         return String::new();
     }
-    short(fixed(value, most))
+    fixed_and_short(value, most)
 }
 
 pub(crate) fn digits(value: f64, count: usize) -> String {
     if !value.is_finite() {
         return String::new();
     }
-    short(significant(value, count, Rounding::Nearest))
-}
-
-fn short(text: String) -> String {
-    without_zeros(&text).to_owned()
+    without_zeros(&significant(value, count, Rounding::Nearest)).to_owned()
 }
 
 /// A text that a spreadsheet would take for a formula is led by an apostrophe.

@@ -20,6 +20,7 @@ use crate::job::output_paths::{PATH_VTK, PDF};
 use crate::job::program::read_program;
 use crate::job::run_warnings;
 use crate::job::setting::{Setting, setting};
+use crate::long::which::say_as_a_whole;
 use crate::program::aim::Aim;
 use crate::program::features::put_features;
 use crate::program::paper;
@@ -48,6 +49,10 @@ pub(crate) fn run(args: &VerifyArgs) -> Answer<()> {
     let mut of_verified = args.original.clone();
     of_verified.program = Some(args.verified.clone());
     let mut verified = asked(&files, job.as_ref(), (&of_verified, &flags), model_named)?;
+    for path in [&original.program_path, &verified.program_path] {
+        let why = "each place of it is found on the other program (verify)";
+        say_as_a_whole(path, &args.original, &[why]);
+    }
     let frames = original.robot_frames()?;
     let with = (frames.as_ref(), &mut original.inputs);
     let (machine, model) = machine_setup(&files, job.as_ref(), model_named, &args.original, with)?;
@@ -112,7 +117,7 @@ pub(crate) fn run(args: &VerifyArgs) -> Answer<()> {
         claimed.complete(index)?;
     }
     if let Some(index) = vtk_out {
-        let bytes = path_vtk::vtk(&found.run.result.run_inputs, &found.run.points);
+        let bytes = path_vtk::vtk(&found.run);
         claimed.fill(index, &bytes)?;
     }
     let paths = claimed.commit()?;

@@ -1,6 +1,6 @@
 //! `kinetostat map`: figures on a grid of places, as table, drawing and JSON.
 
-use crate::common::{Said, run, workplace};
+use crate::common::{Said, command, run, workplace};
 use kinetostat_testing::{largest, least};
 use serde_json::Value;
 use std::path::Path;
@@ -321,4 +321,81 @@ fn one_warning_counts_the_places_that_are_not_stable() {
     };
     assert!(of("not_stable").contains(&format!("at {unstable} of the 16 places")));
     assert!(of("large_displacement").contains("of the 16 places"));
+}
+
+/// A map that takes some seconds, kept in `rows`.
+const LONG: &str = "orthoglide --x -50 45 40 --y -40 55 40 --z 60 130 25 --force 100 -40 30 --tool-length-mm 30 --csv map.csv --resume rows --force-overwrite --threads 1";
+
+#[test]
+fn a_killed_map_goes_on_and_ends_with_the_same_bytes() {
+    let here = workplace();
+    map(here.path(), LONG).answered();
+    let read = |name: &str| std::fs::read(here.path().join(name)).expect(name);
+    let wanted = read("map.csv");
+    let rows = here.path().join("rows/rows.bin");
+    let complete = read("rows/rows.bin");
+    std::fs::remove_dir_all(here.path().join("rows")).expect("removed");
+    let mut kept = Vec::new();
+    for _ in 0..3 {
+        let before = std::fs::metadata(&rows).map_or(0, |file| file.len());
+        let mut child = command(here.path())
+            .arg("map")
+            .args(LONG.split(' '))
+            .stdout(std::process::Stdio::null())
+            .stderr(std::process::Stdio::null())
+            .spawn()
+            .expect("the command starts");
+        // Until it has kept something more, or is over.
+        let more = || std::fs::metadata(&rows).is_ok_and(|file| file.len() > before);
+        while !more() && child.try_wait().expect("asked").is_none() {
+            std::thread::sleep(std::time::Duration::from_millis(1));
+        }
+        // Two runs do not write into one another's rows.
+        let alive = child.try_wait().expect("asked").is_none();
+        let other = map(here.path(), LONG);
+        if alive && other.code != 0 {
+            let said = other.err.split_whitespace().collect::<Vec<_>>().join(" ");
+            assert!(said.contains("another run keeps its rows there"), "{said}");
+        }
+        child.kill().expect("killed");
+        child.wait().expect("ends");
+        kept.push(read("rows/rows.bin").len());
+    }
+    assert!(kept.is_sorted() && kept[0] > 0, "{kept:?}");
+    map(here.path(), LONG).answered();
+    assert!(read("map.csv") == wanted && read("rows/rows.bin") == complete);
+}
+
+#[test]
+fn damaged_rows_of_a_map_are_solved_again() {
+    let here = workplace();
+    let line = "orthoglide --x -50 45 21 --y -40 55 19 --z 95 --tool-length-mm 30 --csv map.csv --resume rows --force-overwrite";
+    map(here.path(), line).answered();
+    let path = here.path().join("rows/rows.bin");
+    let table = || std::fs::read(here.path().join("map.csv")).expect("a table");
+    let (complete, wanted) = (std::fs::read(&path).expect("rows"), table());
+    let with = |change: &dyn Fn(&mut Vec<u8>)| {
+        let mut bytes = complete.clone();
+        change(&mut bytes);
+        bytes
+    };
+    let cases = [
+        // Cut off, zeros of a disk that lost its power, one bit, more than there was.
+        with(&|bytes| bytes.truncate(complete.len() * 2 / 3)),
+        with(&|bytes| bytes[complete.len() / 3..].fill(0)),
+        with(&|bytes| bytes[9000] ^= 4),
+        with(&|bytes| bytes.extend([1; 100])),
+    ];
+    for bytes in cases {
+        std::fs::write(&path, bytes).expect("written");
+        std::fs::remove_file(here.path().join("map.csv")).expect("removed");
+        map(here.path(), line).answered();
+        assert!(table() == wanted && std::fs::read(&path).expect("rows") == complete);
+    }
+    let other = line.replace("--tool-length-mm 30", "--tool-length-mm 31");
+    let said = map(here.path(), &other);
+    assert!(
+        said.code == 1 && said.err.contains("tool_length_mm is 30.0 there"),
+        "{said:?}"
+    );
 }

@@ -11,7 +11,7 @@ use crate::common::{run, workplace};
 /// Two cuts behind rapids, off the axes of the machine.
 const PART: &str = "G21 G90\nG0 X-12 Y-9 Z5\nG0 Z0\nG1 X21 Y-4 F600\nG1 X25 Y13\nG1 X-11 Y17 Z-1\nG0 Z5\nG0 X30 Y-20\nG0 Z-1\nG1 X31 Y20\nG0 Z5\nM2\n";
 
-const JOB: &str = "schema = 1\nmodel = \"orthoglide\"\nprogram = \"part.ngc\"\n[placement]\npart_origin_mm = [3, -2, 97]\n[tool]\nlength_mm = 100\n[load]\nmilling = { radial_n = 215, tangential_n = -10, axial_n = -25 }\n[output]\nprogram = \"out.ngc\"\npoints = \"p.parquet\"\nvtk = \"p.vtk\"\njson = \"out.json\"\n";
+const JOB: &str = "schema = 1\nmodel = \"orthoglide\"\nprogram = \"part.ngc\"\n[placement]\npart_origin_mm = [3, -2, 97]\npart_orientation = { a_b_c_kuka_deg = [30, -4, 7] }\n[tool]\nlength_mm = 100\n[load]\nmilling = { radial_n = 215, tangential_n = -10, axial_n = -25 }\n[output]\nprogram = \"out.ngc\"\npoints = \"p.parquet\"\nvtk = \"p.vtk\"\njson = \"out.json\"\n";
 
 /// Reads all files and compares numbers; says which package is missing.
 const READ: &str = r#"
@@ -33,7 +33,7 @@ for name in table.column_names:
             assert cell == row[name], (name, cell)
         else:
             assert (row[name] == "" and math.isnan(cell)) or cell == float(row[name]), (name, cell)
-reader = vtk.vtkPolyDataReader(); reader.SetFileName("p.vtk"); reader.ReadAllVectorsOn(); reader.ReadAllScalarsOn(); reader.Update()
+reader = vtk.vtkPolyDataReader(); reader.SetFileName("p.vtk"); reader.ReadAllVectorsOn(); reader.ReadAllScalarsOn(); reader.ReadAllTensorsOn(); reader.Update()
 data = reader.GetOutput()
 assert data.GetNumberOfPoints() == len(rows), data.GetNumberOfPoints()
 rapids = [i for i, row in enumerate(rows) if row["kind"] == "rapid"]
@@ -49,6 +49,26 @@ for i, row in enumerate(rows):
         assert abs(x - float(row[axis + "_mm"])) <= 5.1e-5
     worst = max(worst, abs(float(row["error_before_x_mm"])))
 assert worst > 1e-3
+# Ellipsoids of the compliance: those of a load that moves the tool as far as it does, with the softest direction of the table.
+tensors, has = [data.GetPointData().GetArray(name) for name in ("compliance_um_per_n", "has_compliance")]
+known = [i for i in range(len(rows)) if has.GetTuple1(i) == 1]
+assert 10 < len(known) <= 200, len(known)
+for i, row in enumerate(rows):
+    tensor = tensors.GetTuple(i)
+    assert all(math.isfinite(x) == (i in known) for x in tensor), i
+    if i not in known:
+        continue
+    assert row["kind"] == "feed", i
+    c = [tensor[0:3], tensor[3:6], tensor[6:9]]
+    times = lambda v: [sum(a * b for a, b in zip(line, v)) for line in c]
+    assert all(abs(c[a][b] - c[b][a]) < 1e-12 for a in range(3) for b in range(3))
+    force, before = [[float(row[name % axis]) for axis in "xyz"] for name in ("force_%s_n", "error_before_%s_mm")]
+    off = [1e-3 * x - y for x, y in zip(times(force), before)]
+    assert math.hypot(*off) < 0.02 * math.hypot(*before), (i, off, before)
+    v = [0.5, 0.6, 0.7]
+    for _ in range(3000):
+        v = times(v); most = math.hypot(*v); v = [x / most for x in v]
+    assert abs(most * float(row["smallest_stiffness_n_per_mm"]) / 1e3 - 1) < 2e-4, (i, most)
 print("READ", len(rows))
 "#;
 

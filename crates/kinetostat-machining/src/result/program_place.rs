@@ -30,4 +30,7 @@ pub struct ProgramPlace {
     pub error_after_mm: f64,
     /// Metres in the machine per millimetre of the program.
     pub metres_per_mm: f64,
+    /// How far a force moves the tool's tip about the equilibrium there while the tool may turn as it likes, program axes, um/N of
+    /// the machine: row by row, the symmetric part. None where nothing holds the tool, or the machine has no equilibrium.
+    pub compliance_um_per_n: Option<[[f64; 3]; 3]>,
 }

@@ -58,7 +58,7 @@ fn analysed(task: &Task<'_>, whole: Option<&OfWhole>, watch: &dyn Watch) -> Resu
     let (mut points, _) = solve(task, sites, (false, course.as_ref()), watch)?;
     let checked = Checked {
         force_band: force_band(task, &mut points, sites, watch)?,
-        places: places(task, &points, sites),
+        places: places(task, &points, sites, course.as_ref()),
         ramps,
         ..Checked::default()
     };
@@ -157,7 +157,7 @@ fn compensated(
         if_turns_mm: by_the_other_reading(task, CornerLoad::Turns, sites, watch)?,
         if_follows_mm: by_the_other_reading(task, CornerLoad::FollowsFeed, sites, watch)?,
         force_band: force_band(task, &mut points, sites, watch)?,
-        places: places(task, &points, sites),
+        places: places(task, &points, sites, course.as_ref()),
         divided_again: match within_before {
             true => None,
             false => again.description(allowed_mm),

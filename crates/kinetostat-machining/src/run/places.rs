@@ -1,12 +1,16 @@
 //! Some places of a run, with all that is needed to solve other machines there.
 
 use kinetostat::Wrench;
+use nalgebra::{Matrix3, Vector3};
 
 use crate::load::along_path::LoadAlongPath;
 use crate::load::tool::tool_on;
+use crate::postures::arm_course::ArmCourse;
+use crate::postures::neighbour::{Neighbour, in_chunks};
 use crate::result::point::{PointKind, PointResult, size};
 use crate::result::program_place::ProgramPlace;
 use crate::result::selection::{thinned, worst};
+use crate::run::machines::Machines;
 use crate::run::sites::Site;
 use crate::task::Task;
 
@@ -16,6 +20,7 @@ pub(crate) fn places<S: Iterator<Item = Site>>(
     task: &Task<'_>,
     points: &[PointResult],
     sites: impl Fn() -> S,
+    course: Option<&ArmCourse>,
 ) -> Vec<ProgramPlace> {
     if task.places == 0 {
         return Vec::new();
@@ -24,9 +29,52 @@ pub(crate) fn places<S: Iterator<Item = Site>>(
     for i in thinned(points, &worst(points), task.places) {
         chosen[i] = points[i].kind == PointKind::Feed;
     }
-    let here = |(i, site): (usize, Site)| place(task, &site, &points[i]);
     let wanted = |(i, _): &(usize, Site)| chosen.get(*i) == Some(&true);
-    sites().enumerate().filter(wanted).map(here).collect()
+    let chosen: Vec<(usize, Site)> = sites().enumerate().filter(wanted).collect();
+    let machines = Machines::new(task);
+    let compliances = in_chunks(&chosen, |memory, some| {
+        let of =
+            |(_, site): &(usize, Site)| compliance(task, &machines, &mut memory[0], (site, course));
+        some.iter().map(of).collect()
+    });
+    let all = chosen.iter().zip(compliances);
+    all.map(|((i, site), compliance)| ProgramPlace {
+        compliance_um_per_n: compliance,
+        ..place(task, site, &points[*i])
+    })
+    .collect()
+}
+
+/// The force block of the tool's tangent compliance about the loaded equilibrium [R 5.1.2], turned into the axes of the program.
+fn compliance(
+    task: &Task<'_>,
+    machines: &Machines<'_, '_>,
+    memory: &mut Neighbour,
+    (site, course): (&Site, Option<&ArmCourse>),
+) -> Option<[[f64; 3]; 3]> {
+    if let Some(posture) = course.and_then(|c| c.standing_at(site.move_index, site.share)) {
+        memory.stand_at(posture);
+    }
+    let (machine, orientation) = machines.at(site);
+    let lies = site.commanded_placement(task);
+    let pose = lies.pose(
+        &site.commanded,
+        lies.orientation_of(site.commanded_orientation),
+    );
+    let mechanism = machine.mechanism();
+    let found = memory.equilibrium(mechanism, &pose, &site.wrench, orientation);
+    let found = found.ok()?.1.compliance();
+    if !found.free.is_empty() {
+        return None;
+    }
+    let block = found.springs.fixed_view::<3, 3>(0, 0).into_owned();
+    // Along a push acts the symmetric part alone.
+    let block = 0.5e6 * (block + block.transpose());
+    let columns = [Vector3::x(), Vector3::y(), Vector3::z()];
+    let columns = columns.map(|force| lies.to_part_axes(&(block * lies.to_base_axes(&force))));
+    let in_part = Matrix3::from_columns(&columns);
+    let rows = [0, 1, 2].map(|i| in_part.row(i).transpose().into());
+    in_part.iter().all(|x| x.is_finite()).then_some(rows)
 }
 
 fn place(task: &Task<'_>, site: &Site, point: &PointResult) -> ProgramPlace {
@@ -49,6 +97,7 @@ fn place(task: &Task<'_>, site: &Site, point: &PointResult) -> ProgramPlace {
         error_before_mm: size(&point.error_before_mm),
         error_after_mm: size(&point.error_after_mm),
         metres_per_mm: 1e-3 * task.placement.scale,
+        compliance_um_per_n: None,
     }
 }
 

@@ -23,6 +23,7 @@ use kinetostat_program::{Arcs, Corrected, CorrectionField, Path, Unwatched};
 use crate::load::ramps::Ramped;
 use crate::run::checked::Checked;
 use crate::run::conclude::{Run, conclude};
+use crate::run::places::places;
 use crate::run::points::solve;
 use crate::run::preparation::Preparation;
 use crate::run::sites::sites_of_written;
@@ -85,6 +86,7 @@ fn verified(
     // A place where the program is worse than the original is a finding here.
     let (points, _worse) = solve(task, sites, (true, course.as_ref()), watch)?;
     let checked = Checked {
+        places: places(task, &points, sites, course.as_ref()),
         ramps,
         ..Checked::default()
     };

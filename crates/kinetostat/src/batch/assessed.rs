@@ -28,32 +28,36 @@ const FAR_FROM_BUCKLING: f64 = 0.8;
 /// Numbers of a posture's stability: stable, stiffness, share to buckling, as in [`BatchEquilibrium`].
 type Numbers = [f64; 3];
 
-/// What postures are asked about.
-pub(crate) struct Postures<'a> {
-    pub poses: &'a [Pose],
-    pub wrenches: &'a [Wrench],
-    /// The machine's size, m.
-    pub size: f64,
+/// The way of many postures along all that a stability depends on.
+pub(crate) struct Way {
+    /// Numbers in which a stretch is to go evenly, in units in which one is all of the machine, of the turn or of the load.
+    inputs: Vec<[f64; 13]>,
+    /// Its length up to each posture.
+    length: Vec<f64>,
 }
 
-impl Postures<'_> {
-    /// Numbers in which a stretch is to go evenly, in units in which one is all of the machine, of the turn or of the load.
-    fn inputs(&self) -> Vec<[f64; 13]> {
-        let of = |w: &Wrench| [w.force().norm(), w.moment().norm() / self.size];
-        let most = self
-            .wrenches
-            .iter()
-            .flat_map(of)
-            .fold(f64::MIN_POSITIVE, larger);
-        let both = self.poses.iter().zip(self.wrenches);
-        let all = both.map(|(pose, wrench)| {
-            let (at, turn) = (pose.translation.vector / self.size, pose.rotation.coords);
-            let (force, moment) = (wrench.force() / most, wrench.moment() / (most * self.size));
-            let numbers = at.iter().chain(turn.iter());
-            let mut numbers = numbers.chain(force.iter()).chain(moment.iter());
-            std::array::from_fn(|_| numbers.next().copied().unwrap_or(0.0))
-        });
-        all.collect()
+impl Way {
+    /// Of postures under loads, of a machine of so many metres.
+    pub fn of(poses: &[Pose], wrenches: &[Wrench], size: f64) -> Self {
+        let inputs = inputs(poses, wrenches, size);
+        let mut sum = 0.0;
+        let mut length = vec![0.0; inputs.len().min(1)];
+        for pair in inputs.windows(2) {
+            let step = pair[0].iter().zip(&pair[1]).map(|(a, b)| (a - b) * (a - b));
+            sum += step.sum::<f64>().sqrt();
+            length.push(sum);
+        }
+        Self { inputs, length }
+    }
+
+    /// Looking at ends, middles and quarters of its stretches would leave out at least a third of the postures. Each of those costs
+    /// as much as an equilibrium more, which is found of all of them before.
+    pub fn could_save(&self) -> bool {
+        let straight = self.stretches().into_iter().flat_map(|s| self.straight(s));
+        let left_out: usize = straight
+            .map(|[a, b]| (b - a + 1) - places([a, b]).len())
+            .sum();
+        3 * left_out >= self.inputs.len()
     }
 
     /// The stability of all, `look` finding it at some; none where one of those could not be looked at, or is too near to buckling for
@@ -62,14 +66,15 @@ impl Postures<'_> {
         &self,
         mut look: impl FnMut(&[usize]) -> Option<Vec<Numbers>>,
     ) -> Option<Vec<Numbers>> {
-        let count = self.poses.len();
-        let last = count.checked_sub(1)?;
-        let way = Way::new(self.inputs());
+        let count = self.inputs.len();
         let mut known: Vec<Option<Numbers>> = vec![None; count];
-        let mut open = way.stretches(last);
+        let mut open = self.stretches();
         while !open.is_empty() {
             let straight = std::mem::take(&mut open);
-            let straight: Vec<_> = straight.into_iter().flat_map(|s| way.straight(s)).collect();
+            let straight: Vec<_> = straight
+                .into_iter()
+                .flat_map(|s| self.straight(s))
+                .collect();
             let wanted = straight.iter().flat_map(|s| places(*s));
             let mut wanted: Vec<usize> = wanted.filter(|i| known[*i].is_none()).collect();
             wanted.sort_unstable();
@@ -93,7 +98,7 @@ impl Postures<'_> {
                 let (Some(first), Some(here), Some(end)) = (known[a], known[m], known[b]) else {
                     return None;
                 };
-                let at = |i| way.parabola([a, m, b], i, [&first, &here, &end]);
+                let at = |i| self.parabola([a, m, b], i, [&first, &here, &end]);
                 let met = [a.midpoint(m), m.midpoint(b)]
                     .iter()
                     .all(|i| known[*i].is_some_and(|found| agrees(&at(*i), &found)));
@@ -110,26 +115,6 @@ impl Postures<'_> {
         }
         known.into_iter().collect()
     }
-}
-
-/// The way along all inputs.
-struct Way {
-    inputs: Vec<[f64; 13]>,
-    /// Its length up to each posture.
-    length: Vec<f64>,
-}
-
-impl Way {
-    fn new(inputs: Vec<[f64; 13]>) -> Self {
-        let mut sum = 0.0;
-        let mut length = vec![0.0; inputs.len().min(1)];
-        for pair in inputs.windows(2) {
-            let step = pair[0].iter().zip(&pair[1]).map(|(a, b)| (a - b) * (a - b));
-            sum += step.sum::<f64>().sqrt();
-            length.push(sum);
-        }
-        Self { inputs, length }
-    }
 
     /// Where a posture is between two others, 0 to 1.
     fn share(&self, [a, i, b]: [usize; 3]) -> f64 {
@@ -141,7 +126,10 @@ impl Way {
     }
 
     /// All postures in stretches that end at corners and are of at most [`STRETCH`] steps.
-    fn stretches(&self, last: usize) -> Vec<[usize; 2]> {
+    fn stretches(&self) -> Vec<[usize; 2]> {
+        let Some(last) = self.inputs.len().checked_sub(1) else {
+            return Vec::new();
+        };
         let corners = (1..last).filter(|i| self.straight([i - 1, i + 1]).len() > 1);
         let mut stretches = Vec::new();
         let mut from = 0;
@@ -191,6 +179,21 @@ impl Way {
             }
         })
     }
+}
+
+/// See [`Way`].
+fn inputs(poses: &[Pose], wrenches: &[Wrench], size: f64) -> Vec<[f64; 13]> {
+    let of = |w: &Wrench| [w.force().norm(), w.moment().norm() / size];
+    let most = wrenches.iter().flat_map(of).fold(f64::MIN_POSITIVE, larger);
+    let both = poses.iter().zip(wrenches);
+    let all = both.map(|(pose, wrench)| {
+        let (at, turn) = (pose.translation.vector / size, pose.rotation.coords);
+        let (force, moment) = (wrench.force() / most, wrench.moment() / (most * size));
+        let numbers = at.iter().chain(turn.iter());
+        let mut numbers = numbers.chain(force.iter()).chain(moment.iter());
+        std::array::from_fn(|_| numbers.next().copied().unwrap_or(0.0))
+    });
+    all.collect()
 }
 
 /// Where a stretch is looked at: everywhere if it is short, else at ends, middle and quarters.

@@ -13,7 +13,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use crate::batch::assessed::{Postures, numbers};
+use crate::batch::assessed::{Way, numbers};
 use crate::batch::compiled::Batch;
 use crate::batch::equilibria::BatchEquilibrium;
 use crate::batch::equilibria::Details;
@@ -29,6 +29,33 @@ pub struct AlongPath {
     /// Kernels find the stability, too.
     stability_by_kernels: bool,
     length: f64,
+    compared: Compared,
+}
+
+/// What neighbours are compared by.
+struct Compared {
+    /// Kind and limits of every actuator.
+    actuators: Vec<(MotionKind, (f64, f64))>,
+    /// Column and kind of every passive joint among the coordinates of all limbs.
+    passive: Vec<(usize, MotionKind)>,
+}
+
+impl Compared {
+    fn of(mechanism: &Mechanism) -> Self {
+        let limbs = || mechanism.limbs().iter();
+        let actuators = limbs().flat_map(|l| l.nominal.actuators());
+        let everywhere = (f64::NEG_INFINITY, f64::INFINITY);
+        let joints = limbs().flat_map(|l| l.nominal.coordinates()).enumerate();
+        Self {
+            actuators: actuators
+                .map(|a| (a.kind, a.limits.unwrap_or(everywhere)))
+                .collect(),
+            passive: joints
+                .filter(|(_, joint)| joint.role == Role::Passive)
+                .map(|(column, joint)| (column, joint.kind))
+                .collect(),
+        }
+    }
 }
 
 impl AlongPath {
@@ -55,6 +82,7 @@ impl AlongPath {
             stability_by_kernels: assessed.is_some_and(|j| j.status == [Status::Vectorised]),
             batch,
             length: mechanism.natural_length(),
+            compared: Compared::of(mechanism),
         }
     }
 
@@ -67,6 +95,7 @@ impl AlongPath {
             stability_by_kernels: false,
             batch: None,
             length: mechanism.natural_length(),
+            compared: Compared::of(mechanism),
         }
     }
 
@@ -106,16 +135,19 @@ impl AlongPath {
     #[must_use]
     pub fn with_stability(&self, poses: &[Pose], wrenches: &[Wrench]) -> Option<BatchEquilibrium> {
         let batch = self.batch.as_ref().filter(|_| self.stability_by_kernels)?;
-        let mut found = self.rest(poses, wrenches)?;
-        let postures = Postures {
-            poses,
-            wrenches,
-            size: self.length,
+        let all_at_once = || {
+            let found = batch.equilibrium(poses, wrenches, Details::Stability);
+            found.ok().filter(|found| self.continued(poses, found))
         };
+        let way = Way::of(poses, wrenches, self.length);
+        if !way.could_save() {
+            return all_at_once();
+        }
+        let mut found = self.rest(poses, wrenches)?;
         // What kernels do not decide is found by the general engine, one after the other.
         let by_kernels = found.status.iter().all(|s| *s == Status::Vectorised);
         let evenly = by_kernels.then(|| {
-            postures.stabilities(|wanted| {
+            way.stabilities(|wanted| {
                 let poses: Vec<Pose> = wanted.iter().map(|i| poses[*i]).collect();
                 let wrenches: Vec<Wrench> = wanted.iter().map(|i| wrenches[*i]).collect();
                 let some = batch
@@ -133,8 +165,7 @@ impl AlongPath {
             found.set_stabilities(&stabilities);
             return Some(found);
         }
-        let found = batch.equilibrium(poses, wrenches, Details::Stability);
-        found.ok().filter(|found| self.continued(poses, found))
+        all_at_once()
     }
 
     /// All have an answer within the limits of the actuators, on the branch that a search from
@@ -142,53 +173,59 @@ impl AlongPath {
     fn continued(&self, poses: &[Pose], found: &BatchEquilibrium) -> bool {
         let near = Self::NEAR * self.mechanism.size();
         (0..poses.len()).all(|i| {
-            if !found.status[i].is_solved() || found.outside_limits(&self.mechanism, i) {
+            if !found.status[i].is_solved() || self.outside_limits(found, i) {
                 return false;
             }
             let place = |i: usize| poses[i].translation.vector;
             if i > 0 && (place(i) - place(i - 1)).norm() < near {
-                let last = (found.commands.row(i - 1), found.coordinates.row(i - 1));
-                return self.no_jump(found, i, last.0, last.1);
+                let (commands, coordinates) = (&found.commands, &found.coordinates);
+                let last = |k: usize| commands.get(i - 1, k);
+                return !self.jumps(found, i, last, |k| coordinates.get(i - 1, k));
             }
             let Ok(own) = self.mechanism.posture(&poses[i]) else {
                 return false;
             };
-            let passive = own
-                .limbs()
-                .iter()
-                .flat_map(|l| l.coordinates.iter().copied());
-            self.no_jump(found, i, own.commands().into_iter(), passive)
+            let limbs = own.limbs().iter();
+            let coordinates = limbs.flat_map(|l| l.coordinates.iter().copied());
+            let (commands, coordinates) = (own.commands(), coordinates.collect::<Vec<f64>>());
+            !self.jumps(found, i, |k| commands[k], |k| coordinates[k])
         })
     }
 
-    /// No command and no passive joint of a posture lies far from those given.
-    fn no_jump(
+    /// A command lies outside its actuator's limits.
+    fn outside_limits(&self, found: &BatchEquilibrium, i: usize) -> bool {
+        let mut all = self.compared.actuators.iter().enumerate();
+        all.any(|(k, (_, (low, high)))| {
+            let command = found.commands.get(i, k);
+            command < *low || command > *high
+        })
+    }
+
+    /// A command or a passive joint of a posture lies far from the one given of the same column.
+    fn jumps(
         &self,
         found: &BatchEquilibrium,
         i: usize,
-        commands: impl Iterator<Item = f64>,
-        coordinates: impl Iterator<Item = f64>,
+        command: impl Fn(usize) -> f64,
+        coordinate: impl Fn(usize) -> f64,
     ) -> bool {
-        let limbs = || self.mechanism.limbs().iter();
         let far = |kind: MotionKind, difference: f64| match kind {
-            MotionKind::Prismatic => difference.abs() / self.length,
-            MotionKind::Revolute => difference.abs(),
+            MotionKind::Prismatic => difference.abs() > Self::JUMP * self.length,
+            MotionKind::Revolute => difference.abs() > Self::JUMP,
         };
-        let actuators = limbs().flat_map(|l| l.nominal.actuators());
-        let mut own = actuators.zip(found.commands.row(i).zip(commands));
-        if own.any(|(a, (x, y))| far(a.kind, x - y) > Self::JUMP) {
-            return false;
+        let mut commands = self.compared.actuators.iter().enumerate();
+        if commands.any(|(k, (kind, _))| far(*kind, found.commands.get(i, k) - command(k))) {
+            return true;
         }
-        let joints = limbs().flat_map(|l| l.nominal.coordinates());
-        let mut own = joints.zip(found.coordinates.row(i).zip(coordinates));
         // A passive joint that has turned round is where it was.
         let turn = |d: f64| (d + PI).rem_euclid(TAU) - PI;
-        !own.any(|(c, (x, y))| {
-            let difference = match c.kind {
-                MotionKind::Prismatic => x - y,
-                MotionKind::Revolute => turn(x - y),
-            };
-            c.role == Role::Passive && far(c.kind, difference) > Self::JUMP
+        self.compared.passive.iter().any(|(k, kind)| {
+            let difference = found.coordinates.get(i, *k) - coordinate(*k);
+            far(*kind, difference)
+                && match kind {
+                    MotionKind::Prismatic => true,
+                    MotionKind::Revolute => far(*kind, turn(difference)),
+                }
         })
     }
 }

@@ -19,6 +19,16 @@ const SAME_LOAD: f64 = 0.01;
 /// A step of more than so many times the one before is too far to tell.
 const FARTHEST: f64 = 4.0;
 
+/// From one place to another, lengths in units of `length`. It is no closure: that would be compiled for itself, without the wide
+/// registers.
+#[inline(always)]
+fn way<S: Simd>(to: &Target<S>, from: &Target<S>, length: f64) -> [Lanes<S>; 6] {
+    let [x, y, z] = minus(&to.point, &from.point);
+    let [a, b, c] = turn_between(&to.rotation, &from.rotation);
+    let unit = 1.0 / length;
+    [x * unit, y * unit, z * unit, a, b, c]
+}
+
 impl<S: Simd> Machine<S> {
     /// Notes the posture at hand, which is `lost` where it was not found, before the machine goes on from it. The share of its last change by which it
     /// changes on the way to another place under another load; zero where that is not known.
@@ -32,14 +42,8 @@ impl<S: Simd> Machine<S> {
         apart!(simd, {
             let (zero, one) = (Lanes::new(simd, 0.0), Lanes::new(simd, 1.0));
             let length = self.nominal[0].length;
-            let way = |to: &Target<S>, from: &Target<S>| {
-                let l = minus(&to.point, &from.point);
-                let a = turn_between(&to.rotation, &from.rotation);
-                let l = l.map(|x| x * (1.0 / length));
-                [l[0], l[1], l[2], a[0], a[1], a[2]]
-            };
-            let next = way(place, &self.place);
-            let before = way(&self.place, &self.trend.place);
+            let next = way(place, &self.place, length);
+            let before = way(&self.place, &self.trend.place, length);
             let (mut along, mut square) = (zero, zero);
             for k in 0..6 {
                 along = next[k].times_plus(before[k], along);
