@@ -62,4 +62,5 @@ pub use response::by_limbs::LimbResponse;
 pub use response::direct::DirectResponse;
 pub use response::modal::{ModalResponse, TranslationalModes};
 pub use response::{Quantity, Receptance};
-pub use swept::lowest::{LongChain, lowest_modes};
+pub use swept::long_chain::LongChain;
+pub use swept::machine::lowest_modes;

@@ -1,10 +1,28 @@
 //! Mass of a segment of a link by the motion of its near side and the coordinates of its spring.
 
 use kinetostat::model::{Kinematics, SegmentMass, turn_rates};
+use kinetostat::spatial::shift_matrix;
 use nalgebra::{DMatrix, Matrix3, Matrix6, Matrix6xX, Vector3};
 
 use crate::mass::segment;
-use crate::swept::stages::{Both, shift_of};
+
+/// A symmetric form in the motion of the near side (6) and the own coordinates (k) of a stage.
+#[derive(Clone, Debug)]
+pub(crate) struct Both {
+    pub near: Matrix6<f64>,
+    pub across: Matrix6xX<f64>,
+    pub own: DMatrix<f64>,
+}
+
+impl Both {
+    pub fn zeros(count: usize) -> Self {
+        Self {
+            near: Matrix6::zeros(),
+            across: Matrix6xX::zeros(count),
+            own: DMatrix::zeros(count, count),
+        }
+    }
+}
 
 /// Adds it; `twists` are those of the spring's coordinates at the tip's place.
 pub(crate) fn add(
@@ -38,4 +56,13 @@ pub(crate) fn add(
     to.own += DMatrix::from_fn(far.ncols(), far.ncols(), |i, j| {
         far.column(i).dot(&moved.column(j))
     });
+}
+
+/// Motion of a node by that of its part at the tip's place.
+pub(crate) fn shift_of(
+    kinematics: &Kinematics,
+    node: usize,
+    tip: &nalgebra::Vector3<f64>,
+) -> Matrix6<f64> {
+    shift_matrix(&(kinematics.node_position(node) - tip))
 }

@@ -10,7 +10,8 @@
 
 use nalgebra::{DMatrix, DVector, Matrix6, Matrix6xX};
 
-use crate::swept::stages::{Stages, own};
+use crate::swept::products::own;
+use crate::swept::stages::Stages;
 
 /// Pivots in units of their own diagonal below this are none.
 const PIVOT: f64 = 1e-14;

@@ -11,5 +11,8 @@
 pub(crate) mod element;
 pub(crate) mod factor;
 pub(crate) mod krylov;
+pub(crate) mod long_chain;
 pub(crate) mod lowest;
+pub(crate) mod machine;
+pub(crate) mod products;
 pub(crate) mod stages;

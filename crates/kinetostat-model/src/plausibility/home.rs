@@ -69,7 +69,7 @@ pub(crate) fn check_plausibility(
     }
     for (i, platform) in mechanism.platforms().iter().skip(1).enumerate() {
         let place = root.key("platform").index(i).key("inertia_kg_m2");
-        if let Some(found) = no_body(&place, &platform.inertia) {
+        if let Some(found) = no_body(&place, &platform.name, &platform.inertia) {
             warn(&place, found.message, &found.help);
         }
         if platform.mass > 1e5 {

@@ -8,7 +8,7 @@ use crate::plausibility::limb::LimbCheck;
 use crate::problem::{Finding, KeyPath};
 
 /// An inertia that no body has: a principal moment is larger than the sum of the others.
-pub(crate) fn no_body(place: &KeyPath, inertia: &Matrix3<f64>) -> Option<Finding> {
+pub(crate) fn no_body(place: &KeyPath, name: &str, inertia: &Matrix3<f64>) -> Option<Finding> {
     let size = inertia.amax();
     if size == 0.0 {
         return None;
@@ -23,7 +23,7 @@ pub(crate) fn no_body(place: &KeyPath, inertia: &Matrix3<f64>) -> Option<Finding
     Some(Finding::new(
         place,
         format!(
-            "no body has this inertia: its principal moments are {least}, {middle} and {most} kg m^2, and the largest cannot exceed the sum of the others"
+            "the inertia of '{name}' is that of no body: its principal moments are {least}, {middle} and {most} kg m^2, and the largest cannot exceed the sum of the others"
         ),
         "check the entries, their unit and the signs of the products; statics does not use it, vibrations refuse it",
     ))
@@ -62,7 +62,7 @@ impl LimbCheck<'_> {
                 ));
             }
             let place = self.place(&body.name, &["inertia_kg_m2"]);
-            warnings.extend(no_body(&place, &body.inertia));
+            warnings.extend(no_body(&place, &body.name, &body.inertia));
             let gyration = (body.inertia.diagonal().amax() / body.mass).sqrt();
             if body.mass > 0.0 && gyration > 2.0 * self.size.max(0.5) {
                 warnings.push(Finding::new(
