@@ -86,7 +86,8 @@ def test_variables_against_numpy() -> None:
     poses = np.tile(machine.home_pose(), (100, 1, 1))
     poses[:, :3, 3] += random.uniform(-0.06, 0.06, (100, 3))
     wrench = np.array([[30.0, -50, 20, 1, 2, -0.5]])
-    own = _core.evaluate_many(machine, poses, wrench, [v[0] for v in _core.map_variables()])
+    # Frequencies need masses, which this machine has none of.
+    own = _core.evaluate_many(machine, poses, wrench, [v[0] for v in _core.map_variables() if v[1] != "Hz"])
     found = _core.equilibrium_of_many(machine, wrench, 2, poses=poses)
     compliance = np.linalg.inv(found["stiffness"])
     for k, axis in enumerate("xyz"):

@@ -22,6 +22,7 @@ pytestmark = pytest.mark.filterwarnings("ignore:.*fork:DeprecationWarning")
 
 MACHINE = ks.Machine.preset("orthoglide")
 ARM = ks.Machine.preset("heavy_6r")
+ARM6 = Path(__file__).resolve().parents[2] / "crates/kinetostat-cli/tests/cli/vibration_models/arm6.toml"
 X, Y, Z = np.linspace(-0.07, 0.09, 5), np.linspace(-0.06, 0.1, 4), np.array([-0.02, 0.03, 0.11])
 LOADS = {"mill": [215.0, -10, -25, 1.0, 21.5, 0], "drill": [0.0, 0, 300, 0, 0, 2]}
 TURNED = [ks.rotation_from_vector(v) for v in ([0.0, 0.0, 0.0], [0.1, -0.2, 0.05], [-0.15, 0.1, 0.3])]
@@ -170,6 +171,27 @@ def test_how_near_a_singular_posture_is_known_or_refused() -> None:
         assert ((found.singularity_distance > 0) & (found.singularity_distance <= 1)).all()
     with pytest.raises(ks.ArgumentError, match="a question about drives: 'three_link_s' has none"):
         ks.Machine.preset("three_link_s").map(x=[3.0, 3.001], variables="singularity_distance")
+
+
+def test_natural_frequencies_of_the_reference_arm() -> None:
+    """`dynamics-reference-values.md`, D3, and those of postures one by one."""
+    arm = ks.Machine.open(ARM6)
+    x, y, z = arm.home[:3, 3]
+    load = [120.0, -80.0, -300.0, 0, 0, 0]
+    weight = arm.map(x=[x, x + 0.03], y=y, z=z, loads=np.zeros(6), variables=["f1", "natural_frequencies"])
+    expected = [9.98746752, 11.5425353, 23.2012812, 49.0179614, 53.7168096, 126.52171]
+    np.testing.assert_allclose(weight.natural_frequencies[0], expected, rtol=1e-8)
+    assert weight.natural_frequencies.dims == ("x", "mode")
+    assert weight.f1.attrs["units"] == "Hz"
+    places = np.array([[x - 0.05, y + 0.04, z + 0.06], [x, y - 0.07, z]])
+    found = arm.map(x=places[:, 0], y=places[0, 1], z=places[0, 2], loads=load, variables=["f1", "f3"])
+    for k, place in enumerate(found.x.values):
+        posture = arm.posture(ks.pose([place, *places[0, 1:]], arm.home[:3, :3]))
+        np.testing.assert_allclose([found.f1[k], found.f3[k]], posture.vibration(load).frequencies_hz[[0, 2]], rtol=1e-7)
+    with pytest.raises(ks.ArgumentError, match="no mass anywhere"):
+        MACHINE.map(x=X, y=0, z=0, loads=load, variables="f1")
+    with pytest.raises(ks.ArgumentError, match="needs a load"):
+        arm.map(x=[x, x + 0.03], y=y, z=z, variables="f1")
 
 
 def refused() -> ProcessPoolExecutor:

@@ -15,12 +15,14 @@
 //! |---|---|
 //! | the linear machine about an equilibrium | [`LinearDynamics::of_chain`], [`LinearDynamics::of_machine`] |
 //! | its modes, signed frequencies, counts of free, massless, neutral and rigid directions | [`LinearDynamics::modes`] |
+//! | the lowest modes of a long chain or of any machine, at a cost by its length | [`LongChain`], [`lowest_modes`] |
 //! | which body moves, which spring bends | [`LinearDynamics::kinetic_shares`], [`LinearDynamics::elastic_shares`] |
 //! | dead moments, followers, dampers: flutter or divergence | [`LinearDynamics::complex_modes`] |
 //! | damping | [`Damping`], [`LinearDynamics::damping_ratios`] |
 //! | response between two points | [`ModalResponse`], [`LinearDynamics::direct`], [`LimbResponse`] |
 //! | modal data of a cut, for chatter | [`ModalResponse::translational`] |
 //! | rotors behind elastic gears | [`Rotor`], [`LinearDynamics::with_rotors`] |
+//! | a tool that spins | [`LinearDynamics::gyroscopic_matrix`] |
 //! | a large limb by a few numbers | [`LinearDynamics::reduced`] |
 //!
 //! `[D 5]` is section 5 and `[D5]` equation 5 of the theory note on dynamics. SI units, linear part before angular, base
@@ -32,8 +34,7 @@
 //!
 //! # Not covered
 //!
-//! Friction and backlash, servo dynamics beyond a spring, gyroscopic effects of spindles, flexible foundations and
-//! workpieces. No number here was measured on a machine.
+//! Friction and backlash, servo dynamics beyond a spring, flexible foundations and workpieces. No number here was measured on a machine.
 
 mod damping;
 mod ends;
@@ -43,6 +44,7 @@ mod mass;
 mod modes;
 mod reduction;
 mod response;
+mod swept;
 
 pub use damping::Damping;
 pub use ends::Held;
@@ -51,6 +53,7 @@ pub use linear::LinearDynamics;
 pub use linear::places::Point;
 pub use linear::rotor::Rotor;
 pub use mass::body::about_point;
+pub use mass::declared::check_masses;
 pub use mass::{MassKind, MassPart};
 pub use modes::complex::{ComplexMode, ComplexModes, Verdict};
 pub use modes::{DirectionCounts, EnergyShare, Mode, ModeKind, Modes};
@@ -59,3 +62,5 @@ pub use response::by_limbs::LimbResponse;
 pub use response::direct::DirectResponse;
 pub use response::modal::{ModalResponse, TranslationalModes};
 pub use response::{Quantity, Receptance};
+pub use swept::long_chain::LongChain;
+pub use swept::machine::lowest_modes;

@@ -1,6 +1,7 @@
 //! Variables of maps for many postures.
 
 use kinetostat::Wrench;
+use kinetostat_dynamics::check_masses;
 use kinetostat_machining::{
     EvaluationRoom, Evaluator, Outcome, PlaceState, VARIABLES, Variable, Width, Worse,
 };
@@ -13,6 +14,7 @@ use crate::batch::each_wrench;
 use crate::columns::{Columns, done};
 use crate::errors::{Class, error};
 use crate::machine::Machine;
+use crate::vibration::of_dynamics;
 use crate::work::Manner;
 
 /// What became of a posture, as `kinetostat.Status` counts.
@@ -112,6 +114,9 @@ pub fn evaluate_many<'py>(
         wrenches.is_some(),
         machine.mechanism.actuator_count(),
     )?;
+    if chosen.iter().any(|v| v.needs_mass()) {
+        check_masses(&machine.mechanism).map_err(of_dynamics)?;
+    }
     let evaluator = Evaluator::new(
         &machine.mechanism,
         machine.batch(),

@@ -18,7 +18,7 @@ use crate::posture::Posture;
 use crate::stiffness::json_of;
 
 /// An error of the dynamics.
-fn of_dynamics(found: Error) -> PyErr {
+pub fn of_dynamics(found: Error) -> PyErr {
     match found {
         Error::Statics(own) => of_core(&own),
         Error::NotSolved(_) => error(Class::Unanswered, found.to_string()),

@@ -70,11 +70,12 @@ def map(
         Draw a section of the map (SVG)
     show : str | float
         What is drawn: softest, x, y, z (stiffness), displacement, rotation, or a column of a
-        variable of --variables, as in margin or joint_efforts_2
+        variable of --variables, as in margin, joint_efforts_2 or f1
     variables : str | float | Sequence[str | float]
         Further variables for the answer and the files, SI, with commas: stiffness_stiffest,
         rotational_stiffness_z, principal_stiffness, principal_directions, joint_efforts,
-        effort_share, share_to_buckling, margin, singularity_distance, ...; a wrong name lists all
+        effort_share, share_to_buckling, margin, singularity_distance, f1 to f6 (natural
+        frequencies, Hz), ...; a wrong name lists all
     section : str | float
         Where a grid in space is cut for the drawing, as in z=150 (the nearest places, mm); across z
         in its middle without it

@@ -46,6 +46,8 @@ class Variable:
             return ("actuator",)
         if self.name == "principal_directions":
             return ("principal", "axis")
+        if self.name == "natural_frequencies":
+            return ("mode",)
         if self.name.startswith("principal_"):
             return ("principal",)
         return ("axis",) if self.columns == 3 else (f"{self.name}_column",)

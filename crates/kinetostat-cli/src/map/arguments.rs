@@ -46,7 +46,7 @@ pub(crate) struct MapArgs {
     #[arg(long, value_name = "FILE", help_heading = "Outputs")]
     pub(crate) plot: Option<PathBuf>,
     /// What is drawn: softest, x, y, z (stiffness), displacement, rotation, or a column of a variable of
-    /// --variables, as in margin or joint_efforts_2
+    /// --variables, as in margin, joint_efforts_2 or f1
     #[arg(
         long,
         value_name = "WHAT",
@@ -57,7 +57,8 @@ pub(crate) struct MapArgs {
     pub(crate) show: String,
     /// Further variables for the answer and the files, SI, with commas: stiffness_stiffest,
     /// rotational_stiffness_z, principal_stiffness, principal_directions, joint_efforts, effort_share,
-    /// share_to_buckling, margin, singularity_distance, ...; a wrong name lists all
+    /// share_to_buckling, margin, singularity_distance, f1 to f6 (natural frequencies, Hz), ...; a wrong
+    /// name lists all
     #[arg(
         long,
         value_name = "NAMES",

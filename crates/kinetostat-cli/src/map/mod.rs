@@ -20,7 +20,8 @@ mod unanswered;
 use std::path::{Path, PathBuf};
 
 use kinetostat::{Mechanism, Wrench};
-use kinetostat_machining::{MapTask, Warning, straight_tool, unusual_load};
+use kinetostat_dynamics::check_masses;
+use kinetostat_machining::{MapTask, Variable, Warning, straight_tool, unusual_load};
 use kinetostat_model::Model;
 use nalgebra::UnitQuaternion;
 
@@ -43,6 +44,7 @@ use crate::place::orientation;
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::numbers::short;
 use crate::ui::{json, threads};
+use crate::vibration::subject;
 
 pub(crate) fn run(args: &MapArgs) -> Answer<()> {
     let (model, path) = InputFiles::default().model(&args.model, Path::new(""))?;
@@ -56,6 +58,7 @@ pub(crate) fn run(args: &MapArgs) -> Answer<()> {
     let loaded = !loads.is_empty();
     let actuators = mechanism.actuator_count();
     let (variables, shown) = asked(args, actuators, loaded, cases)?;
+    masses(&variables, &mechanism, &model.file)?;
     let further = columns::columns(&variables, actuators);
     let picture = Picture::new(args, &grid, shown)?;
     let mut task = MapTask {
@@ -124,6 +127,17 @@ fn shown_with_a_load(args: &MapArgs, loads: &[Wrench]) -> Answer<()> {
         ));
     }
     Ok(())
+}
+
+/// What is about vibrations is asked of a machine with masses.
+fn masses(variables: &[Variable], mechanism: &Mechanism, file: &str) -> Answer<()> {
+    match variables.iter().find(|v| v.needs_mass()) {
+        Some(own) => check_masses(mechanism).map_err(|e| {
+            let name = own.entry().name;
+            subject::refused(e).within(&format!("{file}: '{name}'"))
+        }),
+        None => Ok(()),
+    }
 }
 
 /// What an earlier run has kept of the same map.

@@ -40,7 +40,25 @@ pub(crate) fn machine(
     posture: &Posture,
     held: &Held,
 ) -> Answer<VibratingMachine> {
-    VibratingMachine::at(posture, &query.wrench, held).map_err(refused)
+    VibratingMachine::at(posture, &query.wrench, held)
+        .map_err(|error| {
+            let line = line_of(&error, query);
+            refused(error).within(&line.unwrap_or_else(|| query.source.clone()))
+        })
+}
+
+/// File and line of an inertia that no body has: the model has warned of it.
+fn line_of(error: &Error, query: &PlaceQuery) -> Option<String> {
+    let Error::Inertia { part, .. } = error else {
+        return None;
+    };
+    let of_part = |warning: &&Warning| {
+        let own = warning.message.split('\'').nth(1);
+        own.is_some_and(|own| part == own || part.ends_with(&format!(".{own}")))
+            && warning.message.starts_with("the inertia of")
+    };
+    let line = query.warnings.iter().find(of_part)?.line?;
+    Some(format!("{}, line {line}", query.source))
 }
 
 /// Why there is no answer.

@@ -215,6 +215,15 @@ fn figure_wrong_units_are_implausible_and_the_line_is_named() {
         (
             ARM,
             &[(
+                "[[0.1, 0, 0], [0, 0.5, 0], [0, 0, 0.5]]",
+                "[[0.1, 0, 0], [0, 0.5, 0.3], [0, 0.3, 0.5]]",
+            )],
+            "its principal moments are 0.1, 0.2 and 0.8 kg m^2",
+            "inertia_kg_m2",
+        ),
+        (
+            ARM,
+            &[(
                 "centre_of_mass_mm = [250, 0, 0]",
                 "centre_of_mass_m = [25, 0, 0]",
             )],

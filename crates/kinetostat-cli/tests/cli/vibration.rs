@@ -207,3 +207,110 @@ fn what_is_held_does_not_vibrate() {
         .expect("a frequency");
     assert!(first > 9.98746752, "{first}");
 }
+
+#[test]
+fn an_inertia_that_no_body_has_is_refused_by_file_line_and_name() {
+    let here = arm6();
+    let wrong = ARM6.replace(
+        "[[4.0, 0, 0], [0, 14.0, 0], [0, 0, 13.0]]",
+        "[[4.0, 0, 0], [0, 14.0, 6.0], [0, 6.0, 13.0]]",
+    );
+    assert_ne!(wrong, ARM6);
+    std::fs::write(here.path().join("wrong.toml"), &wrong).expect("written");
+    let line = wrong.lines().position(|l| l.contains("[0, 14.0, 6.0]"));
+    let place = format!("wrong.toml, line {}: ", line.expect("a line") + 1);
+    for command in ["modes wrong.toml", "frf wrong.toml --frequencies 1 10 2"] {
+        let said = said(here.path(), command);
+        assert_eq!(said.code, 1, "{said:?}");
+        let whole = said.err.replace('\n', " ");
+        assert!(whole.contains(&place) && whole.contains("link 3"), "{whole}");
+    }
+    // Statics does not use it.
+    let warned = said(here.path(), "deflect wrong.toml --force 0 0 -100 --json").answered();
+    assert!(warned.out.contains("is that of no body"), "{}", warned.out);
+}
+
+/// Beside `modes` of the same place, and refused where there is no mass.
+#[test]
+fn maps_have_the_first_frequencies() {
+    let here = arm6();
+    let line = "map arm6.toml --x 1750 1850 3 --y 400 --z 1100 1200 2 --force 150 -100 -400 --show f1 --plot f1.svg --variables f2,natural_frequencies --csv map.csv --json";
+    let answer = json(&said(here.path(), line).answered());
+    let figures = answer["figures"].as_array().expect("figures");
+    let own = figures.iter().find(|f| f["name"] == "f1").expect("f1");
+    assert_eq!(own["unit"], "Hz");
+    let table = std::fs::read_to_string(here.path().join("map.csv")).expect("the table");
+    let mut lines = table.lines();
+    let header: Vec<&str> = lines.next().expect("a header").split(',').collect();
+    let column = |name: &str| header.iter().position(|h| *h == name).expect("a column");
+    for row in lines {
+        let cells: Vec<&str> = row.split(',').collect();
+        let at = format!(
+            "modes arm6.toml --at {} {} {} --force 150 -100 -400 --json",
+            cells[0], cells[1], cells[2]
+        );
+        let there = json(&said(here.path(), &at).answered());
+        let expected: Vec<f64> = (there["modes"].as_array().expect("modes").iter())
+            .map(|m| m["frequency_hz"].as_f64().expect("a frequency"))
+            .collect();
+        let names = ["f1", "f2", "natural_frequencies_1", "natural_frequencies_6"];
+        for (name, k) in names.into_iter().zip([0, 1, 0, 5]) {
+            let found: f64 = cells[column(name)].parse().expect("a number");
+            assert!(
+                (found / expected[k] - 1.0).abs() < 1e-7,
+                "{name} {row} {expected:?}"
+            );
+        }
+    }
+    let drawing = std::fs::read_to_string(here.path().join("f1.svg")).expect("a drawing");
+    assert!(drawing.contains("Hz"));
+    for (line, words) in [
+        (
+            "map stewart_gough_a --x 0 --force 0 0 0 --variables f1",
+            "preset stewart_gough_a: 'f1': ",
+        ),
+        ("map arm6.toml --x 1750 --variables f1", "'f1' needs a load"),
+        ("modes stewart_gough_a", "preset stewart_gough_a: "),
+    ] {
+        let said = said(here.path(), line);
+        assert_eq!(said.code, 1, "{line}: {said:?}");
+        assert!(said.err.contains(words), "{line}: {}", said.err);
+    }
+}
+
+/// D3: the arm of a URDF with its own inertias, springs at rest at the posture, gravity.
+#[test]
+fn an_arm_of_a_urdf_vibrates_as_the_reference_values_say() {
+    let urdf =
+        Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data/urdf/kuka_kr210l150.urdf");
+    if !urdf.is_file() {
+        println!("SKIPPED: ../shared/data/urdf/kuka_kr210l150.urdf is not there");
+        return;
+    }
+    let here = workplace();
+    let stiffness = [4.2e6, 3.9e6, 2.6e6, 7.5e5, 6e5, 3.5e5];
+    let home = [0.3, -0.6, 0.9, 0.2, 0.5, -0.4];
+    let mut table = "name,value,unit\n".to_owned();
+    let mut joints = Vec::new();
+    for (i, (stiffness, q)) in stiffness.iter().zip(home).enumerate() {
+        table.push_str(&format!("joint_a{},{stiffness},N m/rad\n", i + 1));
+        joints.push(format!("joint_a{}={q}rad", i + 1));
+    }
+    std::fs::write(here.path().join("stiffness.csv"), table).expect("written");
+    let import = "import urdf --base base_link --tip tool0 --joint-stiffness stiffness.csv -o arm.toml --home";
+    let mut words: Vec<&str> = import.split(' ').collect();
+    let (joints, urdf) = (joints.join(","), urdf.display().to_string());
+    words.extend([joints.as_str(), urdf.as_str()]);
+    run(here.path(), &words).answered();
+    let answer = json(&said(here.path(), "modes arm.toml --json").answered());
+    let found: Vec<f64> = (answer["modes"].as_array().expect("modes").iter())
+        .map(|m| m["frequency_hz"].as_f64().expect("a frequency"))
+        .collect();
+    agree(
+        &found,
+        &[
+            8.1345364, 10.740038, 13.005259, 88.523295, 126.69357, 531.26101,
+        ],
+        5e-8,
+    );
+}

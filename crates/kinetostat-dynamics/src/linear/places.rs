@@ -99,6 +99,18 @@ impl LinearDynamics {
         }
     }
 
+    /// Sums of the sizes of what makes these motions.
+    pub(crate) fn motion_sizes_of(&self, place: usize) -> DMatrix<f64> {
+        let own = &self.places[place];
+        match &self.basis {
+            Some(basis) => {
+                let parts = own.motions.abs() * basis.select_rows(&self.blocks[own.block]).abs();
+                DMatrix::from_fn(6, parts.ncols(), |i, j| parts[(i, j)])
+            }
+            None => self.motions_of(place).abs(),
+        }
+    }
+
     /// Motions of a point by the independent coordinates, 6 x m: its twist, base axes.
     #[must_use]
     pub fn motions(&self, point: Point) -> DMatrix<f64> {

@@ -6,7 +6,7 @@ pub(crate) mod moved;
 pub(crate) mod pencil;
 pub(crate) mod shares;
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::{DMatrix, DVector, Matrix6};
 
 use crate::error::{Error, Result};
 use crate::linear::LinearDynamics;
@@ -62,6 +62,40 @@ impl Modes {
 /// Below this share of the stiffnesses that act in a mode, what is left of them is rounding.
 const NOTHING: f64 = 1e-11;
 
+/// What a mode is, and its `w^2`, zero where it is rounding: `size` is what stiffnesses do in the mode, `shift` was
+/// added to find it.
+pub(crate) fn kind_of(squared: f64, size: f64, shift: f64) -> (ModeKind, f64) {
+    if squared.abs() <= NOTHING * size + 1e-12 * shift {
+        return (ModeKind::Free, 0.0);
+    }
+    match squared > 0.0 {
+        true => (ModeKind::Vibration, squared),
+        false => (ModeKind::Unstable, squared),
+    }
+}
+
+/// Motions of the tool that no coordinate makes, by the sum of the products of all that are made, in natural units; `most`
+/// is the largest of these before anything cancels.
+pub(crate) fn rigid_of(gram: &Matrix6<f64>, most: f64) -> usize {
+    let values = gram.symmetric_eigenvalues();
+    // Squares: a ten-millionth of the largest motion is none.
+    values.iter().filter(|v| **v <= 1e-14 * most).count()
+}
+
+impl DirectionCounts {
+    /// Of the lowest modes, all unstable and free ones among them, out of `all`.
+    pub(crate) fn of(lowest: &[Mode], all: usize) -> Self {
+        let of = |kind| lowest.iter().filter(|m| m.kind == kind).count();
+        let (free, unstable) = (of(ModeKind::Free), of(ModeKind::Unstable));
+        Self {
+            vibrating: all - free - unstable,
+            free,
+            unstable,
+            ..Self::default()
+        }
+    }
+}
+
 impl LinearDynamics {
     /// Modes without damping; of the symmetric part of `K - H`. Where loads have no potential
     /// ([`Self::is_circulatory`]) see [`Self::complex_modes`].
@@ -87,31 +121,23 @@ impl LinearDynamics {
         for (k, &squared) in solved.squared.iter().enumerate() {
             let scaled = solved.shapes.column(k);
             let size = scaled.abs().dot(&(&sizes * scaled.abs()));
-            let nothing = squared.abs() <= NOTHING * size + 1e-12 * solved.shift;
-            let kind = match (nothing, squared > 0.0) {
-                (true, _) => ModeKind::Free,
-                (false, true) => ModeKind::Vibration,
-                (false, false) => ModeKind::Unstable,
-            };
+            let (kind, squared) = kind_of(squared, size, solved.shift);
             let shape = DVector::from_fn(scaled.len(), |i, _| scaled[i] * self.units[i]);
             let tool = self.motion_at(self.tool, &shape);
             modes.push(Mode {
-                squared: if nothing { 0.0 } else { squared },
+                squared,
                 kind,
                 shape,
                 tool,
             });
         }
         modes.sort_by(|a, b| a.squared.total_cmp(&b.squared));
-        let of = |kind| modes.iter().filter(|m| m.kind == kind).count();
         let counts = DirectionCounts {
-            vibrating: of(ModeKind::Vibration),
-            free: of(ModeKind::Free),
-            unstable: of(ModeKind::Unstable),
             massless: solved.massless,
             massless_unstable: solved.massless_unstable,
             neutral: solved.neutral.ncols(),
             rigid: self.rigid_directions(),
+            ..DirectionCounts::of(&modes, modes.len())
         };
         let neutral = self.names_in(&solved.neutral);
         Ok(Modes {
@@ -123,20 +149,22 @@ impl LinearDynamics {
 
     /// Motions of the tool that no coordinate makes.
     fn rigid_directions(&self) -> usize {
-        let mut motions = self.motions_of(self.tool);
-        for k in 0..6 {
-            let unit = if k < 3 { 1.0 / self.length } else { 1.0 };
-            for (j, u) in self.units.iter().enumerate() {
-                motions[(k, j)] *= unit * u;
+        let scaled = |mut motions: DMatrix<f64>| {
+            for k in 0..6 {
+                let unit = if k < 3 { 1.0 / self.length } else { 1.0 };
+                for (j, u) in self.units.iter().enumerate() {
+                    motions[(k, j)] *= unit * u;
+                }
             }
-        }
+            motions
+        };
+        let motions = scaled(self.motions_of(self.tool));
+        // What cancels where the tool is held is rounding of these.
+        let parts = scaled(self.motion_sizes_of(self.tool));
         let gram = &motions * motions.transpose();
-        let values = gram.symmetric_eigenvalues();
-        let most = values
-            .iter()
-            .fold(0.0_f64, |m, x| if *x > m { *x } else { m });
-        // Squares: a millionth of the largest motion is none.
-        values.iter().filter(|v| **v <= 1e-14 * most).count()
+        let most = parts.row_iter().map(|row| row.norm_squared());
+        let most = most.fold(0.0, kinetostat::number::larger);
+        rigid_of(&Matrix6::from_fn(|i, j| gram[(i, j)]), most)
     }
 
     /// Names of the coordinates with a share in the columns of a basis.

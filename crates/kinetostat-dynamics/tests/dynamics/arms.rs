@@ -306,6 +306,36 @@ fn six_axis_arm() {
     }
 }
 
+/// D3: a rotor of 0.012 kg m^2 at 18000 rpm, its spin along z of the tool.
+#[test]
+fn a_spinning_tool_parts_the_frequencies_of_the_arm() {
+    let chain = arm6();
+    let mut problem = ChainProblem::new(&chain, EndCondition::wrench(Wrench::zero()));
+    problem.loads.push(Load::gravity(down()));
+    let at = solve_chain(&problem, &Settings::default()).unwrap();
+    let d =
+        LinearDynamics::of_chain(&problem, &at.coordinates, &at.wrench, &Held::nothing()).unwrap();
+    let speed = 18000.0 * std::f64::consts::TAU / 60.0;
+    let momentum = at.tip.rotation * vector![0.0, 0.0, 0.012 * speed];
+    let spin = d.gyroscopic_matrix(d.tool(), &momentum).unwrap();
+    assert_eq!(spin, -spin.transpose());
+    let modes = d.complex_modes(Some(&spin), 6).unwrap();
+    let found: Vec<f64> = modes.modes.iter().map(|m| m.frequency_hz()).collect();
+    frequencies_are(
+        &found,
+        &[
+            9.98744687, 11.542535, 23.2010453, 48.9994062, 53.7350309, 126.528254,
+        ],
+        1e-8,
+    );
+    // Nothing is lost.
+    assert!(modes.modes.iter().all(|m| m.damping_ratio().abs() < 1e-9));
+    assert!(
+        d.gyroscopic_matrix(d.tool(), &vector![0.0, f64::NAN, 0.0])
+            .is_err()
+    );
+}
+
 fn shares_add_to_one(d: &LinearDynamics) {
     for mode in &d.modes().unwrap().modes {
         for shares in [d.kinetic_shares(mode), d.elastic_shares(mode)] {

@@ -6,7 +6,7 @@ use kinetostat::model::{LinkMass, MassModel};
 use kinetostat::*;
 use kinetostat_dynamics::Held;
 use kinetostat_testing::Worst;
-use nalgebra::{Matrix3, Vector3, vector};
+use nalgebra::{Matrix3, Matrix6, Vector3, vector};
 
 fn end(prescribed: &[usize], wrench: Wrench, at: f64) -> EndCondition {
     let mut end = EndCondition::wrench(wrench);
@@ -257,4 +257,63 @@ fn the_zero_frequency_load_is_the_singular_load() {
         assert!((singular - expected).abs() < 5e-7);
         assert!((zero / singular - 1.0).abs() < 1e-9, "{zero} {singular}");
     }
+}
+
+/// The stiffness at the end of a beam of section S with shear (kappa 5/6), x along it.
+fn with_shear(length: f64) -> Matrix6<f64> {
+    let s = section();
+    let mut k = Matrix6::zeros();
+    k[(0, 0)] = s.youngs_modulus * s.area / length;
+    k[(3, 3)] = s.shear_modulus * s.torsion_constant / length;
+    let shear = s.shear_modulus * s.area * 5.0 / 6.0;
+    for (across, turn, second_moment, sign) in [
+        (1, 5, s.second_moment_z, -1.0),
+        (2, 4, s.second_moment_y, 1.0),
+    ] {
+        let ei = s.youngs_modulus * second_moment;
+        let phi = 12.0 * ei / (shear * length * length);
+        let by = ei / (1.0 + phi);
+        k[(across, across)] = 12.0 * by / length.powi(3);
+        k[(across, turn)] = sign * 6.0 * by / length.powi(2);
+        k[(turn, across)] = k[(across, turn)];
+        k[(turn, turn)] = (4.0 + phi) * by / length;
+    }
+    k
+}
+
+/// A beam six times as long as high: shear and rotary inertia count, and convergence is of the second order once a
+/// segment is shorter than 1.8 heights.
+#[test]
+fn stubby_beams_meet_timoshenkos_frequencies() {
+    let found = |length: f64, segments: usize| {
+        let mass = LinkMass::of_section(&section(), DENSITY);
+        let spec = LinkSpec::matrix(with_shear(length), length)
+            .segments(segments)
+            .with_mass(mass);
+        let chain = Chain::builder("beam")
+            .link_with("beam", &spec)
+            .build()
+            .unwrap();
+        frequencies(&chain, end(&[], Wrench::zero(), length), "tip")
+    };
+    let stubby = [1325.54187, 6702.47966, 15341.5592];
+    let errors = [2, 4, 8, 16, 32].map(|n| relative(found(0.15, n)[0], stubby[0]));
+    assert!(
+        errors[0].abs() < 4e-3 && errors[2].abs() < 2.5e-4,
+        "{errors:?}"
+    );
+    for k in 2..4 {
+        let order = (errors[k] / errors[k + 1]).log2();
+        assert!((1.9..2.1).contains(&order), "{errors:?}");
+    }
+    // What they tend to.
+    let fine = (found(0.15, 16), found(0.15, 32));
+    for (k, expected) in stubby.iter().enumerate() {
+        let limit = fine.1[k] + (fine.1[k] - fine.0[k]) / 3.0;
+        assert!(relative(limit, *expected).abs() < 1e-5, "{k} {limit}");
+    }
+    // A slender one is as good as without shear.
+    let slender = found(1.0, 8);
+    assert!(relative(slender[0], 31.2270642).abs() < 2e-5, "{slender:?}");
+    assert!(relative(slender[1], 194.398167).abs() < 5e-4, "{slender:?}");
 }

@@ -13,3 +13,4 @@ mod platforms;
 mod reduction;
 mod responses;
 mod speed;
+mod swept;

@@ -7,7 +7,7 @@ use kinetostat::{Mechanism, Pose, Posture, Wrench};
 
 use crate::map::nearness::{Nearness, NearnessRoom};
 use crate::map::place::PlaceState;
-use crate::map::solved::Solved;
+use crate::map::solved::{Solved, Wanted};
 use crate::map::variable::{Needs, Variable};
 use crate::postures::configurations::Configurations;
 
@@ -19,6 +19,8 @@ pub struct Evaluator {
     ratings: Vec<Option<f64>>,
     variables: Vec<Variable>,
     details: Details,
+    /// Natural frequencies are asked for: the general engine takes every posture, whose state they are about.
+    modes: bool,
     nearness: Option<Nearness>,
     configurations: Configurations,
 }
@@ -61,6 +63,7 @@ impl Evaluator {
                 true => Details::Stability,
                 false => Details::Rest,
             },
+            modes: asks(Needs::Modes),
             nearness: variables
                 .contains(&Variable::SingularityDistance)
                 .then(|| Nearness::of(mechanism)),
@@ -132,6 +135,7 @@ impl Evaluator {
                 self.batch.stiffness_into(poses, stiffness);
                 true
             }
+            Some(_) if self.modes => false,
             Some(loads) => {
                 let found = self
                     .batch
@@ -183,7 +187,11 @@ impl Evaluator {
         posture: kinetostat::Result<Posture>,
         load: Option<&Wrench>,
     ) -> Option<Posture> {
-        let posture = place.take_posture(posture, load, &self.ratings);
+        let wanted = Wanted {
+            ratings: &self.ratings,
+            modes: self.modes,
+        };
+        let posture = place.take_posture(posture, load, &wanted);
         if let (Some(own), Some(posture), true) = (&self.nearness, &posture, place.found) {
             // What nothing holds has no rate of a drive that tells of it.
             place.singularity_distance = match place.free.is_empty() {

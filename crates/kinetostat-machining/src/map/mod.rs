@@ -2,6 +2,7 @@
 //! at once, in constant memory.
 
 mod evaluate;
+mod frequencies;
 mod grid;
 mod nearness;
 mod place;

@@ -7,6 +7,7 @@ use kinetostat::spatial::pose_residual;
 use kinetostat::{Error, Mechanism, Pose, Posture, Twist, Wrench};
 use nalgebra::{Matrix3, Matrix6, Vector3};
 
+use crate::map::frequencies::{LOWEST, lowest};
 use crate::map::place::PlaceState;
 use crate::map::principal::{NO_MOTION, principal, rotational};
 
@@ -30,6 +31,17 @@ pub(crate) struct Solved {
     pub share_to_buckling: f64,
     pub stable: f64,
     pub singularity_distance: f64,
+    /// The lowest natural frequencies, Hz, signed, rising.
+    pub frequencies: [f64; LOWEST],
+}
+
+/// What is asked of a posture by itself.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Wanted<'a> {
+    /// Ratings of the actuators, as far as they are stated.
+    pub ratings: &'a [Option<f64>],
+    /// Its natural frequencies, too.
+    pub modes: bool,
 }
 
 /// Below this relative pivot the rank of a stiffness has to be decided.
@@ -53,6 +65,7 @@ impl Solved {
             share_to_buckling: f64::NAN,
             stable: f64::NAN,
             singularity_distance: f64::NAN,
+            frequencies: [f64::NAN; LOWEST],
         }
     }
 
@@ -71,6 +84,7 @@ impl Solved {
         self.share_to_buckling = f64::NAN;
         self.stable = f64::NAN;
         self.singularity_distance = f64::NAN;
+        self.frequencies = [f64::NAN; LOWEST];
     }
 
     /// Stiffness along or about an axis, N/m or N m/rad: infinite where nothing moves, zero where a free motion does.
@@ -238,7 +252,7 @@ impl Solved {
         &mut self,
         posture: Result<Posture, Error>,
         load: Option<&Wrench>,
-        ratings: &[Option<f64>],
+        wanted: &Wanted<'_>,
     ) -> Option<Posture> {
         let Ok(posture) = posture else {
             self.state = PlaceState::Unreachable;
@@ -251,7 +265,7 @@ impl Solved {
         self.commanded(posture.commands().into_iter());
         let known = match load {
             None => self.take_unloaded(&posture),
-            Some(load) => self.take_loaded(&posture, load, ratings),
+            Some(load) => self.take_loaded(&posture, load, wanted),
         };
         match known {
             Some(()) => self.within(outside),
@@ -272,18 +286,16 @@ impl Solved {
         Some(())
     }
 
-    fn take_loaded(
-        &mut self,
-        posture: &Posture,
-        load: &Wrench,
-        ratings: &[Option<f64>],
-    ) -> Option<()> {
+    fn take_loaded(&mut self, posture: &Posture, load: &Wrench, wanted: &Wanted<'_>) -> Option<()> {
         let e = posture.deflected_by(load).ok()?;
+        if wanted.modes {
+            self.frequencies = lowest(posture, &e);
+        }
         self.softest = e.stiffness_against_force();
         self.take_compliance(e.compliance());
         self.displacement = e.displacement;
         self.found_by = e.found_by;
-        self.loads(e.actuator_forces().into_iter(), ratings);
+        self.loads(e.actuator_forces().into_iter(), wanted.ratings);
         self.stable = f64::from(u8::from(e.stable()));
         self.share_to_buckling = e.share_to_buckling().unwrap_or(f64::NAN);
         self.state = if e.platform.free > 0 {

@@ -33,6 +33,13 @@ pub enum Variable {
     Margin,
     SingularityDistance,
     Stable,
+    F1,
+    F2,
+    F3,
+    F4,
+    F5,
+    F6,
+    NaturalFrequencies,
 }
 
 /// Which of two values is the worse one.
@@ -64,6 +71,7 @@ pub(crate) enum Needs {
     Stiffness,
     Rest,
     Stability,
+    Modes,
 }
 
 /// A row of the table.
@@ -129,6 +137,13 @@ pub const VARIABLES: &[Entry] = table![
     Margin, "margin", "1", ONE, Smaller, Stability, "what is left to buckling, 1 - share_to_buckling, and no more than 0 where the equilibrium is not stable";
     SingularityDistance, "singularity_distance", "1", ONE, Smaller, Posture, "smallest singular value of the Jacobian between actuators and the motions that they drive, as a share of the largest, 0 where a motion is lost or held by nothing; angles are multiplied with the natural length of the machine; of machines with drives";
     Stable, "stable", "1", ONE, Smaller, Stability, "1 where the equilibrium under the load is stable, 0 where it is not";
+    F1, "f1", "Hz", ONE, Smaller, Modes, "first natural frequency about the equilibrium under the load, the tool free; below 0 where the equilibrium is unstable, 0 where a direction is free";
+    F2, "f2", "Hz", ONE, Smaller, Modes, "second natural frequency about the equilibrium under the load, the tool free; signs as of f1";
+    F3, "f3", "Hz", ONE, Smaller, Modes, "third natural frequency about the equilibrium under the load, the tool free; signs as of f1";
+    F4, "f4", "Hz", ONE, Smaller, Modes, "fourth natural frequency about the equilibrium under the load, the tool free; signs as of f1";
+    F5, "f5", "Hz", ONE, Smaller, Modes, "fifth natural frequency about the equilibrium under the load, the tool free; signs as of f1";
+    F6, "f6", "Hz", ONE, Smaller, Modes, "sixth natural frequency about the equilibrium under the load, the tool free; signs as of f1";
+    NaturalFrequencies, "natural_frequencies", "Hz", Width::Fixed(6), Smaller, Modes, "f1 to f6";
 ];
 
 impl Variable {
@@ -168,6 +183,13 @@ impl Variable {
     #[must_use]
     pub fn needs_drives(self) -> bool {
         self == Self::SingularityDistance
+    }
+
+    /// It is a question about vibrations: of a machine without masses ([`kinetostat_dynamics::check_masses`]) it has no
+    /// answer.
+    #[must_use]
+    pub fn needs_mass(self) -> bool {
+        self.needs() == Needs::Modes
     }
 
     /// Takes the worse of two values, column by column; what does not exist is the worst.
@@ -225,6 +247,13 @@ impl Variable {
             }
             Self::SingularityDistance => out[0] = place.singularity_distance,
             Self::Stable => out[0] = place.stable,
+            Self::F1 => out[0] = place.frequencies[0],
+            Self::F2 => out[0] = place.frequencies[1],
+            Self::F3 => out[0] = place.frequencies[2],
+            Self::F4 => out[0] = place.frequencies[3],
+            Self::F5 => out[0] = place.frequencies[4],
+            Self::F6 => out[0] = place.frequencies[5],
+            Self::NaturalFrequencies => out.copy_from_slice(&place.frequencies),
         }
     }
 }

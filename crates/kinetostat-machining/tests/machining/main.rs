@@ -17,6 +17,7 @@ mod fitted_arcs;
 mod five_axes;
 mod force_band;
 mod free_turn;
+mod frequencies;
 mod internal;
 mod joints;
 mod load;

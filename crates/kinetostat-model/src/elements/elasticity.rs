@@ -15,6 +15,8 @@ use crate::schema::{Section, ShearWord};
 pub(crate) enum Elasticity {
     /// A section: the stiffness follows from the length.
     Section(BeamSection),
+    /// A section by its rigidities alone: the moduli are one, and the area is no area.
+    Rigidities(BeamSection),
     /// A tapered beam, or one that bends by shear too.
     Beam(Box<Beam>),
     /// The stiffness of the far end, SI.
@@ -26,7 +28,7 @@ impl Elasticity {
     /// is for a matrix.
     pub(crate) fn cantilever(&self, place: &KeyPath, length: f64) -> ReadResult<Matrix6<f64>> {
         match self {
-            Self::Section(section) => section.cantilever(length).map_err(|error| {
+            Self::Section(section) | Self::Rigidities(section) => section.cantilever(length).map_err(|error| {
                 Finding::new(
                     place,
                     error.to_string(),
@@ -51,7 +53,10 @@ pub(crate) fn elasticity(
         _ => Shear::None,
     };
     if shear == Shear::None && s.tip.is_none() {
-        return Ok(Elasticity::Section(plain));
+        return Ok(match s.rigidities {
+            Some(_) => Elasticity::Rigidities(plain),
+            None => Elasticity::Section(plain),
+        });
     }
     let Some(root) = root(place, s)? else {
         return Err(Finding::new(

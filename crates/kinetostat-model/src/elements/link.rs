@@ -63,7 +63,9 @@ pub(crate) fn link(
     };
     let mut pieces = None;
     let spec = match elasticity {
-        Elasticity::Section(section) => LinkSpec::beam(section, length),
+        Elasticity::Section(section) | Elasticity::Rigidities(section) => {
+            LinkSpec::beam(section, length)
+        }
         Elasticity::Beam(beam) => {
             pieces = beam.pieces(place, length, segments)?;
             LinkSpec::matrix(beam.cantilever(place, length)?, length)
@@ -145,21 +147,21 @@ fn mass(
             "keep one of them",
         )?;
         let given = positive(place, "density", &density)?;
-        // Rigidities are a section with moduli of one: its area is a stiffness.
-        let Elasticity::Section(section) = elasticity else {
-            return Err(Some(Finding::new(
-                &place.key(given.key),
-                "a density needs a section of one shape, and this link has a matrix or a shape that changes",
-                "write mass_kg_per_m",
-            )));
+        let refuse = |why: &str| {
+            let help = "write mass_kg_per_m";
+            Err(Some(Finding::new(&place.key(given.key), why, help)))
         };
-        if section.youngs_modulus == 1.0 {
-            return Err(Some(Finding::new(
-                &place.key(given.key),
-                "a density needs the area of the section, and rigidities have none",
-                "write mass_kg_per_m",
-            )));
-        }
+        let section = match elasticity {
+            Elasticity::Section(section) => section,
+            Elasticity::Rigidities(_) => {
+                return refuse("a density needs the area of the section, and rigidities have none");
+            }
+            Elasticity::Beam(_) | Elasticity::Matrix(_) => {
+                return refuse(
+                    "a density needs a section of one shape, and this link has a matrix or a shape that changes",
+                );
+            }
+        };
         if !(100.0..=25_000.0).contains(&given.value) {
             return Err(Some(Finding::new(
                 &place.key(given.key),

@@ -7,6 +7,7 @@ use kinetostat::{Chain, Mechanism, Pose};
 use crate::plausibility::at_home::frames;
 use crate::plausibility::link_matrix::check as check_link_matrices;
 use crate::plausibility::machine::of_machine;
+use crate::plausibility::masses::no_body;
 use crate::plausibility::numbers::of_numbers;
 use crate::problem::{Finding, KeyPath};
 use crate::schema::Document;
@@ -67,6 +68,10 @@ pub(crate) fn check_plausibility(
         );
     }
     for (i, platform) in mechanism.platforms().iter().skip(1).enumerate() {
+        let place = root.key("platform").index(i).key("inertia_kg_m2");
+        if let Some(found) = no_body(&place, &platform.name, &platform.inertia) {
+            warn(&place, found.message, &found.help);
+        }
         if platform.mass > 1e5 {
             warn(
                 &root.key("platform").index(i).key("mass_kg"),

@@ -1,10 +1,36 @@
 //! Bodies beside the other bodies of their limb, beside the links that carry them, and beside the machine.
 
 use kinetostat::number::short;
+use nalgebra::Matrix3;
 
 use crate::plausibility::at_home::farthest;
 use crate::plausibility::limb::LimbCheck;
-use crate::problem::Finding;
+use crate::problem::{Finding, KeyPath};
+
+/// An inertia that no body has: a principal moment is larger than the sum of the others.
+pub(crate) fn no_body(place: &KeyPath, name: &str, inertia: &Matrix3<f64>) -> Option<Finding> {
+    let size = inertia.amax();
+    if size == 0.0 {
+        return None;
+    }
+    // Scaled first: squares of extreme numbers would not be finite.
+    let mut moments = (inertia / size).symmetric_eigenvalues();
+    moments.as_mut_slice().sort_by(f64::total_cmp);
+    if moments[2] <= moments[0] + moments[1] + ROUNDING {
+        return None;
+    }
+    let [least, middle, most] = [0, 1, 2].map(|k| short(moments[k] * size));
+    Some(Finding::new(
+        place,
+        format!(
+            "the inertia of '{name}' is that of no body: its principal moments are {least}, {middle} and {most} kg m^2, and the largest cannot exceed the sum of the others"
+        ),
+        "check the entries, their unit and the signs of the products; statics does not use it, vibrations refuse it",
+    ))
+}
+
+/// Of inertias in files, as the dynamics allow it.
+const ROUNDING: f64 = 1e-6;
 
 impl LimbCheck<'_> {
     pub(crate) fn masses(&self, warnings: &mut Vec<Finding>) {
@@ -35,6 +61,8 @@ impl LimbCheck<'_> {
                     "check the unit, and whether it is a placeholder",
                 ));
             }
+            let place = self.place(&body.name, &["inertia_kg_m2"]);
+            warnings.extend(no_body(&place, &body.name, &body.inertia));
             let gyration = (body.inertia.diagonal().amax() / body.mass).sqrt();
             if body.mass > 0.0 && gyration > 2.0 * self.size.max(0.5) {
                 warnings.push(Finding::new(

@@ -14,6 +14,7 @@
 
 use nalgebra::{DMatrix, DVector, Matrix6, Vector6};
 
+use crate::chain::problem::{ChainProblem, EndCondition};
 use crate::chain::residual::Residual;
 use crate::chain::tangent::ChainTangent;
 use crate::error::Result;
@@ -180,6 +181,25 @@ impl Posture {
                 .map(|linear| ChainTangent::of(linear.system))
                 .collect(),
             platforms,
+        })
+    }
+
+    /// One limb at a state by itself, its end free under the wrench that it has there: what acts on it between its ends is
+    /// that of the machine.
+    ///
+    /// # Errors
+    /// A state of another machine.
+    pub fn limb_problem(&self, limb: usize, state: &MechanismState) -> Result<ChainProblem<'_>> {
+        check_state(&self.mechanism, state)?;
+        let own = &self.mechanism.limbs()[limb];
+        let joints = &self.limbs[limb];
+        Ok(ChainProblem {
+            chain: &own.actual,
+            base: state.platforms[own.from],
+            commands: joints.commands.clone(),
+            posture: joints.coordinates.clone(),
+            loads: self.mechanism.acting(limb),
+            end: EndCondition::wrench(state.wrenches[limb]),
         })
     }
 

@@ -1,0 +1,173 @@
+//! The lowest modes of a long chain, none of them missed.
+
+use kinetostat::number::larger;
+use nalgebra::{DVector, Matrix6, Vector6};
+
+use crate::error::{Error, Result};
+use crate::modes::{DirectionCounts, Mode, Modes, kind_of, rigid_of};
+use crate::swept::factor::Factor;
+use crate::swept::krylov::{Krylov, Ritz};
+use crate::swept::long_chain::LongChain;
+
+impl LongChain {
+    /// The `count` lowest modes, and all that are unstable or free; directions are counted as
+    /// [`crate::LinearDynamics::modes`] counts them. `None` where a direction has neither mass nor stiffness, a massless one a
+    /// negative stiffness, or the end is held and something has no mass: dense matrices tell more of these.
+    ///
+    /// # Errors
+    /// [`Error::NoMass`].
+    pub fn lowest_modes(&self, count: usize) -> Result<Option<Modes>> {
+        let with_mass = self.stages.with_mass();
+        if with_mass == 0 {
+            return Err(Error::NoMass(self.name.clone()));
+        }
+        let held = self.held.directions.ncols();
+        let motions = self.stages.count - held;
+        if held > 0 && with_mass < self.stages.count {
+            return Ok(None);
+        }
+        let with_mass = with_mass.min(motions);
+        let Some(factor) = self.definite() else {
+            return Ok(None);
+        };
+        let going = match factor.shift == 0.0 {
+            true => 0,
+            // Free ones are at zero: a little above it they are below.
+            false => {
+                Factor::new(&self.stages, &self.held, -1e-3 * factor.shift).map_or(0, |f| f.below)
+            }
+        };
+        let wanted = count.max(going).min(with_mass);
+        let Some(found) = self.found(&factor, wanted, with_mass) else {
+            return Ok(None);
+        };
+        let mut modes: Vec<Mode> = found.into_iter().map(|r| self.mode(r, &factor)).collect();
+        modes.sort_by(|a, b| a.squared.total_cmp(&b.squared));
+        Ok(Some(Modes {
+            counts: DirectionCounts {
+                massless: motions - with_mass,
+                rigid: self.rigid(),
+                ..DirectionCounts::of(&modes, with_mass)
+            },
+            modes,
+            neutral: Vec::new(),
+        }))
+    }
+
+    /// A shift at which all is stable: none, or about the square of the first mode that is not free (of the
+    /// largest that runs away), so that what is free does not drown the others.
+    fn definite(&self) -> Option<Factor> {
+        let factor = |shift: f64| Factor::new(&self.stages, &self.held, shift);
+        let stable = |shift: f64| factor(shift).filter(|factor| factor.below == 0);
+        if let Some(found) = stable(0.0) {
+            return Some(found);
+        }
+        // Of some motion: energies of springs and of speed.
+        let x = &self.units;
+        let mass = self.stages.mass_times(x);
+        let mass: f64 = mass.iter().zip(x).map(|(m, x)| m * x).sum();
+        let size = self.stages.turnover(x) / mass;
+        let steps = || (-12..8).map(|k| size * 30.0_f64.powi(k));
+        let below = |shift: f64| factor(shift).map(|factor| factor.below);
+        let least = steps().find_map(below)?;
+        let first = steps().find(|s| below(*s).is_some_and(|below| below > least))?;
+        steps().filter(|s| *s >= first).find_map(|s| stable(-s))
+    }
+
+    /// Modes until the wanted ones stand still and none below the last of them is missed.
+    fn found(&self, factor: &Factor, wanted: usize, most: usize) -> Option<Vec<Ritz>> {
+        let mut krylov = Krylov::new(&self.stages, factor);
+        (0..BLOCK).for_each(|_| {
+            krylov.start();
+        });
+        let mut next_look = wanted + BLOCK;
+        loop {
+            if !krylov.advance() && !krylov.start() {
+                // All that has mass is spanned.
+                return Some(krylov.lowest(wanted));
+            }
+            if krylov.done() == most {
+                return Some(krylov.lowest(wanted));
+            }
+            if krylov.done() < next_look {
+                continue;
+            }
+            if krylov.done() > LONGEST.max(8 * wanted) {
+                return None;
+            }
+            next_look = krylov.done() + 4;
+            let found = krylov.lowest(wanted + BLOCK);
+            let settled =
+                found.len() >= wanted && found[..wanted].iter().all(|r| r.residual < SETTLED);
+            if !settled {
+                continue;
+            }
+            match self.missed(factor, &found, wanted) {
+                Some(0) => {
+                    let mut found = found;
+                    found.truncate(wanted);
+                    return Some(found);
+                }
+                Some(missed) => (0..missed.min(BLOCK)).for_each(|_| {
+                    krylov.start();
+                }),
+                None => return None,
+            }
+        }
+    }
+
+    /// Modes up to the last wanted one that are not among those found.
+    fn missed(&self, factor: &Factor, found: &[Ritz], wanted: usize) -> Option<usize> {
+        let last = found[..wanted]
+            .iter()
+            .map(|r| r.squared)
+            .fold(f64::NEG_INFINITY, larger);
+        let size = last.abs().max(factor.shift.abs());
+        [1e-7, 3e-7, 1e-6, 1e-5].into_iter().find_map(|share| {
+            let bound = last + share * size;
+            let below = Factor::new(&self.stages, &self.held, bound)?.below;
+            let known = found.iter().filter(|r| r.squared < bound).count();
+            Some(below.saturating_sub(known))
+        })
+    }
+
+    fn mode(&self, ritz: Ritz, factor: &Factor) -> Mode {
+        let size = self.stages.turnover(&ritz.shape) + ritz.squared.abs();
+        let (kind, squared) = kind_of(ritz.squared, size, -factor.shift);
+        let scaled = ritz.shape.iter().zip(&self.units).map(|(x, u)| x / u);
+        let largest = scaled.fold(0.0_f64, |m, x| if x.abs() > m.abs() { x } else { m });
+        let sign = if largest < 0.0 { -1.0 } else { 1.0 };
+        let shape = DVector::from_vec(ritz.shape) * sign;
+        let tool: Vector6<f64> = self.tool * self.stages.tip(shape.as_slice());
+        Mode {
+            squared,
+            kind,
+            shape,
+            tool,
+        }
+    }
+
+    /// Motions that the tool cannot make.
+    fn rigid(&self) -> usize {
+        let unit = |k: usize| if k < 3 { 1.0 / self.length } else { 1.0 };
+        let mut gram = Matrix6::zeros();
+        for stage in &self.stages.stages {
+            for (i, twist) in stage.twists.column_iter().enumerate() {
+                let moved = self.tool * twist * self.units[stage.first + i];
+                let moved = Vector6::from_fn(|k, _| moved[k] * unit(k));
+                gram.ger(1.0, &moved, &moved, 1.0);
+            }
+        }
+        let most = gram.diagonal().iter().copied().fold(0.0, larger);
+        rigid_of(&gram, most) + self.held.directions.ncols()
+    }
+}
+
+/// Starts at a time: modes may come in pairs, as those of a round bar do.
+const BLOCK: usize = 3;
+
+/// Residual from which on a mode stands still: its frequency is off by the square of it.
+const SETTLED: f64 = 1e-7;
+
+/// Vectors without an answer after which dense matrices take over.
+const LONGEST: usize = 240;

@@ -1,0 +1,36 @@
+//! The lowest modes of any machine, by the way that is the shorter one.
+
+use kinetostat::{MechanismEquilibrium, Posture};
+
+use crate::ends::Held;
+use crate::error::Result;
+use crate::linear::LinearDynamics;
+use crate::modes::Modes;
+use crate::swept::long_chain::LongChain;
+
+/// Chains of fewer coordinates are as fast with dense matrices.
+const SWEPT_FROM: usize = 60;
+
+/// The lowest modes of a machine about an equilibrium: along the chain where it is a long one, by dense matrices otherwise.
+/// All unstable and free ones are among them.
+///
+/// # Errors
+/// As [`LinearDynamics::of_machine`] and [`LinearDynamics::modes`].
+pub fn lowest_modes(
+    posture: &Posture,
+    at: &MechanismEquilibrium,
+    held: &Held,
+    count: usize,
+) -> Result<Modes> {
+    let limbs = posture.mechanism().limbs().iter();
+    let long = limbs.map(|l| l.actual.coordinate_count()).sum::<usize>() >= SWEPT_FROM;
+    if long && let Some(chain) = LongChain::of_machine(posture, at, held)? {
+        if let Some(modes) = chain.lowest_modes(count)? {
+            return Ok(modes);
+        }
+    }
+    let mut modes = LinearDynamics::of_machine(posture, at, held)?.modes()?;
+    let going = modes.counts.unstable + modes.counts.free;
+    modes.modes.truncate(count.max(going));
+    Ok(modes)
+}
