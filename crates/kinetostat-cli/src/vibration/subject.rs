@@ -40,11 +40,10 @@ pub(crate) fn machine(
     posture: &Posture,
     held: &Held,
 ) -> Answer<VibratingMachine> {
-    VibratingMachine::at(posture, &query.wrench, held)
-        .map_err(|error| {
-            let line = line_of(&error, query);
-            refused(error).within(&line.unwrap_or_else(|| query.source.clone()))
-        })
+    VibratingMachine::at(posture, &query.wrench, held).map_err(|error| {
+        let line = line_of(&error, query);
+        refused(error).within(&line.unwrap_or_else(|| query.source.clone()))
+    })
 }
 
 /// File and line of an inertia that no body has: the model has warned of it.

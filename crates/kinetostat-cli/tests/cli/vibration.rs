@@ -223,7 +223,10 @@ fn an_inertia_that_no_body_has_is_refused_by_file_line_and_name() {
         let said = said(here.path(), command);
         assert_eq!(said.code, 1, "{said:?}");
         let whole = said.err.replace('\n', " ");
-        assert!(whole.contains(&place) && whole.contains("link 3"), "{whole}");
+        assert!(
+            whole.contains(&place) && whole.contains("link 3"),
+            "{whole}"
+        );
     }
     // Statics does not use it.
     let warned = said(here.path(), "deflect wrong.toml --force 0 0 -100 --json").answered();
