@@ -56,7 +56,7 @@ proptest! {
         which in 0..3_usize,
     ) {
         let tool = Tool::new(SHAPES[which], 4.0, 2).unwrap();
-        prop_assume!(ways.windows(2).all(|ends| is_looked_at_on_itself(ends)));
+        prop_assume!(ways.windows(2).all(is_looked_at_on_itself));
         let places: Vec<[f64; 3]> = ways.iter().map(|(x, y)| [*x, *y, -depth]).collect();
         for extent in extents_of_the_second_time(&tool, &places) {
             prop_assert_eq!(extent, 0.0);
@@ -70,7 +70,7 @@ proptest! {
         which in 0..3_usize,
     ) {
         let tool = Tool::new(SHAPES[which], 4.0, 2).unwrap();
-        prop_assume!(ways.windows(2).all(|ends| is_looked_at_on_itself(ends)));
+        prop_assume!(ways.windows(2).all(is_looked_at_on_itself));
         // In a plane, up to 7 degrees.
         let places: Vec<[f64; 3]> = ways.iter().map(|(x, y)| [*x, *y, rise * x - 1.5]).collect();
         for extent in extents_of_the_second_time(&tool, &places) {

@@ -193,7 +193,9 @@ fn inverted(a: &DMatrix<f64>) -> Option<(DMatrix<f64>, usize)> {
     }
     let eigen = scaled.symmetric_eigen();
     let most = eigen.eigenvalues.amax();
-    if eigen.eigenvalues.iter().any(|v| !(v.abs() > PIVOT * most)) {
+    // What is no number is no pivot either.
+    let is_pivot = |v: &f64| v.abs() > PIVOT * most;
+    if !eigen.eigenvalues.iter().all(is_pivot) {
         return None;
     }
     let v = &eigen.eigenvectors;

@@ -24,10 +24,11 @@ pub fn lowest_modes(
 ) -> Result<Modes> {
     let limbs = posture.mechanism().limbs().iter();
     let long = limbs.map(|l| l.actual.coordinate_count()).sum::<usize>() >= SWEPT_FROM;
-    if long && let Some(chain) = LongChain::of_machine(posture, at, held)? {
-        if let Some(modes) = chain.lowest_modes(count)? {
-            return Ok(modes);
-        }
+    if long
+        && let Some(chain) = LongChain::of_machine(posture, at, held)?
+        && let Some(modes) = chain.lowest_modes(count)?
+    {
+        return Ok(modes);
     }
     let mut modes = LinearDynamics::of_machine(posture, at, held)?.modes()?;
     let going = modes.counts.unstable + modes.counts.free;

@@ -54,9 +54,12 @@ pub(crate) struct Stages {
     pub count: usize,
 }
 
-/// First coordinate and number of coordinates of each stage, and stages before each node; `None` of a chain that is no
+/// First coordinate and number of coordinates of each stage, and how many stages stand before each node.
+type Sequence = (Vec<(usize, usize)>, Vec<usize>);
+
+/// The stages of a chain in their order; `None` of a chain that is no
 /// sequence of stages: a coordinate drives several motions.
-fn sequence(chain: &Chain) -> Option<(Vec<(usize, usize)>, Vec<usize>)> {
+fn sequence(chain: &Chain) -> Option<Sequence> {
     let mut of_spring = vec![1; chain.coordinate_count()];
     for block in chain.springs() {
         *of_spring.get_mut(block.first)? = block.len();

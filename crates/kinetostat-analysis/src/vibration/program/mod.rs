@@ -4,12 +4,14 @@
 //! group and judged once, at the deepest of them. At each the modes are those of the machine in its posture there, under the
 //! mean force of the cut (without its moment about the tip); the limit of depth at the speed of the program is exact for one arc at all heights.
 
+mod along;
 mod judge;
 mod question;
 mod site;
 mod stretches;
 
+pub use along::ProgramChatter;
 pub use judge::{JudgedSite, Verdict};
-pub use question::{ChatterQuestion, ProgramChatter, ProgramChatterError};
+pub use question::{ChatterQuestion, ProgramChatterError};
 pub use site::CutSite;
 pub use stretches::ChatterStretch;

@@ -1,17 +1,10 @@
-//! The question of chatter along a program, and its answer.
-
-use std::sync::atomic::{AtomicUsize, Ordering};
+//! The question of chatter along a program.
 
 use kinetostat_chatter::ChatterError;
 use kinetostat_dynamics::{Damping, Error};
-use kinetostat_machining::{
-    CutFailure, CutQuestion, CuttingTool, ForceAlongPath, LoadAlongPath, Task, Watch,
-};
-use rayon::prelude::*;
+use kinetostat_machining::{CutFailure, CutQuestion, CuttingTool, ForceAlongPath, Task};
 
-use crate::vibration::program::judge::{JudgedSite, Verdict};
-use crate::vibration::program::site::{CutSite, groups, sites};
-use crate::vibration::program::stretches::{ChatterStretch, stretches};
+use crate::vibration::program::site::CutSite;
 
 /// A machine that cuts along a program, and how it is damped.
 #[derive(Clone, Copy)]
@@ -30,19 +23,6 @@ pub struct ChatterQuestion<'a> {
     pub every_mm: f64,
     /// Most places that are judged.
     pub most: usize,
-}
-
-/// Where a program chatters.
-#[derive(Clone, Debug, PartialEq)]
-pub struct ProgramChatter {
-    /// All places that were judged, in the order of the path.
-    pub sites: Vec<JudgedSite>,
-    /// Stretches of the program that chatter.
-    pub stretches: Vec<ChatterStretch>,
-    /// Places of the program at which the tool cuts; each stands in one group with those like it.
-    pub places: usize,
-    /// How many times more than usual places in one group may differ, so that they are no more than was asked for: 1 as usual.
-    pub wider: f64,
 }
 
 /// Why there is no answer.
@@ -74,97 +54,12 @@ pub enum ProgramChatterError {
 }
 
 impl ChatterQuestion<'_> {
-    /// Judges the cuts along the program, on all cores.
-    ///
-    /// # Errors
-    /// [`ProgramChatterError`], the first in the order of the program.
-    pub fn along(&self, watch: &dyn Watch) -> Result<ProgramChatter, ProgramChatterError> {
-        let all = sites(self.forces, self.task.path());
-        let tools: Vec<usize> = all
-            .iter()
-            .map(|s| self.index_of(s))
-            .collect::<Result<_, _>>()?;
-        let (groups, wider) = groups(&all, &tools, self.every_mm, self.most);
-        let load = LoadAlongPath::with_tools(self.task.load, self.task.path(), self.task.tools)
-            .with_cut(self.task.cut);
-        watch.stage("chatter", groups.len());
-        let done = AtomicUsize::new(0);
-        let judged: Vec<Result<JudgedSite, ProgramChatterError>> = groups
-            .par_iter()
-            .map(|range| {
-                if watch.cancelled() {
-                    return Err(ProgramChatterError::Cancelled);
-                }
-                let own = &all[range.clone()];
-                let deepest =
-                    own.iter()
-                        .reduce(|a, b| match b.station.depth_mm > a.station.depth_mm {
-                            true => b,
-                            false => a,
-                        });
-                let site = deepest.unwrap_or(&own[0]);
-                let found = self.judge(&load, site, own.len());
-                watch.advance(done.fetch_add(1, Ordering::Relaxed) + 1);
-                found
-            })
-            .collect();
-        let judged: Vec<JudgedSite> = judged.into_iter().collect::<Result<_, _>>()?;
-        let stretches = stretches(self, &load, &judged, watch)?;
-        Ok(ProgramChatter {
-            sites: judged,
-            stretches,
-            places: all.len(),
-            wider,
-        })
-    }
-
     /// The tool of a place.
     pub(crate) fn tool_of(&self, site: &CutSite) -> Result<&CuttingTool, ProgramChatterError> {
         Ok(&self.cut.tools[self.index_of(site)?])
     }
 
-    fn index_of(&self, site: &CutSite) -> Result<usize, ProgramChatterError> {
+    pub(crate) fn index_of(&self, site: &CutSite) -> Result<usize, ProgramChatterError> {
         Ok(self.cut.tool_on(self.task.path(), site.line)?)
-    }
-}
-
-impl ProgramChatter {
-    /// Groups of places of which nothing is said, by reason, with the first line of each and how many places they are.
-    #[must_use]
-    pub fn not_judged(&self) -> Vec<(&str, usize, usize)> {
-        let mut all: Vec<(&str, usize, usize)> = Vec::new();
-        for site in &self.sites {
-            let Verdict::NotJudged(why) = &site.verdict else {
-                continue;
-            };
-            match all.iter_mut().find(|(known, _, _)| known == why) {
-                Some(own) => own.2 += site.places,
-                None => all.push((why, site.site.line, site.places)),
-            }
-        }
-        all
-    }
-
-    /// Places whose contact differs with the height, of which the widest arc was taken.
-    #[must_use]
-    pub fn uneven(&self) -> usize {
-        let of_one = |site: &&JudgedSite| {
-            let contact = site.site.station.contact;
-            site.is_judged() && contact.is_some_and(|c| !c.is_even)
-        };
-        self.sites.iter().filter(of_one).map(|s| s.places).sum()
-    }
-
-    /// The place with the least limit by its depth.
-    #[must_use]
-    pub fn nearest(&self) -> Option<&JudgedSite> {
-        let share = |site: &JudgedSite| site.limit_mm.map(|l| l / site.site.station.depth_mm);
-        let known = self
-            .sites
-            .iter()
-            .filter_map(|site| Some((share(site)?, site)));
-        known
-            .min_by(|a, b| a.0.total_cmp(&b.0))
-            .map(|(_, site)| site)
     }
 }
