@@ -56,6 +56,9 @@ pub(crate) struct Place {
     pub(crate) first_hz: Option<f64>,
     /// Places of the program that are like it.
     pub(crate) places: usize,
+    /// From where to where along the path these lie.
+    pub(crate) from_path_mm: f64,
+    pub(crate) to_path_mm: f64,
 }
 
 /// Lines in a row that chatter.
@@ -151,6 +154,8 @@ fn place(judged: &JudgedSite, source: Option<String>) -> Place {
         kind: judged.kind,
         first_hz: judged.first_hz,
         places: judged.places,
+        from_path_mm: judged.path_mm[0],
+        to_path_mm: judged.path_mm[1],
     }
 }
 

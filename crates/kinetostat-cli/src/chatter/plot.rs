@@ -38,12 +38,21 @@ pub(crate) fn drawing(a: &ChatterAnswer) -> String {
     .svg()
 }
 
-/// A value holds from its place to the next one.
+/// A value holds from the first of its places to the last; the pen is lifted where the tool leaves the cut.
 fn steps(places: &[Place], of: &dyn Fn(&Place) -> f64) -> Vec<(f64, f64)> {
     let mut points = Vec::with_capacity(2 * places.len());
-    for (i, place) in places.iter().enumerate() {
-        let until = places.get(i + 1).map_or(place.path_mm, |next| next.path_mm);
-        points.extend([(place.path_mm, of(place)), (until, of(place))]);
+    let mut last: Option<&Place> = None;
+    for place in places {
+        // Neighbours in the cut have a place in every few millimetres.
+        let goes_on = last.is_some_and(|last| place.from_path_mm - last.to_path_mm < APART_MM);
+        if !goes_on {
+            points.push((f64::NAN, f64::NAN));
+        }
+        points.extend([place.from_path_mm, place.to_path_mm].map(|at| (at, of(place))));
+        last = Some(place);
     }
     points
 }
+
+/// Places farther apart have air between them, or a move that nothing is known of.
+const APART_MM: f64 = 10.0;

@@ -124,7 +124,7 @@ fn rapids_go_straight_where_the_source_has_them_straight() {
     let line = "convert far.ngc --to joints --model heavy_6r --joint-rows joint --template far.toml --out far.csv";
     run(here, &words(line)).answered();
     // Read again as poses, each row is on the straight way of x = 1600 until the cut.
-    let line = "convert far.csv --to csv --model heavy_6r --joint-rows joint --out far_poses.csv";
+    let line = "convert far.csv --to csv --model heavy_6r --joint-rows joint --template far.toml --out far_poses.csv";
     run(here, &words(line)).answered();
     let rows = poses(here, "far_poses.csv");
     let high: Vec<_> = rows.iter().filter(|row| row[1] < 399.0).collect();

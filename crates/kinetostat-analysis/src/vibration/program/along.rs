@@ -53,7 +53,10 @@ impl ChatterQuestion<'_> {
                             false => a,
                         });
                 let site = deepest.unwrap_or(&own[0]);
-                let found = self.judge(&load, site, own.len());
+                let mut found = self.judge(&load, site, own.len());
+                if let (Ok(judged), Some(last)) = (&mut found, own.last()) {
+                    judged.path_mm = [own[0].path_mm, last.path_mm];
+                }
                 watch.advance(done.fetch_add(1, Ordering::Relaxed) + 1);
                 found
             })

@@ -47,6 +47,8 @@ pub struct JudgedSite {
     pub first_hz: Option<f64>,
     /// Places of the program that this one stands for.
     pub places: usize,
+    /// From where to where along the path these lie, mm.
+    pub path_mm: [f64; 2],
 }
 
 impl JudgedSite {
@@ -66,6 +68,7 @@ impl JudgedSite {
             kind: None,
             first_hz: None,
             places,
+            path_mm: [site.path_mm; 2],
         }
     }
 }
@@ -144,6 +147,7 @@ impl ChatterQuestion<'_> {
                 .map(kinetostat_chatter::Mode::frequency_hz)
                 .reduce(|a, b| if b < a { b } else { a }),
             places,
+            path_mm: [site.path_mm; 2],
         })
     }
 
