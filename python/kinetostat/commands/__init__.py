@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from kinetostat._running import Completed, run
 from kinetostat.commands._assemble import assemble
+from kinetostat.commands._chatter import chatter
 from kinetostat.commands._check import check
 from kinetostat.commands._compare import compare
 from kinetostat.commands._compensate import compensate
@@ -39,6 +40,7 @@ from kinetostat.commands._verify import verify
 __all__ = [
     "Completed",
     "assemble",
+    "chatter",
     "check",
     "compare",
     "compensate",
