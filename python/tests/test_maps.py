@@ -186,7 +186,7 @@ def test_natural_frequencies_of_the_reference_arm() -> None:
     places = np.array([[x - 0.05, y + 0.04, z + 0.06], [x, y - 0.07, z]])
     found = arm.map(x=places[:, 0], y=places[0, 1], z=places[0, 2], loads=load, variables=["f1", "f3"])
     for k, place in enumerate(found.x.values):
-        posture = arm.posture(ks.pose([place, *places[0, 1:]], arm.home[:3, :3]))
+        posture = arm.posture([place, *places[0, 1:]], rotation=arm.home[:3, :3])
         np.testing.assert_allclose([found.f1[k], found.f3[k]], posture.vibration(load).frequencies_hz[[0, 2]], rtol=1e-7)
     with pytest.raises(ks.ArgumentError, match="no mass anywhere"):
         MACHINE.map(x=X, y=0, z=0, loads=load, variables="f1")
