@@ -139,7 +139,7 @@ fn rapids_go_straight_where_the_source_has_them_straight() {
         "{}",
         said.out
     );
-    let far = PART.replacen("    MoveL", "    MoveJ [[0,400,50],[0,0.17364817766693033,0.984807753012208,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v500,z10,tMill\\WObj:=wPart;\n    MoveL", 1);
+    let far = PART.replacen("MoveL", "MoveJ [[0,400,50],[0,0.17364817766693033,0.984807753012208,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v500,z10,tMill\\WObj:=wPart;\nMoveL", 1);
     std::fs::write(here.join("far.mod"), far).unwrap();
     let line = "convert far.mod --to joints --model heavy_6r --joint-rows joint --out p2.csv";
     let said = run(here, &words(line)).answered();

@@ -189,6 +189,25 @@ impl Posture {
     ///
     /// # Errors
     /// A state of another machine.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// # use kinetostat::nalgebra::{Vector3, vector};
+    /// # use kinetostat::*;
+    /// # let slide = |axis, stiffness| ActuatorSpec::new(MotionKind::Prismatic, axis, stiffness);
+    /// let table = Chain::builder("table")
+    ///     .actuator("long", slide(Vector3::x(), 8e7)) // N/m
+    ///     .actuator("cross", slide(Vector3::y(), 2e7))
+    ///     .build()?;
+    /// let table = Mechanism::serial(table, Pose::identity(), Vector3::zeros())?;
+    /// let posture = table.posture(&Pose::identity())?.as_drawn();
+    /// let pushed = Wrench::new(vector![300.0, 0.0, 0.0], Vector3::zeros()); // N
+    /// let equilibrium = posture.deflected_by(&pushed)?;
+    /// let alone = posture.limb_problem(0, &equilibrium.state)?;
+    /// assert_eq!(alone.chain.coordinate_count(), 2);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn limb_problem(&self, limb: usize, state: &MechanismState) -> Result<ChainProblem<'_>> {
         check_state(&self.mechanism, state)?;
         let own = &self.mechanism.limbs()[limb];

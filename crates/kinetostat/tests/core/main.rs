@@ -52,6 +52,7 @@ mod lost_motions;
 mod machines_reach_what_chains_reach;
 mod machines_that_snap;
 mod machines_with_rigid_directions;
+mod numbers_of_tables;
 mod orientation_follows;
 mod orthoglide_reference;
 mod pantographs_and_lattices;
