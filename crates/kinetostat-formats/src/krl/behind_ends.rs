@@ -23,8 +23,13 @@ pub(crate) struct Rest {
     pub with: Range<usize>,
 }
 
-/// What these tokens behind the ends say; why they say nothing.
-pub(crate) fn rest_of(file: &TokenFile<'_>, tokens: Range<usize>) -> Result<Rest, Reason> {
+/// What these tokens behind the ends say; why they say nothing. In whose axes a step (`is_step`) is, stands before or behind
+/// the words of rounding.
+pub(crate) fn rest_of(
+    file: &TokenFile<'_>,
+    tokens: Range<usize>,
+    is_step: bool,
+) -> Result<Rest, Reason> {
     let mut rest = Rest {
         zone: None,
         rounding: None,
@@ -32,6 +37,10 @@ pub(crate) fn rest_of(file: &TokenFile<'_>, tokens: Range<usize>) -> Result<Rest
     };
     let mut at = tokens.start;
     while at < tokens.end {
+        if is_step && file.is(at, b'#') {
+            at = behind_axes(file, at)?;
+            continue;
+        }
         let Some(name) = file.name(at) else {
             // A comma between words of rounding.
             if file.is(at, b',') && rest.zone.is_some() {
@@ -70,6 +79,17 @@ pub(crate) fn rest_of(file: &TokenFile<'_>, tokens: Range<usize>) -> Result<Rest
         }
     }
     Ok(rest)
+}
+
+/// Behind the word that says in whose axes a step is: those of the base without a word.
+fn behind_axes(file: &TokenFile<'_>, at: usize) -> Result<usize, Reason> {
+    match file.name(at + 1).is_some_and(|name| name.is("BASE")) {
+        true => Ok(at + 2),
+        false => Err((
+            "its steps are in the axes of the tool".to_owned(),
+            "write the end with LIN and all its numbers",
+        )),
+    }
 }
 
 fn inline_form() -> Reason {

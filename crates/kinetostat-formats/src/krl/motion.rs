@@ -64,8 +64,8 @@ pub(crate) fn follow(
     let ends = ends_of(file, tokens, row.ends);
     let end_tokens = ends.last().cloned().unwrap_or(tokens.end..tokens.end);
     are_apart(file, (row, tokens), &ends, &end_tokens)?;
-    let behind = behind_end(file, row, end_tokens.end)?;
-    let rest = rest_of(file, behind..tokens.end)?;
+    let behind = behind_end(file, end_tokens.end);
+    let rest = rest_of(file, behind..tokens.end, row.ends == Ends::Step)?;
     with((values, settings, routine), &rest.with, &mut state)?;
     let speed_place = SpeedPlace::of(file, &end_tokens, &rest.with, in_block);
     let (step_mm, end) = match row.ends {
@@ -170,22 +170,10 @@ fn are_apart(
     Ok(())
 }
 
-/// Behind what belongs to an end: in whose axes a step is, and the angle of a circle.
-fn behind_end(file: &TokenFile<'_>, row: &MotionRow, mut behind: usize) -> Result<usize, Reason> {
-    // In whose axes a step is: those of the base without a word.
-    if row.ends == Ends::Step && file.is(behind, b'#') {
-        if !file.name(behind + 1).is_some_and(|name| name.is("BASE")) {
-            return Err((
-                "its steps are in the axes of the tool".to_owned(),
-                "write the end with LIN and all its numbers",
-            ));
-        }
-        behind += 2;
-    }
-    if file.is(behind, b',') && file.name(behind + 1).is_some_and(|name| name.is("CA")) {
-        behind += 1;
-    }
-    Ok(behind)
+/// Behind the comma before the angle of a circle.
+fn behind_end(file: &TokenFile<'_>, end: usize) -> usize {
+    let has_angle = file.is(end, b',') && file.name(end + 1).is_some_and(|name| name.is("CA"));
+    end + usize::from(has_angle)
 }
 
 /// A frame that nothing before it sets.

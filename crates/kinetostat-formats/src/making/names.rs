@@ -127,18 +127,15 @@ fn is_taken(name: &str) -> bool {
 const NAMED_SO: &str =
     "name it so: a program is called as its output, or as program_name in the template says";
 
-/// Words that no program of an arm has for a name, ...
-const OF_ALL: &str = "DEF END MAIN MODULE PROC TOOL0 WOBJ0";
-
-/// ... words of KRL (KUKA System Software, keywords), ...
-const OF_KRL: &str = "AND ANIN ANOUT AXIS BAS BOOL BRAKE B_AND B_EXOR B_NOT B_OR CASE CAST_FROM CAST_TO CHANNEL CHAR CIRC CIRC_REL \
+/// Words that no program of an arm has for a name: words of KRL (KUKA System Software, keywords), ...
+const OF_KRL: &str = "DEF END AND ANIN ANOUT AXIS BAS BOOL BRAKE B_AND B_EXOR B_NOT B_OR CASE CAST_FROM CAST_TO CHANNEL CHAR CIRC CIRC_REL \
     CONFIRM CONST CONTINUE DECL DEFAULT DEFDAT DEFFCT DELAY DISTANCE DO E6AXIS E6POS ELSE ENDDAT ENDFCT ENDFOR \
     ENDIF ENDLOOP ENDSWITCH ENDWHILE ENUM EXIT EXOR EXT EXTFCT FALSE FOR FRAME GLOBAL GOTO HALT IF IMPORT INT \
     INTERRUPT IS LIN LIN_REL LOOP NOT OR POS PTP PTP_REL PUBLIC REAL REPEAT RESUME RETURN SIGNAL STRUC SWITCH THEN \
     TO TRIGGER SPLINE SPL SLIN SCIRC TRUE UNTIL WAIT WHILE";
 
 /// ... and reserved words of RAPID and types (RAPID Overview of ABB, identifiers).
-const OF_RAPID: &str = "ALIAS AND BACKWARD CASE CONNECT CONST DEFAULT DIV DO ELSE ELSEIF ENDFOR ENDFUNC ENDIF ENDMODULE ENDPROC \
+const OF_RAPID: &str = "MAIN MODULE PROC TOOL0 WOBJ0 ALIAS AND BACKWARD CASE CONNECT CONST DEFAULT DIV DO ELSE ELSEIF ENDFOR ENDFUNC ENDIF ENDMODULE ENDPROC \
     ENDRECORD ENDTEST ENDTRAP ENDWHILE ERROR EXIT FALSE FOR FROM FUNC GOTO IF INOUT LOCAL MOD NOSTEPIN NOT NOVIEW \
     OR PERS RAISE READONLY RECORD RETRY RETURN STEP SYSMODULE TASK TEST THEN TO TRAP TRUE TRYNEXT UNDO VAR \
     VIEWONLY WHILE WITH XOR NUM BOOL STRING POSE";
@@ -153,8 +150,8 @@ fn is_reserved(name: &str, language: MakeLanguage) -> bool {
         MakeLanguage::Rapid => OF_RAPID,
         _ => "",
     };
-    let mut words = own.split_whitespace().chain(OF_ALL.split_whitespace());
-    words.any(|word| name.eq_ignore_ascii_case(word))
+    own.split_whitespace()
+        .any(|word| name.eq_ignore_ascii_case(word))
 }
 
 /// Whether a text is an identifier of at most so many characters.

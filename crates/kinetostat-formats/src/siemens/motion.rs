@@ -3,7 +3,7 @@
 use nalgebra::Vector3;
 
 use crate::model::motion::MotionKind;
-use crate::siemens::block::Block;
+use crate::siemens::block::{Block, How, Item, What};
 use crate::siemens::frames::Change;
 use crate::siemens::made_motion::Known;
 use crate::siemens::state::Code;
@@ -92,6 +92,14 @@ impl Reader<'_> {
                 &block.span,
                 "a frame and a motion stand in one block",
                 "write the frame as a block of its own",
+            );
+        }
+        let step = |item: &&Item| matches!(item.what, What::Value { how: How::Step, .. });
+        if let Some(item) = block.items.iter().find(step) {
+            return self.fault(
+                &item.span,
+                "a value of a frame is a step (IC), and what the controller makes of it is not documented",
+                "write the value without IC: ATRANS and AROT add to the frame in force",
             );
         }
         let shifts = matches!(change, Change::Shift | Change::FurtherShift);

@@ -1,5 +1,7 @@
 //! Steps from where the tool is (`LIN_REL {X 10}`) with their ends stated.
 
+use std::ops::Range;
+
 use crate::krl::kept::kept_angles;
 use crate::krl::table::{Ends, motion_row};
 use crate::model::motion::Motion;
@@ -34,15 +36,25 @@ pub(super) fn state_step(
     let edits = &mut edits[motion.file];
     edits.replace(motion.site.keyword.clone(), straight);
     let file = &program.files[motion.file];
-    let behind = file.part(&(motion.site.target_span.end..motion.span.end));
-    // In whose axes the step was.
-    let blanks = behind.len() - behind.trim_ascii_start().len();
-    let word = match behind.trim_ascii_start().starts_with(b"#") {
-        true => blanks + "#BASE".len(),
-        false => 0,
-    };
-    let span = motion.site.target_span.start..motion.site.target_span.end + word;
+    let span = motion.site.target_span.clone();
+    let behind = span.end..motion.span.end;
+    if let Some(word) = axes_word(file.part(&behind)) {
+        edits.replace(span.end + word.start..span.end + word.end, "");
+    }
     edits.replace(span, format!("{{{}}}", members.join(",")));
+}
+
+/// Where it is said, behind the end of a step, in whose axes it is: with the blanks before it.
+fn axes_word(behind: &[u8]) -> Option<Range<usize>> {
+    let sign = behind.iter().position(|byte| *byte == b'#')?;
+    let before = behind[..sign].trim_ascii_end();
+    // Behind WITH stand values of settings.
+    let settings = before
+        .windows("WITH".len())
+        .any(|word| word.eq_ignore_ascii_case(b"WITH"));
+    let word = behind[sign + 1..].trim_ascii_start();
+    let length = behind.len() - word.len() + "BASE".len();
+    (!settings && length <= behind.len()).then_some(before.len()..length)
 }
 
 /// A number without zeros that say nothing.

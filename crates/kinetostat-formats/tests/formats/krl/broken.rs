@@ -39,6 +39,10 @@ fn statements_that_move_the_tool_otherwise_are_refused_by_line() {
             "it goes on from where the tool is, and turns it or moves axes",
         ),
         (
+            "LIN_REL {X 10} C_DIS #TOOL",
+            "its steps are in the axes of the tool",
+        ),
+        (
             "LIN_REL {X 10} #TOOL",
             "its steps are in the axes of the tool",
         ),

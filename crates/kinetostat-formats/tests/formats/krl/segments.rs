@@ -72,6 +72,13 @@ fn steps_go_along_the_axes_of_the_base() {
         .map(|motion| motion.target.pose().unwrap().orientation)
         .collect();
     assert!(turns.iter().all(|turn| *turn == turns[0]));
+    // Whose axes they are may stand behind the words of rounding [KSS, LIN_REL].
+    let behind = main_with("", &STEPS.replace("C_DIS ; along", "C_DIS #BASE ; along"));
+    let end = behind.motions[1].target.pose().unwrap().position_mm;
+    assert_eq!(end, Vector3::new(40.0, 20.0, 3.0));
+    let text = written(&behind, &[Piece::to(1, Vector3::new(40.0, 20.0, 3.125))]);
+    let stated = "LIN {X 40,Y 20,Z 3.125,A 15,B 3,C 170} C_DIS ; along\n";
+    assert!(text.contains(stated), "{text}");
     // A corrected step is stated, and what goes on from it, too; the one behind that stays.
     let piece = Piece::to(1, Vector3::new(40.0, 20.0, 3.125));
     let text = written(&program, &[piece]);

@@ -332,6 +332,24 @@ fn g_code_cannot_lean() {
     );
 }
 
+/// A word of one language is a name in another.
+#[test]
+fn main_names_a_program_where_it_is_no_word() {
+    let (_, path) = gcode(LINE);
+    let template = Template {
+        program_name: "MAIN".into(),
+        ..cell()
+    };
+    for language in [MakeLanguage::Krl, MakeLanguage::FanucLs] {
+        let made = make(&path, &[], &template, language).unwrap();
+        assert!(
+            made.files[0].0.starts_with("MAIN."),
+            "{:?}",
+            made.files[0].0
+        );
+    }
+}
+
 #[test]
 fn names_that_a_module_cannot_declare() {
     let refused = |change: &dyn Fn(&mut Template)| {

@@ -90,6 +90,7 @@ fn what_moves_the_tool_otherwise_is_refused_by_line() {
             "it changes one part of the frame alone; state the frame by TRANS",
         ),
         ("TRANS X1 G1", "a frame and a motion stand in one block"),
+        ("ATRANS X=IC(5)", "a value of a frame is a step (IC)"),
         (
             "TRACYL(40)",
             "the machine's axes are not those of the part then",

@@ -171,6 +171,12 @@ impl Runner<'_> {
                 "give it the number of the loop that it stands in",
             ));
         };
+        if let LoopKind::Repeat(_) = loops[at].kind {
+            return Err(self.refuse(
+                "break or continue of a repeat loop, which LinuxCNC refuses",
+                "make it a while loop with a variable that counts",
+            ));
+        }
         loops.truncate(at + 1);
         Ok(loops[at].clone())
     }

@@ -182,6 +182,16 @@ fn what_has_no_end_or_no_beginning_is_refused() {
         ("O1 callsub\n", 1, "behind the keyword"),
         ("O1 wait\n", 1, "no keyword"),
         ("O1 break\n", 1, "not open"),
+        (
+            "O1 repeat [2]\nO1 break\nO1 endrepeat\n",
+            2,
+            "which LinuxCNC refuses",
+        ),
+        (
+            "O1 repeat [2]\nO1 continue\nO1 endrepeat\n",
+            2,
+            "which LinuxCNC refuses",
+        ),
         ("GOTO 5\n", 1, "no block N5"),
         ("WHILE [0] DO1\n", 1, "END1 is missing"),
         ("END1\n", 1, "DO1 is missing"),
