@@ -3,10 +3,12 @@
 
 use std::collections::BTreeMap;
 use std::fs;
+use std::num::NonZero;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
+use std::sync::atomic::{AtomicUsize, Ordering};
 
-use anyhow::{Context, Result, bail};
+use anyhow::{Context, Result, anyhow, bail};
 use serde::{Deserialize, Serialize};
 
 use crate::{cargo, root, step};
@@ -266,10 +268,8 @@ fn counted(tools: Tools) -> Result<Option<Counts>> {
         .with_context(|| format!("cannot start {}", program.display()))?;
     let names = String::from_utf8(names.stdout).context("names of benchmark cases")?;
     eprintln!("== instructions of the benchmark cases, counted by valgrind");
-    let mut instructions = BTreeMap::new();
-    for name in names.lines() {
-        instructions.insert(name.to_owned(), instructions_of(&program, name)?);
-    }
+    let names: Vec<&str> = names.lines().collect();
+    let instructions = all_instructions_of(&program, &names)?;
     if instructions.is_empty() {
         bail!("{} names no benchmark case", program.display());
     }
@@ -279,6 +279,29 @@ fn counted(tools: Tools) -> Result<Option<Counts>> {
         instruction_set: tools.instruction_set,
         instructions,
     }))
+}
+
+/// Instructions of the benchmark cases, as many at once as there are cores: counts do not depend on what runs beside.
+fn all_instructions_of(program: &Path, names: &[&str]) -> Result<BTreeMap<String, u64>> {
+    let next = AtomicUsize::new(0);
+    let some = || -> Result<Vec<(String, u64)>> {
+        let taken = std::iter::from_fn(|| names.get(next.fetch_add(1, Ordering::Relaxed)));
+        taken
+            .map(|name| Ok(((*name).to_owned(), instructions_of(program, name)?)))
+            .collect()
+    };
+    let cores = std::thread::available_parallelism().map_or(1, NonZero::get);
+    std::thread::scope(|scope| {
+        let workers: Vec<_> = (0..cores).map(|_| scope.spawn(some)).collect();
+        let mut all = BTreeMap::new();
+        for worker in workers {
+            let counted = worker
+                .join()
+                .map_err(|_| anyhow!("a count was broken off"))?;
+            all.extend(counted?);
+        }
+        Ok(all)
+    })
 }
 
 /// Instructions of one benchmark case, without what is done before and after it.

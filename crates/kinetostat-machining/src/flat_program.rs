@@ -73,6 +73,21 @@ impl FlatProgram {
         Some((self.files.get(*file as usize)?.as_str(), *line as usize))
     }
 
+    /// Where a line of the flat program came from, in words; none for a line that it has not.
+    ///
+    /// ```
+    /// use kinetostat_machining::FlatProgram;
+    ///
+    /// let flat = FlatProgram::new(vec!["plate.ngc".to_owned()], 2, vec![(0, 1), (0, 7)]);
+    /// assert_eq!(flat.place_of(2).as_deref(), Some("plate.ngc, line 7"));
+    /// assert_eq!(flat.place_of(3), None);
+    /// ```
+    #[must_use]
+    pub fn place_of(&self, line: usize) -> Option<String> {
+        let (file, line) = self.source_of(line)?;
+        Some(format!("{file}, line {line}"))
+    }
+
     /// Where the lines of a run are, in a sentence.
     ///
     /// ```

@@ -90,10 +90,7 @@ impl ChatterAnswer {
         (model, material, damping): (&str, &str, String),
         mut warnings: Vec<Warning>,
     ) -> Self {
-        let source = |line: usize| {
-            let (file, line) = flat?.source_of(line)?;
-            Some(format!("{file}, line {line}"))
-        };
+        let source = |line: usize| flat?.place_of(line);
         let of_site = |judged: &JudgedSite| place(judged, source(judged.site.line));
         warnings.extend(limits(found));
         Self {

@@ -9,7 +9,6 @@ mod plot;
 mod text;
 
 use kinetostat_analysis::vibration::program::{ChatterQuestion, ProgramChatterError};
-use kinetostat_dynamics::Damping;
 
 use crate::chatter::answer::ChatterAnswer;
 use crate::chatter::arguments::ChatterArgs;
@@ -28,15 +27,11 @@ use crate::program::solve::{forces_of, with_task};
 use crate::ui::failure::{Answer, Code, Failure};
 use crate::ui::progress::Progress;
 use crate::ui::threads::in_threads;
+use crate::vibration::stability::damped;
 use crate::vibration::{damping::words, subject};
 
 pub(crate) fn run(args: &ChatterArgs) -> Answer<()> {
-    let damping = args.damping.law()?;
-    if damping == Damping::Undamped {
-        return Err(Failure::input(
-            "chatter needs damping: without it the smallest cut chatters at every speed. Give measured ratios, or for a first look --damping 0.03",
-        ));
-    }
+    let damping = damped(&args.damping, "chatter needs")?;
     refuse_senseless(args)?;
     let files = InputFiles::default();
     let job = JobFile::read(&files, &args.job)?;

@@ -1,13 +1,12 @@
 //! The answer of `chatter` for a person, and as a table.
 
-use kinetostat_chatter::Instability;
-
 use crate::chatter::answer::{ChatterAnswer, Place, Stretch};
-use crate::ui::csv_table::{cell, written};
+use crate::ui::csv_table::{cell, cell_if_any, written};
 use crate::ui::failure::Answer;
 use crate::ui::layout::{columns, wrapped};
 use crate::ui::numbers::number;
 use crate::ui::warnings;
+use crate::vibration::stability::instability;
 
 /// Most stretches that are shown to a person; JSON has all.
 const SHOWN: usize = 20;
@@ -66,7 +65,7 @@ fn stretches(a: &ChatterAnswer) -> String {
             number(s.depth_mm, 4),
             number(s.stable_depth_mm, 4),
             number(s.chatter_hz, 4),
-            word(Some(s.kind)).to_owned(),
+            instability(Some(s.kind)).to_owned(),
             stable_at(s),
         ]);
     }
@@ -100,14 +99,6 @@ fn nearest_words(p: &Place) -> String {
     )
 }
 
-fn word(kind: Option<Instability>) -> &'static str {
-    match kind {
-        None => "",
-        Some(Instability::Flip) => "flip",
-        Some(_) => "Hopf",
-    }
-}
-
 /// One row for each place.
 pub(crate) fn table(a: &ChatterAnswer) -> Answer<Vec<u8>> {
     let head = [
@@ -129,7 +120,6 @@ pub(crate) fn table(a: &ChatterAnswer) -> Answer<Vec<u8>> {
         "places",
     ];
     let mut rows = vec![head.map(str::to_owned).to_vec()];
-    let some = |x: Option<f64>| x.map_or_else(String::new, cell);
     for p in &a.places {
         rows.push(vec![
             p.line.to_string(),
@@ -139,14 +129,14 @@ pub(crate) fn table(a: &ChatterAnswer) -> Answer<Vec<u8>> {
             cell(p.position_mm[2]),
             cell(p.rpm),
             cell(p.depth_mm),
-            some(p.entry_deg),
-            some(p.exit_deg),
+            cell_if_any(p.entry_deg),
+            cell_if_any(p.exit_deg),
             cell(p.feed_per_tooth_mm),
             p.verdict.to_owned(),
-            some(p.limit_mm),
-            word(p.kind).to_lowercase(),
-            some(p.chatter_hz),
-            some(p.first_hz),
+            cell_if_any(p.limit_mm),
+            instability(p.kind).to_lowercase(),
+            cell_if_any(p.chatter_hz),
+            cell_if_any(p.first_hz),
             p.places.to_string(),
         ]);
     }

@@ -6,7 +6,7 @@ use kinetostat_report::{Cell, Plot, PlotLine, Section};
 
 use crate::compare::answer::{Compared, Summary};
 use crate::compare::arguments::CompareArgs;
-use crate::ui::csv_table::{cell, written};
+use crate::ui::csv_table::{cell, cell_if_any, written};
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::numbers::short;
 use crate::ui::progress::Progress;
@@ -151,7 +151,7 @@ impl Difference {
                 row.push(value(a, a.stiffness_n_per_mm[k]));
                 row.push(value(b, b.stiffness_n_per_mm[k]));
             }
-            row.push(ratio(a, b).map_or_else(String::new, cell));
+            row.push(cell_if_any(ratio(a, b)));
             rows.push(row);
         }
         written(&rows)

@@ -48,7 +48,10 @@ pub(crate) fn as_joints(
     let mut start = JointStart::default();
     start.tolerance_mm = template.tolerance_mm;
     start.base = base;
-    start.straight_rapids = template.rapids == Rapids::Linear && goes_straight(read);
+    // Those of G-code are.
+    let language = read.robot().map(|robot| robot.program.language);
+    start.straight_rapids =
+        template.rapids == Rapids::Linear && language.is_none_or(Language::rapids_are_straight);
     start.near = match &template.start_joints_deg {
         Some(joints) => joints.clone(),
         None => {
@@ -110,15 +113,6 @@ pub(crate) fn as_joints(
             BetweenRows::Linear => "linear",
         }
     ))
-}
-
-/// Whether rapids of the source are straight: those of robots' languages move all joints in step.
-fn goes_straight(read: &ReadProgram<'_>) -> bool {
-    let language = read.robot().map(|robot| robot.program.language);
-    matches!(
-        language,
-        None | Some(Language::Siemens | Language::Heidenhain | Language::Apt)
-    )
 }
 
 /// The line of the source that a line of the made table is of.

@@ -3,6 +3,7 @@
 use kinetostat_formats::{
     Made, MakeError, MakeLanguage, events_of_gcode, make, make_of_flat_robot,
 };
+use kinetostat_machining::FlatProgram;
 
 use crate::convert::template_file::TemplateFile;
 use crate::job::free_turn::FreeTurn;
@@ -26,7 +27,7 @@ pub(crate) fn made(
         }
         let program = robot.program;
         let done = make_of_flat_robot(program, &path, &template.template, language, |line| {
-            place(setting, line)
+            setting.flat.as_ref()?.place_of(line)
         });
         return done.map_err(refused);
     }
@@ -39,18 +40,13 @@ pub(crate) fn made(
         .gcode()
         .map_or_else(Vec::new, |(program, path)| events_of_gcode(program, path));
     for event in &mut events {
-        if let Some(place) = place(setting, event.line) {
+        let place = |flat: &FlatProgram| flat.place_of(event.line);
+        if let Some(place) = setting.flat.as_ref().and_then(place) {
             event.place = place;
         }
     }
     let path = turned.map_or(read.path(), |turned| &turned.path);
     make(path, &events, &template.template, language).map_err(refused)
-}
-
-/// Where a line of an expanded program came from.
-fn place(setting: &Setting, line: usize) -> Option<String> {
-    let (file, line) = setting.flat.as_ref()?.source_of(line)?;
-    Some(format!("{file}, line {line}"))
 }
 
 fn refused(setting: &Setting, template: &TemplateFile, all: &[MakeError]) -> Failure {

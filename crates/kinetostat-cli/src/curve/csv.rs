@@ -2,7 +2,7 @@
 
 use crate::curve::answer::{CurveAnswer, PointAnswer};
 use crate::end_condition::table::{WRENCH_AND_PLACE, column, yes};
-use crate::ui::csv_table::{cell, written};
+use crate::ui::csv_table::{cell, cell_if_any, written};
 use crate::ui::failure::Answer;
 
 pub(crate) fn of_curve(a: &CurveAnswer) -> Answer<Vec<u8>> {
@@ -50,7 +50,7 @@ pub(crate) fn of_curve(a: &CurveAnswer) -> Answer<Vec<u8>> {
         row.push(yes(p.stable_under_dead_load));
         row.push(yes(p.stable_under_prescribed_motion));
         row.push(yes(p.may_flutter));
-        row.push(p.share_to_buckling.map_or_else(String::new, cell));
+        row.push(cell_if_any(p.share_to_buckling));
         row.push(cell(p.spring_energy_j));
         row.extend(
             [

@@ -4,7 +4,7 @@ use kinetostat_machining::{CutPlace, FlatProgram, ForceAlongPath, PointKind, cut
 use kinetostat_program::Path;
 
 use crate::program::flat_lines::{COLUMNS, cells};
-use crate::ui::csv_table::{cell, written};
+use crate::ui::csv_table::{cell, cell_if_any, written};
 use crate::ui::failure::Answer;
 
 const HEADER: [&str; 19] = [
@@ -55,7 +55,7 @@ fn row(p: &CutPlace) -> Vec<String> {
     row.push(cell(p.force_n()));
     row.extend(parts.map(cell));
     row.extend([p.torque_n_m, p.power_w].map(cell));
-    row.push(p.spindle_torque_n_m.map_or_else(String::new, cell));
+    row.push(cell_if_any(p.spindle_torque_n_m));
     row.extend([p.chip_mm, p.feed_per_tooth_mm, p.rpm].map(cell));
     row
 }

@@ -2,7 +2,7 @@
 
 use crate::end_condition::table::{WRENCH_AND_PLACE, column, yes};
 use crate::equilibria::answer::EquilibriaAnswer;
-use crate::ui::csv_table::{cell, written};
+use crate::ui::csv_table::{cell, cell_if_any, written};
 use crate::ui::failure::Answer;
 
 pub(crate) fn of_equilibria(a: &EquilibriaAnswer) -> Answer<Vec<u8>> {
@@ -29,7 +29,7 @@ pub(crate) fn of_equilibria(a: &EquilibriaAnswer) -> Answer<Vec<u8>> {
             yes(e.stable),
             yes(e.may_flutter),
             yes(e.shape_stable),
-            e.share_to_buckling.map_or_else(String::new, cell),
+            cell_if_any(e.share_to_buckling),
             yes(e.singular),
             e.found_by_spread_starts.to_string(),
             cell(e.stiffness_n_per_mm),

@@ -10,7 +10,7 @@ mod text;
 use kinetostat::Pose;
 use kinetostat_analysis::vibration::{MachineCut, MachineCutError};
 use kinetostat_chatter::{Arc, Coefficients, FeedFrame, LobeRequest, Milled, MillingCut};
-use kinetostat_dynamics::{Damping, Held};
+use kinetostat_dynamics::Held;
 use kinetostat_report::lobes_svg;
 use nalgebra::Vector3;
 
@@ -19,15 +19,11 @@ use crate::lobes::answer::LobesAnswer;
 use crate::lobes::arguments::LobesArgs;
 use crate::options::vector;
 use crate::ui::failure::{Answer, Failure};
+use crate::vibration::stability::damped;
 use crate::vibration::{damping::words, subject};
 
 pub(crate) fn run(args: &LobesArgs) -> Answer<()> {
-    let damping = args.damping.law()?;
-    if damping == Damping::Undamped {
-        return Err(Failure::input(
-            "lobes need damping: without it the smallest cut chatters at every speed. Give measured ratios, or for a first look --damping 0.03",
-        ));
-    }
+    let damping = damped(&args.damping, "lobes need")?;
     let cut = cut(args)?;
     let request = request(args)?;
     let query = subject::query(&args.machine)?;

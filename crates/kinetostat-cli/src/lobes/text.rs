@@ -1,14 +1,13 @@
 //! The answer of `lobes` for a person, and as a table.
 
-use kinetostat_chatter::Instability;
-
-use crate::lobes::answer::{LobesAnswer, Point};
+use crate::lobes::answer::LobesAnswer;
 use crate::place::query::PlaceQuery;
-use crate::ui::csv_table::{cell, written};
+use crate::ui::csv_table::{cell, cell_if_any, written};
 use crate::ui::failure::Answer;
 use crate::ui::layout::{columns, wrapped};
 use crate::ui::numbers::{number, short, triple};
 use crate::ui::warnings;
+use crate::vibration::stability::instability;
 
 /// Most speeds that are shown to a person; JSON, table and drawing have all.
 const SHOWN: usize = 25;
@@ -54,7 +53,7 @@ pub(crate) fn answer_text(query: &PlaceQuery, a: &LobesAnswer) -> String {
                 || format!("all {}", short(a.depth_limit_mm)),
                 |x| number(x, 4),
             ),
-            word(p).to_owned(),
+            instability(p.kind).to_owned(),
             p.chatter_hz.map_or_else(String::new, |x| number(x, 4)),
             p.zeroth_order_mm.map_or_else(String::new, |x| number(x, 4)),
         ]);
@@ -84,14 +83,6 @@ pub(crate) fn answer_text(query: &PlaceQuery, a: &LobesAnswer) -> String {
     out
 }
 
-fn word(p: &Point) -> &'static str {
-    match p.kind {
-        None => "",
-        Some(Instability::Flip) => "flip",
-        Some(_) => "Hopf",
-    }
-}
-
 /// One row for each speed.
 pub(crate) fn table(a: &LobesAnswer) -> Answer<Vec<u8>> {
     let head = [
@@ -103,7 +94,6 @@ pub(crate) fn table(a: &LobesAnswer) -> Answer<Vec<u8>> {
         "zeroth_order_mm",
     ];
     let mut rows = vec![head.map(str::to_owned).to_vec()];
-    let some = |x: Option<f64>| x.map_or_else(String::new, cell);
     for p in &a.points {
         let stretches = p
             .stable_mm
@@ -111,11 +101,11 @@ pub(crate) fn table(a: &LobesAnswer) -> Answer<Vec<u8>> {
             .map(|(low, high)| format!("{low}-{high}"));
         rows.push(vec![
             cell(p.speed_rpm),
-            some(p.limit_mm),
-            word(p).to_lowercase(),
-            some(p.chatter_hz),
+            cell_if_any(p.limit_mm),
+            instability(p.kind).to_lowercase(),
+            cell_if_any(p.chatter_hz),
             stretches.collect::<Vec<_>>().join(" "),
-            some(p.zeroth_order_mm),
+            cell_if_any(p.zeroth_order_mm),
         ]);
     }
     written(&rows)

@@ -6,7 +6,7 @@ use kinetostat_dynamics::{DirectionCounts, EnergyShare, ModeKind};
 use crate::modes::answer::{ModeAnswer, ModesAnswer};
 use crate::place::query::PlaceQuery;
 use crate::ui::csv_cell::text as safe_cell;
-use crate::ui::csv_table::{cell, written};
+use crate::ui::csv_table::{cell, cell_if_any, written};
 use crate::ui::failure::Answer;
 use crate::ui::layout::{columns, item, wrapped};
 use crate::ui::numbers::{fixed, load_triple, number, triple};
@@ -186,7 +186,7 @@ pub(crate) fn table(a: &ModesAnswer) -> Answer<Vec<u8>> {
             kind.to_owned(),
             cell(mode.frequency_hz),
             cell(mode.squared_rad_per_s_2),
-            mode.damping_ratio.map_or_else(String::new, cell),
+            cell_if_any(mode.damping_ratio),
         ];
         own.extend(mode.tool_translation_per_sqrt_kg.map(cell));
         own.extend(mode.tool_rotation_rad_per_m_sqrt_kg.map(cell));

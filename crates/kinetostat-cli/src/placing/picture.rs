@@ -4,7 +4,7 @@ use kinetostat_placing::{Candidate, MapPanel, Place, Placed, Space, Value, Varia
 use kinetostat_report::{Cell, Plot, PlotLine, PlotMark, Section};
 
 use crate::placing::answer::PlaceAnswer;
-use crate::ui::csv_table::{cell, written};
+use crate::ui::csv_table::{cell, cell_if_any, written};
 use crate::ui::failure::Answer;
 use crate::ui::numbers::{number, short};
 
@@ -143,7 +143,7 @@ pub(crate) fn table(placed: &Placed, space: &Space) -> Answer<Vec<u8>> {
             space.fixture_of(place).unwrap_or_default().to_owned(),
         ];
         row.extend(place.values.iter().copied().map(cell));
-        row.push(value.figure().map_or_else(String::new, cell));
+        row.push(cell_if_any(value.figure()));
         row.push(match value {
             Value::Figure(_) => String::new(),
             Value::Refused(refusal) => refusal.why.words().to_owned(),

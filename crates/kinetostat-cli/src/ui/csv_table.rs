@@ -11,6 +11,11 @@ pub(crate) fn cell(x: f64) -> String {
     }
 }
 
+/// The same of a number that may be missing.
+pub(crate) fn cell_if_any(x: Option<f64>) -> String {
+    x.map_or_else(String::new, cell)
+}
+
 pub(crate) fn written(rows: &[Vec<String>]) -> Answer<Vec<u8>> {
     let failed =
         |error: csv::Error| Failure::input(format!("the table cannot be written: {error}"));

@@ -4,4 +4,5 @@
 
 pub(crate) mod arguments;
 pub(crate) mod damping;
+pub(crate) mod stability;
 pub(crate) mod subject;

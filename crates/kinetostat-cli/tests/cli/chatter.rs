@@ -2,6 +2,7 @@
 //! as the answer says.
 
 use std::path::Path;
+use std::sync::LazyLock;
 
 use serde_json::Value;
 
@@ -42,6 +43,27 @@ fn answer(here: &Path) -> Value {
     serde_json::from_str(&said.out).expect("JSON")
 }
 
+/// What is said of [`PROGRAM`], and its files: the run takes seconds, and several tests look at it.
+struct OfProgram {
+    text: String,
+    answer: Value,
+    csv: String,
+    svg: String,
+}
+
+static OF_PROGRAM: LazyLock<OfProgram> = LazyLock::new(|| {
+    let here = here(PROGRAM);
+    let line = "chatter job.toml --damping 0.03 --csv all.csv --plot all.svg --json all.json";
+    let text = said(here.path(), line).answered().out;
+    let read = |name: &str| std::fs::read_to_string(here.path().join(name)).expect("read");
+    OfProgram {
+        text,
+        answer: serde_json::from_str(&read("all.json")).expect("JSON"),
+        csv: read("all.csv"),
+        svg: read("all.svg"),
+    }
+});
+
 fn list<'a>(of: &'a Value, name: &str) -> &'a Vec<Value> {
     of[name].as_array().expect("a list")
 }
@@ -60,15 +82,14 @@ fn stretch(answer: &Value, line: u64) -> Option<&Value> {
 
 #[test]
 fn what_the_answer_says_of_a_program_holds_for_the_changed_program() {
-    let first = here(PROGRAM);
-    let found = answer(first.path());
+    let found = &OF_PROGRAM.answer;
     assert_eq!(found["chatters"], true, "{found}");
-    let deep = stretch(&found, 14).expect("the deep slot chatters");
+    let deep = stretch(found, 14).expect("the deep slot chatters");
     let (limit, rpm) = (number(deep, "stable_depth_mm"), number(deep, "rpm"));
     assert_eq!(rpm, 3000.0);
     assert!(limit > 0.0 && limit < 4.0, "{deep}");
     // Whatever else is deeper than its limit chatters, too.
-    for place in list(&found, "places") {
+    for place in list(found, "places") {
         let verdict = place["verdict"].as_str().expect("a word");
         let below = place["limit_mm"]
             .as_f64()
@@ -98,12 +119,12 @@ fn what_the_answer_says_of_a_program_holds_for_the_changed_program() {
 /// Another command at the same place under the same force, with a slot by its width.
 #[test]
 fn limits_of_slots_are_those_of_lobes_at_their_places() {
-    let first = here(PROGRAM);
-    let found = answer(first.path());
+    let found = &OF_PROGRAM.answer;
+    let here = workplace();
     let mut compared = 0;
     for (line, feed) in [(6, "1 0 0"), (10, "0 -1 0"), (14, "1 0 0")] {
         let of_line = |p: &&Value| p["line"] == line && number(p, "exit_deg") > 179.9;
-        let Some(place) = list(&found, "places").iter().find(of_line) else {
+        let Some(place) = list(found, "places").iter().find(of_line) else {
             panic!("no slot on line {line}: {found}");
         };
         let Some(limit) = place["limit_mm"].as_f64() else {
@@ -120,7 +141,7 @@ fn limits_of_slots_are_those_of_lobes_at_their_places() {
             "lobes heavy_6r --at {at} --tool-length-mm 200 --damping 0.03 --teeth 2 --helix-deg 30 --diameter-mm 12 \
              --coefficients-n-per-mm2 796 168 -222 --immersion 1 --modes-up-to-hz 300 --tool-axis 0 0 1 --feed-direction {feed} --rpm 3000 3001 2 --depth-mm 12 --json"
         );
-        let other = said(first.path(), &words).answered();
+        let other = said(here.path(), &words).answered();
         let other: Value = serde_json::from_str(&other.out).expect("JSON");
         let expected = number(&list(&other, "points")[0], "limit_mm");
         // The force of the cut (tens of newtons) hardly changes the modes.
@@ -190,15 +211,13 @@ fn a_spindle_that_turns_to_the_left_is_not_judged() {
 
 #[test]
 fn files_hold_all_places() {
-    let here = here(PROGRAM);
-    let line = "chatter job.toml --damping 0.03 --csv all.csv --plot all.svg --json all.json";
-    let said = said(here.path(), line).answered();
-    assert!(said.out.contains("Lines that chatter"), "{}", said.out);
-    let read = |name: &str| std::fs::read_to_string(here.path().join(name)).expect("read");
-    let found: Value = serde_json::from_str(&read("all.json")).expect("JSON");
-    assert_eq!(
-        read("all.csv").lines().count(),
-        1 + list(&found, "places").len()
-    );
-    assert!(read("all.svg").contains("depth of the program"));
+    let OfProgram {
+        text,
+        answer,
+        csv,
+        svg,
+    } = &*OF_PROGRAM;
+    assert!(text.contains("Lines that chatter"), "{text}");
+    assert_eq!(csv.lines().count(), 1 + list(answer, "places").len());
+    assert!(svg.contains("depth of the program"));
 }

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use nalgebra::Isometry3;
 
-use crate::ls::flow::State;
+use crate::ls::flow::{InForce, State};
 use crate::ls::lines::Line;
 use crate::ls::motion::End;
 use crate::ls::positions::{Held, Positions};
@@ -81,7 +81,8 @@ impl<'o> Ends<'o> {
         displaced: Option<&'static str>,
     ) -> Result<EndFound, (String, &'static str)> {
         let unknown = "leave such motions as written (unknown_targets = \"left_as_written\" under [robot] in a job file), or teach a position";
-        let (in_force, tool_in_force) = place.before.map_or((None, None), |b| (b.frame, b.tool));
+        let before = place.before.unwrap_or(State::OPEN);
+        let (in_force, tool_in_force) = (before.frame.known(), before.tool.known());
         let (number, name) = match end {
             End::Position(number, name) => (number, name),
             End::Register(reason) => {
@@ -105,44 +106,12 @@ impl<'o> Ends<'o> {
         };
         let position = place.positions.all.get(number).ok_or_else(missing)?;
         let mut displaced = displaced.map(|reason| (reason.to_owned(), unknown));
-        let is_computed = place.before.map_or([false; 2], |b| b.is_computed);
-        let one_way = place.before.map_or([None; 2], |b| b.on_one_way);
-        for (which, letters, word, own, now) in [
-            (0, "UF", "UFRAME_NUM", position.frame, in_force),
-            (1, "UT", "UTOOL_NUM", position.tool, tool_in_force),
+        for (letters, word, own, now) in [
+            ("UF", "UFRAME_NUM", position.frame, before.frame),
+            ("UT", "UTOOL_NUM", position.tool, before.tool),
         ] {
-            let is_computed = is_computed[which];
-            if let (Some(own), Some(other)) = (own, one_way[which])
-                && own != other
-            {
-                let reason = format!(
-                    "P[{number}] is taught with {letters} {own}, but {word} is {other} here, if the run came by where it is set"
-                );
-                displaced.get_or_insert((
-                    reason,
-                    "set it on all ways, or leave such motions as written (unknown_targets = \"left_as_written\" under [robot] in a job file)",
-                ));
-            }
-            if let (Some(own), None, true) = (own, now, is_computed) {
-                let reason = format!(
-                    "P[{number}] is taught with {letters} {own}, but which {word} is in force here, the run decides"
-                );
-                displaced.get_or_insert((
-                    reason,
-                    "assign a number, or leave such motions as written (unknown_targets = \"left_as_written\" under [robot] in a job file)",
-                ));
-            }
-            if let (Some(own), Some(now)) = (own, now)
-                && own != now
-            {
-                let reason = format!(
-                    "P[{number}] is taught with {letters} {own}, but {word} is {now} here, and which counts is a setting of the controller"
-                );
-                displaced.get_or_insert((
-                    reason,
-                    "teach it in the frame and with the tool in force, or leave such motions as written (unknown_targets = \"left_as_written\" under [robot] in a job file)",
-                ));
-            }
+            let why = own.and_then(|own| taught_otherwise((*number, letters, own), word, now));
+            displaced = displaced.or(why);
         }
         let (target, site) = match (&position.held, displaced) {
             (Held::Nothing(reason), _) => {
@@ -181,4 +150,30 @@ impl<'o> Ends<'o> {
             external: position.external.clone(),
         })
     }
+}
+
+/// Why a position that is taught with a frame or tool (`letters`, `own`) is elsewhere where another one may be in force, and
+/// what to do.
+fn taught_otherwise(
+    (position, letters, own): (u32, &str, u32),
+    word: &str,
+    now: InForce,
+) -> Option<(String, &'static str)> {
+    let (how, remedy) = match now {
+        InForce::OnOneWay(other) if other != own => (
+            format!("{word} is {other} here, if the run came by where it is set"),
+            "set it on all ways, or leave such motions as written (unknown_targets = \"left_as_written\" under [robot] in a job file)",
+        ),
+        InForce::Computed => (
+            format!("which {word} is in force here, the run decides"),
+            "assign a number, or leave such motions as written (unknown_targets = \"left_as_written\" under [robot] in a job file)",
+        ),
+        InForce::Known(other) if other != own => (
+            format!("{word} is {other} here, and which counts is a setting of the controller"),
+            "teach it in the frame and with the tool in force, or leave such motions as written (unknown_targets = \"left_as_written\" under [robot] in a job file)",
+        ),
+        _ => return None,
+    };
+    let reason = format!("P[{position}] is taught with {letters} {own}, but {how}");
+    Some((reason, remedy))
 }

@@ -17,50 +17,72 @@ pub(crate) enum Last {
     Unknown,
 }
 
-/// What is in force before an instruction; none where it differs or is not known.
+/// The number of a frame or tool in force before an instruction.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum InForce {
+    /// Nothing sets it on any way.
+    Unset,
+    /// The same on all ways.
+    Known(u32),
+    /// This on one way; on another nothing sets it.
+    OnOneWay(u32),
+    /// The run decides: computed on one way at least, or another from way to way.
+    Computed,
+}
+
+impl InForce {
+    /// The number where it is the same on all ways.
+    pub(crate) fn known(self) -> Option<u32> {
+        match self {
+            Self::Known(number) => Some(number),
+            _ => None,
+        }
+    }
+
+    fn merged(self, other: Self) -> Self {
+        match (self, other) {
+            (one, other) if one == other => one,
+            (Self::Computed, _) | (_, Self::Computed) => Self::Computed,
+            (Self::Unset, Self::Known(number) | Self::OnOneWay(number))
+            | (Self::Known(number) | Self::OnOneWay(number), Self::Unset) => Self::OnOneWay(number),
+            (
+                Self::Known(one) | Self::OnOneWay(one),
+                Self::Known(other) | Self::OnOneWay(other),
+            ) if one == other => Self::OnOneWay(one),
+            _ => Self::Computed,
+        }
+    }
+}
+
+impl From<&Number> for InForce {
+    fn from(number: &Number) -> Self {
+        match number {
+            Number::Known(number) => Self::Known(*number),
+            Number::Computed => Self::Computed,
+        }
+    }
+}
+
+/// What is in force before an instruction.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct State {
-    pub frame: Option<u32>,
-    pub tool: Option<u32>,
-    /// Which numbers frame and tool have, the run decides: it computes them on one way at least, or they differ from way to way.
-    pub is_computed: [bool; 2],
-    /// Numbers of frame and tool on one way, where they are not known on another.
-    pub on_one_way: [Option<u32>; 2],
+    pub frame: InForce,
+    pub tool: InForce,
     pub last: Last,
 }
 
 impl State {
-    const OPEN: Self = Self {
-        frame: None,
-        tool: None,
-        is_computed: [false; 2],
-        on_one_way: [None; 2],
+    /// Before what nothing is known of.
+    pub(crate) const OPEN: Self = Self {
+        frame: InForce::Unset,
+        tool: InForce::Unset,
         last: Last::Unknown,
     };
 
-    /// The numbers of frame and tool, if only on one way.
-    fn numbers(&self) -> [Option<u32>; 2] {
-        let [frame, tool] = self.on_one_way;
-        [self.frame.or(frame), self.tool.or(tool)]
-    }
-
     fn merged(self, other: Self) -> Self {
-        let same = |one: Option<u32>, other: Option<u32>| one.filter(|one| Some(*one) == other);
-        let both = [same(self.frame, other.frame), same(self.tool, other.tool)];
-        let (own, others) = (self.numbers(), other.numbers());
-        let differs = |which: usize| {
-            let pair = own[which].zip(others[which]);
-            pair.is_some_and(|(one, other)| one != other)
-        };
         Self {
-            frame: both[0],
-            tool: both[1],
-            is_computed: [0, 1]
-                .map(|which| self.is_computed[which] || other.is_computed[which] || differs(which)),
-            on_one_way: [0, 1].map(|which| match both[which] {
-                Some(_) => None,
-                None => own[which].or(others[which]),
-            }),
+            frame: self.frame.merged(other.frame),
+            tool: self.tool.merged(other.tool),
             last: match self.last == other.last {
                 true => self.last,
                 false => Last::Unknown,
@@ -209,25 +231,17 @@ impl<'p> Flow<'p> {
         state: State,
         exit: &mut Option<State>,
     ) -> Option<State> {
-        let number = |number: &Number| match number {
-            Number::Known(number) => Some(*number),
-            Number::Computed => None,
-        };
         match step {
             Step::Motion(_) => Some(State {
                 last: Last::Motion((program, at)),
                 ..state
             }),
             Step::Frame(to) => Some(State {
-                frame: number(to),
-                is_computed: [*to == Number::Computed, state.is_computed[1]],
-                on_one_way: [None, state.on_one_way[1]],
+                frame: to.into(),
                 ..state
             }),
             Step::Tool(to) => Some(State {
-                tool: number(to),
-                is_computed: [state.is_computed[0], *to == Number::Computed],
-                on_one_way: [state.on_one_way[0], None],
+                tool: to.into(),
                 ..state
             }),
             Step::Call(_) => match self.programs[program].called.get(&at) {

@@ -21,6 +21,12 @@ pub enum Language {
 }
 
 impl Language {
+    /// Whether its rapids go straight: those of robots' languages move all joints in step.
+    #[must_use]
+    pub const fn rapids_are_straight(self) -> bool {
+        matches!(self, Self::Siemens | Self::Heidenhain | Self::Apt)
+    }
+
     /// Each language once.
     pub const ALL: [Self; 7] = [
         Self::Rapid,

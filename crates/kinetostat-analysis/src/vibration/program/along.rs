@@ -7,7 +7,7 @@ use rayon::prelude::*;
 
 use crate::vibration::program::judge::{JudgedSite, Verdict};
 use crate::vibration::program::question::{ChatterQuestion, ProgramChatterError};
-use crate::vibration::program::site::{groups, sites};
+use crate::vibration::program::site::{SiteGroup, groups, sites};
 use crate::vibration::program::stretches::{ChatterStretch, stretches};
 
 /// Where a program chatters.
@@ -45,18 +45,7 @@ impl ChatterQuestion<'_> {
                 if watch.cancelled() {
                     return Err(ProgramChatterError::Cancelled);
                 }
-                let own = &all[range.clone()];
-                let deepest =
-                    own.iter()
-                        .reduce(|a, b| match b.station.depth_mm > a.station.depth_mm {
-                            true => b,
-                            false => a,
-                        });
-                let site = deepest.unwrap_or(&own[0]);
-                let mut found = self.judge(&load, site, own.len());
-                if let (Ok(judged), Some(last)) = (&mut found, own.last()) {
-                    judged.path_mm = [own[0].path_mm, last.path_mm];
-                }
+                let found = self.judge(&load, &SiteGroup::of(&all, range.clone()));
                 watch.advance(done.fetch_add(1, Ordering::Relaxed) + 1);
                 found
             })

@@ -11,7 +11,7 @@ use nalgebra::Vector3;
 use crate::vibration::cut::{MachineCut, MachineCutError};
 use crate::vibration::machine::VibratingMachine;
 use crate::vibration::program::question::{ChatterQuestion, ProgramChatterError};
-use crate::vibration::program::site::CutSite;
+use crate::vibration::program::site::{CutSite, SiteGroup};
 
 /// Depths are looked at up to so many times that of the program, one after the other until there is a limit: far beyond their
 /// limits cuts grow by so much in one period that nothing can be said in numbers.
@@ -58,17 +58,17 @@ impl JudgedSite {
         !matches!(self.verdict, Verdict::NotJudged(_))
     }
 
-    fn not_judged(site: &CutSite, places: usize, why: impl Into<String>) -> Self {
+    fn not_judged(group: &SiteGroup<'_>, why: impl Into<String>) -> Self {
         Self {
-            site: *site,
+            site: *group.judged(),
             verdict: Verdict::NotJudged(why.into()),
             limit_mm: None,
             looked_up_to_mm: 0.0,
             chatter_hz: None,
             kind: None,
             first_hz: None,
-            places,
-            path_mm: [site.path_mm; 2],
+            places: group.count(),
+            path_mm: group.path_mm(),
         }
     }
 }
@@ -105,30 +105,30 @@ impl Limit {
 }
 
 impl ChatterQuestion<'_> {
-    /// Judges a place that stands for several.
+    /// Judges one place for all that are like it.
     pub(crate) fn judge(
         &self,
         load: &LoadAlongPath<'_>,
-        site: &CutSite,
-        places: usize,
+        group: &SiteGroup<'_>,
     ) -> Result<JudgedSite, ProgramChatterError> {
+        let site = group.judged();
         let Some(contact) = site.station.contact else {
             let why = "the side of the tool has no arc of contact of its own, or the spindle turns to the left";
-            return Ok(JudgedSite::not_judged(site, places, why));
+            return Ok(JudgedSite::not_judged(group, why));
         };
         if contact.exit - contact.entry <= 0.0 {
             let why = "the arc of contact has no length";
-            return Ok(JudgedSite::not_judged(site, places, why));
+            return Ok(JudgedSite::not_judged(group, why));
         }
         let regeneration = match self.regeneration(load, site)? {
             Ok(regeneration) => regeneration,
-            Err(why) => return Ok(JudgedSite::not_judged(site, places, why)),
+            Err(why) => return Ok(JudgedSite::not_judged(group, why)),
         };
         let depth = 1e-3 * site.station.depth_mm;
         let found = Limit::of(&regeneration, site.station.rpm, depth, f64::INFINITY);
         let found = match found {
             Ok(found) => found,
-            Err(error) => return Ok(JudgedSite::not_judged(site, places, error.to_string())),
+            Err(error) => return Ok(JudgedSite::not_judged(group, error.to_string())),
         };
         let limit = found.limit;
         let modes = regeneration.response().modes();
@@ -146,8 +146,8 @@ impl ChatterQuestion<'_> {
                 .iter()
                 .map(kinetostat_chatter::Mode::frequency_hz)
                 .reduce(|a, b| if b < a { b } else { a }),
-            places,
-            path_mm: [site.path_mm; 2],
+            places: group.count(),
+            path_mm: group.path_mm(),
         })
     }
 

@@ -54,6 +54,39 @@ pub(crate) fn sites(forces: &ForceAlongPath, path: &Path) -> Vec<CutSite> {
     all
 }
 
+/// Places that are alike, one of which is judged for all.
+pub(crate) struct SiteGroup<'s> {
+    /// In the order of the path.
+    sites: &'s [CutSite],
+}
+
+impl<'s> SiteGroup<'s> {
+    /// Of a range of places that is not empty.
+    pub fn of(all: &'s [CutSite], range: Range<usize>) -> Self {
+        Self { sites: &all[range] }
+    }
+
+    /// The place that is judged: the deepest cut.
+    pub fn judged(&self) -> &'s CutSite {
+        let deeper = |a: &'s CutSite, b: &'s CutSite| match b.station.depth_mm > a.station.depth_mm
+        {
+            true => b,
+            false => a,
+        };
+        let deepest = self.sites.iter().reduce(deeper);
+        deepest.unwrap_or(&self.sites[0])
+    }
+
+    pub fn count(&self) -> usize {
+        self.sites.len()
+    }
+
+    /// From where to where along the path they lie, mm.
+    pub fn path_mm(&self) -> [f64; 2] {
+        [&self.sites[0], &self.sites[self.sites.len() - 1]].map(|site| site.path_mm)
+    }
+}
+
 /// Places that are alike (`tools` are theirs), one range for each group: at most `most` of them, for which they may differ by more; and by how many
 /// times more.
 pub(crate) fn groups(

@@ -1,7 +1,7 @@
 //! Measured and fitted forces as a table, a row for each of the file.
 
 use crate::force::fit::answer::FitAnswer;
-use crate::ui::csv_table::{cell, written};
+use crate::ui::csv_table::{cell, cell_if_any, written};
 use crate::ui::failure::Answer;
 
 const HEADER: [&str; 13] = [
@@ -27,7 +27,7 @@ pub(crate) fn of_fit(answer: &FitAnswer) -> Answer<Vec<u8>> {
         let forces = [of.force_n, of.fitted_n, of.residual_n];
         row.extend(forces.iter().flatten().map(|n| cell(*n)));
         let widths = of.half_width_95_n.iter();
-        row.extend(widths.map(|width| width.map_or_else(String::new, cell)));
+        row.extend(widths.map(cell_if_any));
         rows.push(row);
     }
     written(&rows)

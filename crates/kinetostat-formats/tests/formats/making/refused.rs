@@ -336,10 +336,8 @@ fn g_code_cannot_lean() {
 #[test]
 fn main_names_a_program_where_it_is_no_word() {
     let (_, path) = gcode(LINE);
-    let template = Template {
-        program_name: "MAIN".into(),
-        ..cell()
-    };
+    let mut template = cell();
+    template.program_name = "MAIN".into();
     for language in [MakeLanguage::Krl, MakeLanguage::FanucLs] {
         let made = make(&path, &[], &template, language).unwrap();
         assert!(
