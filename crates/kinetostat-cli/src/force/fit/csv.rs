@@ -27,7 +27,7 @@ pub(crate) fn of_fit(answer: &FitAnswer) -> Answer<Vec<u8>> {
         let forces = [of.force_n, of.fitted_n, of.residual_n];
         row.extend(forces.iter().flatten().map(|n| cell(*n)));
         let widths = of.half_width_95_n.iter();
-        row.extend(widths.map(cell_if_any));
+        row.extend(widths.copied().map(cell_if_any));
         rows.push(row);
     }
     written(&rows)

@@ -1,0 +1,26 @@
+//! What `lobes` and `chatter` share: damping that there must be, and how a cut becomes unstable, in a word.
+
+use kinetostat_chatter::Instability;
+use kinetostat_dynamics::Damping;
+
+use crate::ui::failure::{Answer, Failure};
+use crate::vibration::damping::DampingArgs;
+
+/// The law of damping; without damping there is no stable cut, and `who` (a verb in its number) says so.
+pub(crate) fn damped(args: &DampingArgs, who: &str) -> Answer<Damping> {
+    match args.law()? {
+        Damping::Undamped => Err(Failure::input(format!(
+            "{who} damping: without it the smallest cut chatters at every speed. Give measured ratios, or for a first look --damping 0.03"
+        ))),
+        damping => Ok(damping),
+    }
+}
+
+/// How a cut becomes unstable; empty where it does not.
+pub(crate) fn instability(kind: Option<Instability>) -> &'static str {
+    match kind {
+        None => "",
+        Some(Instability::Flip) => "flip",
+        Some(_) => "Hopf",
+    }
+}
