@@ -156,7 +156,7 @@ pub fn run(options: &[&str]) -> Result<()> {
             ),
         }
     }
-    let all: [Measure; 10] = [
+    let all: [Measure; 11] = [
         demo,
         pocket,
         maps,
@@ -167,6 +167,7 @@ pub fn run(options: &[&str]) -> Result<()> {
         python::measured,
         cost_growth,
         speed,
+        vibrations,
     ];
     let mut parts: Vec<Measure> = only.map_or_else(|| all.to_vec(), |part| vec![part]);
     if only.is_none() && !quick {
@@ -564,6 +565,23 @@ fn speed(figures: &mut Vec<Figure>) -> Result<()> {
         figures,
         &["kinetostat-bench", "--bin", "table", "--", "--figures"],
     )
+}
+
+/// Modes, responses and lobes, and a map of the first frequency.
+fn vibrations(figures: &mut Vec<Figure>) -> Result<()> {
+    let program = ["kinetostat-bench", "--bin", "vibrations", "--", "--figures"];
+    tables(figures, &program)?;
+    let scratch = Scratch::new("frequencies")?;
+    let words = "map heavy_6r --x 1200 1600 50 --y -200 200 50 --z 400 800 40 --force 0 0 0 --show f1 --plot f1.svg";
+    let words: Vec<&str> = words.split(' ').collect();
+    let used = measure(&scratch.0, &words)?;
+    figures.push(Figure::yes(
+        "a map of f1 of heavy_6r over 1e5 postures is drawn",
+        used.success,
+    ));
+    let name = "a map of f1 of heavy_6r over 1e5 postures, time";
+    figures.push(Figure::at_most(name, used.seconds, 60.0, "s"));
+    Ok(())
 }
 
 /// A program of a crate that prints tables, which go to stderr, and figures.

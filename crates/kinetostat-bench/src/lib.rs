@@ -3,6 +3,7 @@
 //! The same [`Task`] is used by `cargo xtask bench-vs-numpy` through Python (feature `python`), so that
 //! numpy and this project run in one process, and by the tables of the program `table`.
 
+pub mod figure;
 pub mod machines;
 pub mod sample;
 mod task;

@@ -50,6 +50,7 @@ pub fn read(
     files: Vec<SourceFile>,
     options: &ReadOptions,
 ) -> Result<RobotProgram, Vec<ProgramError>> {
+    ended_by_line_feeds(language, &files)?;
     match language {
         Language::Rapid => read_rapid(files, options),
         Language::FanucLs => read_ls(files, options),
@@ -80,6 +81,7 @@ pub fn expand(
     files: Vec<SourceFile>,
     options: &ReadOptions,
 ) -> Result<Option<FlatText>, Vec<ProgramError>> {
+    ended_by_line_feeds(language, &files)?;
     let done = match language {
         Language::Heidenhain => run_heidenhain(&files, options),
         Language::Siemens => run_siemens(&files, options),
@@ -93,6 +95,33 @@ pub fn expand(
                 .unwrap_or_default()
         })
     })
+}
+
+/// A file whose lines end with a carriage return alone would be one line: refused, as no controller reads it.
+fn ended_by_line_feeds(language: Language, files: &[SourceFile]) -> Result<(), Vec<ProgramError>> {
+    // Tables may be binary, and their readers know all endings.
+    if language == Language::Poses {
+        return Ok(());
+    }
+    let is_one_line = |file: &&SourceFile| {
+        let bytes = file.bytes().trim_ascii_end();
+        bytes.contains(&b'\r') && !bytes.contains(&b'\n')
+    };
+    let faults: Vec<ProgramError> = (files.iter().filter(is_one_line))
+        .map(|file| {
+            let first = file.bytes().iter().position(|byte| *byte == b'\r');
+            ProgramError::at(
+                file,
+                0..first.unwrap_or_default(),
+                "the lines of the file end with a carriage return alone",
+                "save it with line feeds (LF or CR LF), as controllers do",
+            )
+        })
+        .collect();
+    match faults.is_empty() {
+        true => Ok(()),
+        false => Err(faults),
+    }
 }
 
 /// Files of other programs that a program may call, by the names under which controls keep them, each once; of languages whose

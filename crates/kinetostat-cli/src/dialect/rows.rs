@@ -1,7 +1,7 @@
 //! The rows of a table, of whatever language.
 
 use kinetostat_formats::Treatment as OfStatement;
-use kinetostat_program::{CODES, MOMENTS, Placed, Treatment as OfCode};
+use kinetostat_program::{CODES, MOMENTS, Moment, Placed, Treatment as OfCode};
 use serde::Serialize;
 
 use crate::dialect::languages::{Language, Words};
@@ -79,8 +79,28 @@ pub(crate) fn rows(language: &Language) -> Vec<Row> {
     }
 }
 
+/// Words beside codes and coordinates.
+const WORDS: [(&str, &str, &str); 4] = [
+    ("F", "feed, in the feed mode in force", "followed"),
+    ("S", "spindle speed", "followed"),
+    ("T", "number of a tool", "followed"),
+    ("N", "number of the block", "carried"),
+];
+
+/// M codes of which spindle and tool are known along the path; the others beside motions are carried.
+const SPINDLE_AND_TOOL: std::ops::RangeInclusive<u32> = 3..=6;
+
 fn codes() -> Vec<Row> {
-    let mut all = Vec::new();
+    let of_word = |(word, meaning, treatment): (&str, _, _)| Row {
+        word: word.to_owned(),
+        meaning,
+        treatment,
+        reason: "",
+        remedy: "",
+        piece: None,
+        source: "",
+    };
+    let mut all: Vec<Row> = WORDS.into_iter().map(of_word).collect();
     for code in CODES {
         let refused = match code.treatment {
             OfCode::Refused { reason, remedy } => Some((reason, remedy)),
@@ -102,14 +122,32 @@ fn codes() -> Vec<Row> {
                 treatment,
                 reason,
                 remedy,
-                piece: moment.and_then(|moment| match moment.placed {
-                    Placed::First => Some("first"),
-                    Placed::Last => Some("last"),
-                    Placed::Refused => None,
-                }),
+                piece: moment.and_then(piece_of),
                 source: "",
             });
         }
     }
+    for moment in MOMENTS {
+        let word = format!("M{}", moment.code);
+        if all.iter().any(|row| row.word == word) {
+            continue;
+        }
+        all.push(Row {
+            piece: piece_of(moment),
+            ..of_word(match SPINDLE_AND_TOOL.contains(&moment.code) {
+                true => (&word, moment.meaning, "followed"),
+                false => (&word, moment.meaning, "carried"),
+            })
+        });
+    }
     all
+}
+
+/// Where a code is written when its block is divided.
+fn piece_of(moment: &Moment) -> Option<&'static str> {
+    match moment.placed {
+        Placed::First => Some("first"),
+        Placed::Last => Some("last"),
+        Placed::Refused => None,
+    }
 }

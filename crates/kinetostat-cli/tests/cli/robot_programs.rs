@@ -285,6 +285,20 @@ fn dialects_are_shown_as_the_readers_have_them() {
         for word in words.iter().filter(|word| word["treatment"] == "refused") {
             assert!(word["remedy"].as_str().unwrap().len() > 5, "{word}");
         }
+        let followed = |of: &str| {
+            let one = words.iter().find(|word| word["word"] == of);
+            one.is_some_and(|word| word["treatment"] == "followed")
+        };
+        if name == "gcode" {
+            for of in ["G1", "M3", "M5", "M6", "F", "S", "T"] {
+                assert!(followed(of), "{of}");
+            }
+            let coolant = words.iter().find(|word| word["word"] == "M8").unwrap();
+            assert_eq!(
+                (&coolant["treatment"], &coolant["piece"]),
+                (&"carried".into(), &"first".into())
+            );
+        }
     }
     let wrong = run(here, &["dialect", "show", "fortran"]);
     assert_eq!(wrong.code, 1);

@@ -70,7 +70,8 @@ fn of_form(language: Language) -> &'static [&'static str] {
         ],
         Language::FanucLs => &["/", "UFRAME_NUM", "UTOOL_NUM"],
         Language::Apt => &[
-            "GOTO", "RAPID", "FEDRAT", "UNITS", "UNIT", "MULTAX", "PARTNO", "TRNTYP", "FINI", "END",
+            "GOTO", "RAPID", "FEDRAT", "UNITS", "UNIT", "MULTAX", "TLAXIS", "PARTNO", "TRNTYP",
+            "FINI", "END",
         ],
         // Their words are looked at one by one.
         Language::Heidenhain | Language::Siemens => &[],

@@ -26,3 +26,22 @@ pub fn all_are_refused(cases: &[Case<'_>], said: impl Fn(&str, bool) -> Vec<(usi
     }
     assert!(odd.is_empty(), "{odd:#?}");
 }
+
+/// Such a file would be one line, and all behind its first comment would be part of that.
+#[test]
+fn lines_that_end_with_a_carriage_return_alone_are_refused() {
+    use kinetostat_formats::{Language, ReadOptions, SourceFile, expand, read};
+
+    let options = ReadOptions::default();
+    for language in Language::ALL {
+        let file = || SourceFile::new("part.x", "BEGIN PGM A MM\rL X+5\rEND PGM A MM\r");
+        let read = messages(read(language, vec![file()], &options));
+        let flat = messages(expand(language, vec![file()], &options));
+        let says = |found: &[(usize, String)]| {
+            let part = "`BEGIN PGM A MM`: the lines of the file end with a carriage return alone";
+            found.len() == 1 && found[0].0 == 1 && found[0].1.contains(part)
+        };
+        assert_eq!(says(&read), language != Language::Poses, "{read:?}");
+        assert!(says(&flat) || language == Language::Poses, "{flat:?}");
+    }
+}

@@ -8,7 +8,8 @@ use kinetostat::{
 use kinetostat_bench::{BenchQuantity, Places, Task, sample};
 use nalgebra::Vector3;
 
-use crate::{BLOCK, at_most, exponent, median};
+use crate::{BLOCK, exponent, median};
+use kinetostat_bench::figure::at_most;
 use kinetostat_bench::machines::{ARM, LinkLaw};
 
 /// A clamped steel tube of 1 m in `pieces` segments.

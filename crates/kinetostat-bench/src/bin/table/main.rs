@@ -63,27 +63,6 @@ fn median(task: &Task, block: usize) -> Result<f64> {
     Ok(times[times.len() / 2] / task.len() as f64 * 1e6)
 }
 
-/// A line that `cargo xtask figures` reads; with `--figures` only.
-fn figure(name: &str, measured: f64, required: &str, unit: &str, holds: bool) {
-    if !std::env::args().any(|word| word == "--figures") {
-        return;
-    }
-    let name = name.replace('"', "'");
-    println!(
-        r#"figure {{"name":"{name}","measured":{measured:e},"asked":"{required}","unit":"{unit}","holds":{holds}}}"#
-    );
-}
-
-fn at_most(name: &str, measured: f64, most: f64, unit: &str) {
-    let required = format!("at most {most}");
-    figure(name, measured, &required, unit, measured <= most);
-}
-
-fn at_least(name: &str, measured: f64, least: f64, unit: &str) {
-    let required = format!("at least {least}");
-    figure(name, measured, &required, unit, measured >= least);
-}
-
 /// Exponent of growth between the first and the last of several sizes and times.
 fn exponent(rows: &[(usize, f64)]) -> f64 {
     match (rows.first(), rows.last()) {

@@ -8,7 +8,7 @@ use kinetostat::batch::Batch;
 use kinetostat_bench::sample;
 use nalgebra::Vector6;
 
-use crate::at_most;
+use kinetostat_bench::figure::at_most;
 use kinetostat_bench::machines::path;
 
 const MANY: usize = 1_000_000;

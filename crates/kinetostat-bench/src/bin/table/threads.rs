@@ -5,7 +5,8 @@ use std::time::Instant;
 use anyhow::Result;
 use kinetostat_bench::{BenchQuantity, Results};
 
-use crate::{BLOCK, at_least, at_most, median, pass};
+use crate::{BLOCK, median, pass};
+use kinetostat_bench::figure::{at_least, at_most};
 use kinetostat_bench::machines::{ARM, BenchMachine, HEXAPOD, LinkLaw, PUU3};
 
 /// What a call for two threads takes about, us: long against waking a thread, short enough that
