@@ -84,6 +84,21 @@ def _in(kind: _Kind, key: str, value: Any, shape: tuple[int, ...] = ()) -> dict[
     return {} if value is None else {f"{key}_{unit}": one(key, value, shape).tolist()}
 
 
+def _damper(kind: str, value: float | None) -> dict[str, float]:
+    key = "damping_n_s_per_m" if kind == "prismatic" else "damping_n_m_s_per_rad"
+    return {} if value is None else {key: real("damping", value)}
+
+
+def _rotor(kind: _Kind, rotor: tuple[float, float, float]) -> dict[str, float]:
+    inertia, ratio, servo = one("rotor", rotor, (3,)).tolist()
+    slides = kind == "prismatic"
+    return {
+        "inertia_kg_m2": inertia,
+        "lead_m_per_turn" if slides else "ratio": ratio,
+        "servo_stiffness_n_per_m" if slides else "servo_stiffness_n_m_per_rad": servo,
+    }
+
+
 class LimbBuilder:
     """A limb in the making: elements from its start to its end. Made by :meth:`MachineBuilder.limb`.
 
@@ -125,6 +140,8 @@ class LimbBuilder:
         home: float = 0.0,
         limits: tuple[float, float] | None = None,
         rating: float | None = None,
+        rotor: tuple[float, float, float] | None = None,
+        damping: float | None = None,
     ) -> LimbBuilder:
         """A drive with its spring in series.
 
@@ -144,6 +161,11 @@ class LimbBuilder:
             Smallest and largest command, rad or m.
         rating : float, optional
             Largest torque (N m) or force (N).
+        rotor : tuple of float, optional
+            For vibrations: inertia of the motor's rotor, kg m^2; its turns for one turn of the joint, or how far a slide goes for one
+            turn of it, m; stiffness of the servo as the joint feels it, N m/rad or N/m.
+        damping : float, optional
+            For vibrations: damper beside the spring, N m s/rad or N s/m.
 
         Examples
         --------
@@ -160,6 +182,8 @@ class LimbBuilder:
                 "axis": _axis(axis),
                 **spring,
                 rated: or_none(real, "rating", rating),
+                "rotor": None if rotor is None else _rotor(kind, rotor),
+                **_damper(kind, damping),
                 **_in(kind, "home", home),
                 **_in(kind, "limits", limits, (2,)),
             }
@@ -172,8 +196,10 @@ class LimbBuilder:
         axis: _Axis | Sequence[_Axis] | None = None,
         *,
         home: float | Sequence[float] | None = None,
+        damping: float | None = None,
     ) -> LimbBuilder:
-        """A joint that nothing drives; two axes for a universal one, none for a spherical one; home in rad or m.
+        """A joint that nothing drives; two axes for a universal one, none for a spherical one; home in rad or m; a damper for
+        vibrations, N m s/rad or N s/m.
 
         Examples
         --------
@@ -194,10 +220,20 @@ class LimbBuilder:
                 if finite("home", home).ndim
                 else _in("prismatic" if kind == "prismatic" else "revolute", "home", home)
             )
-        return self._add(element)
+        return self._add(element | _damper(kind, damping))
 
-    def spring(self, name: str, kind: _Kind, axis: _Axis, stiffness: float, *, rest: float = 0.0, home: float = 0.0) -> LimbBuilder:
-        """A spring of one freedom: N m/rad or N/m; deflection at rest and at home, rad or m.
+    def spring(
+        self,
+        name: str,
+        kind: _Kind,
+        axis: _Axis,
+        stiffness: float,
+        *,
+        rest: float = 0.0,
+        home: float = 0.0,
+        damping: float | None = None,
+    ) -> LimbBuilder:
+        """A spring of one freedom: N m/rad or N/m; deflection at rest and at home, rad or m; a damper for vibrations, N m s/rad or N s/m.
 
         Examples
         --------
@@ -206,7 +242,7 @@ class LimbBuilder:
         """
         _kind(kind)
         more = {**_in(kind, "rest", rest), **_in(kind, "home", home)}
-        more = more if any(more.values()) else {}
+        more = (more if any(more.values()) else {}) | _damper(kind, damping)
         return self._add({"spring": kind, "name": text("name", name), "axis": _axis(axis), **_stiffness(kind, stiffness), **more})
 
     def spring6(self, name: str, stiffness: ArrayLike) -> LimbBuilder:

@@ -31,6 +31,7 @@ if TYPE_CHECKING:
     import xarray
 
     from kinetostat.compensation import CompensatedProgram
+    from kinetostat.vibration import Damping
     from kinetostat.shares import Shares
 
 __all__ = ["Actuator", "Machine", "preset_names"]
@@ -240,6 +241,19 @@ class Machine:
     def actuators(self) -> tuple[Actuator, ...]:
         """Its drives, in the order of commands."""
         return tuple(Actuator(*row) for row in self._native.actuators())
+
+    @property
+    def damping(self) -> Damping:
+        """How the model says that its vibrations are damped; ``Damping.none()`` where it says nothing.
+
+        Examples
+        --------
+        >>> Machine.from_toml(Machine.preset("heavy_6r").text + "[damping]\\nratio = 0.03\\n").damping
+        Damping.ratio(0.03)
+        """
+        from kinetostat.vibration import damping_of
+
+        return damping_of(self._native.damping_json())
 
     @property
     def platforms(self) -> tuple[str, ...]:

@@ -108,6 +108,23 @@ class Damping:
         return self._said
 
 
+def damping_of(native: str) -> Damping:
+    """Damping as the core writes it."""
+    law = json.loads(native)
+    if law == "undamped":
+        return Damping.none()
+    ((name, numbers),) = law.items()
+    match name:
+        case "ratio" | "ratios":
+            return Damping.ratio(numbers)
+        case "rayleigh":
+            return Damping.rayleigh(**numbers)
+        case "structural":
+            return Damping.structural(**numbers)
+        case _:
+            return Damping.viscous(**dict(numbers))
+
+
 def _law(damping: Damping | float) -> str:
     """Damping, or the ratio of all modes, as the core reads it."""
     return damping._json if isinstance(damping, Damping) else Damping.ratio(real("damping", damping))._json

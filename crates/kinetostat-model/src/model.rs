@@ -3,11 +3,13 @@
 use std::path::Path;
 
 use kinetostat::{Mechanism, Pose};
+use kinetostat_dynamics::Damping;
 use nalgebra::Vector3;
 
 use crate::assembly::controller::{Controller, controller};
 use crate::assembly::mechanism::assemble;
 use crate::assembly::repair::others;
+use crate::elements::damping::damping;
 use crate::elements::placement::{three_digits, written, written_pose};
 use crate::elements::rotary::{RotaryAxis, rotary_axes};
 use crate::elements::workspace::corners;
@@ -165,6 +167,23 @@ impl Model {
                 _ => None,
             })
             .collect()
+    }
+
+    /// How the file says that vibrations are damped; [`Damping::Undamped`] where it says nothing.
+    ///
+    /// ```
+    /// use kinetostat_dynamics::Damping;
+    /// use kinetostat_model::{Model, preset_text};
+    ///
+    /// let text = preset_text("two_link").ok_or("no such preset")?;
+    /// assert_eq!(Model::from_toml(text, "two_link.toml")?.damping(), Damping::Undamped);
+    /// let damped = format!("{text}\n[damping]\nratio = 0.03\nsource = \"ping test\"\n");
+    /// assert_eq!(Model::from_toml(&damped, "two_link.toml")?.damping(), Damping::Ratio(0.03));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn damping(&self) -> Damping {
+        damping(&self.document).unwrap_or(Damping::Undamped)
     }
 
     /// Whether the machine is an arm: three turning drives follow one another in a limb.

@@ -17,6 +17,7 @@ use sha2::{Digest, Sha256};
 use crate::arrays::{Numbers, array, matrix_of, one_pose};
 use crate::errors::{Class, error, of_core, of_model};
 use crate::posture::Posture;
+use crate::stiffness::json_of;
 
 /// A model with its tool, and the machine compiled for many postures once one is asked for.
 #[pyclass(frozen, module = "kinetostat._core")]
@@ -174,6 +175,11 @@ impl Machine {
         (named.zip(each).zip(self.model.ratings()))
             .map(|((name, a), rating)| (name, kind(a.kind), a.home, a.limits, rating))
             .collect()
+    }
+
+    /// How the file says that vibrations are damped, see `kinetostat.Damping`.
+    fn damping_json(&self) -> PyResult<String> {
+        json_of(&self.model.damping())
     }
 
     fn platform_names(&self) -> Vec<String> {

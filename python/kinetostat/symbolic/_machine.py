@@ -25,7 +25,8 @@ _STIFFNESS["stiffness_n_mm_per_rad"] = sp.Rational(1, 1000)
 _WORDS = ["name", "source", "assumption", "rigid", "node", "passive", "actuator", "spring", "axis", "rigid_drive", "spring6"]
 _KNOWN = frozenset([*_WORDS, *_PLACES["home"], *_PLACES["rest"], *_STIFFNESS])
 # What does not change the stiffness.
-_SILENT = frozenset([*_PLACES["limits"], "rated_force_n", "rated_torque_n_m"])
+_VIBRATION = ["rotor", "damping_n_s_per_m", "damping_n_m_s_per_rad"]
+_SILENT = frozenset([*_PLACES["limits"], "rated_force_n", "rated_torque_n_m", *_VIBRATION])
 
 
 @dataclasses.dataclass(frozen=True)

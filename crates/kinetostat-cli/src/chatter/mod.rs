@@ -31,7 +31,6 @@ use crate::vibration::stability::damped;
 use crate::vibration::{damping::words, subject};
 
 pub(crate) fn run(args: &ChatterArgs) -> Answer<()> {
-    let damping = damped(&args.damping, "chatter needs")?;
     refuse_senseless(args)?;
     let files = InputFiles::default();
     let job = JobFile::read(&files, &args.job)?;
@@ -45,7 +44,8 @@ pub(crate) fn run(args: &ChatterArgs) -> Answer<()> {
     give_of_model(&mut setting, &files, named, &flags)?;
     let frames = setting.robot_frames()?;
     let with = (frames.as_ref(), &mut setting.inputs);
-    let (machine, _) = machine_setup(&files, Some(&job), model_named, &flags, with)?;
+    let (machine, model) = machine_setup(&files, Some(&job), model_named, &flags, with)?;
+    let damping = damped(&args.damping, &model.damping(), "chatter needs")?;
     setting.turned_by(machine.rotary.clone());
     let claimed = ClaimedFiles::claim(&args.outputs, &setting.inputs)?;
     let read = read_program(&setting)?;

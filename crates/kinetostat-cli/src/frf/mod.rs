@@ -30,7 +30,7 @@ pub(crate) fn run(args: &FrfArgs) -> Answer<()> {
         ));
     }
     let query = subject::query(&args.machine)?;
-    let damping = args.damping.law()?;
+    let damping = args.damping.law(&query.damping)?;
     let held = subject::held(args.hold.as_deref())?;
     let mut inputs = query.inputs.clone();
     inputs.extend(args.measured.clone());

@@ -23,10 +23,10 @@ use crate::vibration::stability::damped;
 use crate::vibration::{damping::words, subject};
 
 pub(crate) fn run(args: &LobesArgs) -> Answer<()> {
-    let damping = damped(&args.damping, "lobes need")?;
     let cut = cut(args)?;
     let request = request(args)?;
     let query = subject::query(&args.machine)?;
+    let damping = damped(&args.damping, &query.damping, "lobes need")?;
     let files = ClaimedFiles::claim(&args.outputs, &query.inputs)?;
     let frame = frame(args, &query.target)?;
     let posture = query.posture()?;

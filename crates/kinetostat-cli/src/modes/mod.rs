@@ -19,7 +19,7 @@ pub(crate) fn run(args: &ModesArgs) -> Answer<()> {
         return Err(Failure::input("--modes is 0; ask for one at least"));
     }
     let query = subject::query(&args.machine)?;
-    let damping = args.damping.law()?;
+    let damping = args.damping.law(&query.damping)?;
     let held = subject::held(args.hold.as_deref())?;
     let files = ClaimedFiles::claim(&args.outputs, &query.inputs)?;
     let posture = query.posture()?;

@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use kinetostat::{Mechanism, Pose, Posture, PostureRequest, Wrench};
+use kinetostat_dynamics::Damping;
 use kinetostat_machining::{
     NearSingular, Warning, near_singular, odd_tool_length, posture_at, straight_tool, unusual_load,
 };
@@ -43,6 +44,8 @@ pub(crate) struct PlaceQuery {
     /// Commands, m or rad, where the place is given by them.
     pub(crate) joints: Option<Vec<f64>>,
     pub(crate) controller: Option<Controller>,
+    /// How the model says that vibrations are damped.
+    pub(crate) damping: Damping,
     pub(crate) wrench: Wrench,
     pub(crate) inputs: Vec<PathBuf>,
     pub(crate) deviations: Vec<String>,
@@ -137,6 +140,7 @@ pub(crate) fn place_query_of(
         followed,
         joints,
         controller: read.controller.clone(),
+        damping: read.damping(),
         wrench,
         inputs: path.into_iter().collect(),
         deviations: deviation_descriptions(read),

@@ -6,7 +6,7 @@ use kinetostat_dynamics::Damping;
 use crate::options::number;
 use crate::ui::failure::{Answer, Failure};
 
-/// How vibrations are damped: one law, by name.
+/// How vibrations are damped: one law, by name; without one that of the model.
 #[derive(Debug, Default, Args)]
 pub(crate) struct DampingArgs {
     /// Ratio to critical damping of all modes (0.03 is 3 %), or one for each of the lowest modes, the
@@ -25,8 +25,8 @@ pub(crate) struct DampingArgs {
 }
 
 impl DampingArgs {
-    /// The law; undamped without any option.
-    pub(crate) fn law(&self) -> Answer<Damping> {
+    /// The law; that of the model without any option.
+    pub(crate) fn law(&self, of_model: &Damping) -> Answer<Damping> {
         let law = if let [ratio] = self.damping.as_slice() {
             Damping::Ratio(*ratio)
         } else if !self.damping.is_empty() {
@@ -39,7 +39,7 @@ impl DampingArgs {
         } else if let Some(loss_factor) = self.loss_factor {
             Damping::Structural { loss_factor }
         } else if self.viscous.is_empty() {
-            Damping::Undamped
+            of_model.clone()
         } else {
             let read = |text: &String| -> Answer<(String, f64)> {
                 let (name, value) = text.rsplit_once('=').ok_or_else(|| wrong_damper(text))?;

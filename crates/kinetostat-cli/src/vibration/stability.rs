@@ -6,11 +6,12 @@ use kinetostat_dynamics::Damping;
 use crate::ui::failure::{Answer, Failure};
 use crate::vibration::damping::DampingArgs;
 
-/// The law of damping; without damping there is no stable cut, and `who` (a verb in its number) says so.
-pub(crate) fn damped(args: &DampingArgs, who: &str) -> Answer<Damping> {
-    match args.law()? {
+/// The law of damping, of the options or else of the model; without damping there is no stable cut, and `who` (a verb in its
+/// number) says so.
+pub(crate) fn damped(args: &DampingArgs, of_model: &Damping, who: &str) -> Answer<Damping> {
+    match args.law(of_model)? {
         Damping::Undamped => Err(Failure::input(format!(
-            "{who} damping: without it the smallest cut chatters at every speed. Give measured ratios, or for a first look --damping 0.03"
+            "{who} damping: without it the smallest cut chatters at every speed. Give measured ratios here or in the model ([damping]), or for a first look --damping 0.03"
         ))),
         damping => Ok(damping),
     }

@@ -317,3 +317,80 @@ fn an_arm_of_a_urdf_vibrates_as_the_reference_values_say() {
         5e-8,
     );
 }
+
+/// One joint with a body of 2 kg m^2 about it: all in closed form.
+const PENDULUM: &str = r#"schema = 1
+[mechanism]
+name = "pendulum"
+gravity_m_per_s2 = [0, 0, 0]
+[[platform]]
+name = "tool"
+home = { position_m = [0.5, 0, 0] }
+[chain.arm]
+elements = [
+  { actuator = "revolute", name = "drive", axis = "z", stiffness_n_m_per_rad = 1e5 },
+  { body = "arm", mass_kg = 8, centre_of_mass_m = [0.5, 0, 0] },
+  { rigid = { translation_m = [0.5, 0, 0] } },
+]
+[[limb]]
+name = "arm"
+from = "base"
+to = "tool"
+chain = "arm"
+"#;
+
+#[test]
+fn damping_and_rotors_of_the_model_count() {
+    let here = workplace();
+    let write =
+        |name: &str, text: String| std::fs::write(here.path().join(name), text).expect("written");
+    let modes = |line: &str| {
+        let answer = json(&said(here.path(), line).answered());
+        let list = answer["modes"].as_array().expect("modes").clone();
+        let of = |name: &str| {
+            list.iter()
+                .map(|m| m[name].as_f64().expect("a number"))
+                .collect()
+        };
+        let both: [Vec<f64>; 2] = [of("frequency_hz"), of("damping_ratio")];
+        both
+    };
+    let hz = |squared: f64| squared.sqrt() / std::f64::consts::TAU;
+    write(
+        "damper.toml",
+        PENDULUM.replace("1e5 }", "1e5, damping_n_m_s_per_rad = 40 }"),
+    );
+    let [frequencies, ratios] = modes("modes damper.toml --json");
+    agree(&frequencies, &[hz(1e5 / 2.0)], 1e-9);
+    agree(&ratios, &[40.0 / (2.0 * (1e5_f64 * 2.0).sqrt())], 1e-9);
+    // An option goes before the model.
+    let [_, ratios] = modes("modes damper.toml --damping 0.02 --json");
+    agree(&ratios, &[0.02], 1e-12);
+    let rotor =
+        "1e5, rotor = { inertia_kg_m2 = 1e-3, ratio = 100, servo_stiffness_n_m_per_rad = 3e5 } }";
+    let law = "[damping]\nratio = 0.03\n";
+    write("rotor.toml", PENDULUM.replace("1e5 }", rotor) + law);
+    let [frequencies, ratios] = modes("modes rotor.toml --json");
+    // Servo 3e5 and gear 1.5e5 in series; the rotor weighs 100^2 * 1e-3 kg m^2 on the joint's side.
+    let (trace, determinant) = (
+        1.5e5 / 2.0 + 4.5e5 / 10.0,
+        (1.5e5 * 4.5e5 - 1.5e5 * 1.5e5) / 20.0,
+    );
+    let root = (0.25 * trace * trace - determinant).sqrt();
+    agree(
+        &frequencies,
+        &[hz(0.5 * trace - root), hz(0.5 * trace + root)],
+        1e-9,
+    );
+    agree(&ratios, &[0.03, 0.03], 1e-12);
+    // At rest nothing changes: 0.5 m about a joint of 1e5 N m/rad.
+    let answer = json(
+        &said(
+            here.path(),
+            "frf rotor.toml --frequencies 0.001 0.002 2 --to y --from y --json",
+        )
+        .answered(),
+    );
+    let first = answer["curves"][0]["real"][0].as_f64().expect("a number");
+    agree(&[first], &[0.25 / 1e5], 1e-6);
+}

@@ -8,6 +8,7 @@ use crate::ends::Held;
 use crate::error::Result;
 use crate::linear::build::Whole;
 use crate::linear::limb::LimbShare;
+use crate::linear::rotor::rotors_of_chain;
 use crate::linear::{LinearDynamics, NamedCoordinate};
 
 /// Natural units of a chain's coordinates: a slide by the natural length, a turn by a radian.
@@ -70,7 +71,8 @@ impl LinearDynamics {
         whole.add_limb(0, share);
         whole.coordinates.extend(named(chain, "", 0));
         whole.coarse_links.extend(coarse_links(chain, ""));
-        whole.constrained(chain.name(), None, rows, chain.tip(), length, units)
+        let without = whole.constrained(chain.name(), None, rows, chain.tip(), length, units)?;
+        without.with_rotors(&rotors_of_chain(chain, ""))
     }
 }
 

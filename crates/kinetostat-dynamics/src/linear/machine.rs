@@ -9,6 +9,7 @@ use crate::error::Result;
 use crate::linear::build::Whole;
 use crate::linear::chain::{coarse_links, held_rows, named, units};
 use crate::linear::limb::LimbShare;
+use crate::linear::rotor::rotors_of;
 use crate::linear::{LinearDynamics, Place};
 use crate::mass::body;
 
@@ -123,7 +124,7 @@ impl LinearDynamics {
             });
         }
         let tool = whole.places.len() - moving + machine.tool() - 1;
-        closed(whole, posture, &tips, held, tool, length)
+        closed(whole, posture, &tips, held, tool, length)?.with_rotors(&rotors_of(machine))
     }
 }
 

@@ -8,6 +8,8 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use kinetostat::{Chain, Mechanism};
+
 use crate::error::{Error, Result};
 use crate::linear::LinearDynamics;
 use crate::mass::{MassKind, MassPart};
@@ -26,8 +28,36 @@ pub struct Rotor {
     pub servo_stiffness: f64,
 }
 
+/// Rotors of the drives of a chain; `prefix` stands before the names of its joints.
+pub(crate) fn rotors_of_chain(chain: &Chain, prefix: &str) -> Vec<Rotor> {
+    let drives = chain.actuators().iter();
+    let stated = drives.filter_map(|drive| Some((drive, drive.rotor?)));
+    stated
+        .map(|(drive, rotor)| Rotor {
+            joint: format!("{prefix}{}", drive.name),
+            inertia: rotor.inertia,
+            ratio: rotor.ratio,
+            servo_stiffness: rotor.servo_stiffness,
+        })
+        .collect()
+}
+
+/// Rotors of the drives of a machine.
+pub(crate) fn rotors_of(machine: &Mechanism) -> Vec<Rotor> {
+    let several = machine.limbs().len() > 1;
+    let of_limb = |limb: &kinetostat::Limb| {
+        let prefix = match several {
+            true => format!("{}.", limb.name),
+            false => String::new(),
+        };
+        rotors_of_chain(&limb.actual, &prefix)
+    };
+    machine.limbs().iter().flat_map(of_limb).collect()
+}
+
 impl LinearDynamics {
-    /// The same machine with rotors of its drives, each with a coordinate of its own, last.
+    /// The same machine with rotors of its drives, each with a coordinate of its own, last. Those that the drives of the model
+    /// state ([`kinetostat::model::DriveRotor`]) are there already.
     ///
     /// # Errors
     /// [`Error::Rotor`]: a joint without a spring, an inertia below zero, a servo softer than the whole joint.

@@ -12,6 +12,7 @@ use crate::linear::LinearDynamics;
 use crate::linear::build::Whole;
 use crate::linear::chain::{named, units};
 use crate::linear::limb::LimbShare;
+use crate::linear::rotor::rotors_of;
 use crate::mass::body;
 use crate::modes::{DirectionCounts, Modes};
 use crate::response::Receptance;
@@ -33,6 +34,12 @@ impl LimbResponse {
         if machine.platforms().len() != 2 || machine.limbs().iter().any(|l| l.from != 0) {
             return Err(Error::Question(format!(
                 "'{}' has platforms between base and tool: ask for its direct response",
+                machine.name()
+            )));
+        }
+        if !rotors_of(machine).is_empty() {
+            return Err(Error::Question(format!(
+                "the drives of '{}' have rotors: ask for its direct response",
                 machine.name()
             )));
         }

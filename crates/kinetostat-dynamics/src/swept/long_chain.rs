@@ -7,6 +7,7 @@ use nalgebra::{Matrix6, Matrix6xX, Vector6};
 
 use crate::ends::Held;
 use crate::error::Result;
+use crate::linear::rotor::rotors_of_chain;
 use crate::mass::body;
 use crate::swept::factor::HeldEnd;
 use crate::swept::stages::{Stages, symmetric};
@@ -60,7 +61,9 @@ impl LongChain {
     ) -> Result<Option<Self>> {
         let pieces = ChainPieces::at(problem, coordinates, wrench)?;
         let chain = problem.chain;
-        let Some(stages) = Stages::new(chain, &pieces)? else {
+        let stages = Stages::new(chain, &pieces)?;
+        // Rotors of drives have coordinates beside the chain.
+        let Some(stages) = stages.filter(|_| rotors_of_chain(chain, "").is_empty()) else {
             return Ok(None);
         };
         let scale = chain.scale();

@@ -5,6 +5,7 @@ use kinetostat::{MechanismEquilibrium, Posture};
 use crate::ends::Held;
 use crate::error::Result;
 use crate::linear::LinearDynamics;
+use crate::linear::rotor::rotors_of;
 use crate::modes::Modes;
 use crate::swept::long_chain::LongChain;
 
@@ -22,9 +23,12 @@ pub fn lowest_modes(
     held: &Held,
     count: usize,
 ) -> Result<Modes> {
-    let limbs = posture.mechanism().limbs().iter();
+    let machine = posture.mechanism();
+    let limbs = machine.limbs().iter();
     let long = limbs.map(|l| l.actual.coordinate_count()).sum::<usize>() >= SWEPT_FROM;
+    // Rotors have coordinates beside the chain.
     if long
+        && rotors_of(machine).is_empty()
         && let Some(chain) = LongChain::of_machine(posture, at, held)?
         && let Some(modes) = chain.lowest_modes(count)?
     {

@@ -10,6 +10,7 @@ use crate::assembly::limb::limbs;
 use crate::assembly::load::platform_loads;
 use crate::assembly::platform::platforms;
 use crate::assembly::template::{Template, template};
+use crate::elements::damping::damping;
 use crate::elements::elastic::Elastic;
 use crate::elements::rotary::rotary_axes;
 use crate::elements::workspace::corners;
@@ -51,6 +52,7 @@ pub(crate) fn mechanism_of(document: &Document, findings: &mut Findings) -> Opti
     for axis in rotary_axes(document) {
         findings.keep(axis);
     }
+    findings.keep(damping(document));
     let [least, most] = REPEATABILITY_MM;
     let repeats = document.mechanism.repeatability_mm;
     if let Some(mm) = repeats.filter(|mm| !(least..=most).contains(mm)) {

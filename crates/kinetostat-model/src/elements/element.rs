@@ -17,9 +17,7 @@ pub(crate) fn parts(
     element: &Element,
     elastic: &Elastic,
 ) -> Result<Vec<Part>, Option<Finding>> {
-    let name = element
-        .name()
-        .map_or_else(|| format!("{} {number}", element.word()), str::to_owned);
+    let name = element.name_or_number(number);
     Ok(match element {
         Element::Rigid(e) => {
             let offset = pose(&place.key("rigid"), &e.rigid)?;

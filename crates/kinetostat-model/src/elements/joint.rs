@@ -10,6 +10,7 @@ use crate::elements::placement::direction;
 use crate::elements::quantity::{
     Choice, DEG, Given, MM, ReadResult, by_kind, choice, forbid, need,
 };
+use crate::elements::rotor::rotor;
 use crate::problem::{Finding, KeyPath};
 use crate::schema::{
     ActuatorElement, ActuatorKind, JointKind, PassiveElement, PassiveKind, SpringElement,
@@ -68,6 +69,10 @@ pub(crate) fn actuator(place: &KeyPath, e: &ActuatorElement) -> ReadResult<Actua
     )?;
     check_rigid_or_elastic(place, kind, e.rigid_drive.unwrap_or(false), stiffness)?;
     check_rating(place, kind, e)?;
+    let rotor = match &e.rotor {
+        Some(table) => Some(rotor(&place.key("rotor"), kind, stiffness, table)?),
+        None => None,
+    };
     let rest = rest(place, kind, [e.rest_mm, e.rest_m, e.rest_deg, e.rest_rad])?;
     let home = by_kind(
         place,
@@ -89,6 +94,7 @@ pub(crate) fn actuator(place: &KeyPath, e: &ActuatorElement) -> ReadResult<Actua
         rest,
         home: home.map_or(0.0, |h| h.value),
         limits: limits_around(place, kind, e, home)?,
+        rotor,
     })
 }
 

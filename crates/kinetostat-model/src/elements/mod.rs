@@ -4,6 +4,7 @@
 //! and what to write. Knows no other element.
 
 pub(crate) mod body;
+pub(crate) mod damping;
 pub(crate) mod elastic;
 pub(crate) mod elasticity;
 pub(crate) mod element;
@@ -14,6 +15,7 @@ pub(crate) mod part;
 pub(crate) mod placement;
 pub(crate) mod quantity;
 pub(crate) mod rotary;
+pub(crate) mod rotor;
 pub(crate) mod section;
 pub(crate) mod shape;
 pub(crate) mod workspace;

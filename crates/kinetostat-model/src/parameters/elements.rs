@@ -31,13 +31,13 @@ numbers! {
         axis, lead_mm_per_turn, lead_m_per_turn, stiffness_n_per_m, stiffness_n_per_mm, stiffness_n_m_per_rad,
         stiffness_n_mm_per_rad, rated_force_n, rated_torque_n_m, rest_mm, rest_m, rest_deg, rest_rad, home_mm, home_m,
         home_deg, home_rad, limits_mm, limits_m, limits_deg, limits_rad
-    } through {} beside { actuator, name, rigid_drive, source, assumption }
+    } through {} beside { actuator, name, rigid_drive, rotor, damping_n_s_per_m, damping_n_m_s_per_rad, source, assumption }
     PassiveElement { axis, home_mm, home_m, home_deg, home_rad, homes_deg, homes_rad } through { axes }
-        beside { passive, name, source, assumption }
+        beside { passive, name, damping_n_s_per_m, damping_n_m_s_per_rad, source, assumption }
     SpringElement {
         axis, stiffness_n_per_m, stiffness_n_per_mm, stiffness_n_m_per_rad, stiffness_n_mm_per_rad, knee, rest_mm,
         rest_m, rest_deg, rest_rad, home_mm, home_m, home_deg, home_rad
-    } through {} beside { spring, name, source, assumption }
+    } through {} beside { spring, name, damping_n_s_per_m, damping_n_m_s_per_rad, source, assumption }
     Knee {
         at_mm, at_m, at_deg, at_rad, then_n_per_m, then_n_per_mm, then_n_m_per_rad, then_n_mm_per_rad
     } through {} beside {}

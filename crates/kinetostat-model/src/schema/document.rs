@@ -11,6 +11,7 @@ use crate::schema::element::Element;
 use crate::schema::load::{LoadTable, PlatformLoadTable};
 use crate::schema::placement::{Axis, Placement};
 use crate::schema::rotary::RotaryAxisTable;
+use crate::schema::vibration::DampingTable;
 
 /// The version of the format that this crate reads and writes.
 pub const SCHEMA_VERSION: u32 = 1;
@@ -57,6 +58,8 @@ pub struct Document {
     pub rotary_axis: Vec<RotaryAxisTable>,
     /// What the controller shows instead of the model's joint values.
     pub controller: Option<ControllerTable>,
+    /// How vibrations are damped, unless joints and springs have dampers of their own.
+    pub damping: Option<DampingTable>,
 }
 
 /// Name, origin and gravity of the machine.

@@ -5,7 +5,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::schema::knee::Knee;
-use crate::schema::{Axis, JointKind, PassiveKind, Placement, Spring6};
+use crate::schema::{Axis, JointKind, PassiveKind, Placement, RotorTable, Spring6};
 
 /// One element of a chain.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -78,6 +78,12 @@ pub struct ActuatorElement {
     pub rated_force_n: Option<f64>,
     /// Largest torque of a turning drive at its joint, N m: programs that need more are refused.
     pub rated_torque_n_m: Option<f64>,
+    /// The motor's rotor, for vibrations.
+    pub rotor: Option<RotorTable>,
+    /// Damper beside the spring of a sliding drive, N s/m, for vibrations.
+    pub damping_n_s_per_m: Option<f64>,
+    /// Damper beside the spring of a turning drive, N m s/rad, for vibrations.
+    pub damping_n_m_s_per_rad: Option<f64>,
     /// Deflection of the drive's spring at rest, mm (a preload where it is not zero).
     pub rest_mm: Option<f64>,
     /// Deflection of the drive's spring at rest, m.
@@ -149,6 +155,10 @@ pub struct PassiveElement {
     /// Values at home of a universal (two) or spherical (three) joint, rad.
     #[schemars(length(min = 2, max = 3))]
     pub homes_rad: Option<Vec<f64>>,
+    /// Damper of a prismatic joint, N s/m, for vibrations.
+    pub damping_n_s_per_m: Option<f64>,
+    /// Damper of a joint that turns, N m s/rad, for vibrations; about every axis of a universal or spherical one.
+    pub damping_n_m_s_per_rad: Option<f64>,
     /// Where the figures come from.
     pub source: Option<String>,
     /// What is assumed.
@@ -176,6 +186,10 @@ pub struct SpringElement {
     pub stiffness_n_mm_per_rad: Option<f64>,
     /// Where its stiffness changes, and what it is beyond: the one written here is that at rest.
     pub knee: Option<Knee>,
+    /// Damper beside a spring that slides, N s/m, for vibrations.
+    pub damping_n_s_per_m: Option<f64>,
+    /// Damper beside a spring that turns, N m s/rad, for vibrations.
+    pub damping_n_m_s_per_rad: Option<f64>,
     /// Deflection at rest, mm (a preload where it is not zero).
     pub rest_mm: Option<f64>,
     /// Deflection at rest, m.
@@ -386,6 +400,12 @@ impl Element {
             Self::Node(_) => "node",
             Self::Body(_) => "body",
         }
+    }
+
+    /// The name, or word and number of an element without one.
+    pub(crate) fn name_or_number(&self, number: usize) -> String {
+        self.name()
+            .map_or_else(|| format!("{} {number}", self.word()), str::to_owned)
     }
 
     /// The name as written, if it has one.

@@ -13,6 +13,7 @@ mod knee;
 pub(crate) mod load;
 mod placement;
 mod rotary;
+mod vibration;
 
 pub use controller::{ControllerAxisTable, ControllerCoupling, ControllerTable, ControllerUnit};
 pub use document::{
@@ -36,3 +37,4 @@ pub use load::{
 };
 pub use placement::{Axis, AxisName, Placement};
 pub use rotary::{CarriesWord, RotaryAxisTable, RotaryWord};
+pub use vibration::{DampingTable, RayleighTable, RotorTable};

@@ -4,6 +4,7 @@
 
 mod bad_models;
 mod controller;
+mod damping;
 mod deviations;
 mod format;
 mod identical;

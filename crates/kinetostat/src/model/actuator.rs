@@ -38,6 +38,34 @@ pub struct ActuatorSpec {
     pub home: f64,
     /// Limits of the command (m or rad).
     pub limits: Option<(f64, f64)>,
+    /// The motor's rotor, for vibrations; statics do not ask for it.
+    pub rotor: Option<DriveRotor>,
+}
+
+/// The rotor of a drive on its side of the transmission [D 1]: its servo holds it, and the transmission lies between it and the
+/// joint. Vibrations alone know it.
+///
+/// ```
+/// # use kinetostat::nalgebra::Vector3;
+/// # use kinetostat::*;
+/// use kinetostat::model::DriveRotor;
+///
+/// let rotor = DriveRotor { inertia: 1e-3, ratio: 100.0, servo_stiffness: 3e5 }; // kg m^2, 100 turns a turn, N m/rad
+/// let mut drive = ActuatorSpec::new(MotionKind::Revolute, Vector3::z(), 1e5); // servo and gear in series
+/// drive.rotor = Some(rotor);
+/// let arm = Chain::builder("arm").actuator("joint", drive).build()?;
+/// assert_eq!(arm.actuators()[0].rotor, Some(rotor));
+/// # Ok::<(), Error>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DriveRotor {
+    /// Inertia about its own axis, kg m^2.
+    pub inertia: f64,
+    /// Turns (rad) of the rotor by the motion of the joint: a ratio for a joint that turns, rad/m for a slide.
+    pub ratio: f64,
+    /// Stiffness of the servo as the joint sees it, N m/rad or N/m: more than that of the drive, which is servo and transmission
+    /// in series.
+    pub servo_stiffness: f64,
 }
 
 impl ActuatorSpec {
@@ -51,6 +79,7 @@ impl ActuatorSpec {
             rest: 0.0,
             home: 0.0,
             limits: None,
+            rotor: None,
         }
     }
 }

@@ -179,6 +179,7 @@ impl ChainBuilder {
             home: spec.home,
             limits: spec.limits,
             coordinate,
+            rotor: spec.rotor,
         });
         self.motion(
             spec.kind,

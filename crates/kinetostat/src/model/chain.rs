@@ -11,6 +11,7 @@ use nalgebra::{Matrix3, Unit, Vector3};
 use serde::{Deserialize, Serialize};
 
 use crate::error::{Error, Place, Result};
+use crate::model::actuator::DriveRotor;
 use crate::model::limits::check_number;
 use crate::model::link_mass::SegmentMass;
 use crate::model::springs::block::SpringBlock;
@@ -92,6 +93,8 @@ pub struct Actuator {
     pub limits: Option<(f64, f64)>,
     /// The spring coordinate in series with it; `None` for a rigid drive.
     pub coordinate: Option<usize>,
+    /// Its rotor, for vibrations.
+    pub rotor: Option<DriveRotor>,
 }
 
 /// A rigid mass fixed to the frame of a node.

@@ -28,7 +28,7 @@ pub(crate) mod segment_weight;
 pub(crate) mod springs;
 pub(crate) mod uniform;
 
-pub use actuator::ActuatorSpec;
+pub use actuator::{ActuatorSpec, DriveRotor};
 pub use beam::BeamSection;
 pub use builder::ChainBuilder;
 pub use chain::{Actuator, Body, Chain, Coordinate, Drive, Element, Motion, Role, Scale};
