@@ -1,6 +1,8 @@
 //! Description of an actuator: its motion, its stiffness, home and limits.
 
 use nalgebra::Vector3;
+#[cfg(feature = "serde")]
+use serde::{Deserialize, Serialize};
 
 use crate::spatial::MotionKind;
 
@@ -58,6 +60,7 @@ pub struct ActuatorSpec {
 /// # Ok::<(), Error>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 pub struct DriveRotor {
     /// Inertia about its own axis, kg m^2.
     pub inertia: f64,
