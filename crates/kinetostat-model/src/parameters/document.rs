@@ -7,6 +7,8 @@ use crate::schema::Document;
 pub(crate) fn walk(document: &mut Document, visit: &mut dyn Visit) {
     let Document {
         schema: _,
+        // It is no part of statics.
+        damping: _,
         mechanism,
         workspace,
         platform,
