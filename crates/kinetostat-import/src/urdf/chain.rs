@@ -504,6 +504,9 @@ fn passive(name: String, kind: MotionKind, axis: Axis, home: f64) -> Element {
         home_rad: home.filter(|_| turns),
         homes_deg: None,
         homes_rad: None,
+        damping_n_s_per_m: None,
+        // Friction of a URDF is that of a simulation.
+        damping_n_m_s_per_rad: None,
         source: None,
         assumption: None,
     })
@@ -536,6 +539,9 @@ fn actuator(
         stiffness_n_mm_per_rad: None,
         rated_force_n: None,
         rated_torque_n_m: None,
+        rotor: None,
+        damping_n_s_per_m: None,
+        damping_n_m_s_per_rad: None,
         rest_mm: None,
         rest_m: None,
         rest_deg: None,
