@@ -376,7 +376,7 @@ fn damping_and_rotors_of_the_model_count() {
         1.5e5 / 2.0 + 4.5e5 / 10.0,
         (1.5e5 * 4.5e5 - 1.5e5 * 1.5e5) / 20.0,
     );
-    let root = (0.25 * trace * trace - determinant).sqrt();
+    let root = f64::sqrt(0.25 * trace * trace - determinant);
     agree(
         &frequencies,
         &[hz(0.5 * trace - root), hz(0.5 * trace + root)],
