@@ -195,7 +195,7 @@ fn what_no_machine_has_is_refused_at_its_line() {
         ),
     ] {
         let error = read(&[(from, to)], behind).expect_err(words);
-        let problem = &error.problems[0];
+        let problem = &error.problems()[0];
         assert_eq!(problem.line, Some(line), "{words}: {error}");
         assert!(error.to_string().contains(words), "{words}: {error}");
     }
