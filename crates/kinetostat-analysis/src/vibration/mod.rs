@@ -4,7 +4,9 @@
 
 mod cut;
 mod machine;
+mod measured;
 pub mod program;
 
 pub use cut::{MachineCut, MachineCutError};
 pub use machine::VibratingMachine;
+pub use measured::{MeasuredModes, ShownModes};

@@ -5,6 +5,7 @@ use kinetostat_machining::Warning;
 use serde::Serialize;
 
 use crate::frf::arguments::{AXES, QuantityWord};
+use crate::frf::fit::FitAnswer;
 use crate::place::query::PlaceAnswer;
 
 #[derive(Serialize)]
@@ -28,6 +29,9 @@ pub(crate) struct FrfAnswer {
     /// Names of the measured responses that are drawn beside them.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub(crate) measured: Vec<String>,
+    /// Modes that were found in them, beside those of the model.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) fit: Option<FitAnswer>,
     pub(crate) warnings: Vec<Warning>,
 }
 

@@ -40,6 +40,20 @@ pub(crate) struct FrfArgs {
     /// Measured responses to draw beside it: universal file (data set 58) or CSV
     #[arg(long, value_name = "FILE")]
     pub(crate) measured: Option<PathBuf>,
+    /// Modes that are found in the measured responses, within --frequencies, and compared with the
+    /// model's
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = whole, requires = "measured")]
+    pub(crate) fit: Option<usize>,
+    /// Numbers of the model that are scaled until its frequencies are the measured ones, by their paths:
+    /// "chain.arm.joint 2.stiffness_n_m_per_rad"
+    #[arg(long, num_args = 1.., value_name = "PATH", requires = "fit")]
+    pub(crate) scale: Vec<String>,
+    /// They are scaled by at most this factor, up or down
+    #[arg(long, value_name = "FACTOR", allow_negative_numbers = true, value_parser = number, default_value = "4", requires = "scale")]
+    pub(crate) scale_within: f64,
+    /// How well measured frequencies are known, as a share of themselves (one standard deviation)
+    #[arg(long, value_name = "SHARE", allow_negative_numbers = true, value_parser = number, default_value = "0.01", requires = "scale")]
+    pub(crate) frequencies_known_to: f64,
     #[command(flatten)]
     pub(crate) damping: DampingArgs,
     #[command(flatten)]
@@ -105,6 +119,8 @@ Examples:
   kinetostat frf heavy_6r --damping 0.03 --plot response.svg
   kinetostat frf heavy_6r --from x --to x,y,z --frequencies 1 100 2000 \\
       --damping 0.03,0.02 --quantity accelerance --csv response.csv
+  kinetostat frf cell.toml --at 1600 0 900 --measured tap_test.uff --fit 3 \\
+      --frequencies 5 80 1000 --scale \"chain.arm.joint 2.stiffness_n_m_per_rad\"
 
 Exit codes:
   0    answered

@@ -4,6 +4,8 @@
 
 mod answer;
 pub(crate) mod arguments;
+mod fit;
+mod fit_text;
 mod measured;
 mod text;
 
@@ -57,6 +59,15 @@ pub(crate) fn run(args: &FrfArgs) -> Answer<()> {
             "without damping (--damping 0.03, for one) resonances have no height: peaks are as high as a frequency happens to lie near".to_owned(),
         ));
     }
+    let fit = match args.fit {
+        Some(modes) => Some(fit::answer(
+            args,
+            modes,
+            (&query, &machine, &damping),
+            &measured,
+        )?),
+        None => None,
+    };
     let answer = FrfAnswer {
         schema: 1,
         kinetostat_version: env!("CARGO_PKG_VERSION"),
@@ -78,6 +89,7 @@ pub(crate) fn run(args: &FrfArgs) -> Answer<()> {
             &response.over(&frequencies, quantity),
         ),
         measured: measured.iter().map(|m| m.name.clone()).collect(),
+        fit,
         warnings,
     };
     let receptance = response.over(&frequencies, Quantity::Displacement);

@@ -6,6 +6,7 @@ use kinetostat_report::{ReceptanceCurve, receptance_svg};
 
 use crate::frf::answer::FrfAnswer;
 use crate::frf::arguments::AXES;
+use crate::frf::fit_text::fit_text;
 use crate::place::query::PlaceQuery;
 use crate::ui::csv_table::{cell, written};
 use crate::ui::failure::Answer;
@@ -70,6 +71,9 @@ pub(crate) fn answer_text(query: &PlaceQuery, a: &FrfAnswer) -> String {
         &format!("Natural frequencies up to there, Hz: {}", list.join(", ")),
         0,
     ));
+    if let Some(fit) = &a.fit {
+        out.push_str(&fit_text(fit));
+    }
     out.push_str(&warnings::warnings(&a.warnings));
     out
 }

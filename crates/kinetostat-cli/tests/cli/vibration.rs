@@ -394,3 +394,108 @@ fn damping_and_rotors_of_the_model_count() {
     let first = answer["curves"][0]["real"][0].as_f64().expect("a number");
     agree(&[first], &[0.25 / 1e5], 1e-6);
 }
+
+/// Responses by a force along x of an arm with softer and stiffer drives, as a table of measurements.
+fn measured_of_another_arm(here: &Path) {
+    let other = ARM6
+        .replace("= 3900000.0", "= 2730000.0")
+        .replace("= 2600000.0", "= 3120000.0");
+    assert_ne!(other, ARM6);
+    std::fs::write(here.join("other.toml"), other).expect("written");
+    let line = "frf other.toml --damping 0.02 --frequencies 5 40 700 --from x --to x,y,z --json";
+    let answer = json(&said(here, line).answered());
+    let mut table = String::from(
+        "frequency_hz,xx_re_m_per_n,xx_im_m_per_n,yx_re_m_per_n,yx_im_m_per_n,zx_re_m_per_n,zx_im_m_per_n\n",
+    );
+    let curves: Vec<[Vec<f64>; 2]> = (answer["curves"].as_array().expect("curves").iter())
+        .map(|curve| [numbers(&curve["real"]), numbers(&curve["imaginary"])])
+        .collect();
+    for (i, hz) in numbers(&answer["frequencies_hz"]).iter().enumerate() {
+        let values = curves.iter().flatten().map(|list| list[i].to_string());
+        let row: Vec<String> = std::iter::once(hz.to_string()).chain(values).collect();
+        table += &(row.join(",") + "\n");
+    }
+    std::fs::write(here.join("tap.csv"), table).expect("written");
+}
+
+#[test]
+fn measured_modes_stand_beside_those_of_the_model_and_scale_it() {
+    let here = arm6();
+    measured_of_another_arm(here.path());
+    let other = json(&said(here.path(), "modes other.toml --modes 3 --json").answered());
+    let expected: Vec<f64> = (other["modes"].as_array().expect("modes").iter())
+        .map(|mode| mode["frequency_hz"].as_f64().expect("a number"))
+        .collect();
+    let line = "frf arm6.toml --measured tap.csv --fit 3 --damping 0.03 --frequencies 5 40 700 --json f.json \
+        --scale chain.arm.q2.stiffness_n_m_per_rad chain.arm.q3.stiffness_n_m_per_rad";
+    let text = said(here.path(), line).answered().out;
+    assert!(text.contains("Measured modes"), "{text}");
+    let file = std::fs::read_to_string(here.path().join("f.json")).expect("JSON");
+    let answer: Value = serde_json::from_str(&file).expect("JSON");
+    let modes = answer["fit"]["modes"].as_array().expect("modes");
+    let of = |name: &str| -> Vec<f64> {
+        let list = modes
+            .iter()
+            .map(|mode| mode[name].as_f64().expect("a number"));
+        list.collect()
+    };
+    agree(&of("frequency_hz"), &expected, 1e-6);
+    agree(&of("damping_ratio"), &[0.02; 3], 1e-4);
+    agree(&of("model_damping_ratio"), &[0.03; 3], 1e-12);
+    agree(&of("model_mode"), &[1.0, 2.0, 3.0], 1e-12);
+    assert!(
+        of("modal_assurance")
+            .iter()
+            .all(|mac| (0.5..=1.0 + 1e-12).contains(mac)),
+        "{text}"
+    );
+    let scaled = &answer["fit"]["scaled"];
+    let list = scaled["parameters"].as_array().expect("parameters");
+    let values: Vec<f64> = list
+        .iter()
+        .map(|p| p["value"].as_f64().expect("a number"))
+        .collect();
+    agree(&values, &[2.73e6, 3.12e6], 1e-3);
+    assert!(
+        list.iter()
+            .all(|p| p["deviation"].as_f64().is_some_and(|d| d < 0.2)),
+        "{scaled}"
+    );
+    assert_eq!(scaled["not_told"], serde_json::json!([]));
+}
+
+#[test]
+fn what_the_measurement_does_not_tell_is_said() {
+    let here = arm6();
+    measured_of_another_arm(here.path());
+    // One frequency tells one combination of two drives.
+    let line = "frf arm6.toml --measured tap.csv --fit 1 --frequencies 5 9.5 700 \
+        --scale chain.arm.q2.stiffness_n_m_per_rad chain.arm.q3.stiffness_n_m_per_rad";
+    let text = said(here.path(), line).answered().out;
+    assert!(text.contains("do not tell:"), "{text}");
+    assert!(text.contains("not told"), "{text}");
+    for (line, words) in [
+        ("frf arm6.toml --fit 3", "--measured"),
+        ("frf arm6.toml --measured tap.csv --fit 0", "1 to 30"),
+        (
+            "frf arm6.toml --measured tap.csv --fit 3 --frequencies 39 40 50",
+            "frequencies in the band",
+        ),
+        (
+            "frf arm6.toml --measured tap.csv --fit 1 --frequencies 5 40 50 --scale chain.arm.q9.stiffness_n_m_per_rad",
+            "q9",
+        ),
+        (
+            "frf arm6.toml --measured tap.csv --fit 1 --frequencies 5 40 50 --scale chain.arm.q2.stiffness_n_m_per_rad --scale-within 0.5",
+            "--scale-within",
+        ),
+        (
+            "frf arm6.toml --measured tap.csv --fit 1 --frequencies 5 40 50 --scale chain.arm.q2.stiffness_n_m_per_rad --frequencies-known-to 0",
+            "--frequencies-known-to",
+        ),
+    ] {
+        let said = said(here.path(), line);
+        assert_eq!(said.code, 1, "{line}: {said:?}");
+        assert!(said.err.contains(words), "{line}: {}", said.err);
+    }
+}

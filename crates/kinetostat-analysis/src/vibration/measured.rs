@@ -1,0 +1,159 @@
+//! Measured modes of the tool beside those of a model, and numbers of the model scaled to them [D 11].
+
+use kinetostat_chatter::{
+    ChatterError, ChatterErrorKind, Fit, MeasuredResponse, ModePair, Parameter, Scaled, ShapedMode,
+    fit_modes, pair_modes, scale_parameters,
+};
+use kinetostat_dynamics::ModeKind;
+use serde::Serialize;
+
+use crate::vibration::machine::VibratingMachine;
+
+/// Modes of the model up to so many times the highest measured frequency are looked at.
+const HIGHER: f64 = 4.0;
+/// A mode that moves the tool by less than this share of the most moving one is not seen there.
+const SEEN: f64 = 1e-6;
+
+/// Modes that were found in measured responses of the tool's tip.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct MeasuredModes {
+    /// Frequencies, damping and constants of the curves, and how well they follow them.
+    pub fit: Fit,
+    /// Names of the curves.
+    pub curves: Vec<String>,
+    /// Of each curve the axis of its motion, 0 to 2 for x, y, z of the base, and its sign.
+    directions: Vec<(usize, f64)>,
+}
+
+/// The model's modes that the tool can show, as they are compared.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ShownModes {
+    /// Which modes of the machine they are.
+    pub numbers: Vec<usize>,
+    /// Their frequencies, damping and shapes along the measured directions.
+    pub modes: Vec<ShapedMode>,
+}
+
+impl MeasuredModes {
+    /// Fits so many modes in a band, Hz, to the curves by the force of the first one. Axes of the measurement are those of the base.
+    ///
+    /// # Errors
+    /// A curve without a direction along x, y or z, and those of [`fit_modes`].
+    pub fn fitted(
+        responses: &[MeasuredResponse],
+        modes: usize,
+        band_hz: (f64, f64),
+    ) -> Result<Self, ChatterError> {
+        let reference = |r: &MeasuredResponse| (r.reference_node, r.reference_direction.abs());
+        let first = responses.first().map(reference);
+        let own: Vec<MeasuredResponse> = (responses.iter())
+            .filter(|response| Some(reference(response)) == first)
+            .cloned()
+            .collect();
+        let directions = own.iter().map(|response| {
+            let direction = response.response_direction;
+            match direction.abs() {
+                axis @ 1..=3 => Ok((axis as usize - 1, f64::from(direction.signum()))),
+                _ => Err(ChatterError::new(
+                    ChatterErrorKind::Measurement,
+                    format!("direction of '{}'", response.name),
+                    direction,
+                    "motion along x, y or z: name the columns as in xx_re_um_per_n",
+                )),
+            }
+        });
+        Ok(Self {
+            directions: directions.collect::<Result<_, _>>()?,
+            curves: own.iter().map(|response| response.name.clone()).collect(),
+            fit: fit_modes(&own, modes, band_hz)?,
+        })
+    }
+
+    /// The measured modes, shapes along the directions of the curves.
+    #[must_use]
+    pub fn shaped(&self) -> Vec<ShapedMode> {
+        let modes = self.fit.modes.iter();
+        modes
+            .map(|mode| ShapedMode {
+                frequency_hz: mode.frequency_hz,
+                damping_ratio: mode.damping_ratio,
+                shape: mode.constants.clone(),
+            })
+            .collect()
+    }
+
+    /// Modes of the model that the tool shows along the measured directions; `ratios` are their shares of critical damping (none
+    /// where the model says nothing).
+    #[must_use]
+    pub fn shown(&self, machine: &VibratingMachine, ratios: Option<&[f64]>) -> ShownModes {
+        let highest = self.fit.modes.iter().map(|mode| mode.frequency_hz);
+        let highest = highest.fold(0.0, kinetostat::number::larger);
+        let all = machine.modes.modes.iter().enumerate();
+        let vibrating = all.filter(|(_, mode)| {
+            mode.kind == ModeKind::Vibration && mode.frequency_hz() <= HIGHER * highest
+        });
+        let shaped: Vec<(usize, ShapedMode)> = vibrating
+            .map(|(number, mode)| {
+                let along = |(axis, sign): &(usize, f64)| sign * mode.tool[*axis];
+                let shape = ShapedMode {
+                    frequency_hz: mode.frequency_hz(),
+                    damping_ratio: ratios.map_or(0.0, |ratios| ratios[number]),
+                    shape: self.directions.iter().map(along).collect(),
+                };
+                (number, shape)
+            })
+            .collect();
+        let size = |mode: &ShapedMode| mode.shape.iter().map(|x| x * x).sum::<f64>().sqrt();
+        let most =
+            (shaped.iter().map(|(_, mode)| size(mode))).fold(0.0, kinetostat::number::larger);
+        let seen = shaped
+            .into_iter()
+            .filter(|(_, mode)| size(mode) > SEEN * most);
+        let (numbers, modes) = seen.unzip();
+        ShownModes { numbers, modes }
+    }
+
+    /// Each measured mode with that of the model which it resembles most; `model` counts [`ShownModes::modes`].
+    ///
+    /// # Errors
+    /// As [`pair_modes`].
+    pub fn beside(&self, shown: &ShownModes) -> Result<Vec<ModePair>, ChatterError> {
+        pair_modes(&self.shaped(), &shown.modes)
+    }
+
+    /// Scales numbers of the model so that its frequencies are the measured ones, each known to a share `deviation` of itself.
+    /// `machine_of` takes the numbers to the machine.
+    ///
+    /// # Errors
+    /// Those of `machine_of`, [`scale_parameters`] and [`pair_modes`]; a measured mode that the model has not.
+    pub fn scaled<E: From<ChatterError>>(
+        &self,
+        parameters: &[Parameter],
+        deviation: f64,
+        mut machine_of: impl FnMut(&[f64]) -> Result<VibratingMachine, E>,
+    ) -> Result<Scaled, E> {
+        let measured: Vec<(f64, f64)> = (self.fit.modes.iter())
+            .map(|mode| (mode.frequency_hz, deviation * mode.frequency_hz))
+            .collect();
+        let mut failed = None;
+        let scaled = scale_parameters(parameters, &measured, |values| {
+            let machine = machine_of(values).map_err(|error| {
+                failed = Some(error);
+                lost("machine", "no answer of the model")
+            })?;
+            let shown = self.shown(&machine, None);
+            let pairs = self.beside(&shown)?;
+            if pairs.len() < measured.len() {
+                return Err(lost("modes of the model", "fewer than were measured"));
+            }
+            let hz = |pair: &ModePair| shown.modes[pair.model].frequency_hz;
+            Ok(pairs.iter().map(hz).collect())
+        });
+        scaled.map_err(|error| failed.unwrap_or_else(|| E::from(error)))
+    }
+}
+
+fn lost(quantity: &str, found: &str) -> ChatterError {
+    let kind = ChatterErrorKind::Measurement;
+    ChatterError::new(kind, quantity, found, "a mode for each that was measured")
+}

@@ -1,0 +1,225 @@
+//! Modes of measured responses beside those of the model, and numbers of the model scaled to them.
+
+use std::path::Path;
+
+use kinetostat_analysis::vibration::{MeasuredModes, VibratingMachine};
+use kinetostat_chatter::{ChatterError, MeasuredResponse, Parameter, Scaled};
+use kinetostat_dynamics::{Damping, Held};
+use kinetostat_machining::straight_tool;
+use kinetostat_model::ParametricModel;
+use serde::Serialize;
+
+use crate::files::input_files::InputFiles;
+use crate::frf::arguments::FrfArgs;
+use crate::place::query::PlaceQuery;
+use crate::ui::failure::{Answer, Failure};
+use crate::vibration::subject;
+
+/// Modes that were measured.
+#[derive(Serialize)]
+pub(crate) struct FitAnswer {
+    /// Curves that were fitted: those by the force of the first.
+    pub(crate) curves: Vec<String>,
+    /// What the fit leaves of each, as a share.
+    pub(crate) misfit: Vec<f64>,
+    pub(crate) modes: Vec<MeasuredMode>,
+    /// Frequencies of poles that are no vibrations in the band.
+    pub(crate) left_out_hz: Vec<f64>,
+    /// With one curve shapes cannot be compared.
+    pub(crate) shapes_compared: bool,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) scaled: Option<ScaledAnswer>,
+}
+
+/// A measured mode with that of the model which it resembles most.
+#[derive(Serialize)]
+pub(crate) struct MeasuredMode {
+    pub(crate) frequency_hz: f64,
+    pub(crate) damping_ratio: f64,
+    /// Number of the model's, from 1.
+    pub(crate) model_mode: Option<usize>,
+    pub(crate) model_frequency_hz: Option<f64>,
+    pub(crate) model_damping_ratio: Option<f64>,
+    /// Modal assurance criterion of both shapes along the measured directions.
+    pub(crate) modal_assurance: Option<f64>,
+}
+
+/// Numbers of the model that were scaled.
+#[derive(Serialize)]
+pub(crate) struct ScaledAnswer {
+    pub(crate) parameters: Vec<ScaledParameter>,
+    /// Factors that change no measured frequency by as much as it is known, in words.
+    pub(crate) not_told: Vec<String>,
+    /// Frequencies of the scaled model beside the measured ones.
+    pub(crate) frequencies_hz: Vec<f64>,
+    pub(crate) evaluations: usize,
+}
+
+#[derive(Serialize)]
+pub(crate) struct ScaledParameter {
+    pub(crate) path: String,
+    pub(crate) unit: &'static str,
+    pub(crate) before: f64,
+    pub(crate) value: f64,
+    /// Standard deviation as a share of the value; null where the measurement does not tell it, or a bound holds it.
+    pub(crate) deviation: Option<f64>,
+    pub(crate) at_bound: bool,
+}
+
+pub(crate) fn answer(
+    args: &FrfArgs,
+    modes: usize,
+    (query, machine, damping): (&PlaceQuery, &VibratingMachine, &Damping),
+    responses: &[MeasuredResponse],
+) -> Answer<FitAnswer> {
+    let band = (args.frequencies[0], args.frequencies[1]);
+    let measured = MeasuredModes::fitted(responses, modes, band).map_err(of_measurement)?;
+    let ratios = match damping {
+        Damping::Undamped => None,
+        law => {
+            let ratios = machine.dynamics.damping_ratios(&machine.modes, law);
+            Some(ratios.map_err(subject::refused)?)
+        }
+    };
+    let shown = measured.shown(machine, ratios.as_deref());
+    let pairs = measured.beside(&shown).map_err(of_measurement)?;
+    let compared = measured.curves.len() > 1;
+    let beside = |(i, mode): (usize, &kinetostat_chatter::FittedMode)| {
+        let pair = pairs.iter().find(|pair| pair.measured == i);
+        let model = pair.map(|pair| &shown.modes[pair.model]);
+        MeasuredMode {
+            frequency_hz: mode.frequency_hz,
+            damping_ratio: mode.damping_ratio,
+            model_mode: pair.map(|pair| shown.numbers[pair.model] + 1),
+            model_frequency_hz: model.map(|model| model.frequency_hz),
+            model_damping_ratio: model
+                .filter(|_| ratios.is_some())
+                .map(|model| model.damping_ratio),
+            modal_assurance: pair.filter(|_| compared).map(|pair| pair.assurance),
+        }
+    };
+    let all = measured.fit.modes.iter().enumerate().map(beside).collect();
+    Ok(FitAnswer {
+        curves: measured.curves.clone(),
+        misfit: measured.fit.misfit.clone(),
+        modes: all,
+        left_out_hz: measured.fit.left_out_hz.clone(),
+        shapes_compared: compared,
+        scaled: match args.scale.is_empty() {
+            true => None,
+            false => Some(scaled(args, query, &measured)?),
+        },
+    })
+}
+
+fn scaled(args: &FrfArgs, query: &PlaceQuery, measured: &MeasuredModes) -> Answer<ScaledAnswer> {
+    let within = args.scale_within;
+    if !(within > 1.0 && within <= 1e3) {
+        return Err(Failure::input(format!(
+            "--scale-within is {within}; a factor above 1 and of at most 1000 is needed"
+        )));
+    }
+    let known = args.frequencies_known_to;
+    if !(known > 0.0 && known < 1.0) {
+        return Err(Failure::input(format!(
+            "--frequencies-known-to is {known}; a share between 0 and 1 is needed (0.01 is 1 %)"
+        )));
+    }
+    let held = subject::held(args.hold.as_deref())?;
+    let model = parametric(args)?;
+    let mut parameters = Vec::new();
+    for parameter in model.parameters() {
+        if parameter.value <= 0.0 || parameter.value.is_nan() {
+            return Err(Failure::input(format!(
+                "--scale {}: it is {}, and numbers above zero are scaled",
+                parameter.path, parameter.value
+            )));
+        }
+        parameters.push(Parameter {
+            name: parameter.path.clone(),
+            start: parameter.value,
+            least: parameter.value / within,
+            most: parameter.value * within,
+        });
+    }
+    let machine_of = |values: &[f64]| machine_of(args, query, &model, (values, &held));
+    let found = measured
+        .scaled(&parameters, known, machine_of)
+        .map_err(|Lost(failure)| failure)?;
+    let own = model.parameters().iter().enumerate();
+    Ok(ScaledAnswer {
+        not_told: not_told(&parameters, &found),
+        frequencies_hz: (measured.fit.modes.iter().zip(&found.left))
+            .map(|(mode, left)| mode.frequency_hz * (1.0 + known * left))
+            .collect(),
+        evaluations: found.evaluations,
+        parameters: own
+            .map(|(k, parameter)| ScaledParameter {
+                path: parameter.path.clone(),
+                unit: parameter.unit,
+                before: parameter.value,
+                value: found.values[k],
+                deviation: found.deviations[k],
+                at_bound: found.at_bound[k],
+            })
+            .collect(),
+    })
+}
+
+fn parametric(args: &FrfArgs) -> Answer<ParametricModel> {
+    let (model, _) = InputFiles::default().model(&args.machine.model, Path::new(""))?;
+    let paths: Vec<&str> = args.scale.iter().map(String::as_str).collect();
+    Ok(model.parametric(&paths)?)
+}
+
+/// The machine with other numbers where it is asked for.
+fn machine_of(
+    args: &FrfArgs,
+    query: &PlaceQuery,
+    model: &ParametricModel,
+    (values, held): (&[f64], &Held),
+) -> Result<VibratingMachine, Lost> {
+    let tool = straight_tool(1e-3 * args.machine.tool_length_mm.unwrap_or(0.0));
+    let mechanism = model
+        .mechanism(values)
+        .map_err(Failure::from)?
+        .with_tool(&tool);
+    let posture = query.standing_in(&mechanism).map_err(Failure::from)?;
+    Ok(subject::machine(query, &posture, held)?)
+}
+
+/// Why scaling has no answer.
+struct Lost(Failure);
+
+impl From<Failure> for Lost {
+    fn from(failure: Failure) -> Self {
+        Self(failure)
+    }
+}
+
+impl From<ChatterError> for Lost {
+    fn from(error: ChatterError) -> Self {
+        Self(of_measurement(error))
+    }
+}
+
+fn of_measurement(error: ChatterError) -> Failure {
+    Failure::input(format!("measured responses: {error}"))
+}
+
+/// Combinations of factors that the measurement does not tell, in words.
+fn not_told(parameters: &[Parameter], found: &Scaled) -> Vec<String> {
+    let words = |direction: &Vec<f64>| {
+        let largest = direction.iter().fold(0.0, |most, x| x.abs().max(most));
+        let parts = parameters.iter().zip(direction);
+        let parts: Vec<String> = parts
+            .filter(|(_, share)| share.abs() > 0.1 * largest)
+            .map(|(parameter, share)| match *share > 0.0 {
+                true => format!("'{}' up", parameter.name),
+                false => format!("'{}' down", parameter.name),
+            })
+            .collect();
+        parts.join(" with ")
+    };
+    found.untold.iter().map(words).collect()
+}
