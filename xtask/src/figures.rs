@@ -569,8 +569,7 @@ fn speed(figures: &mut Vec<Figure>) -> Result<()> {
 
 /// Modes, responses and lobes, and a map of the first frequency.
 fn vibrations(figures: &mut Vec<Figure>) -> Result<()> {
-    let program = ["kinetostat-bench", "--bin", "vibrations", "--", "--figures"];
-    tables(figures, &program)?;
+    tables(figures, &["kinetostat-analysis", "--example", "vibrations"])?;
     let scratch = Scratch::new("frequencies")?;
     let words = "map heavy_6r --x 1200 1600 50 --y -200 200 50 --z 400 800 40 --force 0 0 0 --show f1 --plot f1.svg";
     let words: Vec<&str> = words.split(' ').collect();

@@ -352,10 +352,10 @@ fn check_one(ops: &[Op], style: &Style, waves: &Waves, machine_is_known: bool) {
     }
 }
 
-/// 400, or as many as `PROPTEST_CASES` says.
+/// 150, or as many as `PROPTEST_CASES` says.
 fn cases() -> u32 {
     let setting = std::env::var("PROPTEST_CASES").ok();
-    setting.and_then(|cases| cases.parse().ok()).unwrap_or(400)
+    setting.and_then(|cases| cases.parse().ok()).unwrap_or(150)
 }
 
 proptest! {

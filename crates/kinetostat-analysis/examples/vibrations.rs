@@ -1,6 +1,6 @@
 //! Time of what elasto-dynamics is asked for: modes of an arm of six axes and of a machine with loops, a response by the sum
-//! of modes, a lobe diagram, and modes by the number of a link's segments. With `--figures`, what `cargo xtask figures` shows
-//! follows each. `cargo run --release -p kinetostat-bench --bin vibrations`.
+//! of modes, a lobe diagram, and modes by the number of a link's segments. What `cargo xtask figures` shows
+//! follows each. `cargo run --release -p kinetostat-analysis --example vibrations`.
 
 #![allow(clippy::print_stdout, reason = "the table is what was asked for")]
 
@@ -12,14 +12,14 @@ use kinetostat::model::LinkMass;
 use kinetostat::{BeamSection, Chain, ChainProblem, EndCondition, LinkSpec, Load};
 use kinetostat::{Pose, Posture, Settings, Wrench, solve_chain};
 use kinetostat_analysis::vibration::{MachineCut, VibratingMachine};
-use kinetostat_bench::figure::at_most;
 use kinetostat_chatter as chatter;
 use kinetostat_dynamics::{Damping, Held, LinearDynamics, LongChain, Quantity, Receptance};
 use kinetostat_model::Model;
+use kinetostat_testing::figure::at_most;
 use nalgebra::{Matrix3, Vector3, vector};
 
 /// The arm of the reference values, D3, as the tests of the command line have it.
-const ARM: &str = include_str!("../../../kinetostat-cli/tests/cli/vibration_models/arm6.toml");
+const ARM: &str = include_str!("../../kinetostat-cli/tests/cli/vibration_models/arm6.toml");
 
 const DAMPING: Damping = Damping::Ratio(0.03);
 
