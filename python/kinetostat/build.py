@@ -198,8 +198,9 @@ class LimbBuilder:
         home: float | Sequence[float] | None = None,
         damping: float | None = None,
     ) -> LimbBuilder:
-        """A joint that nothing drives; two axes for a universal one, none for a spherical one; home in rad or m; a damper for
-        vibrations, N m s/rad or N s/m.
+        """A joint that nothing drives; two axes for a universal one, none for a spherical one; home in rad or m.
+
+        ``damping`` is a damper for vibrations, N m s/rad or N s/m.
 
         Examples
         --------
@@ -233,7 +234,9 @@ class LimbBuilder:
         home: float = 0.0,
         damping: float | None = None,
     ) -> LimbBuilder:
-        """A spring of one freedom: N m/rad or N/m; deflection at rest and at home, rad or m; a damper for vibrations, N m s/rad or N s/m.
+        """A spring of one freedom: N m/rad or N/m; deflection at rest and at home, rad or m.
+
+        ``damping`` is a damper for vibrations, N m s/rad or N s/m.
 
         Examples
         --------
