@@ -31,8 +31,8 @@ if TYPE_CHECKING:
     import xarray
 
     from kinetostat.compensation import CompensatedProgram
-    from kinetostat.vibration import Damping
     from kinetostat.shares import Shares
+    from kinetostat.vibration import Damping
 
 __all__ = ["Actuator", "Machine", "preset_names"]
 
@@ -244,11 +244,11 @@ class Machine:
 
     @property
     def damping(self) -> Damping:
-        """How the model says that its vibrations are damped; ``Damping.none()`` where it says nothing.
+        r"""How the model says that its vibrations are damped; ``Damping.none()`` where it says nothing.
 
         Examples
         --------
-        >>> Machine.from_toml(Machine.preset("heavy_6r").text + "[damping]\\nratio = 0.03\\n").damping
+        >>> Machine.from_toml(Machine.preset("heavy_6r").text + "[damping]\nratio = 0.03\n").damping
         Damping.ratio(0.03)
         """
         from kinetostat.vibration import damping_of
