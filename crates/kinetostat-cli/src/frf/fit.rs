@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use kinetostat::number::larger;
 use kinetostat_analysis::vibration::{MeasuredModes, VibratingMachine};
 use kinetostat_chatter::{ChatterError, MeasuredResponse, Parameter, Scaled};
 use kinetostat_dynamics::{Damping, Held};
@@ -210,7 +211,7 @@ fn of_measurement(error: ChatterError) -> Failure {
 /// Combinations of factors that the measurement does not tell, in words.
 fn not_told(parameters: &[Parameter], found: &Scaled) -> Vec<String> {
     let words = |direction: &Vec<f64>| {
-        let largest = direction.iter().fold(0.0, |most, x| x.abs().max(most));
+        let largest = direction.iter().map(|x| x.abs()).fold(0.0, larger);
         let parts = parameters.iter().zip(direction);
         let parts: Vec<String> = parts
             .filter(|(_, share)| share.abs() > 0.1 * largest)

@@ -1,5 +1,7 @@
 //! Measured modes for a person.
 
+use kinetostat::number::larger;
+
 use crate::frf::fit::{FitAnswer, ScaledAnswer};
 use crate::ui::layout::{columns, wrapped};
 use crate::ui::numbers::number;
@@ -38,7 +40,7 @@ pub(crate) fn fit_text(fit: &FitAnswer) -> String {
         ]);
     }
     out.push_str(&columns(&rows, 0));
-    let worst = fit.misfit.iter().copied().fold(0.0, f64::max);
+    let worst = fit.misfit.iter().copied().fold(0.0, larger);
     let mut say = |text: String| out.push_str(&wrapped(&text, 0));
     say(format!(
         "Fit: rational fractions with one set of poles for {} curve{}; {} % of the worst curve is left.",
@@ -90,11 +92,11 @@ fn scaled_text(fit: &FitAnswer, scaled: &ScaledAnswer) -> String {
     out.push_str(&columns(&rows, 0));
     let apart = (scaled.frequencies_hz.iter().zip(&fit.modes))
         .map(|(hz, mode)| (hz / mode.frequency_hz - 1.0).abs())
-        .fold(0.0, f64::max);
+        .fold(0.0, larger);
     out.push_str(&wrapped(
         &format!(
             "Frequencies are within {} % of the measured ones then.",
-            number(100.0 * apart, 2)
+            number(larger(100.0 * apart, 1e-3), 2)
         ),
         0,
     ));
