@@ -18,6 +18,11 @@ const UNITS: [(&str, Motion, f64); 8] = [
     ("_m_per_n", Motion::Displacement, 1.0),
 ];
 
+/// What names of columns say of the part of a complex number: short, and as `kinetostat frf --csv` writes it.
+const REAL: [&str; 2] = ["_re", "_real"];
+const IMAGINARY: [&str; 2] = ["_im", "_imaginary"];
+const MAGNITUDE: [&str; 2] = ["_mag", "_magnitude"];
+
 /// How two columns make a complex number.
 #[derive(Clone, Copy, PartialEq)]
 enum Parts {
@@ -41,9 +46,9 @@ fn fault(line: usize, quantity: &str, found: impl ToString, expected: &str) -> C
 
 /// Reads responses from columns of text.
 ///
-/// The first line names the columns: `frequency_hz`, and for each response `NAME_re_UNIT` and `NAME_im_UNIT`, or
-/// `NAME_mag_UNIT` and `NAME_phase_deg`. `UNIT` is `m_per_n`, `mm_per_n`, `um_per_n`, `m_per_s_per_n`, `mm_per_s_per_n`,
-/// `m_per_s2_per_n`, `mm_per_s2_per_n` or `g_per_n`. Names as `xy` are read as motion along x by a force along y. Columns are
+/// The first line names the columns: `frequency_hz`, and for each response `NAME_re_UNIT` and `NAME_im_UNIT` (or `real` and
+/// `imaginary`), or `NAME_mag_UNIT` and `NAME_phase_deg`. `UNIT` is `m_per_n`, `mm_per_n`, `um_per_n`, `m_per_s_per_n`, `mm_per_s_per_n`,
+/// `m_per_s2_per_n`, `mm_per_s2_per_n` or `g_per_n`. Names as `xy` or `x_by_y` are read as motion along x by a force along y. Columns are
 /// parted by commas, semicolons or tabs; lines that begin with `#` are left out.
 ///
 /// ```
@@ -123,10 +128,10 @@ pub fn read_columns(text: &str) -> Result<Vec<MeasuredResponse>> {
     columns.into_iter().zip(values).map(whole).collect()
 }
 
-/// Motion and force of a name of two letters as `xy`; 0 for what it does not tell.
+/// Motion and force of a name as `xy` or `x_by_y`; 0 for what it does not tell.
 fn directions(name: &str) -> (i32, i32) {
     let of = |c: char| "xyz".find(c).map_or(0, |at| at as i32 + 1);
-    match name.chars().collect::<Vec<_>>()[..] {
+    match name.replace("_by_", "").chars().collect::<Vec<_>>()[..] {
         [a, b] if of(a) > 0 && of(b) > 0 => (of(a), of(b)),
         _ => (0, 0),
     }
@@ -154,21 +159,26 @@ fn columns(names: &[String], frequency: usize, head: usize) -> Result<Vec<Column
             return Err(fault(head, "name of a column", name, expected));
         };
         let stem = &name[..name.len() - unit.len()];
-        let (name, parts, second) = if let Some(stem) = stem.strip_suffix("_re") {
-            (
-                stem,
-                Parts::Cartesian,
-                other(format!("{stem}_im{unit}"), name)?,
-            )
-        } else if let Some(stem) = stem.strip_suffix("_mag") {
-            (
-                stem,
-                Parts::Polar,
-                other(format!("{stem}_phase_deg"), name)?,
-            )
-        } else if let Some(stem) = stem.strip_suffix("_im") {
-            other(format!("{stem}_re{unit}"), name)?;
+        let parted = |words: [&str; 2]| {
+            let at = words.iter().position(|word| stem.ends_with(word))?;
+            Some((&stem[..stem.len() - words[at].len()], at))
+        };
+        let (name, parts, second) = if let Some((stem, at)) = parted(REAL) {
+            let second = other(format!("{stem}{}{unit}", IMAGINARY[at]), name)?;
+            (stem, Parts::Cartesian, second)
+        } else if let Some((stem, at)) = parted(IMAGINARY) {
+            other(format!("{stem}{}{unit}", REAL[at]), name)?;
             continue;
+        } else if let Some((stem, _)) = parted(MAGNITUDE) {
+            let second = other(format!("{stem}_phase_deg"), name)?;
+            // The same numbers once more, as `frf --csv` writes them.
+            if REAL
+                .iter()
+                .any(|real| names.contains(&format!("{stem}{real}{unit}")))
+            {
+                continue;
+            }
+            (stem, Parts::Polar, second)
         } else {
             let expected = "_re, _im or _mag before its unit";
             return Err(fault(head, "name of a column", name, expected));

@@ -243,6 +243,15 @@ fn columns_with_units() {
     );
     assert!((all[0].values[0] - Complex::new(0.0, 0.5 * 9.80665)).norm() < 1e-12);
     assert!((all[1].values[1] - Complex::new(3e-3, 4e-3)).norm() < 1e-15);
+    // As `kinetostat frf --csv` writes them.
+    let text = "frequency_hz,z_by_x_real_m_per_n,z_by_x_imaginary_m_per_n,z_by_x_magnitude_m_per_n,z_by_x_phase_deg\n10,3,4,5,53.13\n";
+    let all = read_columns(text).unwrap();
+    assert_eq!(all.len(), 1);
+    assert_eq!(
+        (all[0].response_direction, all[0].reference_direction),
+        (3, 1)
+    );
+    assert_eq!(all[0].values, [Complex::new(3.0, 4.0)]);
     for (text, line) in [
         ("", 1),
         ("f,xx_re_m_per_n,xx_im_m_per_n\n1,2,3\n", 1),
