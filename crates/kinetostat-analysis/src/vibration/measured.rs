@@ -1,8 +1,9 @@
 //! Measured modes of the tool beside those of a model, and numbers of the model scaled to them [D 11].
 
+use kinetostat::number::larger;
 use kinetostat_chatter::{
-    ChatterError, ChatterErrorKind, Fit, MeasuredResponse, ModePair, Parameter, Scaled, ShapedMode,
-    fit_modes, pair_modes, scale_parameters,
+    ChatterError, ChatterErrorKind, Fit, FittedMode, MeasuredResponse, ModePair, Parameter, Scaled,
+    ShapedMode, fit_modes, pair_modes, scale_parameters,
 };
 use kinetostat_dynamics::ModeKind;
 use serde::Serialize;
@@ -11,6 +12,10 @@ use crate::vibration::machine::VibratingMachine;
 
 /// Modes of the model up to so many times the highest measured frequency are looked at.
 const HIGHER: f64 = 4.0;
+/// Modes whose frequencies differ by more than this factor are not the same, whatever their shapes.
+const SAME: f64 = 1.5;
+/// A fitted mode whose peak is less than this share of the highest one is none that was measured: the force does not excite it.
+const EXCITED: f64 = 1e-3;
 /// A mode that moves the tool by less than this share of the most moving one is not seen there.
 const SEEN: f64 = 1e-6;
 
@@ -62,10 +67,23 @@ impl MeasuredModes {
                 )),
             }
         });
+        let directions = directions.collect::<Result<_, _>>()?;
+        let mut fit = fit_modes(&own, modes, band_hz)?;
+        let peak = |mode: &FittedMode| {
+            let largest = mode.constants.iter().map(|c| c.abs());
+            largest.fold(0.0, larger) / (mode.damping_ratio * mode.frequency_hz.powi(2))
+        };
+        let highest = fit.modes.iter().map(peak).fold(0.0, larger);
+        let all = std::mem::take(&mut fit.modes).into_iter();
+        let (excited, others): (Vec<_>, Vec<_>) =
+            all.partition(|mode| peak(mode) >= EXCITED * highest);
+        fit.left_out_hz
+            .extend(others.iter().map(|mode| mode.frequency_hz));
+        fit.modes = excited;
         Ok(Self {
-            directions: directions.collect::<Result<_, _>>()?,
+            directions,
             curves: own.iter().map(|response| response.name.clone()).collect(),
-            fit: fit_modes(&own, modes, band_hz)?,
+            fit,
         })
     }
 
@@ -87,7 +105,7 @@ impl MeasuredModes {
     #[must_use]
     pub fn shown(&self, machine: &VibratingMachine, ratios: Option<&[f64]>) -> ShownModes {
         let highest = self.fit.modes.iter().map(|mode| mode.frequency_hz);
-        let highest = highest.fold(0.0, kinetostat::number::larger);
+        let highest = highest.fold(0.0, larger);
         let all = machine.modes.modes.iter().enumerate();
         let vibrating = all.filter(|(_, mode)| {
             mode.kind == ModeKind::Vibration && mode.frequency_hz() <= HIGHER * highest
@@ -104,8 +122,7 @@ impl MeasuredModes {
             })
             .collect();
         let size = |mode: &ShapedMode| mode.shape.iter().map(|x| x * x).sum::<f64>().sqrt();
-        let most =
-            (shaped.iter().map(|(_, mode)| size(mode))).fold(0.0, kinetostat::number::larger);
+        let most = (shaped.iter().map(|(_, mode)| size(mode))).fold(0.0, larger);
         let seen = shaped
             .into_iter()
             .filter(|(_, mode)| size(mode) > SEEN * most);
@@ -113,12 +130,15 @@ impl MeasuredModes {
         ShownModes { numbers, modes }
     }
 
-    /// Each measured mode with that of the model which it resembles most; `model` counts [`ShownModes::modes`].
+    /// Each measured mode with that of the model which it resembles most, if their frequencies are within a factor of 1.5;
+    /// `model` counts [`ShownModes::modes`].
     ///
     /// # Errors
     /// As [`pair_modes`].
     pub fn beside(&self, shown: &ShownModes) -> Result<Vec<ModePair>, ChatterError> {
-        pair_modes(&self.shaped(), &shown.modes)
+        let mut pairs = pair_modes(&self.shaped(), &shown.modes)?;
+        pairs.retain(|pair| (1.0 / SAME - 1.0..=SAME - 1.0).contains(&pair.frequency_apart));
+        Ok(pairs)
     }
 
     /// Scales numbers of the model so that its frequencies are the measured ones, each known to a share `deviation` of itself.
@@ -142,7 +162,8 @@ impl MeasuredModes {
                 lost("machine", "no answer of the model")
             })?;
             let shown = self.shown(&machine, None);
-            let pairs = self.beside(&shown)?;
+            // On its way a mode may be far off.
+            let pairs = pair_modes(&self.shaped(), &shown.modes)?;
             if pairs.len() < measured.len() {
                 return Err(lost("modes of the model", "fewer than were measured"));
             }

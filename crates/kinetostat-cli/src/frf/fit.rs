@@ -99,7 +99,16 @@ pub(crate) fn answer(
             modal_assurance: pair.filter(|_| compared).map(|pair| pair.assurance),
         }
     };
-    let all = measured.fit.modes.iter().enumerate().map(beside).collect();
+    let all: Vec<MeasuredMode> = measured.fit.modes.iter().enumerate().map(beside).collect();
+    if let (Some(lone), false) = (
+        all.iter().find(|mode| mode.model_mode.is_none()),
+        args.scale.is_empty(),
+    ) {
+        return Err(Failure::input(format!(
+            "--scale: the measured mode at {:.2} Hz resembles none of the model's (within a factor of 1.5 of its frequency): nothing is scaled to it. Look at `kinetostat modes`, or ask for fewer modes or a narrower band",
+            lone.frequency_hz
+        )));
+    }
     Ok(FitAnswer {
         curves: measured.curves.clone(),
         misfit: measured.fit.misfit.clone(),

@@ -48,6 +48,13 @@ pub(crate) fn fit_text(fit: &FitAnswer) -> String {
         if fit.curves.len() == 1 { "" } else { "s" },
         number(100.0 * worst, 3)
     ));
+    if !fit.left_out_hz.is_empty() {
+        let list: Vec<String> = fit.left_out_hz.iter().map(|hz| number(*hz, 4)).collect();
+        say(format!(
+            "Left out: poles at {} Hz, which are no vibrations in the band or hardly excited by this force.",
+            list.join(", ")
+        ));
+    }
     if worst > LEFT {
         say("The fit does not follow the curves: ask for more modes, or for a narrower band (--frequencies).".to_owned());
     }
