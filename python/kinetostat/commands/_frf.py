@@ -33,6 +33,10 @@ def frf(
     modes: int | None = None,
     hold: str | float | None = None,
     measured: _Path | None = None,
+    fit: int | None = None,
+    scale: str | float | Sequence[str | float] | None = None,
+    scale_within: float | None = None,
+    frequencies_known_to: float | None = None,
     damping: float | Sequence[float] | None = None,
     rayleigh: Sequence[float] | None = None,
     loss_factor: float | None = None,
@@ -86,6 +90,16 @@ def frf(
         Directions in which the tool is held while it vibrates, as in rx,ry,rz
     measured : path
         Measured responses to draw beside it: universal file (data set 58) or CSV
+    fit : int
+        Modes that are found in the measured responses, within --frequencies, and compared with the
+        model's
+    scale : str | float | Sequence[str | float]
+        Numbers of the model that are scaled until its frequencies are the measured ones, by their
+        paths: "chain.arm.joint 2.stiffness_n_m_per_rad"
+    scale_within : float
+        They are scaled by at most this factor, up or down
+    frequencies_known_to : float
+        How well measured frequencies are known, as a share of themselves (one standard deviation)
     damping : float | Sequence[float]
         Ratio to critical damping of all modes (0.03 is 3 %), or one for each of the lowest modes,
         the last for all above
@@ -133,6 +147,10 @@ def frf(
         ("--modes", modes),
         ("--hold", hold),
         ("--measured", measured),
+        ("--fit", fit),
+        ("--scale", scale),
+        ("--scale-within", scale_within),
+        ("--frequencies-known-to", frequencies_known_to),
         ("--damping", damping),
         ("--rayleigh", rayleigh),
         ("--loss-factor", loss_factor),
