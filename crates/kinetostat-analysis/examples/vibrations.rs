@@ -91,6 +91,12 @@ fn orthoglide() -> Result<(Posture, Wrench)> {
         home,
         &format!("{home}\nmass_kg = 8\ninertia_kg_m2 = [[0.03, 0, 0], [0, 0.03, 0], [0, 0, 0.03]]"),
     )?;
+    let named = "name = \"orthoglide\"";
+    let text = with(
+        text,
+        named,
+        &format!("{named}\ngravity_m_per_s2 = [0, 0, -9.81]"),
+    )?;
     let machine = Model::from_toml(&text, "orthoglide.toml")?.mechanism;
     let posture = machine.posture(&Pose::translation(0.126, 0.126, -0.073))?;
     Ok((
