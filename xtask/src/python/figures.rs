@@ -34,7 +34,8 @@ pub fn measured(figures: &mut Vec<Figure>) -> Result<()> {
         return left_out("pip could not install numpy");
     };
     let alone = alone.holding(&file)?;
-    // Built as the wheel is: of a call of 180 us, another build alone may take a few microseconds more or less.
+    // Of the wheel's own package, so that both call the same machine code: of a call of 180 us, another build alone takes a few
+    // microseconds more or less.
     step(
         "the same calls in Rust",
         cargo().args([
@@ -43,12 +44,14 @@ pub fn measured(figures: &mut Vec<Figure>) -> Result<()> {
             "wheel",
             "--quiet",
             "-p",
-            "kinetostat-bench",
-            "--bin",
+            "kinetostat-python",
+            "--example",
             "python_calls",
         ]),
     )?;
-    let program = folder().with_file_name("wheel").join("python_calls");
+    let program = folder()
+        .with_file_name("wheel")
+        .join("examples/python_calls");
     script(figures, alone.python(), "overhead.py", &[program])?;
     let tools = tools.holding(&file)?;
     script(figures, tools.python(), "maps.py", &[])?;
