@@ -22,7 +22,10 @@ fn main() -> Result<()> {
         .map(|line| place(line, &home))
         .collect::<Result<Vec<Pose>>>()?;
     let load = Wrench(Vector6::from(WRENCH));
-    let posture: Posture = machine.posture(PostureRequest::pose(&poses[0]))?;
+    // A small machine, beside whose time a few microseconds are seen.
+    let small = kinetostat_model::Model::preset("two_link")?.mechanism;
+    let at_home = small.platforms()[small.tool()].home;
+    let posture: Posture = small.posture(PostureRequest::pose(&at_home))?;
     let one_stiffness = shortest(2000, || posture.stiffness());
     let one_equilibrium = shortest(500, || posture.deflected_by(&load));
     let batch = Batch::new(&machine);
