@@ -14,9 +14,6 @@ use nalgebra::{Vector3, Vector6};
 /// The same load as in `overhead.py`.
 const WRENCH: [f64; 6] = [100.0, -20.0, -30.0, 0.0, 0.0, 0.0];
 
-/// Of it for the small machine, whose springs teach.
-const LIGHT: f64 = 1e-6;
-
 fn main() -> Result<()> {
     let machine = kinetostat_model::Model::preset("orthoglide")?.mechanism;
     let home = machine.platforms()[machine.tool()].home;
@@ -30,8 +27,9 @@ fn main() -> Result<()> {
     let at_home = small.platforms()[small.tool()].home;
     let posture: Posture = small.posture(PostureRequest::pose(&at_home))?;
     let one_stiffness = shortest(2000, || posture.stiffness());
-    let light = Wrench(load.0 * LIGHT);
-    let one_equilibrium = shortest(500, || posture.deflected_by(&light));
+    // The small one folds over under a load.
+    let posture: Posture = machine.posture(PostureRequest::pose(&poses[0]))?;
+    let one_equilibrium = shortest(500, || posture.deflected_by(&load));
     let batch = Batch::new(&machine);
     let loads = vec![load; poses.len()];
     // One thread, as there.
