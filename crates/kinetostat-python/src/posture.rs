@@ -9,6 +9,7 @@ use pyo3::prelude::*;
 use crate::arrays::{Numbers, array, matrix_of, one_pose, one_wrench};
 use crate::equilibrium::Equilibrium;
 use crate::errors::of_core;
+use crate::plausibility::load_warnings;
 use crate::stiffness::Stiffness;
 
 /// A machine whose actuators are commanded.
@@ -61,12 +62,19 @@ impl Posture {
         Stiffness::of(&self.0)
     }
 
-    /// Equilibrium under a wrench (6,) on the tool: force (N), moment (N m), base axes, about its reference point.
+    /// Equilibrium under a wrench (6,) on the tool: force (N), moment (N m), base axes, about its reference point. What is beyond
+    /// a limit is issued as a warning of the line that called the Python method.
     fn deflected_by(&self, wrench: &Bound<'_, PyAny>) -> PyResult<Equilibrium> {
         let py = wrench.py();
         let wrench = one_wrench("wrench", wrench)?;
         let found = py.detach(|| self.0.deflected_by(&wrench));
-        Ok(Equilibrium(found.map_err(|e| of_core(&e))?))
+        let found = Equilibrium(found.map_err(|e| of_core(&e))?);
+        let warnings = load_warnings(self, &found);
+        if !warnings.is_empty() {
+            let module = py.import("kinetostat._plausibility")?;
+            module.call_method1("issue", (warnings,))?;
+        }
+        Ok(found)
     }
 
     /// Equilibrium with the tool held at a pose (4, 4): the wrench that holds it is part of the answer.
