@@ -49,6 +49,22 @@ impl Vibration {
         self.harmonics[0].displacement.map(|value| value.re)
     }
 
+    /// The vibration about the mean place.
+    #[must_use]
+    pub fn without_mean(mut self) -> Self {
+        self.harmonics[0].displacement = Vector3::zeros();
+        self
+    }
+
+    /// The strongest harmonic that is not the mean; the first of those that are as strong, and the mean of a force of no other.
+    #[must_use]
+    pub fn strongest(&self) -> &VibrationHarmonic {
+        let size = |h: &VibrationHarmonic| h.displacement.map(|value| value.norm()).norm();
+        let others = self.harmonics.iter().skip(1);
+        let strongest = others.reduce(|a, b| if size(b) > size(a) { b } else { a });
+        strongest.unwrap_or(&self.harmonics[0])
+    }
+
     /// All harmonics, the mean first.
     #[must_use]
     pub fn harmonics(&self) -> &[VibrationHarmonic] {

@@ -1,6 +1,8 @@
 //! The answer of `chatter`, stable names with units.
 
-use kinetostat_analysis::vibration::program::{JudgedSite, ProgramChatter, Verdict};
+use kinetostat_analysis::vibration::program::{
+    ForcedVibration, JudgedSite, ProgramChatter, Verdict,
+};
 use kinetostat_chatter::Instability;
 use kinetostat_machining::{FlatProgram, Warning, WarningCode};
 use serde::Serialize;
@@ -54,11 +56,47 @@ pub(crate) struct Place {
     pub(crate) kind: Option<Instability>,
     /// Lowest frequency of the machine there.
     pub(crate) first_hz: Option<f64>,
+    /// How the teeth shake the tool; null where it chatters or is not judged.
+    pub(crate) vibration: Option<Vibration>,
     /// Places of the program that are like it.
     pub(crate) places: usize,
     /// From where to where along the path these lie.
     pub(crate) from_path_mm: f64,
     pub(crate) to_path_mm: f64,
+}
+
+/// The steady vibration of the tip about its mean place.
+#[derive(Clone, Copy, Serialize)]
+pub(crate) struct Vibration {
+    pub(crate) tooth_passing_hz: f64,
+    /// Root of the mean square of the distance from the mean place.
+    pub(crate) rms_um: f64,
+    /// The strongest harmonic.
+    pub(crate) strongest_hz: f64,
+    /// The mode of the machine next to it.
+    pub(crate) nearest_mode_hz: f64,
+    /// Error of the wall over its height, positive: cut too deep; null where the cut makes no wall.
+    pub(crate) wall_least_um: Option<f64>,
+    pub(crate) wall_most_um: Option<f64>,
+}
+
+impl Vibration {
+    fn of(found: &ForcedVibration) -> Self {
+        Self {
+            tooth_passing_hz: found.tooth_passing_hz,
+            rms_um: 1e3 * found.root_mean_square_mm,
+            strongest_hz: found.strongest_hz,
+            nearest_mode_hz: found.nearest_mode_hz,
+            wall_least_um: found.wall_mm.map(|[least, _]| 1e3 * least),
+            wall_most_um: found.wall_mm.map(|[_, most]| 1e3 * most),
+        }
+    }
+
+    /// The larger error of the wall, whatever its sign.
+    pub(crate) fn wall_um(&self) -> Option<f64> {
+        let (least, most) = (self.wall_least_um?, self.wall_most_um?);
+        Some(if -least > most { least } else { most })
+    }
 }
 
 /// Lines in a row that chatter.
@@ -150,6 +188,7 @@ fn place(judged: &JudgedSite, source: Option<String>) -> Place {
         chatter_hz: judged.chatter_hz,
         kind: judged.kind,
         first_hz: judged.first_hz,
+        vibration: judged.forced.as_ref().map(Vibration::of),
         places: judged.places,
         from_path_mm: judged.path_mm[0],
         to_path_mm: judged.path_mm[1],

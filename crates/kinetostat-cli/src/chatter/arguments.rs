@@ -13,7 +13,8 @@ use crate::vibration::damping::DampingArgs;
 /// Takes the job of `compensate` with a material, a cutter and a stock (or an engagement), and a model
 /// with masses. Along the program the tools go through the stock; wherever the cut or the posture
 /// changes, the limit of depth at the programmed spindle speed is computed: exact, in the posture of
-/// the machine there, under the mean force of the cut. Flat end mills with straight edges or a helix;
+/// the machine there, under the mean force of the cut. Where it does not chatter, the vibration that
+/// the passing teeth force, and what it leaves on the wall. Flat end mills with straight edges or a helix;
 /// spindles that turn to the right; no process damping.
 #[derive(Debug, Args)]
 #[command(after_help = EXIT_CODES, after_long_help = HELP)]

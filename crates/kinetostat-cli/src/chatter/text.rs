@@ -1,6 +1,6 @@
 //! The answer of `chatter` for a person, and as a table.
 
-use crate::chatter::answer::{ChatterAnswer, Place, Stretch};
+use crate::chatter::answer::{ChatterAnswer, Place, Stretch, Vibration};
 use crate::ui::csv_table::{cell, cell_if_any, written};
 use crate::ui::failure::Answer;
 use crate::ui::layout::{columns, wrapped};
@@ -35,6 +35,9 @@ pub(crate) fn answer_text(a: &ChatterAnswer) -> String {
     }
     if let Some(nearest) = &a.nearest {
         out.push_str(&wrapped(&nearest_words(nearest), 0));
+    }
+    if let Some(words) = vibration_words(a) {
+        out.push_str(&wrapped(&words, 0));
     }
     out.push_str(&wrapped(
         "Limits are as true as masses, stiffness and damping of the model; modes of spindle, tool and part are in them only if the model has them.",
@@ -99,6 +102,34 @@ fn nearest_words(p: &Place) -> String {
     )
 }
 
+/// Where the teeth shake most, and where that leaves most on a wall.
+fn vibration_words(a: &ChatterAnswer) -> Option<String> {
+    let shaken = || a.places.iter().filter_map(|p| Some((p, p.vibration?)));
+    let (place, most) = shaken().max_by(|a, b| a.1.rms_um.total_cmp(&b.1.rms_um))?;
+    let mut words = format!(
+        "Where it does not chatter, teeth that pass shake the tip by up to {} um (rms) about its mean place, on line {}: {} Hz, {} of the teeth, beside a mode at {} Hz.",
+        number(most.rms_um, 3),
+        place.line,
+        number(most.strongest_hz, 4),
+        match (most.strongest_hz / most.tooth_passing_hz).round() {
+            1.0 => "the frequency".to_owned(),
+            times if times > 1.0 => format!("{times} times the frequency"),
+            _ => "below the frequency".to_owned(),
+        },
+        number(most.nearest_mode_hz, 4),
+    );
+    let walls = shaken().filter_map(|(place, v)| Some((place, v.wall_um()?)));
+    if let Some((place, wall)) = walls.max_by(|a, b| a.1.abs().total_cmp(&b.1.abs())) {
+        words.push_str(&format!(
+            " On a wall that leaves at most {} um (line {}, {}), beside what a compensation takes away.",
+            number(wall.abs(), 3),
+            place.line,
+            if wall > 0.0 { "too deep" } else { "left standing" }
+        ));
+    }
+    Some(words)
+}
+
 /// One row for each place.
 pub(crate) fn table(a: &ChatterAnswer) -> Answer<Vec<u8>> {
     let head = [
@@ -118,9 +149,18 @@ pub(crate) fn table(a: &ChatterAnswer) -> Answer<Vec<u8>> {
         "chatter_hz",
         "first_hz",
         "places",
+        "tooth_passing_hz",
+        "vibration_rms_um",
+        "strongest_hz",
+        "nearest_mode_hz",
+        "wall_least_um",
+        "wall_most_um",
     ];
     let mut rows = vec![head.map(str::to_owned).to_vec()];
     for p in &a.places {
+        let of = |value: &dyn Fn(&Vibration) -> Option<f64>| {
+            cell_if_any(p.vibration.as_ref().and_then(value))
+        };
         rows.push(vec![
             p.line.to_string(),
             cell(p.path_mm),
@@ -138,6 +178,12 @@ pub(crate) fn table(a: &ChatterAnswer) -> Answer<Vec<u8>> {
             cell_if_any(p.chatter_hz),
             cell_if_any(p.first_hz),
             p.places.to_string(),
+            of(&|v| Some(v.tooth_passing_hz)),
+            of(&|v| Some(v.rms_um)),
+            of(&|v| Some(v.strongest_hz)),
+            of(&|v| Some(v.nearest_mode_hz)),
+            of(&|v| v.wall_least_um),
+            of(&|v| v.wall_most_um),
         ]);
     }
     written(&rows)

@@ -130,13 +130,7 @@ fn limits_of_slots_are_those_of_lobes_at_their_places() {
         let Some(limit) = place["limit_mm"].as_f64() else {
             continue;
         };
-        let at: Vec<f64> = list(place, "position_mm")
-            .iter()
-            .filter_map(Value::as_f64)
-            .collect();
-        let at = [at[0] + 1450.0, at[1] + 70.0, at[2] + 500.0]
-            .map(|x| x.to_string())
-            .join(" ");
+        let at = place_in_base(place);
         let words = format!(
             "lobes heavy_6r --at {at} --tool-length-mm 200 --damping 0.03 --teeth 2 --helix-deg 30 --diameter-mm 12 \
              --coefficients-n-per-mm2 796 168 -222 --immersion 1 --modes-up-to-hz 300 --tool-axis 0 0 1 --feed-direction {feed} --rpm 3000 3001 2 --depth-mm 12 --json"
@@ -220,4 +214,170 @@ fn files_hold_all_places() {
     assert!(text.contains("Lines that chatter"), "{text}");
     assert_eq!(csv.lines().count(), 1 + list(answer, "places").len());
     assert!(svg.contains("depth of the program"));
+}
+
+/// Two other commands give the harmonics of the force over a revolution and the receptance of the tip; their product is summed here.
+#[test]
+fn teeth_shake_the_tip_as_forces_and_receptance_say() {
+    let found = &OF_PROGRAM.answer;
+    let here = workplace();
+    let mut compared = 0;
+    // Where the feed points in base axes.
+    for (line, along) in [(6, [1.0, 0.0]), (10, [0.0, -1.0])] {
+        let of_line = |p: &&Value| {
+            p["line"] == line && number(p, "exit_deg") > 179.9 && p["verdict"] == "stable"
+        };
+        let Some(place) = list(found, "places").iter().find(of_line) else {
+            continue;
+        };
+        let forces = rotated(&slot_forces(here.path(), place), along);
+        let receptance = receptance(here.path(), place);
+        let harmonics: Vec<[Complex; 3]> = receptance
+            .iter()
+            .enumerate()
+            .map(|(k, g)| {
+                let c = harmonic(&forces, k + 1);
+                [0, 1, 2].map(|i| g[i][0] * c[0] + g[i][1] * c[1] + g[i][2] * c[2])
+            })
+            .collect();
+        let squares = harmonics.iter().flatten().map(|c| 0.5 * c.norm_sqr());
+        let said = &place["vibration"];
+        let rms = 1e6 * squares.sum::<f64>().sqrt();
+        let agrees = |said: f64, expected: f64, part: f64| {
+            assert!(
+                (said - expected).abs() < part * expected.abs(),
+                "{line}: {said} {expected}"
+            );
+        };
+        agrees(number(said, "rms_um"), rms, 5e-3);
+        assert_eq!(number(said, "tooth_passing_hz"), 100.0);
+        assert_eq!(number(said, "strongest_hz"), 100.0);
+        // To the left of the feed, um, positive into the left wall; the tool turns by a tooth (half a turn) a period.
+        let aside = |turn: f64| -> f64 {
+            let of = |(k, c): (usize, &[Complex; 3])| {
+                let turned = Complex::from_polar(1.0, 2.0 * (k + 1) as f64 * turn);
+                (turned * (c[1] * along[0] - c[0] * along[1])).re
+            };
+            1e6 * harmonics.iter().enumerate().map(of).sum::<f64>()
+        };
+        let lag = 30_f64.to_radians().tan() / 6.0;
+        let depth = number(place, "depth_mm");
+        let mut errors = Vec::new();
+        for (angle, into) in [(0.0, 1.0), (std::f64::consts::PI, -1.0)] {
+            errors
+                .extend((0..=40).map(|i| into * aside(angle + lag * depth * f64::from(i) / 40.0)));
+        }
+        errors.sort_by(f64::total_cmp);
+        let (least, most) = (errors[0], errors[errors.len() - 1]);
+        assert!(
+            (number(said, "wall_least_um") - least).abs() < 0.02 * rms,
+            "{said} {least}"
+        );
+        assert!(
+            (number(said, "wall_most_um") - most).abs() < 0.02 * rms,
+            "{said} {most}"
+        );
+        compared += 1;
+    }
+    assert_eq!(compared, 2, "{found}");
+    // A cut that chatters has no steady vibration.
+    let told = |p: &Value| p["vibration"].is_object();
+    assert!(
+        list(found, "places")
+            .iter()
+            .all(|p| told(p) == (p["verdict"] == "stable"))
+    );
+    assert!(
+        OF_PROGRAM.text.contains("shake the tip by up to"),
+        "{}",
+        OF_PROGRAM.text
+    );
+}
+
+type Complex = nalgebra::Complex<f64>;
+
+/// Forces of the slot on the tool over a revolution, N: along the feed, to its left, up.
+fn slot_forces(here: &Path, place: &Value) -> Vec<[f64; 3]> {
+    let words = format!(
+        "force --material;linear aluminium;--tool;flat;--diameter-mm;12;--teeth;2;--helix-deg;30;--width-mm;12;--depth-mm;{};--climb;\
+         --feed-per-tooth-mm;{};--rpm;3000;--csv;f.csv;--force-overwrite",
+        number(place, "depth_mm"),
+        number(place, "feed_per_tooth_mm")
+    );
+    run(
+        here,
+        &words.replacen(' ', ";", 1).split(';').collect::<Vec<_>>(),
+    )
+    .answered();
+    rows(here, "f.csv")
+        .iter()
+        .map(|row| [row[1], row[2], row[3]])
+        .collect()
+}
+
+/// In base axes, of a feed that goes along `along` there.
+fn rotated(forces: &[[f64; 3]], along: [f64; 2]) -> Vec<[f64; 3]> {
+    let turn = |f: &[f64; 3]| {
+        [
+            f[0] * along[0] - f[1] * along[1],
+            f[0] * along[1] + f[1] * along[0],
+            f[2],
+        ]
+    };
+    forces.iter().map(turn).collect()
+}
+
+/// The harmonic `F = Re sum c_k e^(i 2 k turn)` of two teeth that are alike.
+fn harmonic(forces: &[[f64; 3]], k: usize) -> [Complex; 3] {
+    let n = forces.len();
+    let mut sum = [Complex::default(); 3];
+    for (i, force) in forces.iter().enumerate() {
+        let turned = Complex::from_polar(
+            2.0 / n as f64,
+            -std::f64::consts::TAU * (2 * k * i) as f64 / n as f64,
+        );
+        for (sum, force) in sum.iter_mut().zip(force) {
+            *sum += turned * force;
+        }
+    }
+    sum
+}
+
+/// Receptance (m/N) of the tip there, base axes, at 100, 200, ... 4000 Hz: motion by force.
+fn receptance(here: &Path, place: &Value) -> Vec<[[Complex; 3]; 3]> {
+    let at = place_in_base(place);
+    let words = format!(
+        "frf heavy_6r --at {at} --tool-length-mm 200 --damping 0.03 --from x,y,z --to x,y,z --frequencies 100 4000 40 --csv g.csv --force-overwrite"
+    );
+    said(here, &words).answered();
+    // By columns: force along x with the three motions, then along y.
+    let of = |row: &Vec<f64>, motion: usize, force: usize| {
+        let at = 1 + 4 * (3 * force + motion);
+        Complex::new(row[at], row[at + 1])
+    };
+    let all = rows(here, "g.csv");
+    all.iter()
+        .map(|row| [0, 1, 2].map(|m| [0, 1, 2].map(|f| of(row, m, f))))
+        .collect()
+}
+
+fn place_in_base(place: &Value) -> String {
+    let at: Vec<f64> = list(place, "position_mm")
+        .iter()
+        .filter_map(Value::as_f64)
+        .collect();
+    [at[0] + 1450.0, at[1] + 70.0, at[2] + 500.0]
+        .map(|x| x.to_string())
+        .join(" ")
+}
+
+/// The numbers of a table.
+fn rows(here: &Path, name: &str) -> Vec<Vec<f64>> {
+    let text = std::fs::read_to_string(here.join(name)).expect("read");
+    let row = |line: &str| {
+        line.split(',')
+            .map(|word| word.parse().expect("a number"))
+            .collect()
+    };
+    text.lines().skip(1).map(row).collect()
 }

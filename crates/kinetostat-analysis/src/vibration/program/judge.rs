@@ -10,6 +10,7 @@ use nalgebra::Vector3;
 
 use crate::vibration::cut::{MachineCut, MachineCutError};
 use crate::vibration::machine::VibratingMachine;
+use crate::vibration::program::forced::ForcedVibration;
 use crate::vibration::program::question::{ChatterQuestion, ProgramChatterError};
 use crate::vibration::program::site::{CutSite, SiteGroup};
 
@@ -45,6 +46,8 @@ pub struct JudgedSite {
     pub kind: Option<Instability>,
     /// Lowest frequency of the machine there, Hz.
     pub first_hz: Option<f64>,
+    /// How the teeth shake the tool; `None` where it chatters or nothing is said.
+    pub forced: Option<ForcedVibration>,
     /// Places of the program that this one stands for.
     pub places: usize,
     /// From where to where along the path these lie, mm.
@@ -67,6 +70,7 @@ impl JudgedSite {
             chatter_hz: None,
             kind: None,
             first_hz: None,
+            forced: None,
             places: group.count(),
             path_mm: group.path_mm(),
         }
@@ -132,9 +136,20 @@ impl ChatterQuestion<'_> {
         };
         let limit = found.limit;
         let modes = regeneration.response().modes();
+        let chatters = limit.is_some_and(|crossing| crossing.depth <= depth);
+        let forced =
+            match chatters {
+                true => None,
+                false => ForcedVibration::of(&regeneration, self.tool_of(site)?, site).map_err(
+                    |error| ProgramChatterError::Cut {
+                        line: site.line,
+                        error,
+                    },
+                )?,
+            };
         Ok(JudgedSite {
             site: *site,
-            verdict: match limit.is_some_and(|crossing| crossing.depth <= depth) {
+            verdict: match chatters {
                 true => Verdict::Chatters,
                 false => Verdict::Stable,
             },
@@ -146,6 +161,7 @@ impl ChatterQuestion<'_> {
                 .iter()
                 .map(kinetostat_chatter::Mode::frequency_hz)
                 .reduce(|a, b| if b < a { b } else { a }),
+            forced,
             places: group.count(),
             path_mm: group.path_mm(),
         })

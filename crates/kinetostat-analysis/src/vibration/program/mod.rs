@@ -5,12 +5,14 @@
 //! mean force of the cut (without its moment about the tip); the limit of depth at the speed of the program is exact for one arc at all heights.
 
 mod along;
+mod forced;
 mod judge;
 mod question;
 mod site;
 mod stretches;
 
 pub use along::ProgramChatter;
+pub use forced::ForcedVibration;
 pub use judge::{JudgedSite, Verdict};
 pub use question::{ChatterQuestion, ProgramChatterError};
 pub use site::CutSite;
