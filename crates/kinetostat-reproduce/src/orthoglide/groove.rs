@@ -1,7 +1,7 @@
-//! Figures 7.5 to 7.8: a groove milled in a circle [R 7.5].
+//! Figures 7.7 and 7.8: a groove milled in a circle, compensated [R 7.5].
 
 use kinetostat_report::{Plot, PlotLine};
-use nalgebra::{Matrix2, Vector3};
+use nalgebra::Vector3;
 use rayon::prelude::*;
 
 use crate::orthoglide::circle::{At, Circle, READINGS, Reading};
@@ -65,7 +65,7 @@ impl Location {
 }
 
 /// The load of every circle, as the text gives it.
-fn load() -> Vec<Item> {
+pub(super) fn load() -> Vec<Item> {
     let wrench = cutting(0.0);
     vec![
         Item::compared(
@@ -93,10 +93,10 @@ fn load() -> Vec<Item> {
 }
 
 /// How a path is drawn: its name and its place from the centre.
-type DrawnPath = (&'static str, fn(&At) -> Vector3<f64>);
+pub(super) type DrawnPath = (&'static str, fn(&At) -> Vector3<f64>);
 
 /// Paths of a circle in the plane, mm, drawn to about the same scale along x and y.
-fn plan(title: String, circle: &Circle, paths: &[DrawnPath]) -> Plot {
+pub(super) fn plan(title: String, circle: &Circle, paths: &[DrawnPath]) -> Plot {
     let path = |(name, of): &DrawnPath| {
         let points = circle.points.iter();
         (*name, points.map(|p| (of(p).x, of(p).y)).collect())
@@ -176,148 +176,6 @@ fn angle_plot(title: String, y_label: &str, lines: Vec<PlotLine>) -> Plot {
         lines,
         marks: Vec::new(),
     }
-}
-
-/// Angle (degrees, 0 to 180) of the longest axis of a path in the plane.
-fn longest_axis(circle: &Circle, of: impl Fn(&At) -> Vector3<f64>) -> f64 {
-    let centre = circle.mean(&of);
-    let mut spread = Matrix2::zeros();
-    for p in circle.points.iter().skip(1) {
-        let d = (of(p) - centre).xy();
-        spread += d * d.transpose();
-    }
-    let twice = (2.0 * spread[(0, 1)]).atan2(spread[(0, 0)] - spread[(1, 1)]);
-    (0.5 * twice.to_degrees()).rem_euclid(180.0)
-}
-
-fn small_circle() -> Result<Circle, Cause> {
-    READINGS[1].circle(POINTS[1].1)
-}
-
-pub(crate) fn fig_7_5() -> Result<Contents, Cause> {
-    let circle = small_circle()?;
-    let paths: [DrawnPath; 5] = [
-        ("(1) target", |p| p.desired),
-        ("(2) errors of the legs", |p| p.desired + p.sources.errors),
-        ("(3) cutting force", |p| p.desired + p.sources.force),
-        ("(4) both", |p| p.desired + p.sources.both),
-        ("(5) adjusted", |p| p.desired + p.correction),
-    ];
-    let mut items = load();
-    let note = "circle of 2 mm about Q1, 1 degree of error in each leg, rigid drives; the figure prints no digits";
-    let centres = [
-        ("(2)", circle.mean(|p| p.sources.errors)),
-        ("(3)", circle.mean(|p| p.sources.force)),
-        ("(4)", circle.mean(|p| p.sources.both)),
-        ("(5), opposite to (4)", circle.mean(|p| p.correction)),
-    ];
-    for (name, centre) in centres {
-        for (k, letter) in ["x", "y"].into_iter().enumerate() {
-            items.push(Item::unprinted(
-                format!("centre of path {name}: {letter}"),
-                centre[k],
-                "mm",
-                note,
-            ));
-        }
-    }
-    items.push(Item::unprinted(
-        "longest axis of path (4)",
-        longest_axis(&circle, |p| p.desired + p.sources.both),
-        "deg",
-        note,
-    ));
-    items.push(Item::unprinted(
-        "longest axis of path (5)",
-        longest_axis(&circle, |p| p.desired + p.correction),
-        "deg",
-        "across that of path (4), as the text says",
-    ));
-    let crossing = "the text says that paths (1) and (3) intersect because of the torque: the difference of their radii has both signs";
-    let off = |p: &At| p.outwards(p.sources.force);
-    items.push(Item::unprinted(
-        "radius of (3) less that of (1), smallest",
-        circle.least(off),
-        "mm",
-        crossing,
-    ));
-    items.push(Item::unprinted(
-        "radius of (3) less that of (1), largest",
-        circle.most(off),
-        "mm",
-        crossing,
-    ));
-    Ok(Contents {
-        items,
-        plots: vec![plan(
-            "Circle of 2 mm about Q1: where the tool goes, and the adjusted path".into(),
-            &circle,
-            &paths,
-        )],
-    })
-}
-
-pub(crate) fn fig_7_6() -> Result<Contents, Cause> {
-    let circle = small_circle()?;
-    let paths: [DrawnPath; 4] = [
-        ("(1) target", |p| p.desired),
-        ("(2) errors of the legs", |p| p.desired + p.sources.errors),
-        ("(3) sum of both alone", |p| {
-            p.desired + p.sources.superposed()
-        }),
-        ("(4) both together", |p| p.desired + p.sources.both),
-    ];
-    let note = "circle of 2 mm about Q1; the figure prints no digits";
-    let mut items = vec![
-        Item::unprinted(
-            "largest total error (4)",
-            circle.most(|p| p.sources.both.norm()),
-            "mm",
-            note,
-        ),
-        Item::unprinted(
-            "largest error by superposition (3)",
-            circle.most(|p| p.sources.superposed().norm()),
-            "mm",
-            "the text: the total error is less than the one by superposition",
-        ),
-        Item::unprinted(
-            "largest excess of (3) over (4) in length",
-            circle.most(|p| p.sources.superposed().norm() - p.sources.both.norm()),
-            "mm",
-            note,
-        ),
-        Item::unprinted(
-            "smallest excess of (3) over (4) in length",
-            circle.least(|p| p.sources.superposed().norm() - p.sources.both.norm()),
-            "mm",
-            "positive where the text's remark holds",
-        ),
-    ];
-    for index in [0, 1, 3] {
-        let (name, point) = POINTS[index];
-        let large = READINGS[0].circle(point)?;
-        items.push(Item::unprinted(
-            format!("{name}: largest difference of (3) and (4)"),
-            large.most(|p| p.sources.apart()),
-            "mm",
-            "circle of 50 mm, rigid drives",
-        ));
-    }
-    items.push(Item::unprinted(
-        "Q1: largest difference of (3) and (4), small circle",
-        circle.most(|p| p.sources.apart()),
-        "mm",
-        note,
-    ));
-    Ok(Contents {
-        items,
-        plots: vec![plan(
-            "Circle of 2 mm about Q1: superposition of the two sources of error".into(),
-            &circle,
-            &paths,
-        )],
-    })
 }
 
 /// What compensation leaves and costs at a location.

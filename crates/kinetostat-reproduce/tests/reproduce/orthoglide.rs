@@ -494,28 +494,38 @@ fn chapter_7_by_its_readings() {
         }
     }
     assert_eq!((q1.plots.len(), all.plots.len()), (6, 5));
+}
 
-    let paths = entry("fig-7.5");
+/// [R 7.5] under both readings of the drives' stiffness, section 2.6.
+#[test]
+fn sources_of_error_add_and_their_paths_lie_as_the_text_says() {
+    let (paths, sums) = (entry("fig-7.5"), entry("fig-7.6"));
     sound(&paths);
-    let of = |name: &str| computed(&paths, name);
-    // The text: the centre of path 5 lies opposite to that of path 4, its longest axis across.
-    for letter in ["x", "y"] {
-        let four = of(&format!("centre of path (4): {letter}"));
-        let five = of(&format!("centre of path (5), opposite to (4): {letter}"));
-        assert!(four * five < 0.0 && (four + five).abs() < 0.01);
-    }
-    let across = (of("longest axis of path (4)") - of("longest axis of path (5)")).abs();
-    assert!((across - 90.0).abs() < 10.0, "{across}");
-    assert!(of("radius of (3) less that of (1), smallest") < 0.0);
-
-    let sums = entry("fig-7.6");
     sound(&sums);
-    // Section 2.6: 0.003 (Q0), 0.06 to 0.09 (Q1), 0.04 mm (Q3); the text: the total is less than the sum.
-    let of = |name: &str| computed(&sums, name);
+    assert_eq!((paths.plots.len(), sums.plots.len()), (2, 2));
+    for reading in ["A", "B"] {
+        let of = |name: &str| computed(&paths, &format!("reading {reading}: {name}"));
+        // The text: the centre of path 5 lies opposite to that of path 4, its longest axis across.
+        for letter in ["x", "y"] {
+            let four = of(&format!("centre of path (4): {letter}"));
+            let five = of(&format!("centre of path (5), opposite to (4): {letter}"));
+            assert!(four * five < 0.0 && (four + five).abs() < 0.01);
+        }
+        let across = (of("longest axis of path (4)") - of("longest axis of path (5)")).abs();
+        assert!((across - 90.0).abs() < 10.0, "{across}");
+        // Section 2.6: the paths intersect with rigid drives only; below 3e4 N/mm they do not.
+        let least = of("radius of (3) less that of (1), smallest");
+        assert_eq!(least < 0.0, reading == "A", "{reading} {least}");
+        // The text: the total is less than the sum.
+        let of = |name: &str| computed(&sums, &format!("reading {reading}: {name}"));
+        let excess = of("smallest excess of (3) over (4) in length");
+        assert!(excess > 0.0, "{reading} {excess}");
+    }
+    // Section 2.6: 0.003 (Q0), 0.06 to 0.09 (Q1), 0.04 mm (Q3).
+    let of = |name: &str| computed(&sums, &format!("reading A: {name}"));
     assert!((of("Q0: largest difference of (3) and (4)") - 0.003).abs() < 5e-4);
     assert!((0.06..0.09).contains(&of("Q1: largest difference of (3) and (4)")));
     assert!((of("Q3: largest difference of (3) and (4)") - 0.04).abs() < 5e-3);
-    assert!(of("smallest excess of (3) over (4) in length") > 0.0);
 }
 
 /// [R 7.2]: each trial leaves what is not linear of the one before, so that the error falls by the same order each time, and one
