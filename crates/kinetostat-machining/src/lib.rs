@@ -74,6 +74,7 @@ pub use map::{
 pub use near::{NEAR_SINGULAR, NearKind, NearSingular, natural_length, near_singular};
 pub use placement::Placement;
 pub use postures::configurations::{Configurations, posture_at};
+pub use result::chatter::{ChatterLines, ChatterPlace, ChatterResult};
 pub use result::cutting::{CutPlace, CuttingResult};
 pub use result::envelope::{Envelope, Quantity, StretchRange};
 pub use result::feature::{

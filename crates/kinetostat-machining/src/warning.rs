@@ -130,6 +130,8 @@ pub enum WarningCode {
     TimeUnknown,
     /// A cut that nobody makes: its feed, depth, speed or run-out.
     ImplausibleCut,
+    /// Lines of the program that chatter.
+    Chatters,
     /// Cuts of which it is not said whether they chatter, or said of another arc than theirs.
     ChatterNotJudged,
     /// A fitted coefficient that hardly any material has.

@@ -45,7 +45,7 @@ mod turns;
 mod vibration;
 
 use kinetostat_chatter::LobeDiagram;
-use kinetostat_machining::{CuttingResult, Run, RunResult, TurnChoice};
+use kinetostat_machining::{ChatterResult, CuttingResult, Run, RunResult, TurnChoice};
 
 use run::shown::Shown;
 use run::{page, preview};
@@ -152,6 +152,21 @@ pub fn turns_svg(choice: &TurnChoice) -> String {
 #[must_use]
 pub fn lobes_svg(diagram: &LobeDiagram, title: &str) -> String {
     vibration::lobes(diagram, title)
+}
+
+/// Chatter along a program as one picture: depth of cut and its limit over the path, what chatters, and below it the vibration that
+/// the passing teeth force where it does not.
+///
+/// It is a complete SVG document with its own style.
+///
+/// ```
+/// use kinetostat_machining::ChatterResult;
+///
+/// assert!(kinetostat_report::chatter_svg("part.ngc", &ChatterResult::default()).contains("part.ngc"));
+/// ```
+#[must_use]
+pub fn chatter_svg(program: &str, chatter: &ChatterResult) -> String {
+    run::chatter::draw(program, chatter)
 }
 
 /// Receptances over the frequency as one picture: magnitude and, below it, phase, over logarithms of the frequency.

@@ -4,8 +4,11 @@ use kinetostat_analysis::vibration::program::{
     ForcedVibration, JudgedSite, ProgramChatter, Verdict,
 };
 use kinetostat_chatter::Instability;
-use kinetostat_machining::{FlatProgram, Warning, WarningCode};
+use kinetostat_machining::{FlatProgram, Warning};
+
 use serde::Serialize;
+
+use crate::program::chatter::limits;
 
 #[derive(Serialize)]
 pub(crate) struct ChatterAnswer {
@@ -90,12 +93,6 @@ impl Vibration {
             wall_least_um: found.wall_mm.map(|[least, _]| 1e3 * least),
             wall_most_um: found.wall_mm.map(|[_, most]| 1e3 * most),
         }
-    }
-
-    /// The larger error of the wall, whatever its sign.
-    pub(crate) fn wall_um(&self) -> Option<f64> {
-        let (least, most) = (self.wall_least_um?, self.wall_most_um?);
-        Some(if -least > most { least } else { most })
     }
 }
 
@@ -193,30 +190,4 @@ fn place(judged: &JudgedSite, source: Option<String>) -> Place {
         from_path_mm: judged.path_mm[0],
         to_path_mm: judged.path_mm[1],
     }
-}
-
-/// What the answer does not say.
-fn limits(found: &ProgramChatter) -> Vec<Warning> {
-    let mut all = Vec::new();
-    let mut say = |text: String| all.push(Warning::new(WarningCode::ChatterNotJudged, text));
-    for (why, line, places) in found.not_judged() {
-        say(format!(
-            "{places} of {} places are not judged, the first on line {line}: {why}",
-            found.places
-        ));
-    }
-    let uneven = found.uneven();
-    if uneven > 0 {
-        say(format!(
-            "at {uneven} of {} places the arc in contact differs with the height: the widest was taken for the whole depth, which is no bound",
-            found.places
-        ));
-    }
-    if found.wider > 1.0 {
-        say(format!(
-            "the cut changes so often that places that differ by {:.1} times more than usual were judged together (--most-places)",
-            found.wider
-        ));
-    }
-    all
 }

@@ -30,15 +30,15 @@ pub(crate) struct ChatterArgs {
     pub(crate) program: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) damping: DampingArgs,
-    /// Modes above this count by their flexibility at rest, Hz
-    #[arg(long, value_name = "F", allow_negative_numbers = true, value_parser = number, default_value = "300")]
-    pub(crate) modes_up_to_hz: f64,
-    /// Places of one cut that are farther apart are judged by themselves, mm
-    #[arg(long, value_name = "MM", allow_negative_numbers = true, value_parser = number, default_value = "25")]
-    pub(crate) every_mm: f64,
-    /// Most places that are judged
-    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = whole, default_value = "2000")]
-    pub(crate) most_places: usize,
+    /// Modes above this count by their flexibility at rest, Hz [default: 300]
+    #[arg(long, value_name = "F", allow_negative_numbers = true, value_parser = number)]
+    pub(crate) modes_up_to_hz: Option<f64>,
+    /// Places of one cut that are farther apart are judged by themselves, mm [default: 25]
+    #[arg(long, value_name = "MM", allow_negative_numbers = true, value_parser = number)]
+    pub(crate) every_mm: Option<f64>,
+    /// Most places that are judged [default: 2000]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = whole)]
+    pub(crate) most_places: Option<usize>,
     /// Number of threads; all cores without it. The result is the same
     #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = whole)]
     pub(crate) threads: Option<usize>,

@@ -1,6 +1,8 @@
 //! The answer of `chatter` for a person, and as a table.
 
-use crate::chatter::answer::{ChatterAnswer, Place, Stretch, Vibration};
+use kinetostat_machining::ChatterResult;
+
+use crate::chatter::answer::{ChatterAnswer, Stretch, Vibration};
 use crate::ui::csv_table::{cell, cell_if_any, written};
 use crate::ui::failure::Answer;
 use crate::ui::layout::{columns, wrapped};
@@ -11,7 +13,7 @@ use crate::vibration::stability::instability;
 /// Most stretches that are shown to a person; JSON has all.
 const SHOWN: usize = 20;
 
-pub(crate) fn answer_text(a: &ChatterAnswer) -> String {
+pub(crate) fn answer_text(a: &ChatterAnswer, found: &ChatterResult) -> String {
     let mut out = wrapped(
         &format!(
             "{} on {}, {}; damping: {}. {} places of the program are in the cut; {} stand for them.",
@@ -25,19 +27,14 @@ pub(crate) fn answer_text(a: &ChatterAnswer) -> String {
         0,
     );
     out.push('\n');
-    match (a.chatters, a.places_judged) {
-        (_, 0) => out.push_str("No place is judged.\n"),
-        (false, _) => out.push_str("No judged place chatters.\n"),
-        (true, _) => {
-            out.push_str("Lines that chatter\n");
-            out.push_str(&stretches(a));
-        }
+    if !a.chatters {
+        out.push_str(&wrapped(&found.verdict_text(), 0));
+    } else {
+        out.push_str("Lines that chatter\n");
+        out.push_str(&stretches(a));
     }
-    if let Some(nearest) = &a.nearest {
-        out.push_str(&wrapped(&nearest_words(nearest), 0));
-    }
-    if let Some(words) = vibration_words(a) {
-        out.push_str(&wrapped(&words, 0));
+    for text in [found.nearest_text(), found.vibration_text()] {
+        out.push_str(&text.map_or_else(String::new, |text| wrapped(&text, 0)));
     }
     out.push_str(&wrapped(
         "Limits are as true as masses, stiffness and damping of the model; modes of spindle, tool and part are in them only if the model has them.",
@@ -89,45 +86,6 @@ fn stable_at(s: &Stretch) -> String {
         (None, true) => "none near".to_owned(),
         (None, false) => "not tried".to_owned(),
     }
-}
-
-fn nearest_words(p: &Place) -> String {
-    let limit = p.limit_mm.map_or_else(String::new, |x| number(x, 4));
-    format!(
-        "Least limit: {limit} mm on line {} where the program cuts {} mm deep at {} rpm; lowest frequency of the machine there {} Hz.",
-        p.line,
-        number(p.depth_mm, 4),
-        number(p.rpm, 5),
-        p.first_hz.map_or_else(String::new, |x| number(x, 4))
-    )
-}
-
-/// Where the teeth shake most, and where that leaves most on a wall.
-fn vibration_words(a: &ChatterAnswer) -> Option<String> {
-    let shaken = || a.places.iter().filter_map(|p| Some((p, p.vibration?)));
-    let (place, most) = shaken().max_by(|a, b| a.1.rms_um.total_cmp(&b.1.rms_um))?;
-    let mut words = format!(
-        "Where it does not chatter, teeth that pass shake the tip by up to {} um (rms) about its mean place, on line {}: {} Hz, {} of the teeth, beside a mode at {} Hz.",
-        number(most.rms_um, 3),
-        place.line,
-        number(most.strongest_hz, 4),
-        match (most.strongest_hz / most.tooth_passing_hz).round() {
-            1.0 => "the frequency".to_owned(),
-            times if times > 1.0 => format!("{times} times the frequency"),
-            _ => "below the frequency".to_owned(),
-        },
-        number(most.nearest_mode_hz, 4),
-    );
-    let walls = shaken().filter_map(|(place, v)| Some((place, v.wall_um()?)));
-    if let Some((place, wall)) = walls.max_by(|a, b| a.1.abs().total_cmp(&b.1.abs())) {
-        words.push_str(&format!(
-            " On a wall that leaves at most {} um (line {}, {}), beside what a compensation takes away.",
-            number(wall.abs(), 3),
-            place.line,
-            if wall > 0.0 { "too deep" } else { "left standing" }
-        ));
-    }
-    Some(words)
 }
 
 /// One row for each place.

@@ -8,6 +8,7 @@ use kinetostat_model::schema::{Deviation, Placement as PoseTable};
 use serde::Deserialize;
 use serde_spanned::Spanned;
 
+use crate::job::chatter_table::ChatterTable;
 use crate::job::cut_tables::{
     CuttersTable, EngagementTable, MaterialTable, MeasuredTable, SpindleTable, StockTable,
 };
@@ -65,6 +66,8 @@ pub(crate) struct Job {
     pub expand: Option<Spanned<ExpandTable>>,
     /// What is uncertain about machine and load.
     pub uncertain: Option<Spanned<UncertainTable>>,
+    /// Chatter is judged along the program.
+    pub chatter: Option<Spanned<ChatterTable>>,
     /// Lines of the program with names and tolerances of their own.
     #[serde(default)]
     pub features: Vec<Spanned<FeatureTable>>,

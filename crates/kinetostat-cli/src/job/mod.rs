@@ -7,6 +7,8 @@
 pub(crate) mod all_faults;
 pub(crate) mod arguments;
 pub(crate) mod axes_of_program;
+pub(crate) mod chatter;
+mod chatter_table;
 pub(crate) mod cut;
 mod cut_tables;
 mod dialect_word;

@@ -11,6 +11,7 @@ use kinetostat_program::{Arcs, Corrected, ReadOptions, RotaryAxes, Warning, Writ
 use crate::files::input_files::InputFiles;
 use crate::files::origin;
 use crate::job::arguments::{ProgramArgs, WritingFlags};
+use crate::job::chatter::{ChatterFlags, ChatterSetting};
 use crate::job::expansion::flat::flattened;
 use crate::job::expansion::settings::wanted;
 use crate::job::features::features;
@@ -66,6 +67,8 @@ pub(crate) struct Setting {
     pub(crate) forces: Option<ForceAlongPath>,
     /// Lines of the program with names and tolerances of their own.
     pub(crate) features: Vec<Feature>,
+    /// Chatter is judged along the program.
+    pub(crate) chatter: Option<ChatterSetting>,
     /// What is uncertain about machine and load, where it is said.
     pub(crate) uncertain: Option<Uncertainty>,
     /// Files that were read: never overwritten.
@@ -213,6 +216,10 @@ pub(crate) fn setting(
     write.max_blocks_per_s = max_blocks_per_second;
     let features = features(job)?;
     let uncertain = uncertainty(files, job, &flags.uncertain)?;
+    let chatter = match job.is_some_and(|j| j.job.chatter.is_some()) {
+        true => Some(ChatterSetting::of(job, ChatterFlags::default())?),
+        false => None,
+    };
     let program_name = path.file_name().map_or_else(
         || path.display().to_string(),
         |n| n.to_string_lossy().into_owned(),
@@ -315,6 +322,7 @@ pub(crate) fn setting(
         free_turn,
         forces: None,
         features,
+        chatter,
         uncertain,
         inputs,
     };

@@ -111,6 +111,10 @@ pub(crate) fn only_as_a_whole(
             "it has several tools",
         ),
         (
+            setting.chatter.is_some(),
+            "chatter is judged along it ([chatter])",
+        ),
+        (
             setting.uncertain.is_some(),
             "its scatter is asked for (--uncertain)",
         ),

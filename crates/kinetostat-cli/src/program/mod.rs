@@ -4,6 +4,7 @@
 //! `deflect` and `demo` share.
 
 pub(crate) mod aim;
+pub(crate) mod chatter;
 pub(crate) mod features;
 pub(crate) mod flat_lines;
 mod joint_columns;

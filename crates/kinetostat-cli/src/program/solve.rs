@@ -22,12 +22,14 @@ use crate::job::setting::Setting;
 use crate::job::turn_arguments::FreeTurnWord;
 use crate::machine::model_warnings::with_model_warning;
 use crate::program::aim::Aim;
+use crate::program::chatter::{Judging, put_chatter, refused};
 use crate::program::features::put_features;
 use crate::program::flat_lines::of_warnings;
 use crate::program::uncertainty::{self, PLACES, put_band};
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::progress::Progress;
 use crate::ui::threads::in_threads;
+use crate::vibration::damping::DampingArgs;
 
 /// The tools of a job, where it names several.
 fn tools<'m>(machine: &'m MachineSetup, forces: Option<&ForceAlongPath>) -> Vec<Tool<'m>> {
@@ -221,19 +223,33 @@ pub(crate) fn turned(
     let uncertain = setting.uncertain.as_ref();
     let uncertain = uncertain.map(|own| Answer::Ok((own, uncertainty::read(own, model, machine)?)));
     let uncertain = uncertain.transpose()?;
-    let (result, parts) = with_task(aim, machine, setting, &read, forces.as_ref(), |task| {
-        let result = in_threads(threads, || match aim {
-            Aim::Analyse => analyse(task, &progress),
-            Aim::Compensate => compensate_program(task, &progress),
-        })?;
-        let parts = match (&uncertain, &result) {
-            (Some((_, file)), Ok(run)) => {
-                uncertainty::parts(file, (task, &run.places), (machine, setting), &progress)?
-            }
-            _ => None,
-        };
-        Ok::<_, Failure>((result, parts))
-    })??;
+    let options = DampingArgs::default();
+    let judging = setting.chatter.as_ref();
+    let judging = judging.map(|asked| Judging::of((machine, model), &options, asked));
+    let judging = judging
+        .transpose()
+        .map_err(|failure| setting.within(failure))?;
+    let (result, parts, found) =
+        with_task(aim, machine, setting, &read, forces.as_ref(), |task| {
+            let result = in_threads(threads, || match aim {
+                Aim::Analyse => analyse(task, &progress),
+                Aim::Compensate => compensate_program(task, &progress),
+            })?;
+            let parts = match (&uncertain, &result) {
+                (Some((_, file)), Ok(run)) => {
+                    uncertainty::parts(file, (task, &run.places), (machine, setting), &progress)?
+                }
+                _ => None,
+            };
+            let found = match (&judging, &forces, &result) {
+                (Some(judging), Some(forces), Ok(_)) => {
+                    let found = in_threads(threads, || judging.along(task, forces, &progress))?;
+                    Some(found.map_err(|error| refused(error, setting))?)
+                }
+                _ => None,
+            };
+            Ok::<_, Failure>((result, parts, found))
+        })??;
     let mut run = result.map_err(|error| failure_of(error, (machine, model), setting, path))?;
     if let Some((own, file)) = &uncertain {
         let with = (*own, file);
@@ -242,6 +258,9 @@ pub(crate) fn turned(
         })??;
     }
     progress.finish();
+    if let Some((judging, found)) = judging.as_ref().zip(found.as_ref()) {
+        put_chatter(&mut run, found, &judging.damping);
+    }
     run.result.warnings.extend(warnings(forces.as_ref()));
     run.result.warnings.extend(setting.of_expansion());
     if let ReadProgram::Robot(read) = &read {

@@ -86,6 +86,13 @@ pub(crate) fn result_text(result: &RunResult) -> String {
         text.push(' ');
         text.push_str(&band);
     }
+    if let Some(chatter) = &result.chatter {
+        text.push(' ');
+        text.push_str(&chatter.verdict_text());
+        for more in [chatter.nearest_text(), chatter.vibration_text()] {
+            text.extend(more.map(|more| format!(" {more}")));
+        }
+    }
     if !result.summary.stable {
         text.push_str(" THE MACHINE IS NOT STABLE under this load: do not run this program.");
     }

@@ -294,6 +294,92 @@ fn teeth_shake_the_tip_as_forces_and_receptance_say() {
     );
 }
 
+/// A run of a job with `[chatter]` says the same as `chatter`, in its result, its text and its reports of all languages.
+#[test]
+fn a_run_reports_the_chatter_of_its_program() {
+    let here = here(PROGRAM);
+    let job = format!("{JOB}[chatter]\ndamping_ratio = 0.03\n");
+    std::fs::write(here.path().join("job.toml"), job).expect("written");
+    let found = &OF_PROGRAM.answer;
+    let mut seen = 0;
+    for (language, head) in [
+        ("en", "Where it chatters"),
+        ("fr", "Broutement et vibrations"),
+        ("de", "Rattern und Schwingungen"),
+    ] {
+        let line = format!(
+            "deflect job.toml --language {language} --report {language}.html --pdf {language}.pdf --json {language}.json"
+        );
+        let text = said(here.path(), &line).answered().out;
+        assert!(
+            text.contains("One stretch of the program chatters."),
+            "{text}"
+        );
+        assert!(text.contains("line 14: the cut chatters at 3000"), "{text}");
+        let read = |end: &str| {
+            std::fs::read_to_string(here.path().join(format!("{language}.{end}"))).expect("read")
+        };
+        let result: Value = serde_json::from_str(&read("json")).expect("JSON");
+        let (own, stretch) = (&result["chatter"], &list(found, "stretches")[0]);
+        for name in ["rpm", "depth_mm", "stable_depth_mm", "chatter_hz"] {
+            let own = number(&list(own, "stretches")[0], name);
+            assert_eq!(own, number(stretch, name), "{name}");
+        }
+        for (own, place) in list(own, "places").iter().zip(list(found, "places")) {
+            assert_eq!(own["line"], place["line"]);
+            assert_eq!(own["limit_mm"], place["limit_mm"]);
+            assert_eq!(own["vibration_rms_um"], place["vibration"]["rms_um"]);
+            seen += 1;
+        }
+        let report = read("html");
+        let limit = format!("{:.2}", number(stretch, "stable_depth_mm"));
+        let limit = match language {
+            "en" => limit,
+            _ => limit.replace('.', ","),
+        };
+        assert!(report.contains(&format!(">{limit}<")), "{limit} {report}");
+        assert!(report.contains(head), "{report}");
+        assert!(here.path().join(format!("{language}.pdf")).exists());
+    }
+    assert_eq!(seen, 3 * list(found, "places").len());
+    // What the job asks is refused like the options.
+    for (line, told) in [
+        ("damping_ratio = 3", "a ratio to critical damping above 0"),
+        ("most_places = 0", "a number from 1 to 1000000"),
+        ("every_mm = -1", "a number above zero"),
+        ("every = 1", "every_mm"),
+    ] {
+        let job = format!("{JOB}[chatter]\n{line}\n");
+        std::fs::write(here.path().join("job.toml"), job).expect("written");
+        let refused = said(here.path(), "deflect job.toml");
+        assert_eq!(refused.code, 1, "{refused:?}");
+        assert!(refused.err.contains(told), "{line}: {}", refused.err);
+        assert!(refused.err.contains("job.toml:"), "{}", refused.err);
+    }
+    // No damping anywhere, and no cut.
+    std::fs::write(here.path().join("job.toml"), format!("{JOB}[chatter]\n")).expect("written");
+    let refused = said(here.path(), "deflect job.toml");
+    assert_eq!(refused.code, 1, "{refused:?}");
+    assert!(
+        refused.err.contains("chatter needs damping"),
+        "{}",
+        refused.err
+    );
+    let cut = JOB.find("[material]").expect("material");
+    let job = format!(
+        "{}[load]\nforce_n = [1, 2, 3]\n[chatter]\ndamping_ratio = 0.03\n",
+        &JOB[..cut]
+    );
+    std::fs::write(here.path().join("job.toml"), job).expect("written");
+    let refused = said(here.path(), "deflect job.toml");
+    assert_eq!(refused.code, 1, "{refused:?}");
+    assert!(
+        refused.err.contains("says nothing of the cut"),
+        "{}",
+        refused.err
+    );
+}
+
 type Complex = nalgebra::Complex<f64>;
 
 /// Forces of the slot on the tool over a revolution, N: along the feed, to its left, up.

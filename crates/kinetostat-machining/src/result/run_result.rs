@@ -5,6 +5,7 @@ use kinetostat_program::{Accounting, WriteOptions};
 use serde::{Deserialize, Serialize};
 
 use crate::near::NearSingular;
+use crate::result::chatter::ChatterResult;
 use crate::result::cutting::CuttingResult;
 use crate::result::feature::FeatureResult;
 use crate::result::force_band::ForceBand;
@@ -38,6 +39,9 @@ pub struct RunResult {
     /// What the cut asks along the path, where the load is computed from it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub cutting: Option<CuttingResult>,
+    /// Where the program chatters; none where that is not asked.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub chatter: Option<ChatterResult>,
     /// What becomes of the errors if the force is as far off as its coefficients may be; none where the load is not computed
     /// from a cut.
     #[serde(default, skip_serializing_if = "Option::is_none")]

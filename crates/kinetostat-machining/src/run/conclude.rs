@@ -91,6 +91,7 @@ pub(crate) fn conclude(
         kinetostat_version: env!("CARGO_PKG_VERSION").into(),
         tolerance: ToleranceResult::default(),
         summary,
+        chatter: None,
         cutting: task.cut.map(|forces| cutting_result(forces, task.path())),
         force_band: checked.force_band.clone(),
         uncertainty: None,

@@ -3,6 +3,7 @@
 //! Takes a run's result or all of its points; gives HTML or SVG.
 
 pub(crate) mod along;
+pub(crate) mod chatter;
 pub(crate) mod cut_table;
 pub(crate) mod cutting;
 pub(crate) mod engagement;

@@ -6,7 +6,7 @@ use crate::chart::panel::Sheet;
 use crate::chart::section::Section;
 use crate::number::{self, MISSING};
 use crate::run::shown::Shown;
-use crate::run::{along, cut_table, cutting, facts, features, joints, meaning, plan};
+use crate::run::{along, chatter, cut_table, cutting, facts, features, joints, meaning, plan};
 use crate::text;
 use crate::turns;
 
@@ -55,6 +55,7 @@ pub(crate) fn render(result: &Shown<'_>) -> Result<String, minijinja::Error> {
         views => figure(result, plan::views),
         magnification => plan::magnification(result).map(number::setting),
         cutting => cut_table::cutting(result, figure(result, cutting::figure)),
+        chatter => chatter::section(result),
         actuators => figure(result, along::actuators),
         actuators_left_out => actuators.saturating_sub(along::MOST_ACTUATORS),
         joints => figure(result, joints::figure),

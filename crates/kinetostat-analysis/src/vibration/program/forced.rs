@@ -36,6 +36,13 @@ pub struct ForcedVibration {
 }
 
 impl ForcedVibration {
+    /// The larger error of the walls, whatever its sign, mm; of errors as large the one that is too deep.
+    #[must_use]
+    pub fn worst_wall_mm(&self) -> Option<f64> {
+        let [least, most] = self.wall_mm?;
+        Some(if -least > most { least } else { most })
+    }
+
     /// At a place in the cut, with the response of the machine there.
     pub(crate) fn of(
         regeneration: &Regeneration,

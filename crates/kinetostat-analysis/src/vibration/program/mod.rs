@@ -8,6 +8,7 @@ mod along;
 mod forced;
 mod judge;
 mod question;
+mod result;
 mod site;
 mod stretches;
 

@@ -1,5 +1,6 @@
 //! What stands in a paper, in its order.
 
+mod chatter;
 mod inputs;
 mod of;
 mod results;
@@ -43,6 +44,7 @@ pub(crate) fn contents(paper: &Paper<'_>, result: &Shown<'_>) -> Contents {
     blocks.extend(tables::worst(&of));
     blocks.extend(tables::drives(&of));
     blocks.extend(tables::cut(&of));
+    blocks.extend(chatter::chatter(&of));
     blocks.extend(results::left(&of));
     blocks.extend(warnings(&of));
     blocks.push(Block::Heading(words.head_inputs.to_owned()));

@@ -88,7 +88,13 @@ pub(super) fn left(of: &Of<'_>) -> Vec<Block> {
         .collect();
     vec![
         Block::Heading(words.head_left.to_owned()),
-        Block::Paragraph(words.not_covered.to_owned()),
+        Block::Paragraph(
+            match of.result.chatter {
+                None => words.not_covered,
+                Some(_) => words.not_covered_beside_chatter,
+            }
+            .to_owned(),
+        ),
         Block::Remarks(remarks),
     ]
 }

@@ -125,8 +125,25 @@ pub(crate) struct Words {
     pub(crate) cut_depth: &'static str,
     pub(crate) cut_spread: &'static str,
     pub(crate) cut_spindle: &'static str,
+    /// Chatter.
+    pub(crate) head_chatter: &'static str,
+    pub(crate) chatter_unjudged: &'static str,
+    pub(crate) chatter_none: &'static str,
+    pub(crate) chatter_some: &'static str,
+    /// Speed, depth, stable depth, frequency, stable speed.
+    pub(crate) chatter_columns: [&'static str; 5],
+    pub(crate) chatter_nearest: &'static str,
+    pub(crate) chatter_nearest_text: &'static str,
+    pub(crate) shaken: &'static str,
+    pub(crate) shaken_text: &'static str,
+    pub(crate) wall: &'static str,
+    pub(crate) wall_text: &'static str,
+    /// Too deep, and left standing.
+    pub(crate) wall_sides: [&'static str; 2],
+    pub(crate) chatter_note: &'static str,
     /// What figures do not cover.
     pub(crate) not_covered: &'static str,
+    pub(crate) not_covered_beside_chatter: &'static str,
     pub(crate) more_warnings: &'static str,
     pub(crate) more_features: &'static str,
     /// Files.

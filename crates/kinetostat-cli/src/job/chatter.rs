@@ -1,0 +1,73 @@
+//! How finely chatter along a program is judged: `[chatter]` of a job, options of `chatter`.
+
+use kinetostat_dynamics::Damping;
+
+use crate::job::job_file::JobFile;
+use crate::job::values::{NotAllowed, above_zero, chosen};
+use crate::ui::failure::Answer;
+
+/// How finely chatter is judged.
+#[derive(Clone, Debug)]
+pub(crate) struct ChatterSetting {
+    /// Of the job; without it that of the model.
+    pub(crate) damping: Option<Damping>,
+    /// Modes above this count by their flexibility at rest, Hz.
+    pub(crate) modes_up_to_hz: f64,
+    /// Places farther apart are judged by themselves, mm.
+    pub(crate) every_mm: f64,
+    /// Most places that are judged.
+    pub(crate) most_places: usize,
+}
+
+/// The same as options, which go over the job.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct ChatterFlags {
+    pub(crate) modes_up_to_hz: Option<f64>,
+    pub(crate) every_mm: Option<f64>,
+    pub(crate) most_places: Option<usize>,
+}
+
+impl ChatterSetting {
+    /// Of a job and options.
+    pub(crate) fn of(job: Option<&JobFile>, flags: ChatterFlags) -> Answer<Self> {
+        let table = job.and_then(|j| Some(j.job.chatter.as_ref()?.get_ref()));
+        let ratio = chosen(
+            job,
+            ("damping_ratio", None),
+            table.and_then(|t| t.damping_ratio.as_ref()),
+            |ratio| match ratio > 0.0 && ratio < 1.0 {
+                true => Ok(ratio),
+                false => Err(NotAllowed(
+                    "a ratio to critical damping above 0 and below 1 is needed: 0.03 is 3 %",
+                )),
+            },
+        )?;
+        let modes_up_to_hz = chosen(
+            job,
+            ("--modes-up-to-hz", flags.modes_up_to_hz),
+            table.and_then(|t| t.modes_up_to_hz.as_ref()),
+            above_zero,
+        )?;
+        let every_mm = chosen(
+            job,
+            ("--every-mm", flags.every_mm),
+            table.and_then(|t| t.every_mm.as_ref()),
+            above_zero,
+        )?;
+        let most_places = chosen(
+            job,
+            ("--most-places", flags.most_places),
+            table.and_then(|t| t.most_places.as_ref()),
+            |count| match (1..=1_000_000).contains(&count) {
+                true => Ok(count),
+                false => Err(NotAllowed("a number from 1 to 1000000 is needed")),
+            },
+        )?;
+        Ok(Self {
+            damping: ratio.map(Damping::Ratio),
+            modes_up_to_hz: modes_up_to_hz.unwrap_or(300.0),
+            every_mm: every_mm.unwrap_or(25.0),
+            most_places: most_places.unwrap_or(2000),
+        })
+    }
+}

@@ -1,0 +1,155 @@
+//! Chatter along the program of a run: shared by `chatter`, and by the runs of a job with `[chatter]`.
+
+use kinetostat_analysis::vibration::program::{
+    ChatterQuestion, ProgramChatter, ProgramChatterError,
+};
+use kinetostat_dynamics::Damping;
+use kinetostat_machining::{
+    ChatterResult, CutQuestion, ForceAlongPath, Run, Task, Warning, WarningCode, Watch,
+};
+use kinetostat_model::Model;
+
+use crate::job::chatter::ChatterSetting;
+use crate::job::cut::along::stopped_or_within;
+use crate::job::machine::MachineSetup;
+use crate::job::setting::Setting;
+use crate::ui::failure::{Answer, Code, Failure};
+use crate::vibration::damping::{DampingArgs, words};
+use crate::vibration::stability::damped;
+use crate::vibration::subject;
+
+/// Stretches of which a warning tells.
+const TOLD: usize = 5;
+
+/// What a judgement needs beside the task.
+pub(crate) struct Judging<'a> {
+    pub(crate) cut: &'a CutQuestion,
+    pub(crate) damping: Damping,
+    pub(crate) setting: &'a ChatterSetting,
+}
+
+impl<'a> Judging<'a> {
+    /// Options of damping go before the job, and that before the model.
+    pub(crate) fn of(
+        (machine, model): (&'a MachineSetup, &Model),
+        options: &DampingArgs,
+        setting: &'a ChatterSetting,
+    ) -> Answer<Self> {
+        let model = model.damping();
+        let damping = damped(
+            options,
+            setting.damping.as_ref().unwrap_or(&model),
+            "chatter needs",
+        )?;
+        let Some(cut) = &machine.cut else {
+            return Err(Failure::input(
+                "the job says nothing of the cut: for chatter [material], a cutter of the tool, and [stock] or [engagement] are needed",
+            ));
+        };
+        if machine.placement.orientation_follows {
+            return Err(Failure::input(
+                "the tool of this machine turns as it moves: chatter along a program is for machines that hold their tool as the program says",
+            ));
+        }
+        Ok(Self {
+            cut: &cut.question,
+            damping,
+            setting,
+        })
+    }
+
+    /// Judges the cuts along the program.
+    pub(crate) fn along(
+        &self,
+        task: &Task<'_>,
+        forces: &ForceAlongPath,
+        watch: &dyn Watch,
+    ) -> Result<ProgramChatter, ProgramChatterError> {
+        let question = ChatterQuestion {
+            task,
+            forces,
+            cut: self.cut,
+            damping: &self.damping,
+            modes_up_to_hz: self.setting.modes_up_to_hz,
+            every_mm: self.setting.every_mm,
+            most: self.setting.most_places,
+        };
+        question.along(watch)
+    }
+}
+
+/// Puts what was found into a run: the result, and warnings of lines that chatter and of places that are not judged.
+pub(crate) fn put_chatter(run: &mut Run, found: &ProgramChatter, damping: &Damping) {
+    let result = found.result(words(damping));
+    run.result.warnings.extend(chattering(&result));
+    run.result.warnings.extend(limits(found));
+    run.result.chatter = Some(result);
+}
+
+/// Lines that chatter.
+fn chattering(result: &ChatterResult) -> Vec<Warning> {
+    let stretches = &result.stretches;
+    let told = stretches.iter().take(TOLD).map(|s| {
+        let [first, last] = s.lines;
+        let lines = match first == last {
+            true => String::new(),
+            false => format!(" to line {last}"),
+        };
+        let more = match stretches.len().checked_sub(TOLD) {
+            Some(more @ 1..) if s == &stretches[TOLD - 1] => {
+                format!("; {more} more stretches chatter")
+            }
+            _ => String::new(),
+        };
+        Warning::at_line(
+            WarningCode::Chatters,
+            first,
+            format!(
+                "the cut chatters{lines} at {:.0} turns per minute: {:.3} mm deep, stable up to {:.3} mm{more}",
+                s.rpm, s.depth_mm, s.stable_depth_mm
+            ),
+        )
+    });
+    told.collect()
+}
+
+/// What the answer does not say.
+pub(crate) fn limits(found: &ProgramChatter) -> Vec<Warning> {
+    let mut all = Vec::new();
+    let mut say = |text: String| all.push(Warning::new(WarningCode::ChatterNotJudged, text));
+    for (why, line, places) in found.not_judged() {
+        say(format!(
+            "{places} of {} places are not judged, the first on line {line}: {why}",
+            found.places
+        ));
+    }
+    let uneven = found.uneven();
+    if uneven > 0 {
+        say(format!(
+            "at {uneven} of {} places the arc in contact differs with the height: the widest was taken for the whole depth, which is no bound",
+            found.places
+        ));
+    }
+    if found.wider > 1.0 {
+        say(format!(
+            "the cut changes so often that places that differ by {:.1} times more than usual were judged together (--most-places)",
+            found.wider
+        ));
+    }
+    all
+}
+
+/// Why there is no answer, with the line of the program.
+pub(crate) fn refused(error: ProgramChatterError, setting: &Setting) -> Failure {
+    match error {
+        ProgramChatterError::Machine { line, error } => {
+            let mut failure = subject::refused(error);
+            failure.plain = format!("line {line}: {}", failure.plain);
+            failure.styled = None;
+            setting.within(failure)
+        }
+        ProgramChatterError::Tool(failure) => stopped_or_within(failure, setting),
+        ProgramChatterError::Cancelled => Failure::new(Code::Stopped, error),
+        other => setting.within(Failure::input(other)),
+    }
+}

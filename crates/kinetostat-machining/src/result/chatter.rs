@@ -1,0 +1,143 @@
+//! Where a program chatters, and how its teeth shake the tool where it does not. Plain data, units in the names; the crate
+//! `kinetostat-analysis` finds it.
+
+use serde::{Deserialize, Serialize};
+
+use crate::number::{Rounding, significant};
+
+/// A place in the cut that was judged for those like it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct ChatterPlace {
+    /// Line of the program, from 1.
+    pub line: usize,
+    /// From where to where along the path the places lie that it stands for, mm.
+    pub path_mm: [f64; 2],
+    /// Speed of the spindle, rpm.
+    pub rpm: f64,
+    /// Depth of the program, mm.
+    pub depth_mm: f64,
+    /// Whether it chatters; none where nothing can be said.
+    pub chatters: Option<bool>,
+    /// Depth at which it chatters at this speed, mm; none where it does not up to `looked_up_to_mm`.
+    pub limit_mm: Option<f64>,
+    /// Largest depth that was looked at, mm.
+    pub looked_up_to_mm: f64,
+    /// Frequency of the chatter at the limit, Hz.
+    pub chatter_hz: Option<f64>,
+    /// Lowest frequency of the machine there, Hz.
+    pub first_hz: Option<f64>,
+    /// Forced vibration of the tip about its mean place, root of the mean square, um; none where it chatters.
+    pub vibration_rms_um: Option<f64>,
+    /// Its strongest frequency, Hz.
+    pub strongest_hz: Option<f64>,
+    /// The machine's mode next to that, Hz.
+    pub nearest_mode_hz: Option<f64>,
+    /// The larger error that it leaves on a wall, um, positive where the tool cuts too deep; none where the cut makes no wall.
+    pub wall_um: Option<f64>,
+}
+
+/// Lines in a row that chatter, and what would not.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct ChatterLines {
+    /// First and last line, from 1.
+    pub lines: [usize; 2],
+    /// Speed of the program, rpm.
+    pub rpm: f64,
+    /// Largest depth of the program there, mm.
+    pub depth_mm: f64,
+    /// Depth that does not chatter anywhere there at this speed, mm.
+    pub stable_depth_mm: f64,
+    /// Nearest spindle speed at which the depths of the program do not chatter, rpm; none within half and one and a half times
+    /// that of the program, or not tried.
+    pub stable_rpm: Option<f64>,
+    /// Frequency of the chatter, Hz.
+    pub chatter_hz: f64,
+}
+
+/// Where a program chatters.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct ChatterResult {
+    /// How the machine is damped, in words.
+    pub damping: String,
+    /// Places of the program at which the tool cuts.
+    pub places_in_cut: usize,
+    /// Those that were judged, each for all that are like it.
+    pub places_judged: usize,
+    /// Stretches that chatter, in the order of the program.
+    pub stretches: Vec<ChatterLines>,
+    /// The place with the least limit by its depth.
+    pub nearest: Option<ChatterPlace>,
+    /// Where the teeth shake the tool most.
+    pub most_shaken: Option<ChatterPlace>,
+    /// Where that leaves most on a wall.
+    pub worst_wall: Option<ChatterPlace>,
+    /// All places, in the order of the path.
+    pub places: Vec<ChatterPlace>,
+}
+
+impl ChatterResult {
+    /// Whether it chatters anywhere, in a sentence.
+    #[must_use]
+    pub fn verdict_text(&self) -> String {
+        match (self.stretches.len(), self.places_judged) {
+            (0, 0) => "No place is judged.".to_owned(),
+            (0, _) => "No judged place chatters.".to_owned(),
+            (1, _) => "One stretch of the program chatters.".to_owned(),
+            (count, _) => format!("{count} stretches of the program chatter."),
+        }
+    }
+
+    /// The place with the least limit by its depth, in a sentence.
+    #[must_use]
+    pub fn nearest_text(&self) -> Option<String> {
+        let place = self.nearest.as_ref()?;
+        let first = place.first_hz.map_or_else(String::new, |first| {
+            format!("; lowest frequency of the machine there {}", hertz(first))
+        });
+        Some(format!(
+            "Least limit: {} on line {} where the program cuts {} deep at {} rpm{first}.",
+            millimetres(place.limit_mm?),
+            place.line,
+            millimetres(place.depth_mm),
+            significant(place.rpm, 5, Rounding::Nearest),
+        ))
+    }
+
+    /// Where the teeth shake the tool most, and where that leaves most on a wall, in sentences.
+    #[must_use]
+    pub fn vibration_text(&self) -> Option<String> {
+        let place = self.most_shaken.as_ref()?;
+        let mut text = format!(
+            "Where it does not chatter, passing teeth shake the tip by up to {} (rms) about its mean place, on line {}: most of it at {}, beside a mode at {}.",
+            micrometres(place.vibration_rms_um?),
+            place.line,
+            hertz(place.strongest_hz?),
+            hertz(place.nearest_mode_hz?),
+        );
+        if let Some((place, wall)) = self.worst_wall.as_ref().and_then(|p| Some((p, p.wall_um?))) {
+            text.push_str(&format!(
+                " On a wall that leaves up to {} (line {}, {}), which no compensation takes away.",
+                micrometres(wall.abs()),
+                place.line,
+                if wall > 0.0 {
+                    "too deep"
+                } else {
+                    "left standing"
+                }
+            ));
+        }
+        Some(text)
+    }
+}
+
+fn hertz(value: f64) -> String {
+    format!("{} Hz", significant(value, 4, Rounding::Nearest))
+}
+
+fn millimetres(value: f64) -> String {
+    format!("{} mm", significant(value, 4, Rounding::Nearest))
+}
+
+fn micrometres(value: f64) -> String {
+    format!("{} um", significant(value, 3, Rounding::Nearest))
+}
