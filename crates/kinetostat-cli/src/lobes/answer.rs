@@ -28,6 +28,9 @@ pub(crate) struct LobesAnswer {
     pub(crate) milled: &'static str,
     /// Tangential, radial, axial.
     pub(crate) coefficients_n_per_mm2: Vec<f64>,
+    /// Whose they are, and the thickness of the chip at which its law was taken as a straight line; null where they were stated.
+    pub(crate) material: Option<String>,
+    pub(crate) chip_mm: Option<f64>,
     /// Modes that vibrate; those above count by their flexibility at rest.
     pub(crate) modes_hz: Vec<f64>,
     /// Largest depth that was looked at.

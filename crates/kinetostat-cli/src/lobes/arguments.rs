@@ -3,6 +3,7 @@
 use clap::Args;
 
 use crate::files::answer_files::AnswerFiles;
+use crate::force::arguments::MaterialArgs;
 use crate::options::{EXIT_CODES, number, whole};
 use crate::vibration::arguments::VibrationArgs;
 use crate::vibration::damping::DampingArgs;
@@ -12,7 +13,7 @@ use crate::vibration::damping::DampingArgs;
 /// Stability lobes of the machine in its loaded posture, exact (monodromy of the regenerative cut by
 /// collocation), flip and Hopf told apart, with islands. Limits of zeroth order stand beside them under
 /// their own name: on robots they may be several times too large. Straight edges or a helix of even
-/// pitch; linear force law; no process damping.
+/// pitch; linear force law, stated or of a material; no process damping.
 #[derive(Debug, Args)]
 #[command(after_help = EXIT_CODES, after_long_help = HELP)]
 pub(crate) struct LobesArgs {
@@ -25,8 +26,11 @@ pub(crate) struct LobesArgs {
     #[arg(long, value_name = "A", allow_negative_numbers = true, value_parser = number, default_value = "5", help_heading = "Cut")]
     pub(crate) depth_mm: f64,
     /// Force by area of chip: tangential, radial and axial, N/mm^2 (the radial one is no ratio)
-    #[arg(long, num_args = 3, value_names = ["KT", "KR", "KA"], allow_negative_numbers = true, value_parser = number, required = true, help_heading = "Cut")]
+    #[arg(long, num_args = 3, value_names = ["KT", "KR", "KA"], allow_negative_numbers = true, value_parser = number, required_unless_present = "material", conflicts_with = "material", help_heading = "Cut")]
     pub(crate) coefficients_n_per_mm2: Vec<f64>,
+    /// Feed per tooth, mm: the law of --material is taken as a straight line at the mean thickness of its chips
+    #[arg(long, value_name = "F", allow_negative_numbers = true, value_parser = number, requires = "material", help_heading = "Cut")]
+    pub(crate) feed_per_tooth_mm: Option<f64>,
     /// Width of cut by diameter of the tool: 1 is a slot
     #[arg(long, value_name = "SHARE", allow_negative_numbers = true, value_parser = number, default_value = "1", help_heading = "Cut")]
     pub(crate) immersion: f64,
@@ -55,6 +59,8 @@ pub(crate) struct LobesArgs {
     #[arg(long, value_name = "F", allow_negative_numbers = true, value_parser = number, default_value = "1000")]
     pub(crate) modes_up_to_hz: f64,
     #[command(flatten)]
+    pub(crate) material: MaterialArgs,
+    #[command(flatten)]
     pub(crate) damping: DampingArgs,
     #[command(flatten)]
     pub(crate) outputs: AnswerFiles,
@@ -64,6 +70,8 @@ const HELP: &str = "\
 Examples:
   kinetostat lobes heavy_6r --damping 0.03 --teeth 2 --immersion 0.5 --up \\
       --coefficients-n-per-mm2 800 240 0 --rpm 1000 6000 60 --plot lobes.svg
+  kinetostat lobes heavy_6r --damping 0.03 --teeth 4 --immersion 0.3 \\
+      --material Ti-6Al-4V --feed-per-tooth-mm 0.08 --rpm 300 2000 40
 
 Exit codes:
   0    answered

@@ -5,11 +5,12 @@
 
 mod answer;
 pub(crate) mod arguments;
+mod coefficients;
 mod text;
 
 use kinetostat::Pose;
 use kinetostat_analysis::vibration::{MachineCut, MachineCutError};
-use kinetostat_chatter::{Arc, Coefficients, FeedFrame, LobeRequest, Milled, MillingCut};
+use kinetostat_chatter::{Arc, FeedFrame, LobeRequest, Milled, MillingCut};
 use kinetostat_dynamics::Held;
 use kinetostat_report::lobes_svg;
 use nalgebra::Vector3;
@@ -17,13 +18,14 @@ use nalgebra::Vector3;
 use crate::files::answer_files::{ClaimedFiles, Shown};
 use crate::lobes::answer::LobesAnswer;
 use crate::lobes::arguments::LobesArgs;
+use crate::lobes::coefficients::CutCoefficients;
 use crate::options::vector;
 use crate::ui::failure::{Answer, Failure};
 use crate::vibration::stability::damped;
 use crate::vibration::{damping::words, subject};
 
 pub(crate) fn run(args: &LobesArgs) -> Answer<()> {
-    let cut = cut(args)?;
+    let (cut, coefficients) = cut(args)?;
     let request = request(args)?;
     let query = subject::query(&args.machine)?;
     let damping = damped(&args.damping, &query.damping, "lobes need")?;
@@ -48,6 +50,7 @@ pub(crate) fn run(args: &LobesArgs) -> Answer<()> {
         .map_err(|e| Failure::unanswered(format!("lobes: {e}")))?;
     let mut warnings = query.warnings.clone();
     warnings.extend(subject::limits(&machine, &posture));
+    warnings.extend(coefficients.warnings.iter().cloned());
     let axis = |k: usize| frame.rotation().column(k).into_owned();
     let answer = LobesAnswer {
         schema: 1,
@@ -64,7 +67,19 @@ pub(crate) fn run(args: &LobesArgs) -> Answer<()> {
         teeth: args.teeth,
         immersion: args.immersion,
         milled: if args.up { "up" } else { "down" },
-        coefficients_n_per_mm2: args.coefficients_n_per_mm2.clone(),
+        coefficients_n_per_mm2: match args.coefficients_n_per_mm2.is_empty() {
+            true => coefficients.n_per_mm2(),
+            // As they were stated, without rounding.
+            false => args.coefficients_n_per_mm2.clone(),
+        },
+        material: coefficients
+            .of_material
+            .as_ref()
+            .map(|(name, _)| name.clone()),
+        chip_mm: coefficients
+            .of_material
+            .as_ref()
+            .map(|(_, chip_mm)| *chip_mm),
         modes_hz,
         depth_limit_mm: args.depth_mm,
         best: diagram.best().map(Into::into),
@@ -81,25 +96,15 @@ pub(crate) fn run(args: &LobesArgs) -> Answer<()> {
     files.finish(&shown, &answer)
 }
 
-fn cut(args: &LobesArgs) -> Answer<MillingCut> {
-    let &[tangential, radial, axial] = args.coefficients_n_per_mm2.as_slice() else {
-        return Err(Failure::input("--coefficients-n-per-mm2 needs KT KR KA"));
-    };
-    if tangential > 50.0 && radial != 0.0 && radial.abs() < 5.0 {
-        return Err(Failure::input(format!(
-            "--coefficients-n-per-mm2: KR is {radial} beside KT {tangential}; it looks like a ratio. In N/mm^2 it is {}",
-            radial * tangential
-        )));
-    }
+fn cut(args: &LobesArgs) -> Answer<(MillingCut, CutCoefficients)> {
     let milled = match args.up && !args.climb {
         true => Milled::Up,
         false => Milled::Down,
     };
     let arc = Arc::straight(milled, args.immersion).map_err(Failure::input)?;
-    let coefficients =
-        Coefficients::new(1e6 * tangential, 1e6 * radial, 1e6 * axial).map_err(Failure::input)?;
-    let cut = MillingCut::new(args.teeth, arc, coefficients).map_err(Failure::input)?;
-    match (args.helix_deg, args.diameter_mm) {
+    let coefficients = CutCoefficients::of(args, &arc)?;
+    let cut = MillingCut::new(args.teeth, arc, coefficients.law).map_err(Failure::input)?;
+    let cut = match (args.helix_deg, args.diameter_mm) {
         (None, _) => Ok(cut),
         (Some(_), None) => Err(Failure::input(
             "--helix-deg needs --diameter-mm: the edge lags behind its tip by both",
@@ -107,7 +112,8 @@ fn cut(args: &LobesArgs) -> Answer<MillingCut> {
         (Some(helix), Some(diameter)) => cut
             .with_helix(helix.to_radians(), 1e-3 * diameter)
             .map_err(Failure::input),
-    }
+    };
+    Ok((cut?, coefficients))
 }
 
 fn request(args: &LobesArgs) -> Answer<LobeRequest> {

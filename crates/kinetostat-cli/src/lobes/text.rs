@@ -16,7 +16,7 @@ pub(crate) fn answer_text(query: &PlaceQuery, a: &LobesAnswer) -> String {
     let mut out = query.heading();
     out.push_str(&wrapped(
         &format!(
-            "{}-milling, {} teeth, immersion {}, feed along {}, tool axis {}, {} N/mm^2; damping: {}; {} modes up to {} Hz.",
+            "{}-milling, {} teeth, immersion {}, feed along {}, tool axis {}, {} N/mm^2{}; damping: {}; {} modes up to {} Hz.",
             a.milled,
             a.teeth,
             a.immersion,
@@ -27,6 +27,10 @@ pub(crate) fn answer_text(query: &PlaceQuery, a: &LobesAnswer) -> String {
                 .map(|x| short(*x))
                 .collect::<Vec<_>>()
                 .join(" "),
+            a.material.as_ref().zip(a.chip_mm).map_or_else(String::new, |(name, chip_mm)| format!(
+                " ({name}, chips of {} mm)",
+                number(chip_mm, 3)
+            )),
             a.damping,
             a.modes_hz.len(),
             number(a.modes_hz.last().copied().unwrap_or(f64::NAN), 4)

@@ -135,6 +135,52 @@ fn responses_of_the_arm_are_those_of_the_reference_values() {
     assert!(picture.contains("x by force along x"));
 }
 
+/// A linear law has the same slope at every chip; one with a power the slope that differences say.
+#[test]
+fn lobes_of_a_material_are_those_of_its_slope() {
+    let here = arm6();
+    let cut =
+        "--damping 0.03 --teeth 2 --immersion 0.5 --up --tool-axis 0 0 1 --rpm 600 6000 4 --json";
+    let of = |cut_by: &str| {
+        let line = format!("lobes arm6.toml {cut} {cut_by}").replace(' ', ";");
+        let line = line.replace("linear;aluminium", "linear aluminium");
+        let words: Vec<&str> = line.split(';').collect();
+        json(&crate::common::run(here.path(), &words).answered())
+    };
+    let limits = |answer: &Value| -> Vec<f64> {
+        let points = answer["points"].as_array().expect("points").iter();
+        points
+            .map(|p| p["limit_mm"].as_f64().expect("a limit"))
+            .collect()
+    };
+    let by_material = of("--material linear aluminium --feed-per-tooth-mm 0.1");
+    assert_eq!(by_material["material"], "linear aluminium");
+    let stated = of("--coefficients-n-per-mm2 796 168 -222");
+    assert!(stated["material"].is_null());
+    agree(&limits(&by_material), &limits(&stated), 1e-8);
+    // Coefficients as the answer states them give the same lobes.
+    let by_material = of("--material C45 --feed-per-tooth-mm 0.1");
+    let chip_mm = by_material["chip_mm"].as_f64().expect("a chip");
+    // Half a slot from the side: the mean of the sine over a quarter of a turn is 2/pi.
+    assert!((chip_mm - 0.1 * 2.0 / std::f64::consts::PI).abs() < 1e-12);
+    let found = by_material["coefficients_n_per_mm2"]
+        .as_array()
+        .expect("three");
+    let stated = found
+        .iter()
+        .map(|x| x.as_f64().expect("a number").to_string());
+    let stated = of(&format!(
+        "--coefficients-n-per-mm2 {}",
+        stated.collect::<Vec<_>>().join(" ")
+    ));
+    agree(&limits(&by_material), &limits(&stated), 1e-8);
+    // A thicker chip gives way to a smaller slope (Kienzle), and the cut is stable to a greater depth.
+    let thicker = of("--material C45 --feed-per-tooth-mm 0.3");
+    for (thin, thick) in limits(&by_material).iter().zip(limits(&thicker)) {
+        assert!(thick > *thin, "{thick} {thin}");
+    }
+}
+
 #[test]
 fn limits_of_the_arm_are_those_of_the_reference_values() {
     let here = arm6();
@@ -185,6 +231,26 @@ fn questions_without_an_answer_are_refused_by_name() {
         (
             "lobes arm6.toml --damping 0.03 --teeth 2 --coefficients-n-per-mm2 800 240 0 --rpm 1000 2000 3 --tool-axis 1 0 0",
             "feed",
+        ),
+        (
+            "lobes arm6.toml --damping 0.03 --teeth 2 --rpm 1000 2000 3",
+            "--coefficients-n-per-mm2",
+        ),
+        (
+            "lobes arm6.toml --damping 0.03 --teeth 2 --material C45 --rpm 1000 2000 3",
+            "--feed-per-tooth-mm",
+        ),
+        (
+            "lobes arm6.toml --damping 0.03 --teeth 2 --material C45 --feed-per-tooth-mm 50 --rpm 1000 2000 3",
+            "0.0001 to 10",
+        ),
+        (
+            "lobes arm6.toml --damping 0.03 --teeth 2 --material cheese --feed-per-tooth-mm 0.1 --rpm 1000 2000 3",
+            "cheese",
+        ),
+        (
+            "lobes arm6.toml --damping 0.03 --teeth 2 --material C45 --correct-speed --feed-per-tooth-mm 0.1 --rpm 1000 2000 3",
+            "--correct-speed",
         ),
         (
             "lobes arm6.toml --damping 0.03 --coefficients-n-per-mm2 800 240 0 --rpm 1000 2000 3",

@@ -1,0 +1,93 @@
+//! Coefficients of the cut: stated, or of a material at the thickness of its chips.
+
+use kinetostat_chatter::{Arc, Coefficients};
+use kinetostat_machining::{Warning, WarningCode};
+
+use crate::files::input_files::InputFiles;
+use crate::force::material::{Made, applied, material, materials};
+use crate::lobes::arguments::LobesArgs;
+use crate::ui::failure::{Answer, Failure};
+use crate::ui::numbers::number;
+
+/// The linear law of force of the cut.
+pub(crate) struct CutCoefficients {
+    pub(crate) law: Coefficients,
+    /// Of a material: its name and the thickness of the chip at which its law was taken as a straight line, mm.
+    pub(crate) of_material: Option<(String, f64)>,
+    pub(crate) warnings: Vec<Warning>,
+}
+
+impl CutCoefficients {
+    pub(crate) fn of(args: &LobesArgs, arc: &Arc) -> Answer<Self> {
+        match &args.material.material {
+            Some(_) => Self::of_material(args, arc),
+            None => Ok(Self {
+                law: stated(&args.coefficients_n_per_mm2)?,
+                of_material: None,
+                warnings: Vec::new(),
+            }),
+        }
+    }
+
+    fn of_material(args: &LobesArgs, arc: &Arc) -> Answer<Self> {
+        let Some(feed_mm) = args.feed_per_tooth_mm else {
+            return Err(Failure::input(
+                "--material needs --feed-per-tooth-mm: how steep its law is depends on the thickness of the chips",
+            ));
+        };
+        if !(1e-4..=10.0).contains(&feed_mm) {
+            return Err(Failure::input(format!(
+                "--feed-per-tooth-mm is {feed_mm}; 0.0001 to 10 mm are possible"
+            )));
+        }
+        if args.material.correct_speed {
+            return Err(Failure::input(
+                "--correct-speed: the cutting speed differs along the lobes; leave it out",
+            ));
+        }
+        let files = InputFiles::default();
+        let own = args.material.materials.as_deref();
+        let material = material(&materials(&files, own)?, &args.material)?;
+        let applied = applied(&material, &args.material, Made::Milled, None, None)?;
+        let chip_mm = feed_mm * arc.mean_sine().abs();
+        let found =
+            Coefficients::linearised(&applied.law, 1e-3 * chip_mm).map_err(Failure::input)?;
+        let outside = found.within_measured == Some(false);
+        let warning = outside.then(|| {
+            Warning::new(
+                WarningCode::ChipsOutsideMeasured,
+                format!(
+                    "chips are {} mm thick in the mean, which is not what {} was measured with",
+                    number(chip_mm, 3),
+                    material.name
+                ),
+            )
+        });
+        Ok(Self {
+            law: found.coefficients,
+            of_material: Some((material.name.clone(), chip_mm)),
+            warnings: warning.into_iter().collect(),
+        })
+    }
+
+    /// Tangential, radial, axial, N/mm^2.
+    pub(crate) fn n_per_mm2(&self) -> Vec<f64> {
+        let law = &self.law;
+        [law.tangential(), law.radial(), law.axial()]
+            .map(|value| 1e-6 * value)
+            .to_vec()
+    }
+}
+
+fn stated(given: &[f64]) -> Answer<Coefficients> {
+    let &[tangential, radial, axial] = given else {
+        return Err(Failure::input("--coefficients-n-per-mm2 needs KT KR KA"));
+    };
+    if tangential > 50.0 && radial != 0.0 && radial.abs() < 5.0 {
+        return Err(Failure::input(format!(
+            "--coefficients-n-per-mm2: KR is {radial} beside KT {tangential}; it looks like a ratio. In N/mm^2 it is {}",
+            radial * tangential
+        )));
+    }
+    Coefficients::new(1e6 * tangential, 1e6 * radial, 1e6 * axial).map_err(Failure::input)
+}
