@@ -35,8 +35,9 @@ def chatter(
     Takes the job of `compensate` with a material, a cutter and a stock (or an engagement), and a model
     with masses. Along the program the tools go through the stock; wherever the cut or the posture
     changes, the limit of depth at the programmed spindle speed is computed: exact, in the posture of
-    the machine there, under the mean force of the cut. Flat end mills with straight edges or a helix;
-    spindles that turn to the right; no process damping.
+    the machine there, under the mean force of the cut. Where it does not chatter, the vibration that
+    the passing teeth force, and what it leaves on the wall. Flat end mills with straight edges or a
+    helix; spindles that turn to the right; no process damping.
 
     Parameters
     ----------
@@ -56,11 +57,11 @@ def chatter(
     viscous : str | float | Sequence[str | float]
         Dampers at joints and springs by name, N s/m or N m s/rad, as in "joint 1"=900
     modes_up_to_hz : float
-        Modes above this count by their flexibility at rest, Hz
+        Modes above this count by their flexibility at rest, Hz [default: 300]
     every_mm : float
-        Places of one cut that are farther apart are judged by themselves, mm
+        Places of one cut that are farther apart are judged by themselves, mm [default: 25]
     most_places : int
-        Most places that are judged
+        Most places that are judged [default: 2000]
     threads : int
         Number of threads; all cores without it. The result is the same
     csv : path

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 from kinetostat._running import answered
 
@@ -29,6 +29,7 @@ def lobes(
     rpm: Sequence[float] | None = None,
     depth_mm: float | None = None,
     coefficients_n_per_mm2: Sequence[float] | None = None,
+    feed_per_tooth_mm: float | None = None,
     immersion: float | None = None,
     up: bool = False,
     climb: bool = False,
@@ -38,6 +39,14 @@ def lobes(
     diameter_mm: float | None = None,
     tool_axis: Sequence[float] | None = None,
     modes_up_to_hz: float | None = None,
+    material: str | float | None = None,
+    materials: _Path | None = None,
+    rake_deg: float | None = None,
+    wear: float | None = None,
+    coolant: Literal["dry", "emulsion", "oil"] | None = None,
+    edge: Literal["carbide", "high-speed-steel", "ceramic"] | None = None,
+    correct_speed: bool = False,
+    process_factor: float | None = None,
     damping: float | Sequence[float] | None = None,
     rayleigh: Sequence[float] | None = None,
     loss_factor: float | None = None,
@@ -52,7 +61,7 @@ def lobes(
     Stability lobes of the machine in its loaded posture, exact (monodromy of the regenerative cut by
     collocation), flip and Hopf told apart, with islands. Limits of zeroth order stand beside them under
     their own name: on robots they may be several times too large. Straight edges or a helix of even
-    pitch; linear force law; no process damping.
+    pitch; linear force law, stated or of a material; no process damping.
 
     Parameters
     ----------
@@ -84,6 +93,9 @@ def lobes(
         Largest depth of cut that is looked at, mm
     coefficients_n_per_mm2 : Sequence[float]
         Force by area of chip: tangential, radial and axial, N/mm^2 (the radial one is no ratio)
+    feed_per_tooth_mm : float
+        Feed per tooth, mm: the law of --material is taken as a straight line at the mean thickness
+        of its chips
     immersion : float
         Width of cut by diameter of the tool: 1 is a slot
     up : bool
@@ -102,6 +114,23 @@ def lobes(
         From the tip towards the spindle, base axes [default: against z of the tool's tip]
     modes_up_to_hz : float
         Modes above this count by their flexibility at rest, Hz
+    material : str | float
+        What is cut, by any of its names; case, spaces and hyphens do not matter
+    materials : path
+        Materials of your own (TOML), found before those of the library
+    rake_deg : float
+        Rake angle of the tool, degrees (factor K_gamma); without it that of the table of tools
+    wear : float
+        Wear of the edge (factor K_TW): 1 sharp, 1.3 to 1.5 worn
+    coolant : Literal["dry", "emulsion", "oil"]
+        How the cut is cooled (factor K_CL)
+    edge : Literal["carbide", "high-speed-steel", "ceramic"]
+        What the edge is made of (factor K_CM)
+    correct_speed : bool
+        Correct for the cutting speed (factor K_V); it needs --rpm
+    process_factor : float
+        Milling with coefficients of turning tests (factor K_PRO): 1.2 to 1.4 [default: 1.3 for such
+        coefficients]
     damping : float | Sequence[float]
         Ratio to critical damping of all modes (0.03 is 3 %), or one for each of the lowest modes,
         the last for all above
@@ -146,6 +175,7 @@ def lobes(
         ("--rpm", rpm),
         ("--depth-mm", depth_mm),
         ("--coefficients-n-per-mm2", coefficients_n_per_mm2),
+        ("--feed-per-tooth-mm", feed_per_tooth_mm),
         ("--immersion", immersion),
         ("--up", up),
         ("--climb", climb),
@@ -155,6 +185,14 @@ def lobes(
         ("--diameter-mm", diameter_mm),
         ("--tool-axis", tool_axis),
         ("--modes-up-to-hz", modes_up_to_hz),
+        ("--material", material),
+        ("--materials", materials),
+        ("--rake-deg", rake_deg),
+        ("--wear", wear),
+        ("--coolant", coolant),
+        ("--edge", edge),
+        ("--correct-speed", correct_speed),
+        ("--process-factor", process_factor),
         ("--damping", damping),
         ("--rayleigh", rayleigh),
         ("--loss-factor", loss_factor),
