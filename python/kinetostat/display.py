@@ -12,9 +12,9 @@ from kinetostat._arguments import of_kind, refused, text, texts
 
 if TYPE_CHECKING:
     from kinetostat.machine import Machine
-    from kinetostat.posture import Equilibrium, Stiffness
+    from kinetostat.posture import Equilibrium, Posture, Stiffness
 
-__all__ = ["equilibrium_html", "machine_html", "stiffness_html", "table"]
+__all__ = ["equilibrium_html", "machine_html", "posture_html", "stiffness_html", "table"]
 
 _AXES = ("x", "y", "z", "rx", "ry", "rz")
 
@@ -91,6 +91,37 @@ def machine_html(machine: Machine) -> str:
     except Exception as error:  # a display never hides the object that it shows
         picture = f"<p>{html.escape(str(error))}</p>"
     return f"<div><h4>{html.escape(machine.name)}</h4><p>{html.escape(machine.file)}</p>{drives}{parts}{picture}</div>"
+
+
+def posture_html(posture: Posture) -> str:
+    """Where the drives of a posture stand between their limits, and the drawing of the machine there.
+
+    Examples
+    --------
+    >>> import kinetostat as ks
+    >>> shown = posture_html(ks.Machine.preset("orthoglide").posture([0.02, 0, 0.03]))
+    >>> "<svg" in shown and "mm" in shown
+    True
+    """
+    from kinetostat.posture import Posture
+
+    of_kind("posture", posture, Posture, "a Posture")
+    commands = np.concatenate([commands for commands, _ in posture.limbs]) if posture.limbs else np.empty(0)
+
+    def shown(drive: Any, command: float) -> list[Any]:
+        factor, unit = (1e3, "mm") if drive.unit == "m" else (np.degrees(1.0), "deg")
+        limits = "" if drive.limits is None else f"{factor * drive.limits[0]:.5g} to {factor * drive.limits[1]:.5g} {unit}"
+        return [drive.name, f"{factor * command + 0.0:.5g} {unit}", limits]
+
+    x, y, z = 1e3 * posture.target[:3, 3] + 0.0
+    rows = [shown(drive, float(command)) for drive, command in zip(posture.machine.actuators, commands, strict=True)]
+    drives = table(["drive", "command", "limits"], rows, f"tool at {x:.5g}, {y:.5g}, {z:.5g} mm")
+    outside = "".join(f"<p>{html.escape(found.actuator)} is outside its limits</p>" for found in posture.limit_violations)
+    try:
+        picture = posture.machine.drawing(posture)
+    except Exception as error:  # a display never hides the object that it shows
+        picture = f"<p>{html.escape(str(error))}</p>"
+    return f"<div>{drives}{outside}{picture}</div>"
 
 
 def _without_rounding(matrix: np.ndarray[Any, Any]) -> np.ndarray[Any, Any]:

@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 from kinetostat import _core
 from kinetostat._arrays import Floats, one
 from kinetostat._plausibility import counted, sentences
-from kinetostat.display import equilibrium_html, stiffness_html
+from kinetostat.display import equilibrium_html, posture_html, stiffness_html
 from kinetostat.errors import KinetostatError
 from kinetostat.status import DirectionKind, FoundBy, Status
 
@@ -540,6 +540,9 @@ class Posture:
 
     def __repr__(self) -> str:
         return repr(self._native)
+
+    def _repr_html_(self) -> str:
+        return posture_html(self)
 
 
 def _restored(machine: Machine, target: Floats, limbs: list[tuple[list[float], list[float]]]) -> Posture:

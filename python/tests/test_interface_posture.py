@@ -272,6 +272,13 @@ def test_what_notebooks_show(posture: ks.Posture) -> None:
     assert "<svg" in shown
     assert "leg x.slider" in shown
     assert "N/m" in posture.stiffness()._repr_html_()
+    stands = posture.machine.posture([0.02, 0, 0.03])._repr_html_()
+    assert "<svg" in stands
+    assert "tool at 20, 0, 30 mm" in stands
+    # Where it cannot be drawn it is said why.
+    outside = posture.machine.posture([0.25, 0, 0])._repr_html_()
+    assert "leg x.slider is outside its limits" in outside
+    assert "workspace" in outside
     # Rounding of sums is not shown as stiffness about a free axis.
     free = ks.Machine.preset("stewart_gough_a").posture().stiffness()
     assert np.abs(free.matrix[5]).max() < 1e-9
