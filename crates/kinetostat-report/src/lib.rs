@@ -36,6 +36,7 @@
 
 mod chart;
 mod drawing;
+mod literal;
 mod number;
 mod paper;
 mod run;

@@ -2,6 +2,7 @@
 
 use std::fmt::Write as _;
 
+use crate::literal::without_variables;
 use crate::text::escape;
 
 /// Where a text is held.
@@ -128,9 +129,10 @@ impl Svg {
         )
     }
 
-    /// The drawing as a document with its own style.
+    /// The drawing as a document with its own style, whose colours programs without variables of style sheets know, too.
     pub(crate) fn document(&self, size: (f64, f64), description: &str, style: &str) -> String {
         let (width, height) = (pixel(size.0), pixel(size.1));
+        let style = without_variables(style);
         format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
              viewBox=\"0 0 {width} {height}\" role=\"img\" aria-label=\"{}\"><style>{style}</style>{}</svg>\n",
