@@ -1,6 +1,6 @@
 //! Style sheets for documents of their own: with colours in place of variables.
 
-use std::collections::{HashMap, HashSet};
+use std::collections::{BTreeMap, BTreeSet};
 
 /// What holds for dark pages, and begins the second half of a sheet.
 const DARK: &str = "@media screen and (prefers-color-scheme:dark)";
@@ -9,7 +9,7 @@ const DARK: &str = "@media screen and (prefers-color-scheme:dark)";
 /// colour. Word processors, drawing programs and converters know neither variables nor dark pages; they draw the first half,
 /// where they would draw all in black.
 pub(crate) fn without_variables(style: &str) -> String {
-    let (mut light, mut dark) = (HashMap::new(), HashMap::new());
+    let (mut light, mut dark) = (BTreeMap::new(), BTreeMap::new());
     // Whether a rule is one of dark pages alone, its head and its body.
     let mut rules = Vec::new();
     for (head, body) in blocks(style) {
@@ -25,7 +25,7 @@ pub(crate) fn without_variables(style: &str) -> String {
             rules.push((false, head, body));
         }
     }
-    let coloured: HashSet<&str> = (rules.iter())
+    let coloured: BTreeSet<&str> = (rules.iter())
         .flat_map(|(_, _, body)| declarations(body))
         .filter(|(_, value)| value.contains("var("))
         .map(|(name, _)| name)
@@ -49,7 +49,7 @@ pub(crate) fn without_variables(style: &str) -> String {
     out
 }
 
-type Values<'s> = HashMap<&'s str, &'s str>;
+type Values<'s> = BTreeMap<&'s str, &'s str>;
 
 /// Heads and bodies of the outermost blocks.
 fn blocks(style: &str) -> Vec<(&str, &str)> {
