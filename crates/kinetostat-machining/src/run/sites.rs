@@ -218,8 +218,9 @@ const SEED: u64 = 4;
 const SHORT: f64 = 0.05;
 
 /// Ends of all pieces of a written program and irregular places inside them, no farther apart than twice
-/// `spacing_mm`, the middles of pieces that are not very short, and the places of the program as it is given
-/// ([`of_path`] with the same spacing), one after the other.
+/// `spacing_mm`, the middles of pieces of divided blocks, and the places of the program as it is given
+/// ([`of_path`] with the same spacing), one after the other. Of blocks that are very short and were not divided every one is
+/// looked at where it ends, and inside as many as there is room for such pieces on their length, chosen without a pattern.
 pub(crate) fn of_written<'a>(
     path: &'a Path,
     written: &'a Corrected,
@@ -328,11 +329,15 @@ pub(crate) fn of_written<'a>(
                 }
                 _ => count,
             };
+            let divided = piece.share_from > 0.0 || piece.share_to < 1.0;
+            let is_line = motion.curve == Curve::Line;
+            let is_passed_over =
+                is_line && !divided && inside(count) * programmed.short_mm > length;
+            let count = if is_passed_over { 0 } else { count };
             let mut places: Vec<(f64, f64, bool)> = (0..count)
                 .map(|k| (k as f64 + inside(k)) / count as f64)
                 .map(|place| (place, share_at(place), false))
                 .collect();
-            let divided = piece.share_from > 0.0 || piece.share_to < 1.0;
             if divided {
                 // A piece leaves its block farthest near its middle; one of a block that was not
                 // divided is looked at where the program is.
