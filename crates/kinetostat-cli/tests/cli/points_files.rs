@@ -145,3 +145,52 @@ fn read_back(at: &Path) {
         "{said}{fault}"
     );
 }
+
+/// Blocks of a finishing program are solved where they end, every one; inside only as many as there would be if they were as long
+/// as blocks that have a place inside, without a pattern, and the same however the program is cut into parts.
+#[test]
+fn very_short_blocks_are_looked_at_where_they_end_and_some_inside() {
+    let here = workplace();
+    let mut program = "G21 G90\nG0 X-20 Y0 Z2\nG1 Z0 F600\n".to_owned();
+    let blocks = 2000;
+    for i in 1..=blocks {
+        let x = -20.0 + 0.02 * f64::from(i);
+        program.push_str(&format!(
+            "G1 X{x:.3} Z{:.4}\n",
+            (0.3 * x).sin() - (-6_f64).sin()
+        ));
+    }
+    program.push_str("G0 Z5\nM2\n");
+    std::fs::write(here.path().join("fine.ngc"), program).unwrap();
+    let words = "compensate --model orthoglide --tool-length-mm 100 --part-origin-mm 3 -2 97 --milling 215 -10 -25 \
+                 --tolerance-um 5 --program fine.ngc --all-points --force-overwrite";
+    let table = |name: &str, more: &[&str]| -> Vec<(String, f64)> {
+        let words = words.split_whitespace().chain(["--points", name]);
+        let words: Vec<&str> = words.chain(more.iter().copied()).collect();
+        let said = run(here.path(), &words);
+        assert_eq!(said.code, 0, "{said:?}");
+        let text = std::fs::read_to_string(here.path().join(name)).unwrap();
+        let rows = text.lines().skip(1).map(|line| {
+            let cells: Vec<&str> = line.split(',').collect();
+            (cells[0].to_owned(), cells[3].parse().unwrap())
+        });
+        rows.collect()
+    };
+    let all = table("whole.csv", &[]);
+    // Lines 4 to 2003.
+    let ends = |line: usize| {
+        all.iter()
+            .any(|(own, share)| *own == line.to_string() && *share == 1.0)
+    };
+    assert!((4..4 + blocks as usize).all(ends));
+    let inside: Vec<f64> = all
+        .iter()
+        .map(|(_, share)| *share)
+        .filter(|s| *s > 0.0 && *s < 1.0)
+        .collect();
+    // 40 mm and a little, at one place for every 0.05 sixteenths of the machine's length.
+    assert!((20..=120).contains(&inside.len()), "{}", inside.len());
+    let mean = inside.iter().sum::<f64>() / inside.len() as f64;
+    assert!((mean - 0.5).abs() < 0.15, "{mean}");
+    assert_eq!(all, table("parts.csv", &["--part-lines", "300"]));
+}
