@@ -28,12 +28,14 @@ use crate::job::output_paths::OutputPaths;
 use crate::job::setting::{Setting, setting};
 use crate::job::{program, run_warnings};
 use crate::program::aim::Aim;
+use crate::program::chatter::Judging;
 use crate::program::flat_lines::{WithSources, listed_under, of_warnings};
 use crate::program::solve::{computed, forces_of, with_task};
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::layout::{item, listed, wrapped};
 use crate::ui::numbers::{short, triple};
 use crate::ui::{json, warnings};
+use crate::vibration::damping::{DampingArgs, words};
 
 /// What a job says, stable names with units.
 #[derive(Serialize)]
@@ -47,6 +49,9 @@ struct JobFindings {
     tool: String,
     placement: String,
     load: String,
+    /// How the machine is damped, where chatter is judged along the program.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    chatter: Option<String>,
     program: ProgramFinding,
     /// The ends of the program along every axis of the part.
     ends: Vec<EndFinding>,
@@ -134,6 +139,12 @@ fn findings(files: &InputFiles, path: &Path, flags: &ProgramArgs) -> Answer<JobF
         &machine.placement,
         motion,
     ));
+    let options = DampingArgs::default();
+    let judging = setting.chatter.as_ref();
+    let judging = judging.map(|asked| Judging::of((&machine, &model), &options, asked));
+    let judging = judging
+        .transpose()
+        .map_err(|failure| failure.within(&path.display().to_string()))?;
     let check = |task: &Task<'_>| (refused_question(task), unusual_question(task));
     let forces = forces_of(&machine, &setting, motion, &Unwatched)?;
     let forces = forces.as_ref();
@@ -160,6 +171,7 @@ fn findings(files: &InputFiles, path: &Path, flags: &ProgramArgs) -> Answer<JobF
             &machine.mechanism,
             &LoadAlongPath::new(computed(machine.load, forces), motion),
         ),
+        chatter: judging.map(|judging| words(&judging.damping)),
         program: ProgramFinding {
             name: setting.program_name.clone(),
             flat: setting.flat.clone(),
@@ -291,7 +303,10 @@ fn answer_text(f: &JobFindings) -> String {
         format!("Tool: {}", f.tool),
         format!("Load: {}", f.load),
     ];
-    for line in lines {
+    let chatter = f.chatter.as_ref();
+    let chatter =
+        chatter.map(|damping| format!("Chatter: judged along the program; damping: {damping}"));
+    for line in lines.into_iter().chain(chatter) {
         out.push_str(&wrapped(&line, 0));
     }
     for deviation in &f.model_deviations {

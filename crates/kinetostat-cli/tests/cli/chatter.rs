@@ -300,6 +300,9 @@ fn a_run_reports_the_chatter_of_its_program() {
     let here = here(PROGRAM);
     let job = format!("{JOB}[chatter]\ndamping_ratio = 0.03\n");
     std::fs::write(here.path().join("job.toml"), job).expect("written");
+    let checked = said(here.path(), "check job.toml").answered().out;
+    let told = "Chatter: judged along the program; damping: 0.03 of critical";
+    assert!(checked.contains(told), "{checked}");
     let found = &OF_PROGRAM.answer;
     let mut seen = 0;
     for (language, head) in [
@@ -358,13 +361,11 @@ fn a_run_reports_the_chatter_of_its_program() {
     }
     // No damping anywhere, and no cut.
     std::fs::write(here.path().join("job.toml"), format!("{JOB}[chatter]\n")).expect("written");
-    let refused = said(here.path(), "deflect job.toml");
-    assert_eq!(refused.code, 1, "{refused:?}");
-    assert!(
-        refused.err.contains("chatter needs damping"),
-        "{}",
-        refused.err
-    );
+    for command in ["deflect", "check"] {
+        let refused = said(here.path(), &format!("{command} job.toml"));
+        assert_eq!(refused.code, 1, "{refused:?}");
+        assert!(refused.err.contains("chatter needs damping"), "{refused:?}");
+    }
     let cut = JOB.find("[material]").expect("material");
     let job = format!(
         "{}[load]\nforce_n = [1, 2, 3]\n[chatter]\ndamping_ratio = 0.03\n",
