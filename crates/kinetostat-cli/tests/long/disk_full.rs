@@ -12,6 +12,9 @@ use std::process::{Command, Output, Stdio};
 use crate::common::BINARY;
 use crate::place;
 
+/// Rows of the surface: its outputs are large beside what else is kept of a run.
+const ROWS: usize = 32;
+
 /// Outputs, all on the small disk.
 const OUTPUTS: [&str; 4] = ["out.ngc", "points.csv", "result.json", "report.html"];
 
@@ -53,7 +56,7 @@ fn outputs(disk: &Path) -> BTreeMap<&'static str, Vec<u8>> {
 
 /// What an uninterrupted run writes.
 fn uninterrupted() -> BTreeMap<&'static str, Vec<u8>> {
-    let here = place(16);
+    let here = place(ROWS);
     fs::create_dir(here.path().join("disk")).expect("a directory");
     sh(here.path(), &[], "round whole");
     let said = read(&here.path().join("said-whole"));
@@ -102,7 +105,7 @@ fn assert_gone_on(here: &Path, wanted: &BTreeMap<&str, Vec<u8>>, reason: &str) {
 #[test]
 fn a_disk_that_is_full_at_five_places_loses_nothing() {
     let namespace = ["unshare", "--map-root-user", "--mount"];
-    let here = place(16);
+    let here = place(ROWS);
     let here = here.path();
     fs::create_dir(here.join("disk")).expect("a directory");
     let mounts = "mount -t tmpfs -o size=64k tmpfs disk && mount -o remount,size=128k tmpfs disk";
@@ -136,7 +139,7 @@ fn a_disk_that_is_full_at_five_places_loses_nothing() {
 #[test]
 fn files_that_may_not_grow_lose_nothing() {
     let wanted = uninterrupted();
-    let here = place(16);
+    let here = place(ROWS);
     let here = here.path();
     fs::create_dir(here.join("disk")).expect("a directory");
     // Blocks of 512 bytes, as POSIX has them; the signal that comes with it is ignored, so that a program may say what is wrong.
