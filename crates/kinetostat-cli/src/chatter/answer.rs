@@ -8,6 +8,7 @@ use kinetostat_machining::{FlatProgram, Warning};
 
 use serde::Serialize;
 
+use crate::job::chatter::ChatterSetting;
 use crate::program::chatter::limits;
 
 #[derive(Serialize)]
@@ -123,11 +124,11 @@ impl ChatterAnswer {
         (found, flat): (&ProgramChatter, Option<&FlatProgram>),
         program: &str,
         (model, material, damping): (&str, &str, String),
-        mut warnings: Vec<Warning>,
+        (mut warnings, setting): (Vec<Warning>, &ChatterSetting),
     ) -> Self {
         let source = |line: usize| flat?.place_of(line);
         let of_site = |judged: &JudgedSite| place(judged, source(judged.site.line));
-        warnings.extend(limits(found));
+        warnings.extend(limits(found, setting));
         Self {
             schema: 1,
             kinetostat_version: env!("CARGO_PKG_VERSION"),

@@ -78,7 +78,7 @@ pub(crate) fn run(args: &ChatterArgs) -> Answer<()> {
         (&found, flat),
         &setting.program_name,
         (&machine.run_inputs.model, material, words(&judging.damping)),
-        of_warnings(said, flat),
+        (of_warnings(said, flat), &asked),
     );
     let result = found.result(String::new());
     let shown = Shown {

@@ -79,10 +79,10 @@ impl<'a> Judging<'a> {
 }
 
 /// Puts what was found into a run: the result, and warnings of lines that chatter and of places that are not judged.
-pub(crate) fn put_chatter(run: &mut Run, found: &ProgramChatter, damping: &Damping) {
-    let result = found.result(words(damping));
+pub(crate) fn put_chatter(run: &mut Run, found: &ProgramChatter, judging: &Judging<'_>) {
+    let result = found.result(words(&judging.damping));
     run.result.warnings.extend(chattering(&result));
-    run.result.warnings.extend(limits(found));
+    run.result.warnings.extend(limits(found, judging.setting));
     run.result.chatter = Some(result);
 }
 
@@ -114,7 +114,7 @@ fn chattering(result: &ChatterResult) -> Vec<Warning> {
 }
 
 /// What the answer does not say.
-pub(crate) fn limits(found: &ProgramChatter) -> Vec<Warning> {
+pub(crate) fn limits(found: &ProgramChatter, setting: &ChatterSetting) -> Vec<Warning> {
     let mut all = Vec::new();
     let mut say = |text: String| all.push(Warning::new(WarningCode::ChatterNotJudged, text));
     for (why, line, places) in found.not_judged() {
@@ -128,6 +128,16 @@ pub(crate) fn limits(found: &ProgramChatter) -> Vec<Warning> {
         say(format!(
             "at {uneven} of {} places the arc in contact differs with the height: the widest was taken for the whole depth, which is no bound",
             found.places
+        ));
+    }
+    let passing = found.sites.iter().filter_map(|site| site.forced.as_ref());
+    let passing = passing.map(|forced| forced.tooth_passing_hz);
+    if let Some(fastest) = passing.max_by(f64::total_cmp)
+        && fastest > setting.modes_up_to_hz
+    {
+        say(format!(
+            "teeth pass at up to {fastest:.0} Hz, and modes above {:.0} Hz count by their flexibility alone: a mode of the machine near the teeth is not seen (--modes-up-to-hz, modes_up_to_hz under [chatter])",
+            setting.modes_up_to_hz
         ));
     }
     if found.wider > 1.0 {

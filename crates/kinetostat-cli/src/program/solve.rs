@@ -259,7 +259,7 @@ pub(crate) fn turned(
     }
     progress.finish();
     if let Some((judging, found)) = judging.as_ref().zip(found.as_ref()) {
-        put_chatter(&mut run, found, &judging.damping);
+        put_chatter(&mut run, found, judging);
     }
     run.result.warnings.extend(warnings(forces.as_ref()));
     run.result.warnings.extend(setting.of_expansion());

@@ -294,6 +294,24 @@ fn teeth_shake_the_tip_as_forces_and_receptance_say() {
     );
 }
 
+/// Modes that are left out say nothing of teeth that pass beside them.
+#[test]
+fn teeth_that_pass_beyond_the_modes_that_count_are_told() {
+    let here = here(PROGRAM);
+    let told = |of: &Value| {
+        let mut all = list(of, "warnings").iter();
+        all.any(|w| {
+            w["message"]
+                .as_str()
+                .is_some_and(|text| text.contains("teeth pass at up to 100 Hz"))
+        })
+    };
+    assert!(!told(&OF_PROGRAM.answer));
+    let line = "chatter job.toml --damping 0.03 --modes-up-to-hz 60 --json";
+    let few: Value = serde_json::from_str(&said(here.path(), line).answered().out).expect("JSON");
+    assert!(told(&few), "{few}");
+}
+
 /// A run of a job with `[chatter]` says the same as `chatter`, in its result, its text and its reports of all languages.
 #[test]
 fn a_run_reports_the_chatter_of_its_program() {
