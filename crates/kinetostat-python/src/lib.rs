@@ -24,6 +24,7 @@ mod program;
 mod stiffness;
 mod tolerance;
 mod vibration;
+mod warnings;
 mod work;
 
 use pyo3::prelude::*;
@@ -45,8 +46,6 @@ mod _core {
     #[pymodule_export]
     use crate::map::{evaluate_many, map_variables};
     #[pymodule_export]
-    use crate::plausibility::{load_warnings, tool_warnings};
-    #[pymodule_export]
     use crate::posture::Posture;
     #[pymodule_export]
     use crate::program::correct_program;
@@ -56,6 +55,8 @@ mod _core {
     use crate::tolerance::{drawn_numbers, sobol_design, sobol_of_answers, tolerance_of_machine};
     #[pymodule_export]
     use crate::vibration::{Vibration, vibration_of};
+    #[pymodule_export]
+    use crate::warnings::{load_warnings, tool_warnings};
     #[pymodule_export]
     use crate::work::forked;
 

@@ -9,7 +9,7 @@ use pyo3::prelude::*;
 use crate::arrays::{Numbers, array, matrix_of, one_pose, one_wrench};
 use crate::equilibrium::Equilibrium;
 use crate::errors::of_core;
-use crate::plausibility::load_warnings;
+use crate::plausibility::of_load;
 use crate::stiffness::Stiffness;
 
 /// A machine whose actuators are commanded.
@@ -69,7 +69,8 @@ impl Posture {
         let wrench = one_wrench("wrench", wrench)?;
         let found = py.detach(|| self.0.deflected_by(&wrench));
         let found = Equilibrium(found.map_err(|e| of_core(&e))?);
-        let warnings = load_warnings(self, &found);
+        let moved = found.0.displacement.linear().norm();
+        let warnings = of_load(&found.0.wrench, moved, self.0.mechanism().size());
         if !warnings.is_empty() {
             let module = py.import("kinetostat._plausibility")?;
             module.call_method1("issue", (warnings,))?;
