@@ -130,6 +130,7 @@ def arguments(folder: Path) -> dict[str, tuple[Callable[..., Any], dict[str, Any
         "kinetostat.cutting.milling_force": (ks.cutting.milling_force, {}),
         "kinetostat.display.table": (display().table, {"head": ["a"], "rows": [[1.0]]}),
         "kinetostat.display.machine_html": (display().machine_html, {"machine": MACHINE}),
+        "kinetostat.display.posture_html": (display().posture_html, {"posture": POSTURE}),
         "kinetostat.display.stiffness_html": (display().stiffness_html, {"stiffness": POSTURE.stiffness()}),
         "kinetostat.display.equilibrium_html": (display().equilibrium_html, {"equilibrium": POSTURE.deflected_by(wrench)}),
         "kinetostat.maps.evaluate": (maps.evaluate, {"machine": MACHINE, "x": [0.0, 0.01], "loads": wrench}),
