@@ -62,6 +62,14 @@ def _matrix(values: np.ndarray[Any, Any], caption: str) -> str:
     return table(["", *_AXES], rows, caption)
 
 
+def _drawn(machine: Machine, posture: Posture | None = None) -> str:
+    """The drawing, or why there is none."""
+    try:
+        return machine.drawing(posture)
+    except Exception as error:  # a display never hides the object that it shows
+        return f"<p>{html.escape(str(error))}</p>"
+
+
 def machine_html(machine: Machine) -> str:
     """Drives, limbs, platforms and the drawing at home of a machine.
 
@@ -86,11 +94,7 @@ def machine_html(machine: Machine) -> str:
         ["limb", "from", "to", "chain"],
         [[limb["name"], limb["from"], limb["to"], limb["chain"]] for limb in machine.to_dict()["limb"]],
     )
-    try:
-        picture = machine.drawing()
-    except Exception as error:  # a display never hides the object that it shows
-        picture = f"<p>{html.escape(str(error))}</p>"
-    return f"<div><h4>{html.escape(machine.name)}</h4><p>{html.escape(machine.file)}</p>{drives}{parts}{picture}</div>"
+    return f"<div><h4>{html.escape(machine.name)}</h4><p>{html.escape(machine.file)}</p>{drives}{parts}{_drawn(machine)}</div>"
 
 
 def posture_html(posture: Posture) -> str:
@@ -117,11 +121,7 @@ def posture_html(posture: Posture) -> str:
     rows = [shown(drive, float(command)) for drive, command in zip(posture.machine.actuators, commands, strict=True)]
     drives = table(["drive", "command", "limits"], rows, f"tool at {x:.5g}, {y:.5g}, {z:.5g} mm")
     outside = "".join(f"<p>{html.escape(found.actuator)} is outside its limits</p>" for found in posture.limit_violations)
-    try:
-        picture = posture.machine.drawing(posture)
-    except Exception as error:  # a display never hides the object that it shows
-        picture = f"<p>{html.escape(str(error))}</p>"
-    return f"<div>{drives}{outside}{picture}</div>"
+    return f"<div>{drives}{outside}{_drawn(posture.machine, posture)}</div>"
 
 
 def _without_rounding(matrix: np.ndarray[Any, Any]) -> np.ndarray[Any, Any]:

@@ -64,6 +64,13 @@ impl Contact {
 }
 
 impl Contact {
+    /// Whether an angle (rad) lies on its arc, or so near to it (rad).
+    #[must_use]
+    pub fn reaches(&self, angle: f64, within: f64) -> bool {
+        let past = (angle - self.entry + within).rem_euclid(TAU);
+        past <= self.exit - self.entry + 2.0 * within
+    }
+
     /// Largest sine of an angle on the arc: where the chip of a level feed is thickest.
     pub(crate) fn largest_sine(&self) -> f64 {
         let ahead = (FRAC_PI_2 - self.entry).rem_euclid(TAU);

@@ -1,6 +1,6 @@
 //! What looks wrong in a question although it can be answered: the checks of the commands, for typed calls.
 
-use kinetostat::{Mechanism, Wrench};
+use kinetostat::{Mechanism, MechanismEquilibrium, Posture};
 use kinetostat_machining::{
     Limits, Warning, WarningCode, folds, odd_correction, odd_tool_length, unusual_load,
 };
@@ -14,9 +14,11 @@ fn said(warning: Warning) -> Said {
     (heard.contains(&warning.code), warning.message)
 }
 
-/// What looks wrong in a load on the tool, and in how far it moves a tool of a machine of such a size, m.
-pub fn of_load(wrench: &Wrench, moved: f64, size: f64) -> Vec<Said> {
-    let all = unusual_load(wrench).into_iter().chain(folds(moved, size));
+/// What looks wrong in the load on the tool and in the displacement from a posture.
+pub fn of_load(posture: &Posture, loaded: &MechanismEquilibrium) -> Vec<Said> {
+    let far = loaded.displacement.linear().norm();
+    let folded = folds(far, posture.mechanism().size());
+    let all = unusual_load(&loaded.wrench).into_iter().chain(folded);
     all.map(said).collect()
 }
 

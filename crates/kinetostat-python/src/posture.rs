@@ -68,14 +68,13 @@ impl Posture {
         let py = wrench.py();
         let wrench = one_wrench("wrench", wrench)?;
         let found = py.detach(|| self.0.deflected_by(&wrench));
-        let found = Equilibrium(found.map_err(|e| of_core(&e))?);
-        let moved = found.0.displacement.linear().norm();
-        let warnings = of_load(&found.0.wrench, moved, self.0.mechanism().size());
+        let found = found.map_err(|e| of_core(&e))?;
+        let warnings = of_load(&self.0, &found);
         if !warnings.is_empty() {
             let module = py.import("kinetostat._plausibility")?;
             module.call_method1("issue", (warnings,))?;
         }
-        Ok(found)
+        Ok(Equilibrium(found))
     }
 
     /// Equilibrium with the tool held at a pose (4, 4): the wrench that holds it is part of the answer.

@@ -22,6 +22,5 @@ pub fn tool_warnings(machine: &Machine) -> Vec<Said> {
 /// What looks wrong in the load on the tool and in the displacement from a posture.
 #[pyfunction]
 pub fn load_warnings(posture: &Posture, loaded: &Equilibrium) -> Vec<Said> {
-    let moved = loaded.0.displacement.linear().norm();
-    of_load(&loaded.0.wrench, moved, posture.0.mechanism().size())
+    of_load(&posture.0, &loaded.0)
 }

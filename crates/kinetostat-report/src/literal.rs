@@ -30,17 +30,21 @@ pub(crate) fn without_variables(style: &str) -> String {
         .filter(|(_, value)| value.contains("var("))
         .map(|(name, _)| name)
         .collect();
+    // What has no other value on dark pages has that of light ones.
+    let has_dark = !dark.is_empty();
+    let mut dark_or_light = light.clone();
+    dark_or_light.append(&mut dark);
     let (mut out, mut night) = (String::new(), String::new());
     for (at_night, head, body) in rules {
         let own = || declarations(body).filter(|(name, _)| !name.starts_with("--"));
         if !at_night {
-            rule(&mut out, head, own(), &[&light]);
+            rule(&mut out, head, own(), &light);
         }
         // In the order of the sheet, so that what stands behind goes over it there, too.
         let kept = own().filter(|(name, _)| at_night || coloured.contains(name));
-        rule(&mut night, head, kept, &[&dark, &light]);
+        rule(&mut night, head, kept, &dark_or_light);
     }
-    if !night.is_empty() && !dark.is_empty() {
+    if has_dark {
         out.push_str(DARK);
         out.push('{');
         out.push_str(&night);
@@ -89,7 +93,7 @@ fn rule<'s>(
     out: &mut String,
     head: &str,
     kept: impl Iterator<Item = (&'s str, &'s str)>,
-    values: &[&Values<'_>],
+    values: &Values<'_>,
 ) {
     let all: Vec<String> = kept
         .map(|(name, value)| format!("{name}:{}", valued(value, values)))
@@ -104,12 +108,12 @@ fn rule<'s>(
 }
 
 /// A value with those of its variables; one that has none stays.
-fn valued(value: &str, values: &[&Values<'_>]) -> String {
+fn valued(value: &str, values: &Values<'_>) -> String {
     let (mut rest, mut out) = (value, String::new());
     while let Some((before, after)) = rest.split_once("var(") {
         let (name, behind) = after.split_once(')').unwrap_or((after, ""));
         out.push_str(before);
-        match values.iter().find_map(|own| own.get(name.trim())) {
+        match values.get(name.trim()) {
             Some(value) => out.push_str(value),
             None => out.push_str(&format!("var({name})")),
         }

@@ -73,14 +73,15 @@ pub(crate) fn run(args: &ChatterArgs) -> Answer<()> {
     let flat = setting.flat.as_ref();
     let mut said = warnings(Some(forces));
     said.extend(setting.of_expansion());
+    let damping = words(&judging.damping);
+    let result = found.result(damping.clone());
     let material = machine.cut.as_ref().map_or("", |cut| &cut.material);
     let answer = ChatterAnswer::new(
         (&found, flat),
         &setting.program_name,
-        (&machine.run_inputs.model, material, words(&judging.damping)),
+        (&machine.run_inputs.model, material, damping),
         (of_warnings(said, flat), &asked),
     );
-    let result = found.result(String::new());
     let shown = Shown {
         text: text::answer_text(&answer, &result),
         csv: text::table(&answer)?,

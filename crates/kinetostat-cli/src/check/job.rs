@@ -35,7 +35,7 @@ use crate::ui::failure::{Answer, Failure};
 use crate::ui::layout::{item, listed, wrapped};
 use crate::ui::numbers::{short, triple};
 use crate::ui::{json, warnings};
-use crate::vibration::damping::{DampingArgs, words};
+use crate::vibration::damping::words;
 
 /// What a job says, stable names with units.
 #[derive(Serialize)]
@@ -139,11 +139,7 @@ fn findings(files: &InputFiles, path: &Path, flags: &ProgramArgs) -> Answer<JobF
         &machine.placement,
         motion,
     ));
-    let options = DampingArgs::default();
-    let judging = setting.chatter.as_ref();
-    let judging = judging.map(|asked| Judging::of((&machine, &model), &options, asked));
-    let judging = judging
-        .transpose()
+    let judging = Judging::of_run((&machine, &model), &setting)
         .map_err(|failure| failure.within(&path.display().to_string()))?;
     let check = |task: &Task<'_>| (refused_question(task), unusual_question(task));
     let forces = forces_of(&machine, &setting, motion, &Unwatched)?;

@@ -28,6 +28,13 @@ pub(crate) struct ChatterFlags {
 }
 
 impl ChatterSetting {
+    /// Of a job that has its chatter judged.
+    pub(crate) fn of_job(job: Option<&JobFile>) -> Answer<Option<Self>> {
+        let asks = job.is_some_and(|j| j.job.chatter.is_some());
+        asks.then(|| Self::of(job, ChatterFlags::default()))
+            .transpose()
+    }
+
     /// Of a job and options.
     pub(crate) fn of(job: Option<&JobFile>, flags: ChatterFlags) -> Answer<Self> {
         let table = job.and_then(|j| Some(j.job.chatter.as_ref()?.get_ref()));

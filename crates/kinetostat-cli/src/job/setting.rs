@@ -11,7 +11,7 @@ use kinetostat_program::{Arcs, Corrected, ReadOptions, RotaryAxes, Warning, Writ
 use crate::files::input_files::InputFiles;
 use crate::files::origin;
 use crate::job::arguments::{ProgramArgs, WritingFlags};
-use crate::job::chatter::{ChatterFlags, ChatterSetting};
+use crate::job::chatter::ChatterSetting;
 use crate::job::expansion::flat::flattened;
 use crate::job::expansion::settings::wanted;
 use crate::job::features::features;
@@ -216,10 +216,7 @@ pub(crate) fn setting(
     write.max_blocks_per_s = max_blocks_per_second;
     let features = features(job)?;
     let uncertain = uncertainty(files, job, &flags.uncertain)?;
-    let chatter = match job.is_some_and(|j| j.job.chatter.is_some()) {
-        true => Some(ChatterSetting::of(job, ChatterFlags::default())?),
-        false => None,
-    };
+    let chatter = ChatterSetting::of_job(job)?;
     let program_name = path.file_name().map_or_else(
         || path.display().to_string(),
         |n| n.to_string_lossy().into_owned(),

@@ -29,6 +29,16 @@ pub(crate) struct Judging<'a> {
 }
 
 impl<'a> Judging<'a> {
+    /// Of a run, where its job asks for it.
+    pub(crate) fn of_run(
+        with: (&'a MachineSetup, &Model),
+        setting: &'a Setting,
+    ) -> Answer<Option<Self>> {
+        let asked = setting.chatter.as_ref();
+        let judging = asked.map(|asked| Self::of(with, &DampingArgs::default(), asked));
+        judging.transpose()
+    }
+
     /// Options of damping go before the job, and that before the model.
     pub(crate) fn of(
         (machine, model): (&'a MachineSetup, &Model),

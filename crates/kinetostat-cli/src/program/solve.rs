@@ -29,7 +29,6 @@ use crate::program::uncertainty::{self, PLACES, put_band};
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::progress::Progress;
 use crate::ui::threads::in_threads;
-use crate::vibration::damping::DampingArgs;
 
 /// The tools of a job, where it names several.
 fn tools<'m>(machine: &'m MachineSetup, forces: Option<&ForceAlongPath>) -> Vec<Tool<'m>> {
@@ -223,12 +222,8 @@ pub(crate) fn turned(
     let uncertain = setting.uncertain.as_ref();
     let uncertain = uncertain.map(|own| Answer::Ok((own, uncertainty::read(own, model, machine)?)));
     let uncertain = uncertain.transpose()?;
-    let options = DampingArgs::default();
-    let judging = setting.chatter.as_ref();
-    let judging = judging.map(|asked| Judging::of((machine, model), &options, asked));
-    let judging = judging
-        .transpose()
-        .map_err(|failure| setting.within(failure))?;
+    let judging = Judging::of_run((machine, model), setting);
+    let judging = judging.map_err(|failure| setting.within(failure))?;
     let (result, parts, found) =
         with_task(aim, machine, setting, &read, forces.as_ref(), |task| {
             let result = in_threads(threads, || match aim {

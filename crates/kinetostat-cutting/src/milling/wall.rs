@@ -78,8 +78,7 @@ impl<L: ForceLaw + ?Sized> Milling<'_, L> {
     pub fn surface_generation(&self, wall: Wall) -> Option<CutForce> {
         let wall = self.wall_as_it_turns(wall);
         let makes = |contact: &&Contact| {
-            let past = (wall.angle() - contact.entry + AT_THE_WALL).rem_euclid(2.0 * PI);
-            contact.edge == Edge::Side && past <= contact.exit - contact.entry + 2.0 * AT_THE_WALL
+            contact.edge == Edge::Side && contact.reaches(wall.angle(), AT_THE_WALL)
         };
         let (mut sum, mut length) = (CutForce::default(), 0.0);
         for contact in self.engagement.contacts.iter().filter(makes) {

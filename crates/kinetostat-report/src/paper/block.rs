@@ -50,6 +50,16 @@ pub(crate) struct Remark {
     pub(crate) text: String,
 }
 
+impl Remark {
+    pub(crate) fn new(name: &str, size: String, text: String) -> Self {
+        Self {
+            name: name.to_owned(),
+            size,
+            text,
+        }
+    }
+}
+
 /// A table: its head stands again on every page.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Table {

@@ -4,12 +4,12 @@ use kinetostat_machining::{ChatterLines, ChatterPlace, ChatterResult};
 use minijinja::{Value, context};
 
 use crate::chart::plot::{Plot, PlotLine};
-use crate::number::{self, MISSING, Rounding, typeset};
+use crate::number::{self, MISSING, Rounding};
 use crate::run::shown::Shown;
 use crate::text;
 
 /// Most stretches shown; more are in the result file.
-const MOST: usize = 20;
+pub(crate) const MOST: usize = 20;
 
 /// Places farther apart have air between them, or a move that nothing is known of, mm.
 const APART_MM: f64 = 10.0;
@@ -50,13 +50,7 @@ fn row(stretch: &ChatterLines) -> Value {
 
 /// Of a stretch: lines, speed, depth, stable depth, frequency, stable speed; numbers in type, without units.
 pub(crate) fn cells(stretch: &ChatterLines) -> [String; 6] {
-    let digits = |value: f64, digits: usize| {
-        typeset(&kinetostat_machining::number::significant(
-            value,
-            digits,
-            Rounding::Nearest,
-        ))
-    };
+    let digits = |value, digits| number::significant(value, digits, Rounding::Nearest);
     let [first, last] = stretch.lines.map(number::count);
     [
         match first == last {

@@ -3,11 +3,11 @@
 //! The force is that of the cut's own law over a revolution, edge forces and run-out included, with the arc and the depth of the place.
 //! A vibration that comes back with every tooth is not regenerated; that of a run-out would be, and is taken as if it were not.
 
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::PI;
 
 use kinetostat_chatter::{Cut, Milled, PeriodicForce, Regeneration, Result, Vibration};
 use kinetostat_cutting::{Contact, Engagement, Feed, Milling, Revolution};
-use kinetostat_machining::{ContactArc, CuttingTool};
+use kinetostat_machining::CuttingTool;
 use nalgebra::Vector3;
 
 use crate::vibration::program::site::CutSite;
@@ -76,7 +76,7 @@ impl ForcedVibration {
         let height = 1e-3 * station.depth_mm / (HEIGHTS - 1) as f64;
         let heights: Vec<f64> = (0..HEIGHTS).map(|i| height * i as f64).collect();
         let mut errors = Vec::new();
-        for milled in walls(contact) {
+        for milled in walls(side) {
             errors.extend(vibration.surface_error(cut, milled, &heights)?);
         }
         errors.sort_by(f64::total_cmp);
@@ -103,14 +103,10 @@ fn of_milling(revolution: &Revolution, teeth: usize) -> Result<PeriodicForce> {
     }
 }
 
-/// The walls that a cut with such an arc leaves: a tooth that comes in at 0 makes the left one as in up milling, one that leaves at pi
-/// the right one as in down milling.
-fn walls(contact: ContactArc) -> impl Iterator<Item = Milled> {
-    let reaches = move |angle: f64| {
-        let past = (angle - contact.entry + AT_WALL).rem_euclid(TAU);
-        past <= contact.exit - contact.entry + 2.0 * AT_WALL
-    };
+/// The walls that a cut leaves: a tooth that comes in at 0 makes the left one as in up milling, one that leaves at pi the right one as
+/// in down milling.
+fn walls(side: Contact) -> impl Iterator<Item = Milled> {
     [(0.0, Milled::Up), (PI, Milled::Down)]
         .into_iter()
-        .filter_map(move |(angle, milled)| reaches(angle).then_some(milled))
+        .filter_map(move |(angle, milled)| side.reaches(angle, AT_WALL).then_some(milled))
 }

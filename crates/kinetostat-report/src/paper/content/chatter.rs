@@ -1,14 +1,11 @@
 //! Where the program chatters, and how the teeth shake the tool.
 
-use crate::number::{self, Rounding};
+use crate::number;
 use crate::paper::block::{Block, Cell, Column, Remark, Table};
 use crate::paper::content::of::Of;
 use crate::paper::words::table::fill;
-use crate::run::chatter::cells;
+use crate::run::chatter::{MOST, cells};
 use crate::text::clean;
-
-/// Most stretches shown; more are in the result file.
-const MOST: usize = 20;
 
 /// The section; nothing where chatter was not judged.
 pub(super) fn chatter(of: &Of<'_>) -> Vec<Block> {
@@ -16,10 +13,7 @@ pub(super) fn chatter(of: &Of<'_>) -> Vec<Block> {
     let Some(found) = &of.result.chatter else {
         return Vec::new();
     };
-    let digits = |value: f64, digits: usize, unit: &str| {
-        let text = number::significant(value, digits, Rounding::Nearest);
-        of.figure(&number::typeset(&format!("{text} {unit}")))
-    };
+    let digits = |value: f64, unit: &str| of.significant(value, 3, unit);
     let mut blocks = vec![Block::Heading(words.head_chatter.to_owned())];
     let verdict = match (found.stretches.len(), found.places_judged) {
         (0, 0) => words.chatter_unjudged,
@@ -38,19 +32,13 @@ pub(super) fn chatter(of: &Of<'_>) -> Vec<Block> {
         blocks.push(Block::Table(Table { columns, rows }));
     }
     let mut remarks = Vec::new();
-    let mut remark = |name: &str, size: String, text: String| {
-        remarks.push(Remark {
-            name: name.to_owned(),
-            size,
-            text,
-        });
-    };
+    let mut remark = |name, size, text| remarks.push(Remark::new(name, size, text));
     if let Some((place, limit)) = found.nearest.as_ref().and_then(|p| Some((p, p.limit_mm?))) {
-        let (line, depth) = (number::count(place.line), digits(place.depth_mm, 3, "mm"));
+        let (line, depth) = (number::count(place.line), digits(place.depth_mm, "mm"));
         let values = [("line", line.as_str()), ("depth", &depth)];
         remark(
             words.chatter_nearest,
-            digits(limit, 3, "mm"),
+            digits(limit, "mm"),
             fill(words.chatter_nearest_text, &values),
         );
     }
@@ -58,13 +46,13 @@ pub(super) fn chatter(of: &Of<'_>) -> Vec<Block> {
     if let Some((place, rms)) = shaken.and_then(|p| Some((p, p.vibration_rms_um?))) {
         let (line, hz) = (
             number::count(place.line),
-            digits(place.strongest_hz.unwrap_or(f64::NAN), 3, "Hz"),
+            digits(place.strongest_hz.unwrap_or(f64::NAN), "Hz"),
         );
-        let mode = digits(place.nearest_mode_hz.unwrap_or(f64::NAN), 3, "Hz");
+        let mode = digits(place.nearest_mode_hz.unwrap_or(f64::NAN), "Hz");
         let values = [("line", line.as_str()), ("frequency", &hz), ("mode", &mode)];
         remark(
             words.shaken,
-            digits(rms, 3, "um"),
+            digits(rms, "µm"),
             fill(words.shaken_text, &values),
         );
     }
@@ -76,7 +64,7 @@ pub(super) fn chatter(of: &Of<'_>) -> Vec<Block> {
         let values = [("line", line.as_str()), ("side", side)];
         remark(
             words.wall,
-            digits(wall.abs(), 3, "um"),
+            digits(wall.abs(), "µm"),
             fill(words.wall_text, &values),
         );
     }

@@ -1,6 +1,6 @@
 //! What every section of a paper is made from.
 
-use crate::number;
+use crate::number::{self, Rounding};
 use crate::paper::block::Block;
 use crate::paper::language::Language;
 use crate::paper::question::Paper;
@@ -23,6 +23,12 @@ impl Of<'_> {
     /// A figure of the report in this language.
     pub(super) fn figure(&self, text: &str) -> String {
         self.language.figure(text, &self.words.figures)
+    }
+
+    /// A number with so many significant digits and its unit.
+    pub(super) fn significant(&self, value: f64, digits: usize, unit: &str) -> String {
+        let text = number::significant(value, digits, Rounding::Nearest);
+        self.figure(&number::with_unit(&text, unit))
     }
 
     /// A largest length.

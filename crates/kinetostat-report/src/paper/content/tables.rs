@@ -203,13 +203,7 @@ fn joints(of: &Of<'_>) -> Vec<Remark> {
         of.text(actuator.map_or("", |a| a.name.as_str()))
     };
     let mut remarks = Vec::new();
-    let mut remark = |name: &str, size: String, text: String| {
-        remarks.push(Remark {
-            name: name.to_owned(),
-            size,
-            text,
-        });
-    };
+    let mut remark = |name, size, text| remarks.push(Remark::new(name, size, text));
     if let (Some(found), Some(size)) = (&result.joints.nearest_limit, &result.figures.nearest_limit)
     {
         let (drive, line) = (name(found.limit.actuator), number::count(found.line));
@@ -252,10 +246,7 @@ pub(super) fn cut(of: &Of<'_>) -> Vec<Block> {
         columns.push(Column::figures(words.cut_share));
     }
     columns.extend([words.cut_power, words.cut_depth].map(Column::figures));
-    let digits = |value: f64, unit: &str| {
-        let text = number::significant(value, 3, Rounding::Nearest);
-        Cell::from(of.figure(&number::with_unit(&text, unit)))
-    };
+    let digits = |value: f64, unit: &str| Cell::from(of.significant(value, 3, unit));
     let row = |place: &CutPlace| {
         let mut cells = vec![
             Cell::from(line(of, place.line)),
