@@ -29,7 +29,9 @@ pub(crate) fn run(args: &LobesArgs) -> Answer<()> {
     let request = request(args)?;
     let query = subject::query(&args.machine)?;
     let damping = damped(&args.damping, &query.damping, "lobes need")?;
-    let files = ClaimedFiles::claim(&args.outputs, &query.inputs)?;
+    let mut inputs = query.inputs.clone();
+    inputs.extend(args.material.materials.clone());
+    let files = ClaimedFiles::claim(&args.outputs, &inputs)?;
     let frame = frame(args, &query.target)?;
     let posture = query.posture()?;
     let machine = subject::machine(&query, &posture, &Held::nothing())?;

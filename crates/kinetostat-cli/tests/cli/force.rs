@@ -296,7 +296,7 @@ run_out_um = 15
 flute_length_mm = 20
 "#;
 
-const OWN: &str = r#"[[material]]
+pub const OWN: &str = r#"[[material]]
 name = "wax"
 group = "other"
 spread_percent = 10

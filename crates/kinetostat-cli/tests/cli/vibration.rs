@@ -179,6 +179,23 @@ fn lobes_of_a_material_are_those_of_its_slope() {
     for (thin, thick) in limits(&by_material).iter().zip(limits(&thicker)) {
         assert!(thick > *thin, "{thick} {thin}");
     }
+    // A file of materials is an input: never written over.
+    let own = here.path().join("own.toml");
+    std::fs::write(&own, crate::force::OWN).expect("a file");
+    let line = format!(
+        "lobes arm6.toml {cut} --material wax --materials own.toml --feed-per-tooth-mm 0.1"
+    );
+    said(here.path(), &line).answered();
+    let over = said(
+        here.path(),
+        &format!("{line} --csv own.toml --force-overwrite"),
+    );
+    assert_eq!(over.code, 1, "{over:?}");
+    assert!(over.err.contains("own.toml"), "{over:?}");
+    assert_eq!(
+        std::fs::read_to_string(own).expect("a file"),
+        crate::force::OWN
+    );
 }
 
 #[test]
