@@ -164,10 +164,9 @@ impl ModelField<'_> {
                     .map(|(r, wrench)| self.by_axes(&mut memory[0], mechanism, (r, wrench)))
                     .collect();
             }
-            let together = || machine.targets(&poses, &wrenches, self.corrected);
             let targets = match self.course {
                 Some(_) => None,
-                None => together(),
+                None => targets(&machine, &poses, &wrenches, self.corrected),
             };
             if let Some(targets) = targets {
                 let all = places.iter().zip(&poses).zip(&targets);
@@ -191,6 +190,26 @@ impl ModelField<'_> {
             .collect()
         })
     }
+}
+
+/// Poses to command for places along a path. Where a block begins as the one before it ended, the place is found once.
+fn targets(
+    machine: &AlongPath,
+    poses: &[Pose],
+    wrenches: &[Wrench],
+    corrected: Directions,
+) -> Option<Vec<Pose>> {
+    let mut answer_of = Vec::with_capacity(poses.len());
+    let (mut places, mut loads) = (Vec::new(), Vec::new());
+    for (pose, wrench) in poses.iter().zip(wrenches) {
+        if places.last() != Some(pose) || loads.last() != Some(wrench) {
+            places.push(*pose);
+            loads.push(*wrench);
+        }
+        answer_of.push(places.len() - 1);
+    }
+    let found = machine.targets(&places, &loads, corrected)?;
+    Some(answer_of.into_iter().map(|k| found[k]).collect())
 }
 
 /// Steps of the iteration for the angles of rotary axes: each is exact to the share by which the deflection changes with them.
