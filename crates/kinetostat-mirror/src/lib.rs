@@ -19,7 +19,7 @@
 //! let path = interpret(&program, &ReadOptions::default())?;
 //! let nominal = NominalPath::new(&path)?;
 //! let settings = MeasureSettings { register: false, ..MeasureSettings::default() };
-//! let mut state = MirrorState::new(&nominal, "the program's hash", settings);
+//! let mut state = MirrorState::new(&nominal, "the program's hash", settings)?;
 //!
 //! // A machine that goes 0.1 mm too far to the left, measured every mm.
 //! let points: Vec<_> = (0..=100).map(|x| Vector3::new(f64::from(x), 0.1, 0.0)).collect();

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use kinetostat_mirror::{MeasureSettings, MirrorState};
+use kinetostat_mirror::{MeasureSettings, MirrorState, NominalPath, Stations};
 
 use crate::files::input_files::InputFiles;
 use crate::job::arguments::{ProgramArgs, WritingFlags};
@@ -62,14 +62,24 @@ pub(crate) fn flags_of(args: &MirrorArgs, program: &Path) -> ProgramArgs {
     }
 }
 
-pub(crate) fn settings_of(args: &MirrorArgs) -> MeasureSettings {
+/// How this trial is measured, as lengths that its path allows.
+pub(crate) fn settings_of(args: &MirrorArgs, nominal: &NominalPath<'_>) -> Answer<MeasureSettings> {
     let usual = MeasureSettings::default();
-    MeasureSettings {
+    let settings = MeasureSettings {
         smoothing_mm: args.smoothing_mm.unwrap_or(usual.smoothing_mm),
         window_mm: args.window_mm.unwrap_or(usual.window_mm),
         align: args.align.map_or(usual.align, Into::into),
         register: !args.no_register,
         scale: args.scale,
+    };
+    Stations::of(nominal, settings.smoothing_mm)
+        .map_err(|error| Failure::from(error).within("--smoothing-mm"))?;
+    match settings.window_mm > 0.0 {
+        true => Ok(settings),
+        false => Err(Failure::input(format!(
+            "--window-mm {}: a length above 0 is needed",
+            settings.window_mm
+        ))),
     }
 }
 

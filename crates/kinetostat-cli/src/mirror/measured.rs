@@ -6,7 +6,6 @@ use kinetostat_mirror::{
     MeasureSettings, MeasuredFile, MeasuredPoints, Measurement, NominalPath, Repeatability, measure,
 };
 
-use crate::files::hash::sha256;
 use crate::files::input_files::{InputFiles, text_in};
 use crate::job::job_file::JobFile;
 use crate::job::program::read_program;
@@ -21,23 +20,25 @@ pub(crate) fn measurements(
     (nominal, settings): (&NominalPath<'_>, &MeasureSettings),
 ) -> Answer<Vec<(MeasuredFile, Measurement)>> {
     let one = |path: &PathBuf| {
-        let bytes = files.bytes("measurement", path)?;
-        let file = MeasuredFile {
-            name: path
-                .file_name()
-                .map_or_else(String::new, |n| n.to_string_lossy().into_owned()),
-            sha256: sha256(&bytes),
-        };
         let name = path.display().to_string();
         let is_table = path.extension().is_some_and(|e| e == "csv" || e == "txt");
         let points = match is_table {
-            true => MeasuredPoints::read(&name, &text_in("measurement", path, bytes)?)?,
+            true => {
+                let bytes = files.bytes("measurement", path)?;
+                MeasuredPoints::read(&name, &text_in("measurement", path, bytes)?)?
+            }
             false => {
                 let second = asked(files, job, args, path)?;
                 let read = read_program(&second)?;
                 MeasuredPoints::along(read.path(), 0.1 * settings.smoothing_mm)
                     .map_err(|error| Failure::from(error).within(&name))?
             }
+        };
+        let file = MeasuredFile {
+            name: path
+                .file_name()
+                .map_or_else(String::new, |n| n.to_string_lossy().into_owned()),
+            sha256: points.sha256(),
         };
         let found = measure(nominal, &points, settings);
         Ok((file, found.map_err(|e| Failure::from(e).within(&name))?))

@@ -51,11 +51,11 @@ pub(crate) fn run(args: &MirrorArgs) -> Answer<()> {
     let read = read_program(&setting)?;
     let nominal =
         NominalPath::new(read.path()).map_err(|e| setting.within(MirrorError::from(e).into()))?;
-    let settings = settings_of(args);
+    let settings = settings_of(args, &nominal)?;
     let hash = hash_of(&setting);
     let mut state = match &args.state {
         Some(path) if path.exists() => read_state(&files, path)?,
-        _ => MirrorState::new(&nominal, &hash, settings),
+        _ => MirrorState::new(&nominal, &hash, settings)?,
     };
     let of_state = |error: MirrorError| {
         let name = args.state.as_ref().map(|path| path.display().to_string());

@@ -102,21 +102,18 @@ pub struct Measurement {
 /// ```
 ///
 /// # Errors
-/// Settings that are no lengths, a registration that fails, and points none of which has a place on the path.
+/// Settings that are no lengths, or a smoothing length that is far too small for the path; a registration that fails, and points none of which has a place on the path.
 pub fn measure(
     nominal: &NominalPath<'_>,
     measured: &MeasuredPoints,
     settings: &MeasureSettings,
 ) -> Result<Measurement, MirrorError> {
-    for (name, value) in [
-        ("smoothing length", settings.smoothing_mm),
-        ("window", settings.window_mm),
-    ] {
-        if !(value > 0.0 && value.is_finite()) {
-            return Err(MirrorError::new(format!(
-                "the {name} is {value} mm; expected a length above 0"
-            )));
-        }
+    let stations = Stations::of(nominal, settings.smoothing_mm)?;
+    if !(settings.window_mm > 0.0 && settings.window_mm.is_finite()) {
+        return Err(MirrorError::new(format!(
+            "the window is {} mm; expected a length above 0",
+            settings.window_mm
+        )));
     }
     let options = RegistrationOptions {
         with_scale: settings.scale,
@@ -143,7 +140,6 @@ pub fn measure(
     let kernel = Kernel {
         length_mm: settings.smoothing_mm,
     };
-    let stations = Stations::of(nominal, settings.smoothing_mm);
     let (mut at_points, mut at_stations) = (Vec::new(), Vec::new());
     for stretch in stations.stretches() {
         let first = points.partition_point(|point| point.piece < stretch.pieces.start);

@@ -5,10 +5,14 @@
 
 use std::ops::Range;
 
+use crate::error::MirrorError;
 use kinetostat_program::NominalPath;
 
 /// Stations in a smoothing length: on cubic curves between them nothing is lost of what the kernel lets through.
 const IN_SMOOTHING_LENGTH: f64 = 4.0;
+
+/// More stations than this fill memory and state without telling more: a measurement has fewer points.
+const MOST: f64 = 1e6;
 
 /// Cosine of the turn (20 degrees) from which on a path has a corner; what is less is a curve in short lines.
 const CORNER: f64 = 0.939_692_620_785_908_4;
@@ -37,9 +41,12 @@ pub struct Stretch {
 ///
 /// let program = Program::read("G21 G90\nG0 X0 Y0 Z0\nG1 X10 F300\nG1 Y5\n")?;
 /// let path = interpret(&program, &ReadOptions::default())?;
-/// let stations = Stations::of(&NominalPath::new(&path)?, 10.0);
+/// let nominal = NominalPath::new(&path)?;
+/// let stations = Stations::of(&nominal, 10.0)?;
 /// assert_eq!(stations.along_mm(), [0.0, 2.5, 5.0, 7.5, 10.0, 10.0, 12.5, 15.0]);
 /// assert_eq!(stations.stretches()[1].stations, 5..8);
+/// let why = Stations::of(&nominal, 1e-9).unwrap_err().to_string();
+/// assert!(why.ends_with("this path of 15 mm allows lengths from 0.00006 mm on"), "{why}");
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
@@ -50,8 +57,11 @@ pub struct Stations {
 
 impl Stations {
     /// Four stations on a smoothing length, two at least on each stretch.
-    #[must_use]
-    pub fn of(nominal: &NominalPath<'_>, smoothing_mm: f64) -> Self {
+    ///
+    /// # Errors
+    /// A smoothing length that is not above 0, or so small that the path has more than a million stations.
+    pub fn of(nominal: &NominalPath<'_>, smoothing_mm: f64) -> Result<Self, MirrorError> {
+        possible(nominal, smoothing_mm)?;
         let mut along_mm = Vec::new();
         let mut stretches = Vec::new();
         for (pass, own) in nominal.passes().iter().enumerate() {
@@ -72,10 +82,10 @@ impl Stations {
                 });
             }
         }
-        Self {
+        Ok(Self {
             along_mm,
             stretches,
-        }
+        })
     }
 
     /// Their lengths along the path, mm; the end of a stretch and the beginning of the next have the same.
@@ -109,6 +119,31 @@ impl Stations {
         }
         lengths
     }
+}
+
+/// A smoothing length with which the stations of this path can be counted.
+fn possible(nominal: &NominalPath<'_>, smoothing_mm: f64) -> Result<(), MirrorError> {
+    let length_mm = nominal.length_mm();
+    if smoothing_mm > 0.0
+        && smoothing_mm.is_finite()
+        && length_mm * IN_SMOOTHING_LENGTH / smoothing_mm <= MOST
+    {
+        return Ok(());
+    }
+    // Rounded up to two digits, so that what is named is allowed.
+    let least = length_mm * IN_SMOOTHING_LENGTH / MOST;
+    let digit = 10.0_f64.powf(least.log10().floor() - 1.0);
+    let least = (least / digit - 1e-6).ceil() * digit * (1.0 + 1e-6);
+    Err(MirrorError::new(format!(
+        "the smoothing length is {smoothing_mm} mm; this path of {} mm allows lengths from {} mm on",
+        in_short(length_mm),
+        in_short(least)
+    )))
+}
+
+/// A length with so many digits as one reads.
+fn in_short(mm: f64) -> f64 {
+    format!("{mm:.3e}").parse().unwrap_or(mm)
 }
 
 /// Pieces of a pass, divided at its corners.

@@ -2,6 +2,7 @@
 
 mod columns;
 mod read;
+mod same;
 mod sampled;
 mod set;
 

@@ -38,7 +38,7 @@ impl<'a> MirrorField<'a> {
     pub fn new(nominal: &'a NominalPath<'a>, state: &'a MirrorState) -> Result<Self, MirrorError> {
         state.fits(nominal, &state.program_sha256, &state.settings)?;
         let smoothing_mm = state.settings.smoothing_mm;
-        let stations = Stations::of(nominal, smoothing_mm);
+        let stations = Stations::of(nominal, smoothing_mm)?;
         let correction_mm = joined(nominal, &stations, &state.correction_mm, smoothing_mm);
         let slope = slopes(&stations, &correction_mm);
         let places = places(nominal, &stations);

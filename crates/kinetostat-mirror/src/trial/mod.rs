@@ -5,6 +5,7 @@ mod field;
 mod joined;
 mod repeatability;
 mod state;
+mod taking;
 
 pub use convergence::{Convergence, bound_on_relaxation, expected_factor};
 pub use field::{MirrorField, SumOfFields};

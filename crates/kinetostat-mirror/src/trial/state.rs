@@ -7,6 +7,7 @@ use crate::deviation::{DeviationFigures, MeasureSettings, Measurement, Stations}
 use crate::error::MirrorError;
 use crate::trial::convergence::Convergence;
 use crate::trial::repeatability::{Averaging, Repeatability, floor_mm};
+use crate::trial::taking::{are_new, have_places};
 use kinetostat_program::NominalPath;
 
 /// Of the form of the state.
@@ -17,7 +18,7 @@ const SCHEMA: u32 = 1;
 pub struct MeasuredFile {
     /// Its name.
     pub name: String,
-    /// SHA-256 of it.
+    /// [`MeasuredPoints::sha256`](crate::MeasuredPoints::sha256): of its points, not of its text.
     pub sha256: String,
 }
 
@@ -76,15 +77,17 @@ pub struct MirrorState {
 
 impl MirrorState {
     /// Of a program without trials.
-    #[must_use]
+    ///
+    /// # Errors
+    /// A smoothing length that this path does not allow ([`Stations::of`]).
     pub fn new(
         nominal: &NominalPath<'_>,
         program_sha256: impl Into<String>,
         settings: MeasureSettings,
-    ) -> Self {
-        let stations = Stations::of(nominal, settings.smoothing_mm);
+    ) -> Result<Self, MirrorError> {
+        let stations = Stations::of(nominal, settings.smoothing_mm)?;
         let along_mm = stations.along_mm().to_vec();
-        Self {
+        Ok(Self {
             schema: SCHEMA,
             program_sha256: program_sha256.into(),
             settings,
@@ -92,7 +95,7 @@ impl MirrorState {
             correction_mm: vec![Vector3::zeros(); along_mm.len()],
             deviation_mm: vec![Vector3::zeros(); along_mm.len()],
             along_mm,
-        }
+        })
     }
 
     /// Whether it belongs to this program and these settings.
@@ -105,7 +108,7 @@ impl MirrorState {
         program_sha256: &str,
         settings: &MeasureSettings,
     ) -> Result<(), MirrorError> {
-        let fresh = Self::new(nominal, program_sha256, *settings);
+        let fresh = Self::new(nominal, program_sha256, *settings)?;
         let (own, other) = (&self.settings, settings);
         let fields = [
             ("schema", self.schema.to_string(), fresh.schema.to_string()),
@@ -162,7 +165,8 @@ impl MirrorState {
     /// Takes the measurements of one more trial, and mirrors the mean of their deviations unless it is within the repeatability.
     ///
     /// # Errors
-    /// A relaxation that is not above 0 and below 2; no measurement, one of another path, or one that an earlier trial has taken.
+    /// A relaxation that is not above 0 and below 2; no measurement, one of another path, or one that an earlier trial has taken
+    /// or that comes twice; one of which most points have no place on the path.
     pub fn take(
         &mut self,
         nominal: &NominalPath<'_>,
@@ -182,17 +186,10 @@ impl MirrorState {
                 "a trial needs a measurement of its own path, smoothed over the same length",
             ));
         };
-        let taken = self.trials.iter().flat_map(|trial| &trial.measured);
-        for (file, _) in measured {
-            if let Some(before) = taken.clone().find(|before| before.sha256 == file.sha256) {
-                return Err(MirrorError::new(format!(
-                    "{} is the measurement {} of an earlier trial: measure the program with its new correction",
-                    file.name, before.name
-                )));
-            }
-        }
+        are_new(&self.trials, measured)?;
+        have_places(measured)?;
         let deviation = mean_deviation(measured, stations);
-        let lengths = Stations::of(nominal, self.settings.smoothing_mm).lengths_mm();
+        let lengths = Stations::of(nominal, self.settings.smoothing_mm)?.lengths_mm();
         let seen = |k: usize| {
             measured
                 .iter()

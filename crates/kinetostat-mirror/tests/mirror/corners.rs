@@ -28,7 +28,7 @@ fn mirrored(path: &Path, off: impl Fn(f64) -> Vector3<f64>) -> MirrorState {
     )
     .expect("a measurement");
     assert!(measured.outliers.is_empty(), "{:?}", measured.outliers);
-    let mut state = MirrorState::new(&nominal, "corners", settings);
+    let mut state = MirrorState::new(&nominal, "corners", settings).expect("a state");
     let file = MeasuredFile {
         name: "trial1.csv".into(),
         sha256: "its hash".into(),
@@ -164,7 +164,7 @@ fn a_leg_without_points_is_led_from_one_to_the_other() {
         &settings,
     )
     .expect("a measurement");
-    let mut state = MirrorState::new(&nominal, "leg", settings);
+    let mut state = MirrorState::new(&nominal, "leg", settings).expect("a state");
     let file = MeasuredFile {
         name: "trial1.csv".into(),
         sha256: "its hash".into(),

@@ -7,5 +7,7 @@ mod files;
 mod machine;
 mod outliers;
 mod registration;
+mod settings;
+mod taking;
 mod trials;
 mod writing;

@@ -43,7 +43,7 @@ fn trials(
 ) {
     let (program, path) = read(LINE);
     let nominal = NominalPath::new(&path).expect("a trial");
-    let mut state = MirrorState::new(&nominal, "line", SETTINGS);
+    let mut state = MirrorState::new(&nominal, "line", SETTINGS).expect("a state");
     for trial in 0..count {
         let sent = match trial {
             0 => path.clone(),

@@ -19,7 +19,7 @@ fn wave(along: f64) -> Vector3<f64> {
 
 fn state(nominal: &NominalPath<'_>) -> MirrorState {
     let settings = MeasureSettings::default();
-    let mut state = MirrorState::new(nominal, "passes", settings);
+    let mut state = MirrorState::new(nominal, "passes", settings).expect("a state");
     for (correction, along) in state.correction_mm.iter_mut().zip(&state.along_mm) {
         *correction = wave(*along);
     }

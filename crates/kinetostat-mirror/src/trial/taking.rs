@@ -1,0 +1,88 @@
+//! Which measurements a trial takes.
+
+use crate::alignment::LeftOut;
+use crate::deviation::Measurement;
+use crate::error::MirrorError;
+use crate::trial::state::{MeasuredFile, Trial};
+use kinetostat_program::WhyLeftOut;
+
+/// Measurements that no trial has taken yet, this one included: one that comes twice says nothing of how trials repeat.
+pub(crate) fn are_new(
+    trials: &[Trial],
+    measured: &[(MeasuredFile, Measurement)],
+) -> Result<(), MirrorError> {
+    let taken = trials.iter().flat_map(|trial| &trial.measured);
+    for (k, (file, _)) in measured.iter().enumerate() {
+        let same = |other: &&MeasuredFile| other.sha256 == file.sha256;
+        if let Some(before) = taken.clone().find(same) {
+            return Err(MirrorError::new(format!(
+                "{} is the measurement {} of an earlier trial, point for point: measure the program with its new correction",
+                file.name, before.name
+            )));
+        }
+        if let Some(first) = measured[..k].iter().map(|(file, _)| file).find(same) {
+            return Err(MirrorError::new(format!(
+                "{} and {} are one measurement, point for point: give it once, and measure the trial again for a second one",
+                first.name, file.name
+            )));
+        }
+    }
+    Ok(())
+}
+
+/// Measurements most of whose points have a place on the path: a few that found one by chance are nothing to correct by.
+pub(crate) fn have_places(measured: &[(MeasuredFile, Measurement)]) -> Result<(), MirrorError> {
+    for (file, found) in measured {
+        let (without, with) = (&found.left_out, found.points.len() + found.outliers.len());
+        if without.len() > with {
+            return Err(MirrorError::new(format!(
+                "{}: {} of its {} points have no place on the path ({}); nothing was mirrored. {}, and leave out points that are not of this path",
+                file.name,
+                without.len(),
+                without.len() + with,
+                counted(without),
+                what_to_do(without)
+            )));
+        }
+    }
+    Ok(())
+}
+
+const REASONS: [(WhyLeftOut, &str, &str); 3] = [
+    (
+        WhyLeftOut::OutOfOrder,
+        "behind the points before them",
+        "Give them in the order in which the tool went, or align each with its nearest place",
+    ),
+    (
+        WhyLeftOut::BeyondWindow,
+        "beyond the window",
+        "Check units and frame, register the points, or widen the window",
+    ),
+    (
+        WhyLeftOut::SeveralStretches,
+        "where several passes of the tool come by",
+        "Align them by arc length in the order in which the tool went, name the line of each, or make the window smaller",
+    ),
+];
+
+fn number_of(without: &[LeftOut], why: WhyLeftOut) -> usize {
+    without.iter().filter(|point| point.why == why).count()
+}
+
+fn counted(without: &[LeftOut]) -> String {
+    let all = REASONS.map(|(why, words, _)| (number_of(without, why), words));
+    let named = all.iter().filter(|(count, _)| *count > 0);
+    let named: Vec<String> = named
+        .map(|(count, words)| format!("{count} {words}"))
+        .collect();
+    named.join(", ")
+}
+
+/// Against the reason of most of them.
+fn what_to_do(without: &[LeftOut]) -> &'static str {
+    let most = REASONS
+        .iter()
+        .max_by_key(|(why, ..)| number_of(without, *why));
+    most.map_or("", |(_, _, advice)| advice)
+}
