@@ -4,7 +4,7 @@ use nalgebra::Vector3;
 
 use crate::error::MirrorError;
 use crate::points::columns::{Columns, shown};
-use crate::points::set::{MeasuredPoint, MeasuredPoints};
+use crate::points::set::{MeasuredPoint, MeasuredPoints, possible};
 
 impl MeasuredPoints {
     /// Points from CSV with commas or semicolons: columns of x, y and z with their units (`x_mm`, `y_m`, `z_um`), and
@@ -50,7 +50,9 @@ impl MeasuredPoints {
                 ))));
             }
             let place = (points.len() + 1, number);
-            points.push(point(found, &record, place).map_err(at)?);
+            let point = point(found, &record, place).map_err(at)?;
+            possible(&point).map_err(at)?;
+            points.push(point);
         }
         Self::new(points).map_err(|error| error.at(name_of_file, last))
     }
@@ -67,6 +69,16 @@ fn cells(line: &str, separator: u8) -> Result<csv::StringRecord, MirrorError> {
     match reader.read_record(&mut record) {
         Ok(_) => Ok(record),
         Err(error) => Err(MirrorError::new(error.to_string())),
+    }
+}
+
+/// The weight of a standard deviation, whose unit has so many mm. Its square would take any sign.
+fn of_deviation(sigma: f64, unit_mm: f64) -> Result<f64, MirrorError> {
+    match sigma > 0.0 {
+        true => Ok((unit_mm * sigma).powi(-2)),
+        false => Err(MirrorError::new(format!(
+            "sigma is {sigma}; expected a standard deviation above 0: leave out a row that is not to count, or the column where none is known"
+        ))),
     }
 }
 
@@ -91,7 +103,7 @@ fn point(
     }
     let weight = match (columns.weight, columns.sigma) {
         (Some(index), _) => number("weight", index)?,
-        (None, Some((index, mm))) => (mm * number("sigma", index)?).powi(-2),
+        (None, Some((index, mm))) => of_deviation(number("sigma", index)?, mm)?,
         (None, None) => 1.0,
     };
     let program_line = columns.line.map(|index| {

@@ -7,6 +7,10 @@ use crate::error::MirrorError;
 /// No workshop measures beyond this, mm: a number larger than it is in another unit than its column says.
 const FARTHEST_MM: f64 = 1e6;
 
+/// Weights beyond this and below its inverse are no measurement's, and sums of them lose all others: standard deviations from
+/// 1e-12 mm to 1e12 mm.
+const MOST_WEIGHT: f64 = 1e24;
+
 /// The fewest from which a rigid motion and a scatter can be told.
 const FEWEST: usize = 3;
 
@@ -75,7 +79,7 @@ impl MeasuredPoints {
     /// Points with weights and lines of the program.
     ///
     /// # Errors
-    /// As [`MeasuredPoints::at`]; weights that are not positive.
+    /// As [`MeasuredPoints::at`]; weights that are not positive, or of no measurement.
     pub fn new(points: Vec<MeasuredPoint>) -> Result<Self, MirrorError> {
         if points.len() < FEWEST {
             return Err(MirrorError::new(format!(
@@ -97,7 +101,7 @@ impl MeasuredPoints {
 }
 
 /// A place in a workshop with a weight.
-fn possible(point: &MeasuredPoint) -> Result<(), MirrorError> {
+pub(crate) fn possible(point: &MeasuredPoint) -> Result<(), MirrorError> {
     let at = &point.position_mm;
     if !at.iter().all(|x| x.abs() <= FARTHEST_MM) {
         return Err(MirrorError::new(format!(
@@ -105,11 +109,13 @@ fn possible(point: &MeasuredPoint) -> Result<(), MirrorError> {
             point.row, at.x, at.y, at.z
         )));
     }
-    match point.weight > 0.0 && point.weight.is_finite() {
+    match (1.0 / MOST_WEIGHT..=MOST_WEIGHT).contains(&point.weight) {
         true => Ok(()),
         false => Err(MirrorError::new(format!(
-            "row {}: the weight is {}; expected a number above 0, or a standard deviation above 0: leave out a row that is not to count",
-            point.row, point.weight
+            "row {}: the weight (or 1 / sigma^2, sigma in mm) is {:e}; expected a number from {:e} to {MOST_WEIGHT:e}: leave out a row that is not to count",
+            point.row,
+            point.weight,
+            1.0 / MOST_WEIGHT
         ))),
     }
 }

@@ -45,11 +45,27 @@ fn faults_of_a_measurement_stand_with_their_line() {
         ),
         (
             "x_m,y_m,z_m\n0,0,0\n5000,0,0\n1,1,1\n".to_owned(),
-            "m.csv:4: row 2: the point",
+            "m.csv:3: row 2: the point",
         ),
         (
             "x_mm,y_mm,z_mm,sigma_um\n0,0,0,1\n0,0,1,0\n0,0,2,1\n".to_owned(),
-            "m.csv:4: row 2: the weight is inf",
+            "m.csv:3: sigma is 0; expected a standard deviation above 0",
+        ),
+        (
+            "x_mm,y_mm,z_mm,sigma_mm\n0,0,0,1\n0,0,1,-1\n0,0,2,1\n".to_owned(),
+            "m.csv:3: sigma is -1; expected a standard deviation above 0",
+        ),
+        (
+            "x_mm,y_mm,z_mm,sigma_mm\n0,0,0,1\n0,0,1,NaN\n0,0,2,1\n".to_owned(),
+            "m.csv:3: sigma is `NaN`; expected a number",
+        ),
+        (
+            "x_mm,y_mm,z_mm,sigma_mm\n0,0,0,1\n0,0,1,1e-200\n0,0,2,1\n".to_owned(),
+            "m.csv:3: row 2: the weight (or 1 / sigma^2, sigma in mm) is inf",
+        ),
+        (
+            "x_mm,y_mm,z_mm,weight\n0,0,0,1\n0,0,1,-2\n0,0,2,1\n".to_owned(),
+            "m.csv:3: row 2: the weight (or 1 / sigma^2, sigma in mm) is -2e0",
         ),
         (
             "x_mm,y_mm,z_mm,line\n0,0,0,1.5\n".to_owned(),
@@ -81,7 +97,7 @@ fn a_state_comes_back_and_belongs_to_one_program() {
     let (_, path) = read(SHAPE);
     let nominal = NominalPath::new(&path).unwrap();
     let settings = MeasureSettings::default();
-    let state = MirrorState::new(&nominal, "abc", settings);
+    let state = MirrorState::new(&nominal, "abc", settings).expect("a state");
     let text = toml::to_string(&state).unwrap();
     let back: MirrorState = toml::from_str(&text).unwrap();
     assert_eq!(back, state);
