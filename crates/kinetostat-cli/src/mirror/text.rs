@@ -118,6 +118,9 @@ fn measurement(m: &MeasurementResult) -> String {
             )));
         }
     }
+    if let Some(rejected) = m.registration.as_ref().map(|found| &found.rejected_rows) {
+        out.push_str(&rejected_text(rejected));
+    }
     for outlier in m.outliers.iter().take(LISTED) {
         out.push_str(&item(&format!(
             "row {} is left out: {} from the path, {} from what its neighbours say, where {} could be",
@@ -154,6 +157,23 @@ fn measurement(m: &MeasurementResult) -> String {
         out.push_str(&feature.text());
     }
     out
+}
+
+/// Rows that the registration did not follow: they may still have a place on the path, and a deviation there.
+fn rejected_text(rows: &[usize]) -> String {
+    if rows.is_empty() {
+        return String::new();
+    }
+    let named: Vec<String> = rows.iter().take(LISTED).map(ToString::to_string).collect();
+    item(&format!(
+        "{} of the points did not count in the motion onto the path, being farther from it than six standard deviations: row {}{}",
+        rows.len(),
+        named.join(", "),
+        match rows.len() > LISTED {
+            true => " and others; --json has every one",
+            false => "",
+        }
+    ))
 }
 
 fn why(why: WhyLeftOut) -> &'static str {

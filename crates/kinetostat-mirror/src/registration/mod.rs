@@ -16,6 +16,7 @@
 //! in the frame of the program are not to be registered.
 
 mod closest;
+mod free;
 mod horn;
 mod motion;
 mod search;

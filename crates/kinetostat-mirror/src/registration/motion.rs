@@ -59,6 +59,8 @@ pub enum FreeMotion {
         /// Its direction.
         along: Vector3<f64>,
     },
+    /// A scale, where one is sought.
+    Growth,
 }
 
 impl FreeMotion {
@@ -90,6 +92,7 @@ impl FreeMotion {
                 of(along, 2)
             ),
             Self::Shift { along } => format!("a shift along {}", of(along, 2)),
+            Self::Growth => "a scale".to_owned(),
         }
     }
 }

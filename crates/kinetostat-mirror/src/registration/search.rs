@@ -8,6 +8,7 @@ use crate::registration::motion::{FreeMotion, Motion};
 use crate::registration::starts::starts;
 use crate::registration::step::step;
 use kinetostat_program::NominalPath;
+use nalgebra::Vector3;
 
 /// Points by which a start is judged; all of them take part in the end.
 const JUDGED: usize = 1000;
@@ -26,6 +27,12 @@ const SAME: f64 = 1e-9;
 
 /// The way of a step, as a share of the size of the points, below which the search has ended.
 const AT_REST: f64 = 1e-13;
+
+/// The fewest places from which a motion can be told.
+const FEWEST: usize = 3;
+
+/// Two places are one where they are no farther apart than this, mm.
+const SAME_MM: f64 = 1e-6;
 
 /// How a registration is made.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -71,13 +78,14 @@ pub struct Registration {
 /// ```
 ///
 /// # Errors
-/// Numbers are lost on the way: points all at one place.
+/// Points at one or two places only; numbers are lost on the way.
 pub fn register(
     nominal: &NominalPath<'_>,
     points: &MeasuredPoints,
     options: RegistrationOptions,
 ) -> Result<Registration, MirrorError> {
     let points = points.points();
+    are_different(points)?;
     let every = points.len().div_ceil(JUDGED);
     let judged: Vec<MeasuredPoint> = points.iter().step_by(every).copied().collect();
     let size = Closest::of(nominal, &judged, &Motion::default()).map(|found| found.size_mm);
@@ -94,9 +102,31 @@ pub fn register(
     let found = best.and_then(|(_, motion)| refine(nominal, points, motion, (options, FINE[1])));
     found.ok_or_else(|| {
         MirrorError::new(
-            "no rigid motion brings the measured points onto the path: are they all at one place? Give more of them, or do not register them",
+            "no rigid motion brings the measured points onto the path: give more of them, or do not register them",
         )
     })
+}
+
+/// Points at three places at least: two lie on any path.
+fn are_different(points: &[MeasuredPoint]) -> Result<(), MirrorError> {
+    let mut places: Vec<Vector3<f64>> = Vec::new();
+    for point in points {
+        let at = point.position_mm;
+        if places.iter().all(|place| (place - at).norm() > SAME_MM) {
+            places.push(at);
+        }
+        if places.len() == FEWEST {
+            return Ok(());
+        }
+    }
+    Err(MirrorError::new(format!(
+        "the {} measured points are at {} only, from which no motion onto the path can be told; expected {FEWEST} different ones at least: measure along the path, or do not register the points",
+        points.len(),
+        match places.len() {
+            1 => "one place",
+            _ => "two places",
+        }
+    )))
 }
 
 /// Follows a start by closest points, then across the path; the median distance that is left.

@@ -1,6 +1,6 @@
 //! Motions from which the points are followed onto the path.
 
-use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
+use nalgebra::{Matrix3, Rotation3, Unit, UnitQuaternion, Vector3};
 
 use crate::number::median;
 use crate::points::MeasuredPoint;
@@ -14,6 +14,10 @@ const PLACES: usize = 1000;
 
 /// Median distance of unmoved points from the path, as a share of their size, beyond which they are in another frame.
 const ELSEWHERE: f64 = 0.01;
+
+/// Points whose spread across their longest axis is this share of that along it (squares) are on a line: a turn about it is
+/// not determined by them.
+const LINE: f64 = 1e-6;
 
 /// Motions to start from, the most likely first.
 ///
@@ -67,23 +71,51 @@ fn by_principal_axes(nominal: &NominalPath<'_>, points: &[MeasuredPoint]) -> Vec
     let (Some(from), Some(to)) = (principal(&measured), principal(&path)) else {
         return Vec::new();
     };
+    if from.line {
+        return ends_of_line(&from, &to).to_vec();
+    }
     let signs = [[1.0, 1.0], [1.0, -1.0], [-1.0, 1.0], [-1.0, -1.0]];
     let turned = signs.map(|[first, second]| {
         let flip = Matrix3::from_diagonal(&Vector3::new(first, second, first * second));
-        let matrix = to.1 * flip * from.1.transpose();
+        let matrix = to.axes * flip * from.axes.transpose();
         let rotation =
             UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(matrix));
         Motion {
             rotation,
-            shift_mm: to.0 - rotation * from.0,
+            shift_mm: to.middle - rotation * from.middle,
             scale: 1.0,
         }
     });
     turned.to_vec()
 }
 
+/// Points on a line, whose other axes are any: onto the longest axis of the path, either way around, by the least turn.
+fn ends_of_line(from: &Principal, to: &Principal) -> [Motion; 2] {
+    let (line, longest) = (from.axes.column(0), to.axes.column(0));
+    [1.0, -1.0].map(|sign| {
+        let rotation = UnitQuaternion::rotation_between(&line, &(longest * sign))
+            // Half a turn, about any axis across it.
+            .unwrap_or_else(|| {
+                let about = Unit::new_normalize(from.axes.column(1).into_owned());
+                UnitQuaternion::from_axis_angle(&about, std::f64::consts::PI)
+            });
+        Motion {
+            rotation,
+            shift_mm: to.middle - rotation * from.middle,
+            scale: 1.0,
+        }
+    })
+}
+
 /// Middle and principal axes, right-handed, the longest first.
-fn principal(points: &[Vector3<f64>]) -> Option<(Vector3<f64>, Matrix3<f64>)> {
+struct Principal {
+    middle: Vector3<f64>,
+    axes: Matrix3<f64>,
+    /// There is no second axis.
+    line: bool,
+}
+
+fn principal(points: &[Vector3<f64>]) -> Option<Principal> {
     let middle = points.iter().sum::<Vector3<f64>>() / points.len() as f64;
     let mut spread = Matrix3::zeros();
     for point in points {
@@ -98,8 +130,9 @@ fn principal(points: &[Vector3<f64>]) -> Option<(Vector3<f64>, Matrix3<f64>)> {
     order.sort_by(|a, b| eigen.eigenvalues[*b].total_cmp(&eigen.eigenvalues[*a]));
     let axis = |i: usize| eigen.eigenvectors.column(order[i]).into_owned();
     let (first, second) = (axis(0), axis(1));
-    Some((
+    Some(Principal {
         middle,
-        Matrix3::from_columns(&[first, second, first.cross(&second)]),
-    ))
+        axes: Matrix3::from_columns(&[first, second, first.cross(&second)]),
+        line: eigen.eigenvalues[order[1]] <= LINE * eigen.eigenvalues[order[0]],
+    })
 }

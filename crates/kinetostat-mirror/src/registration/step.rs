@@ -3,15 +3,16 @@
 use nalgebra::{Matrix3, SMatrix, SVector, UnitQuaternion, Vector3};
 
 use crate::registration::closest::Closest;
+use crate::registration::free::free_motions;
 use crate::registration::motion::{FreeMotion, Motion};
 
 /// Eigenvalues of the normal equations below this share of the largest determine nothing.
 const UNDETERMINED: f64 = 1e-6;
 
 /// Turn, shift and growth.
-const UNKNOWNS: usize = 7;
+pub(crate) const UNKNOWNS: usize = 7;
 
-type Unknowns = SVector<f64, UNKNOWNS>;
+pub(crate) type Unknowns = SVector<f64, UNKNOWNS>;
 
 /// A step, and what it left as it was.
 pub(crate) struct Step {
@@ -54,7 +55,7 @@ pub(crate) fn step(closest: &Closest, before: &Motion, with_scale: bool) -> Opti
     let eigen = normal.symmetric_eigen();
     let largest = eigen.eigenvalues[eigen.eigenvalues.imax()];
     let mut solution = Unknowns::zeros();
-    let mut free = Vec::new();
+    let mut open = SMatrix::<f64, UNKNOWNS, UNKNOWNS>::zeros();
     for (value, vector) in eigen
         .eigenvalues
         .iter()
@@ -62,9 +63,7 @@ pub(crate) fn step(closest: &Closest, before: &Motion, with_scale: bool) -> Opti
     {
         match *value > UNDETERMINED * largest {
             true => solution += vector * (vector.dot(&right) / value),
-            // Growth that is not sought.
-            false if !with_scale && vector[6].abs() > 0.5 => {}
-            false => free.push(free_motion(&vector.into_owned(), closest)),
+            false => open += vector * vector.transpose(),
         }
     }
     let turn = Vector3::new(solution[0], solution[1], solution[2]) / size;
@@ -79,29 +78,6 @@ pub(crate) fn step(closest: &Closest, before: &Motion, with_scale: bool) -> Opti
     Some(Step {
         motion,
         way_mm: solution.norm(),
-        free,
+        free: free_motions(open, closest, with_scale),
     })
-}
-
-/// What a direction of the unknowns is: turns are ways at the mean distance.
-fn free_motion(vector: &Unknowns, closest: &Closest) -> FreeMotion {
-    let turn = Vector3::new(vector[0], vector[1], vector[2]) / closest.size_mm;
-    let shift = Vector3::new(vector[3], vector[4], vector[5]);
-    if turn.norm() * closest.size_mm < 0.1 {
-        return FreeMotion::Shift {
-            along: signed(shift.normalize()),
-        };
-    }
-    FreeMotion::Turn {
-        through_mm: closest.middle + turn.cross(&shift) / turn.norm_squared(),
-        along: signed(turn.normalize()),
-    }
-}
-
-/// Of two opposite directions the one whose largest component is positive.
-fn signed(direction: Vector3<f64>) -> Vector3<f64> {
-    match direction[direction.iamax()] < 0.0 {
-        true => -direction,
-        false => direction,
-    }
 }
