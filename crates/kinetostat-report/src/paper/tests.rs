@@ -183,6 +183,35 @@ fn a_verified_program_has_its_own_verdict() {
 }
 
 #[test]
+fn a_missed_tolerance_without_a_reason_has_no_empty_one() {
+    let mut result = run();
+    result.summary.max_position_error_after_mm = 0.04;
+    result.tolerance.missed = Some(kinetostat_machining::MissedTolerance {
+        line: 12,
+        ..kinetostat_machining::MissedTolerance::default()
+    });
+    let words = [
+        "most at line 12. Without",
+        "surtout à la ligne 12. Sans",
+        "am meisten in Zeile 12. Ohne",
+    ];
+    for (language, expected) in Language::ALL.into_iter().zip(words) {
+        let text = said(&Paper::of(&result).in_language(language)).replace('\u{a0}', " ");
+        assert!(text.contains(expected), "{text}");
+    }
+    let known = "the force changes faster";
+    let with_reason = |missed: &mut kinetostat_machining::MissedTolerance| {
+        missed.reason = known.to_owned();
+    };
+    result.tolerance.missed.iter_mut().for_each(with_reason);
+    let text = said(&Paper::of(&result));
+    assert!(
+        text.contains("most at line 12: the force changes faster."),
+        "{text}"
+    );
+}
+
+#[test]
 fn names_are_harmless_in_html() {
     let result = run();
     let page = Paper::of(&result).in_language(Language::French).html();

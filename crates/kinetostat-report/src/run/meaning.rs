@@ -275,11 +275,17 @@ fn missed(result: &RunResult, better: bool) -> String {
         ),
     };
     match &result.tolerance.missed {
-        Some(missed) => format!(
-            "The tolerance is missed, most at line {}: {}. {sentence}",
-            number::count(missed.line),
-            crate::text::clean(&missed.reason)
-        ),
+        Some(missed) => {
+            // Of a program of others the reason is not known.
+            let reason = match crate::text::clean(&missed.reason) {
+                reason if reason.is_empty() => reason,
+                reason => format!(": {reason}"),
+            };
+            format!(
+                "The tolerance is missed, most at line {}{reason}. {sentence}",
+                number::count(missed.line)
+            )
+        }
         None => format!("The tolerance is missed. {sentence}"),
     }
 }

@@ -11,10 +11,14 @@ pub(crate) fn length(mm: f64) -> String {
     number::typeset(&kinetostat_machining::number::largest_length(mm))
 }
 
-/// Line and reason of a missed tolerance.
-pub(crate) fn missed_place(result: &Shown<'_>) -> Option<(String, String)> {
+/// Line of a missed tolerance, with the reason in brackets where it is known: of a program of others it is not.
+pub(crate) fn missed_place(result: &Shown<'_>) -> Option<String> {
     let missed = result.tolerance.missed.as_ref()?;
-    Some((number::count(missed.line), text::clean(&missed.reason)))
+    let line = number::count(missed.line);
+    Some(match text::clean(&missed.reason) {
+        reason if reason.is_empty() => line,
+        reason => format!("{line} ({reason})"),
+    })
 }
 
 /// Steps of a program, and what is assumed of the load on them.

@@ -35,7 +35,7 @@ pub(crate) fn statement(statement: &Statement, result: &Shown<'_>) -> Option<Str
         Statement::Unchanged => format!("Il n’y avait rien à corriger : aucune correction n’atteint la dernière décimale écrite ; le programme revient octet pour octet. L’outil s’écarte d’au plus {}.", nombre(&result.figures.error_after)),
         Statement::Missed { better } => {
             let first = match missed_place(result) {
-                Some((line, reason)) => format!("La tolérance n’est pas tenue, surtout à la ligne {line} ({reason})."),
+                Some(place) => format!("La tolérance n’est pas tenue, surtout à la ligne {place}."),
                 None => "La tolérance n’est pas tenue.".to_owned(),
             };
             match better {

@@ -35,7 +35,7 @@ pub(crate) fn statement(statement: &Statement, result: &Shown<'_>) -> Option<Str
         Statement::Unchanged => format!("Es gab nichts zu korrigieren: keine Korrektur erreicht die letzte geschriebene Stelle; das Programm kommt Byte für Byte zurück. Das Werkzeug liegt höchstens {} ab.", zahl(&result.figures.error_after)),
         Statement::Missed { better } => {
             let first = match missed_place(result) {
-                Some((line, reason)) => format!("Die Toleranz ist verfehlt, am meisten in Zeile {line} ({reason})."),
+                Some(place) => format!("Die Toleranz ist verfehlt, am meisten in Zeile {place}."),
                 None => "Die Toleranz ist verfehlt.".to_owned(),
             };
             match better {
