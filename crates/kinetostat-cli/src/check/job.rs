@@ -20,6 +20,7 @@ use crate::files::outputs::may_be_written;
 use crate::job::all_faults::{RunQuery, with_all_others};
 use crate::job::arguments::{ProgramArgs, WritingFlags};
 use crate::job::cut::along;
+use crate::job::feature_lines::refuse_lines_beyond;
 use crate::job::file_endings::refuse_other_endings;
 use crate::job::job_file::JobFile;
 use crate::job::machine::machine_setup;
@@ -123,6 +124,7 @@ pub(crate) fn run(path: &Path, json: bool) -> Answer<()> {
 fn findings(files: &InputFiles, path: &Path, flags: &ProgramArgs) -> Answer<JobFindings> {
     let job = JobFile::read(files, path)?;
     let mut setting = setting(files, Some(&job), flags, &WritingFlags::default())?;
+    refuse_lines_beyond(Some(&job), &setting)?;
     named_outputs(&job, &mut setting)?;
     give_of_model(&mut setting, files, (Some(&job), None), flags)?;
     let frames = setting.robot_frames()?;

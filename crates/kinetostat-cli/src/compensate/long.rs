@@ -6,16 +6,17 @@ use crate::compensate::arguments::CompensateArgs;
 use crate::files::input_files::InputFiles;
 use crate::files::outputs::{self, Existing};
 use crate::job::arguments::WritingFlags;
+use crate::job::feature_lines::refuse_lines_beyond;
 use crate::job::job_file::JobFile;
 use crate::job::machine::machine_setup;
 use crate::job::of_model::give_of_model;
 use crate::job::run_warnings;
 use crate::job::setting::{program_path, setting};
+use crate::long::put_in_place::claim;
 use crate::long::run::{LongRun, survey};
 use crate::long::which::{only_as_a_whole, say_as_a_whole, whole_by_setting, with_first_lines};
 use crate::program::aim::Aim;
 use crate::program::features::refuse_missed_features;
-use crate::program::outputs::RunOutputs;
 use crate::program::{report, summary};
 use crate::ui::failure::Answer;
 
@@ -52,12 +53,13 @@ pub(crate) fn compensate(
         return Ok(false);
     }
     let existing = Existing::forced(flags.force_overwrite);
-    let mut outputs = RunOutputs::claim(Aim::Compensate, &targets, existing, &setting.inputs)?;
+    let mut outputs = claim(Aim::Compensate, &targets, existing, &setting.inputs)?;
     outputs.list(flags.all_points, &model);
     let to_screen = args.run.json.as_deref() == Some(Path::new("-"));
     let Some(found) = survey(&mut setting, Aim::Compensate)? else {
         return Ok(false);
     };
+    refuse_lines_beyond(job, &setting)?;
     let run = LongRun {
         aim: Aim::Compensate,
         machine: &machine,
@@ -73,7 +75,7 @@ pub(crate) fn compensate(
         .extend(run_warnings::of_run(&model, job));
     done.fill(&mut outputs, &targets)?;
     done.or_kept(outputs.fill_result(&run, &setting))?;
-    let paths = done.or_kept(outputs.files.commit())?;
+    let paths = done.commit(outputs.files)?;
     done.remove();
     let text = format!(
         "{}{}",

@@ -25,6 +25,7 @@ use crate::files::origin;
 use crate::files::outputs::{self, Existing};
 use crate::job::all_faults::{RunQuery, with_all_others};
 use crate::job::arguments::{ProgramArgs, WritingFlags};
+use crate::job::feature_lines::refuse_lines_beyond;
 use crate::job::file_endings::refuse_other_endings;
 use crate::job::free_turn::FreeTurn;
 use crate::job::job_file::JobFile;
@@ -122,6 +123,7 @@ fn compensate_whole(files: &InputFiles, args: &CompensateArgs) -> Answer<()> {
         setting.reading.tools = None;
         return correction_table::from_map(files, map, &setting, existing, to_screen);
     }
+    refuse_lines_beyond(job, &setting)?;
     let model_named = args.run.model.as_deref();
     give_of_model(&mut setting, files, (job, model_named), flags)?;
     let frames = setting.robot_frames()?;

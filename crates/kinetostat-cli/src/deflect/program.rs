@@ -8,6 +8,7 @@ use crate::deflect::arguments::DeflectArgs;
 use crate::files::input_files::InputFiles;
 use crate::files::outputs::{self, Existing};
 use crate::job::arguments::WritingFlags;
+use crate::job::feature_lines::refuse_lines_beyond;
 use crate::job::free_turn::FreeTurn;
 use crate::job::job_file::JobFile;
 use crate::job::machine::{MachineSetup, machine_setup};
@@ -16,6 +17,7 @@ use crate::job::output_paths::OutputPaths;
 use crate::job::setting::{Setting, program_path, setting};
 use crate::job::turn_arguments::FreeTurnWord;
 use crate::job::{program, run_warnings};
+use crate::long::put_in_place::claim;
 use crate::long::run::{LongRun, survey};
 use crate::long::which::{only_as_a_whole, say_as_a_whole, whole_by_setting, with_first_lines};
 use crate::program::aim::Aim;
@@ -93,6 +95,7 @@ fn run_along(
         let of = (job, existing, chosen);
         return part_by_part(args, (&machine, &model), setting, of);
     }
+    refuse_lines_beyond(job, &setting)?;
     program::read_program(&setting)?;
     let mut outputs = RunOutputs::claim(Aim::Analyse, &chosen, existing, &setting.inputs)?;
     let turn = solve::turn(&machine, &setting)?;
@@ -129,11 +132,12 @@ fn part_by_part(
     mut setting: Setting,
     (job, existing, targets): (Option<&JobFile>, Existing, OutputPaths),
 ) -> Answer<bool> {
-    let mut outputs = RunOutputs::claim(Aim::Analyse, &targets, existing, &setting.inputs)?;
+    let mut outputs = claim(Aim::Analyse, &targets, existing, &setting.inputs)?;
     outputs.list(args.program.all_points, model);
     let Some(whole) = survey(&mut setting, Aim::Analyse)? else {
         return Ok(false);
     };
+    refuse_lines_beyond(job, &setting)?;
     let run = LongRun {
         aim: Aim::Analyse,
         machine,
@@ -148,7 +152,7 @@ fn part_by_part(
     run.result.warnings.extend(found);
     done.fill(&mut outputs, &targets)?;
     done.or_kept(outputs.fill_result(&run, &setting))?;
-    let paths = done.or_kept(outputs.files.commit())?;
+    let paths = done.commit(outputs.files)?;
     done.remove();
     let text = summary::of_run(&run.result) + &outputs::written(&paths);
     let to_screen = args.json.as_deref() == Some(Path::new("-"));

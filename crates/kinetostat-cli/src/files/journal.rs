@@ -17,7 +17,7 @@ use serde::{Deserialize, Serialize};
 use tempfile::{NamedTempFile, TempPath};
 
 use crate::files::hash::{FNV1A, fnv1a};
-use crate::files::paths::parent_of;
+use crate::files::paths::{parent_of, same_place};
 use crate::ui::safe_text::safe;
 
 /// Beginning of the names of all files that are not outputs.
@@ -141,6 +141,11 @@ impl Entry {
             path: target.to_owned(),
             contents,
         }
+    }
+
+    /// Whether it is this file, with just these contents.
+    pub(crate) fn is_in_place(&self, target: &Path) -> bool {
+        same_place(&self.path, target) && self.contents.are_in(target)
     }
 
     /// The same as seen from a directory.

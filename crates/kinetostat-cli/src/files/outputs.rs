@@ -146,6 +146,8 @@ pub(crate) struct Outputs {
     claimed: Vec<Claimed>,
     /// One in each directory that is written to; they end after the files above.
     journals: Vec<Journal>,
+    /// What an earlier run of the same question was putting in place when it ended.
+    own: Vec<Entry>,
 }
 
 impl Outputs {
@@ -155,7 +157,19 @@ impl Outputs {
             inputs,
             claimed: Vec::new(),
             journals: Vec::new(),
+            own: Vec::new(),
         }
+    }
+
+    /// Files that hold just these contents are those of an earlier run that ended while it put them in place: they may be replaced.
+    pub(crate) fn going_on_with(self, own: Vec<Entry>) -> Self {
+        Self { own, ..self }
+    }
+
+    /// What is about to be put in place.
+    pub(crate) fn entries(&self) -> Vec<Entry> {
+        let all = self.claimed.iter();
+        all.map(|c| Entry::new(&c.target, c.contents)).collect()
     }
 
     /// Checks a target before the long work begins: it may be written, and it is no input.
@@ -176,6 +190,11 @@ impl Outputs {
             .collect();
         may_be_written(what, target, &self.inputs, &others)?;
         let refuse = |reason: &str| refused(what, target, reason);
+        let is_own = |entry: &Entry| entry.is_in_place(target);
+        let existing = match existing {
+            Existing::Refuse if self.own.iter().any(is_own) => Existing::Replace,
+            existing => existing,
+        };
         let journal = self.journal(&parent_of(target));
         if existing == Existing::Refuse && fs::symlink_metadata(target).is_ok() {
             return Err(refuse(

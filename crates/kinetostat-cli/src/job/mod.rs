@@ -14,6 +14,7 @@ mod cut_tables;
 mod dialect_word;
 mod expand_table;
 pub(crate) mod expansion;
+pub(crate) mod feature_lines;
 mod feature_table;
 pub(crate) mod features;
 pub(crate) mod file_endings;

@@ -46,6 +46,8 @@ pub(crate) struct Setting {
     pub(crate) flat: Option<FlatProgram>,
     /// What was found while it was expanded, by lines of the flat program.
     pub(crate) expansion_warnings: Vec<Warning>,
+    /// Lines of the program's file as the user has it; none where it has no lines, or of which only the first were read.
+    pub(crate) lines_of_file: Option<usize>,
     /// The program and its subprograms, as they were read.
     pub(crate) program_files: Vec<FileRead>,
     pub(crate) job_file: Option<FileRead>,
@@ -229,6 +231,7 @@ pub(crate) fn setting(
     let mut targets = output_paths(job, flags, writing, (&path, form))?;
     // The last, so that nothing else is hidden by a program that is not there.
     let program = files.bytes("program", &path)?;
+    let lines = line_count(&program);
     let mut program_files = vec![origin::file("program", &path, &program)];
     if let Some(own) = &uncertain {
         program_files.push(own.read.clone());
@@ -302,6 +305,7 @@ pub(crate) fn setting(
     let mut setting = Setting {
         job_file: job.map(|j| origin::file("job", &j.path, j.text.as_bytes())),
         program_files,
+        lines_of_file: None,
         flat,
         expansion_warnings,
         robot,
@@ -331,8 +335,18 @@ pub(crate) fn setting(
     if flags.robot.converted || (names_robot && setting.robot.is_none()) {
         setting.correct_what_is_made();
     }
+    if setting.form() != FileForm::Parquet {
+        setting.lines_of_file = Some(lines);
+    }
     setting.write_flat_to(target);
     Ok(setting)
+}
+
+/// Lines of a text, whose last one may have no ending.
+fn line_count(text: &[u8]) -> usize {
+    let count = |ending| text.iter().filter(|byte| **byte == ending).count();
+    let open = text.last().is_some_and(|last| !b"\r\n".contains(last));
+    count(b'\n').max(count(b'\r')) + usize::from(open)
 }
 
 /// The bytes of the file with which a program begins.

@@ -15,8 +15,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::files::hash::{FNV1A, fnv1a};
 use crate::files::held_folder::{LOCK, hold};
-use crate::files::journal::Contents;
-use crate::ui::failure::{Answer, Failure};
+use crate::files::journal::{Contents, Entry};
+use crate::ui::failure::{Answer, Code, Failure};
 use crate::ui::system_error::description;
 
 /// What a run is, field by field with its value in words: another value is another run.
@@ -75,6 +75,9 @@ const MANIFEST: &str = "manifest.json";
 const STATE: &str = "state.json";
 const STATE_BEFORE: &str = "state-before.json";
 
+/// Which files were about to be put in place, with their contents.
+const PLACING: &str = "placing.json";
+
 impl Checkpoint {
     /// The folder beside an output.
     pub(crate) fn beside(output: &Path) -> Self {
@@ -103,17 +106,32 @@ impl Checkpoint {
         let kept: Option<Manifest> = self.read(MANIFEST);
         match kept.as_ref().map(|kept| kept.differs_in(manifest)) {
             Some(None) => Ok(true),
-            Some(Some(field)) => Err(Failure::input(format!(
+            Some(Some(field)) if self.has_work() => Err(Failure::input(format!(
                 "'{}' keeps a run that was interrupted, and {field} is another one now: give the same question to go on with it, or --restart to begin anew (or delete the folder)",
                 self.folder.display()
             ))),
-            None => {
-                // Nothing, or not whole: begun anew.
+            _ => {
+                // Nothing, or not whole, or nothing done yet: begun anew.
                 self.clear();
                 self.write(MANIFEST, manifest)?;
                 Ok(false)
             }
         }
+    }
+
+    /// Whether anything was done that would be lost.
+    fn has_work(&self) -> bool {
+        self.states().any(|state| state.parts > 0 || state.as_it_is)
+    }
+
+    /// Files are about to be put in place: a run that goes on may replace them.
+    pub(crate) fn note_placing(&self, entries: &[Entry]) -> Answer<()> {
+        self.write(PLACING, &entries)
+    }
+
+    /// Files that an interrupted run was putting in place.
+    pub(crate) fn placing(&self) -> Vec<Entry> {
+        self.read(PLACING).unwrap_or_default()
     }
 
     /// Makes the folder and locks it.
@@ -140,6 +158,25 @@ impl Checkpoint {
         ));
         failure.styled = None;
         failure
+    }
+
+    /// A failure of a run of which something is done; where it was stopped, that the same command goes on from there.
+    pub(crate) fn while_stopped(&self, mut failure: Failure) -> Failure {
+        if failure.code == Code::Stopped {
+            failure.plain.push_str(&format!(
+                "; what is done is kept in '{}', and the same command goes on from there",
+                self.folder.display()
+            ));
+            failure.styled = None;
+        }
+        failure
+    }
+
+    /// What is done counts no more: the next run begins anew.
+    pub(crate) fn forget(&self) {
+        for name in [STATE, STATE_BEFORE] {
+            let _ = fs::remove_file(self.folder.join(name));
+        }
     }
 
     /// States that were kept, the last first.
@@ -172,7 +209,15 @@ impl Checkpoint {
     }
 
     fn clear(&self) {
-        for name in [MANIFEST, STATE, STATE_BEFORE, "new", "program", "points"] {
+        for name in [
+            MANIFEST,
+            STATE,
+            STATE_BEFORE,
+            PLACING,
+            "new",
+            "program",
+            "points",
+        ] {
             let _ = fs::remove_file(self.folder.join(name));
         }
     }
@@ -246,6 +291,8 @@ mod tests {
         fs::write(kept.path(STATE), &bytes[..bytes.len() / 2]).unwrap();
         assert_eq!(kept.states().next().unwrap().parts, 1);
         assert!(!kept.open(&manifest("b"), true).unwrap());
+        // Of a run that had done nothing yet, nothing is lost.
+        assert!(!kept.open(&manifest("a"), false).unwrap());
         kept.remove();
         assert_eq!(fs::read_dir(here.path()).unwrap().count(), 0);
     }

@@ -6,5 +6,7 @@
 
 pub(crate) mod checkpoint;
 pub(crate) mod partial;
+pub(crate) mod put_in_place;
 pub(crate) mod run;
+mod source;
 pub(crate) mod which;

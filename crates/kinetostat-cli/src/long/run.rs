@@ -2,7 +2,6 @@
 
 use std::fs::File;
 use std::io::{BufReader, Read};
-use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
 use kinetostat_machining::{
@@ -11,11 +10,8 @@ use kinetostat_machining::{
 };
 use kinetostat_model::Model;
 use kinetostat_program::{Part, PartError, PartLength, Parts, Survey, WrittenSoFar};
-use sha2::{Digest, Sha256};
 
-use crate::files::journal::Contents;
 use crate::files::origin;
-use crate::files::outputs::Outputs;
 use crate::job::arguments::ProgramArgs;
 use crate::job::machine::MachineSetup;
 use crate::job::output_paths::OutputPaths;
@@ -23,6 +19,8 @@ use crate::job::program::{PartRead, ReadProgram};
 use crate::job::setting::Setting;
 use crate::long::checkpoint::{Checkpoint, Manifest, State};
 use crate::long::partial::Partial;
+use crate::long::put_in_place::{LongFiles, checkpoint};
+use crate::long::source::{Hashed, Surveyed, open};
 use crate::long::which::part_length;
 use crate::program::aim::Aim;
 use crate::program::features::put_found;
@@ -49,33 +47,12 @@ pub(crate) struct LongRun<'a> {
     pub(crate) targets: &'a OutputPaths,
 }
 
-/// Reads and counts what it reads.
-struct Hashed<R> {
-    from: R,
-    hash: Sha256,
-}
-
-impl<R: Read> Read for Hashed<R> {
-    fn read(&mut self, to: &mut [u8]) -> std::io::Result<usize> {
-        let count = self.from.read(to)?;
-        self.hash.update(&to[..count]);
-        Ok(count)
-    }
-}
-
-fn hex(hash: &[u8]) -> String {
-    hash.iter().map(|byte| format!("{byte:02x}")).collect()
-}
-
 /// What only the whole of a program tells; its hash takes the place of that of its first lines. `None` where it cannot be read,
 /// or moves nothing: all that is wrong with it is said of the whole.
 pub(crate) fn survey(setting: &mut Setting, aim: Aim) -> Answer<Option<Survey>> {
     let progress = Progress::new();
     progress.stage("reading", 0);
-    let mut hashed = Hashed {
-        from: text(setting)?,
-        hash: Sha256::new(),
-    };
+    let mut hashed = Hashed::new(open(setting)?);
     let from = BufReader::with_capacity(1 << 16, &mut hashed);
     let survey = match Survey::of(from, &setting.reading) {
         Err(PartError::Program(_)) => return Ok(None),
@@ -84,8 +61,9 @@ pub(crate) fn survey(setting: &mut Setting, aim: Aim) -> Answer<Option<Survey>> 
     if survey.moves == 0 {
         return Ok(None);
     }
+    setting.lines_of_file = Some(survey.lines);
     if let Some(first) = setting.program_files.first_mut() {
-        first.sha256 = hex(&hashed.hash.finalize());
+        first.sha256 = hashed.sha256();
     }
     if let Some(line) = survey.mark_line
         && !setting.writing.again
@@ -101,28 +79,18 @@ fn unread(setting: &Setting, error: PartError) -> Failure {
     setting.within(Failure::input(error)).of_program()
 }
 
-fn text(setting: &Setting) -> Answer<File> {
-    let path = &setting.program_path;
-    File::open(path).map_err(|error| {
-        Failure::input(format!(
-            "the program '{}' cannot be read: {error}",
-            path.display()
-        ))
-    })
-}
-
 impl<'a> LongRun<'a> {
     fn failed(&self, error: PartError) -> Failure {
         unread(self.setting, error)
     }
 
     fn parts(&self, length: PartLength) -> Answer<Parts<'a, BufReader<File>>> {
-        let from = BufReader::with_capacity(1 << 16, text(self.setting)?);
-        Ok(Parts::new(
-            from,
-            (self.survey, &self.setting.reading),
-            length,
-        ))
+        Ok(self.parts_of(open(self.setting)?, length))
+    }
+
+    fn parts_of<R: Read>(&self, from: R, length: PartLength) -> Parts<'a, BufReader<R>> {
+        let from = BufReader::with_capacity(1 << 16, from);
+        Parts::new(from, (self.survey, &self.setting.reading), length)
     }
 
     /// What the run is: whatever its bytes depend on.
@@ -245,17 +213,7 @@ impl<'a> LongRun<'a> {
     pub(crate) fn run(self, outputs: &mut RunOutputs) -> Answer<(Run, LongFiles)> {
         let progress = Progress::new();
         let length = part_length(self.flags);
-        let targets = [
-            &self.targets.program,
-            &self.targets.points,
-            &self.targets.report,
-            &self.targets.json,
-        ];
-        let beside: Option<&PathBuf> = targets.into_iter().flatten().next();
-        let beside = beside
-            .cloned()
-            .unwrap_or_else(|| PathBuf::from("kinetostat"));
-        let mut kept = Checkpoint::beside(&beside);
+        let mut kept = checkpoint(self.targets);
         kept.open(&self.manifest(length), self.flags.restart)?;
         let mut work = Work::go_on(&kept, self.survey, self.setting)?;
         let done = self.work(&mut work, (&kept, length), outputs, &progress);
@@ -263,7 +221,15 @@ impl<'a> LongRun<'a> {
             // What can be kept is kept; why it ended is said.
             let _ = work.keep(&kept);
         }
-        done?;
+        if let Err(failure) = done {
+            return Err(match work.state.parts > 0 || work.state.as_it_is {
+                true => kept.while_stopped(failure),
+                false => {
+                    kept.remove();
+                    failure
+                }
+            });
+        }
         progress.finish();
         let reading = self.survey.warnings.iter();
         let reading =
@@ -289,6 +255,12 @@ impl<'a> LongRun<'a> {
         let mut features = state.features;
         judge_features(&mut features, &self.setting.features, allowed_mm, written);
         put_found(&mut result, features);
+        // Comments of a job may be others than when the run began.
+        if let Some(job) = &self.setting.job_file {
+            let files = result.run_inputs.files.iter_mut();
+            let of_job = files.filter(|file| file.what == job.what);
+            of_job.for_each(|file| file.clone_from(job));
+        }
         // The day on which it was finished.
         result.run_inputs.date = origin::day();
         let mut envelope = Envelope::default();
@@ -351,7 +323,11 @@ impl<'a> LongRun<'a> {
             None => EVERY,
         };
         let mut last = Instant::now();
-        for (index, part) in self.parts(length)?.enumerate() {
+        let surveyed = Surveyed::new(self.setting);
+        let mut hashed = Hashed::new(open(self.setting)?);
+        for (index, part) in self.parts_of(&mut hashed, length).enumerate() {
+            // A part of a file that was changed meanwhile is never taken: what is kept is of one program.
+            surveyed.refuse_if_touched()?;
             let part = part.map_err(|error| self.failed(error))?;
             self.refuse_if_cancelled(progress)?;
             if index < work.state.parts {
@@ -393,72 +369,14 @@ impl<'a> LongRun<'a> {
                 last = Instant::now();
             }
         }
-        Ok(())
-    }
-}
-
-/// Files of a run that is done, to be put in place.
-pub(crate) struct LongFiles {
-    program: Partial,
-    points: Partial,
-    kept: Checkpoint,
-}
-
-impl LongFiles {
-    /// Writes them beside their targets.
-    pub(crate) fn fill(&self, outputs: &mut RunOutputs, targets: &OutputPaths) -> Answer<()> {
-        self.or_kept(self.fill_all(outputs, targets))
-    }
-
-    /// An answer about putting outputs in place; where they cannot be, it is said that nothing is lost.
-    pub(crate) fn or_kept<T>(&self, answer: Answer<T>) -> Answer<T> {
-        answer.map_err(|failure| self.kept.with_advice(failure))
-    }
-
-    fn fill_all(&self, outputs: &mut RunOutputs, targets: &OutputPaths) -> Answer<()> {
-        if let Some(index) = outputs.program {
-            let sha256 = put(&self.program, &mut outputs.files, index)?;
-            // A paper states what was written.
-            let made = targets.program.iter();
-            let made = made.map(|path| origin::hashed("written program", path, sha256.clone()));
-            outputs.made.extend(made);
+        let same = surveyed.refuse_if_other(&hashed.sha256());
+        if same.is_err() {
+            // Changed without a trace, before the first look at its time: nobody knows what was done of which program.
+            *work = Work::nothing(kept, self.survey, self.setting)?;
+            kept.forget();
         }
-        if let Some(index) = outputs.points {
-            put(&self.points, &mut outputs.files, index)?;
-        }
-        Ok(())
+        same
     }
-
-    /// All is in place: nothing is kept.
-    pub(crate) fn remove(self) {
-        self.kept.remove();
-    }
-}
-
-/// Puts a file that was kept into a claimed output; its hash.
-fn put(from: &Partial, outputs: &mut Outputs, index: usize) -> Answer<String> {
-    let mut reader = from.reader()?;
-    let mut block = vec![0; 1 << 16];
-    let (mut hash, mut found) = (Sha256::new(), Contents::default());
-    loop {
-        let count = reader
-            .read(&mut block)
-            .map_err(|error| Failure::input(format!("what was kept cannot be read: {error}")))?;
-        if count == 0 {
-            break;
-        }
-        hash.update(&block[..count]);
-        found.append(&block[..count]);
-        outputs.append(index, &block[..count])?;
-    }
-    // Something else may have written there.
-    if found != from.contents() {
-        return Err(Failure::input(
-            "what was kept of the run was changed by something else: give --restart to begin anew",
-        ));
-    }
-    outputs.complete(index)?;
-    Ok(hex(&hash.finalize()))
 }
 
 /// What is done of a run.

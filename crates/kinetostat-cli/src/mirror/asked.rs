@@ -6,6 +6,7 @@ use kinetostat_mirror::{MeasureSettings, MirrorState, NominalPath, Stations};
 
 use crate::files::input_files::InputFiles;
 use crate::job::arguments::{ProgramArgs, WritingFlags};
+use crate::job::feature_lines::refuse_lines_beyond;
 use crate::job::job_file::JobFile;
 use crate::job::of_model::give_of_model;
 use crate::job::robot_arguments::CorrectWord;
@@ -34,6 +35,7 @@ pub(crate) fn asked(
             "mirror takes programs without macros and in one piece, so that trials stay comparable: expand the program first (`kinetostat expand`), and mirror the flat one",
         )));
     }
+    refuse_lines_beyond(job, &setting)?;
     let of_pose = args.robot.correct == Some(CorrectWord::Pose);
     if of_pose && !names_model(job) {
         return Err(Failure::input(

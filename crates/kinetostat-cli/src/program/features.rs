@@ -8,26 +8,40 @@ use crate::job::setting::Setting;
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::layout::columns;
 
-/// Puts what was found of the features into a run; `allowed_mm` counts for those without a tolerance.
-pub(crate) fn put_features(run: &mut Run, setting: &Setting, allowed_mm: f64) {
+/// Puts what was found of the features into a run; `allowed_mm` counts for those without a tolerance, and `uncut` are the lines of cuts
+/// that a verified program leaves out.
+pub(crate) fn put_features(run: &mut Run, setting: &Setting, allowed_mm: f64, uncut: &[usize]) {
     // Lines are those of the user's file: of an expanded program the one that a flat line came from.
     let own_file = setting.program_path.file_name();
     let own_file = own_file.map(|name| name.to_string_lossy().into_owned());
-    let line_of = |point: &PointResult| match &setting.flat {
-        None => Some(point.line),
+    let line_of = |line: usize| match &setting.flat {
+        None => Some(line),
         Some(flat) => flat
-            .source_of(point.line)
+            .source_of(line)
             .filter(|(file, _)| Some(*file) == own_file.as_deref())
             .map(|(_, line)| line),
     };
     let written = run.written.is_some();
-    let found = feature_results(&setting.features, &run.points, line_of, allowed_mm, written);
+    let of_point = |point: &PointResult| line_of(point.line);
+    let mut found = feature_results(
+        &setting.features,
+        &run.points,
+        of_point,
+        allowed_mm,
+        written,
+    );
+    for line in uncut.iter().copied().filter_map(line_of) {
+        for feature in &mut found {
+            feature.leave_out(line);
+        }
+    }
     put_found(&mut run.result, found);
 }
 
 /// Puts what was found of the features into a result, and says of which there is nothing to say.
 pub(crate) fn put_found(result: &mut RunResult, found: Vec<FeatureResult>) {
-    for feature in found.iter().filter(|feature| feature.points == 0) {
+    let empty = |feature: &&FeatureResult| feature.points == 0 && feature.uncut.is_none();
+    for feature in found.iter().filter(empty) {
         let [first, last] = feature.lines;
         result.warnings.push(Warning::new(
             WarningCode::EmptyFeature,

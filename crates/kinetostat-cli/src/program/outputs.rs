@@ -54,7 +54,11 @@ impl RunOutputs {
         existing: Existing,
         inputs: &[PathBuf],
     ) -> Answer<Self> {
-        let mut outputs = Outputs::new(existing, inputs.to_vec());
+        Self::claim_in(aim, targets, Outputs::new(existing, inputs.to_vec()))
+    }
+
+    /// Claims every target among these outputs, which are none yet.
+    pub(crate) fn claim_in(aim: Aim, targets: &OutputPaths, mut outputs: Outputs) -> Answer<Self> {
         let mut claim = |what, target: &Option<PathBuf>| {
             target
                 .as_deref()

@@ -272,7 +272,7 @@ pub(crate) fn turned(
         Aim::Analyse => setting.writing.tolerance_mm,
         Aim::Compensate => run.result.tolerance.allowed_mm,
     };
-    put_features(&mut run, setting, allowed_mm);
+    put_features(&mut run, setting, allowed_mm, &[]);
     let found = std::mem::take(&mut run.result.warnings);
     run.result.warnings = of_warnings(found, setting.flat.as_ref());
     Ok(run)

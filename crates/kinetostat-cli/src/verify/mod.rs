@@ -13,6 +13,7 @@ use kinetostat_machining::{RunError, Verified, verify_program};
 use crate::files::input_files::InputFiles;
 use crate::files::outputs::{self, Existing, Outputs};
 use crate::job::arguments::{ProgramArgs, WritingFlags};
+use crate::job::feature_lines::refuse_lines_beyond;
 use crate::job::job_file::JobFile;
 use crate::job::machine::{MachineSetup, machine_setup};
 use crate::job::of_model::give_of_model;
@@ -46,6 +47,7 @@ pub(crate) fn run(args: &VerifyArgs) -> Answer<()> {
         ..WritingFlags::default()
     };
     let mut original = asked(&files, job.as_ref(), (&args.original, &flags), model_named)?;
+    refuse_lines_beyond(job.as_ref(), &original)?;
     let mut of_verified = args.original.clone();
     of_verified.program = Some(args.verified.clone());
     let mut verified = asked(&files, job.as_ref(), (&of_verified, &flags), model_named)?;
@@ -77,10 +79,10 @@ pub(crate) fn run(args: &VerifyArgs) -> Answer<()> {
     let points_out = claim("table of points", &args.original.points)?;
     let vtk_out = claim(PATH_VTK, &args.original.vtk)?;
 
-    let mut found = solved(&machine, (&original, &verified), args.original.threads)?;
+    let (mut found, uncut) = solved(&machine, (&original, &verified), args.original.threads)?;
     let own_bound = found.run.result.allowed_mm() + rounding_mm(&original);
     let allowed_mm = args.tolerance_um.map_or(own_bound, |um| 1e-3 * um);
-    put_features(&mut found.run, &original, allowed_mm);
+    put_features(&mut found.run, &original, allowed_mm, &uncut);
     found
         .run
         .result
@@ -157,12 +159,12 @@ fn asked(
     Ok(setting)
 }
 
-/// The machine along the second program.
+/// The machine along the second program, and the lines of cuts of the original that this leaves out.
 fn solved(
     machine: &MachineSetup,
     (original, verified): (&Setting, &Setting),
     threads: Option<usize>,
-) -> Answer<Verified> {
+) -> Answer<(Verified, Vec<usize>)> {
     let read = read_program(original)?;
     let other = read_program(verified)?;
     let progress = Progress::new();
@@ -173,14 +175,21 @@ fn solved(
         in_threads(threads, || verify_program(task, program, &progress))
     })??;
     progress.finish();
-    found.map_err(|error| {
+    let found = found.map_err(|error| {
         // Its line is one of the verified program; those of all others are the original's.
         let of = match error {
             RunError::Elsewhere { .. } => verified,
             _ => original,
         };
         of.within(Failure::from(error))
-    })
+    })?;
+    let cuts = read.path().moves.iter().filter(|m| m.is_known_feed());
+    let left_out = |line: &usize| {
+        let mut all = found.matched.uncut.iter();
+        all.any(|uncut| (uncut.lines[0]..=uncut.lines[1]).contains(line))
+    };
+    let uncut = cuts.map(|m| m.line).filter(left_out).collect();
+    Ok((found, uncut))
 }
 
 /// Half a digit along three axes, mm: what rounding alone leaves.

@@ -201,6 +201,77 @@ fn features_have_verdicts_of_their_own() {
 }
 
 #[test]
+fn a_feature_that_is_not_cut_is_not_kept() {
+    let here = part();
+    let features = "[[features]]\nname = \"contour\"\nlines = [4, 8]\n[[features]]\nname = \"slot\"\nlines = [12, 12]\n[[features]]\nname = \"way\"\nlines = [9, 10]\n[[features]]\nname = \"corner\"\nlines = [8, 8]\n";
+    std::fs::write(here.path().join("job.toml"), format!("{JOB}{features}")).unwrap();
+    let held = |found: &Value| -> Vec<Value> {
+        let all = found["features"].as_array().cloned().unwrap_or_default();
+        all.iter().map(|feature| feature["held"].clone()).collect()
+    };
+    // Without the slot, and without the end of the contour.
+    for (left_out, wanted, lines) in [
+        (
+            "G1 X31 Y20\n",
+            "[true,false,null,true]",
+            "line 12 of the original",
+        ),
+        (
+            "G1 X-12 Y-9\nG0 Z5\n",
+            "[false,true,null,false]",
+            "line 8 of the original",
+        ),
+    ] {
+        let other = PART.replace(left_out, "");
+        assert_ne!(other, PART);
+        std::fs::write(here.path().join("other.ngc"), other).unwrap();
+        let (code, found, said) = verified(here.path(), "other.ngc", &["--tolerance-um", "5000"]);
+        assert_eq!(code, 3, "{said}");
+        assert_eq!(Value::from(held(&found)).to_string(), wanted, "{said}");
+        let said = said.split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(
+            said.contains(&format!("IS NOT CUT by this program at {lines}.")),
+            "{said}"
+        );
+    }
+}
+
+#[test]
+fn a_feature_beyond_the_end_of_the_program_is_refused() {
+    let here = part();
+    compensated(here.path(), &[]);
+    let feature = "[[features]]\nname = \"pocket\"\nlines = [12, 15]\n";
+    std::fs::write(here.path().join("job.toml"), format!("{JOB}{feature}")).unwrap();
+    let commands: [&[&str]; 4] = [
+        &["verify", "out.ngc", "--job", "job.toml"],
+        &["compensate", "job.toml", "--force-overwrite"],
+        &[
+            "compensate",
+            "job.toml",
+            "--force-overwrite",
+            "--part-lines",
+            "5",
+        ],
+        &["deflect", "job.toml"],
+    ];
+    for words in commands {
+        let output = run(here.path(), words);
+        assert_eq!(output.code, 1, "{words:?}: {output:?}");
+        assert!(output.err.contains("job.toml:12:"), "{words:?}: {output:?}");
+        let said = output.err.split_whitespace().collect::<Vec<_>>().join(" ");
+        let what = "the feature 'pocket' has the lines 12 to 15, and the program 'part.ngc' ends with line 14";
+        assert!(said.contains(what), "{words:?}: {said}");
+    }
+    // The last line is there, with and without its ending.
+    let job = format!("{JOB}{feature}").replace("[12, 15]", "[12, 14]");
+    std::fs::write(here.path().join("job.toml"), job).unwrap();
+    for program in [PART, PART.trim_end()] {
+        std::fs::write(here.path().join("part.ngc"), program).unwrap();
+        compensated(here.path(), &["--force-overwrite"]);
+    }
+}
+
+#[test]
 fn a_robots_program_is_verified_with_its_orientation() {
     let here = workplace();
     let head = "x_mm,y_mm,z_mm,a_deg,b_deg,c_deg,speed_mm_per_s\n";

@@ -37,6 +37,9 @@ pub struct FeatureResult {
     /// Whether that is kept: by the written or verified program where there is one, else by the original. None where nothing is
     /// cut.
     pub held: Option<bool>,
+    /// First and last line of what a verified program does not cut of it; none where it cuts all of it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub uncut: Option<[usize; 2]>,
 }
 
 impl FeatureResult {
@@ -139,11 +142,32 @@ fn note(most: &mut Option<f64>, own: f64) {
 }
 
 impl FeatureResult {
+    /// Takes lines of it that a verified program does not cut: then it is not kept, however near the tool is on the others.
+    pub fn leave_out(&mut self, line: usize) {
+        let [first, last] = self.lines;
+        if !(first..=last).contains(&line) {
+            return;
+        }
+        let [from, to] = self.uncut.unwrap_or([line, line]);
+        self.uncut = Some([from.min(line), to.max(line)]);
+        self.held = Some(false);
+    }
+
     /// That its tolerance is missed, where and by how much; none where it is kept.
     #[must_use]
     pub fn missed_text(&self) -> Option<String> {
         if self.held != Some(false) {
             return None;
+        }
+        if let Some([first, last]) = self.uncut {
+            let lines = match first == last {
+                true => format!("line {first} of the original"),
+                false => format!("lines {first} to {last} of the original"),
+            };
+            return Some(format!(
+                "THE FEATURE {} IS NOT CUT by this program at {lines}.",
+                self.name
+            ));
         }
         let error_mm = self.error_after_mm.or(self.error_before_mm)?;
         let (error, allowed) = against(error_mm, self.allowed_mm);
@@ -174,6 +198,7 @@ impl FeatureResult {
             length(self.error_after_mm),
             allowed,
             match self.held {
+                _ if self.uncut.is_some() => "NOT CUT".to_owned(),
                 Some(true) => "kept".to_owned(),
                 Some(false) => "MISSED".to_owned(),
                 None => "nothing is cut".to_owned(),
