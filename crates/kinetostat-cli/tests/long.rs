@@ -355,3 +355,183 @@ fn what_makes_a_long_program_run_as_a_whole_is_said() {
     let (code, said) = end(start(here.path(), &[], &["--vtk", "path.vtk"]));
     assert_eq!((code, said.as_str()), (Some(0), ""), "a short program");
 }
+
+#[test]
+fn parts_of_comments_and_rapids_are_parts_like_others() {
+    let here = place(3);
+    // Whole parts of comments before, between and behind what is cut, and one of rapids.
+    let comments = "(a remark of the CAM system)\n".repeat(320);
+    let rapids = "G0 X1 Z6\nG0 X2\n".repeat(200);
+    let text = surface(3);
+    let (first, rest) = text.split_once("G0 X-10").expect("a rapid");
+    let (cut, last) = rest.split_at(rest.rfind("M2").expect("an end"));
+    let text = format!("{first}{comments}G0 X-10{cut}{rapids}{comments}{last}{comments}");
+    fs::write(here.path().join("part.ngc"), &text).expect("written");
+    let whole = place(3);
+    fs::write(whole.path().join("part.ngc"), &text).expect("written");
+    let (code, said) = ended(here.path(), &[]);
+    assert_eq!(code, Some(0), "{said}");
+    let (code, said) = end(start(whole.path(), &[], &[]));
+    assert_eq!(code, Some(0), "{said}");
+    let [found, wanted] = [&here, &whole].map(|at| outputs(at.path()));
+    assert!(found["out.ngc"] == wanted["out.ngc"]);
+    let result: Value = serde_json::from_slice(&found["result.json"]).expect("a result");
+    let wanted: Value = serde_json::from_slice(&wanted["result.json"]).expect("a result");
+    let summary = &result["summary"];
+    assert_eq!(summary["bytes_in"], text.len());
+    assert_eq!(summary["bytes_out"], found["out.ngc"].len());
+    let codes = |of: &Value| -> Vec<Value> {
+        let all = of["warnings"].as_array().cloned().unwrap_or_default();
+        all.iter().map(|warning| warning["code"].clone()).collect()
+    };
+    assert_eq!(codes(&result), codes(&wanted), "{}", result["warnings"]);
+    // Interrupted while nothing is cut yet, it goes on from there.
+    fs::remove_file(here.path().join("out.ngc")).expect("removed");
+    interrupted(here.path(), 1);
+    let (code, said) = ended(here.path(), &[]);
+    assert_eq!(code, Some(0), "{said}");
+    assert_same(&outputs(here.path()), &found, "gone on with");
+}
+
+#[test]
+fn what_every_part_says_is_said_once() {
+    let here = place(12);
+    // Feeds that follow the correction only up to a factor, in every part.
+    let (code, said) = ended(here.path(), &["--max-feed-factor", "1"]);
+    assert_eq!(code, Some(0), "{said}");
+    let result: Value =
+        serde_json::from_slice(&outputs(here.path())["result.json"]).expect("a result");
+    let all = result["warnings"].as_array().cloned().unwrap_or_default();
+    let held: Vec<&str> = all
+        .iter()
+        .filter_map(|warning| warning["message"].as_str())
+        .filter(|message| message.contains("the feed of "))
+        .collect();
+    assert_eq!(held.len(), 1, "{all:?}");
+    assert!(
+        held[0].contains("in later parts of the program"),
+        "{held:?}"
+    );
+}
+
+/// The command in parts, which overwrites nothing.
+fn careful(here: &Path, more: &[&str]) -> Child {
+    command(here)
+        .args(["compensate", "job.toml", "--report", "report.html"])
+        .args(["--points", "points.csv", "--json", "result.json"])
+        .args(["--all-points"])
+        .args(PARTS)
+        .args(more)
+        .env("SOURCE_DATE_EPOCH", "1764000000")
+        .stdout(Stdio::null())
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("the command starts")
+}
+
+/// Waits until something is done.
+fn until_kept(here: &Path, child: &mut Child) {
+    while !folder(here).join("state.json").exists() {
+        std::thread::sleep(Duration::from_millis(2));
+        let ended = child.try_wait().expect("asked");
+        assert!(ended.is_none(), "it ended before it kept anything");
+    }
+}
+
+#[test]
+fn a_run_that_failed_at_once_is_in_nobodys_way() {
+    let here = place(6);
+    let job = fs::read_to_string(here.path().join("job.toml")).expect("a job");
+    let wrong = job.replace("[0, 0, 100]", "[0, 0, 9000]");
+    fs::write(here.path().join("job.toml"), wrong).expect("written");
+    let (code, said) = end(careful(here.path(), &[]));
+    assert_ne!(code, Some(0), "{said}");
+    assert!(!folder(here.path()).exists(), "{said}");
+    fs::write(here.path().join("job.toml"), job).expect("written");
+    let (code, said) = end(careful(here.path(), &[]));
+    assert_eq!(code, Some(0), "{said}");
+}
+
+#[test]
+fn an_end_between_two_renames_is_gone_on_from() {
+    let wanted = uninterrupted(12);
+    let here = place(12);
+    // Whatever stops it while it puts its files in place: here a directory that takes the last name.
+    let mut child = careful(here.path(), &[]);
+    until_kept(here.path(), &mut child);
+    fs::create_dir(here.path().join("points.csv")).expect("a directory");
+    let (code, said) = end(child);
+    assert_eq!(code, Some(1), "{said}");
+    assert!(
+        said.contains("the same command goes on from there"),
+        "{said}"
+    );
+    fs::remove_dir(here.path().join("points.csv")).expect("removed");
+    // Another file of that name is the user's.
+    fs::write(here.path().join("out.ngc"), "mine").expect("written");
+    let (code, said) = end(careful(here.path(), &[]));
+    assert_eq!(code, Some(1), "{said}");
+    assert!(said.contains("it exists already"), "{said}");
+    // The first file was in place when the run was killed.
+    fs::write(here.path().join("out.ngc"), &wanted["out.ngc"]).expect("written");
+    let (code, said) = end(careful(here.path(), &[]));
+    assert_eq!(code, Some(0), "{said}");
+    assert_same(&outputs(here.path()), &wanted, "gone on with");
+    assert!(!folder(here.path()).exists());
+}
+
+#[test]
+fn a_program_that_changes_meanwhile_is_never_half_old() {
+    let here = place(40);
+    let mut child = careful(here.path(), &[]);
+    until_kept(here.path(), &mut child);
+    let text = fs::read_to_string(here.path().join("part.ngc")).expect("a program");
+    let text = text.replace("F800", "F801");
+    fs::write(here.path().join("part.ngc"), text).expect("written");
+    let (code, said) = end(child);
+    assert_eq!(code, Some(1), "{said}");
+    assert!(
+        said.contains("the program is another one than when the run began"),
+        "{said}"
+    );
+    assert!(!here.path().join("out.ngc").exists());
+    let (code, said) = end(careful(here.path(), &[]));
+    assert_eq!(code, Some(1), "{said}");
+    assert!(said.contains("the program is another one now"), "{said}");
+}
+
+#[test]
+fn another_remark_in_the_job_is_the_same_question_with_its_own_hash() {
+    let remark = |here: &Path| {
+        let job = fs::read_to_string(here.join("job.toml")).expect("a job");
+        fs::write(here.join("job.toml"), job + "# a remark\n").expect("written");
+    };
+    let here = place(12);
+    interrupted(here.path(), 1);
+    remark(here.path());
+    let (code, said) = ended(here.path(), &[]);
+    assert_eq!(code, Some(0), "{said}");
+    let whole = place(12);
+    remark(whole.path());
+    let (code, said) = ended(whole.path(), &[]);
+    assert_eq!(code, Some(0), "{said}");
+    assert_same(&outputs(here.path()), &outputs(whole.path()), "a remark");
+}
+
+#[cfg(unix)]
+#[test]
+fn a_run_that_is_stopped_says_how_to_go_on() {
+    let here = place(40);
+    let mut child = careful(here.path(), &[]);
+    until_kept(here.path(), &mut child);
+    let stopped = std::process::Command::new("kill")
+        .args(["-INT", &child.id().to_string()])
+        .status();
+    assert!(stopped.expect("kill").success());
+    let (code, said) = end(child);
+    assert_eq!(code, Some(130), "{said}");
+    assert!(
+        said.contains("out.ngc.kinetostat-part', and the same command goes on from there"),
+        "{said}"
+    );
+}

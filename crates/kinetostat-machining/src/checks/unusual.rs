@@ -134,8 +134,18 @@ pub(crate) fn unusual(
     if compensated {
         list.extend(odd_tolerances(&task.writing));
     }
+    list.extend(unusual_figures(task, summary));
+    list
+}
+
+/// What is unusual about figures of a whole run: of a long program they are those of all its parts.
+pub(crate) fn unusual_figures(task: &Task<'_>, summary: &Summary) -> Vec<Warning> {
+    let mut list = Vec::new();
+    let limits = &task.bounds.limits;
     let stiffness = summary.smallest_stiffness_n_per_mm;
-    if summary.stable && !(SOFT..=STIFF).contains(&stiffness) {
+    // Where nothing was solved there is none.
+    let is_known = stiffness.is_finite();
+    if summary.stable && is_known && !(SOFT..=STIFF).contains(&stiffness) {
         let which = if stiffness < SOFT {
             "softer"
         } else {

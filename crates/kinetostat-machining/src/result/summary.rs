@@ -146,7 +146,8 @@ pub struct Summary {
     /// Largest deviation of the tool's speed along the part from the programmed one, percent.
     pub max_speed_deviation_percent: f64,
     /// Smallest stiffness of the tool's tip against a force along the path (softest direction, the
-    /// tool free to turn), N/mm.
+    /// tool free to turn), N/mm; infinite where nothing was solved, which JSON has as null.
+    #[serde(deserialize_with = "infinite_where_null")]
     pub smallest_stiffness_n_per_mm: f64,
     /// Largest share of the way to buckling of any limb, mu (1 is buckling, below zero a load that
     /// stretches it); none for limbs without inner freedom.
@@ -168,4 +169,9 @@ pub struct Summary {
     /// How the equilibria were found, where it was not the usual way.
     #[serde(flatten)]
     pub solving: Solving,
+}
+
+/// JSON knows no infinite numbers.
+fn infinite_where_null<'de, D: serde::Deserializer<'de>>(from: D) -> Result<f64, D::Error> {
+    Ok(Option::deserialize(from)?.unwrap_or(f64::INFINITY))
 }

@@ -12,12 +12,10 @@ use crate::result::selection::{farthest_off, thinned, worst};
 use crate::result::summary::Summary;
 use crate::result::tolerance::{MissedTolerance, keeps_as_it_is};
 use crate::run::conclude::Run;
+use crate::run::merged_warnings::MergedWarnings;
 use crate::run::summary::summed_along_path;
 use crate::task::{Task, kinds};
 use crate::warning::Warning;
-
-/// Warnings that are kept; further ones are counted.
-const MOST_WARNINGS: usize = 200;
 
 /// Lines with blocks that are too short, that are kept.
 const MOST_SHORT: usize = 1000;
@@ -60,7 +58,7 @@ pub struct MergedRun {
     worst: Vec<PointResult>,
     worst_after: Vec<PointResult>,
     points: Vec<PointResult>,
-    further_warnings: usize,
+    warnings: MergedWarnings,
 }
 
 impl MergedRun {
@@ -122,42 +120,19 @@ impl MergedRun {
             points: Vec::new(),
             worst_points: Vec::new(),
             worst_points_after: Vec::new(),
+            warnings: Vec::new(),
             ..run.result.clone()
         };
-        let warnings = match &mut self.result {
-            None => {
-                let mut first = next;
-                let warnings = std::mem::take(&mut first.warnings);
-                self.result = Some(first);
-                warnings
-            }
-            Some(result) => {
-                let mut next = next;
-                let warnings = std::mem::take(&mut next.warnings);
-                merge(task, result, next);
-                warnings
+        let result = match self.result.take() {
+            None => next,
+            Some(mut result) => {
+                merge(task, &mut result, next);
+                result
             }
         };
-        self.add_warnings(warnings);
-    }
-
-    fn add_warnings(&mut self, found: Vec<Warning>) {
-        let Some(result) = &mut self.result else {
-            return;
-        };
-        for warning in found {
-            // A warning without a line is one of the question, or states its largest figure: one of each is enough.
-            let same = |own: &Warning| {
-                own.code == warning.code && (own.line.is_none() || own.message == warning.message)
-            };
-            if result.warnings.iter().any(same) {
-                continue;
-            }
-            match result.warnings.len() < MOST_WARNINGS {
-                true => result.warnings.push(warning),
-                false => self.further_warnings += 1,
-            }
-        }
+        let whole = &result.summary;
+        self.warnings.add(task, (self.parts, run), whole);
+        self.result = Some(result);
     }
 
     /// Whether the program is to be left as it is: it keeps its tolerance so, or no correction reaches the last digit.
@@ -204,14 +179,8 @@ impl MergedRun {
         result.worst_points = chosen.iter().map(|i| self.worst[*i].clone()).collect();
         let kept = thinned(&self.points, &[], RunResult::MAX_POINTS);
         result.points = kept.iter().map(|i| self.points[*i].clone()).collect();
-        result.warnings.splice(0..0, reading);
-        if self.further_warnings > 0 {
-            let last = result.warnings.last_mut();
-            if let Some(last) = last {
-                last.message
-                    .push_str(&format!("; and {} more warnings", self.further_warnings));
-            }
-        }
+        result.warnings = reading;
+        result.warnings.extend(self.warnings.finish());
         Some(result)
     }
 }
@@ -233,6 +202,10 @@ fn sum_of(own: &mut Option<f64>, next: Option<f64>) {
 /// Takes the result of the next part into that of those before it.
 fn merge(task: &Task<'_>, own: &mut RunResult, next: RunResult) {
     if next.summary.points == 0 && next.summary.blocks_out == 0 {
+        // Comments have a length, and figures of nothing are none.
+        own.summary.blocks += next.summary.blocks;
+        own.summary.bytes_in += next.summary.bytes_in;
+        own.summary.bytes_out += next.summary.bytes_out;
         return;
     }
     summary(&mut own.summary, &next.summary);
