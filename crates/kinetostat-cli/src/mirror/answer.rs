@@ -35,6 +35,8 @@ pub(crate) struct MeasurementResult {
     pub(crate) registration: Option<RegistrationResult>,
     pub(crate) figures: DeviationFigures,
     pub(crate) outliers: Vec<Outlier>,
+    /// Rows beside a corner that may belong to its other leg.
+    pub(crate) beside_corners: Vec<usize>,
     pub(crate) left_out: Vec<LeftOut>,
     pub(crate) unseen: Vec<Unseen>,
     /// Features of the job.
@@ -75,6 +77,7 @@ impl MeasurementResult {
             registration: found.registration.as_ref().map(Into::into),
             figures: found.figures,
             outliers: found.outliers.clone(),
+            beside_corners: found.beside_corners.clone(),
             left_out: found.left_out.clone(),
             unseen: found.unseen.clone(),
             features,

@@ -118,9 +118,12 @@ fn measurement(m: &MeasurementResult) -> String {
             )));
         }
     }
-    if let Some(rejected) = m.registration.as_ref().map(|found| &found.rejected_rows) {
-        out.push_str(&rejected_text(rejected));
+    if let Some(found) = &m.registration {
+        let what = "did not count in the motion onto the path, being farther from it than six standard deviations";
+        out.push_str(&rows_text(&found.rejected_rows, what));
     }
+    let what = "lie beside a corner and may belong to its other leg: they do not count";
+    out.push_str(&rows_text(&m.beside_corners, what));
     for outlier in m.outliers.iter().take(LISTED) {
         out.push_str(&item(&format!(
             "row {} is left out: {} from the path, {} from what its neighbours say, where {} could be",
@@ -159,14 +162,14 @@ fn measurement(m: &MeasurementResult) -> String {
     out
 }
 
-/// Rows that the registration did not follow: they may still have a place on the path, and a deviation there.
-fn rejected_text(rows: &[usize]) -> String {
+/// What is said of rows that do not count in something, with the first of them.
+fn rows_text(rows: &[usize], what: &str) -> String {
     if rows.is_empty() {
         return String::new();
     }
     let named: Vec<String> = rows.iter().take(LISTED).map(ToString::to_string).collect();
     item(&format!(
-        "{} of the points did not count in the motion onto the path, being farther from it than six standard deviations: row {}{}",
+        "{} of the points {what}: row {}{}",
         rows.len(),
         named.join(", "),
         match rows.len() > LISTED {

@@ -70,7 +70,10 @@ pub(crate) fn align(
     let (mut aligned, mut left_out) = (Vec::new(), Vec::new());
     for ((point, moved), chosen) in points.iter().zip(chosen) {
         match chosen {
-            Ok(foot) => aligned.push(aligned_point(nominal, point, moved, &foot)),
+            Ok(foot) => {
+                let foot = on_the_better_side(nominal, moved, foot);
+                aligned.push(aligned_point(nominal, point, moved, &foot));
+            }
             Err(why) => left_out.push(LeftOut {
                 row: point.row,
                 distance_mm: nominal.nearest(moved).map(|foot| foot.distance_mm),
@@ -92,6 +95,33 @@ fn only(feet: &[Foot]) -> Result<Foot, WhyLeftOut> {
         [] => Err(WhyLeftOut::BeyondWindow),
         [foot] => Ok(*foot),
         _ => Err(WhyLeftOut::SeveralStretches),
+    }
+}
+
+/// Outside a corner the same place is the nearest of both its legs. The point belongs to the leg that it is beside: the one whose
+/// end it is less far beyond, along the leg.
+fn on_the_better_side(nominal: &NominalPath<'_>, moved: &Vector3<f64>, foot: Foot) -> Foot {
+    let own = nominal.passes()[nominal.pieces()[foot.piece].pass]
+        .pieces
+        .clone();
+    let other = match (foot.share >= 1.0, foot.share <= 0.0) {
+        (true, _) if foot.piece + 1 < own.end => (foot.piece + 1, 0.0),
+        (_, true) if foot.piece > own.start => (foot.piece - 1, 1.0),
+        _ => return foot,
+    };
+    let (piece, share) = other;
+    let Some(tangent) = nominal.motion(&nominal.pieces()[piece]).tangent(share) else {
+        return foot;
+    };
+    let away = moved - foot.place_mm;
+    match tangent.dot(&away).abs() < foot.tangent.dot(&away).abs() {
+        true => Foot {
+            piece,
+            share,
+            tangent,
+            ..foot
+        },
+        false => foot,
     }
 }
 

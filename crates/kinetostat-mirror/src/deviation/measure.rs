@@ -73,6 +73,8 @@ pub struct Measurement {
     pub at_points: Vec<Smoothed>,
     /// Points that no neighbour bears out.
     pub outliers: Vec<Outlier>,
+    /// Rows of points beside a corner that may belong to its other leg: they do not count.
+    pub beside_corners: Vec<usize>,
     /// Points without a place on the path.
     pub left_out: Vec<LeftOut>,
     /// Smoothed deviation at each station.
@@ -131,7 +133,7 @@ pub fn measure(
         .map(|point| (*point, motion.of(&point.position_mm)))
         .collect();
     let (mut points, left_out) = align(nominal, &moved, settings.align, settings.window_mm);
-    let outliers = take_outliers(nominal, &mut points);
+    let taken = take_outliers(nominal, &mut points);
     if points.is_empty() {
         return Err(MirrorError::new(nothing_left(
             measured, &left_out, settings,
@@ -160,7 +162,8 @@ pub fn measure(
         registration,
         points,
         at_points,
-        outliers,
+        outliers: taken.outliers,
+        beside_corners: taken.beside_corners,
         left_out,
         at_stations,
         figures,

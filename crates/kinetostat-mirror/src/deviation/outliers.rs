@@ -8,8 +8,9 @@
 //! directions is 1.177 of one direction's deviation): of all points, or of the sixteen around where these are farther
 //! off (the deviation bends there), and no smaller than a thousandth of the deviation that 99 of 100 points keep below. Of a
 //! normal scatter one point in sixty million is farther. Beside a corner a point may have its place on the wrong side of it and
-//! so be off by the sine of the corner times twice the deviation there: so much more is allowed within twice the deviation. Where the path
-//! turns between the neighbours, what is across it turns too, and a line is off by up to half that angle times the deviation.
+//! so be off by the sine of the corner times twice the deviation there: one that is off by no more than that, within twice the
+//! deviation, is no outlier, but it does not count: at the end of a leg one such point among thirty would take a thirtieth of
+//! the whole deviation. Where the path turns between the neighbours, what is across it turns too, and a line is off by up to half that angle times the deviation.
 
 use nalgebra::Vector3;
 use serde::Serialize;
@@ -44,20 +45,25 @@ pub struct Outlier {
     pub deviation_mm: Vector3<f64>,
 }
 
-/// Takes the outliers out of points that are in the order along the path.
-pub(crate) fn take_outliers(
-    nominal: &NominalPath<'_>,
-    points: &mut Vec<AlignedPoint>,
-) -> Vec<Outlier> {
+/// Points that do not count.
+#[derive(Default)]
+pub(crate) struct TakenOut {
+    pub outliers: Vec<Outlier>,
+    /// Rows of points beside a corner that may belong to its other leg.
+    pub beside_corners: Vec<usize>,
+}
+
+/// Takes out of points, in the order along the path, those that do not count.
+pub(crate) fn take_outliers(nominal: &NominalPath<'_>, points: &mut Vec<AlignedPoint>) -> TakenOut {
     let lines: Vec<Option<Line>> = (0..points.len()).map(|i| from_line(points, i)).collect();
     let apart = |line: &Line| line.apart_mm;
     let known: Vec<f64> = lines.iter().flatten().map(apart).collect();
     if known.is_empty() {
-        return Vec::new();
+        return TakenOut::default();
     }
     let floor = NEGLIGIBLE * usual_size(points);
     let of_all = larger(OF_TWO_DIRECTIONS * median(known), floor / DEVIATIONS);
-    let mut outliers = Vec::new();
+    let mut taken = TakenOut::default();
     let mut kept = Vec::with_capacity(points.len());
     for (i, point) in points.iter().enumerate() {
         let Some(line) = lines[i] else {
@@ -67,23 +73,26 @@ pub(crate) fn take_outliers(
         let around = lines[i.saturating_sub(AROUND)..(i + AROUND + 1).min(lines.len())].iter();
         let around = OF_TWO_DIRECTIONS * median(around.flatten().map(apart).collect());
         let beside = 2.0 * line.size_mm;
-        let allowed_mm = DEVIATIONS * line.spread * larger(of_all, around)
-            + beside * sharpest_turn(nominal, point, beside)
-            + 0.5 * line.size_mm * line.turn;
-        match line.apart_mm > allowed_mm {
-            true => outliers.push(Outlier {
+        let scatter_mm =
+            DEVIATIONS * line.spread * larger(of_all, around) + 0.5 * line.size_mm * line.turn;
+        let allowed_mm = scatter_mm + beside * sharpest_turn(nominal, point, beside);
+        if line.apart_mm > allowed_mm {
+            taken.outliers.push(Outlier {
                 row: point.row,
                 along_mm: point.along_mm,
                 distance_mm: point.deviation_mm.norm(),
                 from_neighbours_mm: line.apart_mm,
                 allowed_mm,
                 deviation_mm: point.deviation_mm,
-            }),
-            false => kept.push(*point),
+            });
+        } else if line.apart_mm > scatter_mm {
+            taken.beside_corners.push(point.row);
+        } else {
+            kept.push(*point);
         }
     }
     *points = kept;
-    outliers
+    taken
 }
 
 /// The deviation that 99 of 100 points keep below, mm.

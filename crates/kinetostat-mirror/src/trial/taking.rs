@@ -33,7 +33,8 @@ pub(crate) fn are_new(
 /// Measurements most of whose points have a place on the path: a few that found one by chance are nothing to correct by.
 pub(crate) fn have_places(measured: &[(MeasuredFile, Measurement)]) -> Result<(), MirrorError> {
     for (file, found) in measured {
-        let (without, with) = (&found.left_out, found.points.len() + found.outliers.len());
+        let without = &found.left_out;
+        let with = found.points.len() + found.outliers.len() + found.beside_corners.len();
         if without.len() > with {
             return Err(MirrorError::new(format!(
                 "{}: {} of its {} points have no place on the path ({}); nothing was mirrored. {}, and leave out points that are not of this path",
