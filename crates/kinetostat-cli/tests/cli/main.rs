@@ -51,6 +51,7 @@ mod machine_checks;
 mod map;
 mod measured;
 mod mirror;
+mod mirror_corners;
 mod mirror_refused;
 mod named_at_once;
 mod other_language;

@@ -21,7 +21,7 @@ fn job(model: &str) -> String {
 }
 
 /// The orthoglide with feet and bars 30 % softer than the preset.
-fn soft(preset: &str) -> String {
+pub(crate) fn soft(preset: &str) -> String {
     let softer = |line: &str| {
         let mut out = String::new();
         let mut digits = String::new();

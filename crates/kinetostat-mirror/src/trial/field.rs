@@ -7,9 +7,13 @@ use nalgebra::Vector3;
 
 use crate::deviation::Stations;
 use crate::error::MirrorError;
+use crate::number::larger;
 use crate::trial::joined::joined;
 use crate::trial::state::MirrorState;
 use kinetostat_program::NominalPath;
+
+/// A step no larger than the last digit of most programs is none, mm.
+const SAME_STEP_MM: f64 = 1e-4;
 
 /// Where a move stands among the pieces of the path.
 #[derive(Clone, Copy, Debug)]
@@ -39,7 +43,8 @@ impl<'a> MirrorField<'a> {
         state.fits(nominal, &state.program_sha256, &state.settings)?;
         let smoothing_mm = state.settings.smoothing_mm;
         let stations = Stations::of(nominal, smoothing_mm)?;
-        let correction_mm = joined(nominal, &stations, &state.correction_mm, smoothing_mm);
+        let fading = (smoothing_mm, scatter_at_corners_mm(state));
+        let correction_mm = joined(nominal, &stations, &state.correction_mm, fading);
         let slope = slopes(&stations, &correction_mm);
         let places = places(nominal, &stations);
         Ok(Self {
@@ -81,6 +86,18 @@ impl<'a> MirrorField<'a> {
             }
         }
     }
+}
+
+/// What two legs of a corner may disagree by for the scatter of their points, mm: four standard deviations. At an end a mean
+/// rests on half the points, there are two ends, and a correction carries `rho / (2 - rho)` of the variance of a measurement.
+/// Without a trial any disagreement may be scatter.
+fn scatter_at_corners_mm(state: &MirrorState) -> f64 {
+    let Some(last) = state.trials.last() else {
+        return f64::INFINITY;
+    };
+    let of_mean = last.figures.scatter_mm.powi(2) / last.figures.effective_points;
+    let carried = last.relaxation / (2.0 - last.relaxation);
+    larger(4.0 * (4.0 * of_mean * carried).sqrt(), SAME_STEP_MM)
 }
 
 /// Slopes of the cubic curves at the stations, by those beside them; around where a stretch has no end.
@@ -135,7 +152,15 @@ fn between(ends: [(usize, f64); 2], idle: &[Move]) -> Vec<Place> {
 
 impl CorrectionField for MirrorField<'_> {
     fn corrections(&self, requests: &[Request]) -> Vec<Result<Correction, FieldFailure>> {
-        let at = |request: &Request| self.at(request.move_index, request.share);
+        let at = |request: &Request| match request.turning {
+            None => self.at(request.move_index, request.share),
+            // Over a corner from one leg to the other, evenly as the load turns.
+            Some(turn) => {
+                let before = self.at(turn.from_move, turn.from_share);
+                let after = self.at(request.move_index, turn.to_share);
+                before.lerp(&after, turn.part)
+            }
+        };
         requests
             .iter()
             .map(|request| Ok(at(request).into()))

@@ -30,12 +30,13 @@ struct End {
     tangent: Vector3<f64>,
 }
 
-/// Corrections at the stations, joined at corners and at the seams of closed passes.
+/// Corrections at the stations, joined at corners and at the seams of closed passes; what legs disagree by beyond a scatter (mm) is
+/// left to them.
 pub(crate) fn joined(
     nominal: &NominalPath<'_>,
     stations: &Stations,
     correction_mm: &[Vector3<f64>],
-    smoothing_mm: f64,
+    (smoothing_mm, scatter_mm): (f64, f64),
 ) -> Vec<Vector3<f64>> {
     let mut joined = correction_mm.to_vec();
     for [end, start] in corners(nominal, stations) {
@@ -43,8 +44,17 @@ pub(crate) fn joined(
         let Some(common) = common(both, [end.tangent, start.tangent]) else {
             continue;
         };
+        let along = |at: &End, own: &Vector3<f64>| at.tangent * at.tangent.dot(&(common - own));
+        let [one, other] =
+            [(end, both[0]), (start, both[1])].map(|(at, own)| common - own - along(&at, &own));
+        let measured = both.iter().all(|own| *own != Vector3::zeros());
+        let steps = measured && (one - other).norm() > scatter_mm;
         for (at, own) in [end, start].into_iter().zip(both) {
-            fade(&mut joined, stations, at, common - own, smoothing_mm);
+            let difference = match steps {
+                true => along(&at, &own),
+                false => common - own,
+            };
+            fade(&mut joined, stations, at, difference, smoothing_mm);
         }
     }
     joined

@@ -178,3 +178,82 @@ fn a_leg_without_points_is_led_from_one_to_the_other() {
     assert!((at(2, 0.0).y + 0.02).abs() < 1e-3, "{}", at(2, 0.0));
     assert!((at(1, 0.5).y + 0.035).abs() < 1e-3, "{}", at(1, 0.5));
 }
+
+/// Where the force turns with the path, the deviation across the plane of the legs steps at the corner, and so does the
+/// correction: the mean of both legs would be off on each of them by half the step.
+#[test]
+fn a_step_of_the_machine_at_a_corner_is_a_step_of_the_correction() {
+    let text = "G21 G90\nG0 X0 Y0 Z0\nG1 X60 F600\nG1 Y60\nG1 X-30\nG0 Z9\nM2\n";
+    let (_, path) = read(text);
+    let nominal = NominalPath::new(&path).expect("a path");
+    let legs = [
+        Vector3::new(0.0, -0.08, 0.01),
+        Vector3::new(0.05, 0.0, -0.012),
+        Vector3::new(0.0, 0.06, 0.004),
+    ];
+    let leg = |at: f64| usize::from(at > 60.0) + usize::from(at > 120.0);
+    let state = mirrored(&path, |at| legs[leg(at)]);
+    let field = MirrorField::new(&nominal, &state).expect("a field");
+    let mut worst = Worst::new();
+    for (piece, off) in legs.iter().enumerate() {
+        for k in 0..=200 {
+            let share = f64::from(k) / 200.0;
+            let along = nominal.motion(&nominal.pieces()[piece]).tangent(share);
+            let along = along.expect("a direction");
+            let left = correction(&path, &field, piece, share) + off;
+            worst.add((left - along * along.dot(&left)).norm());
+        }
+    }
+    assert!(worst.of(603) < 5e-4, "{worst}");
+}
+
+/// A machine that goes beyond the end of a leg, or not as far, leaves points of one leg beside the other. Each is nearest to a
+/// corner, or to the wrong leg; none of them takes from the deviation that the legs have everywhere else.
+#[test]
+fn points_around_a_corner_are_not_taken_for_the_other_leg() {
+    let (_, path) = read("G21 G90\nG0 X0 Y0 Z0\nG1 X60 F600\nG1 Y60\nG0 Z9\nM2\n");
+    let nominal = NominalPath::new(&path).expect("a path");
+    let settings = MeasureSettings {
+        register: false,
+        align: Alignment::ArcLength,
+        ..MeasureSettings::default()
+    };
+    let stations = MirrorState::new(&nominal, "corner", settings).expect("a state");
+    // Aside by so much (outwards where negative), beyond the corner by so much, and a point every so many mm.
+    for (off, beyond, every) in [
+        (-0.26, 0.26, 0.23),
+        (-0.26, 0.02, 0.23),
+        (-0.26, -0.3, 0.23),
+        (-0.26, 0.26, 0.02),
+        (-0.26, 0.1, 0.02),
+        (0.26, -0.26, 0.23),
+        (0.26, 0.1, 0.23),
+    ] {
+        let count = (60.0 / every) as i32;
+        let before = (0..=count).map(|k| 60.0 + beyond - every * f64::from(count - k));
+        let after = (0..=count).map(|k| every * f64::from(k) - beyond);
+        let points: Vec<_> = before
+            .map(|x| Vector3::new(x, off, 0.0))
+            .chain(after.map(|y| Vector3::new(60.0 - off, y, 0.0)))
+            .collect();
+        let points = MeasuredPoints::at(&points).expect("points");
+        let found = measure(&nominal, &points, &settings).expect("a measurement");
+        let half = stations.along_mm.len() / 2;
+        let mut worst = Worst::new();
+        for (k, smoothed) in found.at_stations.iter().enumerate() {
+            let expected = match k < half {
+                true => Vector3::new(0.0, off, 0.0),
+                false => Vector3::new(-off, 0.0, 0.0),
+            };
+            worst.add_at((smoothed.deviation_mm - expected).norm(), || {
+                format!("{off}, {beyond}, every {every} mm, station {k}")
+            });
+        }
+        // The kernel's constant takes four ten-thousandths at an end.
+        assert!(
+            worst.of(2 * half) < 3e-4,
+            "{worst}, {:?}",
+            found.beside_corners
+        );
+    }
+}
