@@ -230,8 +230,10 @@ def compensate(
     no_header : bool
         Leave out the header that marks the program as compensated
     tolerance_um : float
-        How far the straight pieces may leave the corrected path, micrometres [default: a third of
-        the repeatability that the model states, 20 for an arm that states none, else 0.5]
+        How far off the tool may be along the written program, micrometres, chords of arcs and
+        rounding included (with --chord-tolerance-um those of arcs have their own): missed, the exit
+        code is 3 [default: for straight pieces alone a third of the repeatability that the model
+        states, 20 for an arm that states none, else 0.5]
     arcs : Literal["fit", "lines"]
         What becomes of arcs where they are corrected: arcs again, or straight pieces [default: fit]
     min_block_mm : float

@@ -43,8 +43,9 @@ pub(crate) struct CompensateArgs {
     /// Leave out the header that marks the program as compensated
     #[arg(long, help_heading = "Outputs")]
     pub(crate) no_header: bool,
-    /// How far the straight pieces may leave the corrected path, micrometres [default: a third of the
-    /// repeatability that the model states, 20 for an arm that states none, else 0.5]
+    /// How far off the tool may be along the written program, micrometres, chords of arcs and rounding included (with
+    /// --chord-tolerance-um those of arcs have their own): missed, the exit code is 3 [default: for straight pieces alone a
+    /// third of the repeatability that the model states, 20 for an arm that states none, else 0.5]
     #[arg(long, value_name = "UM", help_heading = "Tolerances", allow_negative_numbers = true, value_parser = number)]
     pub(crate) tolerance_um: Option<f64>,
     /// What becomes of arcs where they are corrected: arcs again, or straight pieces [default: fit]

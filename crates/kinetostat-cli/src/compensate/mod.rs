@@ -266,6 +266,7 @@ fn states_turn(setting: &Setting) -> bool {
 fn writing(args: &CompensateArgs) -> WritingFlags<'_> {
     WritingFlags {
         tolerance_um: args.tolerance_um,
+        of_all: true,
         arcs: args.arcs,
         min_block_mm: args.min_block_mm,
         decimals: args.decimals,

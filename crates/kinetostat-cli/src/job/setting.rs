@@ -62,6 +62,8 @@ pub(crate) struct Setting {
     pub(crate) limits: Limits,
     /// Whether the tolerances of path and chords were stated.
     pub(crate) stated: [bool; 2],
+    /// What is asked for in all, mm: of straight pieces, chords of arcs and rounding.
+    pub(crate) asked_mm: Option<f64>,
     pub(crate) targets: OutputPaths,
     /// What becomes of the turn of a round tool.
     pub(crate) free_turn: FreeTurnWord,
@@ -102,6 +104,12 @@ impl Setting {
             };
         }
         failure
+    }
+
+    /// Half a digit along three axes, mm: what rounding alone leaves.
+    pub(crate) fn rounding_mm(&self) -> f64 {
+        let decimals = i32::from(self.writing.decimals.unwrap_or(4));
+        3.0_f64.sqrt() * 0.5 * 10.0_f64.powi(-decimals)
     }
 
     /// What the program's file holds.
@@ -207,6 +215,10 @@ pub(crate) fn setting(
     let reading = reading(job, &flags.reading)?;
     let limits = limits(job, &flags.limits)?;
     let (mut write, stated) = tolerances(job, flags, writing)?;
+    // Stated chords have a share of their own.
+    let asked_mm = (writing.tolerance_um)
+        .filter(|_| writing.of_all && !stated[1])
+        .map(|_| write.tolerance_mm);
     let header = job.and_then(|j| j.job.output.header).unwrap_or(true);
     write.header = (header && !writing.no_header).then(Vec::new);
     let max_blocks_per_second = chosen(
@@ -319,6 +331,7 @@ pub(crate) fn setting(
         max_blocks_per_second,
         limits,
         stated,
+        asked_mm,
         targets,
         free_turn,
         forces: None,

@@ -1,7 +1,7 @@
 //! The machine solved along a program, from the job to the run: shared by `compensate`, `deflect` and `demo`.
 
 use kinetostat::Pose;
-use kinetostat::number::larger;
+use kinetostat::number::{larger, smaller};
 use kinetostat_machining::number::{largest, length_setting, setting as setting_of};
 use kinetostat_machining::{
     Bounds, CuttingLoad, ForceAlongPath, LoadAlongPath, MeasuredReport, ProgramLoad, Run, RunError,
@@ -9,7 +9,7 @@ use kinetostat_machining::{
     load_description, origin_in_metres,
 };
 use kinetostat_model::Model;
-use kinetostat_program::{MachineProgram, Path as ToolPath, WriteError};
+use kinetostat_program::{MachineProgram, Path as ToolPath, WriteError, WriteOptions};
 
 use crate::job::cut::along::{forces, measured, refuse_what_breaks_the_tool, warnings};
 use crate::job::free_turn::{FreeTurn, chosen, only_tool};
@@ -83,6 +83,19 @@ pub(crate) fn forces_of(
     }
 }
 
+/// Shares what is asked for in all out among straight pieces, chords of arcs (where there are some) and rounding. Where rounding
+/// takes nearly all of it, a fifth is left for the pieces, and the verdict says what comes of it.
+fn share_out(writing: &mut WriteOptions, (asked_mm, rounding_mm): (f64, f64), path: &ToolPath) {
+    writing.chord_tolerance_mm = smaller(writing.chord_tolerance_mm, 0.4 * asked_mm);
+    let chords_mm = match kinetostat_machining::feed_arcs(path) {
+        0 => 0.0,
+        _ => writing.chord_tolerance_mm,
+    };
+    let left_mm = larger(asked_mm - rounding_mm - chords_mm, 0.2 * asked_mm);
+    // No smaller one can be stated.
+    writing.tolerance_mm = larger(left_mm, 1e-6);
+}
+
 /// What `work` makes of the task of a run over a program that was read.
 pub(crate) fn with_task<R>(
     aim: Aim,
@@ -131,6 +144,14 @@ pub(crate) fn with_task<R>(
             // Never finer than the program of a machine that is not known.
             let in_proportion = 0.8 * usual_mm.min(writing.tolerance_mm);
             writing.chord_tolerance_mm = larger(writing.chord_tolerance_mm, in_proportion);
+        }
+        if let Some(asked_mm) = setting.asked_mm {
+            share_out(&mut writing, (asked_mm, setting.rounding_mm()), path);
+            run_inputs.asked_mm = Some(asked_mm);
+            run_inputs.tolerance_from = format!(
+                "what {} in all leaves beside chords and rounding",
+                length_setting(asked_mm)
+            );
         }
     }
     if let Some(header) = &mut writing.header {

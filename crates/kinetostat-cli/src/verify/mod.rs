@@ -9,6 +9,7 @@ mod text;
 use std::path::{Path, PathBuf};
 
 use kinetostat_machining::{RunError, Verified, verify_program};
+use kinetostat_program::Move;
 
 use crate::files::input_files::InputFiles;
 use crate::files::outputs::{self, Existing, Outputs};
@@ -80,7 +81,7 @@ pub(crate) fn run(args: &VerifyArgs) -> Answer<()> {
     let vtk_out = claim(PATH_VTK, &args.original.vtk)?;
 
     let (mut found, uncut) = solved(&machine, (&original, &verified), args.original.threads)?;
-    let own_bound = found.run.result.allowed_mm() + rounding_mm(&original);
+    let own_bound = found.run.result.allowed_mm() + original.rounding_mm();
     let allowed_mm = args.tolerance_um.map_or(own_bound, |um| 1e-3 * um);
     put_features(&mut found.run, &original, allowed_mm, &uncut);
     found
@@ -167,6 +168,12 @@ fn solved(
 ) -> Answer<(Verified, Vec<usize>)> {
     let read = read_program(original)?;
     let other = read_program(verified)?;
+    let cuts = |m: &Move| m.is_known_feed() && m.has_length();
+    if !other.path().moves.iter().any(cuts) {
+        return Err(verified.within(Failure::input(
+            "the program has no move at feed that begins at a place it states, so that there is nothing to verify: name the program that was compensated, and the original as --against",
+        )));
+    }
     let progress = Progress::new();
     let forces = forces_of(machine, original, read.path(), &progress)?;
     let aim = Aim::Compensate;
@@ -190,10 +197,4 @@ fn solved(
     };
     let uncut = cuts.map(|m| m.line).filter(left_out).collect();
     Ok((found, uncut))
-}
-
-/// Half a digit along three axes, mm: what rounding alone leaves.
-fn rounding_mm(setting: &Setting) -> f64 {
-    let decimals = i32::from(setting.writing.decimals.unwrap_or(4));
-    3.0_f64.sqrt() * 0.5 * 10.0_f64.powi(-decimals)
 }

@@ -46,6 +46,46 @@ fn a_missed_tolerance_is_said_first_with_line_and_reason_and_has_its_own_code() 
     );
 }
 
+/// What is asked for on the command line holds for all that keeps the tool off: pieces, chords and rounding.
+#[test]
+fn a_stated_tolerance_is_the_verdict() {
+    let here = workplace();
+    let text = "G21 G90\nG0 X-12 Y-9 Z5\nG0 Z0\nG1 X21 Y-4 F600\nG1 X25 Y13\nG3 X7 Y29 I-13.8 J2.6\nG1 X-11 Y17 Z-1\nG0 Z5\nM2\n";
+    std::fs::write(here.path().join("part.ngc"), text).expect("a program");
+    let cases = [
+        (&["--tolerance-um", "1"][..], 0, 1e-3),
+        // Four decimals cannot hold it.
+        (&["--tolerance-um", "0.1"], 3, 1e-4),
+        (&["--tolerance-um", "0.1", "--decimals", "6"], 0, 1e-4),
+    ];
+    for parts in [&[][..], &["--part-lines", "4"]] {
+        for (words, code, asked_mm) in cases {
+            let command = [
+                "compensate",
+                "job.toml",
+                "--json",
+                "r.json",
+                "--force-overwrite",
+            ];
+            let said = run(here.path(), &[&command[..], words, parts].concat());
+            assert_eq!(said.code, code, "{words:?}: {said:?}");
+            let text = std::fs::read(here.path().join("r.json")).expect("the result");
+            let result: Value = serde_json::from_slice(&text).expect("JSON");
+            let after = result["summary"]["max_position_error_after_mm"].as_f64();
+            let after = after.expect("a number");
+            assert_eq!(after > asked_mm, code == 3, "{words:?}: {after}");
+            assert_eq!(result["tolerance"]["allowed_mm"], asked_mm, "{words:?}");
+            if code == 3 {
+                let said = said.err.split_whitespace().collect::<Vec<_>>().join(" ");
+                assert!(
+                    said.contains("rounding to 4 decimals alone leaves up to"),
+                    "{said}"
+                );
+            }
+        }
+    }
+}
+
 #[test]
 fn the_tolerance_is_in_proportion_to_the_machine() {
     let here = workplace();

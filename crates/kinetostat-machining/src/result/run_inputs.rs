@@ -54,6 +54,9 @@ pub struct RunInputs {
     pub has_configuration: bool,
     /// Tolerance of the corrected path, mm.
     pub tolerance_mm: f64,
+    /// What was asked for in all, mm: pieces, chords of arcs and rounding; none where each has its own bound.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub asked_mm: Option<f64>,
     /// Where this tolerance comes from, in words; empty where it is not known.
     #[serde(default)]
     pub tolerance_from: String,

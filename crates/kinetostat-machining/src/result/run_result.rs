@@ -78,10 +78,13 @@ impl RunResult {
     /// Most places whose posture is compared with singular ones.
     pub const MAX_POSTURES: usize = 64;
 
-    /// Error that the written program may have, mm: the tolerance of the path, that of chords where the program
-    /// has arcs, and the rounding to decimals. Every statement about the tolerance uses this bound.
+    /// Error that the written program may have, mm: what was asked for in all, else the tolerance of the path, that of chords where
+    /// the program has arcs, and the rounding to decimals. Every statement about the tolerance uses this bound.
     #[must_use]
     pub fn allowed_mm(&self) -> f64 {
+        if let Some(asked_mm) = self.run_inputs.asked_mm {
+            return asked_mm;
+        }
         sum_of_bounds(
             self.run_inputs.tolerance_mm,
             (self.run_inputs.chord_tolerance_mm, self.summary.feed_arcs),

@@ -95,7 +95,7 @@ fn compensated(
     let (load, course) = (&prepared.load.acting, &prepared.course);
     let field = prepared.field(task);
     let mut again = Again::default();
-    let arcs = feed_arcs(task);
+    let arcs = feed_arcs(task.path());
     let as_it_is = whole.is_some_and(|whole| whole.as_it_is);
     let (mut written, mut check, mut points, mut worse, allowed_mm) = loop {
         let (written, check) = match as_it_is {

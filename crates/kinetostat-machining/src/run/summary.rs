@@ -1,6 +1,6 @@
 //! Figures of a run from its points and from the written program.
 
-use kinetostat_program::{Corrected, Curve, MoveKind};
+use kinetostat_program::{Corrected, Curve, MoveKind, Path};
 
 use crate::checks::own_weight::largest_by_own_weight;
 use crate::checks::refused::largest_share_of_rating;
@@ -138,7 +138,7 @@ fn of_what_was_written(
     summary.smallest_piece_mm = a.smallest_piece_mm.unwrap_or(0.0);
     summary.blocks_per_second = a.peak_blocks_per_second;
     summary.max_rounding_error_mm = a.largest_rounding_mm;
-    summary.feed_arcs = feed_arcs(task);
+    summary.feed_arcs = feed_arcs(task.path());
     summary.unchanged = written.bytes == task.program.bytes();
     summary.within_tolerance_before = checked.within_before;
     summary.corner_points_percent = 100.0 * corners().count() as f64 / points.len().max(1) as f64;
@@ -202,11 +202,13 @@ pub(crate) fn summed_along_path(
     (sum, length)
 }
 
-pub(crate) fn feed_arcs(task: &Task<'_>) -> usize {
-    if let Some(part) = &task.path().part {
+/// Arcs at feed along a path; of a part those of the whole program.
+#[must_use]
+pub fn feed_arcs(path: &Path) -> usize {
+    if let Some(part) = &path.part {
         return part.whole_feed_arcs;
     }
-    let moves = task.path().moves.iter();
+    let moves = path.moves.iter();
     moves
         .filter(|m| m.kind == MoveKind::Feed && matches!(m.curve, Curve::Arc(_)))
         .count()

@@ -26,7 +26,14 @@ pub(crate) fn tolerance(
         .filter(|_| held == Some(false));
     let missed = worst.zip(written).map(|(p, written)| {
         let a = &written.accounting;
-        let reason = if a.left_out_mm > 0.5 * error(p) {
+        let rounding_mm = result.summary.max_rounding_error_mm;
+        let reason = if rounding_mm > 0.5 * allowed_mm {
+            format!(
+                "rounding to {} decimals alone leaves up to {}; write more of them, or allow more",
+                result.run_inputs.decimals,
+                largest_length(rounding_mm)
+            )
+        } else if a.left_out_mm > 0.5 * error(p) {
             left_out(a)
         } else if let Some(at_pole) = near_pole(path, p, AT_POLE_RAD) {
             at_pole

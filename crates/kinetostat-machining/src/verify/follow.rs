@@ -5,13 +5,21 @@ use kinetostat_program::{
 };
 
 use crate::task::{NoMotion, RunError};
-use crate::verify::matched::Matched;
+use crate::verify::matched::{ExtraCut, Matched};
 use crate::verify::places::{End, ends, feet};
+use crate::verify::rapids::{elsewhere, largest_shift_mm, without_air};
 use crate::verify::uncut::uncut;
 
 /// An end this near to where the original goes on to another move lies there, mm; or if the program is farther from the guide, as
 /// near as that.
 const AT_CORNER_MM: f64 = 0.002;
+
+/// Distances of this many times that of three quarters of the ends stand out.
+const OUTSTANDING: f64 = 5.0;
+
+/// A move that is this many times as long as the original's way between its ends, or as short, does not follow it; beside this
+/// length, mm, which steps at corners have.
+const OTHER_LENGTH: (f64, f64) = (1.5, 1.0);
 
 /// A piece of the other program with the move of it that it is a part of.
 pub(crate) struct Followed {
@@ -29,7 +37,10 @@ pub(crate) fn follow(
     let nothing = |_| RunError::NoMotion(NoMotion::NoLength);
     let guide_path = guide.path(original);
     let nominal = NominalPath::new(&guide_path).map_err(nothing)?;
-    let ends = ends(&NominalPath::new(other).map_err(nothing)?);
+    let shift_mm = largest_shift_mm(original, guide);
+    let other = &*without_air(original, &nominal, (other, shift_mm));
+    let of_other = NominalPath::new(other).map_err(nothing)?;
+    let ends = ends(&of_other);
     let feet = feet(&nominal, other, &ends)?;
     let far = |a: &usize, b: &usize| feet[*a].distance_mm.total_cmp(&feet[*b].distance_mm);
     let farthest = (0..ends.len()).max_by(far).unwrap_or(0);
@@ -38,18 +49,34 @@ pub(crate) fn follow(
         other,
         guide,
         stretches: stretches(guide, &nominal),
-        near_mm: feet[farthest].distance_mm.max(AT_CORNER_MM),
+        near_mm: usual_distance_mm(&feet).max(AT_CORNER_MM),
         nominal: &nominal,
         pieces: Vec::new(),
         covered: Vec::new(),
+        passes: Vec::new(),
+        extra_cuts: Vec::new(),
     };
     along.go(&ends, &feet);
+    let with = (&of_other, along.passes.as_slice());
+    let rapids = elsewhere((original, guide, &nominal), with, shift_mm);
     let matched = Matched {
         largest_distance_mm: feet[farthest].distance_mm,
         largest_distance_line: other.moves[ends[farthest].move_index].line,
         uncut: uncut(original, (&nominal, guide), &along.covered),
+        rapids,
+        extra_cuts: along.extra_cuts,
     };
     Ok((along.pieces, matched))
+}
+
+/// The largest distance from the guide but for those that stand out: one wrong block says nothing of how near the others are.
+fn usual_distance_mm(feet: &[Foot]) -> f64 {
+    let mut distances: Vec<f64> = feet.iter().map(|foot| foot.distance_mm).collect();
+    distances.sort_by(f64::total_cmp);
+    let three_quarters = distances.get(distances.len() * 3 / 4).copied();
+    let most = (OUTSTANDING * three_quarters.unwrap_or(0.0)).max(AT_CORNER_MM);
+    let usual = distances.iter().rev().find(|distance| **distance <= most);
+    usual.copied().unwrap_or(0.0)
 }
 
 /// A part of the guide along one move of the original, or at one place of it where the load turns.
@@ -96,15 +123,25 @@ struct Along<'a> {
     pieces: Vec<Followed>,
     /// Lengths along the guide between which the passes go, mm.
     covered: Vec<[f64; 2]>,
+    /// The same from rapid to rapid of the other program.
+    passes: Vec<[f64; 2]>,
+    extra_cuts: Vec<ExtraCut>,
 }
 
 impl Along<'_> {
     fn go(&mut self, ends: &[End], feet: &[Foot]) {
         let mut at = 0.0;
         for (end, foot) in ends.iter().zip(feet) {
-            let to = self.at_corner(foot.along_mm);
-            match self.covered.last_mut().filter(|_| !end.begins_pass) {
+            let to = self.at_corner(foot);
+            let follows = !end.begins_pass && !self.goes_elsewhere(end, [at, to]);
+            match self.covered.last_mut().filter(|_| follows) {
                 None => {
+                    if !end.begins_pass {
+                        self.extra_cuts.push(ExtraCut {
+                            line: self.other.moves[end.move_index].line,
+                            length_mm: self.length_mm(end),
+                        });
+                    }
                     self.begin(end, to);
                     at = to;
                     self.covered.push([to, to]);
@@ -116,11 +153,36 @@ impl Along<'_> {
                     at = to;
                 }
             }
+            match self.passes.last_mut().filter(|_| !end.begins_pass) {
+                None => self.passes.push([at, at]),
+                Some(pass) => pass[1] = at,
+            }
         }
     }
 
+    fn length_mm(&self, end: &End) -> f64 {
+        let [from, to] = end.shares;
+        self.other.moves[end.move_index].length_between_mm(from, to)
+    }
+
+    /// Whether a part of a move is no part of the original: it leaves a way of that out, or crosses where that lifts the tool.
+    fn goes_elsewhere(&self, end: &End, [from, to]: [f64; 2]) -> bool {
+        let (times, beside_mm) = OTHER_LENGTH;
+        let (own, way) = (self.length_mm(end), to - from);
+        let leaves_out = way > times * own + beside_mm;
+        // Just inside: where passes meet both are at the same length.
+        let pass = |at: f64| {
+            let at = at.clamp(0.0, self.nominal.length_mm());
+            let (piece, _) = self.nominal.at_length(at);
+            self.nominal.pieces()[piece].pass
+        };
+        let crosses = own > times * way + beside_mm && pass(from - 0.01) != pass(to + 0.01);
+        leaves_out || crosses
+    }
+
     /// The nearest end of a stretch, if there is one as near as the program is to its guide.
-    fn at_corner(&self, along_mm: f64) -> f64 {
+    fn at_corner(&self, foot: &Foot) -> f64 {
+        let along_mm = foot.along_mm;
         let after = self
             .stretches
             .partition_point(|stretch| stretch.along_mm[1] < along_mm);
@@ -128,8 +190,8 @@ impl Along<'_> {
             return self.nominal.length_mm();
         };
         // On a short stretch no farther than to its nearer end.
-        let near = self
-            .near_mm
+        let near = (self.near_mm)
+            .max(foot.distance_mm)
             .min(0.5 * (stretch.along_mm[1] - stretch.along_mm[0]));
         let ends = stretch.along_mm.into_iter();
         let nearest = ends.min_by(|a, b| (a - along_mm).abs().total_cmp(&(b - along_mm).abs()));

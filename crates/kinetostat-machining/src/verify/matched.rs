@@ -12,6 +12,34 @@ pub struct Matched {
     pub largest_distance_line: usize,
     /// Parts of the original that the program does not cut, in their order.
     pub uncut: Vec<Uncut>,
+    /// Rapids that go elsewhere than those of the original, one of each way from cut to cut.
+    #[serde(default)]
+    pub rapids: Vec<RapidElsewhere>,
+    /// Moves at feed that the original does not make.
+    #[serde(default)]
+    pub extra_cuts: Vec<ExtraCut>,
+}
+
+/// A rapid of a program that goes elsewhere than that of the original.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct RapidElsewhere {
+    /// Line of the program.
+    pub line: usize,
+    /// Line of the original; none where that has no rapid there.
+    pub line_of_original: Option<usize>,
+    /// Where one of them goes, program coordinates, mm.
+    pub position_mm: [f64; 3],
+    /// How far the other one is from there, mm.
+    pub distance_mm: f64,
+}
+
+/// A move at feed of a program that the original does not make.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ExtraCut {
+    /// Line of the program.
+    pub line: usize,
+    /// Its length, mm.
+    pub length_mm: f64,
 }
 
 /// A part of the original that a program does not cut.

@@ -15,6 +15,7 @@ mod follow;
 mod matched;
 mod pieces;
 mod places;
+mod rapids;
 mod uncut;
 
 use kinetostat::number::smaller;
@@ -33,7 +34,7 @@ use crate::verify::follow::follow;
 use crate::verify::pieces::as_written;
 use crate::watch::Watch;
 
-pub use matched::{Matched, Uncut};
+pub use matched::{ExtraCut, Matched, RapidElsewhere, Uncut};
 
 /// A program that was verified.
 #[derive(Clone, Debug)]

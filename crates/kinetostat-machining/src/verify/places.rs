@@ -11,6 +11,9 @@ const ARC_MM: f64 = 0.01;
 /// How far the other program may be from the guide, mm, tried one after the other: the nearer it is, the less can be mistaken.
 const WINDOWS_MM: [f64; 5] = [0.02, 0.1, 0.5, 2.0, 8.0];
 
+/// One of so many ends may be farther away than the others.
+const FEW: usize = 4;
+
 /// The start of a pass, or the end of a part of a move.
 pub(crate) struct End {
     /// Index of the move in the other program.
@@ -58,10 +61,11 @@ pub(crate) fn feet(
     let points: Vec<Vector3<f64>> = ends.iter().map(|end| end.position).collect();
     let mut last = None;
     for window_mm in WINDOWS_MM {
-        let near: Vec<Vec<Foot>> = points
+        let mut near: Vec<Vec<Foot>> = points
             .iter()
             .map(|point| guide.nearest_within(point, window_mm))
             .collect();
+        widen_few(guide, &points, (&mut near, window_mm));
         // Nobody is asked for an order of points one of which is nowhere.
         let found = match near.iter().position(Vec::is_empty) {
             Some(lost) => Err((lost, WhyLeftOut::BeyondWindow)),
@@ -86,4 +90,21 @@ pub(crate) fn feet(
             _ => guide.nearest(&end.position).map(|foot| foot.distance_mm),
         },
     })
+}
+
+/// Looks farther away for the few ends that are nowhere near: one wrong block is to widen the window of no other.
+fn widen_few(
+    guide: &NominalPath<'_>,
+    points: &[Vector3<f64>],
+    (near, window_mm): (&mut [Vec<Foot>], f64),
+) {
+    let lost: Vec<usize> = (0..near.len()).filter(|k| near[*k].is_empty()).collect();
+    if lost.len() * FEW > near.len() {
+        return;
+    }
+    for k in lost {
+        let wider = WINDOWS_MM.into_iter().filter(|mm| *mm > window_mm);
+        let mut found = wider.map(|mm| guide.nearest_within(&points[k], mm));
+        near[k] = found.find(|feet| !feet.is_empty()).unwrap_or_default();
+    }
 }

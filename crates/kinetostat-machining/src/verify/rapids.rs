@@ -1,0 +1,186 @@
+//! Rapids of another program beside those of the original: where they go, and which of its moves at feed are none.
+
+use std::borrow::Cow;
+
+use kinetostat_program::{Corrected, Curve, Knowledge, Move, MoveKind, NominalPath, Path};
+use nalgebra::Vector3;
+
+use crate::verify::matched::RapidElsewhere;
+
+/// Rapids nearer than this are the same, mm, beside what corrections shift them by: clearances are larger.
+const NEAR_MM: f64 = 1.0;
+
+/// More of them are not listed.
+const MOST: usize = 100;
+
+/// How far the guide shifts the original at most, mm.
+pub(crate) fn largest_shift_mm(original: &Path, guide: &Corrected) -> f64 {
+    let shift = |piece: &kinetostat_program::Piece| {
+        let nominal = original.moves[piece.move_index].point(piece.share_to);
+        (piece.commanded_to - nominal).norm()
+    };
+    guide.pieces.iter().map(shift).fold(0.0, f64::max)
+}
+
+/// The other program with its moves at feed as rapids where they are rapids of the original: a retract at feed cuts nothing.
+pub(crate) fn without_air<'a>(
+    original: &Path,
+    nominal: &NominalPath<'_>,
+    (other, shift_mm): (&'a Path, f64),
+) -> Cow<'a, Path> {
+    let near_mm = NEAR_MM + shift_mm;
+    let is_rapid = |m: &&Move| m.kind == MoveKind::Rapid && m.known == Knowledge::Whole;
+    let mut rapids: Vec<&Move> = original.moves.iter().filter(is_rapid).collect();
+    rapids.sort_by(|a, b| a.start.x.total_cmp(&b.start.x));
+    let is_air = |own: &Move| {
+        if own.kind != MoveKind::Feed || own.curve != Curve::Line || !own.is_known_feed() {
+            return false;
+        }
+        let from = rapids.partition_point(|m| m.start.x < own.start.x - near_mm);
+        let candidates = rapids[from..].iter();
+        let mut candidates = candidates.take_while(|m| m.start.x <= own.start.x + near_mm);
+        let middle = own.point(0.5);
+        candidates.any(|m| {
+            let beside = (m.point(0.5) - middle).norm();
+            (m.start - own.start).norm() <= near_mm
+                && (m.end - own.end).norm() <= near_mm
+                // Not where a cut goes nearer by.
+                && nominal.nearest(&middle).is_none_or(|foot| foot.distance_mm > beside)
+        })
+    };
+    let air: Vec<usize> = (0..other.moves.len())
+        .filter(|index| is_air(&other.moves[*index]))
+        .collect();
+    if air.is_empty() {
+        return Cow::Borrowed(other);
+    }
+    let mut changed = other.clone();
+    for index in air {
+        changed.moves[index].kind = MoveKind::Rapid;
+    }
+    Cow::Owned(changed)
+}
+
+/// A straight way of the tool in a rapid.
+struct Way {
+    line: usize,
+    ends: [Vector3<f64>; 2],
+}
+
+impl Way {
+    fn distance(&self, point: &Vector3<f64>) -> f64 {
+        let [from, to] = &self.ends;
+        let way = to - from;
+        let squared = way.norm_squared();
+        let share = match squared > 0.0 {
+            true => ((point - from).dot(&way) / squared).clamp(0.0, 1.0),
+            false => 0.0,
+        };
+        (from + share * way - point).norm()
+    }
+}
+
+/// Rapids from and to places that the program states.
+fn rapids(moves: &[Move]) -> Vec<Way> {
+    let stated = |m: &&Move| {
+        m.kind == MoveKind::Rapid && m.known != Knowledge::Nothing && !m.words.is_to_machine()
+    };
+    let way = |m: &Move| Way {
+        line: m.line,
+        ends: match m.known {
+            Knowledge::Whole => [m.start, m.end],
+            _ => [m.end, m.end],
+        },
+    };
+    moves.iter().filter(stated).map(way).collect()
+}
+
+/// The moves before each pass of a path, and those behind the last one; `move_of` gives the move of a piece.
+fn between_passes<'p>(
+    moves: &'p [Move],
+    nominal: &NominalPath<'_>,
+    move_of: impl Fn(usize) -> usize,
+) -> Vec<&'p [Move]> {
+    let index = |piece: usize| move_of(nominal.pieces()[piece].move_index);
+    let mut from = 0;
+    let mut between = Vec::with_capacity(nominal.passes().len() + 1);
+    for pass in nominal.passes() {
+        let begins = index(pass.pieces.start);
+        between.push(&moves[from..begins.max(from)]);
+        from = index(pass.pieces.end - 1) + 1;
+    }
+    between.push(&moves[from..]);
+    between
+}
+
+/// Where rapids of the other program go beside those of the original; `passes` are the lengths along the guide at which the passes
+/// of the other program begin and end.
+pub(crate) fn elsewhere(
+    (original, guide, nominal): (&Path, &Corrected, &NominalPath<'_>),
+    (other, passes): (&NominalPath<'_>, &[[f64; 2]]),
+    shift_mm: f64,
+) -> Vec<RapidElsewhere> {
+    let of_original = between_passes(&original.moves, nominal, |i| guide.pieces[i].move_index);
+    let of_other = between_passes(&other.path().moves, other, |i| i);
+    let known = nominal.passes();
+    let slack_mm = 0.05 + shift_mm;
+    let mut found = Vec::new();
+    for (index, moves) in of_other.into_iter().enumerate() {
+        let own = rapids(moves);
+        if own.is_empty() || found.len() == MOST {
+            continue;
+        }
+        let ended = index.checked_sub(1).map(|before| passes[before][1]);
+        let begins = passes.get(index).map(|pass| pass[0]);
+        let first = ended.map_or(0, |at| {
+            known.partition_point(|pass| pass.along_mm[0] < at - slack_mm)
+        });
+        let last = begins.map_or(known.len(), |at| {
+            known.partition_point(|pass| pass.along_mm[1] <= at + slack_mm)
+        });
+        let wanted = match first.cmp(&last) {
+            std::cmp::Ordering::Equal => rapids(of_original[first]),
+            // Passes are left out, which is said.
+            std::cmp::Ordering::Less => continue,
+            // In the midst of a cut, where the original has no rapid.
+            std::cmp::Ordering::Greater => {
+                let [from, to] = [own.first(), own.last()];
+                let stays = from.zip(to).map(|(from, to)| Way {
+                    line: 0,
+                    ends: [from.ends[0], to.ends[1]],
+                });
+                stays.into_iter().collect()
+            }
+        };
+        found.extend(worst(&own, &wanted).filter(|way| way.distance_mm > NEAR_MM + shift_mm));
+    }
+    found
+}
+
+/// Where ways are farthest from one another: ends of each from the other.
+fn worst(own: &[Way], wanted: &[Way]) -> Option<RapidElsewhere> {
+    let nearest = |point: &Vector3<f64>, ways: &[Way]| {
+        let distances = ways.iter().map(|way| (way.distance(point), way.line));
+        distances.min_by(|a, b| a.0.total_cmp(&b.0))
+    };
+    let of_own = own.iter().flat_map(|way| {
+        way.ends.iter().filter_map(move |end| {
+            let (distance_mm, line) = nearest(end, wanted)?;
+            Some((distance_mm, way.line, line, end))
+        })
+    });
+    let of_wanted = wanted.iter().flat_map(|way| {
+        way.ends.iter().filter_map(move |end| {
+            let (distance_mm, line) = nearest(end, own)?;
+            Some((distance_mm, line, way.line, end))
+        })
+    });
+    let all = of_own.chain(of_wanted);
+    let (distance_mm, line, line_of_original, end) = all.max_by(|a, b| a.0.total_cmp(&b.0))?;
+    Some(RapidElsewhere {
+        line,
+        line_of_original: Some(line_of_original).filter(|line| *line > 0),
+        position_mm: (*end).into(),
+        distance_mm,
+    })
+}
