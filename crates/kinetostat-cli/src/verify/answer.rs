@@ -52,7 +52,9 @@ impl VerifyAnswer {
         let worst = farthest_off(points).into_iter();
         let worst_points: Vec<PointResult> = worst.map(|i| points[i].clone()).collect();
         let within = s.max_position_error_after_mm <= allowed_mm;
-        let whole = verified.matched.uncut.is_empty();
+        let matched = &verified.matched;
+        let whole =
+            matched.uncut.is_empty() && matched.rapids.is_empty() && matched.extra_cuts.is_empty();
         Self {
             schema: 1,
             kinetostat_version: env!("CARGO_PKG_VERSION"),
@@ -106,6 +108,8 @@ impl VerifyAnswer {
     /// Its paper.
     pub(crate) fn paper<'a>(&self, run: &'a RunResult, language: Language) -> Paper<'a> {
         let uncut = self.matched.uncut.iter();
+        let rapids = self.matched.rapids.iter();
+        let extra = self.matched.extra_cuts.iter();
         Paper::of(run)
             .in_language(language)
             .of_verified(VerifiedProgram {
@@ -113,6 +117,10 @@ impl VerifyAnswer {
                 held: self.held,
                 allowed_mm: self.allowed_mm,
                 uncut: uncut.map(|uncut| (uncut.lines, uncut.length_mm)).collect(),
+                rapids: rapids
+                    .map(|rapid| (rapid.line, rapid.distance_mm))
+                    .collect(),
+                extra_cuts: extra.map(|cut| (cut.line, cut.length_mm)).collect(),
             })
     }
 
@@ -132,6 +140,24 @@ impl VerifyAnswer {
             };
             let length = kinetostat_machining::number::largest_length(uncut.length_mm);
             faults.push(format!("{lines} by this program: {length} of path."));
+        }
+        for cut in &self.matched.extra_cuts {
+            let length = kinetostat_machining::number::largest_length(cut.length_mm);
+            faults.push(format!(
+                "LINE {} IS A MOVE AT FEED THAT THE ORIGINAL DOES NOT MAKE: {length} long.",
+                cut.line
+            ));
+        }
+        for rapid in &self.matched.rapids {
+            let off = kinetostat_machining::number::largest_length(rapid.distance_mm);
+            let of_original = match rapid.line_of_original {
+                Some(line) => format!("from that of the original (line {line} there)"),
+                None => "from the cut, where the original has none".to_owned(),
+            };
+            faults.push(format!(
+                "THE RAPID AT LINE {} GOES ELSEWHERE: up to {off} {of_original}.",
+                rapid.line
+            ));
         }
         if let Some(m) = &self.missed {
             let (error, allowed) =

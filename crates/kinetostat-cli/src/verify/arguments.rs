@@ -20,6 +20,13 @@ use crate::options::{EXIT_CODES, number};
     .value_name("ORIGINAL")
     .help("The original: the program as it is drawn; without it, the one that the job names")
     .long_help(None)))]
+// What other commands along a program take is refused here in words, and not offered.
+#[command(mut_arg("report", |arg| arg.hide(true)))]
+#[command(mut_arg("free_turn", |arg| arg.hide(true)))]
+#[command(mut_arg("stiff_turn", |arg| arg.hide(true)))]
+#[command(mut_arg("turn_plot", |arg| arg.hide(true)))]
+#[command(mut_arg("uncertain", |arg| arg.hide(true)))]
+#[command(mut_arg("machines", |arg| arg.hide(true)))]
 pub(crate) struct VerifyArgs {
     /// The program that is verified
     #[arg(value_name = "PROGRAM")]

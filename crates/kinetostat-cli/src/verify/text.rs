@@ -1,6 +1,6 @@
 //! What `verify` says to a person.
 
-use kinetostat_machining::number::{against, largest_length, mean_length};
+use kinetostat_machining::number::{against, largest, largest_length, mean_length};
 
 use crate::program::features::features_text;
 use crate::ui::layout::{columns, wrapped};
@@ -39,6 +39,11 @@ pub(crate) fn answer_text(answer: &VerifyAnswer) -> String {
             mean_length(answer.rms_position_error_mm),
         ],
         ["error allowed in all".to_owned(), String::new(), allowed],
+        [
+            "tool tilt that stays".to_owned(),
+            String::new(),
+            largest(answer.max_residual_rotation_deg, "deg"),
+        ],
         [
             "from the original as the model compensates it".to_owned(),
             String::new(),

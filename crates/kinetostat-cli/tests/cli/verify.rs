@@ -271,6 +271,147 @@ fn a_feature_beyond_the_end_of_the_program_is_refused() {
     }
 }
 
+/// A program of others, made of the compensated one by changing lines, and what `verify` says of it on one line.
+fn changed(here: &Path, change: impl Fn(&str) -> String) -> (i32, Value, String) {
+    let text = std::fs::read_to_string(here.join("out.ngc")).unwrap();
+    let other = change(&text);
+    assert_ne!(other, text);
+    std::fs::write(here.join("other.ngc"), other).unwrap();
+    let (code, found, said) = verified(here, "other.ngc", &["--tolerance-um", "10"]);
+    (
+        code,
+        found,
+        said.split_whitespace().collect::<Vec<_>>().join(" "),
+    )
+}
+
+fn line_of(text: &str, is: impl Fn(&str) -> bool) -> usize {
+    1 + text.lines().position(is).unwrap()
+}
+
+#[test]
+fn rapids_are_those_of_the_original() {
+    let here = part();
+    compensated(here.path(), &["--no-header"]);
+    // The tool is not lifted before the second cut: the rapid goes through the part.
+    let (code, found, said) = changed(here.path(), |text| {
+        let kept: Vec<&str> = text.lines().collect();
+        let lift = kept
+            .iter()
+            .position(|line| line.starts_with("G0 Z5"))
+            .unwrap();
+        let kept = kept.iter().enumerate().filter(|(index, _)| *index != lift);
+        kept.map(|(_, line)| format!("{line}\n")).collect()
+    });
+    assert_eq!(code, 3, "{said}");
+    assert!(said.contains("THE RAPID AT LINE"), "{said}");
+    assert!(
+        said.contains("(line 9 there)") || said.contains("(line 10 there)"),
+        "{said}"
+    );
+    let off = number(&found["matched"]["rapids"][0], "distance_mm");
+    assert!((5.0..7.0).contains(&off), "{said}");
+    // A cut that has become a rapid is not cut.
+    let (code, _, said) = changed(here.path(), |text| {
+        let (contour, slot) = text.split_at(text.rfind("G0 Z-1").unwrap());
+        format!("{contour}{}", slot.replace("G1 ", "G0 "))
+    });
+    assert_eq!(code, 3, "{said}");
+    assert!(said.contains("NOT CUT"), "{said}");
+    // A lift at feed cuts nothing.
+    let (code, found, said) = changed(here.path(), |text| {
+        let lift = line_of(text, |line| line.starts_with("G0 Z5"));
+        let lines = text.lines().enumerate();
+        let slow = |(index, line): (usize, &str)| match index + 1 == lift {
+            true => "G1 Z5\n".to_owned(),
+            false => format!("{line}\n"),
+        };
+        lines.map(slow).collect()
+    });
+    assert_eq!(code, 0, "{said} {found}");
+}
+
+#[test]
+fn one_wrong_block_is_its_own_fault_and_that_of_no_other_feature() {
+    let here = part();
+    let features = "[[features]]\nname = \"contour\"\nlines = [4, 8]\n[[features]]\nname = \"slot\"\nlines = [12, 12]\n";
+    std::fs::write(here.path().join("job.toml"), format!("{JOB}{features}")).unwrap();
+    compensated(here.path(), &["--no-header"]);
+    // A spike of 3 mm behind the first piece of the slot.
+    let (code, found, said) = changed(here.path(), |text| {
+        let begins = line_of(text, |line| line.contains("X30") && line.starts_with("G0"));
+        let at = begins + 4;
+        let lines = text.lines().enumerate();
+        let spike = |(index, line): (usize, &str)| match index + 1 == at {
+            true => format!("{line}\nG91\nG1 X3\nX-3\nG90\n"),
+            false => format!("{line}\n"),
+        };
+        lines.map(spike).collect()
+    });
+    assert_eq!(code, 3, "{said}");
+    let held = [0, 1].map(|index| found["features"][index]["held"].clone());
+    assert_eq!(held, [Value::Bool(true), Value::Bool(false)], "{said}");
+    let off = number(&found, "max_position_error_mm");
+    assert!((2.9..3.1).contains(&off), "{said}");
+}
+
+#[test]
+fn rows_that_are_left_out_are_named() {
+    let here = part();
+    let row = |k: i32| {
+        let (from, to) = if k % 2 == 0 { (0, 40) } else { (40, 0) };
+        format!("G1 X{from} Y{}\nX{to}\n", 4 * k)
+    };
+    let rows = |left_out: &[i32]| -> String {
+        let kept = (0..6).filter(|k| !left_out.contains(k));
+        let rows: String = kept.map(row).collect();
+        format!("G21 G90\nG0 X0 Y0 Z5\nG1 Z0 F600\n{rows}G0 Z5\nM2\n")
+    };
+    std::fs::write(here.path().join("part.ngc"), rows(&[])).unwrap();
+    std::fs::write(here.path().join("other.ngc"), rows(&[2, 3])).unwrap();
+    let (code, found, said) = verified(here.path(), "other.ngc", &["--tolerance-um", "2000"]);
+    assert_eq!(code, 3, "{said}");
+    let uncut = &found["matched"]["uncut"];
+    assert_eq!(uncut.as_array().map(Vec::len), Some(1), "{said}");
+    let length = number(&uncut[0], "length_mm");
+    assert!((90.0..100.0).contains(&length), "{uncut}");
+    let [first, last] = [0, 1].map(|k| uncut[0]["lines"][k].as_u64().unwrap());
+    assert!(
+        (7..=9).contains(&first) && (11..=13).contains(&last),
+        "{uncut}"
+    );
+    // Nothing is said of forty millimetres.
+    assert!(number(&found, "max_position_error_mm") < 2.0, "{said}");
+}
+
+#[test]
+fn a_program_of_remarks_is_its_own_fault() {
+    let here = part();
+    std::fs::write(here.path().join("remarks.ngc"), "(nothing)\nG21 G90\nM2\n").unwrap();
+    let (code, _, said) = verified(here.path(), "remarks.ngc", &[]);
+    let said = said.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert_eq!(code, 1, "{said}");
+    assert!(
+        said.contains("remarks.ngc: the program has no move at feed"),
+        "{said}"
+    );
+}
+
+#[test]
+fn the_tilt_is_said_and_what_is_refused_is_not_offered() {
+    let here = part();
+    let said = run(here.path(), &["verify", "part.ngc", "--job", "job.toml"]);
+    assert!(said.out.contains("tool tilt that stays"), "{said:?}");
+    for (command, refused) in [
+        ("verify", "--report"),
+        ("place", "--points"),
+        ("place", "--free-turn"),
+    ] {
+        let help = run(here.path(), &[command, "--help"]).answered();
+        assert!(!help.out.contains(refused), "{command}: {refused}");
+    }
+}
+
 #[test]
 fn a_robots_program_is_verified_with_its_orientation() {
     let here = workplace();

@@ -33,6 +33,10 @@ pub struct VerifiedProgram {
     pub allowed_mm: f64,
     /// Lines of the original that are not cut, first and last, with their length, mm.
     pub uncut: Vec<([usize; 2], f64)>,
+    /// Lines of its rapids that go elsewhere than those of the original, with how far, mm.
+    pub rapids: Vec<(usize, f64)>,
+    /// Lines of its moves at feed that the original does not make, with their length, mm.
+    pub extra_cuts: Vec<(usize, f64)>,
 }
 
 impl<'a> Paper<'a> {

@@ -173,11 +173,15 @@ fn a_verified_program_has_its_own_verdict() {
             held: false,
             allowed_mm: 0.001,
             uncut: vec![([4, 6], 12.5)],
+            rapids: vec![(9, 6.0)],
+            extra_cuts: vec![(12, 40.0)],
         });
     let text = said(&paper);
     assert!(text.contains("Toleranz verfehlt"), "{text}");
     assert!(text.contains("Die Zeilen 4 bis 6 des Originals"), "{text}");
     assert!(text.contains("vorlage.ngc"), "{text}");
+    assert!(text.contains("Der Eilgang in Zeile 9"), "{text}");
+    assert!(text.contains("Zeile 12 dieses Programms"), "{text}");
     // Nothing is said of another load at corners, which was not solved.
     assert!(!text.contains("Gleichgewicht"), "{text}");
 }

@@ -104,6 +104,19 @@ fn verdict(of: &Of<'_>) -> Block {
             ],
         ));
     }
+    let lists = of.paper.verified.iter().flat_map(|verified| {
+        let rapids = verified
+            .rapids
+            .iter()
+            .map(|own| (words.rapid_elsewhere, own));
+        let cuts = verified.extra_cuts.iter().map(|own| (words.extra_cut, own));
+        rapids.chain(cuts)
+    });
+    for (sentence, (line, mm)) in lists {
+        let (line, length) = (number::count(*line), of.length(*mm));
+        let values = [("line", line.as_str()), ("length", &length)];
+        sentences.push(fill(sentence, &values));
+    }
     sentences.push(words.model_only.to_owned());
     Block::Verdict {
         level,

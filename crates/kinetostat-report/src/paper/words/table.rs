@@ -161,6 +161,10 @@ pub(crate) struct Words {
     pub(crate) signature: &'static str,
     /// Of `verify`: what of the original is not cut.
     pub(crate) uncut: &'static str,
+    /// A rapid that goes elsewhere: `{line}`, `{length}`.
+    pub(crate) rapid_elsewhere: &'static str,
+    /// A move at feed that the original does not make: `{line}`, `{length}`.
+    pub(crate) extra_cut: &'static str,
 }
 
 impl Words {

@@ -154,4 +154,6 @@ pub(super) const WORDS: Words = Words {
     name_and_date: "Name, Datum",
     signature: "Unterschrift",
     uncut: "Die Zeilen {first} bis {last} des Originals schneidet dieses Programm nicht: {length} Bahn.",
+    rapid_elsewhere: "Der Eilgang in Zeile {line} dieses Programms geht anderswo als der des Originals, um bis zu {length}.",
+    extra_cut: "Zeile {line} dieses Programms ist eine Vorschubbewegung, die das Original nicht macht: {length} lang.",
 };
