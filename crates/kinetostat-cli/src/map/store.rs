@@ -69,23 +69,39 @@ impl Store {
         };
         let named = directory.join("manifest.json");
         let path = directory.join("rows.bin");
+        let wanted = serde_json::to_string_pretty(manifest).map_err(Failure::input)?;
+        let begin = || {
+            let mut part =
+                tempfile::NamedTempFile::new_in(directory).map_err(|e| refuse(&named, &e))?;
+            part.write_all(wanted.as_bytes())
+                .and_then(|()| part.as_file().sync_all())
+                .map_err(|e| refuse(&named, &e))?;
+            part.persist(&named).map_err(|e| refuse(&named, &e))
+        };
         match fs::read_to_string(&named) {
+            // Cut off by a disk: it may have been this question, which nobody knows of the rows. They are solved again.
+            Ok(text) if text.len() < wanted.len() && wanted.starts_with(&text) => {
+                match fs::remove_file(&path) {
+                    Err(e) if e.kind() != std::io::ErrorKind::NotFound => {
+                        return Err(refuse(&path, &description(&e)));
+                    }
+                    _ => drop(begin()?),
+                }
+            }
             Ok(text) => {
-                let found: Manifest = serde_json::from_str(&text)
-                    .map_err(|e| refuse(&named, &format!("this is no manifest of a map ({e})")))?;
+                let found: Manifest = serde_json::from_str(&text).map_err(|e| {
+                    let what = format!(
+                        "this is no manifest of a map ({e}); remove the directory and begin again, or give another one"
+                    );
+                    refuse(&named, &what)
+                })?;
                 same(&found, manifest).map_err(|what| refuse(&named, &what))?;
             }
             Err(e) if e.kind() == std::io::ErrorKind::NotFound => {
                 if path.exists() {
                     return Err(refuse(&path, &"there are rows without a manifest.json"));
                 }
-                let text = serde_json::to_string_pretty(manifest).map_err(Failure::input)?;
-                let mut part =
-                    tempfile::NamedTempFile::new_in(directory).map_err(|e| refuse(&named, &e))?;
-                part.write_all(text.as_bytes())
-                    .and_then(|()| part.as_file().sync_all())
-                    .map_err(|e| refuse(&named, &e))?;
-                part.persist(&named).map_err(|e| refuse(&named, &e))?;
+                begin()?;
             }
             Err(e) => return Err(refuse(&named, &e)),
         }

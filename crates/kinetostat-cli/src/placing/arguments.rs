@@ -16,6 +16,15 @@ use crate::options::{EXIT_CODES, number, whole};
 /// placements, how much room there is around the best one, and what was found at the ends of ranges.
 #[derive(Debug, Args)]
 #[command(after_help = EXIT_CODES, after_long_help = HELP)]
+// What other commands along a program take is refused here in words, and not offered.
+#[command(mut_arg("report", |arg| arg.hide(true)))]
+#[command(mut_arg("points", |arg| arg.hide(true)))]
+#[command(mut_arg("vtk", |arg| arg.hide(true)))]
+#[command(mut_arg("free_turn", |arg| arg.hide(true)))]
+#[command(mut_arg("stiff_turn", |arg| arg.hide(true)))]
+#[command(mut_arg("turn_plot", |arg| arg.hide(true)))]
+#[command(mut_arg("uncertain", |arg| arg.hide(true)))]
+#[command(mut_arg("machines", |arg| arg.hide(true)))]
 pub(crate) struct PlacingArgs {
     /// Job file (TOML): model, program, placement, load, and under [place] where the part may lie
     #[arg(value_name = "JOB")]

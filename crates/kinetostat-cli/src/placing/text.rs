@@ -219,7 +219,12 @@ pub(crate) fn nowhere_text(nowhere: &Nowhere, space: &Space) -> String {
                 .map_or_else(String::new, |line| format!("line {line}: "));
             format!(": {line}{} ({})", refusal.message, refusal.why.words())
         });
+    // Less than half a millimetre is no way out: something else than the reach is in the way.
+    let is_way = |by: &[f64; 3]| by.iter().any(|mm| mm.abs() >= 0.5);
     let way = match nowhere.move_mm {
+        Some(by) if !is_way(&by) => {
+            ". The machine reaches all of it there, and what is said is in the way: widen the ranges, turn the part, or clear it".to_owned()
+        }
         Some(by) => format!(
             ". With the part moved by {} mm from there (base axes) all of it would be reached: move the ranges",
             triple(by, |x| fixed(x, 0))

@@ -392,6 +392,22 @@ fn damaged_rows_of_a_map_are_solved_again() {
         map(here.path(), line).answered();
         assert!(table() == wanted && std::fs::read(&path).expect("rows") == complete);
     }
+    // A manifest that is cut off says nothing of the rows; another file of that name is nobody's to replace.
+    let manifest = here.path().join("rows/manifest.json");
+    let whole = std::fs::read_to_string(&manifest).expect("a manifest");
+    for length in [0, whole.len() / 2] {
+        std::fs::write(&manifest, &whole[..length]).expect("written");
+        map(here.path(), line).answered();
+        assert!(table() == wanted && std::fs::read(&path).expect("rows") == complete);
+        assert!(std::fs::read_to_string(&manifest).expect("a manifest") == whole);
+    }
+    std::fs::write(&manifest, "{ \"of\": [1, 2").expect("written");
+    let said = map(here.path(), line);
+    assert!(
+        said.code == 1 && said.err.contains("this is no manifest of a map"),
+        "{said:?}"
+    );
+    std::fs::write(&manifest, &whole).expect("written");
     let other = line.replace("--tool-length-mm 30", "--tool-length-mm 31");
     let said = map(here.path(), &other);
     assert!(

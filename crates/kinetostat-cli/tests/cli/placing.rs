@@ -102,6 +102,21 @@ fn ranges_out_of_reach_have_no_answer() {
 }
 
 #[test]
+fn a_part_behind_an_obstacle_is_not_to_be_moved_by_nothing() {
+    let here = workplace();
+    let write = |name: &str, text: &str| std::fs::write(here.path().join(name), text).unwrap();
+    write("plate.ngc", PLATE);
+    let wall = "[place]\nx_mm = [1400, 1410]\n[[place.obstacles]]\nname = \"wall\"\nfrom_mm = [-5000, -5000, -5000]\nto_mm = [5000, 5000, 5000]\n";
+    write("job.toml", &job("plate.ngc", wall));
+    let said = run(here.path(), &["place", "job.toml", "--samples", "4"]);
+    assert_eq!(said.code, 2, "{}", said.err);
+    let err = said.err.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(err.contains("wall"), "{err}");
+    assert!(!err.contains("move the ranges"), "{err}");
+    assert!(err.contains("The machine reaches all of it there"), "{err}");
+}
+
+#[test]
 fn questions_without_sense_are_refused() {
     let here = workplace();
     let write = |name: &str, text: &str| std::fs::write(here.path().join(name), text).unwrap();
