@@ -1,9 +1,10 @@
 //! A common denominator of several curves by rational fraction polynomials (Richardson & Formenti 1982), in polynomials that
 //! are orthogonal on the frequencies (Forsythe), weighted anew by the last denominator (Sanathanan & Koerner 1963).
 
-use nalgebra::{DMatrix, DVector, linalg::Schur};
+use nalgebra::{DMatrix, DVector};
 
 use crate::number::Complex64;
+use crate::stability::by_qr;
 
 /// Rounds of new weights.
 const ROUNDS: usize = 12;
@@ -75,8 +76,10 @@ impl Orthogonal {
                 matrix[(k, k - 1)] -= self.down[k];
             }
         }
-        let schur = Schur::try_new(matrix, f64::EPSILON, 10_000)?;
-        let all = schur.complex_eigenvalues();
+        if !matrix.iter().all(|entry: &f64| entry.is_finite()) {
+            return None;
+        }
+        let all = by_qr(&matrix)?;
         Some(all.iter().map(|x| x * self.scale).collect())
     }
 }

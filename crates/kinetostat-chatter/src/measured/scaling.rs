@@ -27,8 +27,8 @@ pub struct Parameter {
 pub struct Scaled {
     /// Their values.
     pub values: Vec<f64>,
-    /// Standard deviation of each as a share of its value, from the stated deviations of what was measured; `None` where
-    /// the measurement does not tell it, or where a bound holds it.
+    /// Standard deviation of each as a share of its value, from the stated deviations of what was measured, or from what is
+    /// left where that is more than they explain; `None` where the measurement does not tell it, or where a bound holds it.
     pub deviations: Vec<Option<f64>>,
     /// Whether a bound holds the parameter.
     pub at_bound: Vec<bool>,
@@ -190,13 +190,19 @@ fn judged(
         .filter(|k| size(**k) <= TOLD)
         .map(|k| eigen.eigenvectors.column(*k).iter().copied().collect())
         .collect();
+    // More numbers than parameters that are told show how well the model can follow them at all.
+    let spare = left.len().saturating_sub(told.len());
+    let worse = match spare {
+        0 => 1.0,
+        _ => larger(1.0, (left.norm_squared() / spare as f64).sqrt()),
+    };
     let deviation = |p: usize| {
         let hidden = untold.iter().any(|v| v[p].abs() > 1e-3);
         let variance: f64 = told
             .iter()
             .map(|k| (eigen.eigenvectors[(p, *k)] / size(*k)).powi(2))
             .sum();
-        (!hidden && !at_bound[p]).then(|| variance.sqrt())
+        (!hidden && !at_bound[p]).then(|| worse * variance.sqrt())
     };
     Scaled {
         values: logs.iter().map(|l| l.exp()).collect(),

@@ -6,7 +6,7 @@
 use nalgebra::Complex;
 
 use crate::error::{ChatterError, ChatterErrorKind, Result};
-use crate::measured::quantity::{Motion, force_unit, motion_unit};
+use crate::measured::quantity::{Motion, force_unit, frequency_unit, motion_unit, response_unit};
 use crate::measured::response::MeasuredResponse;
 
 /// What was read of a universal file.
@@ -143,6 +143,13 @@ fn numbers(text: &str, width: usize) -> Option<Vec<f64>> {
     })
 }
 
+/// A unit as an axis states it; nothing where the field is empty or says so.
+fn stated_unit(text: &str) -> Option<&str> {
+    let text = text.trim();
+    let none = text.is_empty() || text.eq_ignore_ascii_case("none") || text == "-";
+    (!none).then_some(text)
+}
+
 /// An axis: kind of quantity and unit as it is written.
 fn axis<'a>(body: &[Line<'a>], record: usize) -> Result<(i64, Line<'a>, &'a str)> {
     let line = body[record];
@@ -178,10 +185,21 @@ fn function(
         fault(body[6].0, "form of the numbers", body[6].1.trim(), expected)
     })?;
     let (frequencies_hz, raw) = points(body, &form)?;
-    let (abscissa, line, _) = axis(body, 7)?;
+    let (abscissa, line, per) = axis(body, 7)?;
     if !matches!(abscissa, 0 | 1 | 18) {
         return Err(fault(line.0, "abscissa", abscissa, "18, a frequency, Hz"));
     }
+    let hertz = match stated_unit(per) {
+        None => 1.0,
+        Some(unit) => frequency_unit(unit).ok_or_else(|| {
+            fault(
+                line.0,
+                "unit of the abscissa",
+                unit,
+                "Hz, kHz, rad/s or rpm",
+            )
+        })?,
+    };
     let (motion, size, stated) = unit(body, units)?;
     let direction = |from, to| -> Result<i32> { Ok(integer(place, from, to, "direction")? as i32) };
     let name = [body[0].1, body[1].1].map(str::trim);
@@ -192,7 +210,7 @@ fn function(
         reference_node: integer(place, 66, 76, "node of the reference")?,
         reference_direction: direction(76, 80)?,
         motion,
-        frequencies_hz,
+        frequencies_hz: frequencies_hz.into_iter().map(|f| f * hertz).collect(),
         values: raw.into_iter().map(|value| value * size).collect(),
         units_stated: stated,
     };
@@ -221,7 +239,25 @@ fn unit(body: &[Line<'_>], units: Option<[f64; 2]>) -> Result<(Motion, f64, bool
             "9 or 13, a force",
         ));
     }
-    let written = motion_unit(moved);
+    // Some write the whole unit beside the ordinate, as mm/N.
+    let whole = stated_unit(moved).and_then(response_unit);
+    let written = match (whole, stated_unit(moved)) {
+        (Some(_), _) => whole,
+        (None, Some(unit)) => Some(motion_unit(unit).ok_or_else(|| {
+            let expected =
+                "m, cm, mm, um, in or ft, these by s or s^2, g, or one of these by N, kN or lbf";
+            fault(line.0, "unit of the ordinate", unit, expected)
+        })?),
+        (None, None) => None,
+    };
+    let force = match stated_unit(by) {
+        _ if whole.is_some() => Some(1.0),
+        Some(unit) => Some(
+            force_unit(unit)
+                .ok_or_else(|| fault(below.0, "unit of the force", unit, "N, mN, kN or lbf"))?,
+        ),
+        None => None,
+    };
     if let (Some(motion), Some((other, _))) = (motion, written)
         && motion != other
     {
@@ -232,7 +268,7 @@ fn unit(body: &[Line<'_>], units: Option<[f64; 2]>) -> Result<(Motion, f64, bool
         let expected = "its kind (8, 11, 12) or its unit (m, m/s, m/s^2, mm, g, ...)";
         return Err(fault(line.0, "ordinate", "neither kind nor unit", expected));
     };
-    Ok(match (written, force_unit(by), units) {
+    Ok(match (written, force, units) {
         (Some((_, size)), Some(force), _) => (motion, size / force, true),
         (_, _, Some([length, force])) => (motion, force / length, true),
         // Half a unit is none.

@@ -15,8 +15,13 @@ const GROWTH: usize = 4;
 pub(crate) const ACCURATE: f64 = 1e-10;
 /// Residual where it matters on which side of the unit circle it lies.
 pub(crate) const ROUGH: f64 = 1e-6;
-/// Rounds of the QR iteration.
-const ROUNDS: usize = 10_000;
+/// Rounds of the QR iteration for each row: it needs three or four where it converges at all.
+const ROUNDS: usize = 60;
+/// Matrices with the same eigenvalues from which the iteration begins anew where it does not end: it has no shifts for that, and
+/// cycles for some matrices whose eigenvalues are all apart.
+const BEGUN: usize = 6;
+/// What counts as rounding below the diagonal in each of them, in units of it: the last steps may end a little above one.
+const ROUNDING: [f64; BEGUN] = [1.0, 1.0, 1.0, 8.0, 8.0, 64.0];
 
 /// All eigenvalues of a real matrix, the largest first.
 pub(crate) fn eigenvalues(matrix: DMatrix<f64>) -> Result<Vec<Complex64>> {
@@ -31,22 +36,8 @@ pub(crate) fn eigenvalues(matrix: DMatrix<f64>) -> Result<Vec<Complex64>> {
     if !matrix.iter().all(|entry| entry.is_finite()) {
         return Err(fault("an entry that is not finite"));
     }
-    let size = matrix.norm();
-    let mut found = None;
-    // Where eigenvalues have equal sizes the iteration may not end: moved along the real axis they have not.
-    for share in [0.0, 0.371, -0.618] {
-        let mut moved = matrix.clone();
-        for i in 0..moved.nrows() {
-            moved[(i, i)] += share * size;
-        }
-        if let Some(schur) = Schur::try_new(moved, f64::EPSILON, ROUNDS) {
-            let values = schur.complex_eigenvalues();
-            found = Some(values.map(|value| value - share * size));
-            break;
-        }
-    }
-    let found = found.ok_or_else(|| fault("no convergence of the QR iteration"))?;
-    let mut all: Vec<Complex64> = found.iter().copied().collect();
+    let found = by_qr(&matrix).ok_or_else(|| fault("no convergence of the QR iteration"))?;
+    let mut all: Vec<Complex64> = found;
     // Equal sizes: the one of a pair that turns forward comes first.
     all.sort_by(|a, b| {
         b.norm()
@@ -54,6 +45,24 @@ pub(crate) fn eigenvalues(matrix: DMatrix<f64>) -> Result<Vec<Complex64>> {
             .then_with(|| b.im.total_cmp(&a.im))
     });
     Ok(all)
+}
+
+/// Eigenvalues of a matrix of finite numbers by the QR iteration; `None` where it ends from no beginning.
+pub(crate) fn by_qr(matrix: &DMatrix<f64>) -> Option<Vec<Complex64>> {
+    let n = matrix.nrows();
+    let rounds = ROUNDS * n.max(2);
+    // Seen in another mirror each time.
+    let mut seen = matrix.clone();
+    ROUNDING.iter().enumerate().find_map(|(begun, rounding)| {
+        let schur = Schur::try_new(seen.clone(), rounding * f64::EPSILON, rounds);
+        let found = schur.map(|schur| schur.complex_eigenvalues().iter().copied().collect());
+        if found.is_none() {
+            let along = start(n + begun).rows(begun, n).normalize();
+            let mirror = DMatrix::identity(n, n) - 2.0 * &along * along.transpose();
+            seen = &mirror * &seen * &mirror;
+        }
+        found
+    })
 }
 
 /// The largest eigenvalue of an operator on vectors of a length to a residual by its size, with its vector.

@@ -17,6 +17,6 @@ pub use regeneration::Regeneration;
 pub use scan::{Crossing, SpeedStability};
 
 pub(crate) use collocation::Chebyshev;
-pub(crate) use krylov::eigenvalues;
+pub(crate) use krylov::{by_qr, eigenvalues};
 pub(crate) use operator::Operator;
 pub(crate) use period::Period;

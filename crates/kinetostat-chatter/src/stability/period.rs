@@ -144,9 +144,10 @@ impl Period {
 
 /// Number of nodes of a stretch.
 fn points(states: &[State], duration: f64, turn: f64, fineness: f64) -> Result<usize> {
+    // How fast it dies away counts as how fast it swings.
     let fastest = states
         .iter()
-        .map(|state| state.root.im / TAU)
+        .map(|state| state.root.norm() / TAU)
         .fold(0.0, larger);
     let cycles = fastest * duration + turn / TAU;
     let wanted = fineness * (LEAST_POINTS + POINTS_PER_CYCLE * cycles);
@@ -158,7 +159,7 @@ fn points(states: &[State], duration: f64, turn: f64, fineness: f64) -> Result<u
             format!(
                 "a mode at {fastest:.0} Hz vibrates {cycles:.0} times while a tooth is in the cut"
             ),
-            "at most about 75 times: take faster modes as springs (ToolResponse::with_modes_up_to), or a higher speed",
+            "at most about 75 times: take faster modes as springs (modes up to a lower frequency), or a higher speed",
         )),
     }
 }

@@ -12,6 +12,8 @@ use crate::stability::multiplier::Multiplier;
 use crate::stability::operator::Operator;
 use crate::stability::period::Period;
 
+/// A ratio up to which a mode has no damping: what rounding leaves of a damper that it does not move.
+const UNDAMPED: f64 = 1e-9;
 /// Change of a multiplier with a third more points that is accepted, share of it.
 const RESOLVED: f64 = 1e-7;
 /// Growth of the number of points, and most times the usual ones.
@@ -49,13 +51,17 @@ impl Regeneration {
         let undamped = response
             .modes()
             .iter()
-            .find(|mode| mode.damping_ratio() <= 0.0 && mode.shape().norm() > 0.0);
+            .find(|mode| mode.damping_ratio() <= UNDAMPED && mode.shape().norm() > 0.0);
         if let Some(mode) = undamped {
             return Err(ChatterError::new(
                 kind,
                 "damping ratio",
-                format!("0 in the mode at {:.4} Hz", mode.frequency_hz()),
-                "a positive one: without damping the smallest cut chatters, and no lobe is left to compute",
+                format!(
+                    "{:.2e} in the mode at {:.4} Hz",
+                    mode.damping_ratio(),
+                    mode.frequency_hz()
+                ),
+                "one above 1e-9: without damping the smallest cut chatters, and no lobe is left to compute (a damper that a mode does not move gives it none)",
             ));
         }
         let moved = |along: Vector3<f64>| {
@@ -119,7 +125,7 @@ impl Regeneration {
                     ChatterErrorKind::NotConverged,
                     format!("largest multiplier at {speed_rpm} rpm and {depth:e} m"),
                     format!("changes by {change:.1e} of itself with a third more points"),
-                    "a change below 1e-7: take faster modes as springs (ToolResponse::with_modes_up_to)",
+                    "a change below 1e-7: take faster modes as springs (modes up to a lower frequency)",
                 ));
             }
             last = next;

@@ -221,7 +221,7 @@ impl Regeneration {
                     ChatterErrorKind::NotConverged,
                     format!("limit at {} rpm near {:e} m", along.speed_rpm, at.exp()),
                     format!("changes by {resolved:.1e} of itself with a third more points"),
-                    "a change below 1e-6: take faster modes as springs (ToolResponse::with_modes_up_to)",
+                    "a change below 1e-6: take faster modes as springs (modes up to a lower frequency)",
                 ));
             }
         }

@@ -287,3 +287,46 @@ proptest! {
         let _ = read_columns(&text);
     }
 }
+
+/// Units as files of many laboratories state them; those that nobody knows are refused by line, not passed over.
+#[test]
+fn units_of_the_axes() {
+    let good = include_str!("../data/even_double.unv");
+    let lines: Vec<&str> = good.lines().collect();
+    let with = |abscissa: Option<&str>, ordinate: Option<&str>, force: Option<&str>| {
+        let changed = [(9, abscissa), (10, ordinate), (11, force)];
+        let mut all: Vec<String> = lines.iter().map(|line| (*line).to_owned()).collect();
+        for (at, unit) in changed {
+            if let Some(unit) = unit {
+                let head = format!("{:<47}", &all[at][..all[at].len().min(47)]);
+                all[at] = format!("{head}{unit}");
+            }
+        }
+        read_universal(&all.join("\n"))
+    };
+    let plain = with(None, Some("m"), Some("N")).unwrap().responses[0].clone();
+    for (ordinate, force, size) in [
+        ("mm", "N", 1e-3),
+        ("in", "lbf", 0.0254 / 4.448_221_615_260_5),
+        ("ft", "lbf", 0.3048 / 4.448_221_615_260_5),
+        ("mm/N", "", 1e-3),
+        ("mm/N", "N", 1e-3),
+        ("um/kN", "NONE", 1e-9),
+    ] {
+        let found = with(None, Some(ordinate), Some(force)).unwrap().responses[0].clone();
+        assert!(found.units_stated, "{ordinate} {force}");
+        let ratio = (found.values[3] / plain.values[3]).re / size;
+        assert!((ratio - 1.0).abs() < 1e-12, "{ordinate} {force}: {ratio}");
+    }
+    let turned = with(Some("rad/s"), None, None).unwrap().responses[0].clone();
+    let ratio = plain.frequencies_hz[5] / turned.frequencies_hz[5];
+    assert!((ratio - std::f64::consts::TAU).abs() < 1e-12, "{ratio}");
+    for (line, found) in [
+        (10, with(Some("furlongs"), None, None)),
+        (11, with(None, Some("furlongs"), None)),
+        (12, with(None, None, Some("stones"))),
+    ] {
+        let error = found.unwrap_err();
+        assert_eq!(error.line, Some(line), "{error}");
+    }
+}
