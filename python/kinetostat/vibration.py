@@ -17,7 +17,7 @@ from kinetostat.errors import ArgumentError
 from kinetostat.posture import _DEFLECTED, Equilibrium, Posture
 from kinetostat.status import ModeKind
 
-__all__ = ["Damping", "DirectionCounts", "ModeShares", "ToolModes", "Vibration", "vibration_of"]
+__all__ = ["ComplexModes", "Damping", "DirectionCounts", "ModeShares", "ToolModes", "Vibration", "vibration_of"]
 
 _ALL_MODES = 2**31
 _AXES = ("x", "y", "z", "rx", "ry", "rz")
@@ -198,6 +198,29 @@ class ToolModes:
     """(3, 3): flexibility of what has no mode, m/N."""
 
 
+@dataclasses.dataclass(frozen=True, eq=False)
+class ComplexModes:
+    """Modes under loads without a potential: ``exp(lambda t)``, one of every pair.
+
+    Examples
+    --------
+    >>> import kinetostat as ks
+    >>> wrench = [0, 0, 0, 900, 0, 0]  # a moment that does not turn with the tool
+    >>> found = ks.Machine.preset("heavy_6r").posture().vibration(wrench).complex_modes()
+    >>> found.eigenvalues.shape, found.verdict in ("stable", "not_judged")
+    ((36,), True)
+    """
+
+    verdict: Literal["stable", "flutter", "divergence", "not_judged"]
+    """What becomes of a small disturbance; not judged where links of one segment are too coarse for it."""
+    coarse_links: tuple[str, ...]
+    """Those links: give them two segments and more."""
+    complexity: float
+    """Largest share of the imaginary part in a squared frequency without damping."""
+    eigenvalues: NDArray[np.complex128]
+    """(m,): 1/s; a positive real part grows."""
+
+
 @final
 class Vibration:
     """Modes of a machine about its equilibrium under a load, from :meth:`kinetostat.Posture.vibration`.
@@ -248,12 +271,12 @@ class Vibration:
 
     @property
     def stable(self) -> bool:
-        """No direction goes away; free ones are allowed. For loads with a potential, see :attr:`circulatory`."""
+        """No small disturbance grows; free directions are allowed. Of loads without a potential :meth:`complex_modes` says more."""
         return self._native.stable
 
     @property
     def circulatory(self) -> bool:
-        """True where loads have no potential (a moment that does not turn with the tool): frequencies are those of the symmetric part."""
+        """True where loads have no potential (a moment that does not turn with the tool): frequencies are those of the symmetric part, see :meth:`complex_modes`."""
         return self._native.circulatory
 
     @property
@@ -325,6 +348,34 @@ class Vibration:
         [0.03, 0.03]
         """
         return self._native.damping_ratios(_law(damping))
+
+    def complex_modes(self, damping: Damping | float | None = None) -> ComplexModes | None:
+        """Complex modes under loads without a potential, and whether the machine flutters.
+
+        Parameters
+        ----------
+        damping : Damping | float | None
+            A law, or the ratio of all modes; none as usual.
+
+        Returns
+        -------
+        ComplexModes | None
+            ``None`` where all loads have a potential, and real modes say it all.
+
+        Examples
+        --------
+        >>> import kinetostat as ks
+        >>> ks.Machine.preset("heavy_6r").posture().vibration().complex_modes() is None
+        True
+        """
+        found = self._native.complex_modes(_law(Damping.none() if damping is None else damping))
+        if found is None:
+            return None
+        said, complexity, eigenvalues = found
+        verdict = json.loads(said)
+        if isinstance(verdict, str):
+            return ComplexModes(verdict, (), complexity, eigenvalues)  # type: ignore[arg-type]
+        return ComplexModes("not_judged", tuple(verdict["not_judged"]["links"]), complexity, eigenvalues)
 
     def response(
         self,

@@ -119,8 +119,24 @@ impl Vibration {
     }
 
     #[getter]
-    fn stable(&self) -> bool {
-        self.0.modes.stable()
+    fn stable(&self) -> PyResult<bool> {
+        let complex = self.0.complex_modes(&Damping::Undamped, 0);
+        Ok(self.0.stable(complex.map_err(of_dynamics)?.as_ref()))
+    }
+
+    /// Verdict (JSON), complexity and eigenvalues (m,), 1/s, under loads without a potential; nothing where all have one.
+    fn complex_modes<'py>(&self, py: Python<'py>, law: &str) -> PyResult<Option<Complexes<'py>>> {
+        let law = damping(law)?;
+        let found = py.detach(|| self.0.complex_modes(&law, usize::MAX));
+        let Some(found) = found.map_err(of_dynamics)? else {
+            return Ok(None);
+        };
+        let values = found.modes.iter().map(|mode| mode.eigenvalue).collect();
+        Ok(Some((
+            json_of(&found.verdict)?,
+            found.complexity,
+            PyArray1::from_vec(py, values),
+        )))
     }
 
     #[getter]
@@ -252,6 +268,9 @@ impl Vibration {
         ))
     }
 }
+
+/// Verdict, complexity, eigenvalues.
+type Complexes<'py> = (String, f64, Bound<'py, PyArray1<Complex<f64>>>);
 
 /// Shapes, squares, ratios, residual.
 type ToolModes<'py> = (

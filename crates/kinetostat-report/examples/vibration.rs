@@ -3,7 +3,7 @@
 use kinetostat_chatter::{
     Arc, Coefficients, LobeRequest, Milled, MillingCut, Mode, Regeneration, ToolResponse,
 };
-use kinetostat_report::{ReceptanceCurve, lobes_svg, receptance_svg};
+use kinetostat_report::{DrawnMotion, ReceptanceCurve, lobes_svg, receptance_svg};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let directory = std::env::args().nth(1).unwrap_or_else(|| ".".into());
@@ -46,7 +46,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     ];
     std::fs::write(
         directory.join("receptance.svg"),
-        receptance_svg(&curves, "Receptance of the tool"),
+        receptance_svg(&curves, DrawnMotion::Receptance, "Receptance of the tool"),
     )?;
     Ok(())
 }

@@ -57,7 +57,7 @@ pub use chart::section::{Cell, Section};
 pub use drawing::{Drawing, Magnified, Moved, Placed, View};
 pub use paper::language::Language;
 pub use paper::question::{Paper, VerifiedProgram};
-pub use vibration::ReceptanceCurve;
+pub use vibration::{DrawnMotion, ReceptanceCurve};
 
 /// Why a report could not be made.
 #[derive(Debug, thiserror::Error)]
@@ -170,10 +170,11 @@ pub fn chatter_svg(program: &str, chatter: &ChatterResult) -> String {
     run::chatter::draw(program, chatter)
 }
 
-/// Receptances over the frequency as one picture: magnitude and, below it, phase, over logarithms of the frequency.
+/// Receptances, or mobilities or accelerances made of them, over the frequency as one picture: magnitude and, below it, phase, over
+/// logarithms of the frequency.
 ///
 /// It is a complete SVG document with its own style.
 #[must_use]
-pub fn receptance_svg(curves: &[ReceptanceCurve], title: &str) -> String {
-    vibration::receptance(curves, title)
+pub fn receptance_svg(curves: &[ReceptanceCurve], motion: DrawnMotion, title: &str) -> String {
+    vibration::receptance(curves, motion, title)
 }

@@ -1,5 +1,6 @@
 //! The machine in a milling cut: its tool response in the axes of the cut [D 8, D 10].
 
+use kinetostat::number::smaller;
 use kinetostat_chatter::{ChatterError, FeedFrame, MillingCut, Mode, Regeneration, ToolResponse};
 use kinetostat_dynamics::{Damping, Error};
 
@@ -50,11 +51,30 @@ impl MachineCut<'_> {
         }
         let response = self.machine.tool_response(self.damping, usize::MAX)?;
         let data = response.translational()?;
-        let modes: Vec<Mode> = (data.shapes.iter().zip(&data.squared).zip(&data.ratios))
-            .map(|((shape, squared), ratio)| Mode::new(*shape, *squared, *ratio))
-            .collect::<Result<_, _>>()?;
-        let tool = ToolResponse::new(modes)?.with_residual(data.residual)?;
-        let tool = tool.with_modes_up_to(self.modes_up_to_hz)?;
+        // Those above the band are springs, however they are damped.
+        let highest = (std::f64::consts::TAU * self.modes_up_to_hz).powi(2);
+        let mut modes = Vec::new();
+        let mut residual = data.residual;
+        let mut lowest_hz = f64::INFINITY;
+        for ((shape, squared), ratio) in data.shapes.iter().zip(&data.squared).zip(&data.ratios) {
+            let hz = squared.sqrt() / std::f64::consts::TAU;
+            lowest_hz = smaller(lowest_hz, hz);
+            if *squared > highest {
+                residual += shape * shape.transpose() / *squared;
+                continue;
+            }
+            modes.push(Mode::new(*shape, *squared, *ratio).map_err(|mut error| {
+                error.quantity = format!("{} of the mode at {hz:.4} Hz", error.quantity);
+                error
+            })?);
+        }
+        if modes.is_empty() {
+            return Err(MachineCutError::NoVibration(format!(
+                "there are no lobes: the lowest mode of the machine is at {lowest_hz:.4} Hz, and modes up to {} Hz were asked for",
+                self.modes_up_to_hz
+            )));
+        }
+        let tool = ToolResponse::new(modes)?.with_residual(residual)?;
         Ok(Regeneration::new(
             tool.in_frame(&self.frame),
             self.cut.clone().into(),

@@ -3,7 +3,9 @@
 use kinetostat::machine::MechanismState;
 use kinetostat::spatial::moved;
 use kinetostat::{MechanismEquilibrium, Posture, Twist, Wrench};
-use kinetostat_dynamics::{Damping, Held, LinearDynamics, ModalResponse, Mode, Modes, Result};
+use kinetostat_dynamics::{
+    ComplexModes, Damping, Held, LinearDynamics, ModalResponse, Mode, Modes, Result, Verdict,
+};
 
 /// A machine that vibrates about the equilibrium under a load.
 #[derive(Clone, Debug)]
@@ -39,6 +41,35 @@ impl VibratingMachine {
     pub fn tool_response(&self, damping: &Damping, kept: usize) -> Result<ModalResponse> {
         let tool = self.dynamics.tool();
         ModalResponse::new(&self.dynamics, &self.modes, damping, tool, tool, kept)
+    }
+
+    /// Complex modes, the lowest `count`, and what becomes of a small disturbance, where loads have no potential; `None`
+    /// where they all have one, and real modes say it all.
+    ///
+    /// # Errors
+    /// As [`LinearDynamics::complex_modes`].
+    pub fn complex_modes(&self, damping: &Damping, count: usize) -> Result<Option<ComplexModes>> {
+        if !self.dynamics.is_circulatory() {
+            return Ok(None);
+        }
+        let matrix = match damping {
+            Damping::Undamped | Damping::Structural { .. } => None,
+            law => Some(self.dynamics.damping_matrix(&self.modes, law)?),
+        };
+        self.dynamics
+            .complex_modes(matrix.as_ref(), count)
+            .map(Some)
+    }
+
+    /// Whether a small disturbance does not grow: by its modes, and where loads have no potential by the complex ones, as far
+    /// as these are judged ([`Verdict::NotJudged`]).
+    #[must_use]
+    pub fn stable(&self, complex: Option<&ComplexModes>) -> bool {
+        match complex.map(|found| &found.verdict) {
+            Some(Verdict::Stable) => true,
+            Some(Verdict::Flutter | Verdict::Divergence) => false,
+            _ => self.modes.stable(),
+        }
     }
 
     /// Limbs and platforms without any mass: their parts follow at once, and their own frequencies are missing.

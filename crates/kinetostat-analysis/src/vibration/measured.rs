@@ -141,8 +141,9 @@ impl MeasuredModes {
         Ok(pairs)
     }
 
-    /// Scales numbers of the model so that its frequencies are the measured ones, each known to a share `deviation` of itself.
-    /// `machine_of` takes the numbers to the machine.
+    /// Scales numbers of the model so that its frequencies are the measured ones, each known to a share `deviation` of itself,
+    /// and, where a share `damping_deviation` is given, its damping ratios too. `machine_of` takes the numbers to the machine
+    /// and to the ratios of all its modes (which are read in the second case alone).
     ///
     /// # Errors
     /// Those of `machine_of`, [`scale_parameters`] and [`pair_modes`]; a measured mode that the model has not.
@@ -150,25 +151,35 @@ impl MeasuredModes {
         &self,
         parameters: &[Parameter],
         deviation: f64,
-        mut machine_of: impl FnMut(&[f64]) -> Result<VibratingMachine, E>,
+        damping_deviation: Option<f64>,
+        mut machine_of: impl FnMut(&[f64]) -> Result<(VibratingMachine, Option<Vec<f64>>), E>,
     ) -> Result<Scaled, E> {
-        let measured: Vec<(f64, f64)> = (self.fit.modes.iter())
-            .map(|mode| (mode.frequency_hz, deviation * mode.frequency_hz))
+        let modes = &self.fit.modes;
+        let known = |value: f64, share: f64| (value, share * value);
+        let mut measured: Vec<(f64, f64)> = (modes.iter())
+            .map(|mode| known(mode.frequency_hz, deviation))
             .collect();
+        if let Some(share) = damping_deviation {
+            measured.extend(modes.iter().map(|mode| known(mode.damping_ratio, share)));
+        }
         let mut failed = None;
         let scaled = scale_parameters(parameters, &measured, |values| {
-            let machine = machine_of(values).map_err(|error| {
+            let (machine, ratios) = machine_of(values).map_err(|error| {
                 failed = Some(error);
                 lost("machine", "no answer of the model")
             })?;
-            let shown = self.shown(&machine, None);
+            let shown = self.shown(&machine, ratios.as_deref());
             // On its way a mode may be far off.
             let pairs = pair_modes(&self.shaped(), &shown.modes)?;
-            if pairs.len() < measured.len() {
+            if pairs.len() < modes.len() {
                 return Err(lost("modes of the model", "fewer than were measured"));
             }
-            let hz = |pair: &ModePair| shown.modes[pair.model].frequency_hz;
-            Ok(pairs.iter().map(hz).collect())
+            let of = |pair: &ModePair| &shown.modes[pair.model];
+            let mut found: Vec<f64> = pairs.iter().map(|p| of(p).frequency_hz).collect();
+            if damping_deviation.is_some() {
+                found.extend(pairs.iter().map(|p| of(p).damping_ratio));
+            }
+            Ok(found)
         });
         scaled.map_err(|error| failed.unwrap_or_else(|| E::from(error)))
     }

@@ -6,7 +6,9 @@ mod cut;
 mod machine;
 mod measured;
 pub mod program;
+mod receptance;
 
 pub use cut::{MachineCut, MachineCutError};
 pub use machine::VibratingMachine;
 pub use measured::{MeasuredModes, ShownModes};
+pub use receptance::ToolReceptance;

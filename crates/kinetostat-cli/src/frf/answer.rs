@@ -21,6 +21,8 @@ pub(crate) struct FrfAnswer {
     pub(crate) hold: Option<String>,
     /// In words.
     pub(crate) damping: String,
+    /// `modes`, or `direct` where damping couples modes or loads have no potential.
+    pub(crate) solution: &'static str,
     pub(crate) quantity: &'static str,
     /// Of the undamped machine, signed.
     pub(crate) natural_frequencies_hz: Vec<f64>,

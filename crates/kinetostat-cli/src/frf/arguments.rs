@@ -45,7 +45,8 @@ pub(crate) struct FrfArgs {
     #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = whole, requires = "measured")]
     pub(crate) fit: Option<usize>,
     /// Numbers of the model that are scaled until its frequencies are the measured ones, by their paths:
-    /// "chain.arm.joint 2.stiffness_n_m_per_rad"
+    /// "chain.arm.joint 2.stiffness_n_m_per_rad"; of the damping until its ratios are: damping.ratio,
+    /// damping.ratios.1, damping.rayleigh.stiffness_s, damping.loss_factor, damping.viscous.JOINT
     #[arg(long, num_args = 1.., value_name = "PATH", requires = "fit")]
     pub(crate) scale: Vec<String>,
     /// They are scaled by at most this factor, up or down
@@ -54,6 +55,9 @@ pub(crate) struct FrfArgs {
     /// How well measured frequencies are known, as a share of themselves (one standard deviation)
     #[arg(long, value_name = "SHARE", allow_negative_numbers = true, value_parser = number, default_value = "0.01", requires = "scale")]
     pub(crate) frequencies_known_to: f64,
+    /// How well measured damping ratios are known, as a share of themselves (one standard deviation)
+    #[arg(long, value_name = "SHARE", allow_negative_numbers = true, value_parser = number, default_value = "0.2", requires = "scale")]
+    pub(crate) damping_known_to: f64,
     #[command(flatten)]
     pub(crate) damping: DampingArgs,
     #[command(flatten)]

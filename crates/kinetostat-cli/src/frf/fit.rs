@@ -14,6 +14,7 @@ use crate::files::input_files::InputFiles;
 use crate::frf::arguments::FrfArgs;
 use crate::place::query::PlaceQuery;
 use crate::ui::failure::{Answer, Failure};
+use crate::vibration::damping_numbers::{DampingNumber, is_of_damping, named, with};
 use crate::vibration::subject;
 
 /// Modes that were measured.
@@ -53,6 +54,9 @@ pub(crate) struct ScaledAnswer {
     pub(crate) not_told: Vec<String>,
     /// Frequencies of the scaled model beside the measured ones.
     pub(crate) frequencies_hz: Vec<f64>,
+    /// Damping ratios of the scaled model beside the measured ones, where damping was scaled.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) damping_ratios: Option<Vec<f64>>,
     pub(crate) evaluations: usize,
 }
 
@@ -117,12 +121,19 @@ pub(crate) fn answer(
         shapes_compared: compared,
         scaled: match args.scale.is_empty() {
             true => None,
-            false => Some(scaled(args, query, &measured)?),
+            false => Some(scaled(args, (query, damping), &measured)?),
         },
     })
 }
 
-fn scaled(args: &FrfArgs, query: &PlaceQuery, measured: &MeasuredModes) -> Answer<ScaledAnswer> {
+/// A fit that leaves more of a curve found no modes in it.
+const NO_MODES: f64 = 0.5;
+
+fn scaled(
+    args: &FrfArgs,
+    (query, law): (&PlaceQuery, &Damping),
+    measured: &MeasuredModes,
+) -> Answer<ScaledAnswer> {
     let within = args.scale_within;
     if !(within > 1.0 && within <= 1e3) {
         return Err(Failure::input(format!(
@@ -135,39 +146,89 @@ fn scaled(args: &FrfArgs, query: &PlaceQuery, measured: &MeasuredModes) -> Answe
             "--frequencies-known-to is {known}; a share between 0 and 1 is needed (0.01 is 1 %)"
         )));
     }
+    let damping_known = args.damping_known_to;
+    if !(damping_known > 0.0 && damping_known < 1.0) {
+        return Err(Failure::input(format!(
+            "--damping-known-to is {damping_known}; a share between 0 and 1 is needed (0.2 is 20 %)"
+        )));
+    }
     let held = subject::held(args.hold.as_deref())?;
     let model = parametric(args)?;
+    // Numbers of the machine first, then those of its damping.
+    let of_machine = model.parameters().iter();
+    let mut before: Vec<DampingNumber> = of_machine
+        .map(|own| DampingNumber {
+            path: own.path.clone(),
+            unit: own.unit,
+            value: own.value,
+        })
+        .collect();
+    let machine_count = before.len();
+    for path in args.scale.iter().filter(|path| is_of_damping(path)) {
+        before.push(named(law, path)?);
+    }
     let mut parameters = Vec::new();
-    for parameter in model.parameters() {
-        if parameter.value <= 0.0 || parameter.value.is_nan() {
+    for own in &before {
+        if own.value <= 0.0 || own.value.is_nan() {
             return Err(Failure::input(format!(
                 "--scale {}: it is {}, and numbers above zero are scaled",
-                parameter.path, parameter.value
+                own.path, own.value
             )));
         }
         parameters.push(Parameter {
-            name: parameter.path.clone(),
-            start: parameter.value,
-            least: parameter.value / within,
-            most: parameter.value * within,
+            name: own.path.clone(),
+            start: own.value,
+            least: own.value / within,
+            most: own.value * within,
         });
     }
-    let machine_of = |values: &[f64]| machine_of(args, query, &model, (values, &held));
+    let left = measured.fit.misfit.iter().copied().fold(0.0, larger);
+    if left.is_nan() || left > NO_MODES {
+        return Err(Failure::input(format!(
+            "--scale: the fit leaves {:.0} % of a measured curve: these are no modes that a model could be scaled to. Ask for more modes or a narrower band, or measure again",
+            100.0 * left
+        )));
+    }
+    let of_damping = before.len() > machine_count;
+    let machine_of = |values: &[f64]| -> Result<(VibratingMachine, Option<Vec<f64>>), Lost> {
+        let (of_machine, rest) = values.split_at(machine_count);
+        let machine = machine_of(args, query, &model, (of_machine, &held))?;
+        let ratios = of_damping.then(|| {
+            let numbers = before[machine_count..].iter().zip(rest);
+            let law = numbers.fold(law.clone(), |law, (own, value)| {
+                with(&law, &own.path, *value)
+            });
+            let ratios = machine.dynamics.damping_ratios(&machine.modes, &law);
+            ratios.map_err(subject::refused)
+        });
+        Ok((machine, ratios.transpose()?))
+    };
     let found = measured
-        .scaled(&parameters, known, machine_of)
+        .scaled(
+            &parameters,
+            known,
+            of_damping.then_some(damping_known),
+            machine_of,
+        )
         .map_err(|Lost(failure)| failure)?;
-    let own = model.parameters().iter().enumerate();
+    let modes = &measured.fit.modes;
+    let ratios = modes.iter().zip(&found.left[modes.len()..]);
     Ok(ScaledAnswer {
         not_told: not_told(&parameters, &found),
-        frequencies_hz: (measured.fit.modes.iter().zip(&found.left))
+        frequencies_hz: (modes.iter().zip(&found.left))
             .map(|(mode, left)| mode.frequency_hz * (1.0 + known * left))
             .collect(),
+        damping_ratios: of_damping.then(|| {
+            ratios
+                .map(|(mode, left)| mode.damping_ratio * (1.0 + damping_known * left))
+                .collect()
+        }),
         evaluations: found.evaluations,
-        parameters: own
-            .map(|(k, parameter)| ScaledParameter {
-                path: parameter.path.clone(),
-                unit: parameter.unit,
-                before: parameter.value,
+        parameters: (before.into_iter().enumerate())
+            .map(|(k, own)| ScaledParameter {
+                path: own.path,
+                unit: own.unit,
+                before: own.value,
                 value: found.values[k],
                 deviation: found.deviations[k],
                 at_bound: found.at_bound[k],
@@ -178,7 +239,9 @@ fn scaled(args: &FrfArgs, query: &PlaceQuery, measured: &MeasuredModes) -> Answe
 
 fn parametric(args: &FrfArgs) -> Answer<ParametricModel> {
     let (model, _) = InputFiles::default().model(&args.machine.model, Path::new(""))?;
-    let paths: Vec<&str> = args.scale.iter().map(String::as_str).collect();
+    let paths: Vec<&str> = (args.scale.iter().map(String::as_str))
+        .filter(|path| !is_of_damping(path))
+        .collect();
     Ok(model.parametric(&paths)?)
 }
 

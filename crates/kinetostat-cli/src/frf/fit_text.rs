@@ -107,9 +107,21 @@ fn scaled_text(fit: &FitAnswer, scaled: &ScaledAnswer) -> String {
         ),
         0,
     ));
+    if let Some(ratios) = &scaled.damping_ratios {
+        let apart = (ratios.iter().zip(&fit.modes))
+            .map(|(ratio, mode)| (ratio / mode.damping_ratio - 1.0).abs())
+            .fold(0.0, larger);
+        out.push_str(&wrapped(
+            &format!(
+                "Damping ratios are within {} % of the measured ones.",
+                number(larger(100.0 * apart, 1e-3), 2)
+            ),
+            0,
+        ));
+    }
     for words in &scaled.not_told {
         let text = format!(
-            "The measured frequencies do not tell: {words}, by a factor of e, changes them by less than they are known."
+            "The measurement does not tell: {words}, by a factor of e, changes them by less than they are known."
         );
         out.push_str(&wrapped(&text, 0));
     }

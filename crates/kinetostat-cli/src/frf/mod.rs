@@ -44,7 +44,7 @@ pub(crate) fn run(args: &FrfArgs) -> Answer<()> {
     let posture = query.posture()?;
     let machine = subject::machine(&query, &posture, &held)?;
     let response = machine
-        .tool_response(&damping, args.modes.unwrap_or(usize::MAX))
+        .tool_receptance(&damping, args.modes)
         .map_err(subject::refused)?;
     let quantity = match args.quantity {
         QuantityWord::Receptance => Quantity::Displacement,
@@ -53,12 +53,22 @@ pub(crate) fn run(args: &FrfArgs) -> Answer<()> {
     };
     let mut warnings = query.warnings.clone();
     warnings.extend(subject::limits(&machine, &posture));
+    warnings.extend(measured::warnings(&measured));
+    if args.modes.is_some() && damping.couples_modes() {
+        warnings.push(Warning::new(
+            WarningCode::Model,
+            "with --modes each mode has its own damping alone, and what couples modes is left out; without --modes the response is solved directly".to_owned(),
+        ));
+    }
     if damping == Damping::Undamped {
         warnings.push(Warning::new(
             WarningCode::Model,
             "without damping (--damping 0.03, for one) resonances have no height: peaks are as high as a frequency happens to lie near".to_owned(),
         ));
     }
+    let receptance = response
+        .over(&frequencies, Quantity::Displacement)
+        .map_err(subject::refused)?;
     let fit = match args.fit {
         Some(modes) => Some(fit::answer(
             args,
@@ -79,6 +89,7 @@ pub(crate) fn run(args: &FrfArgs) -> Answer<()> {
         moment_n_m: query.wrench.moment().into(),
         hold: args.hold.clone(),
         damping: words(&damping),
+        solution: response.solution(),
         quantity: args.quantity.word(),
         natural_frequencies_hz: machine.modes.frequencies_hz(),
         frequencies_hz: frequencies.clone(),
@@ -86,17 +97,24 @@ pub(crate) fn run(args: &FrfArgs) -> Answer<()> {
             &entries,
             args.quantity,
             &frequencies,
-            &response.over(&frequencies, quantity),
+            &response
+                .over(&frequencies, quantity)
+                .map_err(subject::refused)?,
         ),
         measured: measured.iter().map(|m| m.name.clone()).collect(),
         fit,
         warnings,
     };
-    let receptance = response.over(&frequencies, Quantity::Displacement);
     let shown = Shown {
-        text: text::answer_text(&query, &answer),
+        text: text::answer_text(
+            &query,
+            &answer,
+            (args.outputs.plot.is_some())
+                .then(|| text::not_drawn(&entries, &receptance))
+                .flatten(),
+        ),
         csv: text::table(&answer)?,
-        svg: text::drawn(&answer, &entries, &receptance, &measured),
+        svg: text::drawn(&answer, args.quantity, &entries, &receptance, &measured),
         failure: None,
     };
     files.finish(&shown, &answer)

@@ -1,11 +1,12 @@
 //! The answer of `frf` for a person, as a table and as a drawing.
 
+use kinetostat::number::larger;
 use kinetostat_chatter::MeasuredResponse;
 use kinetostat_dynamics::Receptance;
-use kinetostat_report::{ReceptanceCurve, receptance_svg};
+use kinetostat_report::{DrawnMotion, ReceptanceCurve, receptance_svg};
 
 use crate::frf::answer::FrfAnswer;
-use crate::frf::arguments::AXES;
+use crate::frf::arguments::{AXES, QuantityWord};
 use crate::frf::fit_text::fit_text;
 use crate::place::query::PlaceQuery;
 use crate::ui::csv_table::{cell, written};
@@ -14,7 +15,7 @@ use crate::ui::layout::{columns, wrapped};
 use crate::ui::numbers::{load_triple, number};
 use crate::ui::warnings;
 
-pub(crate) fn answer_text(query: &PlaceQuery, a: &FrfAnswer) -> String {
+pub(crate) fn answer_text(query: &PlaceQuery, a: &FrfAnswer, not_drawn: Option<String>) -> String {
     let mut out = query.heading();
     let (low, high) = (
         a.frequencies_hz[0],
@@ -22,14 +23,18 @@ pub(crate) fn answer_text(query: &PlaceQuery, a: &FrfAnswer) -> String {
     );
     out.push_str(&wrapped(
         &format!(
-            "Frequency response of the tool's tip ({}), {} frequencies from {} to {} Hz, about the equilibrium under the force {} N and the moment {} N m; damping: {}.",
+            "Frequency response of the tool's tip ({}), {} frequencies from {} to {} Hz, about the equilibrium under the force {} N and the moment {} N m; damping: {}; solved {}.",
             a.quantity,
             a.frequencies_hz.len(),
             number(low, 5),
             number(high, 5),
             load_triple(a.force_n),
             load_triple(a.moment_n_m),
-            a.damping
+            a.damping,
+            match a.solution {
+                "direct" => "directly",
+                _ => "by modes",
+            }
         ),
         0,
     ));
@@ -48,6 +53,16 @@ pub(crate) fn answer_text(query: &PlaceQuery, a: &FrfAnswer) -> String {
         .to_vec(),
     ];
     for c in &a.curves {
+        let alike = a.curves.iter().filter(|other| other.unit == c.unit);
+        let most = alike.map(|other| other.peak).fold(0.0, larger);
+        if c.peak <= NOTHING * most {
+            // Rounding of the arithmetic: the machine does not move so.
+            let mut row = vec![c.to.to_owned(), c.from.to_owned(), "0".to_owned()];
+            row.push(c.unit.clone());
+            row.resize(7, String::new());
+            rows.push(row);
+            continue;
+        }
         rows.push(vec![
             c.to.to_owned(),
             c.from.to_owned(),
@@ -71,6 +86,9 @@ pub(crate) fn answer_text(query: &PlaceQuery, a: &FrfAnswer) -> String {
         &format!("Natural frequencies up to there, Hz: {}", list.join(", ")),
         0,
     ));
+    if let Some(words) = not_drawn {
+        out.push_str(&wrapped(&words, 0));
+    }
     if let Some(fit) = &a.fit {
         out.push_str(&fit_text(fit));
     }
@@ -104,16 +122,49 @@ pub(crate) fn table(a: &FrfAnswer) -> Answer<Vec<u8>> {
     written(&rows)
 }
 
-/// Receptances of forces along axes, and what was measured, dashed.
+/// A curve below this share of the highest one is the rounding of its arithmetic.
+const NOTHING: f64 = 1e-12;
+
+/// Motions along axes by forces along axes that are more than rounding: those that are drawn.
+fn drawable(entries: &[(usize, usize)], receptance: &[Receptance]) -> Vec<(usize, usize)> {
+    let along: Vec<(usize, usize)> = (entries.iter().copied())
+        .filter(|(to, from)| *to < 3 && *from < 3)
+        .collect();
+    let size = |entry: &(usize, usize)| {
+        let all = receptance.iter().map(|m| m[*entry].norm());
+        all.fold(0.0, larger)
+    };
+    let most = along.iter().map(size).fold(0.0, larger);
+    let shown = along.into_iter().filter(|e| size(e) > NOTHING * most);
+    shown.collect()
+}
+
+/// What was asked for and is not drawn, in words.
+pub(crate) fn not_drawn(entries: &[(usize, usize)], receptance: &[Receptance]) -> Option<String> {
+    let shown = drawable(entries, receptance);
+    let left = entries.iter().filter(|entry| !shown.contains(entry));
+    let names: Vec<String> = left
+        .map(|&(to, from)| format!("{} by {}", AXES[to], AXES[from]))
+        .collect();
+    (!names.is_empty()).then(|| {
+        format!(
+            "The picture has motions along axes by forces along axes, as far as there is one; not in it: {}.",
+            names.join(", ")
+        )
+    })
+}
+
+/// Responses to forces along axes, and what was measured, dashed.
 pub(crate) fn drawn(
     a: &FrfAnswer,
+    quantity: QuantityWord,
     entries: &[(usize, usize)],
     receptance: &[Receptance],
     measured: &[MeasuredResponse],
 ) -> String {
-    let own = entries.iter().filter(|(to, from)| *to < 3 && *from < 3);
+    let own = drawable(entries, receptance).into_iter();
     let mut curves: Vec<ReceptanceCurve> = own
-        .map(|&(to, from)| ReceptanceCurve {
+        .map(|(to, from)| ReceptanceCurve {
             name: format!("{} by force along {}", AXES[to], AXES[from]),
             dashed: false,
             frequencies_hz: a.frequencies_hz.clone(),
@@ -129,8 +180,14 @@ pub(crate) fn drawn(
             receptance: values,
         });
     }
+    let motion = match quantity {
+        QuantityWord::Receptance => DrawnMotion::Receptance,
+        QuantityWord::Mobility => DrawnMotion::Mobility,
+        QuantityWord::Accelerance => DrawnMotion::Accelerance,
+    };
     receptance_svg(
         &curves,
-        &format!("{}: receptance of the tool's tip", a.model),
+        motion,
+        &format!("{}: {} of the tool's tip", a.model, quantity.word()),
     )
 }

@@ -52,6 +52,11 @@ pub(crate) fn run(args: &LobesArgs) -> Answer<()> {
         .map_err(|e| Failure::unanswered(format!("lobes: {e}")))?;
     let mut warnings = query.warnings.clone();
     warnings.extend(subject::limits(&machine, &posture));
+    warnings.extend(subject::lost_coupling(
+        &machine,
+        &damping,
+        args.modes_up_to_hz,
+    )?);
     warnings.extend(coefficients.warnings.iter().cloned());
     let axis = |k: usize| frame.rotation().column(k).into_owned();
     let answer = LobesAnswer {

@@ -2,8 +2,8 @@
 
 use kinetostat::Posture;
 use kinetostat_analysis::vibration::VibratingMachine;
-use kinetostat_dynamics::{Damping, DirectionCounts, EnergyShare, ModeKind};
-use kinetostat_machining::Warning;
+use kinetostat_dynamics::{ComplexModes, Damping, DirectionCounts, EnergyShare, ModeKind, Verdict};
+use kinetostat_machining::{Warning, WarningCode};
 use serde::Serialize;
 
 use crate::modes::arguments::ModesArgs;
@@ -29,6 +29,8 @@ pub(crate) struct ModesAnswer {
     pub(crate) total_mass_kg: f64,
     /// Whether the equilibrium holds: no unstable mode and no massless instability.
     pub(crate) stable: bool,
+    /// Where loads have no potential (a moment that does not turn with the tool): what becomes of a small disturbance.
+    pub(crate) circulatory: Option<Circulatory>,
     pub(crate) directions: DirectionCounts,
     /// Joints and springs in neutral directions: neither mass nor stiffness.
     pub(crate) neutral: Vec<String>,
@@ -36,6 +38,25 @@ pub(crate) struct ModesAnswer {
     pub(crate) mode_count: usize,
     pub(crate) modes: Vec<ModeAnswer>,
     pub(crate) warnings: Vec<Warning>,
+}
+
+/// Complex modes under loads without a potential.
+#[derive(Serialize)]
+pub(crate) struct Circulatory {
+    pub(crate) verdict: Verdict,
+    /// Largest share of the imaginary part in a squared frequency without damping.
+    pub(crate) complexity: f64,
+    pub(crate) modes: Vec<ComplexAnswer>,
+}
+
+/// A complex mode: `e^(lambda t)`.
+#[derive(Serialize)]
+pub(crate) struct ComplexAnswer {
+    pub(crate) frequency_hz: f64,
+    /// Real part of lambda: positive where it grows.
+    pub(crate) growth_per_s: f64,
+    /// Share of critical damping, negative where it grows.
+    pub(crate) damping_ratio: f64,
 }
 
 #[derive(Serialize)]
@@ -81,6 +102,12 @@ pub(crate) fn answer(
     });
     let mut warnings = query.warnings.clone();
     warnings.extend(limits(machine, posture));
+    warnings.extend(overdamped(machine, ratios.as_deref()));
+    warnings.extend(bends_coarse_links(machine, args.modes));
+    let complex = machine
+        .complex_modes(damping, args.modes)
+        .map_err(refused)?;
+    let stable = machine.stable(complex.as_ref());
     Ok(ModesAnswer {
         schema: 1,
         kinetostat_version: env!("CARGO_PKG_VERSION"),
@@ -93,12 +120,75 @@ pub(crate) fn answer(
         hold: args.hold.clone(),
         damping: words(damping),
         total_mass_kg: dynamics.total_mass(),
-        stable: modes.stable(),
+        stable,
+        circulatory: complex.map(circulatory),
         directions: modes.counts,
         neutral: modes.neutral.clone(),
         mode_count: modes.modes.len(),
         modes: list.collect(),
         warnings,
+    })
+}
+
+/// What loads without a potential make of the modes.
+fn circulatory(found: ComplexModes) -> Circulatory {
+    Circulatory {
+        verdict: found.verdict,
+        complexity: found.complexity,
+        modes: (found.modes.iter())
+            .map(|mode| ComplexAnswer {
+                frequency_hz: mode.frequency_hz(),
+                growth_per_s: mode.eigenvalue.re,
+                damping_ratio: mode.damping_ratio(),
+            })
+            .collect(),
+    }
+}
+
+/// Modes that creep back instead of swinging.
+fn overdamped(machine: &VibratingMachine, ratios: Option<&[Option<f64>]>) -> Option<Warning> {
+    let beyond = |(k, ratio): (usize, &Option<f64>)| Some((k, (*ratio).filter(|z| *z >= 1.0)?));
+    let all: Vec<(usize, f64)> = ratios?.iter().enumerate().filter_map(beyond).collect();
+    let (k, ratio) = all.first()?;
+    Some(Warning::new(
+        WarningCode::Model,
+        format!(
+            "damped beyond critical: {} (mode {}, {:.4} Hz: {:.0} %). What is damped so does not swing, and lobes up to there have no answer. Check the dampers",
+            match all.len() {
+                1 => "one mode".to_owned(),
+                count => format!("{count} modes, the first"),
+            },
+            k + 1,
+            machine.modes.modes[*k].frequency_hz(),
+            100.0 * ratio
+        ),
+    ))
+}
+
+/// Modes that are links of one segment which bend by themselves.
+fn bends_coarse_links(machine: &VibratingMachine, shown: usize) -> Option<Warning> {
+    let coarse = machine.dynamics.coarse_links();
+    let most_is_theirs = |shares: &[EnergyShare]| {
+        let own = shares.iter().filter(|s| coarse.contains(&s.name));
+        own.map(|s| s.share).sum::<f64>() > 0.5
+    };
+    let modes = machine.modes.modes.iter().enumerate().take(shown);
+    let bending: Vec<String> = modes
+        .filter(|(_, mode)| {
+            mode.kind == ModeKind::Vibration
+                && most_is_theirs(&machine.dynamics.kinetic_shares(mode))
+                && most_is_theirs(&machine.dynamics.elastic_shares(mode))
+        })
+        .map(|(k, _)| (k + 1).to_string())
+        .collect();
+    (!bending.is_empty()).then(|| {
+        Warning::new(
+            WarningCode::Model,
+            format!(
+                "links of one segment bend by themselves in mode {}: these frequencies are up to 11 % too high. Write segments = 4 beside the links' length",
+                bending.join(", ")
+            ),
+        )
     })
 }
 

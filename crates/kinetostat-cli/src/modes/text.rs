@@ -1,9 +1,9 @@
 //! The answer of `modes` for a person, and as a table.
 
 use kinetostat::number::larger;
-use kinetostat_dynamics::{DirectionCounts, EnergyShare, ModeKind};
+use kinetostat_dynamics::{DirectionCounts, EnergyShare, ModeKind, Verdict};
 
-use crate::modes::answer::{ModeAnswer, ModesAnswer};
+use crate::modes::answer::{Circulatory, ModeAnswer, ModesAnswer};
 use crate::place::query::PlaceQuery;
 use crate::ui::csv_cell::text as safe_cell;
 use crate::ui::csv_table::{cell, cell_if_any, written};
@@ -31,11 +31,13 @@ pub(crate) fn answer_text(query: &PlaceQuery, a: &ModesAnswer) -> String {
         ),
         0,
     ));
-    if !a.stable {
-        out.push_str(&wrapped(
+    match &a.circulatory {
+        Some(found) => out.push_str(&wrapped(&of_circulatory(found), 0)),
+        None if !a.stable => out.push_str(&wrapped(
             "The equilibrium is NOT stable: what has a negative frequency (square below zero) runs away.",
             0,
-        ));
+        )),
+        None => {}
     }
     out.push('\n');
     let mut rows = vec![
@@ -82,6 +84,38 @@ pub(crate) fn answer_text(query: &PlaceQuery, a: &ModesAnswer) -> String {
     out
 }
 
+/// What becomes of a small disturbance under loads without a potential.
+fn of_circulatory(found: &Circulatory) -> String {
+    let grows = found
+        .modes
+        .iter()
+        .max_by(|a, b| a.growth_per_s.total_cmp(&b.growth_per_s));
+    let how = grows.map_or_else(String::new, |mode| {
+        format!(
+            " (at {} Hz, by {} 1/s)",
+            number(mode.frequency_hz, 4),
+            number(mode.growth_per_s, 3)
+        )
+    });
+    match &found.verdict {
+        Verdict::Stable => {
+            "Loads have no potential; the equilibrium is stable under them: no pair of modes grows."
+                .to_owned()
+        }
+        Verdict::Flutter => format!(
+            "The equilibrium is NOT stable: it FLUTTERS, a pair of modes swings with growing amplitude{how}."
+        ),
+        Verdict::Divergence => format!(
+            "The equilibrium is NOT stable: it goes away without swinging (divergence){how}."
+        ),
+        Verdict::NotJudged { links } => format!(
+            "Loads have no potential, and whether the machine flutters is not judged: links of one segment are too coarse for it ({}). Give them two segments and more.",
+            links.join(", ")
+        ),
+        _ => "Loads have no potential.".to_owned(),
+    }
+}
+
 /// Below this share of the largest part (of a turn: metres for a radian) a number is rounding.
 const NOTHING: f64 = 1e-9;
 
@@ -106,7 +140,9 @@ fn row(mode: &ModeAnswer) -> Vec<String> {
     let along = mode.tool_translation_per_sqrt_kg;
     let turns = mode.tool_rotation_rad_per_m_sqrt_kg;
     let (most, most_turned) = (largest_of(along), largest_of(turns));
-    let shown_turns = |by: f64| triple(turns.map(|x| clean(x, most_turned) / by), |x| number(x, 2));
+    // A turn of so little for a metre of motion is rounding, too.
+    let largest = larger(most, most_turned);
+    let shown_turns = |by: f64| triple(turns.map(|x| clean(x, largest) / by), |x| number(x, 2));
     let (along, turns) = match (most > NOTHING * most_turned, most_turned > 0.0) {
         (true, _) => (
             triple(along.map(|x| clean(x, most) / most), |x| fixed(x, 2)),

@@ -152,7 +152,7 @@ pub(crate) fn limits(found: &ProgramChatter, setting: &ChatterSetting) -> Vec<Wa
     }
     if found.wider > 1.0 {
         say(format!(
-            "the cut changes so often that places that differ by {:.1} times more than usual were judged together (--most-places)",
+            "the cut changes so often that places that differ by {:.1} times more than usual were judged together, by their deepest cut, their widest arc and both ends: a place between them may be worse (--most-places)",
             found.wider
         ));
     }

@@ -4,5 +4,6 @@
 
 pub(crate) mod arguments;
 pub(crate) mod damping;
+pub(crate) mod damping_numbers;
 pub(crate) mod stability;
 pub(crate) mod subject;

@@ -2,7 +2,7 @@
 
 use kinetostat::{Directions, Posture};
 use kinetostat_analysis::vibration::VibratingMachine;
-use kinetostat_dynamics::{Error, Held};
+use kinetostat_dynamics::{Damping, Error, Held};
 use kinetostat_machining::{Warning, WarningCode};
 
 use crate::end_condition::holding::list;
@@ -72,13 +72,34 @@ pub(crate) fn refused(error: Error) -> Failure {
     }
 }
 
+/// Largest share by which a response by modes may be off before it is said.
+const COUPLED: f64 = 0.02;
+
+/// Dampers that couple modes, where a cut is judged by modes with their own damping alone.
+pub(crate) fn lost_coupling(
+    machine: &VibratingMachine,
+    damping: &Damping,
+    up_to_hz: f64,
+) -> Answer<Option<Warning>> {
+    let off = machine.lost_coupling(damping, up_to_hz).map_err(refused)?;
+    Ok((off > COUPLED).then(|| {
+        Warning::new(
+            WarningCode::Model,
+            format!(
+                "this damping couples modes, and limits are those of modes with their own damping alone: the response of the tool's tip is up to {:.0} % off so (`kinetostat frf` solves it directly)",
+                100.0 * off
+            ),
+        )
+    }))
+}
+
 /// What limits the answer: loads without a potential, parts without mass.
 pub(crate) fn limits(machine: &VibratingMachine, posture: &Posture) -> Vec<Warning> {
     let mut warnings = Vec::new();
     if machine.dynamics.is_circulatory() {
         warnings.push(Warning::new(
             WarningCode::NoPotential,
-            "loads have no potential (a moment that does not turn with the tool): frequencies and stability are those of the symmetric part of the stiffness, and flutter is not judged".to_owned(),
+            "loads have no potential (a moment that does not turn with the tool): frequencies are those of the symmetric part of the stiffness; whether the machine flutters, `kinetostat modes` says".to_owned(),
         ));
     }
     let without = machine.without_mass(posture);

@@ -486,3 +486,39 @@ fn rows(here: &Path, name: &str) -> Vec<Vec<f64>> {
     };
     text.lines().skip(1).map(row).collect()
 }
+
+/// With few places to judge, unlike ones stand in one group: its worst speaks for it, not its first.
+#[test]
+fn few_places_are_judged_by_their_worst() {
+    let program = PROGRAM
+        .replace("Z-1\n", "Z-1.8\n")
+        .replace("Z-1 ", "Z-1.8 ");
+    let program = program.replace("G0 X-10 Y20\nG1 Z-4 F600\nG1 X40\nG0 Z5\n", "");
+    assert!(
+        program.contains("Z-1.8 F600") && !program.contains("Z-4"),
+        "{program}"
+    );
+    let here = here(&program);
+    let all = answer(here.path());
+    let text = |of: &Value| {
+        list(of, "warnings")
+            .iter()
+            .map(|w| w["message"].to_string())
+            .collect::<String>()
+    };
+    assert!(!text(&all).contains("--most-places"), "{}", text(&all));
+    let worst = number(&all["nearest"], "limit_mm");
+    assert!(all["chatters"] == true && worst < 1.8, "{all}");
+    let line = "chatter job.toml --damping 0.03 --most-places 1 --json";
+    let few: Value = serde_json::from_str(&said(here.path(), line).answered().out).expect("JSON");
+    assert_eq!(list(&few, "places").len(), 1);
+    assert_eq!(few["chatters"], true, "{few}");
+    // The end of the path stands for what lies before it.
+    let found = number(&few["nearest"], "limit_mm");
+    assert!((found / worst - 1.0).abs() < 0.01, "{found} {worst}");
+    assert!(
+        text(&few).contains("a place between them may be worse"),
+        "{}",
+        text(&few)
+    );
+}

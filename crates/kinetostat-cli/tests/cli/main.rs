@@ -22,6 +22,7 @@ mod curves_warned;
 mod cut;
 mod cut_end_to_end;
 mod cut_refused;
+mod damped_vibration;
 mod demo;
 mod divided;
 mod draw;

@@ -556,7 +556,7 @@ fn what_the_measurement_does_not_tell_is_said() {
     let line = "frf arm6.toml --measured tap.csv --fit 1 --frequencies 5 9.5 700 \
         --scale chain.arm.q2.stiffness_n_m_per_rad chain.arm.q3.stiffness_n_m_per_rad";
     let text = said(here.path(), line).answered().out;
-    assert!(text.contains("do not tell:"), "{text}");
+    assert!(text.contains("does not tell:"), "{text}");
     assert!(text.contains("not told"), "{text}");
     for (line, words) in [
         ("frf arm6.toml --fit 3", "--measured"),
@@ -582,4 +582,88 @@ fn what_the_measurement_does_not_tell_is_said() {
         assert_eq!(said.code, 1, "{line}: {said:?}");
         assert!(said.err.contains(words), "{line}: {}", said.err);
     }
+}
+
+/// Damping is scaled to the measured ratios, with what it is known to; noise without a mode scales nothing.
+#[test]
+fn damping_is_scaled_to_what_was_measured() {
+    let here = arm6();
+    measured_of_another_arm(here.path());
+    // The other arm is damped by 2 % in every mode.
+    let line = "frf arm6.toml --measured tap.csv --fit 3 --damping 0.03 --frequencies 5 40 700 --json \
+        --scale damping.ratio chain.arm.q2.stiffness_n_m_per_rad chain.arm.q3.stiffness_n_m_per_rad";
+    let answer = json(&said(here.path(), line).answered());
+    let scaled = &answer["fit"]["scaled"];
+    let list = scaled["parameters"].as_array().expect("parameters");
+    let damping = list.iter().find(|p| p["path"] == "damping.ratio");
+    let damping = damping.expect("the damping");
+    agree(
+        &[damping["value"].as_f64().expect("a number")],
+        &[0.02],
+        1e-2,
+    );
+    agree(
+        &[damping["before"].as_f64().expect("a number")],
+        &[0.03],
+        1e-12,
+    );
+    // Three ratios, each known to a fifth.
+    agree(
+        &[damping["deviation"].as_f64().expect("told")],
+        &[0.2 / 3.0_f64.sqrt() * 0.02 / 0.02],
+        0.03,
+    );
+    agree(&numbers(&scaled["damping_ratios"]), &[0.02; 3], 1e-2);
+    let mut noise = String::from("frequency_hz,xx_re_m_per_n,xx_im_m_per_n\n");
+    let mut seed = 1_u64;
+    let mut random = || {
+        seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+        (seed >> 33) as f64 / 2.0_f64.powi(31) - 0.5
+    };
+    for k in 0..700 {
+        let hz = 5.0 + 0.05 * f64::from(k);
+        noise += &format!("{hz},{:e},{:e}\n", 1e-7 * random(), 1e-7 * random());
+    }
+    std::fs::write(here.path().join("noise.csv"), noise).expect("written");
+    for (line, words) in [
+        (
+            "frf arm6.toml --measured tap.csv --fit 3 --frequencies 5 40 700 --scale damping.ratio",
+            "first value",
+        ),
+        (
+            "frf arm6.toml --measured tap.csv --fit 3 --frequencies 5 40 700 --damping 0.03 --scale damping.loss_factor",
+            "damping.ratio",
+        ),
+        (
+            "frf arm6.toml --measured noise.csv --fit 5 --frequencies 5 40 700 --scale chain.arm.q2.stiffness_n_m_per_rad",
+            "modes",
+        ),
+    ] {
+        let said = said(here.path(), line);
+        assert_eq!(said.code, 1, "{line}: {said:?}");
+        assert!(said.err.contains(words), "{line}: {}", said.err);
+    }
+}
+
+/// Speeds at which the QR iteration of the multipliers does not end from its first beginning: their limits lie between those of
+/// the speeds beside them.
+#[test]
+fn speeds_have_limits_whose_multipliers_are_hard_to_find() {
+    let here = workplace();
+    let limits = |rpm: [f64; 3]| -> Vec<f64> {
+        let [low, _, high] = rpm;
+        let line = format!(
+            "lobes heavy_6r --tool-length-mm 150 --damping 0.03 --teeth 2 --immersion 0.5 --up --coefficients-n-per-mm2 800 240 0 --rpm {low} {high} 3 --json"
+        );
+        let answer = json(&said(here.path(), &line).answered());
+        let points = answer["points"].as_array().expect("points").iter();
+        points
+            .map(|point| point["limit_mm"].as_f64().expect("a limit"))
+            .collect()
+    };
+    let found = limits([1_900.0, 2_016.949_152_542_372_4, 2_133.898_305_084_744_8]);
+    assert!(found.iter().all(|limit| *limit > 0.0), "{found:?}");
+    let beside = limits([2_015.949, 2_016.949, 2_017.949]);
+    agree(&[found[1]], &[beside[0]], 5e-3);
+    agree(&[found[1]], &[beside[2]], 5e-3);
 }

@@ -55,6 +55,13 @@ impl Damping {
         }
     }
 
+    /// Whether what it does in one mode drives others, so that a sum of modes with their own ratios is no longer exact: dampers
+    /// at joints, and Rayleigh's damping, whose stiffness is that of the springs and not that under load.
+    #[must_use]
+    pub fn couples_modes(&self) -> bool {
+        matches!(self, Self::Rayleigh { .. } | Self::Viscous(_))
+    }
+
     /// Refuses numbers that no damping has.
     ///
     /// # Errors

@@ -114,6 +114,12 @@ impl LinearDynamics {
         &self.name
     }
 
+    /// Names of links in one segment: what bends within them is too stiff by a fifth, in frequency a tenth.
+    #[must_use]
+    pub fn coarse_links(&self) -> &[String] {
+        &self.coarse_links
+    }
+
     /// Mass matrix `M` by independent coordinates: kg, kg m, kg m^2 by the units of the coordinates.
     #[must_use]
     pub fn mass(&self) -> &DMatrix<f64> {

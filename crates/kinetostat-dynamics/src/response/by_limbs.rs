@@ -33,13 +33,13 @@ impl LimbResponse {
         let machine = posture.mechanism();
         if machine.platforms().len() != 2 || machine.limbs().iter().any(|l| l.from != 0) {
             return Err(Error::Question(format!(
-                "'{}' has platforms between base and tool: ask for its direct response",
+                "'{}' has platforms between base and tool: only a direct solution has its response",
                 machine.name()
             )));
         }
         if !rotors_of(machine).is_empty() {
             return Err(Error::Question(format!(
-                "the drives of '{}' have rotors: ask for its direct response",
+                "the drives of '{}' have rotors: only a direct solution has its response",
                 machine.name()
             )));
         }

@@ -94,7 +94,7 @@ impl ModalResponse {
     ) -> Result<Self> {
         if dynamics.is_circulatory() {
             return Err(Error::Question(format!(
-                "loads on '{}' have no potential (dead moments or followers): its modes are complex and no sum of real ones is its response; ask for the direct response",
+                "loads on '{}' have no potential (dead moments or followers): its modes are complex and no sum of real ones is its response (a direct solution at each frequency is)",
                 dynamics.name
             )));
         }

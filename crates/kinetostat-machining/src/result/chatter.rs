@@ -95,11 +95,11 @@ impl ChatterResult {
             format!("; lowest frequency of the machine there {}", hertz(first))
         });
         Some(format!(
-            "Least limit: {} on line {} where the program cuts {} deep at {} rpm{first}.",
-            millimetres(place.limit_mm?),
+            "Nearest to its limit is line {}: it cuts {} deep at {} rpm, and chatters from {} on{first}.",
             place.line,
             millimetres(place.depth_mm),
             significant(place.rpm, 5, Rounding::Nearest),
+            millimetres(place.limit_mm?),
         ))
     }
 

@@ -6,5 +6,5 @@ mod lobes;
 mod receptance;
 
 pub(crate) use lobes::draw as lobes;
-pub use receptance::ReceptanceCurve;
 pub(crate) use receptance::draw as receptance;
+pub use receptance::{DrawnMotion, ReceptanceCurve};

@@ -17,8 +17,36 @@ pub struct ReceptanceCurve {
     pub receptance: Vec<Complex<f64>>,
 }
 
+/// Which motion by force is drawn.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum DrawnMotion {
+    /// Displacement by force.
+    #[default]
+    Receptance,
+    /// Velocity by force.
+    Mobility,
+    /// Acceleration by force.
+    Accelerance,
+}
+
+impl DrawnMotion {
+    /// Its axis, how often a displacement is differentiated for it, and its unit by that of SI.
+    fn axis(self) -> (&'static str, i32, f64) {
+        match self {
+            Self::Receptance => ("receptance, \u{b5}m/N", 0, 1e6),
+            Self::Mobility => ("mobility, mm/(s N)", 1, 1e3),
+            Self::Accelerance => ("accelerance, m/(s\u{b2} N)", 2, 1.0),
+        }
+    }
+}
+
 /// The curves as a document.
-pub(crate) fn draw(curves: &[ReceptanceCurve], title: &str) -> String {
+pub(crate) fn draw(curves: &[ReceptanceCurve], motion: DrawnMotion, title: &str) -> String {
+    let (y_label, order, unit) = motion.axis();
+    let drawn = |hertz: f64, value: &Complex<f64>| {
+        let turned = Complex::new(0.0, std::f64::consts::TAU * hertz).powi(order);
+        value * turned * unit
+    };
     let line =
         |number: usize, curve: &ReceptanceCurve, of: &dyn Fn(&Complex<f64>) -> f64| PlotLine {
             name: curve.name.clone(),
@@ -28,7 +56,7 @@ pub(crate) fn draw(curves: &[ReceptanceCurve], title: &str) -> String {
                 .frequencies_hz
                 .iter()
                 .zip(&curve.receptance)
-                .map(|(f, value)| (logarithm(*f), of(value)))
+                .map(|(f, value)| (logarithm(*f), of(&drawn(*f, value))))
                 .collect(),
         };
     let all = |of: &dyn Fn(&Complex<f64>) -> f64| -> Vec<PlotLine> {
@@ -38,8 +66,8 @@ pub(crate) fn draw(curves: &[ReceptanceCurve], title: &str) -> String {
     let magnitude = Plot {
         title: title.to_owned(),
         x_label: "frequency, Hz".into(),
-        y_label: "receptance, \u{b5}m/N".into(),
-        lines: all(&|value| logarithm(1e6 * value.norm())),
+        y_label: y_label.into(),
+        lines: all(&|value| logarithm(value.norm())),
         marks: Vec::new(),
     };
     let nameless = |line: PlotLine| PlotLine {

@@ -3,7 +3,7 @@
 use kinetostat_chatter::{
     Crossing, Instability, LobeDiagram, LobePoint, SpeedStability, ZerothOrderLimit,
 };
-use kinetostat_report::{ReceptanceCurve, lobes_svg, receptance_svg};
+use kinetostat_report::{DrawnMotion, ReceptanceCurve, lobes_svg, receptance_svg};
 use nalgebra::Complex;
 
 fn crossing(depth: f64, unstable_above: bool, kind: Instability) -> Crossing {
@@ -92,7 +92,11 @@ fn receptances_have_magnitude_and_phase() {
             Complex::new(-1e-7, -1e-9),
         ],
     };
-    let svg = receptance_svg(&[curve(false), curve(true)], "tool");
+    let svg = receptance_svg(
+        &[curve(false), curve(true)],
+        DrawnMotion::Receptance,
+        "tool",
+    );
     let _ = roxmltree::Document::parse(&svg).unwrap();
     assert_eq!(svg.matches(">measured<").count(), 1);
     assert!(svg.contains("phase, deg") && svg.contains("\u{b5}m/N") && !svg.contains("NaN"));

@@ -45,7 +45,7 @@ impl ChatterQuestion<'_> {
                 if watch.cancelled() {
                     return Err(ProgramChatterError::Cancelled);
                 }
-                let found = self.judge(&load, &SiteGroup::of(&all, range.clone()));
+                let found = self.judge(&load, &SiteGroup::of(&all, range.clone()), wider);
                 watch.advance(done.fetch_add(1, Ordering::Relaxed) + 1);
                 found
             })

@@ -61,9 +61,24 @@ impl JudgedSite {
         !matches!(self.verdict, Verdict::NotJudged(_))
     }
 
-    fn not_judged(group: &SiteGroup<'_>, why: impl Into<String>) -> Self {
+    /// Whether it is worse than another one of the same group: it chatters, or its limit is nearer to its depth; of places
+    /// with neither the first stands.
+    fn is_worse_than(&self, other: &Self) -> bool {
+        let rank = |judged: &Self| match judged.verdict {
+            Verdict::Chatters => 2,
+            Verdict::Stable => 1,
+            Verdict::NotJudged(_) => 0,
+        };
+        let share = |judged: &Self| match judged.limit_mm {
+            Some(limit_mm) => limit_mm / judged.site.station.depth_mm,
+            None => f64::INFINITY,
+        };
+        rank(self) > rank(other) || (rank(self) == rank(other) && share(self) < share(other))
+    }
+
+    fn not_judged(site: &CutSite, group: &SiteGroup<'_>, why: impl Into<String>) -> Self {
         Self {
-            site: *group.judged(),
+            site: *site,
             verdict: Verdict::NotJudged(why.into()),
             limit_mm: None,
             looked_up_to_mm: 0.0,
@@ -109,30 +124,48 @@ impl Limit {
 }
 
 impl ChatterQuestion<'_> {
-    /// Judges one place for all that are like it.
+    /// Judges a group of places by the worst of those that stand for it.
     pub(crate) fn judge(
         &self,
         load: &LoadAlongPath<'_>,
         group: &SiteGroup<'_>,
+        wider: f64,
     ) -> Result<JudgedSite, ProgramChatterError> {
-        let site = group.judged();
+        let (deepest, others) = group.judged(wider);
+        let mut worst = self.judge_site(load, deepest, group)?;
+        for site in others {
+            let found = self.judge_site(load, site, group)?;
+            if found.is_worse_than(&worst) {
+                worst = found;
+            }
+        }
+        Ok(worst)
+    }
+
+    /// Judges one place of a group.
+    fn judge_site(
+        &self,
+        load: &LoadAlongPath<'_>,
+        site: &CutSite,
+        group: &SiteGroup<'_>,
+    ) -> Result<JudgedSite, ProgramChatterError> {
         let Some(contact) = site.station.contact else {
             let why = "the side of the tool has no arc of contact of its own, or the spindle turns to the left";
-            return Ok(JudgedSite::not_judged(group, why));
+            return Ok(JudgedSite::not_judged(site, group, why));
         };
         if contact.exit - contact.entry <= 0.0 {
             let why = "the arc of contact has no length";
-            return Ok(JudgedSite::not_judged(group, why));
+            return Ok(JudgedSite::not_judged(site, group, why));
         }
         let regeneration = match self.regeneration(load, site)? {
             Ok(regeneration) => regeneration,
-            Err(why) => return Ok(JudgedSite::not_judged(group, why)),
+            Err(why) => return Ok(JudgedSite::not_judged(site, group, why)),
         };
         let depth = 1e-3 * site.station.depth_mm;
         let found = Limit::of(&regeneration, site.station.rpm, depth, f64::INFINITY);
         let found = match found {
             Ok(found) => found,
-            Err(error) => return Ok(JudgedSite::not_judged(group, error.to_string())),
+            Err(error) => return Ok(JudgedSite::not_judged(site, group, error.to_string())),
         };
         let limit = found.limit;
         let modes = regeneration.response().modes();

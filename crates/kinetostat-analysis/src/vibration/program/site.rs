@@ -66,15 +66,29 @@ impl<'s> SiteGroup<'s> {
         Self { sites: &all[range] }
     }
 
-    /// The place that is judged: the deepest cut.
-    pub fn judged(&self) -> &'s CutSite {
-        let deeper = |a: &'s CutSite, b: &'s CutSite| match b.station.depth_mm > a.station.depth_mm
-        {
-            true => b,
-            false => a,
-        };
-        let deepest = self.sites.iter().reduce(deeper);
-        deepest.unwrap_or(&self.sites[0])
+    /// The places that are judged for the group. Where its cuts hardly differ, the deepest; where they differ by more
+    /// (`wider` above 1), the one with the widest arc too, and both ends, where the machine stands otherwise.
+    pub fn judged(&self, wider: f64) -> (&'s CutSite, Vec<&'s CutSite>) {
+        let width = |site: &CutSite| site.station.contact.map_or(0.0, |c| c.exit - c.entry);
+        let deepest = self.most(|site| site.station.depth_mm);
+        let mut others: Vec<&CutSite> = Vec::new();
+        if wider > 1.0 {
+            let ends = [&self.sites[0], &self.sites[self.sites.len() - 1]];
+            for site in [self.most(width)].into_iter().chain(ends) {
+                let mut known = others.iter().copied().chain([deepest]);
+                if !known.any(|known| std::ptr::eq(known, site)) {
+                    others.push(site);
+                }
+            }
+        }
+        (deepest, others)
+    }
+
+    /// The first place with the largest value.
+    fn most(&self, of: impl Fn(&CutSite) -> f64) -> &'s CutSite {
+        let larger = |a: &'s CutSite, b: &'s CutSite| if of(b) > of(a) { b } else { a };
+        let found = self.sites.iter().reduce(larger);
+        found.unwrap_or(&self.sites[0])
     }
 
     pub fn count(&self) -> usize {

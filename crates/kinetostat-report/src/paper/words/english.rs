@@ -127,7 +127,7 @@ pub(super) const WORDS: Words = Words {
         "Chatter,\u{a0}Hz",
         "Stable\u{a0}at,\u{a0}rpm",
     ],
-    chatter_nearest: "Least limit of depth",
+    chatter_nearest: "Limit of depth nearest to the cut",
     chatter_nearest_text: "on line {line}, where the program cuts {depth} deep",
     shaken: "Forced vibration of the tip (rms)",
     shaken_text: "on line {line}, most of it at {frequency}, beside a mode at {mode}",

@@ -130,7 +130,7 @@ pub(super) const WORDS: Words = Words {
         "Broutement,\u{a0}Hz",
         "Stable\u{a0}à,\u{a0}tr/min",
     ],
-    chatter_nearest: "Plus petite profondeur limite",
+    chatter_nearest: "Profondeur limite la plus proche de la passe",
     chatter_nearest_text: "à la ligne {line}, où le programme coupe sur {depth} de profondeur",
     shaken: "Vibration forcée de la pointe (valeur efficace)",
     shaken_text: "à la ligne {line}, surtout à {frequency}, à côté d’un mode à {mode}",

@@ -130,7 +130,7 @@ pub(super) const WORDS: Words = Words {
         "Rattern,\u{a0}Hz",
         "Stabil\u{a0}bei,\u{a0}1/min",
     ],
-    chatter_nearest: "Kleinste Grenztiefe",
+    chatter_nearest: "Grenztiefe, der der Schnitt am nächsten kommt",
     chatter_nearest_text: "in Zeile {line}, wo das Programm {depth} tief schneidet",
     shaken: "Erzwungene Schwingung der Spitze (Effektivwert)",
     shaken_text: "in Zeile {line}, vor allem mit {frequency}, neben einer Eigenschwingung mit {mode}",

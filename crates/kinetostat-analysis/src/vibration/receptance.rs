@@ -1,0 +1,85 @@
+//! Response of the tool's tip, solved as the damping and the loads ask for [D 8].
+
+use kinetostat_dynamics::{
+    Damping, DirectResponse, ModalResponse, Point, Quantity, Receptance, Result,
+};
+
+use crate::vibration::machine::VibratingMachine;
+
+/// How a machine's tool gives way to what acts on it, ready for any frequency.
+pub enum ToolReceptance<'m> {
+    /// By modes, each with its own damping, and the residual flexibility of those left out.
+    ByModes(Box<ModalResponse>),
+    /// By solving all coordinates at each frequency.
+    Direct(Box<DirectResponse<'m>>, Point),
+}
+
+impl VibratingMachine {
+    /// The receptance of the tool's tip. By the lowest `kept` modes where a number is given. Else by all modes where no
+    /// damping couples them, and by direct solution where one does (dampers at joints, Rayleigh's damping under load) or
+    /// where loads have no potential.
+    ///
+    /// # Errors
+    /// As [`ModalResponse::new`] and [`kinetostat_dynamics::LinearDynamics::direct`].
+    pub fn tool_receptance(
+        &self,
+        damping: &Damping,
+        kept: Option<usize>,
+    ) -> Result<ToolReceptance<'_>> {
+        let directly = damping.couples_modes() || self.dynamics.is_circulatory();
+        Ok(match kept {
+            None if directly => ToolReceptance::Direct(
+                Box::new(self.dynamics.direct(&self.modes, damping)?),
+                self.dynamics.tool(),
+            ),
+            _ => ToolReceptance::ByModes(Box::new(
+                self.tool_response(damping, kept.unwrap_or(usize::MAX))?,
+            )),
+        })
+    }
+
+    /// By how much the response of the tool's tip along axes, with each mode's own damping alone, is off at the frequencies
+    /// of the vibrations up to one, Hz: the largest share of the direct response. 0 where no damping couples modes.
+    ///
+    /// # Errors
+    /// As [`Self::tool_receptance`].
+    pub fn lost_coupling(&self, damping: &Damping, up_to_hz: f64) -> Result<f64> {
+        if !damping.couples_modes() || self.dynamics.is_circulatory() {
+            return Ok(0.0);
+        }
+        let hz: Vec<f64> = (self.modes.frequencies_hz().into_iter())
+            .filter(|hz| *hz > 0.0 && *hz <= up_to_hz)
+            .collect();
+        let [by_modes, directly] = [Some(usize::MAX), None].map(|kept| {
+            self.tool_receptance(damping, kept)?
+                .over(&hz, Quantity::Displacement)
+        });
+        let off = by_modes?.into_iter().zip(directly?).map(|(modal, direct)| {
+            let along = |m: Receptance| m.fixed_view::<3, 3>(0, 0).into_owned();
+            (along(modal) - along(direct)).norm() / along(direct).norm()
+        });
+        Ok(off.fold(0.0, kinetostat::number::larger))
+    }
+}
+
+impl ToolReceptance<'_> {
+    /// At many frequencies, Hz.
+    ///
+    /// # Errors
+    /// [`kinetostat_dynamics::Error::NotSolved`] of a direct solution exactly at an undamped resonance.
+    pub fn over(&self, hz: &[f64], quantity: Quantity) -> Result<Vec<Receptance>> {
+        match self {
+            Self::ByModes(response) => Ok(response.over(hz, quantity)),
+            Self::Direct(response, tool) => response.over(*tool, *tool, hz, quantity),
+        }
+    }
+
+    /// How it is solved, in a word.
+    #[must_use]
+    pub fn solution(&self) -> &'static str {
+        match self {
+            Self::ByModes(_) => "modes",
+            Self::Direct(..) => "direct",
+        }
+    }
+}
