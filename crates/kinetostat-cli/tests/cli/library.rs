@@ -46,12 +46,7 @@ fn entry(preset: &Preset) -> String {
     let home = m.platforms()[m.tool()].home;
     let posture = m.posture(&home).expect("home");
     let stiff = posture.stiffness().expect("a stiffness").rank();
-    let mass: f64 = m.platforms().iter().map(|p| p.mass).sum::<f64>()
-        + m.limbs()
-            .iter()
-            .flat_map(|l| l.actual.bodies())
-            .map(|b| b.mass)
-            .sum::<f64>();
+    let mass = m.moving_mass();
     let words = &model.document.mechanism;
     let mut out = format!("### {name}\n\n![Drawing of {name}](../pictures/machine-{name}.svg)\n\n");
     out.push_str(&sentence(

@@ -48,13 +48,7 @@ pub struct Run {
 #[must_use]
 pub fn load_description(mechanism: &Mechanism, load: &LoadAlongPath<'_>) -> String {
     let gravity = mechanism.gravity();
-    let mass: f64 = mechanism
-        .limbs()
-        .iter()
-        .flat_map(|l| l.actual.bodies())
-        .map(|b| b.mass)
-        .chain(mechanism.platforms().iter().map(|p| p.mass))
-        .sum();
+    let mass = mechanism.moving_mass();
     if gravity.norm() > 0.0 && mass > 0.0 {
         format!(
             "{}; and the machine's own weight, {mass:.0} kg, everywhere",

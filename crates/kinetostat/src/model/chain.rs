@@ -227,6 +227,14 @@ impl Chain {
         &self.segment_masses
     }
 
+    /// Mass of its bodies and of what is spread along its links, kg.
+    #[must_use]
+    pub fn mass(&self) -> f64 {
+        let spread = self.segment_masses.iter();
+        self.bodies.iter().map(|body| body.mass).sum::<f64>()
+            + spread.map(|s| s.mass.per_length * s.length).sum::<f64>()
+    }
+
     /// Natural length and stiffness.
     #[must_use]
     pub fn scale(&self) -> Scale {

@@ -294,6 +294,14 @@ impl Mechanism {
         &self.parts.platforms
     }
 
+    /// Mass of everything that moves, kg: platforms, bodies, and what is spread along links.
+    #[must_use]
+    pub fn moving_mass(&self) -> f64 {
+        let of_platforms = self.platforms().iter().map(|platform| platform.mass);
+        let of_limbs = self.limbs().iter().map(|limb| limb.actual.mass());
+        of_platforms.chain(of_limbs).sum()
+    }
+
     /// Limbs in the order in which they were added.
     #[must_use]
     pub fn limbs(&self) -> &[Limb] {

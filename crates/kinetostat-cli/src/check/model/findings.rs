@@ -95,8 +95,7 @@ pub(crate) fn findings(model: &Model, source: String, force: Option<Vector3<f64>
         model_source: source,
         description: model.document.mechanism.description.clone(),
         gravity_m_per_s2: m.gravity().into(),
-        mass_kg: limbs.iter().map(|l| l.mass_kg).sum::<f64>()
-            + m.platforms().iter().map(|p| p.mass).sum::<f64>(),
+        mass_kg: m.moving_mass(),
         platforms: m
             .platforms()
             .iter()

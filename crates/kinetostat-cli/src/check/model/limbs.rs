@@ -103,7 +103,7 @@ pub(crate) fn limb(model: &Model, index: usize) -> LimbFinding {
         links: links(model, index),
         loads: loads(model, index),
         bodies: chain.bodies().iter().map(|b| b.name.clone()).collect(),
-        mass_kg: chain.bodies().iter().map(|b| b.mass).sum(),
+        mass_kg: chain.mass(),
         redundant_passive_joints: Vec::new(),
         constrained_directions: None,
         stiffness_rank: None,
