@@ -18,8 +18,8 @@ const AT_CORNER_MM: f64 = 0.002;
 const OUTSTANDING: f64 = 5.0;
 
 /// A move that is this many times as long as the original's way between its ends, or as short, does not follow it; beside this
-/// length, mm, which steps at corners have.
-const OTHER_LENGTH: (f64, f64) = (1.5, 1.0);
+/// length, mm, and this many times the largest correction: by so much steps at corners make a way longer.
+const OTHER_LENGTH: (f64, f64, f64) = (1.5, 1.0, 4.0);
 
 /// A piece of the other program with the move of it that it is a part of.
 pub(crate) struct Followed {
@@ -38,7 +38,8 @@ pub(crate) fn follow(
     let guide_path = guide.path(original);
     let nominal = NominalPath::new(&guide_path).map_err(nothing)?;
     let shift_mm = largest_shift_mm(original, guide);
-    let other = &*without_air(original, &nominal, (other, shift_mm));
+    let as_it_is = NominalPath::new(original).map_err(nothing)?;
+    let other = &*without_air(&as_it_is, &nominal, (other, shift_mm));
     let of_other = NominalPath::new(other).map_err(nothing)?;
     let ends = ends(&of_other);
     let feet = feet(&nominal, other, &ends)?;
@@ -50,6 +51,7 @@ pub(crate) fn follow(
         guide,
         stretches: stretches(guide, &nominal),
         near_mm: usual_distance_mm(&feet).max(AT_CORNER_MM),
+        shift_mm,
         nominal: &nominal,
         pieces: Vec::new(),
         covered: Vec::new(),
@@ -120,6 +122,8 @@ struct Along<'a> {
     nominal: &'a NominalPath<'a>,
     stretches: Vec<Stretch>,
     near_mm: f64,
+    /// The largest correction, mm.
+    shift_mm: f64,
     pieces: Vec<Followed>,
     /// Lengths along the guide between which the passes go, mm.
     covered: Vec<[f64; 2]>,
@@ -167,7 +171,8 @@ impl Along<'_> {
 
     /// Whether a part of a move is no part of the original: it leaves a way of that out, or crosses where that lifts the tool.
     fn goes_elsewhere(&self, end: &End, [from, to]: [f64; 2]) -> bool {
-        let (times, beside_mm) = OTHER_LENGTH;
+        let (times, steps_mm, corrections) = OTHER_LENGTH;
+        let beside_mm = steps_mm + corrections * self.shift_mm;
         let (own, way) = (self.length_mm(end), to - from);
         let leaves_out = way > times * own + beside_mm;
         // Just inside: where passes meet both are at the same length.

@@ -11,8 +11,8 @@ const ARC_MM: f64 = 0.01;
 /// How far the other program may be from the guide, mm, tried one after the other: the nearer it is, the less can be mistaken.
 const WINDOWS_MM: [f64; 5] = [0.02, 0.1, 0.5, 2.0, 8.0];
 
-/// One of so many ends may be farther away than the others.
-const FEW: usize = 4;
+/// One of so many ends may be farther away than the others, and two of any number: those of one wrong block.
+const FEW: usize = 20;
 
 /// The start of a pass, or the end of a part of a move.
 pub(crate) struct End {
@@ -99,7 +99,7 @@ fn widen_few(
     (near, window_mm): (&mut [Vec<Foot>], f64),
 ) {
     let lost: Vec<usize> = (0..near.len()).filter(|k| near[*k].is_empty()).collect();
-    if lost.len() * FEW > near.len() {
+    if lost.len() > 2 && lost.len() * FEW > near.len() {
         return;
     }
     for k in lost {

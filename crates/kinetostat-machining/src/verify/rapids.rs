@@ -24,13 +24,13 @@ pub(crate) fn largest_shift_mm(original: &Path, guide: &Corrected) -> f64 {
 
 /// The other program with its moves at feed as rapids where they are rapids of the original: a retract at feed cuts nothing.
 pub(crate) fn without_air<'a>(
-    original: &Path,
+    original: &NominalPath<'_>,
     nominal: &NominalPath<'_>,
     (other, shift_mm): (&'a Path, f64),
 ) -> Cow<'a, Path> {
     let near_mm = NEAR_MM + shift_mm;
     let is_rapid = |m: &&Move| m.kind == MoveKind::Rapid && m.known == Knowledge::Whole;
-    let mut rapids: Vec<&Move> = original.moves.iter().filter(is_rapid).collect();
+    let mut rapids: Vec<&Move> = original.path().moves.iter().filter(is_rapid).collect();
     rapids.sort_by(|a, b| a.start.x.total_cmp(&b.start.x));
     let is_air = |own: &Move| {
         if own.kind != MoveKind::Feed || own.curve != Curve::Line || !own.is_known_feed() {
@@ -44,8 +44,10 @@ pub(crate) fn without_air<'a>(
             let beside = (m.point(0.5) - middle).norm();
             (m.start - own.start).norm() <= near_mm
                 && (m.end - own.end).norm() <= near_mm
-                // Not where a cut goes nearer by.
-                && nominal.nearest(&middle).is_none_or(|foot| foot.distance_mm > beside)
+                // Not where a cut goes nearer by, as it is or compensated.
+                && [original, nominal].into_iter().all(|cuts| {
+                    cuts.nearest(&middle).is_none_or(|foot| foot.distance_mm > beside)
+                })
         })
     };
     let air: Vec<usize> = (0..other.moves.len())
