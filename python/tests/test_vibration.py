@@ -127,6 +127,31 @@ def test_a_dead_moment_has_no_potential(arm):
     np.testing.assert_allclose(still, pushed.equilibrium.compliance, rtol=1e-8, atol=1e-13)
 
 
+def test_complex_modes_are_those_of_numpy_and_flutter_is_no_stable_state(arm):
+    assert arm.vibration([300, 0, 0, 0, 0, 0]).complex_modes() is None
+    verdicts = set()
+    for size in (800, 200_000, 2_000_000):
+        try:
+            pushed = arm.vibration([0, 0, 0, size, -0.6 * size, 0.8 * size])
+        except ks.Error:
+            continue  # no equilibrium under such a moment
+        found = pushed.complex_modes()
+        squares = np.linalg.eigvals(np.linalg.solve(pushed.mass_matrix, pushed.tangent)).astype(complex)
+        own = -(found.eigenvalues**2)
+        for square in own:
+            assert np.abs(squares - square).min() < 1e-8 * np.abs(squares).max()
+        np.testing.assert_allclose(found.complexity, (np.abs(squares.imag) / np.abs(squares)).max(), atol=1e-9)
+        grows = np.sqrt(-squares).real.max() > 1e-6 * np.sqrt(np.abs(squares)).max()
+        assert (found.verdict in ("flutter", "divergence")) == grows == (not pushed.stable)
+        assert found.coarse_links == ()
+        verdicts.add(found.verdict)
+        damped = pushed.complex_modes(0.03)
+        if found.verdict == "stable":
+            np.testing.assert_allclose(-damped.eigenvalues.real / np.abs(damped.eigenvalues), 0.03, rtol=0.1)
+    assert "stable" in verdicts
+    assert "flutter" in verdicts or "divergence" in verdicts, verdicts
+
+
 def test_a_held_tool_and_pickles(arm):
     held = arm.vibration(held=["x", "y", "z"])
     assert held.counts.vibrating == 3

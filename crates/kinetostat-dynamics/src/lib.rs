@@ -63,4 +63,4 @@ pub use response::direct::DirectResponse;
 pub use response::modal::{ModalResponse, TranslationalModes};
 pub use response::{Quantity, Receptance};
 pub use swept::long_chain::LongChain;
-pub use swept::machine::lowest_modes;
+pub use swept::machine::{lowest_modes, lowest_modes_of_state};

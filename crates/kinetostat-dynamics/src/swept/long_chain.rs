@@ -1,6 +1,7 @@
 //! A long chain, or a machine that is one, about its equilibrium.
 
 use kinetostat::chain::ChainPieces;
+use kinetostat::machine::MechanismState;
 use kinetostat::spatial::{hat, shift_matrix};
 use kinetostat::{ChainProblem, MechanismEquilibrium, MotionKind, Posture, Wrench};
 use nalgebra::{Matrix6, Matrix6xX, Vector6};
@@ -109,6 +110,14 @@ impl LongChain {
         at: &MechanismEquilibrium,
         held: &Held,
     ) -> Result<Option<Self>> {
+        Self::of_state(posture, &at.state, held)
+    }
+
+    pub(crate) fn of_state(
+        posture: &Posture,
+        state: &MechanismState,
+        held: &Held,
+    ) -> Result<Option<Self>> {
         let machine = posture.mechanism();
         let [limb] = machine.limbs() else {
             return Ok(None);
@@ -116,15 +125,15 @@ impl LongChain {
         if machine.platforms().len() != 2 || !machine.platform_loads().is_empty() {
             return Ok(None);
         }
-        let problem = posture.limb_problem(0, &at.state)?;
-        let wrench = at.state.wrenches[0];
-        let coordinates = &at.state.coordinates[0];
+        let problem = posture.limb_problem(0, state)?;
+        let wrench = state.wrenches[0];
+        let coordinates = &state.coordinates[0];
         let Some(mut own) = Self::of_chain(&problem, coordinates, &wrench, held)? else {
             return Ok(None);
         };
         let platform = &machine.platforms()[limb.to];
         body::check(&platform.name, platform.mass, &platform.inertia)?;
-        let pose = at.state.platforms[limb.to];
+        let pose = state.platforms[limb.to];
         let rotation = *pose.rotation.to_rotation_matrix().matrix();
         // From the platform's origin to the tip, and to its centre of mass.
         let arm = pose.rotation * limb.platform_from_tip.translation.vector;

@@ -5,11 +5,16 @@ use std::sync::Arc;
 use kinetostat::batch::{Batch, BatchEquilibrium, BatchStiffness, Details};
 use kinetostat::{Mechanism, Pose, Posture, Wrench};
 
+use crate::map::frequencies::{LOWEST, lowest};
 use crate::map::nearness::{Nearness, NearnessRoom};
 use crate::map::place::PlaceState;
 use crate::map::solved::{Solved, Wanted};
 use crate::map::variable::{Needs, Variable};
 use crate::postures::configurations::Configurations;
+
+/// Two equilibria are one where the tool stands in the same place in both, by this share of the machine's length and in rad: both
+/// are known far better.
+const SAME: f64 = 1e-7;
 
 /// A machine, and which of its variables are asked for.
 #[derive(Clone, Debug)]
@@ -19,8 +24,8 @@ pub struct Evaluator {
     ratings: Vec<Option<f64>>,
     variables: Vec<Variable>,
     details: Details,
-    /// Natural frequencies are asked for: the general engine takes every posture, whose state they are about.
-    modes: bool,
+    /// How many natural frequencies are asked for: they are about the state of a posture, which the kernels do not hand out.
+    modes: usize,
     nearness: Option<Nearness>,
     configurations: Configurations,
 }
@@ -63,7 +68,7 @@ impl Evaluator {
                 true => Details::Stability,
                 false => Details::Rest,
             },
-            modes: asks(Needs::Modes),
+            modes: (variables.iter().map(|v| v.frequencies()).max()).unwrap_or_default(),
             nearness: variables
                 .contains(&Variable::SingularityDistance)
                 .then(|| Nearness::of(mechanism)),
@@ -135,7 +140,6 @@ impl Evaluator {
                 self.batch.stiffness_into(poses, stiffness);
                 true
             }
-            Some(_) if self.modes => false,
             Some(loads) => {
                 let found = self
                     .batch
@@ -151,13 +155,18 @@ impl Evaluator {
                 Some(_) if solved => equilibrium.status[i],
                 Some(_) => kinetostat::batch::Status::Unsolved,
             };
-            let taken = match (status.is_solved(), loads) {
+            let mut taken = match (status.is_solved(), loads) {
                 (false, _) => false,
                 (true, None) => place.take_stiffness(machine, stiffness, i),
                 (true, Some(_)) => {
                     place.take_equilibrium(machine, &self.ratings, equilibrium, i, pose)
                 }
             };
+            if let (true, true, Some(loads)) = (taken, self.modes > 0, loads) {
+                let found = self.frequencies(pose, &loads[i], &equilibrium.tool_pose(i));
+                taken = found.is_some();
+                place.frequencies = found.unwrap_or(place.frequencies);
+            }
             if !taken {
                 place.forget();
                 let load = loads.map(|loads| &loads[i]);
@@ -178,6 +187,18 @@ impl Evaluator {
             }
             each(i, place);
         }
+    }
+
+    /// Natural frequencies about the equilibrium that the kernels found, in which the tool stands `there`; `None` where the
+    /// general engine finds another one.
+    fn frequencies(&self, pose: &Pose, load: &Wrench, there: &Pose) -> Option<[f64; LOWEST]> {
+        let posture = self.mechanism.posture(pose).ok()?;
+        let state = posture.rest_under(load, posture.rest_state()).ok()?;
+        let tool = &state.platforms[self.mechanism.tool()];
+        let apart = (tool.translation.vector - there.translation.vector).norm();
+        let near = apart <= SAME * self.mechanism.natural_length()
+            && tool.rotation.angle_to(&there.rotation) <= SAME;
+        near.then(|| lowest(&posture, &state, load, self.modes))
     }
 
     /// A posture by itself, perhaps none.

@@ -40,8 +40,8 @@ pub(crate) struct Solved {
 pub(crate) struct Wanted<'a> {
     /// Ratings of the actuators, as far as they are stated.
     pub ratings: &'a [Option<f64>],
-    /// Its natural frequencies, too.
-    pub modes: bool,
+    /// So many of its natural frequencies, too.
+    pub modes: usize,
 }
 
 /// Below this relative pivot the rank of a stiffness has to be decided.
@@ -288,8 +288,8 @@ impl Solved {
 
     fn take_loaded(&mut self, posture: &Posture, load: &Wrench, wanted: &Wanted<'_>) -> Option<()> {
         let e = posture.deflected_by(load).ok()?;
-        if wanted.modes {
-            self.frequencies = lowest(posture, &e);
+        if wanted.modes > 0 {
+            self.frequencies = lowest(posture, &e.state, &e.wrench, wanted.modes);
         }
         self.softest = e.stiffness_against_force();
         self.take_compliance(e.compliance());

@@ -208,6 +208,19 @@ impl Variable {
         }
     }
 
+    /// How many of the lowest natural frequencies have to be known for it.
+    pub(crate) fn frequencies(self) -> usize {
+        match self {
+            Self::F1 => 1,
+            Self::F2 => 2,
+            Self::F3 => 3,
+            Self::F4 => 4,
+            Self::F5 => 5,
+            Self::F6 | Self::NaturalFrequencies => 6,
+            _ => 0,
+        }
+    }
+
     /// Writes its columns at a place.
     pub(crate) fn write(self, place: &Solved, out: &mut [f64]) {
         match self {
