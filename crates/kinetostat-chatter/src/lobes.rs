@@ -18,7 +18,7 @@ pub struct LobeRequest {
     pub from_rpm: f64,
     /// Fastest spindle speed, rpm.
     pub to_rpm: f64,
-    /// Number of speeds, evenly spaced, before any are added; at least 2.
+    /// Number of speeds, evenly spaced, before any are added; 1 where both speeds are the same.
     pub speeds: usize,
     /// Largest depth of cut that is looked at, m.
     pub up_to: f64,
@@ -63,13 +63,15 @@ impl LobeRequest {
         checked_speed(self.from_rpm)?;
         checked_speed(self.to_rpm)?;
         checked_depth(self.up_to)?;
-        if self.to_rpm <= self.from_rpm {
+        let one = self.speeds == 1 && self.to_rpm == self.from_rpm;
+        if self.to_rpm <= self.from_rpm && !one {
             let found = format!("{} to {} rpm", self.from_rpm, self.to_rpm);
             return setting("spindle speeds", found, "a second speed above the first");
         }
-        if !(2..=MOST_SPEEDS).contains(&self.speeds) {
+        if !one && !(2..=MOST_SPEEDS).contains(&self.speeds) {
             let found = self.speeds.to_string();
-            return setting("number of spindle speeds", found, "2 to 100000");
+            let expected = "2 to 100000, or 1 where both speeds are the same";
+            return setting("number of spindle speeds", found, expected);
         }
         if self.up_to <= 0.0 {
             return setting("largest depth", "0 m".into(), "a depth above 0");
@@ -102,8 +104,10 @@ pub struct LobeDiagram {
     pub up_to: f64,
     /// Edges that pass in one turn.
     pub teeth: usize,
-    /// One for each speed.
+    /// One for each speed that has an answer.
     pub points: Vec<LobePoint>,
+    /// Speeds, rpm, at which the calculation did not reach its accuracy, and why.
+    pub without_answer: Vec<(f64, String)>,
 }
 
 impl LobeDiagram {
@@ -128,10 +132,11 @@ impl Regeneration {
     /// Speeds are worked on by all threads; their number changes nothing of the result.
     ///
     /// # Errors
-    /// A request without sense, and those of [`Regeneration::stability_at`].
+    /// A request without sense, and those of [`Regeneration::stability_at`]; of calculations that do not reach their accuracy
+    /// only where that is so at every speed ([`LobeDiagram::without_answer`]).
     pub fn lobes(&self, request: &LobeRequest) -> Result<LobeDiagram> {
         request.checked()?;
-        let step = (request.to_rpm - request.from_rpm) / (request.speeds - 1) as f64;
+        let step = (request.to_rpm - request.from_rpm) / (request.speeds.max(2) - 1) as f64;
         let speeds: Vec<f64> = (0..request.speeds)
             .map(|i| request.from_rpm + step * i as f64)
             .collect();
@@ -141,7 +146,21 @@ impl Regeneration {
                 zeroth_order: zeroth_order::limit(self, *speed)?,
             })
         };
-        let all = |speeds: &[f64]| speeds.par_iter().map(at).collect::<Result<Vec<_>>>();
+        let mut without_answer: Vec<(f64, ChatterError)> = Vec::new();
+        let mut all = |speeds: &[f64]| -> Result<Vec<LobePoint>> {
+            let found: Vec<Result<LobePoint>> = speeds.par_iter().map(at).collect();
+            let mut points = Vec::with_capacity(found.len());
+            for (speed, found) in speeds.iter().zip(found) {
+                match found {
+                    Ok(point) => points.push(point),
+                    Err(error) if error.kind == ChatterErrorKind::NotConverged => {
+                        without_answer.push((*speed, error));
+                    }
+                    Err(error) => return Err(error),
+                }
+            }
+            Ok(points)
+        };
         let mut points = all(&speeds)?;
         for _ in 0..request.refinements {
             let between: Vec<f64> = points
@@ -155,10 +174,17 @@ impl Regeneration {
             points.extend(all(&between)?);
             points.sort_by(|a, b| a.exact.speed_rpm.total_cmp(&b.exact.speed_rpm));
         }
+        if let (true, Some((_, error))) = (points.is_empty(), without_answer.first()) {
+            return Err(error.clone());
+        }
+        without_answer.sort_by(|a, b| a.0.total_cmp(&b.0));
         Ok(LobeDiagram {
             up_to: request.up_to,
             teeth: self.cut().teeth(),
             points,
+            without_answer: (without_answer.into_iter())
+                .map(|(speed, why)| (speed, why.to_string()))
+                .collect(),
         })
     }
 }

@@ -26,6 +26,14 @@ const MOST: f64 = 200_000.0;
 pub(crate) fn run(args: &FrfArgs) -> Answer<()> {
     let frequencies = frequencies(&args.frequencies)?;
     let entries = args.entries();
+    if let ([one], true) = (
+        frequencies.as_slice(),
+        args.outputs.plot.is_some() || args.fit.is_some(),
+    ) {
+        return Err(Failure::input(format!(
+            "--frequencies names one frequency, {one} Hz; --plot and --fit need a band"
+        )));
+    }
     if args.outputs.plot.is_some() && !entries.iter().any(|(to, from)| *to < 3 && *from < 3) {
         return Err(Failure::input(
             "--plot draws motions along axes by forces along axes; there is none among --to and --from",
@@ -125,6 +133,9 @@ fn frequencies(of: &[f64]) -> Answer<Vec<f64>> {
     let &[low, high, count] = of else {
         return Err(Failure::input("--frequencies needs LO HI N"));
     };
+    if count == 1.0 && low == high && low > 0.0 && low.is_finite() {
+        return Ok(vec![low]);
+    }
     if !(low > 0.0 && high > low && high.is_finite()) {
         return Err(Failure::input(format!(
             "--frequencies {low} {high}: frequencies in Hz are needed, the first above 0 and the second above the first"
@@ -132,7 +143,7 @@ fn frequencies(of: &[f64]) -> Answer<Vec<f64>> {
     }
     if !(2.0..=MOST).contains(&count) || count.fract() != 0.0 {
         return Err(Failure::input(format!(
-            "--frequencies: N is {count}; a whole number from 2 to {MOST} is needed"
+            "--frequencies: N is {count}; a whole number from 2 to {MOST} is needed, or 1 with the same frequency twice"
         )));
     }
     let count = count as usize;

@@ -12,6 +12,7 @@ use kinetostat::Pose;
 use kinetostat_analysis::vibration::{MachineCut, MachineCutError};
 use kinetostat_chatter::{Arc, FeedFrame, LobeRequest, Milled, MillingCut};
 use kinetostat_dynamics::Held;
+use kinetostat_machining::{Warning, WarningCode};
 use kinetostat_report::lobes_svg;
 use nalgebra::Vector3;
 
@@ -58,6 +59,16 @@ pub(crate) fn run(args: &LobesArgs) -> Answer<()> {
         args.modes_up_to_hz,
     )?);
     warnings.extend(coefficients.warnings.iter().cloned());
+    if let Some((speed, why)) = diagram.without_answer.first() {
+        warnings.push(Warning::new(
+            WarningCode::ChatterNotJudged,
+            format!(
+                "no limit was found at {} of {} speeds, the first at {speed:.1} rpm: {why}",
+                diagram.without_answer.len(),
+                diagram.without_answer.len() + diagram.points.len()
+            ),
+        ));
+    }
     let axis = |k: usize| frame.rotation().column(k).into_owned();
     let answer = LobesAnswer {
         schema: 1,
@@ -127,12 +138,18 @@ fn request(args: &LobesArgs) -> Answer<LobeRequest> {
     let &[low, high, count] = args.rpm.as_slice() else {
         return Err(Failure::input("--rpm needs LO HI N"));
     };
-    if !(2.0..=20_000.0).contains(&count) || count.fract() != 0.0 {
+    let one = count == 1.0 && low == high && low > 0.0 && low.is_finite();
+    if one && args.outputs.plot.is_some() {
+        return Err(Failure::input(
+            "--plot draws limits over the spindle speed; --rpm names one speed",
+        ));
+    }
+    if !one && (!(2.0..=20_000.0).contains(&count) || count.fract() != 0.0) {
         return Err(Failure::input(format!(
-            "--rpm: N is {count}; a whole number from 2 to 20000 is needed"
+            "--rpm: N is {count}; a whole number from 2 to 20000 is needed, or 1 with the same speed twice"
         )));
     }
-    if !(low > 0.0 && high > low && high.is_finite()) {
+    if !one && !(low > 0.0 && high > low && high.is_finite()) {
         return Err(Failure::input(format!(
             "--rpm {low} {high}: spindle speeds above 0 are needed, the second above the first"
         )));

@@ -667,3 +667,31 @@ fn speeds_have_limits_whose_multipliers_are_hard_to_find() {
     agree(&[found[1]], &[beside[0]], 5e-3);
     agree(&[found[1]], &[beside[2]], 5e-3);
 }
+
+/// One speed and one frequency are questions, too.
+#[test]
+fn one_speed_and_one_frequency() {
+    let here = arm6();
+    let lobes =
+        "lobes arm6.toml --damping 0.03 --teeth 2 --coefficients-n-per-mm2 800 240 0 --json --rpm";
+    let points = |rpm: &str| {
+        let answer = json(&said(here.path(), &format!("{lobes} {rpm}")).answered());
+        answer["points"].as_array().expect("points").clone()
+    };
+    let (one, several) = (points("1500 1500 1"), points("1000 2000 3"));
+    assert_eq!((one.len(), &one[0]), (1, &several[1]));
+    let frf = |hz: &str| {
+        let line =
+            format!("frf arm6.toml --damping 0.03 --from x --to x --json --frequencies {hz}");
+        let answer = json(&said(here.path(), &line).answered());
+        numbers(&answer["curves"][0]["real"])
+    };
+    agree(&frf("20 20 1"), &[frf("10 30 3")[1]], 1e-12);
+    for line in [
+        format!("{lobes} 1500 1500 1 --plot one.svg"),
+        format!("{lobes} 1500 1600 1"),
+        "frf arm6.toml --frequencies 20 20 1 --plot one.svg".to_owned(),
+    ] {
+        assert_eq!(said(here.path(), &line).code, 1, "{line}");
+    }
+}

@@ -35,6 +35,7 @@ fn point(speed_rpm: f64, crossings: Vec<Crossing>) -> LobePoint {
 fn lobes_show_flip_hopf_islands_and_the_zeroth_order_under_its_name() {
     use Instability::{Flip, Hopf};
     let diagram = LobeDiagram {
+        without_answer: Vec::new(),
         up_to: 0.02,
         teeth: 2,
         points: vec![
