@@ -385,6 +385,23 @@ fn rows_that_are_left_out_are_named() {
 }
 
 #[test]
+fn an_end_beside_the_end_of_a_cut_belongs_to_that_cut() {
+    let here = workplace();
+    // Pecks of a hole, and a slot elsewhere: where one cut ends another begins at the same length along all cuts.
+    let text = "G21 G90\nG0 X0 Y0 Z10\nG0 Z2\nG1 Z-1 F100\nG0 Z2\nG0 Z-0.7\nG1 Z-2\nG0 Z2\nG0 Z-1.7\nG1 Z-3\nG0 Z10\nG0 X20 Y15\nG0 Z1\nG1 Z-2 F300\nG1 X28\nG0 Z10\nM2\n";
+    std::fs::write(here.path().join("part.ngc"), text).unwrap();
+    std::fs::write(
+        here.path().join("job.toml"),
+        "schema = 1\nmodel = \"heavy_6r\"\nprogram = \"part.ngc\"\n[placement]\npart_origin_mm = [1400, 70, 500]\n[tool]\nlength_mm = 200\n[load]\nmilling = { radial_n = 415, tangential_n = -100, axial_n = -125 }\n",
+    )
+    .unwrap();
+    let (code, found, said) = verified(here.path(), "part.ngc", &["--tolerance-um", "6000"]);
+    assert_eq!(code, 0, "{said}");
+    let off = number(&found, "max_position_error_mm");
+    assert!((0.5..3.0).contains(&off), "{said}");
+}
+
+#[test]
 fn a_program_of_remarks_is_its_own_fault() {
     let here = part();
     std::fs::write(here.path().join("remarks.ngc"), "(nothing)\nG21 G90\nM2\n").unwrap();

@@ -7,7 +7,7 @@ use kinetostat_program::{
 use crate::task::{NoMotion, RunError};
 use crate::verify::matched::{ExtraCut, Matched};
 use crate::verify::places::{End, ends, feet};
-use crate::verify::rapids::{elsewhere, largest_shift_mm, without_air};
+use crate::verify::rapids::{Reached, elsewhere, largest_shift_mm, without_air};
 use crate::verify::uncut::uncut;
 
 /// An end this near to where the original goes on to another move lies there, mm; or if the program is farther from the guide, as
@@ -128,7 +128,7 @@ struct Along<'a> {
     /// Lengths along the guide between which the passes go, mm.
     covered: Vec<[f64; 2]>,
     /// The same from rapid to rapid of the other program.
-    passes: Vec<[f64; 2]>,
+    passes: Vec<[Reached; 2]>,
     extra_cuts: Vec<ExtraCut>,
 }
 
@@ -146,20 +146,24 @@ impl Along<'_> {
                             length_mm: self.length_mm(end),
                         });
                     }
-                    self.begin(end, to);
+                    self.begin(end, to, foot.piece);
                     at = to;
                     self.covered.push([to, to]);
                 }
                 Some(covered) => {
                     let to = to.max(at);
                     covered[1] = to;
-                    self.part(end, [at, to]);
+                    self.part(end, [at, to], foot.piece);
                     at = to;
                 }
             }
+            let there = Reached {
+                along_mm: at,
+                pass: self.nominal.pieces()[foot.piece].pass,
+            };
             match self.passes.last_mut().filter(|_| !end.begins_pass) {
-                None => self.passes.push([at, at]),
-                Some(pass) => pass[1] = at,
+                None => self.passes.push([there, there]),
+                Some(pass) => pass[1] = there,
             }
         }
     }
@@ -206,8 +210,8 @@ impl Along<'_> {
     }
 
     /// Where a pass begins: a place without a correction of its own.
-    fn begin(&mut self, end: &End, at: f64) {
-        let stretch = self.stretch_from(at);
+    fn begin(&mut self, end: &End, at: f64, piece: usize) {
+        let stretch = self.stretch_at(at, piece);
         let (move_index, share, _) = self.place(stretch, at);
         self.pieces.push(Followed {
             piece: Piece::uncorrected(
@@ -221,7 +225,12 @@ impl Along<'_> {
     }
 
     /// A part of a move of the other program between two lengths along the guide, divided where stretches meet.
-    fn part(&mut self, end: &End, [from, to]: [f64; 2]) {
+    fn part(&mut self, end: &End, [from, to]: [f64; 2], piece: usize) {
+        if to <= from {
+            let stretch = self.stretch_at(to, piece);
+            self.push(end, stretch, [from, to], [0.0, 1.0]);
+            return;
+        }
         let first = self.stretch_from(from);
         let mut begun = 0.0;
         for index in first..self.stretches.len() {
@@ -236,6 +245,19 @@ impl Along<'_> {
             self.push(end, index, [from.max(begins), to.min(ends)], [begun, done]);
             begun = done;
         }
+    }
+
+    /// The stretch of a place that was found on a piece of the guide. Where one pass ends another begins at the same length, and the
+    /// piece tells which of them it is.
+    fn stretch_at(&self, along_mm: f64, piece: usize) -> usize {
+        let pieces = self.nominal.pieces();
+        let usual = self.stretch_from(along_mm);
+        let pass = |stretch: &Stretch| pieces[stretch.pieces.start].pass;
+        if pass(&self.stretches[usual]) == pieces[piece].pass {
+            return usual;
+        }
+        let behind = |stretch: &Stretch| stretch.pieces.end <= piece;
+        self.stretches.partition_point(behind)
     }
 
     /// The stretch in which a way begins.

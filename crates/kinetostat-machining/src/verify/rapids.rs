@@ -97,6 +97,14 @@ fn rapids(moves: &[Move]) -> Vec<Way> {
     moves.iter().filter(stated).map(way).collect()
 }
 
+/// Where a pass of the other program begins or ends on the guide.
+#[derive(Clone, Copy)]
+pub(crate) struct Reached {
+    pub(crate) along_mm: f64,
+    /// The pass of the guide that it was found on.
+    pub(crate) pass: usize,
+}
+
 /// The moves before each pass of a path, and those behind the last one; `move_of` gives the move of a piece.
 fn between_passes<'p>(
     moves: &'p [Move],
@@ -115,11 +123,11 @@ fn between_passes<'p>(
     between
 }
 
-/// Where rapids of the other program go beside those of the original; `passes` are the lengths along the guide at which the passes
+/// Where rapids of the other program go beside those of the original; `passes` are the places on the guide at which the passes
 /// of the other program begin and end.
 pub(crate) fn elsewhere(
     (original, guide, nominal): (&Path, &Corrected, &NominalPath<'_>),
-    (other, passes): (&NominalPath<'_>, &[[f64; 2]]),
+    (other, passes): (&NominalPath<'_>, &[[Reached; 2]]),
     shift_mm: f64,
 ) -> Vec<RapidElsewhere> {
     let of_original = between_passes(&original.moves, nominal, |i| guide.pieces[i].move_index);
@@ -134,27 +142,45 @@ pub(crate) fn elsewhere(
         }
         let ended = index.checked_sub(1).map(|before| passes[before][1]);
         let begins = passes.get(index).map(|pass| pass[0]);
-        let first = ended.map_or(0, |at| {
-            known.partition_point(|pass| pass.along_mm[0] < at - slack_mm)
+        // By the passes that both ends were found on, and by their lengths: of short passes in one place either may be mistaken.
+        let by_pass = [
+            ended.map_or(0, |at| at.pass + 1),
+            begins.map_or(known.len(), |at| at.pass),
+        ];
+        let by_length = [
+            ended.map_or(0, |at| {
+                known.partition_point(|pass| pass.along_mm[0] < at.along_mm - slack_mm)
+            }),
+            begins.map_or(known.len(), |at| {
+                known.partition_point(|pass| pass.along_mm[1] <= at.along_mm + slack_mm)
+            }),
+        ];
+        let readings = [by_pass, by_length];
+        let same = readings.iter().filter(|[first, last]| first == last);
+        // Of pecks in one hole that are as short as corrections, the one before or behind may be meant.
+        let same: Vec<RapidElsewhere> = same
+            .flat_map(|[way, _]| way.saturating_sub(1)..=(way + 1).min(known.len()))
+            .filter_map(|way| worst(&own, &rapids(of_original[way])))
+            .collect();
+        let is_other = |way: &RapidElsewhere| way.distance_mm > NEAR_MM + shift_mm;
+        if readings.iter().any(|[first, last]| first == last) {
+            let least = same.into_iter();
+            let least = least.min_by(|a, b| a.distance_mm.total_cmp(&b.distance_mm));
+            found.extend(least.filter(is_other));
+            continue;
+        }
+        // Passes are left out, which is said.
+        if readings.iter().any(|[first, last]| first < last) {
+            continue;
+        }
+        // In the midst of a cut, where the original has no rapid.
+        let [from, to] = [own.first(), own.last()];
+        let stays = from.zip(to).map(|(from, to)| Way {
+            line: 0,
+            ends: [from.ends[0], to.ends[1]],
         });
-        let last = begins.map_or(known.len(), |at| {
-            known.partition_point(|pass| pass.along_mm[1] <= at + slack_mm)
-        });
-        let wanted = match first.cmp(&last) {
-            std::cmp::Ordering::Equal => rapids(of_original[first]),
-            // Passes are left out, which is said.
-            std::cmp::Ordering::Less => continue,
-            // In the midst of a cut, where the original has no rapid.
-            std::cmp::Ordering::Greater => {
-                let [from, to] = [own.first(), own.last()];
-                let stays = from.zip(to).map(|(from, to)| Way {
-                    line: 0,
-                    ends: [from.ends[0], to.ends[1]],
-                });
-                stays.into_iter().collect()
-            }
-        };
-        found.extend(worst(&own, &wanted).filter(|way| way.distance_mm > NEAR_MM + shift_mm));
+        let stays: Vec<Way> = stays.into_iter().collect();
+        found.extend(worst(&own, &stays).filter(is_other));
     }
     found
 }
