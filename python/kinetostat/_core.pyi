@@ -141,6 +141,14 @@ class Vibration:
     def tool_modes(self, law: str) -> tuple[_Floats, _Floats, _Floats, _Floats]: ...
 
 def vibration_of(posture: Posture, wrench: ArrayLike, held: tuple[bool, bool, bool, bool, bool, bool]) -> Vibration: ...
+def coupled_limit_of(
+    shapes: _Floats,
+    squared: _Floats,
+    ratios: _Floats,
+    residual: _Floats,
+    chip: list[float],
+    force: list[float],
+) -> tuple[float, bool, float] | None: ...
 def lobes_of(
     shapes: _Floats,
     squared: _Floats,

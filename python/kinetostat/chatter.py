@@ -19,7 +19,7 @@ from kinetostat._arrays import Floats, finite, one, positive, real, thread_count
 from kinetostat.errors import ArgumentError
 from kinetostat.vibration import ToolModes
 
-__all__ = ["Lobes", "MillingCut", "lobes", "multipliers", "tool_modes"]
+__all__ = ["CoupledLimit", "Lobes", "MillingCut", "coupled_limit", "lobes", "multipliers", "tool_modes"]
 
 _Progress = Callable[[int, int, str], object]
 
@@ -74,6 +74,26 @@ class _Cut:
     helix: tuple[float, float] | None
     feed: list[float]
     tool_axis: list[float]
+
+
+@dataclasses.dataclass(frozen=True)
+class CoupledLimit:
+    """The smallest process that makes a tool unstable by coupling its modes, from :func:`coupled_limit`.
+
+    Examples
+    --------
+    >>> from kinetostat.chatter import coupled_limit, tool_modes
+    >>> tip = tool_modes([[1, 0, 0], [0, 1, 0]], stiffness=[1e6, 1.4e6], frequencies_hz=[22.5, 26.6], damping_ratios=[0.02, 0.02])
+    >>> coupled_limit(tip, chip=[1, 1, 0], force=[1, -1, 0]).flutters
+    True
+    """
+
+    factor: float
+    """Stiffness of the process, N/m: width of cut times coefficient."""
+    flutters: bool
+    """Two modes feed each other; else the process pulls harder than the tool holds."""
+    frequency_hz: float
+    """Of the vibration; 0 where it does not flutter."""
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -153,15 +173,18 @@ def tool_modes(directions: ArrayLike, *, stiffness: ArrayLike, frequencies_hz: A
     return ToolModes(shapes, squared, ratios, np.zeros((3, 3)))
 
 
-def _asked(tool: ToolModes, cut: MillingCut) -> tuple[Floats, Floats, Floats, Floats, _Cut]:
+def _of_tool(tool: ToolModes) -> tuple[Floats, Floats, Floats, Floats]:
     of_kind("tool", tool, ToolModes, "a kinetostat.vibration.ToolModes")
     return (
         finite("shapes", tool.shapes),
         finite("squared", tool.squared),
         finite("damping_ratios", tool.damping_ratios),
         finite("residual", tool.residual),
-        of_kind("cut", cut, MillingCut, "a kinetostat.chatter.MillingCut")._native(),
     )
+
+
+def _asked(tool: ToolModes, cut: MillingCut) -> tuple[Floats, Floats, Floats, Floats, _Cut]:
+    return (*_of_tool(tool), of_kind("cut", cut, MillingCut, "a kinetostat.chatter.MillingCut")._native())
 
 
 def _speeds(name: str, value: ArrayLike) -> Floats:
@@ -169,6 +192,36 @@ def _speeds(name: str, value: ArrayLike) -> Floats:
     if given.ndim != 1:
         raise ArgumentError(f"{name} has shape {given.shape}, expected (s,)")
     return given
+
+
+def coupled_limit(tool: ToolModes, *, chip: ArrayLike, force: ArrayLike) -> CoupledLimit | None:
+    """Mode coupling: the smallest process stiffness at which a cut without regeneration (low frequency, fast teeth) is unstable.
+
+    A displacement along ``chip`` thickens the chip, and the cut pushes back against ``force``: ``F = -Kc f (n . r)``.
+
+    Parameters
+    ----------
+    tool : ToolModes
+        Modal data of the tip, every mode damped.
+    chip : array_like, shape (3,)
+        Direction that thickens the chip.
+    force : array_like, shape (3,)
+        Direction of the force.
+
+    Returns
+    -------
+    CoupledLimit | None
+        ``None`` where no process along these directions makes the tool unstable.
+
+    Examples
+    --------
+    >>> from kinetostat.chatter import coupled_limit, tool_modes
+    >>> tip = tool_modes([[1, 0, 0], [0, 1, 0]], stiffness=[1e6, 1.4e6], frequencies_hz=[22.5, 26.6], damping_ratios=[0.02, 0.02])
+    >>> coupled_limit(tip, chip=[1, 0, 0], force=[1, 0, 0]) is None
+    True
+    """
+    found = _core.coupled_limit_of(*_of_tool(tool), one("chip", chip, (3,)).tolist(), one("force", force, (3,)).tolist())
+    return None if found is None else CoupledLimit(*found)
 
 
 def lobes(

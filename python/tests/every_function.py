@@ -189,6 +189,7 @@ def arguments(folder: Path) -> dict[str, tuple[Callable[..., Any], dict[str, Any
         "kinetostat.vibration.Damping.ratio": (vibration.Damping.ratio, {"ratio": 0.03}),
         "kinetostat.vibration.Damping.rayleigh": (vibration.Damping.rayleigh, {"mass_per_s": 2.0, "stiffness_s": 1e-4}),
         "kinetostat.vibration.Damping.structural": (vibration.Damping.structural, {"loss_factor": 0.05}),
+        "kinetostat.chatter.coupled_limit": (chatter.coupled_limit, {"tool": TIP, "chip": [1, 1, 0], "force": [1, -1, 0]}),
         "kinetostat.chatter.lobes": (chatter.lobes, {"tool": TIP, "cut": CUT, "speeds_rpm": [5000.0], "up_to": 1e-3}),
         "kinetostat.chatter.multipliers": (chatter.multipliers, {"tool": TIP, "cut": CUT, "speeds_rpm": [5000.0], "depths": [1e-3]}),
         "kinetostat.chatter.tool_modes": (chatter.tool_modes, {"directions": [[1, 0, 0]], **TAPPED}),

@@ -245,3 +245,34 @@ def test_cuts_that_make_no_sense_are_refused(change, said):
         chatter.lobes(tip, chatter.MillingCut(**given), [-5000.0], up_to=1e-3)
     with pytest.raises(ks.ArgumentError, match=r"stiffness has shape \(2,\), expected \(1,\)"):
         chatter.tool_modes([[1, 0, 0]], **{**ONE_MODE, "stiffness": [1e6, 1e6]})
+
+
+def test_modes_that_feed_each_other_are_those_of_numpy():
+    # The smallest process at which a root of M s^2 + C s + K + Kc f n^T crosses the axis, by bisection over numpy's roots.
+    hz, stiff, ratio = np.array([22.508, 26.631]), np.array([1e6, 1.4e6]), 0.02
+    w = 2 * np.pi * hz
+    tip = chatter.tool_modes([[1, 0, 0], [0, 1, 0]], stiffness=stiff, frequencies_hz=hz, damping_ratios=[ratio, ratio])
+    n, f = np.array([1.0, 1.0]) / np.sqrt(2), np.array([1.0, -1.0]) / np.sqrt(2)
+    mass, damping = np.diag(stiff / w**2), np.diag(2 * ratio * stiff / w)
+
+    def grows(factor):
+        k = np.diag(stiff) + factor * np.outer(f, n)
+        a = np.block([[np.zeros((2, 2)), np.eye(2)], [-np.linalg.solve(mass, k), -np.linalg.solve(mass, damping)]])
+        return np.linalg.eigvals(a).real.max() > 0
+
+    low, high = 1e4, 1e6
+    assert not grows(low)
+    assert grows(high)
+    for _ in range(60):
+        middle = 0.5 * (low + high)
+        low, high = (low, middle) if grows(middle) else (middle, high)
+    found = chatter.coupled_limit(tip, chip=[1, 1, 0], force=[1, -1, 0])
+    assert found.flutters
+    np.testing.assert_allclose(found.factor, low, rtol=1e-8)
+    assert hz[0] < found.frequency_hz < hz[1]
+    assert chatter.coupled_limit(tip, chip=[1, 0, 0], force=[1, 0, 0]) is None
+    pulled = chatter.coupled_limit(tip, chip=[1, 0, 0], force=[-1, 0, 0])
+    assert not pulled.flutters
+    np.testing.assert_allclose([pulled.factor, pulled.frequency_hz], [1e6, 0], rtol=1e-9, atol=1e-12)
+    with pytest.raises(ks.ArgumentError, match="chip"):
+        chatter.coupled_limit(tip, chip=[0, 0, 0], force=[1, 0, 0])

@@ -2,8 +2,8 @@
 
 use kinetostat::nalgebra::{Matrix3, Vector3};
 use kinetostat_chatter::{
-    Arc, ChatterError, Coefficients, FeedFrame, Instability, Milled, MillingCut, Mode,
-    Regeneration, ToolResponse, zeroth_order,
+    Arc, ChatterError, Coefficients, Coupled, FeedFrame, Instability, Milled, MillingCut, Mode,
+    Process, Regeneration, ToolResponse, coupled_limit, zeroth_order,
 };
 use numpy::PyArray1;
 use pyo3::prelude::*;
@@ -178,4 +178,24 @@ pub fn multipliers_of<'py>(
         each.collect::<Result<Vec<_>, ChatterError>>()
     })?;
     Ok(PyArray1::from_vec(py, found.map_err(refused)?))
+}
+
+/// The smallest process along a chip and a force direction that makes the tool unstable without any delay: factor, N/m, whether it
+/// flutters, frequency, Hz; nothing where none does. See `kinetostat.chatter.coupled_limit`.
+#[pyfunction]
+pub fn coupled_limit_of<'py>(
+    shapes: Numbers<'py>,
+    squared: Numbers<'py>,
+    ratios: Numbers<'py>,
+    residual: Numbers<'py>,
+    chip: [f64; 3],
+    force: [f64; 3],
+) -> PyResult<Option<(f64, bool, f64)>> {
+    let tool = tool(&shapes, &squared, &ratios, &residual)?;
+    let process = Process::new(chip.into(), force.into()).map_err(refused)?;
+    let found = coupled_limit(&tool, &process).map_err(refused)?;
+    Ok(found.map(|limit| {
+        let flutters = limit.kind == Coupled::Flutter;
+        (limit.factor, flutters, limit.frequency_hz)
+    }))
 }

@@ -34,7 +34,7 @@ mod _core {
     #[pymodule_export]
     use crate::batch::{equilibrium_of_many, stiffness_of_many, targets_of_many};
     #[pymodule_export]
-    use crate::chatter::{lobes_of, multipliers_of};
+    use crate::chatter::{coupled_limit_of, lobes_of, multipliers_of};
     #[pymodule_export]
     use crate::command::{command_tree, run_as_process, run_command};
     #[pymodule_export]
