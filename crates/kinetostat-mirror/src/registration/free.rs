@@ -4,11 +4,15 @@
 //! a line, a turn about it, a shift along it and a growth along it may come as three mixtures. Here growth is taken out
 //! first, then what has no turn (shifts), and what is left are turns.
 
-use nalgebra::{SMatrix, Vector3};
+use nalgebra::{SMatrix, SVector, Vector3};
 
 use crate::registration::closest::Closest;
 use crate::registration::motion::FreeMotion;
-use crate::registration::step::{UNKNOWNS, Unknowns};
+
+/// Turn, shift and growth.
+pub(crate) const UNKNOWNS: usize = 7;
+
+pub(crate) type Unknowns = SVector<f64, UNKNOWNS>;
 
 type Square = SMatrix<f64, UNKNOWNS, UNKNOWNS>;
 

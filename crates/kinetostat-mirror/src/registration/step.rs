@@ -1,18 +1,13 @@
 //! A step of all points towards the path, along which they may slide.
 
-use nalgebra::{Matrix3, SMatrix, SVector, UnitQuaternion, Vector3};
+use nalgebra::{Matrix3, SMatrix, UnitQuaternion, Vector3};
 
 use crate::registration::closest::Closest;
-use crate::registration::free::free_motions;
+use crate::registration::free::{UNKNOWNS, Unknowns, free_motions};
 use crate::registration::motion::{FreeMotion, Motion};
 
 /// Eigenvalues of the normal equations below this share of the largest determine nothing.
 const UNDETERMINED: f64 = 1e-6;
-
-/// Turn, shift and growth.
-pub(crate) const UNKNOWNS: usize = 7;
-
-pub(crate) type Unknowns = SVector<f64, UNKNOWNS>;
 
 /// A step, and what it left as it was.
 pub(crate) struct Step {

@@ -3,11 +3,13 @@
 mod convergence;
 mod field;
 mod joined;
+mod record;
 mod repeatability;
 mod state;
 mod taking;
 
 pub use convergence::{Convergence, bound_on_relaxation, expected_factor};
 pub use field::{MirrorField, SumOfFields};
+pub use record::{MeasuredFile, Trial};
 pub use repeatability::{Averaging, Repeatability, floor_mm};
-pub use state::{MeasuredFile, MirrorState, Outcome, Trial};
+pub use state::{MirrorState, Outcome};

@@ -3,45 +3,16 @@
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
-use crate::deviation::{DeviationFigures, MeasureSettings, Measurement, Stations};
+use crate::deviation::{MeasureSettings, Measurement, Stations};
 use crate::error::MirrorError;
 use crate::trial::convergence::Convergence;
+use crate::trial::record::{MeasuredFile, Trial};
 use crate::trial::repeatability::{Averaging, Repeatability, floor_mm};
 use crate::trial::taking::{are_new, have_places};
 use kinetostat_program::NominalPath;
 
 /// Of the form of the state.
 const SCHEMA: u32 = 1;
-
-/// A file of measured points.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub struct MeasuredFile {
-    /// Its name.
-    pub name: String,
-    /// [`MeasuredPoints::sha256`](crate::MeasuredPoints::sha256): of its points, not of its text.
-    pub sha256: String,
-}
-
-/// One trial: what was measured of the program with the correction before, and what became of it.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Trial {
-    /// From 1; trial 1 is the program without a correction by measurement.
-    pub number: usize,
-    /// The measurements.
-    pub measured: Vec<MeasuredFile>,
-    /// Share of the deviation that was mirrored.
-    pub relaxation: f64,
-    /// Sizes, of the first measurement where there are several.
-    pub figures: DeviationFigures,
-    /// Root mean square of the smoothed deviation, of the mean of all measurements, mm.
-    pub left_mm: f64,
-    /// What a smoothed deviation of nothing has, mm, where the repeatability is known.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub floor_mm: Option<f64>,
-    /// Against the trial before.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub convergence: Option<Convergence>,
-}
 
 /// What follows from a trial.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]

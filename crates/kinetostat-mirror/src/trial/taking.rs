@@ -3,7 +3,7 @@
 use crate::alignment::LeftOut;
 use crate::deviation::Measurement;
 use crate::error::MirrorError;
-use crate::trial::state::{MeasuredFile, Trial};
+use crate::trial::record::{MeasuredFile, Trial};
 use kinetostat_program::WhyLeftOut;
 
 /// Measurements that no trial has taken yet, this one included: one that comes twice says nothing of how trials repeat.
