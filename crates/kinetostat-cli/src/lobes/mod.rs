@@ -149,7 +149,8 @@ fn request(args: &LobesArgs) -> Answer<LobeRequest> {
             "--rpm: N is {count}; a whole number from 2 to 20000 is needed, or 1 with the same speed twice"
         )));
     }
-    if !one && !(low > 0.0 && high > low && high.is_finite()) {
+    let rising = low > 0.0 && high > low && high.is_finite();
+    if !(one || rising) {
         return Err(Failure::input(format!(
             "--rpm {low} {high}: spindle speeds above 0 are needed, the second above the first"
         )));
