@@ -11,6 +11,8 @@ use crate::joints::arm::Arm;
 use crate::limits::{Limit, apart};
 use crate::profile::limited::{Begins, Place, SinceRapid, limited};
 use crate::result::joints::ArmConfiguration;
+use crate::run::merged_warnings::{MergedWarnings, same_words};
+use crate::warning::Warning;
 
 /// The configuration of a machine at joint values, rad; none if it is no arm of six axes with a wrist in one point.
 #[must_use]
@@ -98,4 +100,20 @@ pub fn turn_postures(task: &TurnTask<'_>) -> Result<Vec<(f64, Vec<TurnPosture>)>
         (station.at, nodes.collect())
     });
     Ok(listed.collect())
+}
+
+/// Warnings of a long program from those of its parts, each with the index of its part.
+#[must_use]
+pub fn merged_warnings(of_parts: &[(usize, Warning)]) -> Vec<Warning> {
+    let mut merged = MergedWarnings::default();
+    for (part, warning) in of_parts {
+        merged.say(*part, warning);
+    }
+    merged.finish()
+}
+
+/// Whether two warnings are the same but for their numbers.
+#[must_use]
+pub fn are_same_words(one: &str, other: &str) -> bool {
+    same_words(one, other)
 }

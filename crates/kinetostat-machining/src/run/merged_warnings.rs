@@ -70,7 +70,7 @@ impl MergedWarnings {
         }
     }
 
-    fn say(&mut self, part: usize, warning: &Warning) {
+    pub(crate) fn say(&mut self, part: usize, warning: &Warning) {
         let alike = |own: &Said| {
             own.warning.code == warning.code
                 && (own.warning.line.is_none()
@@ -135,7 +135,7 @@ impl Said {
 }
 
 /// Whether two messages say the same of other figures: the same words, whatever the numbers, units and plurals are.
-fn same_words(one: &str, other: &str) -> bool {
+pub(crate) fn same_words(one: &str, other: &str) -> bool {
     let words = |text: &str| -> Vec<String> {
         let all = text.split(|c: char| !(c.is_alphanumeric() || c == '_'));
         let all = all.map(|word| word.trim_end_matches('s'));
@@ -149,64 +149,4 @@ fn same_words(one: &str, other: &str) -> bool {
 fn is_figure(word: &str) -> bool {
     let digits = word.trim_start_matches(|c: char| "XYZABC".contains(c));
     digits.chars().all(|c| c.is_ascii_digit())
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn at(line: usize, message: &str) -> Warning {
-        Warning::at_line(WarningCode::Writing, line, message)
-    }
-
-    #[test]
-    fn what_every_part_says_is_said_once_with_the_lines() {
-        let mut merged = MergedWarnings::default();
-        merged.say(
-            0,
-            &at(7, "the feed of 1 piece, first here, is held to 1.2 times"),
-        );
-        // Another line of the same part is a warning of its own.
-        merged.say(
-            0,
-            &at(9, "the feed of 3 pieces, first here, is held to 1.2 times"),
-        );
-        merged.say(
-            1,
-            &at(
-                20_007,
-                "the feed of 12 pieces, first here, is held to 1.2 times",
-            ),
-        );
-        merged.say(1, &at(20_009, "the written program goes backwards"));
-        merged.say(
-            2,
-            &at(
-                40_007,
-                "the feed of 5 pieces, first here, is held to 1.2 times",
-            ),
-        );
-        let said: Vec<String> = merged.finish().into_iter().map(|w| w.message).collect();
-        assert_eq!(
-            said,
-            [
-                "the feed of 1 piece, first here, is held to 1.2 times; in later parts of the program 2 more times, at lines 20007, 40007",
-                "the feed of 3 pieces, first here, is held to 1.2 times",
-                "the written program goes backwards",
-            ]
-        );
-    }
-
-    #[test]
-    fn other_names_are_other_words() {
-        assert!(same_words(
-            "drive leg_a, 12 of 30 N",
-            "drive leg_a, 1.5 of 30 N"
-        ));
-        assert!(!same_words(
-            "drive front, 12 of 30 N",
-            "drive behind, 12 of 30 N"
-        ));
-        assert!(same_words("at X1.00 Y12.00 mm", "at X-11.25 Y0.5 um"));
-    }
 }

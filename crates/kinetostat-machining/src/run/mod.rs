@@ -18,7 +18,7 @@ pub(crate) mod largest_change;
 pub(crate) mod look_at_part;
 pub(crate) mod machines;
 pub(crate) mod merged;
-mod merged_warnings;
+pub(crate) mod merged_warnings;
 pub(crate) mod movable;
 pub(crate) mod nearest_singular;
 pub(crate) mod of_whole;

@@ -2,6 +2,7 @@
 
 use std::borrow::Cow;
 
+use kinetostat::number::larger;
 use kinetostat_program::{Corrected, Curve, Knowledge, Move, MoveKind, NominalPath, Path};
 use nalgebra::Vector3;
 
@@ -19,7 +20,7 @@ pub(crate) fn largest_shift_mm(original: &Path, guide: &Corrected) -> f64 {
         let nominal = original.moves[piece.move_index].point(piece.share_to);
         (piece.commanded_to - nominal).norm()
     };
-    guide.pieces.iter().map(shift).fold(0.0, f64::max)
+    guide.pieces.iter().map(shift).fold(0.0, larger)
 }
 
 /// The other program with its moves at feed as rapids where they are rapids of the original: a retract at feed cuts nothing.

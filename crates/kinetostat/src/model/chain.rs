@@ -228,6 +228,18 @@ impl Chain {
     }
 
     /// Mass of its bodies and of what is spread along its links, kg.
+    ///
+    /// ```
+    /// # use kinetostat::nalgebra::{Matrix3, Vector3};
+    /// # use kinetostat::*;
+    /// use kinetostat::model::LinkMass;
+    ///
+    /// let bar = BeamSection::tube(2.1e11, 8.1e10, 0.04, 0.03); // Pa, m
+    /// let spec = LinkSpec::beam(bar, 1.5).with_mass(LinkMass::of_section(&bar, 7850.0));
+    /// let boom = Chain::builder("boom").link_with("bar", &spec).body("head", 12.0, Vector3::zeros(), Matrix3::zeros()).build()?;
+    /// assert!((boom.mass() - 12.0 - 7850.0 * bar.area * 1.5).abs() < 1e-12);
+    /// # Ok::<(), Error>(())
+    /// ```
     #[must_use]
     pub fn mass(&self) -> f64 {
         let spread = self.segment_masses.iter();

@@ -295,6 +295,16 @@ impl Mechanism {
     }
 
     /// Mass of everything that moves, kg: platforms, bodies, and what is spread along links.
+    ///
+    /// ```
+    /// # use kinetostat::nalgebra::{Matrix3, Vector3};
+    /// # use kinetostat::*;
+    /// let slide = ActuatorSpec::new(MotionKind::Prismatic, Vector3::x(), 4e6);
+    /// let table = Chain::builder("table").actuator("slide", slide).body("table", 40.0, Vector3::zeros(), Matrix3::zeros()).build()?;
+    /// let machine = Mechanism::serial(table, Pose::identity(), Vector3::zeros())?;
+    /// assert_eq!(machine.moving_mass(), 40.0);
+    /// # Ok::<(), Error>(())
+    /// ```
     #[must_use]
     pub fn moving_mass(&self) -> f64 {
         let of_platforms = self.platforms().iter().map(|platform| platform.mass);

@@ -4,4 +4,5 @@ mod correction;
 mod limited;
 mod limits;
 mod load;
+mod merged_warnings;
 mod refused;
