@@ -276,7 +276,10 @@ class Vibration:
 
     @property
     def circulatory(self) -> bool:
-        """True where loads have no potential (a moment that does not turn with the tool): frequencies are those of the symmetric part, see :meth:`complex_modes`."""
+        """True where loads have no potential (a moment that does not turn with the tool).
+
+        Frequencies are those of the symmetric part then; :meth:`complex_modes` says more.
+        """
         return self._native.circulatory
 
     @property

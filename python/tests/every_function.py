@@ -60,7 +60,7 @@ def arguments(folder: Path) -> dict[str, tuple[Callable[..., Any], dict[str, Any
     sweep.to_folder(folder / "sweep", squares, 5, chunk=2)
     out = str(folder / "out.ngc")
     written = {"program": source, "out": out, "force": [10, 0, 0], "force_overwrite": True}
-    points = np.array([[1e-3 * x, 5e-5, 0] for x in range(6)])
+    points = np.array([[1e-3 * x, 5e-5, -1e-3] for x in range(6)])
     drawn = tolerance.machines(MACHINE, SPREAD, [[0, 0, 0]], quantities=["error"], draws=16)
     found = STRUT.curve(**PUSH)
     many = {"poses": [[0, 0, 0.01]], "threads": 1, "progress": None}

@@ -37,6 +37,7 @@ def frf(
     scale: str | float | Sequence[str | float] | None = None,
     scale_within: float | None = None,
     frequencies_known_to: float | None = None,
+    damping_known_to: float | None = None,
     damping: float | Sequence[float] | None = None,
     rayleigh: Sequence[float] | None = None,
     loss_factor: float | None = None,
@@ -95,11 +96,16 @@ def frf(
         model's
     scale : str | float | Sequence[str | float]
         Numbers of the model that are scaled until its frequencies are the measured ones, by their
-        paths: "chain.arm.joint 2.stiffness_n_m_per_rad"
+        paths: "chain.arm.joint 2.stiffness_n_m_per_rad"; of the damping until its ratios are:
+        damping.ratio, damping.ratios.1, damping.rayleigh.stiffness_s, damping.loss_factor,
+        damping.viscous.JOINT
     scale_within : float
         They are scaled by at most this factor, up or down
     frequencies_known_to : float
         How well measured frequencies are known, as a share of themselves (one standard deviation)
+    damping_known_to : float
+        How well measured damping ratios are known, as a share of themselves (one standard
+        deviation)
     damping : float | Sequence[float]
         Ratio to critical damping of all modes (0.03 is 3 %), or one for each of the lowest modes,
         the last for all above
@@ -151,6 +157,7 @@ def frf(
         ("--scale", scale),
         ("--scale-within", scale_within),
         ("--frequencies-known-to", frequencies_known_to),
+        ("--damping-known-to", damping_known_to),
         ("--damping", damping),
         ("--rayleigh", rayleigh),
         ("--loss-factor", loss_factor),

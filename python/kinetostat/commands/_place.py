@@ -51,9 +51,6 @@ def place(
     rapid_from_mm_per_s: float | None = None,
     tool_axis: Literal["x", "y", "z", "-x", "-y", "-z"] | None = None,
     joint_rows: Literal["joint", "linear"] | None = None,
-    free_turn: bool = False,
-    stiff_turn: bool = False,
-    turn_plot: _Path | None = None,
     expand: bool = False,
     subprograms: _Path | Sequence[_Path] | None = None,
     tool_diameter_mm: str | float | Sequence[str | float] | None = None,
@@ -62,14 +59,9 @@ def place(
     no_comments: bool = False,
     flat_program: _Path | None = None,
     chord_tolerance_um: float | None = None,
-    uncertain: _Path | None = None,
-    machines: int | None = None,
     limit: str | float | Sequence[str | float] | None = None,
-    report: _Path | None = None,
     pdf: _Path | None = None,
     language: Literal["en", "fr", "de"] | None = None,
-    points: _Path | None = None,
-    vtk: _Path | None = None,
     all_points: bool = False,
     force_overwrite: bool = False,
     restart: bool = False,
@@ -77,6 +69,14 @@ def place(
     threads: int | None = None,
     csv: _Path | None = None,
     plot: _Path | None = None,
+    report: _Path | None = None,
+    points: _Path | None = None,
+    vtk: _Path | None = None,
+    free_turn: bool = False,
+    stiff_turn: bool = False,
+    turn_plot: _Path | None = None,
+    uncertain: _Path | None = None,
+    machines: int | None = None,
     progress: _Progress | None = None,
 ) -> dict[str, Any]:
     r"""Where does the part lie best.
@@ -172,13 +172,6 @@ def place(
         Axis of the tool from its tip to its holder, in axes of its frame [default: -z]
     joint_rows : Literal["joint", "linear"]
         How the controller moves between the rows of a table of joint values
-    free_turn : bool
-        Turn a round tool about its axis along the path of an arm: inside the limits of the joints,
-        away from singular postures, in one configuration
-    stiff_turn : bool
-        Choose that turn so that the tip of the tool yields little to a force, too
-    turn_plot : path
-        Picture of that turn along the path (SVG)
     expand : bool
         Run the program once and go on with its flat form: subprograms, variables, cycles, G41 and
         G42 as plain blocks (`kinetostat expand` shows them)
@@ -199,27 +192,15 @@ def place(
     chord_tolerance_um : float
         How far the chords of arcs may leave them, micrometres [default: 0.4, in a compensated
         program at most 0.8 of the path's default tolerance]
-    uncertain : path
-        What is uncertain about machine and load (TOML; see `kinetostat tolerance --help`): the
-        errors before and after compensation come as a band over many machines
-    machines : int
-        Number of machines drawn for the band, rounded up to a multiple of 16 [default: 1024]
     limit : str | float | Sequence[str | float]
         Move a limit, as in correction_mm=5 (repeat for more): correction_mm, own_weight_mm,
         tilt_deg, force_n, moment_n_m, share_of_rating, share_of_buckling, blocks_per_second,
         shortest_tool_mm, longest_tool_mm. A program that leaves a limit is refused
-    report : path
-        The report, one HTML file
     pdf : path
         The report without pictures as PDF, to be signed and filed
     language : Literal["en", "fr", "de"]
         Language of the reports [default: en]. In French and German the HTML report has no pictures
         either
-    points : path
-        Points of the path as a table: CSV, of long programs the worst of every stretch; Parquet
-        with every point where the name ends in .parquet
-    vtk : path
-        The path as lines for ParaView (VTK): errors, corrections and loads as vectors at its points
     all_points : bool
         Every point in the table, however large it becomes
     force_overwrite : bool
@@ -234,6 +215,25 @@ def place(
         All placements that fill the ranges, and those of the map, as a table (CSV)
     plot : path
         Map of the figure through the best placement, with the next best ones (SVG)
+    report : path
+        The report, one HTML file
+    points : path
+        Points of the path as a table: CSV, of long programs the worst of every stretch; Parquet
+        with every point where the name ends in .parquet
+    vtk : path
+        The path as lines for ParaView (VTK): errors, corrections and loads as vectors at its points
+    free_turn : bool
+        Turn a round tool about its axis along the path of an arm: inside the limits of the joints,
+        away from singular postures, in one configuration
+    stiff_turn : bool
+        Choose that turn so that the tip of the tool yields little to a force, too
+    turn_plot : path
+        Picture of that turn along the path (SVG)
+    uncertain : path
+        What is uncertain about machine and load (TOML; see `kinetostat tolerance --help`): the
+        errors before and after compensation come as a band over many machines
+    machines : int
+        Number of machines drawn for the band, rounded up to a multiple of 16 [default: 1024]
     progress : callable
         Called with what is done, how much there is and the name of the stage.
 
@@ -293,9 +293,6 @@ def place(
         ("--rapid-from-mm-per-s", rapid_from_mm_per_s),
         ("--tool-axis", tool_axis),
         ("--joint-rows", joint_rows),
-        ("--free-turn", free_turn),
-        ("--stiff-turn", stiff_turn),
-        ("--turn-plot", turn_plot),
         ("--expand", expand),
         ("--subprograms", subprograms),
         ("--tool-diameter-mm", tool_diameter_mm),
@@ -304,14 +301,9 @@ def place(
         ("--no-comments", no_comments),
         ("--flat-program", flat_program),
         ("--chord-tolerance-um", chord_tolerance_um),
-        ("--uncertain", uncertain),
-        ("--machines", machines),
         ("--limit", limit),
-        ("--report", report),
         ("--pdf", pdf),
         ("--language", language),
-        ("--points", points),
-        ("--vtk", vtk),
         ("--all-points", all_points),
         ("--force-overwrite", force_overwrite),
         ("--restart", restart),
@@ -319,5 +311,13 @@ def place(
         ("--threads", threads),
         ("--csv", csv),
         ("--plot", plot),
+        ("--report", report),
+        ("--points", points),
+        ("--vtk", vtk),
+        ("--free-turn", free_turn),
+        ("--stiff-turn", stiff_turn),
+        ("--turn-plot", turn_plot),
+        ("--uncertain", uncertain),
+        ("--machines", machines),
     ]
     return answered(["place"], options, progress)

@@ -42,9 +42,6 @@ def verify(
     rapid_from_mm_per_s: float | None = None,
     tool_axis: Literal["x", "y", "z", "-x", "-y", "-z"] | None = None,
     joint_rows: Literal["joint", "linear"] | None = None,
-    free_turn: bool = False,
-    stiff_turn: bool = False,
-    turn_plot: _Path | None = None,
     expand: bool = False,
     subprograms: _Path | Sequence[_Path] | None = None,
     tool_diameter_mm: str | float | Sequence[str | float] | None = None,
@@ -53,10 +50,7 @@ def verify(
     no_comments: bool = False,
     flat_program: _Path | None = None,
     chord_tolerance_um: float | None = None,
-    uncertain: _Path | None = None,
-    machines: int | None = None,
     limit: str | float | Sequence[str | float] | None = None,
-    report: _Path | None = None,
     pdf: _Path | None = None,
     language: Literal["en", "fr", "de"] | None = None,
     points: _Path | None = None,
@@ -68,6 +62,12 @@ def verify(
     threads: int | None = None,
     tolerance_um: float | None = None,
     against: _Path | None = None,
+    report: _Path | None = None,
+    free_turn: bool = False,
+    stiff_turn: bool = False,
+    turn_plot: _Path | None = None,
+    uncertain: _Path | None = None,
+    machines: int | None = None,
     progress: _Progress | None = None,
 ) -> dict[str, Any]:
     r"""How far off is the tool along any compensated program.
@@ -142,13 +142,6 @@ def verify(
         Axis of the tool from its tip to its holder, in axes of its frame [default: -z]
     joint_rows : Literal["joint", "linear"]
         How the controller moves between the rows of a table of joint values
-    free_turn : bool
-        Turn a round tool about its axis along the path of an arm: inside the limits of the joints,
-        away from singular postures, in one configuration
-    stiff_turn : bool
-        Choose that turn so that the tip of the tool yields little to a force, too
-    turn_plot : path
-        Picture of that turn along the path (SVG)
     expand : bool
         Run the program once and go on with its flat form: subprograms, variables, cycles, G41 and
         G42 as plain blocks (`kinetostat expand` shows them)
@@ -169,17 +162,10 @@ def verify(
     chord_tolerance_um : float
         How far the chords of arcs may leave them, micrometres [default: 0.4, in a compensated
         program at most 0.8 of the path's default tolerance]
-    uncertain : path
-        What is uncertain about machine and load (TOML; see `kinetostat tolerance --help`): the
-        errors before and after compensation come as a band over many machines
-    machines : int
-        Number of machines drawn for the band, rounded up to a multiple of 16 [default: 1024]
     limit : str | float | Sequence[str | float]
         Move a limit, as in correction_mm=5 (repeat for more): correction_mm, own_weight_mm,
         tilt_deg, force_n, moment_n_m, share_of_rating, share_of_buckling, blocks_per_second,
         shortest_tool_mm, longest_tool_mm. A program that leaves a limit is refused
-    report : path
-        The report, one HTML file
     pdf : path
         The report without pictures as PDF, to be signed and filed
     language : Literal["en", "fr", "de"]
@@ -204,6 +190,20 @@ def verify(
         How far the tool may be off in all, micrometres [default: what `compensate` allows itself]
     against : path
         The original: the program as it is drawn; without it, the one that the job names
+    report : path
+        The report, one HTML file
+    free_turn : bool
+        Turn a round tool about its axis along the path of an arm: inside the limits of the joints,
+        away from singular postures, in one configuration
+    stiff_turn : bool
+        Choose that turn so that the tip of the tool yields little to a force, too
+    turn_plot : path
+        Picture of that turn along the path (SVG)
+    uncertain : path
+        What is uncertain about machine and load (TOML; see `kinetostat tolerance --help`): the
+        errors before and after compensation come as a band over many machines
+    machines : int
+        Number of machines drawn for the band, rounded up to a multiple of 16 [default: 1024]
     progress : callable
         Called with what is done, how much there is and the name of the stage.
 
@@ -256,9 +256,6 @@ def verify(
         ("--rapid-from-mm-per-s", rapid_from_mm_per_s),
         ("--tool-axis", tool_axis),
         ("--joint-rows", joint_rows),
-        ("--free-turn", free_turn),
-        ("--stiff-turn", stiff_turn),
-        ("--turn-plot", turn_plot),
         ("--expand", expand),
         ("--subprograms", subprograms),
         ("--tool-diameter-mm", tool_diameter_mm),
@@ -267,10 +264,7 @@ def verify(
         ("--no-comments", no_comments),
         ("--flat-program", flat_program),
         ("--chord-tolerance-um", chord_tolerance_um),
-        ("--uncertain", uncertain),
-        ("--machines", machines),
         ("--limit", limit),
-        ("--report", report),
         ("--pdf", pdf),
         ("--language", language),
         ("--points", points),
@@ -282,5 +276,11 @@ def verify(
         ("--threads", threads),
         ("--tolerance-um", tolerance_um),
         ("--against", against),
+        ("--report", report),
+        ("--free-turn", free_turn),
+        ("--stiff-turn", stiff_turn),
+        ("--turn-plot", turn_plot),
+        ("--uncertain", uncertain),
+        ("--machines", machines),
     ]
     return answered(["verify"], options, progress)
