@@ -50,17 +50,7 @@ fn place(rows: usize) -> tempfile::TempDir {
 
 /// The command in parts of 150 lines, or (`parts` is nothing) as a whole.
 fn start(here: &Path, parts: &[&str], more: &[&str]) -> Child {
-    command(here)
-        .args(["compensate", "job.toml", "--points", "points.csv"])
-        .args(["--json", "result.json", "--report", "report.html"])
-        .args(["--all-points", "--force-overwrite"])
-        .args(parts)
-        .args(more)
-        .env("SOURCE_DATE_EPOCH", "1764000000")
-        .stdout(Stdio::null())
-        .stderr(Stdio::piped())
-        .spawn()
-        .expect("the command starts")
+    careful(here, parts, &[&["--force-overwrite"], more].concat())
 }
 
 const PARTS: [&str; 2] = ["--part-lines", "150"];
@@ -414,13 +404,13 @@ fn what_every_part_says_is_said_once() {
     );
 }
 
-/// The command in parts, which overwrites nothing.
-fn careful(here: &Path, more: &[&str]) -> Child {
+/// The same, which overwrites nothing.
+fn careful(here: &Path, parts: &[&str], more: &[&str]) -> Child {
     command(here)
         .args(["compensate", "job.toml", "--report", "report.html"])
         .args(["--points", "points.csv", "--json", "result.json"])
         .args(["--all-points"])
-        .args(PARTS)
+        .args(parts)
         .args(more)
         .env("SOURCE_DATE_EPOCH", "1764000000")
         .stdout(Stdio::null())
@@ -444,11 +434,11 @@ fn a_run_that_failed_at_once_is_in_nobodys_way() {
     let job = fs::read_to_string(here.path().join("job.toml")).expect("a job");
     let wrong = job.replace("[0, 0, 100]", "[0, 0, 9000]");
     fs::write(here.path().join("job.toml"), wrong).expect("written");
-    let (code, said) = end(careful(here.path(), &[]));
+    let (code, said) = end(careful(here.path(), &PARTS, &[]));
     assert_ne!(code, Some(0), "{said}");
     assert!(!folder(here.path()).exists(), "{said}");
     fs::write(here.path().join("job.toml"), job).expect("written");
-    let (code, said) = end(careful(here.path(), &[]));
+    let (code, said) = end(careful(here.path(), &PARTS, &[]));
     assert_eq!(code, Some(0), "{said}");
 }
 
@@ -457,7 +447,7 @@ fn an_end_between_two_renames_is_gone_on_from() {
     let wanted = uninterrupted(12);
     let here = place(12);
     // Whatever stops it while it puts its files in place: here a directory that takes the last name.
-    let mut child = careful(here.path(), &[]);
+    let mut child = careful(here.path(), &PARTS, &[]);
     until_kept(here.path(), &mut child);
     fs::create_dir(here.path().join("points.csv")).expect("a directory");
     let (code, said) = end(child);
@@ -469,12 +459,12 @@ fn an_end_between_two_renames_is_gone_on_from() {
     fs::remove_dir(here.path().join("points.csv")).expect("removed");
     // Another file of that name is the user's.
     fs::write(here.path().join("out.ngc"), "mine").expect("written");
-    let (code, said) = end(careful(here.path(), &[]));
+    let (code, said) = end(careful(here.path(), &PARTS, &[]));
     assert_eq!(code, Some(1), "{said}");
     assert!(said.contains("it exists already"), "{said}");
     // The first file was in place when the run was killed.
     fs::write(here.path().join("out.ngc"), &wanted["out.ngc"]).expect("written");
-    let (code, said) = end(careful(here.path(), &[]));
+    let (code, said) = end(careful(here.path(), &PARTS, &[]));
     assert_eq!(code, Some(0), "{said}");
     assert_same(&outputs(here.path()), &wanted, "gone on with");
     assert!(!folder(here.path()).exists());
@@ -483,7 +473,7 @@ fn an_end_between_two_renames_is_gone_on_from() {
 #[test]
 fn a_program_that_changes_meanwhile_is_never_half_old() {
     let here = place(40);
-    let mut child = careful(here.path(), &[]);
+    let mut child = careful(here.path(), &PARTS, &[]);
     until_kept(here.path(), &mut child);
     let text = fs::read_to_string(here.path().join("part.ngc")).expect("a program");
     let text = text.replace("F800", "F801");
@@ -495,7 +485,7 @@ fn a_program_that_changes_meanwhile_is_never_half_old() {
         "{said}"
     );
     assert!(!here.path().join("out.ngc").exists());
-    let (code, said) = end(careful(here.path(), &[]));
+    let (code, said) = end(careful(here.path(), &PARTS, &[]));
     assert_eq!(code, Some(1), "{said}");
     assert!(said.contains("the program is another one now"), "{said}");
 }
@@ -522,7 +512,7 @@ fn another_remark_in_the_job_is_the_same_question_with_its_own_hash() {
 #[test]
 fn a_run_that_is_stopped_says_how_to_go_on() {
     let here = place(40);
-    let mut child = careful(here.path(), &[]);
+    let mut child = careful(here.path(), &PARTS, &[]);
     until_kept(here.path(), &mut child);
     let stopped = std::process::Command::new("kill")
         .args(["-INT", &child.id().to_string()])

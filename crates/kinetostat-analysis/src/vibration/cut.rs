@@ -1,6 +1,5 @@
 //! The machine in a milling cut: its tool response in the axes of the cut [D 8, D 10].
 
-use kinetostat::number::smaller;
 use kinetostat_chatter::{ChatterError, FeedFrame, MillingCut, Mode, Regeneration, ToolResponse};
 use kinetostat_dynamics::{Damping, Error};
 
@@ -49,32 +48,27 @@ impl MachineCut<'_> {
                 counts.unstable, counts.massless_unstable, counts.free
             )));
         }
-        let response = self.machine.tool_response(self.damping, usize::MAX)?;
-        let data = response.translational()?;
         // Those above the band are springs, however they are damped.
-        let highest = (std::f64::consts::TAU * self.modes_up_to_hz).powi(2);
-        let mut modes = Vec::new();
-        let mut residual = data.residual;
-        let mut lowest_hz = f64::INFINITY;
-        for ((shape, squared), ratio) in data.shapes.iter().zip(&data.squared).zip(&data.ratios) {
-            let hz = squared.sqrt() / std::f64::consts::TAU;
-            lowest_hz = smaller(lowest_hz, hz);
-            if *squared > highest {
-                residual += shape * shape.transpose() / *squared;
-                continue;
-            }
-            modes.push(Mode::new(*shape, *squared, *ratio).map_err(|mut error| {
-                error.quantity = format!("{} of the mode at {hz:.4} Hz", error.quantity);
-                error
-            })?);
-        }
-        if modes.is_empty() {
+        let own_hz = self.machine.modes.frequencies_hz();
+        let kept = own_hz.iter().filter(|hz| **hz <= self.modes_up_to_hz);
+        let kept = kept.count();
+        if let (0, Some(lowest_hz)) = (kept, own_hz.first()) {
             return Err(MachineCutError::NoVibration(format!(
                 "there are no lobes: the lowest mode of the machine is at {lowest_hz:.4} Hz, and modes up to {} Hz were asked for",
                 self.modes_up_to_hz
             )));
         }
-        let tool = ToolResponse::new(modes)?.with_residual(residual)?;
+        let response = self.machine.tool_response(self.damping, kept)?;
+        let data = response.translational()?;
+        let modes = data.shapes.iter().zip(&data.squared).zip(&data.ratios);
+        let modes = modes.zip(&own_hz).map(|(((shape, squared), ratio), hz)| {
+            Mode::new(*shape, *squared, *ratio).map_err(|mut error| {
+                error.quantity = format!("{} of the mode at {hz:.4} Hz", error.quantity);
+                error
+            })
+        });
+        let tool = ToolResponse::new(modes.collect::<Result<_, _>>()?)?;
+        let tool = tool.with_residual(data.residual)?;
         Ok(Regeneration::new(
             tool.in_frame(&self.frame),
             self.cut.clone().into(),

@@ -50,10 +50,8 @@ impl VibratingMachine {
         let hz: Vec<f64> = (self.modes.frequencies_hz().into_iter())
             .filter(|hz| *hz > 0.0 && *hz <= up_to_hz)
             .collect();
-        let [by_modes, directly] = [Some(usize::MAX), None].map(|kept| {
-            self.tool_receptance(damping, kept)?
-                .over(&hz, Quantity::Displacement)
-        });
+        let [by_modes, directly] =
+            [Some(usize::MAX), None].map(|kept| self.tool_receptance(damping, kept)?.over(&hz));
         let off = by_modes?.into_iter().zip(directly?).map(|(modal, direct)| {
             let along = |m: Receptance| m.fixed_view::<3, 3>(0, 0).into_owned();
             (along(modal) - along(direct)).norm() / along(direct).norm()
@@ -63,14 +61,14 @@ impl VibratingMachine {
 }
 
 impl ToolReceptance<'_> {
-    /// At many frequencies, Hz.
+    /// Displacement by force at many frequencies, Hz; what else is asked for is this by [`Quantity::factor`].
     ///
     /// # Errors
     /// [`kinetostat_dynamics::Error::NotSolved`] of a direct solution exactly at an undamped resonance.
-    pub fn over(&self, hz: &[f64], quantity: Quantity) -> Result<Vec<Receptance>> {
+    pub fn over(&self, hz: &[f64]) -> Result<Vec<Receptance>> {
         match self {
-            Self::ByModes(response) => Ok(response.over(hz, quantity)),
-            Self::Direct(response, tool) => response.over(*tool, *tool, hz, quantity),
+            Self::ByModes(response) => Ok(response.over(hz, Quantity::Displacement)),
+            Self::Direct(response, tool) => response.over(*tool, *tool, hz, Quantity::Displacement),
         }
     }
 

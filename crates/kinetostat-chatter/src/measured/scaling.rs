@@ -190,7 +190,7 @@ fn judged(
         .filter(|k| size(**k) <= TOLD)
         .map(|k| eigen.eigenvectors.column(*k).iter().copied().collect())
         .collect();
-    // More numbers than parameters that are told show how well the model can follow them at all.
+    // With more measured numbers than determined parameters the residual shows how well the model can fit them at all.
     let spare = left.len().saturating_sub(told.len());
     let worse = match spare {
         0 => 1.0,

@@ -13,7 +13,11 @@ pub(crate) fn fnv1a(hash: u64, bytes: &[u8]) -> u64 {
 }
 
 pub(crate) fn sha256(bytes: &[u8]) -> String {
-    let hash = Sha256::digest(bytes);
+    hex(&Sha256::digest(bytes))
+}
+
+/// A hash as it is written.
+pub(crate) fn hex(hash: &[u8]) -> String {
     hash.iter().map(|byte| format!("{byte:02x}")).collect()
 }
 

@@ -9,7 +9,7 @@ mod fit_text;
 mod measured;
 mod text;
 
-use kinetostat_dynamics::{Damping, Quantity};
+use kinetostat_dynamics::{Damping, Quantity, Receptance};
 use kinetostat_machining::{Warning, WarningCode};
 
 use crate::files::answer_files::{ClaimedFiles, Shown};
@@ -74,9 +74,10 @@ pub(crate) fn run(args: &FrfArgs) -> Answer<()> {
             "without damping (--damping 0.03, for one) resonances have no height: peaks are as high as a frequency happens to lie near".to_owned(),
         ));
     }
-    let receptance = response
-        .over(&frequencies, Quantity::Displacement)
-        .map_err(subject::refused)?;
+    let receptance = response.over(&frequencies).map_err(subject::refused)?;
+    let asked: Vec<Receptance> = (receptance.iter().zip(&frequencies))
+        .map(|(moved, hz)| moved * quantity.factor(std::f64::consts::TAU * hz))
+        .collect();
     let fit = match args.fit {
         Some(modes) => Some(fit::answer(
             args,
@@ -101,14 +102,7 @@ pub(crate) fn run(args: &FrfArgs) -> Answer<()> {
         quantity: args.quantity.word(),
         natural_frequencies_hz: machine.modes.frequencies_hz(),
         frequencies_hz: frequencies.clone(),
-        curves: curves(
-            &entries,
-            args.quantity,
-            &frequencies,
-            &response
-                .over(&frequencies, quantity)
-                .map_err(subject::refused)?,
-        ),
+        curves: curves(&entries, args.quantity, &frequencies, &asked),
         measured: measured.iter().map(|m| m.name.clone()).collect(),
         fit,
         warnings,

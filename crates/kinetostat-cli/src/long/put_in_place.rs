@@ -5,13 +5,13 @@ use std::path::PathBuf;
 
 use sha2::{Digest, Sha256};
 
+use crate::files::hash::hex;
 use crate::files::journal::Contents;
 use crate::files::origin;
 use crate::files::outputs::{Existing, Outputs};
 use crate::job::output_paths::OutputPaths;
 use crate::long::checkpoint::Checkpoint;
 use crate::long::partial::Partial;
-use crate::long::source::hex;
 use crate::program::aim::Aim;
 use crate::program::outputs::RunOutputs;
 use crate::ui::failure::{Answer, Failure};

@@ -8,6 +8,7 @@ use std::time::SystemTime;
 
 use sha2::{Digest, Sha256};
 
+use crate::files::hash::hex;
 use crate::job::setting::Setting;
 use crate::ui::failure::{Answer, Failure};
 
@@ -37,10 +38,6 @@ impl<R: Read> Read for Hashed<R> {
         self.hash.update(&to[..count]);
         Ok(count)
     }
-}
-
-pub(crate) fn hex(hash: &[u8]) -> String {
-    hash.iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
 /// The file of a program.

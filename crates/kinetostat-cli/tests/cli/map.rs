@@ -392,7 +392,7 @@ fn damaged_rows_of_a_map_are_solved_again() {
         map(here.path(), line).answered();
         assert!(table() == wanted && std::fs::read(&path).expect("rows") == complete);
     }
-    // A manifest that is cut off says nothing of the rows; another file of that name is nobody's to replace.
+    // A manifest that is cut off says nothing of the rows; another file of that name is not replaced.
     let manifest = here.path().join("rows/manifest.json");
     let whole = std::fs::read_to_string(&manifest).expect("a manifest");
     for length in [0, whole.len() / 2] {

@@ -24,7 +24,8 @@ pub enum Quantity {
 
 impl Quantity {
     /// What a displacement is multiplied with at `w` (rad/s).
-    pub(crate) fn factor(self, w: f64) -> Complex<f64> {
+    #[must_use]
+    pub fn factor(self, w: f64) -> Complex<f64> {
         match self {
             Self::Displacement => Complex::new(1.0, 0.0),
             Self::Velocity => Complex::new(0.0, w),
