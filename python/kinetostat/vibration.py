@@ -17,7 +17,7 @@ from kinetostat.errors import ArgumentError
 from kinetostat.posture import _DEFLECTED, Equilibrium, Posture
 from kinetostat.status import ModeKind
 
-__all__ = ["ComplexModes", "Damping", "DirectionCounts", "ModeShares", "ToolModes", "Vibration", "vibration_of"]
+__all__ = ["ComplexModes", "Damping", "DirectionCounts", "ModeShares", "ReducedVibration", "ToolModes", "Vibration", "vibration_of"]
 
 _ALL_MODES = 2**31
 _AXES = ("x", "y", "z", "rx", "ry", "rz")
@@ -221,6 +221,37 @@ class ComplexModes:
     """(m,): 1/s; a positive real part grows."""
 
 
+@dataclasses.dataclass(frozen=True, eq=False)
+class ReducedVibration:
+    """A machine by six motions of one place and a few vibrations with it held (Craig and Bampton).
+
+    Coordinates are the six motions of the place (base axes, about it), then the amplitudes of the vibrations.
+
+    Examples
+    --------
+    >>> import kinetostat as ks
+    >>> arm = ks.Machine.preset("heavy_6r").posture().vibration()
+    >>> reduced = arm.reduced(6)
+    >>> reduced.mass.shape, bool(reduced.frequencies_hz[0] >= arm.frequencies_hz[0])
+    ((12, 12), True)
+    """
+
+    mass: Floats
+    """(6 + k, 6 + k): kg, kg m, kg m^2."""
+    stiffness: Floats
+    """(6 + k, 6 + k): the stiffness of the place under the load, and squares of ``kept_hz`` in rad/s."""
+    basis: Floats
+    """(n, 6 + k): the machine's independent coordinates by these."""
+    kept_hz: Floats
+    """(k,): frequencies with the place held."""
+    left_out_hz: float | None
+    """The lowest one that was left out; ``None`` where all were kept. Trust the reduction well below it."""
+    frequencies_hz: Floats
+    """(6 + k,): frequencies of the reduced machine, never below the exact ones of the same number."""
+    relative_bounds: Floats
+    """(6 + k,): an exact frequency is not farther away than this share; a bound, mostly far from sharp."""
+
+
 @final
 class Vibration:
     """Modes of a machine about its equilibrium under a load, from :meth:`kinetostat.Posture.vibration`.
@@ -379,6 +410,36 @@ class Vibration:
         if isinstance(verdict, str):
             return ComplexModes(verdict, (), complexity, eigenvalues)  # type: ignore[arg-type]
         return ComplexModes("not_judged", tuple(verdict["not_judged"]["links"]), complexity, eigenvalues)
+
+    def reduced(self, kept: int = 6, *, at: str | None = None) -> ReducedVibration:
+        """Craig and Bampton's reduction to six motions of a place and the lowest vibrations with it held.
+
+        Parameters
+        ----------
+        kept : int
+            How many of these vibrations.
+        at : str | None
+            A node or a platform; the tool if not given.
+
+        Returns
+        -------
+        ReducedVibration
+
+        Raises
+        ------
+        ArgumentError
+            The place cannot move in six directions, or loads have no potential.
+        UnansweredError
+            The machine is not stable: no bound holds then.
+
+        Examples
+        --------
+        >>> import kinetostat as ks
+        >>> ks.Machine.preset("heavy_6r").posture().vibration().reduced(3).stiffness.shape
+        (9, 9)
+        """
+        mass, stiffness, basis, kept_hz, left_out_hz, frequencies = self._native.reduced(at, kept)
+        return ReducedVibration(mass, stiffness, basis, kept_hz, left_out_hz, frequencies[:, 0].copy(), frequencies[:, 1].copy())
 
     def response(
         self,

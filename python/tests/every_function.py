@@ -183,6 +183,7 @@ def arguments(folder: Path) -> dict[str, tuple[Callable[..., Any], dict[str, Any
         "kinetostat.vibration.vibration_of": (vibration.vibration_of, {"posture": ARM.posture(), "wrench": wrench, "held": ["x"]}),
         "kinetostat.vibration.Vibration.damping_ratios": (VIBRATION.damping_ratios, {"damping": 0.03}),
         "kinetostat.vibration.Vibration.complex_modes": (VIBRATION.complex_modes, {"damping": 0.03}),
+        "kinetostat.vibration.Vibration.reduced": (VIBRATION.reduced, {"kept": 3}),
         "kinetostat.vibration.Vibration.response": (VIBRATION.response, {"frequencies_hz": [1.0], "damping": 0.03}),
         "kinetostat.vibration.Vibration.shares": (VIBRATION.shares, {"mode": 0}),
         "kinetostat.vibration.Vibration.tool_modes": (VIBRATION.tool_modes, {"damping": 0.03}),

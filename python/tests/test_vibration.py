@@ -152,6 +152,31 @@ def test_complex_modes_are_those_of_numpy_and_flutter_is_no_stable_state(arm):
     assert "flutter" in verdicts or "divergence" in verdicts, verdicts
 
 
+def test_a_reduction_keeps_what_its_basis_holds_and_its_bounds_hold():
+    posture = ks.Machine.preset("heavy_6r").posture()
+    whole = posture.vibration([300, -200, -500, 0, 0, 0])
+    last = np.inf
+    for kept in (0, 4, 10):
+        reduced = whole.reduced(kept)
+        assert reduced.mass.shape == reduced.stiffness.shape == (6 + kept, 6 + kept)
+        for own, of_whole in ((reduced.mass, whole.mass_matrix), (reduced.stiffness, whole.tangent)):
+            expected = reduced.basis.T @ of_whole @ reduced.basis
+            assert np.abs(own - expected).max() <= 1e-9 * np.abs(expected).max()
+        np.testing.assert_allclose(reduced.stiffness[:6, :6], np.linalg.inv(whole.equilibrium.compliance), rtol=1e-6, atol=1e-3)
+        squares = np.sort(np.linalg.eigvals(np.linalg.solve(reduced.mass, reduced.stiffness)).real)
+        np.testing.assert_allclose(np.sqrt(squares) / (2 * np.pi), reduced.frequencies_hz, rtol=1e-7)
+        exact = whole.frequencies_hz
+        for k, (hz, bound) in enumerate(zip(reduced.frequencies_hz, reduced.relative_bounds, strict=True)):
+            assert hz >= exact[k] * (1 - 1e-10)
+            assert np.abs(exact / hz - 1).min() <= bound + 1e-10
+        assert reduced.frequencies_hz[0] <= last
+        last = reduced.frequencies_hz[0] * (1 + 1e-12)
+        assert reduced.kept_hz.shape == (kept,)
+        assert reduced.left_out_hz > reduced.kept_hz.max(initial=0)
+    with pytest.raises(ks.ArgumentError):
+        posture.vibration([0, 0, 0, 900, 0, 0]).reduced(3)
+
+
 def test_a_held_tool_and_pickles(arm):
     held = arm.vibration(held=["x", "y", "z"])
     assert held.counts.vibrating == 3

@@ -50,6 +50,7 @@ pub use damping::Damping;
 pub use ends::Held;
 pub use error::{Error, Result};
 pub use linear::LinearDynamics;
+pub use linear::chain::LumpedLink;
 pub use linear::places::Point;
 pub use linear::rotor::Rotor;
 pub use mass::body::about_point;

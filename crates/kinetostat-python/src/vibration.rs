@@ -139,6 +139,32 @@ impl Vibration {
         )))
     }
 
+    /// Craig and Bampton's reduction to six motions of a place and so many vibrations with it held: mass, stiffness, basis,
+    /// frequencies that were kept, the lowest that was not, frequencies with bounds.
+    fn reduced<'py>(
+        &self,
+        py: Python<'py>,
+        at: Option<&str>,
+        kept: usize,
+    ) -> PyResult<Reduced<'py>> {
+        let (point, whole) = (self.point(at)?, &self.0.dynamics);
+        let found = py.detach(|| {
+            let reduced = whole.reduced(point, kept)?;
+            let frequencies = reduced.frequencies(whole)?;
+            Ok((reduced, frequencies))
+        });
+        let (reduced, frequencies) = found.map_err(of_dynamics)?;
+        let pairs = frequencies.iter().flat_map(|f| [f.hz, f.relative_bound]);
+        Ok((
+            square(py, &reduced.mass)?,
+            square(py, &reduced.stiffness)?,
+            square(py, &reduced.basis)?,
+            PyArray1::from_vec(py, reduced.kept_hz),
+            reduced.left_out_hz,
+            array(py, pairs.collect(), [frequencies.len(), 2])?,
+        ))
+    }
+
     #[getter]
     fn circulatory(&self) -> bool {
         self.0.dynamics.is_circulatory()
@@ -271,6 +297,16 @@ impl Vibration {
 
 /// Verdict, complexity, eigenvalues.
 type Complexes<'py> = (String, f64, Bound<'py, PyArray1<Complex<f64>>>);
+
+/// Mass, stiffness, basis, frequencies kept, the lowest left out, frequencies with bounds.
+type Reduced<'py> = (
+    Bound<'py, PyArray2<f64>>,
+    Bound<'py, PyArray2<f64>>,
+    Bound<'py, PyArray2<f64>>,
+    Bound<'py, PyArray1<f64>>,
+    Option<f64>,
+    Bound<'py, PyArray2<f64>>,
+);
 
 /// Shapes, squares, ratios, residual.
 type ToolModes<'py> = (

@@ -133,14 +133,7 @@ impl PeriodicForce {
             }
             let waves = (harmonics * teeth) as f64 * piece.length / TAU;
             let chebyshev = Chebyshev::new((20.0 + 4.0 * waves).min(1500.0) as usize);
-            let weights = chebyshev.weights(piece.length).ok_or_else(|| {
-                ChatterError::new(
-                    ChatterErrorKind::NotConverged,
-                    "harmonics of the force",
-                    "no weights",
-                    "fewer harmonics",
-                )
-            })?;
+            let weights = chebyshev.weights(piece.length);
             for (share, weight) in chebyshev.nodes.iter().zip(&weights) {
                 let turn = piece.start + piece.length * share;
                 let force = piece.matrix(cut.coefficients(), turn).column(0) * (depth * feed);

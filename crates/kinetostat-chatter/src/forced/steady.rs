@@ -63,7 +63,7 @@ impl Regeneration {
         let operator = Operator::new(&period, depth);
         let multiplier = self.multiplier(speed_rpm, depth)?.size();
         let chips = steady_chips(&operator, feed, &steps)?;
-        let harmonics = of_chips(&period, depth, &chips, harmonics).ok_or_else(no_steady_state)?;
+        let harmonics = of_chips(&period, depth, &chips, harmonics);
         Ok(SteadyCut {
             force: PeriodicForce::new(1, harmonics),
             multiplier,
@@ -163,7 +163,7 @@ fn of_chips(
     depth: f64,
     chips: &[DVector<f64>],
     harmonics: usize,
-) -> Option<Vec<Vector3<Complex64>>> {
+) -> Vec<Vector3<Complex64>> {
     let teeth = chips.len();
     let speed = TAU / (period.delay * teeth as f64);
     let mut sums = vec![Vector3::from_element(Complex64::default()); harmonics + 1];
@@ -176,7 +176,7 @@ fn of_chips(
         let turn = speed * stretch.duration;
         let points = 20.0 + 4.0 * harmonics as f64 * turn / TAU;
         let fine = Chebyshev::new(points.min(1500.0) as usize);
-        let weights = fine.weights(turn)?;
+        let weights = fine.weights(turn);
         let nodes = cutting.factors.len();
         let carried = Chebyshev::new(nodes).to(&fine.nodes);
         for (p, chips) in chips.iter().enumerate() {
@@ -198,5 +198,5 @@ fn of_chips(
         }
         at += nodes;
     }
-    Some(sums)
+    sums
 }

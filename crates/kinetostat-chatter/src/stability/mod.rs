@@ -1,11 +1,13 @@
 //! Exact stability of a regenerative cut: multipliers of the monodromy operator, and the depths between which it is stable.
 //!
-//! `collocation` solves the modes on a stretch of the period by Chebyshev collocation, split where teeth come and go;
-//! `period` puts the stretches together; `operator` is the monodromy operator at a depth; `krylov` finds its largest
-//! multiplier; `scan` looks along the depth. Source: `dynamics.md` section 10 [D 8].
+//! `collocation` has the points of a stretch of the period, split where teeth come and go; `legendre` solves a mode on it,
+//! `cutting` puts the modes together, `period` the stretches; `operator` is the monodromy operator at a depth; `krylov` finds
+//! its largest multiplier; `scan` looks along the depth. Source: `dynamics.md` section 10 [D 8].
 
 mod collocation;
+mod cutting;
 mod krylov;
+mod legendre;
 mod multiplier;
 mod operator;
 mod period;

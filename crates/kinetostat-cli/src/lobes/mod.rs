@@ -53,11 +53,8 @@ pub(crate) fn run(args: &LobesArgs) -> Answer<()> {
         .map_err(|e| Failure::unanswered(format!("lobes: {e}")))?;
     let mut warnings = query.warnings.clone();
     warnings.extend(subject::limits(&machine, &posture));
-    warnings.extend(subject::lost_coupling(
-        &machine,
-        &damping,
-        args.modes_up_to_hz,
-    )?);
+    let off = machine.lost_coupling(&damping, args.modes_up_to_hz);
+    warnings.extend(subject::lost_coupling(off.map_err(subject::refused)?));
     warnings.extend(coefficients.warnings.iter().cloned());
     if let Some((speed, why)) = diagram.without_answer.first() {
         warnings.push(Warning::new(

@@ -1,5 +1,6 @@
 //! Further variables of a map: which are asked for, and the names of their columns.
 
+use kinetostat::MotionKind;
 use kinetostat_machining::{MapPlace, VARIABLES, Variable, Worse};
 
 use crate::map::arguments::{MapArgs, Quantity};
@@ -13,6 +14,20 @@ pub(crate) struct Column {
     pub(crate) name: String,
     pub(crate) unit: &'static str,
     pub(crate) description: &'static str,
+}
+
+impl Column {
+    /// Head of the column in a table: its name with the unit.
+    pub(crate) fn head(&self) -> String {
+        match self.unit {
+            "1" => self.name.clone(),
+            unit => {
+                let words = unit.replace('/', " per ").to_lowercase();
+                let words: Vec<&str> = words.split_whitespace().collect();
+                format!("{}_{}", self.name, words.join("_"))
+            }
+        }
+    }
 }
 
 /// What is drawn: one of the usual figures, or a column.
@@ -86,12 +101,19 @@ fn names(variable: Variable, actuators: usize) -> Vec<String> {
     }
 }
 
-/// All columns of some variables.
-pub(crate) fn columns(variables: &[Variable], actuators: usize) -> Vec<Column> {
+/// All columns of some variables; what is one of each actuator is of the unit of its kind.
+pub(crate) fn columns(variables: &[Variable], actuators: &[MotionKind]) -> Vec<Column> {
     let each = variables.iter().flat_map(|variable| {
         let entry = variable.entry();
-        let own = names(*variable, actuators).into_iter();
-        own.map(|name| (name, entry.unit, entry.description))
+        let own = names(*variable, actuators.len()).into_iter();
+        own.enumerate().map(move |(k, name)| {
+            let unit = match (entry.unit.split_once(" or "), actuators.get(k)) {
+                (Some((of_slide, _)), Some(MotionKind::Prismatic)) => of_slide,
+                (Some((_, of_turn)), Some(MotionKind::Revolute)) => of_turn,
+                _ => entry.unit,
+            };
+            (name, unit, entry.description)
+        })
     });
     each.enumerate()
         .map(|(at, (name, unit, description))| Column {
@@ -106,7 +128,7 @@ pub(crate) fn columns(variables: &[Variable], actuators: usize) -> Vec<Column> {
 /// The variables that are asked for with --variables and --show, and what is shown.
 pub(crate) fn asked(
     args: &MapArgs,
-    actuators: usize,
+    actuators: &[MotionKind],
     loaded: bool,
     cases: usize,
 ) -> Answer<(Vec<Variable>, Shown)> {
@@ -131,14 +153,14 @@ pub(crate) fn asked(
         let entries = VARIABLES.iter().map(|e| e.variable);
         let own = entries
             .clone()
-            .find(|v| names(*v, actuators).contains(&args.show));
+            .find(|v| names(*v, actuators.len()).contains(&args.show));
         let Some(own) = own else {
             let several = entries.clone().find(|v| v.entry().name == args.show);
             return Err(Failure::input(match several {
                 Some(several) => format!(
                     "--show: '{}' has several columns; choose one of {}",
                     args.show,
-                    names(several, actuators).join(", ")
+                    names(several, actuators.len()).join(", ")
                 ),
                 None => format!(
                     "--show: there is no '{}'; there are softest, x, y, z, displacement, rotation, and columns of {}",
@@ -160,7 +182,7 @@ pub(crate) fn asked(
         if cases > 1 && variable.entry().worse == Worse::Neither {
             return refuse("has no worst value; give one orientation and one load");
         }
-        if variable.needs_drives() && actuators == 0 {
+        if variable.needs_drives() && actuators.is_empty() {
             return refuse("is about drives, and this machine has none");
         }
     }

@@ -19,7 +19,7 @@ mod unanswered;
 
 use std::path::{Path, PathBuf};
 
-use kinetostat::{Mechanism, Wrench};
+use kinetostat::{Mechanism, MotionKind, Wrench};
 use kinetostat_dynamics::check_masses;
 use kinetostat_machining::{MapTask, Variable, Warning, straight_tool, unusual_load};
 use kinetostat_model::Model;
@@ -56,10 +56,12 @@ pub(crate) fn run(args: &MapArgs) -> Answer<()> {
     shown_with_a_load(args, &loads)?;
     let cases = orientations.cases(&loads)?;
     let loaded = !loads.is_empty();
-    let actuators = mechanism.actuator_count();
-    let (variables, shown) = asked(args, actuators, loaded, cases)?;
+    let limbs = mechanism.limbs().iter();
+    let actuators = limbs.flat_map(|limb| limb.nominal.actuators().iter().map(|a| a.kind));
+    let actuators: Vec<MotionKind> = actuators.collect();
+    let (variables, shown) = asked(args, &actuators, loaded, cases)?;
     masses(&variables, &mechanism, &model.file)?;
-    let further = columns::columns(&variables, actuators);
+    let further = columns::columns(&variables, &actuators);
     let picture = Picture::new(args, &grid, shown)?;
     let mut task = MapTask {
         mechanism: &mechanism,

@@ -32,7 +32,7 @@ pub(crate) fn header(columns: Columns, further: &[Column]) -> String {
         out.push_str(",dx_mm,dy_mm,dz_mm,rx_deg,ry_deg,rz_deg");
     }
     for column in further {
-        let _ = write!(out, ",{}", column.name);
+        let _ = write!(out, ",{}", column.head());
     }
     out.push_str(",status\n");
     out

@@ -150,6 +150,8 @@ pub(crate) fn limits(found: &ProgramChatter, setting: &ChatterSetting) -> Vec<Wa
             setting.modes_up_to_hz
         ));
     }
+    all.extend(subject::lost_coupling(found.lost_coupling()));
+    let mut say = |text: String| all.push(Warning::new(WarningCode::ChatterNotJudged, text));
     if found.wider > 1.0 {
         say(format!(
             "the cut changes so often that places that differ by {:.1} times more than usual were judged together, by their deepest cut, their widest arc and both ends: a place between them may be worse (--most-places)",

@@ -76,13 +76,8 @@ pub(crate) fn refused(error: Error) -> Failure {
 const COUPLED: f64 = 0.02;
 
 /// Dampers that couple modes, where a cut is judged by modes with their own damping alone.
-pub(crate) fn lost_coupling(
-    machine: &VibratingMachine,
-    damping: &Damping,
-    up_to_hz: f64,
-) -> Answer<Option<Warning>> {
-    let off = machine.lost_coupling(damping, up_to_hz).map_err(refused)?;
-    Ok((off > COUPLED).then(|| {
+pub(crate) fn lost_coupling(off: f64) -> Option<Warning> {
+    (off > COUPLED).then(|| {
         Warning::new(
             WarningCode::Model,
             format!(
@@ -90,7 +85,7 @@ pub(crate) fn lost_coupling(
                 100.0 * off
             ),
         )
-    }))
+    })
 }
 
 /// What limits the answer: loads without a potential, parts without mass.

@@ -294,6 +294,29 @@ fn teeth_shake_the_tip_as_forces_and_receptance_say() {
     );
 }
 
+/// Limits along a program are those of modes with their own damping alone: what dampers at joints add is said, as `lobes` does.
+#[test]
+fn dampers_that_couple_modes_are_told() {
+    let here = here(PROGRAM);
+    let of = |line: &[&str]| {
+        let dampers = ["--viscous", "joint 1=3e4", "--viscous", "joint 2=3e4"];
+        let line = [line, &dampers, &["--json"]].concat();
+        let answer: Value =
+            serde_json::from_str(&run(here.path(), &line).answered().out).expect("JSON");
+        let all = list(&answer, "warnings").iter();
+        let mut texts = all.filter_map(|w| w["message"].as_str().map(str::to_owned));
+        texts.find(|text| text.contains("this damping couples modes"))
+    };
+    let program = of(&["chatter", "job.toml"]).expect("told of the program");
+    let place = of(&[
+        "lobes", "heavy_6r", "--at", "1450", "70", "500", "--teeth", "2", "--immersion", "1", "--up",
+        "--coefficients-n-per-mm2", "800", "240", "0", "--rpm", "3000", "3000", "1",
+    ]);
+    assert!(place.is_some(), "{program}");
+    let without = answer(here.path());
+    assert!(!without["warnings"].to_string().contains("couples modes"));
+}
+
 /// Modes that are left out say nothing of teeth that pass beside them.
 #[test]
 fn teeth_that_pass_beyond_the_modes_that_count_are_told() {

@@ -48,6 +48,7 @@ mod krl_config;
 mod large_files;
 mod library;
 mod loads_that_swing;
+mod lumped_links;
 mod machine_checks;
 mod map;
 mod measured;

@@ -68,6 +68,33 @@ fn a_place_of_the_map_is_what_stiffness_says_there() {
     }
 }
 
+/// Heads of further columns carry units; those of an actuator are those of its kind.
+#[test]
+fn heads_of_a_table_carry_units() {
+    let here = workplace();
+    for (machine, of_drive) in [("orthoglide", ["m", "n"]), ("heavy_6r", ["rad", "n_m"])] {
+        let x = if machine == "orthoglide" { 10 } else { 1500 };
+        map(
+            here.path(),
+            &format!("{machine} --x {x} --force 1 2 3 --variables stiffness_x,rotational_stiffness_y,principal_compliance,margin,commands,joint_efforts --csv map.csv --force-overwrite"),
+        )
+        .answered();
+        let table = std::fs::read_to_string(here.path().join("map.csv")).expect("the table");
+        let heads: Vec<&str> = table.lines().next().unwrap_or_default().split(',').collect();
+        let [command, effort] = of_drive;
+        for head in [
+            "stiffness_x_n_per_m",
+            "rotational_stiffness_y_n_m_per_rad",
+            "principal_compliance_3_m_per_n",
+            "margin",
+            &format!("commands_2_{command}"),
+            &format!("joint_efforts_3_{effort}"),
+        ] {
+            assert!(heads.contains(&head), "{head}: {heads:?}");
+        }
+    }
+}
+
 #[test]
 fn under_a_load_it_tells_where_the_tool_goes() {
     let here = workplace();

@@ -339,7 +339,12 @@ fn maps_have_the_first_frequencies() {
         let expected: Vec<f64> = (there["modes"].as_array().expect("modes").iter())
             .map(|m| m["frequency_hz"].as_f64().expect("a frequency"))
             .collect();
-        let names = ["f1", "f2", "natural_frequencies_1", "natural_frequencies_6"];
+        let names = [
+            "f1_hz",
+            "f2_hz",
+            "natural_frequencies_1_hz",
+            "natural_frequencies_6_hz",
+        ];
         for (name, k) in names.into_iter().zip([0, 1, 0, 5]) {
             let found: f64 = cells[column(name)].parse().expect("a number");
             assert!(

@@ -4,6 +4,7 @@ use nalgebra::DMatrix;
 
 use crate::ends::null_space::null_space;
 use crate::error::{Error, Result};
+use crate::linear::chain::LumpedLink;
 use crate::linear::limb::LimbShare;
 use crate::linear::{LinearDynamics, NamedCoordinate, Place, SpringPart};
 use crate::mass::{MassKind, MassPart};
@@ -21,6 +22,7 @@ pub(crate) struct Whole {
     pub places: Vec<Place>,
     pub coordinates: Vec<NamedCoordinate>,
     pub coarse_links: Vec<String>,
+    pub lumped_links: Vec<LumpedLink>,
 }
 
 impl Whole {
@@ -37,6 +39,7 @@ impl Whole {
             places: Vec::new(),
             coordinates: Vec::new(),
             coarse_links: Vec::new(),
+            lumped_links: Vec::new(),
         }
     }
 
@@ -113,6 +116,7 @@ impl Whole {
             tool,
             length,
             coarse_links: self.coarse_links,
+            lumped_links: self.lumped_links,
         })
     }
 
@@ -139,6 +143,7 @@ impl Whole {
             tool,
             length,
             coarse_links: self.coarse_links,
+            lumped_links: self.lumped_links,
         }
     }
 

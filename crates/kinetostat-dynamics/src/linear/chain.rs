@@ -1,8 +1,9 @@
 //! One chain about its equilibrium, its end free, held or partly held.
 
 use kinetostat::chain::ChainTangent;
-use kinetostat::{Chain, ChainProblem, MotionKind, Wrench};
-use nalgebra::DMatrix;
+use kinetostat::model::{Element, Segment};
+use kinetostat::{Chain, ChainProblem, MotionKind, Pose, Wrench};
+use nalgebra::{DMatrix, Vector3};
 
 use crate::ends::Held;
 use crate::error::Result;
@@ -29,6 +30,58 @@ pub(crate) fn coarse_links<'a>(
         .clone()
         .filter(move |s| links.clone().filter(|other| other.link == s.link).count() == 1)
         .map(move |s| format!("{prefix}{}", s.link))
+}
+
+/// The mass of an elastic link that is put to its far end: a body right behind it whose centre lies along it. Where the link
+/// bends by itself, all of that mass goes with the end.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct LumpedLink {
+    /// Name of the link.
+    pub link: String,
+    /// Name of the body.
+    pub body: String,
+}
+
+/// Links whose masses stand at their ends.
+pub(crate) fn lumped_links(chain: &Chain, prefix: &str) -> Vec<LumpedLink> {
+    let mut found = Vec::new();
+    // The link that has just ended, and the way from its end.
+    let mut behind: Option<&Segment> = None;
+    let mut way = Pose::identity();
+    for element in chain.elements() {
+        match element {
+            Element::Rigid(pose) => way *= pose,
+            Element::Motion(motion) => {
+                let of = |index: usize| {
+                    let mut all = chain.springs().iter();
+                    all.find(|s| (s.first..s.first + s.len()).contains(&index))
+                };
+                let spring = motion.coordinate.and_then(|drive| of(drive.index));
+                behind = spring.and_then(|spring| spring.segment.as_ref());
+                way = Pose::identity();
+            }
+            Element::Node(node) => {
+                let bodies = chain.bodies().iter();
+                let body = bodies.filter(|body| body.node == *node).find(|b| b.mass > 0.0);
+                if let (Some(link), Some(body)) = (behind, body)
+                    && is_along(link, &way.translation.vector)
+                {
+                    found.push(LumpedLink {
+                        link: format!("{prefix}{}", link.link),
+                        body: format!("{prefix}{}", body.name),
+                    });
+                }
+            }
+        }
+    }
+    found
+}
+
+/// Whether a place, seen from the far end of a link, lies beside it: well before its end, and nearer than its length.
+fn is_along(link: &Segment, place: &Vector3<f64>) -> bool {
+    let back = -place.dot(&link.along) / link.link_length;
+    let aside = (place + link.along * (back * link.link_length)).norm();
+    (0.1..=1.0).contains(&back) && aside < 0.5 * link.link_length
 }
 
 /// Rows `axes^T J` of the held directions, in units of a natural length.
@@ -71,6 +124,7 @@ impl LinearDynamics {
         whole.add_limb(0, share);
         whole.coordinates.extend(named(chain, "", 0));
         whole.coarse_links.extend(coarse_links(chain, ""));
+        whole.lumped_links.extend(lumped_links(chain, ""));
         let without = whole.constrained(chain.name(), None, rows, chain.tip(), length, units)?;
         without.with_rotors(&rotors_of_chain(chain, ""))
     }

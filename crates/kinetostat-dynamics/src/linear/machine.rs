@@ -7,7 +7,7 @@ use nalgebra::{DMatrix, Matrix6xX};
 use crate::ends::Held;
 use crate::error::Result;
 use crate::linear::build::Whole;
-use crate::linear::chain::{coarse_links, held_rows, named, units};
+use crate::linear::chain::{coarse_links, held_rows, lumped_links, named, units};
 use crate::linear::limb::LimbShare;
 use crate::linear::rotor::rotors_of;
 use crate::linear::{LinearDynamics, Place};
@@ -101,6 +101,9 @@ impl LinearDynamics {
             whole
                 .coarse_links
                 .extend(coarse_links(&limb.actual, &prefix));
+            whole
+                .lumped_links
+                .extend(lumped_links(&limb.actual, &prefix));
         }
         let mut view = whole
             .tangent

@@ -10,6 +10,7 @@ pub(crate) mod spin;
 
 use nalgebra::{DMatrix, DVector, Matrix6xX};
 
+use crate::linear::chain::LumpedLink;
 use crate::mass::MassPart;
 
 /// A spring: its motions by the coordinates of its block, and its stiffness.
@@ -93,6 +94,7 @@ pub struct LinearDynamics {
     pub(crate) length: f64,
     /// Links of one segment: too few to judge a circulatory load.
     pub(crate) coarse_links: Vec<String>,
+    pub(crate) lumped_links: Vec<LumpedLink>,
 }
 
 impl LinearDynamics {
@@ -118,6 +120,14 @@ impl LinearDynamics {
     #[must_use]
     pub fn coarse_links(&self) -> &[String] {
         &self.coarse_links
+    }
+
+    /// Links whose masses stand as bodies at their far ends. A mode in which such a link bends under its own body is too low,
+    /// by up to two thirds for a bar that is held at both ends: its mass belongs along it
+    /// ([`kinetostat::LinkSpec::with_mass`]).
+    #[must_use]
+    pub fn lumped_links(&self) -> &[LumpedLink] {
+        &self.lumped_links
     }
 
     /// Mass matrix `M` by independent coordinates: kg, kg m, kg m^2 by the units of the coordinates.

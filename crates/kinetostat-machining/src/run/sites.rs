@@ -152,15 +152,15 @@ fn stays(motion: &Move) -> bool {
     motion.known == Knowledge::Whole && !motion.has_length() && !motion.turns_in_place()
 }
 
-/// The load at the start of a move is another one than that before it.
+/// The load at the start of a move is another one than that before it, or a cut begins there.
 fn jumps(path: &Path, load: &LoadAlongPath<'_>, placement: &Placement, i: usize) -> bool {
     let Some(before) = i.checked_sub(1) else {
         return true;
     };
-    let known = path.moves[before].known == Knowledge::Whole;
+    let cuts = path.moves[before].is_known_feed();
     let before = load.wrench(placement, before, 1.0).0;
     let after = load.wrench(placement, i, 0.0).0;
-    !known || (after - before).norm() > 1e-6 * (before.norm() + after.norm())
+    !cuts || (after - before).norm() > 1e-6 * (before.norm() + after.norm())
 }
 
 /// Ends and middles of all blocks, and their starts where the load jumps, one after the other; of blocks longer than `spacing_mm` those of their
@@ -219,8 +219,9 @@ const SHORT: f64 = 0.05;
 
 /// Ends of all pieces of a written program and irregular places inside them, no farther apart than twice
 /// `spacing_mm`, the middles of pieces of divided blocks, and the places of the program as it is given
-/// ([`of_path`] with the same spacing), one after the other. Of blocks that are very short and were not divided every one is
-/// looked at where it ends, and inside as many as there is room for such pieces on their length, chosen without a pattern.
+/// ([`of_path`] with the same spacing), one after the other; of blocks that were not divided the places where the load departs
+/// from what their ends say. Blocks that are very short, were not divided and are under a steady load are all looked at where
+/// they end, and inside as many as there is room for such pieces on their length, chosen without a pattern.
 pub(crate) fn of_written<'a>(
     path: &'a Path,
     written: &'a Corrected,
@@ -296,7 +297,8 @@ pub(crate) fn of_written<'a>(
         let number = (written.pieces_before() + index) as u64;
         let inside = |k: usize| irregular(SEED, number, k as u64);
         if let Some(turn) = piece.turn {
-            for (place, end) in [(inside(0), false), (1.0, true)] {
+            // A load that does not turn with the step leaves it farthest where it begins or ends.
+            for (place, end) in [(0.0, false), (inside(0), false), (1.0, true)] {
                 let step = on_step(piece, &turn, place, load, placement);
                 push((place, share_at(place)), step, (end, false));
             }
@@ -331,8 +333,15 @@ pub(crate) fn of_written<'a>(
             };
             let divided = piece.share_from > 0.0 || piece.share_to < 1.0;
             let is_line = motion.curve == Curve::Line;
-            let is_passed_over =
-                is_line && !divided && inside(count) * programmed.short_mm > length;
+            // What the load does inside a block shows at no end of it.
+            let load_inside = match divided {
+                true => Vec::new(),
+                false => places_of_load(load, placement, piece.move_index),
+            };
+            let is_passed_over = is_line
+                && !divided
+                && load_inside.is_empty()
+                && inside(count) * programmed.short_mm > length;
             let count = if is_passed_over { 0 } else { count };
             let mut places: Vec<(f64, f64, bool)> = (0..count)
                 .map(|k| (k as f64 + inside(k)) / count as f64)
@@ -343,6 +352,7 @@ pub(crate) fn of_written<'a>(
                 // divided is looked at where the program is.
                 places.push((0.5, share_at(0.5), false));
             }
+            places.extend(load_inside.into_iter().map(|share| (share, share, false)));
             if piece.share_from == 0.0 && jumps(path, load, placement, piece.move_index) {
                 places.push((0.0, 0.0, true));
             }
@@ -360,6 +370,27 @@ pub(crate) fn of_written<'a>(
         push((1.0, piece.share_to), at(piece.share_to), (true, at_end));
         sites
     })
+}
+
+/// Departure of the load from the straight line between the ends of a block, share of it, that is looked at.
+const STRAIGHT: f64 = 1e-5;
+
+/// Where a load inside a block is farthest from what its ends say: where it or its slope jumps and midway between, and in the
+/// middle where it turns. None where it goes evenly from one end to the other.
+fn places_of_load(load: &LoadAlongPath<'_>, placement: &Placement, index: usize) -> Vec<f64> {
+    let mut shares = load.breaks(index);
+    shares.retain(|share| *share > 0.0 && *share < 1.0);
+    let [begin, middle, end] = [0.0, 0.5, 1.0].map(|share| load.wrench(placement, index, share).0);
+    let turns = (middle - 0.5 * (begin + end)).norm() > STRAIGHT * (begin.norm() + end.norm());
+    if shares.is_empty() && !turns {
+        return shares;
+    }
+    shares.extend([0.0, 1.0]);
+    shares.sort_by(f64::total_cmp);
+    let between: Vec<f64> = shares.windows(2).map(|w| 0.5 * (w[0] + w[1])).collect();
+    shares.extend(between);
+    shares.retain(|share| *share > 0.0 && *share < 1.0);
+    shares
 }
 
 /// The load on a corner step, as chosen and by the other reading.

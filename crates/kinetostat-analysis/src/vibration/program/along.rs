@@ -88,6 +88,14 @@ impl ProgramChatter {
         self.sites.iter().filter(of_one).map(|s| s.places).sum()
     }
 
+    /// By how much the response by modes with their own damping alone is off, at the worst of the places
+    /// ([`JudgedSite::lost_coupling`]).
+    #[must_use]
+    pub fn lost_coupling(&self) -> f64 {
+        let each = self.sites.iter().map(|site| site.lost_coupling);
+        each.fold(0.0, kinetostat::number::larger)
+    }
+
     /// The place with the least limit by its depth.
     #[must_use]
     pub fn nearest(&self) -> Option<&JudgedSite> {

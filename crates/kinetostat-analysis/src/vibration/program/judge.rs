@@ -48,6 +48,9 @@ pub struct JudgedSite {
     pub first_hz: Option<f64>,
     /// How the teeth shake the tool; `None` where it chatters or nothing is said.
     pub forced: Option<ForcedVibration>,
+    /// By how much the response by modes with their own damping alone is off at the frequencies of the modes, share of it; 0
+    /// where no damper couples modes.
+    pub lost_coupling: f64,
     /// Places of the program that this one stands for.
     pub places: usize,
     /// From where to where along the path these lie, mm.
@@ -86,10 +89,18 @@ impl JudgedSite {
             kind: None,
             first_hz: None,
             forced: None,
+            lost_coupling: 0.0,
             places: group.count(),
             path_mm: group.path_mm(),
         }
     }
+}
+
+/// The cut at a place with the machine in its posture.
+pub(crate) struct SiteCut {
+    pub regeneration: Regeneration,
+    /// As [`JudgedSite::lost_coupling`].
+    pub lost_coupling: f64,
 }
 
 /// The limit at a spindle speed, looked for up to a depth, m, and, where the cut is stable up to it, a few times deeper.
@@ -157,8 +168,11 @@ impl ChatterQuestion<'_> {
             let why = "the arc of contact has no length";
             return Ok(JudgedSite::not_judged(site, group, why));
         }
-        let regeneration = match self.regeneration(load, site)? {
-            Ok(regeneration) => regeneration,
+        let SiteCut {
+            regeneration,
+            lost_coupling,
+        } = match self.site_cut(load, site)? {
+            Ok(cut) => cut,
             Err(why) => return Ok(JudgedSite::not_judged(site, group, why)),
         };
         let depth = 1e-3 * site.station.depth_mm;
@@ -195,17 +209,18 @@ impl ChatterQuestion<'_> {
                 .map(kinetostat_chatter::Mode::frequency_hz)
                 .reduce(|a, b| if b < a { b } else { a }),
             forced,
+            lost_coupling,
             places: group.count(),
             path_mm: group.path_mm(),
         })
     }
 
     /// The cut there with the machine in its posture; in the inner result why nothing can be said of it.
-    pub(crate) fn regeneration(
+    pub(crate) fn site_cut(
         &self,
         load: &LoadAlongPath<'_>,
         site: &CutSite,
-    ) -> Result<Result<Regeneration, String>, ProgramChatterError> {
+    ) -> Result<Result<SiteCut, String>, ProgramChatterError> {
         let (line, task) = (site.line, self.task);
         let motion = &task.path().moves[site.move_index];
         let placement = task.placement.on(motion, site.station.share);
@@ -240,7 +255,12 @@ impl ChatterQuestion<'_> {
             modes_up_to_hz: self.modes_up_to_hz,
         };
         match of_cut.regeneration() {
-            Ok(regeneration) => Ok(Ok(regeneration)),
+            Ok(regeneration) => Ok(Ok(SiteCut {
+                regeneration,
+                lost_coupling: machine
+                    .lost_coupling(self.damping, self.modes_up_to_hz)
+                    .map_err(of_machine)?,
+            })),
             Err(MachineCutError::NoVibration(why)) => Ok(Err(why)),
             Err(MachineCutError::Machine(error)) => Err(of_machine(error)),
             Err(MachineCutError::Cut(error)) => Err(ProgramChatterError::Cut { line, error }),

@@ -4,7 +4,7 @@ use kinetostat_chatter::Instability;
 use kinetostat_machining::{LoadAlongPath, Watch};
 use rayon::prelude::*;
 
-use crate::vibration::program::judge::{JudgedSite, Limit, Verdict};
+use crate::vibration::program::judge::{JudgedSite, Limit, SiteCut, Verdict};
 use crate::vibration::program::question::{ChatterQuestion, ProgramChatterError};
 
 /// Spindle speeds that are tried, by that of the program: from, to, and how many.
@@ -120,7 +120,7 @@ fn stable_rpm(
     let tried = sites.iter().step_by(step).chain(sites.last());
     for judged in tried {
         let site = &judged.site;
-        let Ok(regeneration) = question.regeneration(load, site)? else {
+        let Ok(SiteCut { regeneration, .. }) = question.site_cut(load, site)? else {
             continue;
         };
         let depth = 1e-3 * site.station.depth_mm;
