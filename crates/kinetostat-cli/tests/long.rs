@@ -157,7 +157,7 @@ fn another_question_is_refused_by_the_field_that_differs() {
         fs::write(here.path().join("job.toml"), other_job(from, to)).expect("written");
         let (code, said) = ended(here.path(), &[]);
         assert_eq!(code, Some(1), "{field}: {said}");
-        let words = format!("{field} is another one now");
+        let words = format!("what differs now is {field}");
         assert!(said.contains(&words), "{field}: {said}");
     }
     fs::write(here.path().join("job.toml"), &job).expect("written");
@@ -168,12 +168,12 @@ fn another_question_is_refused_by_the_field_that_differs() {
     .expect("written");
     let (code, said) = ended(here.path(), &[]);
     assert_eq!(code, Some(1), "{said}");
-    assert!(said.contains("the program is another one now"), "{said}");
+    assert!(said.contains("what differs now is the program"), "{said}");
     fs::write(here.path().join("part.ngc"), &program).expect("written");
     let (code, said) = ended(here.path(), &["--decimals", "5"]);
     assert_eq!(code, Some(1), "{said}");
     assert!(
-        said.contains("how the program is written is another one now"),
+        said.contains("what differs now is how the program is written"),
         "{said}"
     );
     assert!(said.contains("--restart"), "{said}");
@@ -189,7 +189,7 @@ fn another_question_is_refused_by_the_field_that_differs() {
     let (code, said) = ended(here.path(), &[]);
     assert_eq!(code, Some(1), "{said}");
     assert!(
-        said.contains("the version of kinetostat is another one now"),
+        said.contains("what differs now is the version of kinetostat"),
         "{said}"
     );
     let (code, said) = ended(here.path(), &["--restart"]);
@@ -487,7 +487,7 @@ fn a_program_that_changes_meanwhile_is_never_half_old() {
     assert!(!here.path().join("out.ngc").exists());
     let (code, said) = end(careful(here.path(), &PARTS, &[]));
     assert_eq!(code, Some(1), "{said}");
-    assert!(said.contains("the program is another one now"), "{said}");
+    assert!(said.contains("what differs now is the program"), "{said}");
 }
 
 #[test]

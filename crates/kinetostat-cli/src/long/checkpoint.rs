@@ -107,7 +107,7 @@ impl Checkpoint {
         match kept.as_ref().map(|kept| kept.differs_in(manifest)) {
             Some(None) => Ok(true),
             Some(Some(field)) if self.has_work() => Err(Failure::input(format!(
-                "'{}' keeps a run that was interrupted, and {field} is another one now: give the same question to go on with it, or --restart to begin anew (or delete the folder)",
+                "'{}' keeps a run that was interrupted, and what differs now is {field}: give the same question to go on with it, or --restart to begin anew (or delete the folder)",
                 self.folder.display()
             ))),
             _ => {
@@ -283,7 +283,7 @@ mod tests {
         assert_eq!(parts, [2, 1]);
         let failure = kept.open(&manifest("b"), false).unwrap_err();
         assert!(
-            failure.plain.contains("the model is another one now"),
+            failure.plain.contains("what differs now is the model"),
             "{}",
             failure.plain
         );

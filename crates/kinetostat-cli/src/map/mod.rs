@@ -38,7 +38,7 @@ use crate::map::orientations::Orientations;
 use crate::map::picture::Picture;
 use crate::map::query::{grid, loads};
 use crate::map::solve::{Sinks, solve};
-use crate::map::store::{Manifest, Store};
+use crate::map::store::{self, Manifest, Store};
 use crate::map::unanswered::without_figures;
 use crate::place::orientation;
 use crate::ui::failure::{Answer, Failure};
@@ -250,7 +250,7 @@ fn manifest(args: &MapArgs, model: &Model, task: &MapTask<'_>) -> Manifest {
         ("grid_places", format!("{:?}", grid.counts)),
         ("orientation_follows", task.orientation_follows.to_string()),
         (
-            "orientations_and_loads",
+            store::OF_CASES,
             cases.map(case).collect::<Vec<_>>().join("; "),
         ),
         ("variables", names.join(", ")),

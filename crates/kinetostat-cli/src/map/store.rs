@@ -35,6 +35,9 @@ const CHECK: usize = 8;
 /// How often what is solved is put on the disk, whatever happens to the computer.
 const EVERY: Duration = Duration::from_secs(5);
 
+/// Word of a manifest with nothing but numbers in it.
+pub(crate) const OF_CASES: &str = "orientations_and_loads";
+
 /// What a map is of, each word of it by its name.
 pub(crate) type Manifest = BTreeMap<String, String>;
 
@@ -252,6 +255,11 @@ fn same(found: &Manifest, wanted: &Manifest) -> Result<(), String> {
     for name in names {
         let of = |m: &Manifest| m.get(name).cloned().unwrap_or_else(|| "nothing".to_owned());
         let (a, b) = (of(found), of(wanted));
+        if a != b && name == OF_CASES {
+            return Err(
+                "the orientations or the loads of the map there are others: give another directory, or remove this one".to_owned(),
+            );
+        }
         if a != b {
             return Err(format!(
                 "{name} is {a} there and {b} here: the rows are those of another map; give another directory, or remove this one"

@@ -1,7 +1,7 @@
 //! What `place` says to a person.
 
 use kinetostat_machining::number::{counted, largest};
-use kinetostat_placing::{Candidate, Nowhere, Sensitivity, Space};
+use kinetostat_placing::{Candidate, Nowhere, Sensitivity, Space, Why};
 
 use crate::placing::answer::PlaceAnswer;
 use crate::ui::layout::{columns, item, wrapped};
@@ -200,6 +200,11 @@ fn findings(answer: &PlaceAnswer) -> String {
 /// Why no placement can be taken.
 pub(crate) fn nowhere_text(nowhere: &Nowhere, space: &Space) -> String {
     let nearest = &nowhere.nearest;
+    let refusal = nearest.refusal.as_ref();
+    // Wherever the part lies.
+    if let Some(refusal) = refusal.filter(|refusal| refusal.why == Why::NoFigure) {
+        return format!("there is nothing to compare: {}", refusal.message);
+    }
     let values = space.ranges().iter().zip(&nearest.place.values);
     let at: Vec<String> = nearest
         .fixture

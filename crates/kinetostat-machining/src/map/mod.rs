@@ -11,6 +11,7 @@ mod solved;
 mod variable;
 
 use std::sync::Arc;
+use std::time::{Duration, Instant};
 
 use kinetostat::batch::Batch;
 use kinetostat::chain::FoundBy;
@@ -69,8 +70,10 @@ impl MapTask<'_> {
 /// Places that one thread takes at a time, and that `block` gets: a run that goes on begins with a whole one.
 pub const MAP_BLOCK: usize = 256;
 use MAP_BLOCK as BLOCK;
-/// Blocks between two looks at the watch; what is in memory at a time.
+/// Most blocks between two looks at the watch; what is in memory at a time.
 const BLOCKS: usize = 64;
+/// A round of blocks takes about so long: what is solved is handed on, so that a run that is stopped loses no more.
+const ROUND: Duration = Duration::from_millis(500);
 
 /// Solves all places of a grid in their order. Each block of places is turned into something by
 /// `block`, on any thread; `put` takes these one after the other. No more than a fixed number of
@@ -89,11 +92,14 @@ pub fn map<R: Send, E: From<RunError>>(
     let evaluator = Evaluator::of_map(task.mechanism, batch, ratings, &task.variables);
     let total = task.grid.len();
     watch.stage("map", total);
-    for first in (task.first..total).step_by(BLOCK * BLOCKS) {
+    let fewest = rayon::current_num_threads().clamp(1, BLOCKS);
+    let (mut first, mut blocks) = (task.first, fewest);
+    while first < total {
         if watch.cancelled() {
             return Err(RunError::Cancelled.into());
         }
-        let end = total.min(first + BLOCK * BLOCKS);
+        let begun = Instant::now();
+        let end = total.min(first + BLOCK * blocks);
         let starts: Vec<usize> = (first..end).step_by(BLOCK).collect();
         let done: Vec<R> = starts
             .into_par_iter()
@@ -104,6 +110,11 @@ pub fn map<R: Send, E: From<RunError>>(
             .collect();
         done.into_iter().try_for_each(&mut put)?;
         watch.advance(end);
+        first = end;
+        blocks = match begun.elapsed() < ROUND {
+            true => (2 * blocks).min(BLOCKS),
+            false => (blocks / 2).max(fewest),
+        };
     }
     Ok(())
 }

@@ -48,7 +48,10 @@ fn run() -> RunResult {
     point.error_before_mm = [0.3, 0.0, 0.4];
     point.force_n = [100.0, 0.0, 0.0];
     result.points.push(point.clone());
-    result.worst_points.push(point);
+    result.worst_points.push(point.clone());
+    (point.line, point.output_line) = (4321, 4444);
+    point.error_after_mm = [0.0, 0.000_44, 0.0];
+    result.worst_points_after.push(point);
     let warning = Warning::at_line(WarningCode::Writing, 5, "a step against the motion");
     result.warnings.push(warning);
     result
@@ -101,6 +104,9 @@ fn every_language_states_the_same_figures() {
             "0.420",
             "1 234",
             "25 %",
+            // Only in the list of the worst places with compensation.
+            "4 321",
+            "0.440 µm",
         ];
         for figure in figures {
             let figure = match language {

@@ -59,20 +59,38 @@ fn feature(of: &Of<'_>, feature: &FeatureResult) -> Vec<Cell> {
     cells
 }
 
-/// The worst lines.
+/// The worst lines: without compensation, and with it where something was compensated.
 pub(super) fn worst(of: &Of<'_>) -> Vec<Block> {
     let words = of.words;
-    let shown: Vec<&PointResult> = of.result.worst_points.iter().take(10).collect();
-    if shown.is_empty() {
+    let result = of.result;
+    if result.worst_points.is_empty() {
         return Vec::new();
     }
+    let note = match of.paper.verified {
+        Some(_) => words.worst_note_verified,
+        None => words.worst_note,
+    };
+    let mut blocks = vec![
+        Block::Heading(words.head_worst.to_owned()),
+        Block::Note(note.to_owned()),
+        worst_table(of, &result.worst_points),
+    ];
+    if !result.worst_points_after.is_empty() {
+        blocks.push(Block::Note(words.worst_after_note.to_owned()));
+        blocks.push(worst_table(of, &result.worst_points_after));
+    }
+    blocks
+}
+
+fn worst_table(of: &Of<'_>, points: &[PointResult]) -> Block {
+    let words = of.words;
     let after = of.has_after();
     let mut columns = vec![Column::words(words.line)];
     columns.extend(["X,\u{a0}mm", "Y,\u{a0}mm", "Z,\u{a0}mm", words.before].map(Column::figures));
     if after {
         columns.extend([words.after, words.line_written].map(Column::figures));
     }
-    let rows = shown.iter().map(|point| {
+    let rows = points.iter().take(10).map(|point| {
         let mut cells = vec![Cell::from(line(of, point.line))];
         let places = point.position_mm.map(|mm| number::fixed(mm, 3));
         cells.extend(places.map(|text| Cell::from(of.figure(&text))));
@@ -86,18 +104,10 @@ pub(super) fn worst(of: &Of<'_>) -> Vec<Block> {
         }
         cells
     });
-    let note = match of.paper.verified {
-        Some(_) => words.worst_note_verified,
-        None => words.worst_note,
-    };
-    vec![
-        Block::Heading(words.head_worst.to_owned()),
-        Block::Note(note.to_owned()),
-        Block::Table(Table {
-            columns,
-            rows: rows.collect(),
-        }),
-    ]
+    Block::Table(Table {
+        columns,
+        rows: rows.collect(),
+    })
 }
 
 /// A line; of a flat program with the one that it came from.

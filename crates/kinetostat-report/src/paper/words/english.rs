@@ -87,6 +87,7 @@ pub(super) const WORDS: Words = Words {
     nothing_cut: "nothing is cut",
     worst_note: "Where the tool is farthest off without compensation, worst first; places in program coordinates.",
     worst_note_verified: "Where the tool is farthest off along this program, worst first; places in program coordinates.",
+    worst_after_note: "Where it is farthest off with the compensated program, worst first.",
     line: "Line",
     line_written: "Line written",
     line_from: "from {line} of {file}",

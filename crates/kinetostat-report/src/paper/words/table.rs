@@ -94,6 +94,7 @@ pub(crate) struct Words {
     /// Worst lines.
     pub(crate) worst_note: &'static str,
     pub(crate) worst_note_verified: &'static str,
+    pub(crate) worst_after_note: &'static str,
     pub(crate) line: &'static str,
     pub(crate) line_written: &'static str,
     pub(crate) line_from: &'static str,

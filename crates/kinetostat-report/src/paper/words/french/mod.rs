@@ -90,6 +90,7 @@ pub(super) const WORDS: Words = Words {
     nothing_cut: "rien n’est coupé",
     worst_note: "Où l’outil est le plus écarté sans compensation, le pire d’abord ; positions en coordonnées du programme.",
     worst_note_verified: "Où l’outil est le plus écarté avec ce programme, le pire d’abord ; positions en coordonnées du programme.",
+    worst_after_note: "Où il est le plus écarté avec le programme compensé, le pire d’abord.",
     line: "Ligne",
     line_written: "Ligne écrite",
     line_from: "de {line} de {file}",

@@ -90,6 +90,7 @@ pub(super) const WORDS: Words = Words {
     nothing_cut: "ohne Schnitt",
     worst_note: "Wo das Werkzeug ohne Kompensation am weitesten abliegt, die ungünstigste Zeile zuerst; Orte in Programmkoordinaten.",
     worst_note_verified: "Wo das Werkzeug mit diesem Programm am weitesten abliegt, die ungünstigste Zeile zuerst; Orte in Programmkoordinaten.",
+    worst_after_note: "Wo es mit dem kompensierten Programm am weitesten abliegt, die ungünstigste Zeile zuerst.",
     line: "Zeile",
     line_written: "Zeile geschrieben",
     line_from: "aus {line} von {file}",
