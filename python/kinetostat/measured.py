@@ -58,12 +58,16 @@ class Measurement:
     """How many points a smoothed deviation rests on."""
     outliers: NDArray[np.int64]
     """Rows, from 1, that no neighbour bears out."""
+    beside_corners: NDArray[np.int64]
+    """Rows, from 1, so near a corner of the path that they may belong to its other leg; they do not count."""
     left_out: NDArray[np.int64]
     """Rows, from 1, without a place on the path."""
     motion: Floats | None
     """(4, 4): from the frame of the measurement to that of the program, its rotation times the scale; none where none was sought."""
     free: tuple[str, ...]
     """Motions that the points leave open, in words."""
+    rejected_rows: NDArray[np.int64]
+    """Rows, from 1, that the motion was not fitted to, since they are far from where it brings the others; none where none was sought."""
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -282,7 +286,9 @@ def _measurement(found: dict[str, Any]) -> Measurement:
         scatter=1e-3 * figures["scatter_mm"],
         effective_points=figures["effective_points"],
         outliers=np.array([point["row"] for point in found["outliers"]], dtype=np.int64),
+        beside_corners=np.array(found["beside_corners"], dtype=np.int64),
         left_out=np.array([point["row"] for point in found["left_out"]], dtype=np.int64),
         motion=motion,
         free=() if registration is None else tuple(registration["free"]),
+        rejected_rows=np.array([] if registration is None else registration["rejected_rows"], dtype=np.int64),
     )

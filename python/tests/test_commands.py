@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import inspect
 import json
 import shutil
 import subprocess
@@ -47,6 +48,19 @@ def test_same_answer_as_the_command_line(ask, words):
         return
     said = subprocess.run([program(), *words, "--json"], check=True, capture_output=True, text=True).stdout
     assert without_file(found) == without_file(json.loads(said))
+
+
+def test_options_that_a_command_refuses_are_not_offered():
+    refused = {"report", "free_turn", "stiff_turn", "turn_plot", "uncertain", "machines", "part_lines"}
+
+    def offered(command):
+        return set(inspect.signature(command).parameters)
+
+    assert not refused & offered(ks.commands.verify)
+    assert not (refused | {"points", "vtk"}) & offered(ks.commands.place)
+    assert (refused | {"points", "vtk"}) - offered(ks.commands.compensate) == {"part_lines"}
+    # A name of before is taken as long as the command line takes it.
+    assert {"controller", "pendant"} <= offered(ks.commands.stiffness)
 
 
 def test_wrong_input_and_no_answer_are_errors():

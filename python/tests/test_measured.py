@@ -137,6 +137,27 @@ def test_points_in_another_frame_are_brought_onto_the_path(tmp_path: Path):
     assert back is not None
     np.testing.assert_allclose(back @ motion, np.eye(4), rtol=0, atol=1e-7)
     assert found.left < 1e-7
+    assert [own.rejected_rows.tolist() for own in found.measurements] == [[], []]
+    measured[17] += [0, 0, 7e-3]
+    own = mirror(program, measured, tmp_path / "other.ngc").measurements[0]
+    assert own.rejected_rows.tolist() == own.left_out.tolist() == [18]
+
+
+def test_points_that_may_belong_to_the_other_leg_of_a_corner_are_named(tmp_path: Path):
+    """A machine that is 0.26 mm inside of both legs and 0.1 mm beyond their end: points nearer to the other leg are beside the corner."""
+    program, off, beyond, every = tmp_path / "corner.ngc", 0.26, 0.1, 0.23
+    program.write_text("G21 G90\nG0 X0 Y0 Z0\nG1 X60 F600\nG1 Y60\nM30\n")
+    along = every * np.arange(261) - beyond  # of the second leg; the first one is its mirror image
+    inside = np.full(len(along), 60 - off)
+    second = np.stack([inside, along, 0 * along], axis=-1)
+    first = np.stack([60 - along, 60 - inside, 0 * along], axis=-1)[::-1]
+    found = mirror(program, 1e-3 * np.concatenate([first, second]), tmp_path / "next.ngc", register=False)
+    own = found.measurements[0]
+    nearer = np.flatnonzero(np.abs(along) < off)
+    rows = np.concatenate([261 - nearer, 262 + nearer])
+    assert sorted(own.beside_corners) == sorted(rows)
+    assert own.beside_corners.dtype == own.rejected_rows.dtype == np.int64
+    assert (own.points, own.rejected_rows.tolist()) == (2 * 261 - len(rows), [])
 
 
 @pytest.mark.parametrize(

@@ -44,6 +44,13 @@ from __future__ import annotations
 LEFT_OUT = {"completions", "man"}
 LISTS = {"reproduce"}
 """Commands whose JSON is a list."""
+NAMES_BEFORE = {"pendant"}
+"""Hidden options that are taken all the same, for one version more; other hidden ones are refused, or are for tests."""
+
+
+def offered(argument: dict[str, Any]) -> bool:
+    """Whether an option is one of the function."""
+    return not argument["hidden"] or argument["name"] in NAMES_BEFORE
 
 
 def identifier(name: str) -> str:
@@ -86,7 +93,7 @@ def function(path: list[str], command: dict[str, Any]) -> str:
     """The definition of one command's function."""
     arguments = command["arguments"]
     has_json = any(a["name"] == "json" for a in arguments)
-    shown = [a for a in arguments if a["name"] != "json"]
+    shown = [a for a in arguments if a["name"] != "json" and offered(a)]
     positional = [a for a in shown if a["positional"]]
     named = [a for a in shown if not a["positional"]]
     lines = []

@@ -15,6 +15,10 @@ mod common;
 #[path = "long/disk_full.rs"]
 mod disk_full;
 
+#[cfg(feature = "parquet")]
+#[path = "long/points_parquet.rs"]
+mod points_parquet;
+
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;

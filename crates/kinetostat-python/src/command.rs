@@ -97,6 +97,7 @@ fn argument(argument: &clap::Arg) -> Value {
         "name": argument.get_long().unwrap_or_else(|| argument.get_id().as_str()),
         "positional": argument.is_positional(),
         "required": argument.is_required_set(),
+        "hidden": argument.is_hide_set(),
         "takes_values": argument.get_action().takes_values(),
         "repeats": matches!(argument.get_action(), clap::ArgAction::Append),
         "fewest": count.min_values(),

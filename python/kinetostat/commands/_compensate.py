@@ -64,7 +64,6 @@ def compensate(
     all_points: bool = False,
     force_overwrite: bool = False,
     restart: bool = False,
-    part_lines: int | None = None,
     threads: int | None = None,
     out: _Path | None = None,
     to: Literal["krl", "rapid", "ls"] | None = None,
@@ -208,8 +207,6 @@ def compensate(
         Overwrite outputs that exist (never an input)
     restart : bool
         Begin a long program anew, though a run of it was interrupted and could go on
-    part_lines : int
-        Lines of a part of a long program (for tests): a program of any length is run in parts
     threads : int
         Number of threads; all cores without it. The result is the same
     out : path
@@ -322,7 +319,6 @@ def compensate(
         ("--all-points", all_points),
         ("--force-overwrite", force_overwrite),
         ("--restart", restart),
-        ("--part-lines", part_lines),
         ("--threads", threads),
         ("--out", out),
         ("--to", to),

@@ -68,7 +68,6 @@ def deflect(
     all_points: bool = False,
     force_overwrite: bool = False,
     restart: bool = False,
-    part_lines: int | None = None,
     threads: int | None = None,
     progress: _Progress | None = None,
 ) -> dict[str, Any]:
@@ -210,8 +209,6 @@ def deflect(
         Overwrite outputs that exist (never an input)
     restart : bool
         Begin a long program anew, though a run of it was interrupted and could go on
-    part_lines : int
-        Lines of a part of a long program (for tests): a program of any length is run in parts
     threads : int
         Number of threads; all cores without it. The result is the same
     progress : callable
@@ -284,7 +281,6 @@ def deflect(
         ("--all-points", all_points),
         ("--force-overwrite", force_overwrite),
         ("--restart", restart),
-        ("--part-lines", part_lines),
         ("--threads", threads),
     ]
     return answered(["deflect"], options, progress)

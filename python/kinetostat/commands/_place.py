@@ -65,18 +65,9 @@ def place(
     all_points: bool = False,
     force_overwrite: bool = False,
     restart: bool = False,
-    part_lines: int | None = None,
     threads: int | None = None,
     csv: _Path | None = None,
     plot: _Path | None = None,
-    report: _Path | None = None,
-    points: _Path | None = None,
-    vtk: _Path | None = None,
-    free_turn: bool = False,
-    stiff_turn: bool = False,
-    turn_plot: _Path | None = None,
-    uncertain: _Path | None = None,
-    machines: int | None = None,
     progress: _Progress | None = None,
 ) -> dict[str, Any]:
     r"""Where does the part lie best.
@@ -207,33 +198,12 @@ def place(
         Overwrite outputs that exist (never an input)
     restart : bool
         Begin a long program anew, though a run of it was interrupted and could go on
-    part_lines : int
-        Lines of a part of a long program (for tests): a program of any length is run in parts
     threads : int
         Number of threads; all cores without it. The result is the same
     csv : path
         All placements that fill the ranges, and those of the map, as a table (CSV)
     plot : path
         Map of the figure through the best placement, with the next best ones (SVG)
-    report : path
-        The report, one HTML file
-    points : path
-        Points of the path as a table: CSV, of long programs the worst of every stretch; Parquet
-        with every point where the name ends in .parquet
-    vtk : path
-        The path as lines for ParaView (VTK): errors, corrections and loads as vectors at its points
-    free_turn : bool
-        Turn a round tool about its axis along the path of an arm: inside the limits of the joints,
-        away from singular postures, in one configuration
-    stiff_turn : bool
-        Choose that turn so that the tip of the tool yields little to a force, too
-    turn_plot : path
-        Picture of that turn along the path (SVG)
-    uncertain : path
-        What is uncertain about machine and load (TOML; see `kinetostat tolerance --help`): the
-        errors before and after compensation come as a band over many machines
-    machines : int
-        Number of machines drawn for the band, rounded up to a multiple of 16 [default: 1024]
     progress : callable
         Called with what is done, how much there is and the name of the stage.
 
@@ -307,17 +277,8 @@ def place(
         ("--all-points", all_points),
         ("--force-overwrite", force_overwrite),
         ("--restart", restart),
-        ("--part-lines", part_lines),
         ("--threads", threads),
         ("--csv", csv),
         ("--plot", plot),
-        ("--report", report),
-        ("--points", points),
-        ("--vtk", vtk),
-        ("--free-turn", free_turn),
-        ("--stiff-turn", stiff_turn),
-        ("--turn-plot", turn_plot),
-        ("--uncertain", uncertain),
-        ("--machines", machines),
     ]
     return answered(["place"], options, progress)

@@ -58,16 +58,9 @@ def verify(
     all_points: bool = False,
     force_overwrite: bool = False,
     restart: bool = False,
-    part_lines: int | None = None,
     threads: int | None = None,
     tolerance_um: float | None = None,
     against: _Path | None = None,
-    report: _Path | None = None,
-    free_turn: bool = False,
-    stiff_turn: bool = False,
-    turn_plot: _Path | None = None,
-    uncertain: _Path | None = None,
-    machines: int | None = None,
     progress: _Progress | None = None,
 ) -> dict[str, Any]:
     r"""How far off is the tool along any compensated program.
@@ -182,28 +175,12 @@ def verify(
         Overwrite outputs that exist (never an input)
     restart : bool
         Begin a long program anew, though a run of it was interrupted and could go on
-    part_lines : int
-        Lines of a part of a long program (for tests): a program of any length is run in parts
     threads : int
         Number of threads; all cores without it. The result is the same
     tolerance_um : float
         How far the tool may be off in all, micrometres [default: what `compensate` allows itself]
     against : path
         The original: the program as it is drawn; without it, the one that the job names
-    report : path
-        The report, one HTML file
-    free_turn : bool
-        Turn a round tool about its axis along the path of an arm: inside the limits of the joints,
-        away from singular postures, in one configuration
-    stiff_turn : bool
-        Choose that turn so that the tip of the tool yields little to a force, too
-    turn_plot : path
-        Picture of that turn along the path (SVG)
-    uncertain : path
-        What is uncertain about machine and load (TOML; see `kinetostat tolerance --help`): the
-        errors before and after compensation come as a band over many machines
-    machines : int
-        Number of machines drawn for the band, rounded up to a multiple of 16 [default: 1024]
     progress : callable
         Called with what is done, how much there is and the name of the stage.
 
@@ -272,15 +249,8 @@ def verify(
         ("--all-points", all_points),
         ("--force-overwrite", force_overwrite),
         ("--restart", restart),
-        ("--part-lines", part_lines),
         ("--threads", threads),
         ("--tolerance-um", tolerance_um),
         ("--against", against),
-        ("--report", report),
-        ("--free-turn", free_turn),
-        ("--stiff-turn", stiff_turn),
-        ("--turn-plot", turn_plot),
-        ("--uncertain", uncertain),
-        ("--machines", machines),
     ]
     return answered(["verify"], options, progress)

@@ -73,7 +73,7 @@ pub(crate) fn compensate(
     run.result
         .warnings
         .extend(run_warnings::of_run(&model, job));
-    done.fill(&mut outputs, &targets)?;
+    done.fill(&mut outputs, (&run.result.run_inputs, &targets))?;
     done.or_kept(outputs.fill_result(&run, &setting))?;
     let paths = done.commit(outputs.files)?;
     done.remove();

@@ -150,7 +150,7 @@ fn part_by_part(
     let (mut run, done) = run.run(&mut outputs)?;
     let found = run_warnings::of_run(model, job);
     run.result.warnings.extend(found);
-    done.fill(&mut outputs, &targets)?;
+    done.fill(&mut outputs, (&run.result.run_inputs, &targets))?;
     done.or_kept(outputs.fill_result(&run, &setting))?;
     let paths = done.commit(outputs.files)?;
     done.remove();

@@ -92,4 +92,40 @@ impl Partial {
             file.map_err(|error| refused(&self.path, &error))?,
         ))
     }
+
+    /// The same, watched.
+    pub(crate) fn watched(&self) -> Answer<Watched> {
+        Ok(Watched {
+            from: self.reader()?,
+            found: Contents::default(),
+            written: self.contents,
+        })
+    }
+}
+
+/// Reads a partial output to its end, and knows whether these were the bytes that had been written.
+pub(crate) struct Watched {
+    from: BufReader<File>,
+    found: Contents,
+    written: Contents,
+}
+
+impl Read for Watched {
+    fn read(&mut self, to: &mut [u8]) -> std::io::Result<usize> {
+        let count = self.from.read(to)?;
+        self.found.append(&to[..count]);
+        Ok(count)
+    }
+}
+
+impl Watched {
+    /// Refuses bytes that had not been written, once they are read to the end: something else may have written there.
+    pub(crate) fn refuse_if_changed(&self) -> Answer<()> {
+        match self.found == self.written {
+            true => Ok(()),
+            false => Err(Failure::input(
+                "what was kept of the run was changed by something else: give --restart to begin anew",
+            )),
+        }
+    }
 }

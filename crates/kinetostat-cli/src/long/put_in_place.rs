@@ -3,10 +3,10 @@
 use std::io::Read;
 use std::path::PathBuf;
 
+use kinetostat_machining::RunInputs;
 use sha2::{Digest, Sha256};
 
 use crate::files::hash::hex;
-use crate::files::journal::Contents;
 use crate::files::origin;
 use crate::files::outputs::{Existing, Outputs};
 use crate::job::output_paths::OutputPaths;
@@ -14,7 +14,9 @@ use crate::long::checkpoint::Checkpoint;
 use crate::long::partial::Partial;
 use crate::program::aim::Aim;
 use crate::program::outputs::RunOutputs;
+use crate::program::points_parquet;
 use crate::ui::failure::{Answer, Failure};
+use crate::ui::progress::still_wanted;
 
 /// Where what is done is kept: beside the first output.
 pub(crate) fn checkpoint(targets: &OutputPaths) -> Checkpoint {
@@ -50,8 +52,12 @@ pub(crate) struct LongFiles {
 
 impl LongFiles {
     /// Writes them beside their targets.
-    pub(crate) fn fill(&self, outputs: &mut RunOutputs, targets: &OutputPaths) -> Answer<()> {
-        self.or_kept(self.fill_all(outputs, targets))
+    pub(crate) fn fill(
+        &self,
+        outputs: &mut RunOutputs,
+        (run_inputs, targets): (&RunInputs, &OutputPaths),
+    ) -> Answer<()> {
+        self.or_kept(self.fill_all(outputs, (run_inputs, targets)))
     }
 
     /// An answer about putting outputs in place; where they cannot be, it is said that nothing is lost.
@@ -59,7 +65,11 @@ impl LongFiles {
         answer.map_err(|failure| self.kept.with_advice(failure))
     }
 
-    fn fill_all(&self, outputs: &mut RunOutputs, targets: &OutputPaths) -> Answer<()> {
+    fn fill_all(
+        &self,
+        outputs: &mut RunOutputs,
+        (run_inputs, targets): (&RunInputs, &OutputPaths),
+    ) -> Answer<()> {
         if let Some(index) = outputs.program {
             let sha256 = put(&self.program, &mut outputs.files, index)?;
             // A paper states what was written.
@@ -68,7 +78,10 @@ impl LongFiles {
             outputs.made.extend(made);
         }
         if let Some(index) = outputs.points {
-            put(&self.points, &mut outputs.files, index)?;
+            match outputs.points_as_parquet {
+                true => put_as_parquet(&self.points, run_inputs, (&mut outputs.files, index))?,
+                false => drop(put(&self.points, &mut outputs.files, index)?),
+            }
         }
         Ok(())
     }
@@ -87,9 +100,9 @@ impl LongFiles {
 
 /// Puts a file that was kept into a claimed output; its hash.
 fn put(from: &Partial, outputs: &mut Outputs, index: usize) -> Answer<String> {
-    let mut reader = from.reader()?;
+    let mut reader = from.watched()?;
     let mut block = vec![0; 1 << 16];
-    let (mut hash, mut found) = (Sha256::new(), Contents::default());
+    let mut hash = Sha256::new();
     loop {
         let count = reader
             .read(&mut block)
@@ -98,15 +111,24 @@ fn put(from: &Partial, outputs: &mut Outputs, index: usize) -> Answer<String> {
             break;
         }
         hash.update(&block[..count]);
-        found.append(&block[..count]);
         outputs.append(index, &block[..count])?;
     }
-    // Something else may have written there.
-    if found != from.contents() {
-        return Err(Failure::input(
-            "what was kept of the run was changed by something else: give --restart to begin anew",
-        ));
-    }
+    reader.refuse_if_changed()?;
     outputs.complete(index)?;
     Ok(hex(&hash.finalize()))
+}
+
+/// Puts the rows of points that were kept into a claimed output, as Parquet: its groups of rows do not grow with the program.
+fn put_as_parquet(
+    from: &Partial,
+    run_inputs: &RunInputs,
+    (outputs, index): (&mut Outputs, usize),
+) -> Answer<()> {
+    let mut reader = from.watched()?;
+    points_parquet::from_csv(run_inputs, &mut reader, |bytes| {
+        still_wanted()?;
+        outputs.append(index, bytes)
+    })?;
+    reader.refuse_if_changed()?;
+    outputs.complete(index)
 }

@@ -12,7 +12,6 @@ use crate::job::machine::MachineSetup;
 use crate::job::output_paths::OutputPaths;
 use crate::job::setting::Setting;
 use crate::job::turn_arguments::FreeTurnWord;
-use crate::program::points_parquet;
 use crate::ui::{layout, screen};
 
 /// Programs of more bytes are long: a whole one takes some hundred megabytes of memory beyond that.
@@ -121,13 +120,6 @@ pub(crate) fn only_as_a_whole(
         (
             setting.free_turn != FreeTurnWord::AsStated,
             "the turn of the tool is chosen (--free-turn)",
-        ),
-        (
-            targets
-                .points
-                .as_deref()
-                .is_some_and(points_parquet::is_named),
-            "its points are written as Parquet (as CSV they are not a reason)",
         ),
         (
             targets.vtk.is_some(),

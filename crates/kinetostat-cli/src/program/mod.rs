@@ -11,6 +11,8 @@ mod joint_columns;
 pub(crate) mod outputs;
 pub(crate) mod paper;
 pub(crate) mod path_vtk;
+#[cfg(feature = "parquet")]
+mod points_columns;
 pub(crate) mod points_parquet;
 pub(crate) mod points_table;
 pub(crate) mod report;

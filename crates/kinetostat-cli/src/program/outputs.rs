@@ -33,7 +33,7 @@ pub(crate) struct RunOutputs {
     pub(crate) json: Option<usize>,
     pub(crate) points: Option<usize>,
     /// The table of points is a Parquet file.
-    points_as_parquet: bool,
+    pub(crate) points_as_parquet: bool,
     pub(crate) vtk: Option<usize>,
     pub(crate) flat: Option<usize>,
     pub(crate) turn_plot: Option<usize>,
@@ -72,6 +72,7 @@ impl RunOutputs {
         if targets.pdf.is_some() {
             paper::refuse_without_pdf()?;
         }
+        points_parquet::refuse_without_parquet(targets.points.as_deref())?;
         Ok(Self {
             program,
             report: claim("report", &targets.report)?,
@@ -101,10 +102,10 @@ impl RunOutputs {
         })
     }
 
-    /// How points are listed.
+    /// How points are listed: in a Parquet file every one.
     pub(crate) fn list(&mut self, all: bool, model: &Model) {
         self.listing = Listing {
-            all,
+            all: all || self.points_as_parquet,
             controller: model.controller.clone(),
         };
     }
@@ -113,7 +114,6 @@ impl RunOutputs {
     pub(crate) fn note(&self, run: &Run) -> String {
         let of_points = self
             .points
-            .filter(|_| !self.points_as_parquet)
             .and_then(|_| points_table::note(&run.result.run_inputs, &run.points, &self.listing));
         let of_columns = (!self.widened.is_empty()).then(|| {
             format!(

@@ -77,6 +77,7 @@ pub(crate) fn run(args: &VerifyArgs) -> Answer<()> {
     if pdf_out.is_some() {
         paper::refuse_without_pdf()?;
     }
+    points_parquet::refuse_without_parquet(args.original.points.as_deref())?;
     let points_out = claim("table of points", &args.original.points)?;
     let vtk_out = claim(PATH_VTK, &args.original.vtk)?;
 

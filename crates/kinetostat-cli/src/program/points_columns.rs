@@ -1,28 +1,8 @@
-//! The table of points as a Parquet file: the columns and digits of the CSV, every point, units and meanings in the metadata.
+//! What columns of the table of points are: their units and meanings, by their names.
 
-#[cfg(feature = "parquet")]
-use std::io::Write;
-use std::path::Path;
-#[cfg(feature = "parquet")]
-use std::sync::{Arc, Mutex, PoisonError};
-
-#[cfg(feature = "parquet")]
-use kinetostat_formats::fields::{Cell, RowColumn, RowsWriter};
-use kinetostat_machining::{PointResult, RunInputs};
-
-use crate::program::points_table::Listing;
-#[cfg(feature = "parquet")]
-use crate::program::points_table::{header, rows};
-use crate::ui::failure::{Answer, Failure};
-
-/// A table of points is a Parquet file where its name ends so.
-pub(crate) fn is_named(path: &Path) -> bool {
-    path.extension()
-        .is_some_and(|ending| ending.eq_ignore_ascii_case("parquet"))
-}
+use kinetostat_formats::fields::RowColumn;
 
 /// Columns that hold words.
-#[cfg(feature = "parquet")]
 const WORDS: [&str; 8] = [
     "kind",
     "status",
@@ -35,7 +15,6 @@ const WORDS: [&str; 8] = [
 ];
 
 /// Ends of names with the units that they say, longer ones first.
-#[cfg(feature = "parquet")]
 const UNITS: [(&str, &str); 5] = [
     ("_n_per_mm", "N/mm"),
     ("_n_m", "N m"),
@@ -45,7 +24,6 @@ const UNITS: [(&str, &str); 5] = [
 ];
 
 /// Beginnings (or all) of names with what they are, longer ones first.
-#[cfg(feature = "parquet")]
 const MEANINGS: [(&str, &str); 30] = [
     ("line", "line of the input program, from 1"),
     (
@@ -127,8 +105,8 @@ const MEANINGS: [(&str, &str); 30] = [
     ("source_file", "file that it was expanded from"),
 ];
 
-#[cfg(feature = "parquet")]
-fn column(name: &str) -> RowColumn {
+/// The column of a name.
+pub(crate) fn column(name: &str) -> RowColumn {
     let is_text = WORDS.contains(&name);
     let unit = UNITS.iter().find(|(end, _)| name.ends_with(end));
     // The longest beginning counts: a share of the way to buckling is no share of a block.
@@ -156,83 +134,7 @@ fn column(name: &str) -> RowColumn {
     }
 }
 
-/// Bytes that were written since they were taken last.
-#[cfg(feature = "parquet")]
-#[derive(Clone, Default)]
-struct Shared(Arc<Mutex<Vec<u8>>>);
-
-#[cfg(feature = "parquet")]
-impl Shared {
-    fn take(&self) -> Vec<u8> {
-        let mut bytes = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        std::mem::take(&mut bytes)
-    }
-}
-
-#[cfg(feature = "parquet")]
-impl Write for Shared {
-    fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
-        let mut all = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        all.extend_from_slice(bytes);
-        Ok(bytes.len())
-    }
-    fn flush(&mut self) -> std::io::Result<()> {
-        Ok(())
-    }
-}
-
-/// The file piece by piece.
-#[cfg(feature = "parquet")]
-pub(crate) fn table(
-    run_inputs: &RunInputs,
-    points: &[PointResult],
-    listing: &Listing,
-    mut put: impl FnMut(&[u8]) -> Answer<()>,
-) -> Answer<()> {
-    let header = header(run_inputs, points, listing);
-    let columns: Vec<RowColumn> = header.iter().map(|name| column(name)).collect();
-    let facts = [
-        ("title", format!("points of {}", run_inputs.program)),
-        ("model", run_inputs.model.clone()),
-        ("load", run_inputs.load.clone()),
-        ("kinetostat_version", env!("CARGO_PKG_VERSION").to_owned()),
-    ];
-    let facts = facts.map(|(name, text)| (name.to_owned(), text));
-    let sink = Shared::default();
-    let mut file = RowsWriter::new(sink.clone(), &columns, &facts).map_err(Failure::input)?;
-    rows(run_inputs, listing, &mut points.iter(), |row| {
-        let cells = row
-            .iter()
-            .zip(&columns)
-            .map(|(cell, column)| match column.is_text {
-                true => Cell::Text(cell),
-                // An empty cell is a number that does not exist.
-                false => Cell::Number(cell.parse().unwrap_or(f64::NAN)),
-            });
-        file.push(cells).map_err(Failure::input)?;
-        let bytes = sink.take();
-        match bytes.is_empty() {
-            true => Ok(()),
-            false => put(&bytes),
-        }
-    })?;
-    file.finish().map_err(Failure::input)?;
-    put(&sink.take())
-}
-
-#[cfg(not(feature = "parquet"))]
-pub(crate) fn table(
-    _: &RunInputs,
-    _: &[PointResult],
-    _: &Listing,
-    _: impl FnMut(&[u8]) -> Answer<()>,
-) -> Answer<()> {
-    Err(Failure::input(
-        "this program was built without Parquet: name a table of points that ends in .csv",
-    ))
-}
-
-#[cfg(all(test, feature = "parquet"))]
+#[cfg(test)]
 mod tests {
     use super::*;
 
