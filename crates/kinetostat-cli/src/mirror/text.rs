@@ -1,7 +1,7 @@
 //! The answer in words.
 
 use kinetostat_machining::number::{largest_length, mean_length};
-use kinetostat_mirror::{Outcome, Unseen, WhyLeftOut};
+use kinetostat_mirror::{Outcome, ToldBy, Unseen, WhyLeftOut};
 
 use crate::mirror::answer::{MeasurementResult, MirrorAnswer};
 use crate::ui::layout::{columns, item, wrapped};
@@ -46,9 +46,16 @@ pub(crate) fn answer_text(a: &MirrorAnswer) -> String {
             format!("{} %", number(100.0 * found.factor, 3)),
         ));
         let answers = number(100.0 * (1.0 + found.departure), 3);
-        rows.push(row("answer to the last correction", format!("{answers} %")));
-        let below = found.relaxation_below;
-        rows.extend(below.map(|below| row("relaxation must stay below", number(below, 3))));
+        let spread = number(100.0 * found.spread, 2);
+        rows.push(row(
+            "answer to the last correction, with its spread",
+            format!("{answers} +- {spread} %"),
+        ));
+        rows.extend(
+            found
+                .relaxation_below
+                .map(|below| row("relaxation must stay below, by this", round_down(below))),
+        );
     }
     rows.push(row("relaxation", given(a.relaxation)));
     rows.push(row(
@@ -60,11 +67,19 @@ pub(crate) fn answer_text(a: &MirrorAnswer) -> String {
     out
 }
 
+/// A bound, to a hundredth.
+fn round_down(bound: f64) -> String {
+    format!("{:.2}", (100.0 * bound).floor() / 100.0)
+}
+
 fn outcome(a: &MirrorAnswer) -> &'static str {
     match a.outcome {
         Outcome::GoOn => "the deviation is mirrored; measure the new program",
         Outcome::WithinRepeatability => {
             "stop: what is left is within the repeatability, and the correction stays as it was"
+        }
+        Outcome::NothingToCorrect => {
+            "nothing to correct: the points that were measured lie on the path, and the program stays as it was"
         }
         Outcome::Risen => {
             "THE ERROR HAS RISEN since the trial before: take a smaller --relaxation, or look whether machine, clamping or measurement have changed"
@@ -121,6 +136,12 @@ fn measurement(m: &MeasurementResult) -> String {
     if let Some(found) = &m.registration {
         let what = "did not count in the motion onto the path, being farther from it than six standard deviations";
         out.push_str(&rows_text(&found.rejected_rows, what));
+        out.push_str(
+            told_by(found.told_by)
+                .map(|said| item(said))
+                .as_deref()
+                .unwrap_or_default(),
+        );
     }
     let what = "lie beside a corner and may belong to its other leg: they do not count";
     out.push_str(&rows_text(&m.beside_corners, what));
@@ -160,6 +181,20 @@ fn measurement(m: &MeasurementResult) -> String {
         out.push_str(&feature.text());
     }
     out
+}
+
+/// What is said of points in another frame.
+fn told_by(what: ToldBy) -> Option<&'static str> {
+    let said = match what {
+        ToldBy::Frame => return None,
+        ToldBy::Shape => {
+            "THE POINTS WERE IN ANOTHER FRAME than the program: the shape of what was measured tells where they belong, and nothing else does; look whether the motion can be right"
+        }
+        ToldBy::Order => {
+            "THE POINTS WERE IN ANOTHER FRAME than the program, and fit the path in several places: they were taken to run along the whole of it in their order; look whether the motion can be right"
+        }
+    };
+    Some(said)
 }
 
 /// What is said of rows that do not count in something, with the first of them.
