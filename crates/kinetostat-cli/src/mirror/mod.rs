@@ -8,6 +8,7 @@ pub(crate) mod arguments;
 mod asked;
 mod features;
 mod measured;
+mod measurement_text;
 mod plot;
 mod text;
 mod written;
