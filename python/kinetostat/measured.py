@@ -84,8 +84,8 @@ class MirroredProgram:
 
     trial: int
     """Number of this trial, from 1."""
-    outcome: Literal["go_on", "within_repeatability", "risen"]
-    """Go on with the correction; leave it, because what is left is within the repeatability; or the error has risen."""
+    outcome: Literal["go_on", "within_repeatability", "nothing_to_correct", "risen"]
+    """Go on with the correction; leave it, because what is left is within the repeatability or nothing; or the error has risen."""
     left: float
     """Smoothed deviation of the mean of all measurements, root mean square."""
     floor: float | None

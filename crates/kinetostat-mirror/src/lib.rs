@@ -53,7 +53,7 @@ pub use deviation::{
 pub use error::MirrorError;
 pub use kinetostat_program::{Foot, NominalPath, Pass, WhyLeftOut};
 pub use points::{MeasuredPoint, MeasuredPoints};
-pub use registration::{FreeMotion, Motion, Registration, RegistrationOptions, register};
+pub use registration::{FreeMotion, Motion, Registration, RegistrationOptions, ToldBy, register};
 pub use trial::{
     Averaging, Convergence, MeasuredFile, MirrorField, MirrorState, Outcome, Repeatability,
     SumOfFields, Trial, bound_on_relaxation, expected_factor, floor_mm,

@@ -2,7 +2,7 @@
 
 use kinetostat_mirror::{
     Convergence, DeviationFigures, LeftOut, Measurement, MirrorState, Outcome, Outlier,
-    Registration, Unseen,
+    Registration, ToldBy, Unseen,
 };
 use kinetostat_program::Accounting;
 use serde::Serialize;
@@ -50,6 +50,8 @@ pub(crate) struct RegistrationResult {
     pub(crate) rotation_vector_deg: [f64; 3],
     pub(crate) shift_mm: [f64; 3],
     pub(crate) scale: f64,
+    /// What told the motion from others.
+    pub(crate) told_by: ToldBy,
     /// Motions that the points do not determine, in words.
     pub(crate) free: Vec<String>,
     pub(crate) scatter_mm: f64,
@@ -63,6 +65,7 @@ impl From<&Registration> for RegistrationResult {
             rotation_vector_deg: turn.map(f64::to_degrees).into(),
             shift_mm: found.motion.shift_mm.into(),
             scale: found.motion.scale,
+            told_by: found.told_by,
             free: found.free.iter().map(ToString::to_string).collect(),
             scatter_mm: found.deviation_mm,
             rejected_rows: found.rejected_rows.clone(),

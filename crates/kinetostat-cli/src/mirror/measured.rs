@@ -13,11 +13,13 @@ use crate::mirror::arguments::MirrorArgs;
 use crate::mirror::asked::asked;
 use crate::ui::failure::{Answer, Failure};
 
-/// All measurements of this trial, compared with the path.
+/// All measurements of this trial, compared with the path. The program that was measured follows its correction within a tolerance,
+/// and kinks by twice that.
 pub(crate) fn measurements(
     files: &InputFiles,
     (job, args): (Option<&JobFile>, &MirrorArgs),
     (nominal, settings): (&NominalPath<'_>, &MeasureSettings),
+    tolerance_mm: f64,
 ) -> Answer<Vec<(MeasuredFile, Measurement)>> {
     let one = |path: &PathBuf| {
         let name = path.display().to_string();
@@ -40,6 +42,9 @@ pub(crate) fn measurements(
                 .map_or_else(String::new, |n| n.to_string_lossy().into_owned()),
             sha256: points.sha256(),
         };
+        let points = points
+            .known_to(1e-3 * args.repeatability_um.unwrap_or(0.0))
+            .known_to(tolerance_mm);
         let found = measure(nominal, &points, settings);
         Ok((file, found.map_err(|e| Failure::from(e).within(&name))?))
     };

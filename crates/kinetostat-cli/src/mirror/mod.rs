@@ -8,6 +8,7 @@ pub(crate) mod arguments;
 mod asked;
 mod features;
 mod measured;
+mod measurement_text;
 mod plot;
 mod text;
 mod written;
@@ -64,7 +65,13 @@ pub(crate) fn run(args: &MirrorArgs) -> Answer<()> {
     state.fits(&nominal, &hash, &settings).map_err(of_state)?;
     let claimed = Claimed::of(args, &setting)?;
 
-    let measured = measurements(&files, (job.as_ref(), args), (&nominal, &settings))?;
+    let tolerance_mm = setting.writing.tolerance_mm;
+    let measured = measurements(
+        &files,
+        (job.as_ref(), args),
+        (&nominal, &settings),
+        tolerance_mm,
+    )?;
     let relaxation = args.relaxation.unwrap_or(1.0);
     let known = repeatability(args, &measured)?;
     let outcome = state

@@ -54,6 +54,7 @@ mod map;
 mod measured;
 mod mirror;
 mod mirror_corners;
+mod mirror_partial;
 mod mirror_refused;
 mod named_at_once;
 mod other_language;

@@ -8,13 +8,13 @@ use std::path::Path;
 use kinetostat_testing::Worst;
 use serde_json::Value;
 
-use crate::common::{run, workplace};
+use crate::common::{Said, run, workplace};
 
 /// A circle of 30 mm, with straight ways in and out along its tangent.
 const CIRCLE: &str =
     "G21 G90\nG0 X30 Y-40 Z5\nG0 Z0\nG1 Y0 F600\nG3 X30 Y0 I-30\nG1 Y40\nG0 Z5\nM2\n";
 
-fn job(program: &str, model: &str) -> String {
+pub(crate) fn job(program: &str, model: &str) -> String {
     format!(
         "schema = 1\nmodel = \"{model}\"\nprogram = \"{program}\"\n[placement]\npart_origin_mm = [0, 0, 100]\n[tool]\nlength_mm = 100\n[load]\nmilling = {{ radial_n = 215, tangential_n = -10, axial_n = -25 }}\n"
     )
@@ -110,31 +110,60 @@ fn simulated(here: &Path, program: &str) -> (String, Worst) {
     (rows, worst)
 }
 
+/// A part and the machine that is to cut it.
+pub(crate) struct Part<'a> {
+    /// Name of its program, and the program itself.
+    pub program: (&'a str, &'a str),
+    /// Name of the model's preset, and the same machine as it is: softer.
+    pub preset: &'a str,
+    pub softened: fn(&str) -> String,
+    /// The job with a model.
+    pub job: &'a dyn Fn(&str) -> String,
+    /// Further options of `mirror`.
+    pub more: &'a [&'a str],
+}
+
+/// A program for the orthoglide.
+pub(crate) fn of_orthoglide<'a>(
+    program: (&'a str, &'a str),
+    job: &'a dyn Fn(&str) -> String,
+) -> Part<'a> {
+    Part {
+        program,
+        preset: "orthoglide",
+        softened: soft,
+        job,
+        more: &[],
+    }
+}
+
 /// Three trials of a part on a machine of 70 % of its model's stiffness, the model first and the rest by measurement: the worst error
-/// of each, um, as `measured` finds it with the rows of a measurement.
+/// of each, um, as `measured` finds it with the rows of a measurement. `look` sees the folder and what is said of each trial.
 pub(crate) fn three_trials(
-    (name, program): (&str, &str),
+    part: &Part<'_>,
     measured: impl Fn(&Path, &str) -> (String, Worst),
+    mut look: impl FnMut((&Path, &str), &Said, &Value),
 ) -> [Worst; 3] {
     let here = workplace();
     let put = |name: &str, text: &str| std::fs::write(here.path().join(name), text).unwrap();
-    let preset = run(here.path(), &["model", "show", "orthoglide"])
+    let preset = run(here.path(), &["model", "show", part.preset])
         .answered()
         .out;
+    let (name, program) = part.program;
     put(name, program);
-    put("soft.toml", &soft(&preset));
-    put("model_job.toml", &job(name, "orthoglide"));
-    put("soft_job.toml", &job(name, "soft.toml"));
+    put("soft.toml", &(part.softened)(&preset));
+    put("model_job.toml", &(part.job)(part.preset));
+    put("soft_job.toml", &(part.job)("soft.toml"));
+    let ending = name.rsplit('.').next().unwrap();
+    let trial_of = |number: u64| format!("trial{number}.{ending}");
     let fine = ["--decimals", "5", "--tolerance-um", "0.3"];
-    let mut words = vec!["compensate", "model_job.toml", "--out", "trial1.ngc"];
+    let first = trial_of(1);
+    let mut words = vec!["compensate", "model_job.toml", "--out", &first];
     words.extend(fine);
     run(here.path(), &words).answered();
     [1_u64, 2, 3].map(|trial| {
-        let (rows, worst) = measured(here.path(), &format!("trial{trial}.ngc"));
-        let [file, next] = [
-            format!("trial{trial}.csv"),
-            format!("trial{}.ngc", trial + 1),
-        ];
+        let (rows, worst) = measured(here.path(), &trial_of(trial));
+        let [file, next] = [format!("trial{trial}.csv"), trial_of(trial + 1)];
         put(&file, &rows);
         let mut words = vec![
             "mirror",
@@ -153,19 +182,23 @@ pub(crate) fn three_trials(
             "--json",
         ];
         words.extend(fine);
+        words.extend(part.more);
         let said = run(here.path(), &words).answered();
         let found: Value = serde_json::from_str(&said.out).unwrap();
         assert_eq!(
             (found["trial"].as_u64(), found["model"].as_str()),
-            (Some(trial), Some("orthoglide"))
+            (Some(trial), Some(part.preset))
         );
+        look((here.path(), &next), &said, &found);
         worst
     })
 }
 
 #[test]
 fn a_model_thirty_percent_off_and_the_mirror_end_below_two_micrometres() {
-    let errors_um = three_trials(("circle.ngc", CIRCLE), simulated).map(|worst| worst.value());
+    let job = |model: &str| job("circle.ngc", model);
+    let part = of_orthoglide(("circle.ngc", CIRCLE), &job);
+    let errors_um = three_trials(&part, simulated, |_, _, _| ()).map(|worst| worst.value());
     // The model alone leaves a third of what it should correct.
     assert!(errors_um[0] > 200.0, "{errors_um:?}");
     assert!(errors_um[1] < 10.0 && errors_um[2] < 2.0, "{errors_um:?}");
@@ -383,55 +416,20 @@ fn soft_arm(preset: &str) -> String {
 /// A robot's own program and an arm of 70 % of its model's stiffness: model and mirror end below 2 um in three trials.
 #[test]
 fn a_robots_program_with_a_model_thirty_percent_off_ends_below_two_micrometres() {
-    let here = workplace();
-    let put = |name: &str, text: &str| std::fs::write(here.path().join(name), text).unwrap();
-    let preset = run(here.path(), &["model", "show", "heavy_6r"])
-        .answered()
-        .out;
-    put("circle.mod", RAPID);
-    put("soft.toml", &soft_arm(&preset));
     let job = |model: &str| {
         format!(
             "schema = 1\nmodel = \"{model}\"\nprogram = \"circle.mod\"\n[load]\nmilling = {{ radial_n = 215, tangential_n = -10, axial_n = -25 }}\n[robot]\nrapid_from_mm_per_s = 100\n[[features]]\nname = \"ring\"\nlines = [8, 9]\ntolerance_um = 5\n[[features]]\nname = \"way back\"\nlines = [11, 11]\n"
         )
     };
-    put("model_job.toml", &job("heavy_6r"));
-    put("soft_job.toml", &job("soft.toml"));
-    let fine = ["--decimals", "5", "--tolerance-um", "0.3"];
-    let mut words = vec!["compensate", "model_job.toml", "--out", "trial1.mod"];
-    words.extend(fine);
-    run(here.path(), &words).answered();
-    let mut errors_um = Vec::new();
+    let part = Part {
+        program: ("circle.mod", RAPID),
+        preset: "heavy_6r",
+        softened: soft_arm,
+        job: &job,
+        more: &["--window-mm", "3"],
+    };
     let mut held = Vec::new();
-    for trial in 1..=3 {
-        let (rows, worst) = simulated(here.path(), &format!("trial{trial}.mod"));
-        errors_um.push(worst.value());
-        let [measured, next] = [
-            format!("trial{trial}.csv"),
-            format!("trial{}.mod", trial + 1),
-        ];
-        put(&measured, &rows);
-        let mut words = vec![
-            "mirror",
-            "circle.mod",
-            "--measured",
-            &measured,
-            "--job",
-            "model_job.toml",
-            "--state",
-            "state.toml",
-            "--no-register",
-            "--window-mm",
-            "3",
-            "--align",
-            "arc-length",
-            "--out",
-            &next,
-            "--json",
-        ];
-        words.extend(fine);
-        let said = run(here.path(), &words).answered();
-        let found: Value = serde_json::from_str(&said.out).unwrap();
+    let look = |(here, next): (&Path, &str), said: &Said, found: &Value| {
         let features = &found["measurements"][0]["features"];
         held.push(features[0]["held"].as_bool().unwrap());
         // A rapid cuts nothing.
@@ -440,9 +438,10 @@ fn a_robots_program_with_a_model_thirty_percent_off_ends_below_two_micrometres()
             said.err
                 .contains("way back (lines 11 to 11): no feed move lies there")
         );
-        let written = std::fs::read_to_string(here.path().join(&next)).unwrap();
+        let written = std::fs::read_to_string(here.join(next)).unwrap();
         assert!(written.contains("MODULE Ring") && written.contains("PERS tooldata tMill"));
-    }
+    };
+    let errors_um = three_trials(&part, simulated, look).map(|worst| worst.value());
     eprintln!("um off the circle, trial by trial: {errors_um:?}");
     assert!(errors_um[0] > 50.0, "{errors_um:?}");
     assert!(errors_um[2] < 2.0, "{errors_um:?}");

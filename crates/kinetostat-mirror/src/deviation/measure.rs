@@ -4,6 +4,7 @@ use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 use crate::alignment::{AlignedPoint, Alignment, LeftOut, align};
+use crate::deviation::along_path::smoothed_along;
 use crate::deviation::kernel::{Kernel, Smoothed};
 use crate::deviation::outliers::{Outlier, take_outliers};
 use crate::deviation::stations::Stations;
@@ -12,7 +13,10 @@ use crate::error::MirrorError;
 use crate::number::{OF_TWO_DIRECTIONS, larger, median};
 use crate::points::{MeasuredPoint, MeasuredPoints};
 use crate::registration::{Motion, Registration, RegistrationOptions, register};
-use kinetostat_program::NominalPath;
+use kinetostat_program::{NominalPath, WhyLeftOut};
+
+/// More points than this share beyond the window, and a motion onto the path is none.
+const MOST_BEYOND: f64 = 0.1;
 
 /// How points become deviations; the same for all trials of a program.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -33,7 +37,7 @@ impl Default for MeasureSettings {
     fn default() -> Self {
         Self {
             smoothing_mm: 5.0,
-            window_mm: 1.0,
+            window_mm: RegistrationOptions::default().window_mm,
             align: Alignment::Nearest,
             register: true,
             scale: false,
@@ -119,6 +123,7 @@ pub fn measure(
     }
     let options = RegistrationOptions {
         with_scale: settings.scale,
+        window_mm: settings.window_mm,
     };
     let registration = match settings.register {
         true => Some(register(nominal, measured, options)?),
@@ -133,29 +138,19 @@ pub fn measure(
         .map(|point| (*point, motion.of(&point.position_mm)))
         .collect();
     let (mut points, left_out) = align(nominal, &moved, settings.align, settings.window_mm);
-    let taken = take_outliers(nominal, &mut points);
+    let taken = take_outliers(nominal, &mut points, measured.known_to_mm());
     if points.is_empty() {
         return Err(MirrorError::new(nothing_left(
             measured, &left_out, settings,
         )));
     }
+    if let Some(found) = &registration {
+        is_of_this_path(found, &left_out, (measured.points().len(), settings))?;
+    }
     let kernel = Kernel {
         length_mm: settings.smoothing_mm,
     };
-    let (mut at_points, mut at_stations) = (Vec::new(), Vec::new());
-    for stretch in stations.stretches() {
-        let first = points.partition_point(|point| point.piece < stretch.pieces.start);
-        let end = points.partition_point(|point| point.piece < stretch.pieces.end);
-        let own = &points[first..end];
-        let places: Vec<f64> = own.iter().map(|point| point.along_mm).collect();
-        let along = &stations.along_mm()[stretch.stations.clone()];
-        let smoothed = |places: &[f64]| match stretch.closed {
-            true => kernel.smoothed_around(own, places, [along[0], along[along.len() - 1]]),
-            false => kernel.smoothed(own, places),
-        };
-        at_points.extend(smoothed(&places));
-        at_stations.extend(smoothed(along));
-    }
+    let [at_points, at_stations] = smoothed_along(&stations, kernel, &points);
     let figures = figures(&points, &at_points, (&stations, &at_stations));
     Ok(Measurement {
         unseen: unseen(nominal, &points, settings.smoothing_mm),
@@ -168,6 +163,28 @@ pub fn measure(
         at_stations,
         figures,
     })
+}
+
+/// A motion onto the path that leaves more than a tenth of the points beyond the window brought together what does not belong
+/// together: the rest lies on the path by chance.
+fn is_of_this_path(
+    found: &Registration,
+    left_out: &[LeftOut],
+    (count, settings): (usize, &MeasureSettings),
+) -> Result<(), MirrorError> {
+    let beyond = left_out
+        .iter()
+        .filter(|point| point.why == WhyLeftOut::BeyondWindow);
+    let beyond = beyond.count();
+    if beyond as f64 <= MOST_BEYOND * count as f64 {
+        return Ok(());
+    }
+    Err(MirrorError::new(format!(
+        "{beyond} of its {count} points have no place on the path: they are beyond the window of {} mm after the motion that brings them nearest to it (turned by {:.3} deg, moved by {:.3} mm). Where more than a tenth are, that motion is not to be trusted; nothing was mirrored. Check units and frame, leave out points that are not of this path, widen the window, or give the points in the frame of the program and do not register them",
+        settings.window_mm,
+        found.motion.rotation.angle().to_degrees(),
+        found.motion.shift_mm.norm()
+    )))
 }
 
 fn nothing_left(

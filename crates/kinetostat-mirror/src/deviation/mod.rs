@@ -1,5 +1,6 @@
 //! Deviations along the path: outliers, smoothing, and what the points cannot tell.
 
+mod along_path;
 mod kernel;
 mod measure;
 mod on_lines;
@@ -7,6 +8,7 @@ mod outliers;
 mod stations;
 mod unseen;
 
+pub(crate) use along_path::smoothed_along;
 pub use kernel::{Kernel, Smoothed};
 pub use measure::{DeviationFigures, MeasureSettings, Measurement, measure};
 pub use on_lines::{OnLines, on_lines};

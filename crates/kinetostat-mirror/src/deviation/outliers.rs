@@ -5,8 +5,9 @@
 //! ten neighbours may be wrong themselves. It is an outlier if it is farther from the line than six standard deviations, more
 //! at the end of a straight stretch, where the line is drawn on from one side. The
 //! standard deviation comes from the median of these distances (Rayleigh: the median length of a vector of two
-//! directions is 1.177 of one direction's deviation): of all points, or of the sixteen around where these are farther
-//! off (the deviation bends there), and no smaller than a thousandth of the deviation that 99 of 100 points keep below. Of a
+//! directions is 1.177 of one direction's deviation) of all points, or from what three quarters of the sixteen around keep below
+//! where these are farther off (the deviation bends there, of which a few points in a row are enough), and no smaller than a thousandth of the deviation that 99 of 100 points keep below, than what the
+//! points are known to ([`MeasuredPoints::known_to`](crate::MeasuredPoints::known_to)), or than the rounding of the registration. Of a
 //! normal scatter one point in sixty million is farther. Beside a corner a point may have its place on the wrong side of it and
 //! so be off by the sine of the corner times twice the deviation there: one that is off by no more than that, within twice the
 //! deviation, is no outlier, but it does not count: at the end of a leg one such point among thirty would take a thirtieth of
@@ -16,13 +17,17 @@ use nalgebra::Vector3;
 use serde::Serialize;
 
 use crate::alignment::AlignedPoint;
-use crate::number::{OF_TWO_DIRECTIONS, larger, median};
+use crate::number::{OF_THREE_QUARTERS, OF_TWO_DIRECTIONS, larger, median, quantile};
 use kinetostat_program::NominalPath;
 
 const SIDE: usize = 5;
 const AROUND: usize = 8;
 const DEVIATIONS: f64 = 6.0;
+/// Of the points around this share tells how far one may be.
+const BORNE_OUT: f64 = 0.75;
 const NEGLIGIBLE: f64 = 1e-3;
+/// As a share of the length of the path: what is left of points that lie on it, moved from another frame.
+const ROUNDING: f64 = 1e-9;
 /// Cosine of 20 degrees.
 const SAME_DIRECTION: f64 = 0.939_692_620_785_908_4;
 /// With fewer neighbours nothing is an outlier.
@@ -54,15 +59,23 @@ pub(crate) struct TakenOut {
 }
 
 /// Takes out of points, in the order along the path, those that do not count.
-pub(crate) fn take_outliers(nominal: &NominalPath<'_>, points: &mut Vec<AlignedPoint>) -> TakenOut {
+///
+/// Their differences say nothing below the standard deviation to which they are known, mm.
+pub(crate) fn take_outliers(
+    nominal: &NominalPath<'_>,
+    points: &mut Vec<AlignedPoint>,
+    known_to_mm: f64,
+) -> TakenOut {
     let lines: Vec<Option<Line>> = (0..points.len()).map(|i| from_line(points, i)).collect();
     let apart = |line: &Line| line.apart_mm;
     let known: Vec<f64> = lines.iter().flatten().map(apart).collect();
     if known.is_empty() {
         return TakenOut::default();
     }
-    let floor = NEGLIGIBLE * usual_size(points);
-    let of_all = larger(OF_TWO_DIRECTIONS * median(known), floor / DEVIATIONS);
+    let negligible = NEGLIGIBLE * usual_size(points) / DEVIATIONS;
+    let known_to_mm = larger(known_to_mm, ROUNDING * nominal.length_mm());
+    let floor = larger(negligible, known_to_mm);
+    let of_all = larger(OF_TWO_DIRECTIONS * median(known), floor);
     let mut taken = TakenOut::default();
     let mut kept = Vec::with_capacity(points.len());
     for (i, point) in points.iter().enumerate() {
@@ -71,7 +84,8 @@ pub(crate) fn take_outliers(nominal: &NominalPath<'_>, points: &mut Vec<AlignedP
             continue;
         };
         let around = lines[i.saturating_sub(AROUND)..(i + AROUND + 1).min(lines.len())].iter();
-        let around = OF_TWO_DIRECTIONS * median(around.flatten().map(apart).collect());
+        let around = quantile(around.flatten().map(apart).collect(), BORNE_OUT);
+        let around = OF_THREE_QUARTERS * around;
         let beside = 2.0 * line.size_mm;
         let scatter_mm =
             DEVIATIONS * line.spread * larger(of_all, around) + 0.5 * line.size_mm * line.turn;

@@ -6,6 +6,9 @@ use crate::error::MirrorError;
 use crate::points::columns::{Columns, shown};
 use crate::points::set::{MeasuredPoint, MeasuredPoints, possible};
 
+/// Nobody writes measured points with fewer digits, mm: where a file has no finer ones, it leaves out zeros.
+const COARSEST_DIGIT_MM: f64 = 0.01;
+
 impl MeasuredPoints {
     /// Points from CSV with commas or semicolons: columns of x, y and z with their units (`x_mm`, `y_m`, `z_um`), and
     /// `weight` or a standard deviation (`sigma_mm`), and `line` (the line of the program on which the tool was) where the
@@ -32,6 +35,7 @@ impl MeasuredPoints {
             !line.is_empty() && !line.starts_with('#')
         });
         let mut separator = b',';
+        let mut digit_mm = f64::INFINITY;
         for (line, number) in rows {
             let at = |error: MirrorError| error.at(name_of_file, number);
             last = number;
@@ -53,8 +57,17 @@ impl MeasuredPoints {
             let point = point(found, &record, place).map_err(at)?;
             possible(&point).map_err(at)?;
             points.push(point);
+            for (index, unit_mm) in &found.axes {
+                let digit = last_digit(record.get(*index).unwrap_or_default().trim());
+                digit_mm = digit_mm.min(unit_mm * digit);
+            }
         }
-        Self::new(points).map_err(|error| error.at(name_of_file, last))
+        let points = Self::new(points).map_err(|error| error.at(name_of_file, last))?;
+        // A number that was rounded is off by anything up to half a digit: the deviation of an even spread.
+        Ok(match digit_mm <= COARSEST_DIGIT_MM {
+            true => points.known_to(digit_mm / 12.0_f64.sqrt()),
+            false => points,
+        })
     }
 }
 
@@ -70,6 +83,14 @@ fn cells(line: &str, separator: u8) -> Result<csv::StringRecord, MirrorError> {
         Ok(_) => Ok(record),
         Err(error) => Err(MirrorError::new(error.to_string())),
     }
+}
+
+/// What the last digit of a number counts: 0.01 of `1.25`.
+fn last_digit(cell: &str) -> f64 {
+    let (digits, exponent) = cell.split_once(['e', 'E']).unwrap_or((cell, "0"));
+    let after_point = digits.split_once('.').map_or(0, |(_, after)| after.len());
+    let exponent: f64 = exponent.parse().unwrap_or(0.0);
+    10.0_f64.powf(exponent - after_point as f64)
 }
 
 /// The weight of a standard deviation, whose unit has so many mm. Its square would take any sign.

@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 
-use crate::number::{OF_TWO_DIRECTIONS, median};
+use crate::number::{OF_NINE_IN_TEN, larger, median, quantile};
 use crate::points::MeasuredPoint;
 use crate::registration::motion::Motion;
 use kinetostat_program::{Foot, NominalPath};
@@ -12,6 +12,30 @@ pub(crate) const FARTHEST_DEVIATIONS: f64 = 6.0;
 
 /// A share of the size of the points below which no distance is an outlier's: the rounding of the search.
 const ROUNDING: f64 = 1e-9;
+
+/// The scatter is told by the distance that this share of the points keep below.
+const TOLD_BY: f64 = 0.9;
+
+/// Fits compete by this share of the points, the closest: a place that one point in three is far from is no fit, however well the
+/// others lie on it (trimmed squares: Rousseeuw 1984; of closest points: Chetverikov and others 2002).
+const COMPETING: f64 = 0.9;
+
+/// Neighbours to each side that may bear a point out, and as which share of its distance they may differ from it.
+const SIDE: usize = 4;
+const BORNE_OUT: f64 = 0.5;
+
+/// Which points count nothing.
+///
+/// Deviations are smooth: where most points lie on a line, a turn about it costs nothing, and a fit that lets go of points for being
+/// farther off than most lets go of the few that tell the turn. So within the window a point counts, unless it is an outlier
+/// that no neighbour bears out; and these are only looked for when all others have come to rest.
+#[derive(Clone, Copy)]
+pub(crate) struct Counting {
+    /// How far the tool may be from its path, mm.
+    pub window_mm: f64,
+    /// Without points that are farther off than six standard deviations and than their neighbours.
+    pub without_outliers: bool,
+}
 
 /// A point as it is moved, and its foot.
 #[derive(Clone, Copy)]
@@ -27,8 +51,8 @@ pub(crate) struct Closest {
     pub all: Vec<Followed>,
     /// Standard deviation of the distance in one direction, mm.
     pub deviation_mm: f64,
-    /// Median distance, mm.
-    pub median_mm: f64,
+    /// Root mean square of the distances of nine in ten points, the closest, mm.
+    pub left_mm: f64,
     /// The weighted middle of what counts, mm, and the mean distance from it.
     pub middle: Vector3<f64>,
     pub size_mm: f64,
@@ -40,6 +64,7 @@ impl Closest {
         nominal: &NominalPath<'_>,
         points: &[MeasuredPoint],
         motion: &Motion,
+        counting: Counting,
     ) -> Option<Self> {
         let follow = |point: &MeasuredPoint| {
             let moved = motion.of(&point.position_mm);
@@ -51,10 +76,17 @@ impl Closest {
             })
         };
         let mut all: Vec<Followed> = points.iter().map(follow).collect::<Option<_>>()?;
-        let median_mm = median(all.iter().map(|point| point.foot.distance_mm).collect());
-        let deviation_mm = OF_TWO_DIRECTIONS * median_mm;
+        let distances: Vec<f64> = all.iter().map(|point| point.foot.distance_mm).collect();
+        let left_mm = closest_rms(distances.clone());
+        let deviation_mm = OF_NINE_IN_TEN * quantile(distances, TOLD_BY);
         let spread = middle_and_size(&all);
-        let farthest = (FARTHEST_DEVIATIONS * deviation_mm).max(ROUNDING * spread.1);
+        let scatter = larger(FARTHEST_DEVIATIONS * deviation_mm, ROUNDING * spread.1);
+        let farthest = larger(scatter, counting.window_mm);
+        if counting.without_outliers {
+            for index in outliers(&all, scatter) {
+                all[index].weight = 0.0;
+            }
+        }
         for point in &mut all {
             if point.foot.distance_mm > farthest {
                 point.weight = 0.0;
@@ -64,11 +96,44 @@ impl Closest {
         Some(Self {
             all,
             deviation_mm,
-            median_mm,
+            left_mm,
             middle,
             size_mm,
         })
     }
+}
+
+/// Points that are farther from the path than so, and that their neighbours along it do not bear out: neither those before them nor
+/// those after.
+fn outliers(all: &[Followed], farther_mm: f64) -> Vec<usize> {
+    let mut order: Vec<usize> = (0..all.len()).collect();
+    order.sort_by(|a, b| all[*a].foot.along_mm.total_cmp(&all[*b].foot.along_mm));
+    let off = |index: &usize| all[*index].moved - all[*index].foot.place_mm;
+    let is_outlier = |k: &usize| {
+        let own = off(&order[*k]);
+        let agree = |side: &[usize]| {
+            let middle = Vector3::from_fn(|axis, _| {
+                median(side.iter().map(|index| off(index)[axis]).collect())
+            });
+            side.len() >= 2 && (own - middle).norm() <= BORNE_OUT * own.norm()
+        };
+        let before = &order[k.saturating_sub(SIDE)..*k];
+        let after = &order[k + 1..(k + 1 + SIDE).min(order.len())];
+        own.norm() > farther_mm && !agree(before) && !agree(after)
+    };
+    let places = (0..order.len()).filter(is_outlier);
+    places.map(|k| order[k]).collect()
+}
+
+/// Root mean square of the smallest that compete.
+fn closest_rms(mut distances: Vec<f64>) -> f64 {
+    let count = (distances.len() as f64 * COMPETING).ceil().max(1.0) as usize;
+    distances.sort_unstable_by(f64::total_cmp);
+    let squares = distances
+        .iter()
+        .take(count)
+        .map(|distance| distance * distance);
+    (squares.sum::<f64>() / count as f64).sqrt()
 }
 
 fn middle_and_size(all: &[Followed]) -> (Vector3<f64>, f64) {

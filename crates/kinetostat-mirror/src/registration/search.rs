@@ -2,7 +2,9 @@
 
 use crate::error::MirrorError;
 use crate::points::{MeasuredPoint, MeasuredPoints};
-use crate::registration::closest::Closest;
+use crate::registration::candidates::{Candidate, ToldBy, chosen};
+use crate::registration::closest::{Closest, Counting};
+use crate::registration::everywhere::everywhere;
 use crate::registration::horn::{Pair, closest_motion};
 use crate::registration::motion::{FreeMotion, Motion};
 use crate::registration::starts::starts;
@@ -10,20 +12,20 @@ use crate::registration::step::step;
 use kinetostat_program::NominalPath;
 use nalgebra::Vector3;
 
-/// Points by which a start is judged; all of them take part in the end.
+/// Points by which motions are judged; all of them take part in the end.
 const JUDGED: usize = 1000;
+
+/// Points with which a start is followed.
+const FOLLOWING: usize = 250;
+
+/// What is left where points lie about where the path is, as a share of their size, beyond which they are sought elsewhere, too.
+const NO_GOOD: f64 = 0.01;
 
 /// Steps with closest points from each start.
 const COARSE: usize = 30;
 
 /// Steps with distances across the path, at most: from each start, and in the end.
 const FINE: [usize; 2] = [20, 100];
-
-/// A start must be nearer than this share of the one before it to be taken instead.
-const CLEARLY: f64 = 0.7;
-
-/// Nearer than this share of the size of the points, none is nearer than another: that is rounding.
-const SAME: f64 = 1e-9;
 
 /// The way of a step, as a share of the size of the points, below which the search has ended.
 const AT_REST: f64 = 1e-13;
@@ -35,10 +37,30 @@ const FEWEST: usize = 3;
 const SAME_MM: f64 = 1e-6;
 
 /// How a registration is made.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RegistrationOptions {
     /// Seek a scale too: where the part has another temperature than its drawing.
     pub with_scale: bool,
+    /// How far the tool may be from its path, mm: points within that are not taken for others for being off.
+    pub window_mm: f64,
+}
+
+impl Default for RegistrationOptions {
+    fn default() -> Self {
+        Self {
+            with_scale: false,
+            window_mm: 1.0,
+        }
+    }
+}
+
+impl RegistrationOptions {
+    fn counting(self, without_outliers: bool) -> Counting {
+        Counting {
+            window_mm: self.window_mm,
+            without_outliers,
+        }
+    }
 }
 
 /// The motion found.
@@ -46,13 +68,15 @@ pub struct RegistrationOptions {
 pub struct Registration {
     /// From the frame of the measurement to that of the program.
     pub motion: Motion,
+    /// What told it from others.
+    pub told_by: ToldBy,
     /// What the points do not determine; it was left as at the start.
     pub free: Vec<FreeMotion>,
     /// Steps that were taken.
     pub steps: usize,
     /// Whether the last step was below the rounding.
     pub at_rest: bool,
-    /// Standard deviation of the distance from the path in one direction, from its median, mm.
+    /// Standard deviation of the distance from the path in one direction, from what nine of ten points keep below, mm.
     pub deviation_mm: f64,
     /// Points that counted nothing, and rows of them.
     pub rejected_rows: Vec<usize>,
@@ -78,7 +102,8 @@ pub struct Registration {
 /// ```
 ///
 /// # Errors
-/// Points at one or two places only; numbers are lost on the way.
+/// Points at one or two places only; numbers are lost on the way; points of another frame that fit the path in several places,
+/// and not in the order of the whole path.
 pub fn register(
     nominal: &NominalPath<'_>,
     points: &MeasuredPoints,
@@ -86,25 +111,66 @@ pub fn register(
 ) -> Result<Registration, MirrorError> {
     let points = points.points();
     are_different(points)?;
-    let every = points.len().div_ceil(JUDGED);
-    let judged: Vec<MeasuredPoint> = points.iter().step_by(every).copied().collect();
-    let size = Closest::of(nominal, &judged, &Motion::default()).map(|found| found.size_mm);
-    let same = SAME * size.unwrap_or(0.0);
-    let mut best: Option<(f64, Motion)> = None;
-    for start in starts(nominal, points) {
-        let Some((median, motion)) = follow(nominal, &judged, start) else {
-            continue;
-        };
-        if best.is_none_or(|(nearest, _)| nearest > same && median < CLEARLY * nearest) {
-            best = Some((median, motion));
-        }
-    }
-    let found = best.and_then(|(_, motion)| refine(nominal, points, motion, (options, FINE[1])));
+    let judged = some_of(points, JUDGED);
+    let candidates = candidates((nominal, options), points, &judged);
+    let free = |motion: &Motion| {
+        let closest = Closest::of(nominal, points, motion, options.counting(false));
+        let next = closest.and_then(|closest| step(&closest, motion, false));
+        next.map_or_else(Vec::new, |next| next.free)
+    };
+    let found = chosen(nominal, &judged, &candidates, &free)?.and_then(|(motion, told_by)| {
+        let found = refine(nominal, points, motion, (options, &[false, true], FINE[1]))?;
+        Some(Registration { told_by, ..found })
+    });
     found.ok_or_else(|| {
         MirrorError::new(
             "no rigid motion brings the measured points onto the path: give more of them, or do not register them",
         )
     })
+}
+
+/// Evenly so many of the points, or all of them.
+fn some_of(points: &[MeasuredPoint], most: usize) -> Vec<MeasuredPoint> {
+    let every = points.len().div_ceil(most);
+    points.iter().step_by(every).copied().collect()
+}
+
+/// Motions from all starts. Points that lie on the path about where they are need not be sought all over it.
+fn candidates(
+    (nominal, options): (&NominalPath<'_>, RegistrationOptions),
+    points: &[MeasuredPoint],
+    judged: &[MeasuredPoint],
+) -> Vec<Candidate> {
+    let following = some_of(points, FOLLOWING);
+    // Growth is sought at the place that was found.
+    let options = RegistrationOptions {
+        with_scale: false,
+        ..options
+    };
+    let counting = options.counting(false);
+    let candidate = |start: Motion, near: bool| {
+        let motion = follow((nominal, options), &following, start)?;
+        let closest = Closest::of(nominal, judged, &motion, counting)?;
+        Some(Candidate {
+            motion,
+            closest,
+            near,
+        })
+    };
+    let starts = starts(nominal, points, counting);
+    let near = starts.near.then(|| candidate(Motion::default(), true));
+    let near = near.flatten();
+    let is_good = |c: &Candidate| c.closest.left_mm <= NO_GOOD * c.closest.size_mm;
+    let seek = !near.as_ref().is_some_and(is_good);
+    let mut all: Vec<Candidate> = near.into_iter().collect();
+    let of_whole = starts.of_whole.into_iter();
+    all.extend(of_whole.filter_map(|start| candidate(start, false)));
+    let size = all.first().map(|c| c.closest.size_mm);
+    if let Some(size) = size.filter(|_| seek) {
+        let elsewhere = everywhere(nominal, &following, size).into_iter();
+        all.extend(elsewhere.filter_map(|start| candidate(start, false)));
+    }
+    all
 }
 
 /// Points at three places at least: two lie on any path.
@@ -129,14 +195,15 @@ fn are_different(points: &[MeasuredPoint]) -> Result<(), MirrorError> {
     )))
 }
 
-/// Follows a start by closest points, then across the path; the median distance that is left.
+/// Follows a start by closest points, then across the path.
 fn follow(
-    nominal: &NominalPath<'_>,
+    (nominal, options): (&NominalPath<'_>, RegistrationOptions),
     points: &[MeasuredPoint],
     start: Motion,
-) -> Option<(f64, Motion)> {
+) -> Option<Motion> {
+    let counting = options.counting(false);
     let mut motion = start;
-    let mut closest = Closest::of(nominal, points, &motion)?;
+    let mut closest = Closest::of(nominal, points, &motion, counting)?;
     for _ in 0..COARSE {
         let pairs: Vec<Pair> = points
             .iter()
@@ -144,46 +211,50 @@ fn follow(
             .map(|(point, followed)| (point.position_mm, followed.foot.place_mm, followed.weight))
             .collect();
         let next = closest_motion(&pairs, false)?;
-        let nearer = Closest::of(nominal, points, &next)?;
-        if nearer.median_mm >= closest.median_mm {
+        let nearer = Closest::of(nominal, points, &next, counting)?;
+        if nearer.left_mm >= closest.left_mm {
             break;
         }
         (motion, closest) = (next, nearer);
     }
-    let found = refine(
-        nominal,
-        points,
-        motion,
-        (RegistrationOptions::default(), FINE[0]),
-    )?;
-    let refined = Closest::of(nominal, points, &found.motion)?;
-    match refined.median_mm < closest.median_mm {
-        true => Some((refined.median_mm, found.motion)),
-        false => Some((closest.median_mm, motion)),
-    }
+    let found = refine(nominal, points, motion, (options, &[false], FINE[0]))?;
+    let refined = Closest::of(nominal, points, &found.motion, counting)?;
+    Some(match refined.left_mm < closest.left_mm {
+        true => found.motion,
+        false => motion,
+    })
 }
 
-/// Steps across the path until they rest.
+/// Steps across the path until they rest, in turns without and with a look for outliers.
 fn refine(
     nominal: &NominalPath<'_>,
     points: &[MeasuredPoint],
     start: Motion,
-    (options, most): (RegistrationOptions, usize),
+    (options, turns, most): (RegistrationOptions, &[bool], usize),
 ) -> Option<Registration> {
     let mut motion = start;
     let (mut steps, mut at_rest, mut free) = (0, false, Vec::new());
-    while steps < most && !at_rest {
-        let closest = Closest::of(nominal, points, &motion)?;
-        let next = step(&closest, &motion, options.with_scale)?;
-        (motion, free) = (next.motion, next.free);
-        at_rest = next.way_mm <= AT_REST * closest.size_mm;
-        steps += 1;
+    let mut counting = options.counting(false);
+    for without_outliers in turns {
+        counting = options.counting(*without_outliers);
+        at_rest = false;
+        for _ in 0..most {
+            let closest = Closest::of(nominal, points, &motion, counting)?;
+            let next = step(&closest, &motion, options.with_scale)?;
+            (motion, free) = (next.motion, next.free);
+            steps += 1;
+            at_rest = next.way_mm <= AT_REST * closest.size_mm;
+            if at_rest {
+                break;
+            }
+        }
     }
-    let closest = Closest::of(nominal, points, &motion)?;
+    let closest = Closest::of(nominal, points, &motion, counting)?;
     let counted = points.iter().zip(&closest.all);
     let rejected = counted.filter(|(_, followed)| followed.weight == 0.0);
     Some(Registration {
         motion,
+        told_by: ToldBy::Frame,
         free,
         steps,
         at_rest,

@@ -2,9 +2,8 @@
 
 use nalgebra::{Matrix3, Rotation3, Unit, UnitQuaternion, Vector3};
 
-use crate::number::median;
 use crate::points::MeasuredPoint;
-use crate::registration::closest::Closest;
+use crate::registration::closest::{Closest, Counting};
 use crate::registration::horn::{Pair, closest_motion};
 use crate::registration::motion::Motion;
 use kinetostat_program::NominalPath;
@@ -12,37 +11,54 @@ use kinetostat_program::NominalPath;
 /// Places of the path for its principal axes.
 const PLACES: usize = 1000;
 
-/// Median distance of unmoved points from the path, as a share of their size, beyond which they are in another frame.
-const ELSEWHERE: f64 = 0.01;
+/// Points are about where the path is if what they leave of it is no more than this share of their size.
+const ABOUT: f64 = 0.2;
 
 /// Points whose spread across their longest axis is this share of that along it (squares) are on a line: a turn about it is
 /// not determined by them.
 const LINE: f64 = 1e-6;
 
-/// Motions to start from, the most likely first.
-///
-/// A rectangle lies on itself when it is turned by half a turn, and only the order of the points tells which side was cut first.
-/// So points that are plainly in another frame are first brought onto the path in their order, where that brings them nearer.
-pub(crate) fn starts(nominal: &NominalPath<'_>, points: &[MeasuredPoint]) -> Vec<Motion> {
-    let mut all = Vec::new();
-    let mut elsewhere = false;
-    if let Some((motion, left_mm)) = in_order(nominal, points) {
-        let unmoved = Closest::of(nominal, points, &Motion::default());
-        elsewhere = unmoved.is_some_and(|found| {
-            found.median_mm > left_mm && found.median_mm > ELSEWHERE * found.size_mm
-        });
-        all.push(motion);
-    }
-    // From another frame closest points may slide half of the points beyond the end of a straight path.
-    if !elsewhere {
-        all.insert(0, Motion::default());
-    }
-    all.extend(by_principal_axes(nominal, points));
-    all
+/// Motions to start from.
+pub(crate) struct Starts {
+    /// The points lie about where the path is: where they are is a start, too.
+    pub near: bool,
+    /// In their order, and by principal axes: of points along the whole path.
+    pub of_whole: Vec<Motion>,
 }
 
-/// Points in the order of the path: at the same share of the way; with the median distance that this leaves, mm.
-fn in_order(nominal: &NominalPath<'_>, points: &[MeasuredPoint]) -> Option<(Motion, f64)> {
+/// Where to start from.
+///
+/// From another frame closest points may slide half of the points beyond the end of a straight path, so that where they are is no
+/// start.
+pub(crate) fn starts(
+    nominal: &NominalPath<'_>,
+    points: &[MeasuredPoint],
+    counting: Counting,
+) -> Starts {
+    let unmoved = Closest::of(nominal, points, &Motion::default(), counting);
+    let mut of_whole: Vec<Motion> = in_order(nominal, points).into_iter().collect();
+    of_whole.extend(by_principal_axes(nominal, points));
+    Starts {
+        near: unmoved.is_some_and(|found| found.left_mm <= ABOUT * found.size_mm),
+        of_whole,
+    }
+}
+
+/// Points in the order of the path: at the same share of the way.
+fn in_order(nominal: &NominalPath<'_>, points: &[MeasuredPoint]) -> Option<Motion> {
+    let places = places_in_order(nominal, points);
+    let pairs = points.iter().zip(places);
+    let pairs: Vec<Pair> = pairs
+        .map(|(point, place)| (point.position_mm, place, point.weight))
+        .collect();
+    closest_motion(&pairs, false)
+}
+
+/// The places of the path at the shares of the way through the points.
+pub(crate) fn places_in_order(
+    nominal: &NominalPath<'_>,
+    points: &[MeasuredPoint],
+) -> Vec<Vector3<f64>> {
     let mut way = 0.0;
     let mut ways = vec![0.0];
     for pair in points.windows(2) {
@@ -50,16 +66,8 @@ fn in_order(nominal: &NominalPath<'_>, points: &[MeasuredPoint]) -> Option<(Moti
         ways.push(way);
     }
     let whole = nominal.length_mm();
-    let pairs = points.iter().zip(&ways);
-    let pairs: Vec<Pair> = pairs
-        .map(|(point, at)| {
-            let place = nominal.point_at(whole * at / way);
-            (point.position_mm, place, point.weight)
-        })
-        .collect();
-    let motion = closest_motion(&pairs, false)?;
-    let left = |(point, place, _): &Pair| (motion.of(point) - place).norm();
-    Some((motion, median(pairs.iter().map(left).collect())))
+    let share = |at: &f64| nominal.point_at(whole * at / way);
+    ways.iter().map(share).collect()
 }
 
 /// Principal axes onto those of the path, turned in the four ways that keep right-handed axes.

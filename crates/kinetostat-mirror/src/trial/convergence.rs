@@ -20,6 +20,7 @@
 //!   `<y, B y> >= (1 - |D|) |S^(1/2) y|^2` and `|B y| <= (1 + |D|) |S^(1/2) y|` it never rises while
 //!   `0 < rho <= 2 (1 - |D|) / (1 + |D|)^2`.
 
+use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 /// The share of the error that is left after a trial, of what the kernel lets through whole, where the machine answers to a
@@ -48,43 +49,61 @@ pub fn bound_on_relaxation(departure: f64) -> Option<f64> {
 }
 
 /// What two trials in a row say about the machine.
+///
+/// With the smoothed deviation `a = S e` of the trial before, mirrored with `rho`, the one after is `a' = a - rho S (I + D) a`. So the
+/// answer `1 + d` is the number with which `rho (1 + d) S a` comes nearest to `a - a'`: what the kernel lets through of the
+/// correction counts, not all of it (with all of it the answer would seem smaller, and the bound larger, than they are). What is
+/// left over of `a - a'` is by how much `D` differs along the path, and scatter; as a share of `rho S a` it is `spread`, and the
+/// bound is that of a departure of `|d| + spread`.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Convergence {
     /// Share of the smoothed error of the trial before that is left.
     pub factor: f64,
     /// The same as a projection of it, with its sign: negative where the correction was too large.
     pub signed_factor: f64,
-    /// The departure that explains it, `(1 - factor) / relaxation - 1`.
+    /// The departure `d` that explains the change best.
     pub departure: f64,
-    /// The relaxation must stay below this.
+    /// Root mean square by which departures along the path differ from it, scatter included.
+    #[serde(default)]
+    pub spread: f64,
+    /// The relaxation must stay below this: estimated, for the largest departure that one spread allows.
     pub relaxation_below: Option<f64>,
     /// The error has risen.
     pub risen: bool,
 }
 
 impl Convergence {
-    /// From the smoothed deviations of two trials at the stations of a path, with the lengths that they stand for.
+    /// From the smoothed deviations of two trials at the stations of a path, with the lengths that they stand for, and the first of
+    /// them smoothed once more.
     pub(crate) fn between(
-        before: &[nalgebra::Vector3<f64>],
-        after: &[nalgebra::Vector3<f64>],
+        [before, after, passed]: [&[Vector3<f64>]; 3],
         lengths_mm: &[f64],
         relaxation: f64,
     ) -> Option<Self> {
-        let (mut square, mut product, mut left) = (0.0, 0.0, 0.0);
-        for ((a, b), length) in before.iter().zip(after).zip(lengths_mm) {
-            square += length * a.norm_squared();
-            product += length * a.dot(b);
-            left += length * b.norm_squared();
-        }
-        let found = square > 0.0 && left.is_finite() && relaxation > 0.0;
+        let product = |a: &dyn Fn(usize) -> Vector3<f64>, b: &dyn Fn(usize) -> Vector3<f64>| {
+            let all = lengths_mm.iter().enumerate();
+            all.map(|(k, length)| length * a(k).dot(&b(k))).sum::<f64>()
+        };
+        let (of_before, of_after) = (|k: usize| before[k], |k: usize| after[k]);
+        let (change, sent) = (
+            |k: usize| before[k] - after[k],
+            |k: usize| passed[k] * relaxation,
+        );
+        let square = product(&of_before, &of_before);
+        let left = product(&of_after, &of_after);
+        let sent_square = product(&sent, &sent);
+        let found = square > 0.0 && left.is_finite() && relaxation > 0.0 && sent_square > 0.0;
         found.then(|| {
-            let signed_factor = product / square;
-            let departure = (1.0 - signed_factor) / relaxation - 1.0;
+            let answer = product(&change, &sent) / sent_square;
+            let over = |k: usize| change(k) - sent(k) * answer;
+            let spread = (product(&over, &over) / sent_square).sqrt();
+            let departure = answer - 1.0;
             Self {
                 factor: (left / square).sqrt(),
-                signed_factor,
+                signed_factor: product(&of_before, &of_after) / square,
                 departure,
-                relaxation_below: bound_on_relaxation(departure),
+                spread,
+                relaxation_below: bound_on_relaxation(departure.abs() + spread),
                 risen: left > square,
             }
         })

@@ -3,6 +3,7 @@
 mod convergence;
 mod field;
 mod joined;
+mod passing;
 mod record;
 mod repeatability;
 mod state;

@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 use crate::deviation::{MeasureSettings, Measurement, Stations};
 use crate::error::MirrorError;
 use crate::trial::convergence::Convergence;
+use crate::trial::passing::passed;
 use crate::trial::record::{MeasuredFile, Trial};
 use crate::trial::repeatability::{Averaging, Repeatability, floor_mm};
 use crate::trial::taking::{are_new, have_places};
@@ -13,6 +14,9 @@ use kinetostat_program::NominalPath;
 
 /// Of the form of the state.
 const SCHEMA: u32 = 1;
+
+/// A smoothed deviation up to this, mm, is none.
+const NOTHING_MM: f64 = 1e-6;
 
 /// What follows from a trial.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -22,6 +26,8 @@ pub enum Outcome {
     GoOn,
     /// What is left is within the repeatability: the correction is left as it is.
     WithinRepeatability,
+    /// The points lie on the path, to less than anyone measures: there is nothing to correct, and the correction is left as it is.
+    NothingToCorrect,
     /// The error has risen: the correction is made with what was measured, and the relaxation should be smaller.
     Risen,
 }
@@ -160,7 +166,8 @@ impl MirrorState {
         are_new(&self.trials, measured)?;
         have_places(measured)?;
         let deviation = mean_deviation(measured, stations);
-        let lengths = Stations::of(nominal, self.settings.smoothing_mm)?.lengths_mm();
+        let places = Stations::of(nominal, self.settings.smoothing_mm)?;
+        let lengths = places.lengths_mm();
         let seen = |k: usize| {
             measured
                 .iter()
@@ -172,6 +179,10 @@ impl MirrorState {
             total += length;
         }
         let left_mm = (sum / total).sqrt();
+        let lengths = lengths.iter().enumerate();
+        let seen_lengths: Vec<f64> = lengths
+            .map(|(k, l)| if seen(k) { *l } else { 0.0 })
+            .collect();
         let averaging = Averaging {
             effective_points: first.figures.effective_points,
             measurements: measured.len(),
@@ -181,14 +192,23 @@ impl MirrorState {
         };
         let floor = repeatability.map(|known| floor_mm(known, &averaging));
         let convergence = self.trials.last().and_then(|last| {
-            Convergence::between(&self.deviation_mm, &deviation, &lengths, last.relaxation)
+            let passed = passed(
+                &places,
+                &self.deviation_mm,
+                first,
+                self.settings.smoothing_mm,
+            );
+            let deviations = [&self.deviation_mm, &deviation, &passed].map(Vec::as_slice);
+            Convergence::between(deviations, &seen_lengths, last.relaxation)
         });
         let outcome = match (floor, convergence) {
+            _ if deviation.iter().all(|d| d.norm() <= NOTHING_MM) => Outcome::NothingToCorrect,
             (Some([_, within]), _) if left_mm <= within => Outcome::WithinRepeatability,
             (_, Some(Convergence { risen: true, .. })) => Outcome::Risen,
             _ => Outcome::GoOn,
         };
-        if outcome != Outcome::WithinRepeatability {
+        let goes_on = matches!(outcome, Outcome::GoOn | Outcome::Risen);
+        if goes_on {
             for (correction, deviation) in self.correction_mm.iter_mut().zip(&deviation) {
                 *correction -= deviation * relaxation;
             }

@@ -1,6 +1,8 @@
 //! Shapes that do not determine a rigid motion: what is free is named and left as it was.
 
-use kinetostat_mirror::{FreeMotion, MeasuredPoints, NominalPath, RegistrationOptions, register};
+use kinetostat_mirror::{
+    FreeMotion, MeasuredPoints, NominalPath, RegistrationOptions, ToldBy, register,
+};
 use kinetostat_testing::Worst;
 use nalgebra::{UnitQuaternion, Vector3};
 
@@ -70,7 +72,10 @@ fn points_of_one_side_of_a_square_turn_nothing_about_it() {
         .collect();
     let measured = MeasuredPoints::at(&points).unwrap();
     for with_scale in [false, true] {
-        let options = RegistrationOptions { with_scale };
+        let options = RegistrationOptions {
+            with_scale,
+            ..RegistrationOptions::default()
+        };
         let found = register(&nominal, &measured, options).unwrap();
         let count =
             |of: &dyn Fn(&FreeMotion) -> bool| found.free.iter().filter(|free| of(free)).count();
@@ -105,31 +110,51 @@ fn points_of_one_side_of_a_square_turn_nothing_about_it() {
     }
 }
 
-/// From another frame a line of points may come to lie anywhere about itself; what is said of it are numbers all the same.
+/// From another frame a line of points may come to lie anywhere on either leg: that is no measurement, unless it runs along the whole
+/// of a path. What is said of it are numbers all the same.
 #[test]
 fn what_is_said_of_a_line_in_another_frame_are_numbers() {
-    let (_, path) = read("G21 G90\nG0 X0 Y0 Z0\nF600\nG1 X60\nG1 Y40\n");
-    let nominal = NominalPath::new(&path).unwrap();
-    for direction in [
-        Vector3::x(),
-        -Vector3::x(),
-        Vector3::z(),
-        Vector3::new(0.6, 0.0, -0.8),
+    for (text, is_told) in [
+        ("G21 G90\nG0 X0 Y0 Z0\nF600\nG1 X60\nG1 Y40\n", false),
+        ("G21 G90\nG0 X0 Y0 Z0\nF600\nG1 X49\n", true),
     ] {
-        let points: Vec<_> = (0..50)
-            .map(|k| Vector3::new(200.0, -90.0, 30.0) + direction * f64::from(k))
-            .collect();
-        let measured = MeasuredPoints::at(&points).unwrap();
-        let options = RegistrationOptions { with_scale: true };
-        let found = register(&nominal, &measured, options).unwrap();
-        let words: Vec<String> = found.free.iter().map(ToString::to_string).collect();
-        assert!(
-            words
-                .iter()
-                .all(|words| !words.contains("NaN") && !words.contains("inf")),
-            "{words:?}"
-        );
-        assert!(found.motion.scale.is_finite() && found.motion.shift_mm.norm().is_finite());
+        let (_, path) = read(text);
+        let nominal = NominalPath::new(&path).unwrap();
+        for direction in [
+            Vector3::x(),
+            -Vector3::x(),
+            Vector3::z(),
+            Vector3::new(0.6, 0.0, -0.8),
+        ] {
+            let points: Vec<_> = (0..50)
+                .map(|k| Vector3::new(200.0, -90.0, 30.0) + direction * f64::from(k))
+                .collect();
+            let measured = MeasuredPoints::at(&points).unwrap();
+            let options = RegistrationOptions {
+                with_scale: true,
+                ..RegistrationOptions::default()
+            };
+            let words = match register(&nominal, &measured, options) {
+                Ok(found) => {
+                    assert!(is_told && found.told_by == ToldBy::Order, "{found:?}");
+                    assert_eq!(found.free.len(), 3, "{found:?}");
+                    assert!(
+                        found.motion.scale.is_finite() && found.motion.shift_mm.norm().is_finite()
+                    );
+                    let first = found.motion.of(&points[0]);
+                    assert!(first.norm() < 1e-6, "{first}");
+                    found.free.iter().map(ToString::to_string).collect()
+                }
+                Err(why) => {
+                    assert!(!is_told, "{why}");
+                    let why = why.to_string();
+                    let says = "the measured points fit the path in several places (moved by ";
+                    assert!(why.starts_with(says), "{why}");
+                    why
+                }
+            };
+            assert!(!words.contains("NaN") && !words.contains("inf"), "{words}");
+        }
     }
 }
 
@@ -142,7 +167,10 @@ fn one_or_two_places_are_no_measurement_to_register() {
         let points: Vec<_> = (0..600).map(|k| places[k % count]).collect();
         let measured = MeasuredPoints::at(&points).unwrap();
         for with_scale in [false, true] {
-            let options = RegistrationOptions { with_scale };
+            let options = RegistrationOptions {
+                with_scale,
+                ..RegistrationOptions::default()
+            };
             let why = register(&nominal, &measured, options)
                 .unwrap_err()
                 .to_string();

@@ -12,11 +12,21 @@ pub fn read(text: &str) -> (Program, Path) {
     (program, path)
 }
 
-/// The path of the program as it is written with a field.
+/// The path of the program as it is written with a field, to a ten-thousandth of a millimetre.
 pub fn commanded(program: &Program, path: &Path, field: &dyn CorrectionField) -> Path {
+    commanded_within(program, path, field, (1e-4, 6))
+}
+
+/// The same within a tolerance in mm, with so many decimals.
+pub fn commanded_within(
+    program: &Program,
+    path: &Path,
+    field: &dyn CorrectionField,
+    (tolerance_mm, decimals): (f64, u8),
+) -> Path {
     let mut options = WriteOptions::default();
-    options.tolerance_mm = 1e-4;
-    options.decimals = Some(6);
+    options.tolerance_mm = tolerance_mm;
+    options.decimals = Some(decimals);
     options.header = None;
     let written = write_corrected(program, path, field, &options, &Unwatched).expect("written");
     read(&String::from_utf8(written.bytes).expect("text")).1

@@ -6,6 +6,7 @@ mod degenerate;
 mod files;
 mod machine;
 mod outliers;
+mod partial;
 mod registration;
 mod settings;
 mod taking;

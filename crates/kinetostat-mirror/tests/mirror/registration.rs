@@ -86,7 +86,10 @@ fn a_part_that_has_grown_is_only_taken_for_one_when_asked() {
     let grown = register(
         &nominal,
         &measured,
-        RegistrationOptions { with_scale: true },
+        RegistrationOptions {
+            with_scale: true,
+            ..RegistrationOptions::default()
+        },
     )
     .unwrap();
     assert!((grown.motion.scale - 1.001).abs() < 1e-9);

@@ -177,6 +177,39 @@ fn beyond_the_bound_it_rises_and_that_is_told() {
     assert_eq!(told[1..], [Outcome::Risen; 4]);
 }
 
+/// The relaxation that a trial names never lets a wave grow, with errors that the kernel lets through in part, too, and a scatter.
+#[test]
+fn the_relaxation_that_is_named_is_within_the_proven_bound() {
+    for (d, relaxation) in [
+        (0.3, 1.0),
+        (0.3, 0.5),
+        (-0.2, 0.7),
+        (0.1, 1.5),
+        (-0.5, 1.0),
+        (0.0, 1.0),
+    ] {
+        for sigma in [0.0, 3e-3] {
+            let mut noise = Noise(4);
+            let proven = 2.0 / (1.0 + f64::abs(d));
+            trials(
+                (relaxation, 2),
+                &|_| d,
+                &mut || noise.vector(sigma),
+                None,
+                &mut |trial, _, state, _| {
+                    let Some(found) = state.trials[trial].convergence else {
+                        return;
+                    };
+                    let named = found.relaxation_below.unwrap();
+                    let what = format!("d {d}, {sigma}, {relaxation}: {found:?}");
+                    assert!(named <= proven && named > 0.93 * proven, "{what}");
+                    assert!((found.departure - d).abs() < found.spread + 1e-3, "{what}");
+                },
+            );
+        }
+    }
+}
+
 #[test]
 fn the_noise_floor_is_reached_and_told() {
     let sigma = 0.01;
