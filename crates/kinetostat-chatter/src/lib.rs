@@ -33,5 +33,7 @@ pub use measured::{
     scale_parameters, write_universal,
 };
 pub use response::{FeedFrame, Mode, ToolResponse};
-pub use stability::{Crossing, Instability, Multiplier, Regeneration, SpeedStability};
+pub use stability::{
+    Crossing, Instability, LeftOut, Multiplier, Regeneration, SpeedStability, Swinging,
+};
 pub use zeroth_order::ZerothOrderLimit;

@@ -5,7 +5,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::cut::{checked_depth, checked_speed};
 use crate::error::{ChatterError, ChatterErrorKind, Result};
-use crate::stability::{Regeneration, SpeedStability};
+use crate::number::larger;
+use crate::stability::{LeftOut, Regeneration, SpeedStability};
 use crate::zeroth_order::{self, ZerothOrderLimit};
 
 /// Most speeds of a diagram.
@@ -123,6 +124,21 @@ impl LobeDiagram {
             }
         }
         best
+    }
+
+    /// Frequency of the fastest mode that swings at any of the speeds, Hz; those above are springs at all.
+    #[must_use]
+    pub fn modes_up_to_hz(&self) -> f64 {
+        let each = self.points.iter().map(|point| point.exact.modes_up_to_hz);
+        each.fold(0.0, larger)
+    }
+
+    /// Of the modes that are springs although they count, the one with the largest share, and the spindle speed, rpm.
+    #[must_use]
+    pub fn left_out(&self) -> Option<(LeftOut, f64)> {
+        let of = |point: &LobePoint| Some((point.exact.left_out?, point.exact.speed_rpm));
+        let each = self.points.iter().filter_map(of);
+        each.reduce(|a, b| if b.0.share > a.0.share { b } else { a })
     }
 }
 

@@ -9,6 +9,7 @@ use crate::cut::milling::MillingCut;
 use crate::cut::piece::{Active, Piece};
 use crate::cut::turning::TurningCut;
 use crate::error::{ChatterErrorKind, Result, above};
+use crate::number::larger;
 
 /// A cut whose edge meets the track of the one before.
 #[derive(Clone, Debug, PartialEq)]
@@ -71,6 +72,20 @@ impl Cut {
             }
             Self::Turning(cut) => cut.matrix().norm(),
         }
+    }
+
+    /// Longest stretch of the turn with something in the material at any depth up to one, m, rad: no less than it is.
+    pub(crate) fn longest(&self, up_to: f64) -> f64 {
+        let lag = match self {
+            Self::Milling(cut) => cut.lag_per_depth().abs() * up_to,
+            Self::Turning(_) => 0.0,
+        };
+        // A helix adds breaks to those of straight teeth, and reaches by its lag into what is air for these.
+        let length = |piece: Piece| match piece.active.is_empty() && lag < piece.length {
+            true => lag,
+            false => piece.length,
+        };
+        self.pieces(0.0).into_iter().map(length).fold(0.0, larger)
     }
 
     /// Whether the pieces change with the depth.

@@ -16,6 +16,9 @@ pub struct Mode {
 }
 
 impl Mode {
+    /// A ratio up to which a mode has no damping: what rounding leaves of a damper that it does not move.
+    pub const UNDAMPED: f64 = 1e-9;
+
     /// A mode by its mass-normalised shape.
     ///
     /// `shape` is the translation of the cutting point in the mode, divided by the root of the modal mass, kg^-1/2, base axes;
@@ -132,6 +135,28 @@ impl Mode {
     #[must_use]
     pub fn damping_ratio(&self) -> f64 {
         self.damping_ratio
+    }
+
+    /// Largest amplitude across z by a harmonic force of 1 N in any direction, at any frequency, m/N; with the shape in axes of the
+    /// cut this is across the tool axis.
+    ///
+    /// ```
+    /// use kinetostat_chatter::Mode;
+    ///
+    /// let mode = Mode::with_stiffness([1.0, 0.0, 0.0].into(), 1e6, 20.0, 0.02)?; // N/m, Hz
+    /// assert!((mode.peak_flexibility() * 1e6 * 2.0 * 0.02 - 1.0).abs() < 1e-3);
+    /// # Ok::<(), kinetostat_chatter::ChatterError>(())
+    /// ```
+    #[must_use]
+    pub fn peak_flexibility(&self) -> f64 {
+        let zeta = self.damping_ratio;
+        // |1 - r^2 + 2 i zeta r| is least at r^2 = 1 - 2 zeta^2, and from zeta^2 = 1/2 on at rest.
+        let least = match 2.0 * zeta * zeta < 1.0 {
+            true => 2.0 * zeta * (1.0 - zeta * zeta).sqrt(),
+            false => 1.0,
+        };
+        let across = self.shape.xy().norm() * self.shape.norm();
+        across / (least * self.angular_frequency * self.angular_frequency)
     }
 
     /// The same with another shape.

@@ -78,10 +78,7 @@ impl ToolResponse {
     /// Static compliance, m/N: the receptance at 0 Hz.
     #[must_use]
     pub fn compliance(&self) -> Matrix3<f64> {
-        self.modes.iter().fold(self.residual, |sum, mode| {
-            let (shape, w) = (mode.shape(), mode.angular_frequency());
-            sum + shape * shape.transpose() / (w * w)
-        })
+        self.modes.iter().fold(self.residual, spring)
     }
 
     /// Receptance, m/N: `G(w) = sum phi phi^T/(w_k^2 - w^2 + 2 i zeta w_k w) + G_res` (`dynamics.md` section 8).
@@ -124,6 +121,15 @@ impl ToolResponse {
         }
     }
 
+    /// The same with the modes in the order of their frequencies, of which all but the lowest `count` (at least one) are springs.
+    pub(crate) fn with_lowest(&self, count: usize) -> Self {
+        let mut modes = self.modes.clone();
+        modes.sort_by(|a, b| a.frequency_hz().total_cmp(&b.frequency_hz()));
+        let rest = modes.split_off(count.clamp(1, modes.len()));
+        let residual = rest.iter().fold(self.residual, spring);
+        Self { modes, residual }
+    }
+
     /// The same with the modes above a frequency taken as springs: what they give statically joins the residual flexibility.
     ///
     /// # Errors
@@ -133,10 +139,13 @@ impl ToolResponse {
             .modes
             .iter()
             .partition(|mode| mode.frequency_hz() <= frequency_hz);
-        let residual = rest.iter().fold(self.residual, |sum, mode| {
-            let (shape, w) = (mode.shape(), mode.angular_frequency());
-            sum + shape * shape.transpose() / (w * w)
-        });
+        let residual = rest.iter().fold(self.residual, spring);
         Self::new(kept)?.with_residual(residual)
     }
+}
+
+/// A flexibility with that of a mode at rest.
+fn spring(sum: Matrix3<f64>, mode: &Mode) -> Matrix3<f64> {
+    let (shape, w) = (mode.shape(), mode.angular_frequency());
+    sum + shape * shape.transpose() / (w * w)
 }

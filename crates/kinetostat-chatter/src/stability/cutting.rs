@@ -19,6 +19,16 @@ const POINTS_PER_CYCLE: f64 = 5.0;
 /// More points than this cost more than a stretch is worth.
 const MOST_POINTS: f64 = 400.0;
 
+/// More points by which an answer is checked.
+const CHECKED: f64 = 4.0 / 3.0;
+
+/// Frequency of the fastest mode, Hz, that the stretches of a cut resolve at a speed for all depths up to one, m.
+pub(crate) fn resolved_hz(cut: &Cut, speed_rpm: f64, up_to: f64) -> f64 {
+    let turn = cut.longest(up_to);
+    let cycles = (MOST_POINTS / CHECKED - LEAST_POINTS) / POINTS_PER_CYCLE - turn / TAU;
+    cycles * (TAU * speed_rpm / 60.0) / turn
+}
+
 /// At a node, of each difference: the force on the tool by depth and difference, N/m^2, and the direction of the displacement.
 type Factors = Vec<(Vector3<f64>, Vector3<f64>)>;
 
@@ -184,11 +194,7 @@ impl Through {
     }
 
     /// Displacements along the chip by depth times differences.
-    fn displacements(
-        &self,
-        factors: &[Factors],
-        response: &ToolResponse,
-    ) -> DMatrix<f64> {
+    fn displacements(&self, factors: &[Factors], response: &ToolResponse) -> DMatrix<f64> {
         let (n, kinds) = (factors.len(), factors[0].len());
         let mut force = DMatrix::zeros(kinds * n, kinds * n);
         for (a, axes) in self.axes.iter().enumerate() {
@@ -219,11 +225,7 @@ impl Through {
     }
 
     /// State at the end by depth times differences.
-    fn end(
-        &self,
-        factors: &[Factors],
-        states: &[State],
-    ) -> DMatrix<f64> {
+    fn end(&self, factors: &[Factors], states: &[State]) -> DMatrix<f64> {
         let (n, kinds) = (factors.len(), factors[0].len());
         DMatrix::from_fn(2 * states.len(), kinds * n, |row, column| {
             let (pushed, _) = &factors[column / kinds][column % kinds];

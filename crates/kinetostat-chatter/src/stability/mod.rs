@@ -2,9 +2,10 @@
 //!
 //! `collocation` has the points of a stretch of the period, split where teeth come and go; `legendre` solves a mode on it,
 //! `cutting` puts the modes together, `period` the stretches; `operator` is the monodromy operator at a depth; `krylov` finds
-//! its largest multiplier; `scan` looks along the depth. Source: `dynamics.md` section 10 [D 8].
+//! its largest multiplier; `scan` looks along the depth; `swinging` says which modes count, `counted` sees to it that they do. Source: `dynamics.md` section 10 [D 8].
 
 mod collocation;
+mod counted;
 mod cutting;
 mod krylov;
 mod legendre;
@@ -13,10 +14,12 @@ mod operator;
 mod period;
 mod regeneration;
 mod scan;
+mod swinging;
 
 pub use multiplier::{Instability, Multiplier};
 pub use regeneration::Regeneration;
 pub use scan::{Crossing, SpeedStability};
+pub use swinging::{LeftOut, Swinging};
 
 pub(crate) use collocation::Chebyshev;
 pub(crate) use krylov::{by_qr, eigenvalues};

@@ -11,9 +11,8 @@ use crate::stability::krylov;
 use crate::stability::multiplier::Multiplier;
 use crate::stability::operator::Operator;
 use crate::stability::period::Period;
+use crate::stability::swinging::{Selection, Swinging};
 
-/// A ratio up to which a mode has no damping: what rounding leaves of a damper that it does not move.
-const UNDAMPED: f64 = 1e-9;
 /// Change of a multiplier with a third more points that is accepted, share of it.
 const RESOLVED: f64 = 1e-7;
 /// Growth of the number of points, and most times the usual ones.
@@ -38,6 +37,16 @@ pub struct Regeneration {
     cut: Cut,
     /// Most that a force of 1 N moves the tool by at any frequency, at most, m/N.
     gain: f64,
+    /// Which modes swing; without it all do.
+    selected: Option<Box<Selected>>,
+}
+
+/// The modes that swing.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Selected {
+    pub(crate) selection: Selection,
+    /// The cut with those that do at most speeds.
+    pub(crate) usual: Regeneration,
 }
 
 impl Regeneration {
@@ -51,7 +60,7 @@ impl Regeneration {
         let undamped = response
             .modes()
             .iter()
-            .find(|mode| mode.damping_ratio() <= UNDAMPED && mode.shape().norm() > 0.0);
+            .find(|mode| mode.damping_ratio() <= Mode::UNDAMPED && mode.shape().norm() > 0.0);
         if let Some(mode) = undamped {
             return Err(ChatterError::new(
                 kind,
@@ -81,15 +90,54 @@ impl Regeneration {
                 "a mode or residual flexibility across the tool axis (milling) or along the chip direction (turning)",
             ));
         }
+        Ok(Self::of_all(response, cut))
+    }
+
+    /// Of what has been looked at, all modes swinging.
+    fn of_all(response: ToolResponse, cut: Cut) -> Self {
         let gain = peak(&response);
-        Ok(Self {
+        Self {
             response,
             cut,
             gain,
-        })
+            selected: None,
+        }
     }
 
-    /// The tool's response, in the axes of the cut.
+    /// The same, where stability is asked for with modes that count swinging, and the others as springs.
+    ///
+    /// ```
+    /// use kinetostat_chatter::{Arc, Coefficients, MillingCut, Mode, Regeneration, Swinging, ToolResponse};
+    ///
+    /// let along = |hz, stiffness| Mode::with_stiffness([1.0, 0.0, 0.0].into(), stiffness, hz, 0.02);
+    /// let tool = ToolResponse::new(vec![along(20.0, 1e6)?, along(700.0, 2e7)?, along(900.0, 1e9)?])?;
+    /// let cut = MillingCut::new(2, Arc::slot(), Coefficients::new(6e8, 2e8, 0.0)?)?;
+    /// let slot = Regeneration::new(tool, cut.into())?.with_swinging(Swinging::Automatic);
+    /// let stability = slot.stability_at(8000.0, 1e-3)?; // rpm, m
+    /// assert!((stability.modes_up_to_hz - 700.0).abs() < 1e-6);
+    /// # Ok::<(), kinetostat_chatter::ChatterError>(())
+    /// ```
+    #[must_use]
+    pub fn with_swinging(self, swinging: Swinging) -> Self {
+        let selection = Selection::new(&self.response, self.cut.bound(), swinging);
+        let selected = |selection: Selection| Selected {
+            usual: self.lowest(selection.count),
+            selection,
+        };
+        let selected = selection.map(selected).map(Box::new);
+        Self { selected, ..self }
+    }
+
+    /// The same with its lowest modes swinging, the others as springs.
+    pub(crate) fn lowest(&self, count: usize) -> Self {
+        Self::of_all(self.response.with_lowest(count), self.cut.clone())
+    }
+
+    pub(crate) fn selected(&self) -> Option<&Selected> {
+        self.selected.as_deref()
+    }
+
+    /// The tool's response with all its modes, in the axes of the cut.
     #[must_use]
     pub fn response(&self) -> &ToolResponse {
         &self.response

@@ -6,14 +6,15 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::cut::checked_depth;
 use crate::error::{ChatterError, ChatterErrorKind, Result};
 use crate::number::larger;
+use crate::response::Mode;
 use crate::stability::krylov;
 use crate::stability::multiplier::{Instability, Multiplier};
 use crate::stability::operator::Operator;
 use crate::stability::period::Period;
 use crate::stability::regeneration::Regeneration;
+use crate::stability::swinging::LeftOut;
 
 /// First steps of the scan, as the logarithm of a ratio of depths.
 const COARSE: f64 = 0.22;
@@ -60,6 +61,10 @@ pub struct SpeedStability {
     pub up_to: f64,
     /// Where stability changes, from the smallest depth upwards; the first is the limit.
     pub crossings: Vec<Crossing>,
+    /// Frequency of the fastest mode that swings in the calculation, Hz; those above are springs.
+    pub modes_up_to_hz: f64,
+    /// Of the modes that are springs although they count, the one with the largest share ([`crate::Swinging`]).
+    pub left_out: Option<LeftOut>,
 }
 
 impl SpeedStability {
@@ -157,24 +162,8 @@ struct Sample {
 }
 
 impl Regeneration {
-    /// Stability at a spindle speed (rpm) for all depths up to a largest one (m).
-    ///
-    /// ```
-    /// use kinetostat_chatter::{Arc, Coefficients, MillingCut, Mode, Regeneration, ToolResponse};
-    ///
-    /// let mode = Mode::along([1.0, 0.0, 0.0].into(), 0.03993, 922.0, 0.011)?; // kg, Hz
-    /// let cut = MillingCut::new(2, Arc::slot(), Coefficients::new(6e8, 2e8, 0.0)?)?;
-    /// let slot = Regeneration::new(ToolResponse::new(vec![mode])?, cut.into())?;
-    /// let stability = slot.stability_at(5000.0, 1e-3)?; // rpm, m
-    /// let limit = stability.limit().expect("a limit below 1 mm");
-    /// assert!((limit.depth / 0.408628e-3 - 1.0).abs() < 1e-4);
-    /// # Ok::<(), kinetostat_chatter::ChatterError>(())
-    /// ```
-    ///
-    /// # Errors
-    /// A speed or a depth that is not positive, and modes too fast for the speed ([`crate::ToolResponse::with_modes_up_to`]).
-    pub fn stability_at(&self, speed_rpm: f64, up_to: f64) -> Result<SpeedStability> {
-        checked_depth(up_to)?;
+    /// As [`Self::stability_at`], all modes swinging.
+    pub(crate) fn stability_of_all(&self, speed_rpm: f64, up_to: f64) -> Result<SpeedStability> {
         // Small gain: below this depth no displacement can keep itself up.
         let certain = (2.0 * self.gain() * self.cut().bound()).recip();
         let mut crossings = Vec::new();
@@ -187,10 +176,13 @@ impl Regeneration {
             // Nothing can chatter; a speed without sense is still one.
             self.cut().delay(speed_rpm)?;
         }
+        let frequencies = self.response().modes().iter().map(Mode::frequency_hz);
         Ok(SpeedStability {
             speed_rpm,
             up_to,
             crossings,
+            modes_up_to_hz: frequencies.fold(0.0, larger),
+            left_out: None,
         })
     }
 

@@ -9,6 +9,7 @@ mod fitted;
 mod forced;
 mod semi_discretisation;
 mod support;
+mod swinging;
 mod traps;
 mod universal;
 mod zeroth;

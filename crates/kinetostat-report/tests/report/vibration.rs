@@ -23,6 +23,8 @@ fn point(speed_rpm: f64, crossings: Vec<Crossing>) -> LobePoint {
             speed_rpm,
             up_to: 0.02,
             crossings,
+            modes_up_to_hz: 100.0,
+            left_out: None,
         },
         zeroth_order: Some(ZerothOrderLimit {
             depth: 2e-3,

@@ -1,0 +1,69 @@
+//! Stability at a speed with the modes that count there.
+
+use crate::cut::{checked_depth, checked_speed};
+use crate::error::Result;
+use crate::stability::cutting::resolved_hz;
+use crate::stability::regeneration::{Regeneration, Selected};
+use crate::stability::scan::SpeedStability;
+use crate::stability::swinging::Known;
+
+impl Regeneration {
+    /// Stability at a spindle speed (rpm) for all depths up to a largest one (m).
+    ///
+    /// ```
+    /// use kinetostat_chatter::{Arc, Coefficients, MillingCut, Mode, Regeneration, ToolResponse};
+    ///
+    /// let mode = Mode::along([1.0, 0.0, 0.0].into(), 0.03993, 922.0, 0.011)?; // kg, Hz
+    /// let cut = MillingCut::new(2, Arc::slot(), Coefficients::new(6e8, 2e8, 0.0)?)?;
+    /// let slot = Regeneration::new(ToolResponse::new(vec![mode])?, cut.into())?;
+    /// let stability = slot.stability_at(5000.0, 1e-3)?; // rpm, m
+    /// let limit = stability.limit().expect("a limit below 1 mm");
+    /// assert!((limit.depth / 0.408628e-3 - 1.0).abs() < 1e-4);
+    /// # Ok::<(), kinetostat_chatter::ChatterError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// A speed or a depth that is not positive, and modes too fast for the speed ([`crate::ToolResponse::with_modes_up_to`]).
+    pub fn stability_at(&self, speed_rpm: f64, up_to: f64) -> Result<SpeedStability> {
+        checked_speed(speed_rpm)?;
+        checked_depth(up_to)?;
+        match self.selected() {
+            Some(selected) => self.stability_of(selected, speed_rpm, up_to),
+            None => self.stability_of_all(speed_rpm, up_to),
+        }
+    }
+
+    /// With the modes that count; more of them swing where they could chatter by themselves below the limit that is found.
+    fn stability_of(
+        &self,
+        selected: &Selected,
+        speed_rpm: f64,
+        up_to: f64,
+    ) -> Result<SpeedStability> {
+        let Selected { selection, usual } = selected;
+        let resolved = match selection.automatic {
+            true => selection.up_to(resolved_hz(self.cut(), speed_rpm, up_to)),
+            false => selection.count,
+        };
+        let mut count = selection.count.min(resolved);
+        loop {
+            let found = match count == selection.count {
+                true => usual.stability_of_all(speed_rpm, up_to)?,
+                false => self.lowest(count).stability_of_all(speed_rpm, up_to)?,
+            };
+            let reach = found.limit().map_or(up_to, |limit| limit.depth);
+            let could = |mode: &Known| mode.alone < reach;
+            if let Some(more) = selection.modes[count..resolved].iter().rposition(could) {
+                count += more + 1;
+                continue;
+            }
+            let left = selection.modes[count..].iter();
+            let left = left.filter(|mode| mode.counts() || could(mode));
+            let left = left.map(|mode| mode.of);
+            return Ok(SpeedStability {
+                left_out: left.max_by(|a, b| a.share.total_cmp(&b.share)),
+                ..found
+            });
+        }
+    }
+}
