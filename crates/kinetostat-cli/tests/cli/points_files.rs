@@ -6,6 +6,8 @@
 use std::path::Path;
 use std::process::Command;
 
+use kinetostat_testing::largest;
+
 use crate::common::{run, workplace};
 
 /// Two cuts behind rapids, off the axes of the machine.
@@ -144,6 +146,84 @@ fn read_back(at: &Path) {
         made.status.success() && said.starts_with("READ"),
         "{said}{fault}"
     );
+}
+
+/// On very short blocks that turn, the load turns from one end to the other: in the middle the tool is off though both ends
+/// are compensated, by what `deflect` says of the load there.
+#[test]
+fn the_middles_of_very_short_blocks_count_where_the_load_turns() {
+    let here = workplace();
+    let (radial, tangential, axial) = (215.0, -10.0, -25.0);
+    let (turn, step) = (25_f64.to_radians(), 0.02);
+    // Five straight blocks, eleven after corners of 25 degrees, five straight ones.
+    let mut heading = 0.0_f64;
+    let mut at = [0.0_f64, 0.0];
+    let mut places = vec![at];
+    let mut headings = Vec::new();
+    for i in 0..21 {
+        if (5..16).contains(&i) {
+            heading += turn;
+        }
+        at = [at[0] + step * heading.cos(), at[1] + step * heading.sin()];
+        headings.push(heading);
+        places.push(at);
+    }
+    let lines = places[1..].iter();
+    let lines: String = lines.map(|[x, y]| format!("G1 X{x:.6} Y{y:.6}\n")).collect();
+    let program = format!("G21 G90\nG0 X0 Y0 Z2\nG1 Z0 F600\n{lines}G0 Z5\nM2\n");
+    std::fs::write(here.path().join("fine.ngc"), program).unwrap();
+    let words = "compensate --model orthoglide --tool-length-mm 100 --part-origin-mm 3 -2 97 --milling 215 -10 -25 \
+                 --tolerance-um 60 --decimals 6 --program fine.ngc --out out.ngc --json";
+    let said = run(here.path(), &words.split_whitespace().collect::<Vec<_>>()).answered();
+    let answer: serde_json::Value = serde_json::from_str(&said.out).unwrap();
+    let stated = answer["summary"]["max_position_error_after_mm"].as_f64().unwrap();
+    let written = std::fs::read_to_string(here.path().join("out.ngc")).unwrap();
+    let mut now = [0.0_f64; 3];
+    let mut commanded = Vec::new();
+    for line in written.lines().filter(|line| line.starts_with("G1 ")) {
+        for word in line.split(' ').skip(1) {
+            if let Some(axis) = "XYZ".find(&word[..1]) {
+                now[axis] = word[1..].parse().unwrap();
+            }
+        }
+        commanded.push(now);
+    }
+    let moved = |position: [f64; 3], force: [f64; 3]| -> [f64; 3] {
+        let numbers = |all: [f64; 3]| all.map(|n| format!("{n:.9}")).join(" ");
+        let words = format!(
+            "deflect orthoglide --tool-length-mm 100 --at {} --force {} --json",
+            numbers(position),
+            numbers(force)
+        );
+        let said = run(here.path(), &words.split(' ').collect::<Vec<_>>()).answered();
+        let answer: serde_json::Value = serde_json::from_str(&said.out).unwrap();
+        std::array::from_fn(|k| answer["displacement_mm"][k].as_f64().unwrap())
+    };
+    // The blocks on the circle: the corners before and behind them are alike.
+    let blocks = 6..15;
+    let first = commanded.len() - places.len() + 1;
+    let off = blocks.map(|i| {
+        let (c, s) = (headings[i].cos(), headings[i].sin());
+        let force = [
+            radial * s + tangential * c,
+            -radial * c + tangential * s,
+            axial,
+        ];
+        let [before, after] = [commanded[first + i - 1], commanded[first + i]];
+        let middle: [f64; 3] = std::array::from_fn(|k| 0.5 * (before[k] + after[k]));
+        let nominal = [
+            0.5 * (places[i][0] + places[i + 1][0]),
+            0.5 * (places[i][1] + places[i + 1][1]),
+            0.0,
+        ];
+        let origin = [3.0, -2.0, 97.0];
+        let by = moved(std::array::from_fn(|k| middle[k] + origin[k]), force);
+        let off: [f64; 3] = std::array::from_fn(|k| middle[k] + by[k] - nominal[k]);
+        off.iter().map(|d| d * d).sum::<f64>().sqrt()
+    });
+    let most = largest(off.collect::<Vec<_>>());
+    assert!((0.005..0.06).contains(&most), "{most}");
+    assert!(stated >= 0.999 * most && stated < 1.05 * most, "{stated} {most}");
 }
 
 /// Blocks of a finishing program are solved where they end, every one; inside only as many as there would be if they were as long
