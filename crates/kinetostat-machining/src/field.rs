@@ -99,10 +99,13 @@ impl CorrectionField for ModelField<'_> {
     }
 
     fn structure(&self, move_index: usize, _motion: &Move) -> Structure {
+        let radius_mm = self.radius_mm;
+        let is_steady = !self.placement.orientation_follows && self.load.is_steady(move_index);
         Structure {
             breaks: self.load.breaks(move_index),
-            course: Course::Smooth {
-                radius_mm: self.radius_mm,
+            course: match is_steady {
+                true => Course::Steady { radius_mm },
+                false => Course::Smooth { radius_mm },
             },
         }
     }

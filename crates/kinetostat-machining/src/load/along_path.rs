@@ -197,6 +197,20 @@ impl<'a> LoadAlongPath<'a> {
         shares
     }
 
+    /// Whether nothing but the place changes along a move: it is straight, and what acts on it is the same all along.
+    pub(crate) fn is_steady(&self, move_index: usize) -> bool {
+        let motion = &self.path.moves[move_index];
+        let load = self.load_of(move_index);
+        let straight = motion.curve == Curve::Line && motion.tool_turn.is_none();
+        let h = self.headings.get(move_index).copied().unwrap_or_default();
+        let turns = h.lag_start != 0.0 || h.lag_end != 0.0;
+        let comes_or_goes = |part: &Profile<1>| !part.of(move_index).is_empty();
+        let varies = matches!(load.cutting, CuttingLoad::FromCut { .. })
+            || self.part.as_ref().is_some_and(comes_or_goes);
+        let passes = |z: f64| (motion.start.z >= z) != (motion.end.z >= z);
+        straight && !turns && !varies && !load.below_z_mm.is_some_and(passes)
+    }
+
     fn wrench_headed(
         &self,
         placement: &Placement,

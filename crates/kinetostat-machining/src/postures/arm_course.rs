@@ -10,7 +10,7 @@ use kinetostat_program::{Knowledge, Move};
 use crate::joints::arm::Arm;
 use crate::task::Task;
 
-/// From one posture to the next along the path, mm, ...
+/// From one posture to the next along the path, over moves that are shorter, mm, ...
 const EVERY_MM: f64 = 5.0;
 
 /// ... and where the tool turns, deg.
@@ -59,18 +59,29 @@ impl ArmCourse {
         let mut marks: Vec<Mark> = Vec::new();
         let mut differs = false;
         let mut last: Option<usize> = None;
+        // Since the last posture, in steps.
+        let mut gone = 0.0;
         for (move_index, motion) in moves.iter().enumerate() {
             if motion.known == Knowledge::Nothing {
                 continue;
             }
-            let pieces = (steps(motion) / coarser).ceil().max(1.0);
-            let first = u32::from(last.is_some() || motion.known != Knowledge::Whole);
+            let own = steps(motion) / coarser;
             let mechanism = task.mechanism_on(motion.line);
             if last.is_some_and(|line| !std::ptr::eq(task.mechanism_on(line), mechanism)) {
                 // Another tool: the arm comes from anywhere.
                 return None;
             }
+            let is_first = last.is_none();
             last = Some(motion.line);
+            let is_whole = motion.known == Knowledge::Whole;
+            if is_whole && !is_first && gone + own <= 1.0 && move_index + 1 < moves.len() {
+                gone += own;
+                continue;
+            }
+            let pieces = own.ceil().max(1.0);
+            let from_start = is_whole && (is_first || gone + own / pieces > 1.0);
+            gone = 0.0;
+            let first = u32::from(!from_start);
             for piece in first..=pieces as u32 {
                 let share = match first {
                     1 if motion.known != Knowledge::Whole => 1.0,

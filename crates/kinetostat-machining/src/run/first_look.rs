@@ -10,7 +10,7 @@ use crate::load::along_path::LoadAlongPath;
 use crate::result::point::PointResult;
 use crate::run::machines::Machines;
 use crate::run::points::{Solving, chunk};
-use crate::run::sites::{of_path, spacing_mm};
+use crate::run::sites::{OfPath, spacing_mm};
 use crate::task::{RunError, Task};
 use crate::watch::Watch;
 
@@ -23,7 +23,11 @@ const GROSS: f64 = 10.0;
 
 /// How many places a first look could take.
 pub(crate) fn count_sites(task: &Task<'_>, load: &LoadAlongPath<'_>) -> usize {
-    of_path(task.path(), load, &task.placement, spacing_mm(task)).count()
+    places(task, load).count()
+}
+
+fn places<'a>(task: &'a Task<'_>, load: &'a LoadAlongPath<'_>) -> OfPath<'a> {
+    OfPath::new(task.path(), load, &task.placement, spacing_mm(task))
 }
 
 /// A few places of a program, each solved by itself.
@@ -62,7 +66,6 @@ impl FirstLook {
         (all, before): (usize, usize),
         watch: &dyn Watch,
     ) -> Result<Self, RunError> {
-        let sites = of_path(task.path(), load, &task.placement, spacing_mm(task));
         let every = all.div_ceil(FIRST_LOOKS).max(1);
         // Places are counted from the beginning of the whole program.
         let first = before.next_multiple_of(every) - before;
@@ -72,7 +75,8 @@ impl FirstLook {
             first: None,
             not_converged: false,
         };
-        for (index, site) in sites.skip(first).step_by(every).enumerate() {
+        let sites = places(task, load).every(first, every);
+        for (index, site) in sites.into_iter().enumerate() {
             if watch.cancelled() {
                 return Err(RunError::Cancelled);
             }

@@ -21,7 +21,7 @@ use crate::watch::Watch;
 use kinetostat::batch::AlongPath;
 
 /// Points between two questions to the watch whether to stop.
-pub(crate) const BATCH: usize = 4096;
+pub(crate) const BATCH: usize = 16_384;
 
 /// All points in their order, and the first of a written program that is worse than before. Sites are
 /// made as they are needed: a long program has many.

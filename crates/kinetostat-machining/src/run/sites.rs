@@ -157,57 +157,120 @@ fn jumps(path: &Path, load: &LoadAlongPath<'_>, placement: &Placement, i: usize)
     let Some(before) = i.checked_sub(1) else {
         return true;
     };
-    let cuts = path.moves[before].is_known_feed();
+    if !path.moves[before].is_known_feed() {
+        return true;
+    }
     let before = load.wrench(placement, before, 1.0).0;
     let after = load.wrench(placement, i, 0.0).0;
-    !cuts || (after - before).norm() > 1e-6 * (before.norm() + after.norm())
+    (after - before).norm() > 1e-6 * (before.norm() + after.norm())
 }
 
-/// Ends and middles of all blocks, and their starts where the load jumps, one after the other; of blocks longer than `spacing_mm` those of their
-/// pieces.
+/// Where a program is looked at as it is given: ends and middles of all blocks, and their starts where the load jumps; of blocks longer
+/// than a spacing those of their pieces.
+pub(crate) struct OfPath<'a> {
+    path: &'a Path,
+    load: &'a LoadAlongPath<'a>,
+    placement: &'a Placement,
+    starts: Vec<f64>,
+    programmed: Programmed,
+}
+
+impl<'a> OfPath<'a> {
+    pub fn new(
+        path: &'a Path,
+        load: &'a LoadAlongPath<'a>,
+        placement: &'a Placement,
+        spacing_mm: f64,
+    ) -> Self {
+        Self {
+            path,
+            load,
+            placement,
+            starts: starts(path),
+            programmed: Programmed::new(path, spacing_mm),
+        }
+    }
+
+    /// Shares of a move, and which of them are ends.
+    fn shares(&self, i: usize) -> Vec<(f64, bool)> {
+        let motion = &self.path.moves[i];
+        match (motion.known, motion.kind) {
+            (Knowledge::Nothing, _) => Vec::new(),
+            (Knowledge::End, _) | (_, MoveKind::Rapid) => vec![(1.0, true)],
+            (Knowledge::Whole, MoveKind::Feed) if stays(motion) => Vec::new(),
+            (Knowledge::Whole, MoveKind::Feed) => {
+                let jumps = jumps(self.path, self.load, self.placement, i);
+                let start = jumps.then_some((0.0, false));
+                start
+                    .into_iter()
+                    .chain(self.programmed.shares(motion))
+                    .collect()
+            }
+        }
+    }
+
+    /// The place at a share of a move, with what acts there.
+    fn site(&self, i: usize, (share, end): (f64, bool)) -> Site {
+        let motion = &self.path.moves[i];
+        let desired = motion.point(share);
+        Site {
+            line: motion.line,
+            move_index: i,
+            output_line: 0,
+            kind: kind(motion),
+            share,
+            path_mm: self.starts[i] + share * known_length(motion),
+            start_mm: self.starts[i],
+            programmed: true,
+            desired,
+            commanded: desired,
+            orientation: motion.orientation(share),
+            commanded_orientation: motion.orientation(share),
+            commanded_deg: None,
+            wrench: self.load.wrench(self.placement, i, share),
+            other_wrench: None,
+            end,
+        }
+    }
+
+    /// How many places there are.
+    pub fn count(&self) -> usize {
+        let own = self.path.own_moves();
+        own.map(|i| self.shares(i).len()).sum()
+    }
+
+    /// Every so manyth of them, from one of them on. What lies between is only counted.
+    pub fn every(&self, first: usize, every: usize) -> Vec<Site> {
+        let (mut found, mut seen, mut next) = (Vec::new(), 0, first);
+        for i in self.path.own_moves() {
+            let shares = self.shares(i);
+            while let Some(place) = next.checked_sub(seen).and_then(|k| shares.get(k)) {
+                found.push(self.site(i, *place));
+                next += every;
+            }
+            seen += shares.len();
+        }
+        found
+    }
+
+    /// All of them, one after the other.
+    pub fn sites(self) -> impl Iterator<Item = Site> + 'a {
+        let own = self.path.own_moves();
+        own.flat_map(move |i| {
+            let shares = self.shares(i).into_iter();
+            shares.map(|place| self.site(i, place)).collect::<Vec<_>>()
+        })
+    }
+}
+
+/// The places of [`OfPath`], one after the other.
 pub(crate) fn of_path<'a>(
     path: &'a Path,
     load: &'a LoadAlongPath<'a>,
     placement: &'a Placement,
     spacing_mm: f64,
 ) -> impl Iterator<Item = Site> + 'a {
-    let starts = starts(path);
-    let programmed = Programmed::new(path, spacing_mm);
-    let own = path.own_moves();
-    let moves = own.clone().zip(&path.moves[own]);
-    moves.flat_map(move |(i, motion)| {
-        let site = |(share, end): (f64, bool)| {
-            let desired = motion.point(share);
-            Site {
-                line: motion.line,
-                move_index: i,
-                output_line: 0,
-                kind: kind(motion),
-                share,
-                path_mm: starts[i] + share * known_length(motion),
-                start_mm: starts[i],
-                programmed: true,
-                desired,
-                commanded: desired,
-                orientation: motion.orientation(share),
-                commanded_orientation: motion.orientation(share),
-                commanded_deg: None,
-                wrench: load.wrench(placement, i, share),
-                other_wrench: None,
-                end,
-            }
-        };
-        match (motion.known, motion.kind) {
-            (Knowledge::Nothing, _) => Vec::new(),
-            (Knowledge::End, _) | (_, MoveKind::Rapid) => vec![site((1.0, true))],
-            (Knowledge::Whole, MoveKind::Feed) if stays(motion) => Vec::new(),
-            (Knowledge::Whole, MoveKind::Feed) => {
-                let start = jumps(path, load, placement, i).then_some((0.0, false));
-                let shares = start.into_iter().chain(programmed.shares(motion));
-                shares.map(site).collect()
-            }
-        }
-    })
+    OfPath::new(path, load, placement, spacing_mm).sites()
 }
 
 /// Seed of the irregular places: the division of blocks has another, so that what it overlooked is not
@@ -378,6 +441,9 @@ const STRAIGHT: f64 = 1e-5;
 /// Where a load inside a block is farthest from what its ends say: where it or its slope jumps and midway between, and in the
 /// middle where it turns. None where it goes evenly from one end to the other.
 fn places_of_load(load: &LoadAlongPath<'_>, placement: &Placement, index: usize) -> Vec<f64> {
+    if load.is_steady(index) {
+        return Vec::new();
+    }
     let mut shares = load.breaks(index);
     shares.retain(|share| *share > 0.0 && *share < 1.0);
     let [begin, middle, end] = [0.0, 0.5, 1.0].map(|share| load.wrench(placement, index, share).0);

@@ -103,6 +103,12 @@ pub enum Course {
         /// The length, in mm.
         radius_mm: f64,
     },
+    /// The same of a straight move along which nothing but the place changes. Where that is short beside the length, the
+    /// corrections at its two ends say all about it.
+    Steady {
+        /// The length, in mm.
+        radius_mm: f64,
+    },
 }
 
 impl Default for Course {

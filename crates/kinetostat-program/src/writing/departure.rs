@@ -63,7 +63,7 @@ pub fn departure(values: &Values, chord: [Vector6<f64>; 2]) -> f64 {
     on_grid + between
 }
 
-/// Upper bound of what the polynomial through three (or five) evenly spaced values may be off from a
+/// Upper bound of what the polynomial through two, three or five evenly spaced values may be off from a
 /// correction that can be continued analytically `radius` farther to every side (also into the complex
 /// plane) and is there at most twice as large as `size`.
 ///
@@ -72,11 +72,12 @@ pub fn departure(values: &Values, chord: [Vector6<f64>; 2]) -> f64 {
 pub fn remainder(points: u8, size: f64, length: f64, radius: f64) -> f64 {
     let ratio = length / radius;
     let largest = 2.0 * size * (1.0 + ratio / std::f64::consts::PI);
-    if points == 3 {
+    match points {
+        // (l/2)^2
+        2 => largest * 0.25 * ratio.powi(2),
         // (l/2)^3 times 2 / sqrt(27)
-        largest * 0.0482 * ratio.powi(3)
-    } else {
+        3 => largest * 0.0482 * ratio.powi(3),
         // (l/4)^5 times 3.632
-        largest * 0.003_55 * ratio.powi(5)
+        _ => largest * 0.003_55 * ratio.powi(5),
     }
 }

@@ -106,4 +106,4 @@ fn is_last_with_rotary_axes(path: &Path, move_index: usize) -> bool {
 }
 
 /// Points queried in one call of the field.
-const BATCH: usize = 8192;
+const BATCH: usize = 16_384;

@@ -35,6 +35,7 @@ mod sampled;
 mod sampled_maps;
 mod short_blocks;
 mod spindle;
+mod steady_moves;
 mod support;
 mod tool_turns;
 mod tools;

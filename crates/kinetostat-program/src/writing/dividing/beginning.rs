@@ -5,6 +5,7 @@ use nalgebra::Vector6;
 use crate::error::WriteError;
 use crate::field::request::Course;
 use crate::path::curve::Curve;
+use crate::path::moves::Move;
 use crate::writing::directed_moves::DirectedMove;
 use crate::writing::dividing::stretch::Stretch;
 use crate::writing::node::{Node, is_corrected_at_end, is_divided, taken_up};
@@ -108,7 +109,23 @@ fn insert(share: f64, fixed: bool, list: &mut Vec<Boundary>) {
     }
 }
 
-/// Asks for the ends of all first stretches, and the middles between them.
+/// Share of the length over which a correction is smooth: the ends of shorter moves most often say all.
+const SHORT: f64 = 0.01;
+
+/// Whether the middle of a move is asked for only where its ends turn out not to say all.
+fn is_short(
+    motion: &Move,
+    (course, list): (Course, &[Boundary]),
+    directed: Option<&DirectedMove<'_>>,
+) -> bool {
+    let Course::Steady { radius_mm } = course else {
+        return false;
+    };
+    let is_line = motion.curve == Curve::Line && directed.is_none();
+    is_line && list.len() == 2 && motion.length_mm() < SHORT * radius_mm
+}
+
+/// Asks for the ends of all first stretches, and for the middles between them where they are not very short.
 pub(crate) fn first_round(
     queries: &mut FieldQueries<'_>,
     (options, all_fitted): (&WriteOptions, &[Fitted]),
@@ -126,16 +143,19 @@ pub(crate) fn first_round(
                 (options, all_fitted[move_index]),
                 directed[move_index].as_ref(),
             )?;
+            let middles = !is_short(motion, (course, &list), directed[move_index].as_ref());
             for pair in list.windows(2) {
                 let [from, to] = [pair[0].share, pair[1].share];
                 requests.push(queries.request(move_index, from));
-                requests.push(queries.request(move_index, from + (to - from) * 0.5));
+                if middles {
+                    requests.push(queries.request(move_index, from + (to - from) * 0.5));
+                }
             }
             requests.push(queries.request(move_index, 1.0));
-            first.push((move_index, list, course));
+            first.push((move_index, list, course, middles));
         } else if is_corrected_at_end(motion) {
             requests.push(queries.request(move_index, 1.0));
-            first.push((move_index, Vec::new(), Course::Cubic));
+            first.push((move_index, Vec::new(), Course::Cubic, false));
         }
         if requests.len() / 2 > options.max_pieces {
             return Err(WriteError::TooManyPieces {
@@ -149,7 +169,7 @@ pub(crate) fn first_round(
     let mut open = Vec::new();
     // What holds before a move: the last answer of the one before it.
     let mut before: Option<(usize, Vector6<f64>)> = None;
-    for (move_index, list, course) in first {
+    for (move_index, list, course, middles) in first {
         let mut value = answer();
         if list.is_empty() {
             nodes.push(Node::smooth(move_index, 1.0, value));
@@ -168,7 +188,7 @@ pub(crate) fn first_round(
             ..Node::smooth(move_index, 0.0, value)
         });
         for pair in list.windows(2) {
-            let (middle, end) = (answer(), answer());
+            let (middle, end) = (middles.then(&mut answer), answer());
             nodes.push(Node {
                 fixed: pair[1].fixed,
                 ..Node::smooth(move_index, pair[1].share, end)
@@ -184,7 +204,7 @@ pub(crate) fn first_round(
                 share: [pair[0].share, pair[1].share],
                 ends: [value, end],
                 begins,
-                middle: Some(middle),
+                middle,
                 quarters: None,
                 irregular: None,
             });

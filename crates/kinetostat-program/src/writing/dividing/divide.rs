@@ -108,12 +108,14 @@ fn answer(
 ) -> Result<(), WriteError> {
     let requests: Vec<Request> = open
         .iter()
-        .filter(|stretch| stretch.middle.is_none())
+        .filter(|stretch| stretch.lacks_middle(queries.path, options))
         .map(|stretch| queries.request(stretch.move_index, stretch.at(0.5)))
         .collect();
     let mut answers = queries.evaluate(&requests)?.into_iter();
-    for stretch in open.iter_mut().filter(|stretch| stretch.middle.is_none()) {
-        stretch.middle = answers.next();
+    for stretch in open.iter_mut() {
+        if stretch.lacks_middle(queries.path, options) {
+            stretch.middle = answers.next();
+        }
     }
 
     let wants: Vec<usize> = (0..open.len())
@@ -154,6 +156,7 @@ fn next_round(
     let mut next = Vec::new();
     for stretch in open {
         let (Some(middle), move_index) = (stretch.middle, stretch.move_index) else {
+            // Its ends say all.
             continue;
         };
         let [from, to] = stretch.share;

@@ -95,8 +95,30 @@ impl Stretch {
         short || self.at(0.5) <= from || self.at(0.5) >= to
     }
 
+    /// Whether its ends say all: it is so short that the correction is what lies between them, as seen by three values it would be.
+    fn ends_suffice(&self, path: &Path, options: &WriteOptions) -> bool {
+        let (Course::Steady { radius_mm }, true) = (self.course, self.entire && !self.fitted)
+        else {
+            return false;
+        };
+        let (tolerance, [first, last]) = (options.tolerance_mm, self.ends);
+        let size = larger(tolerance, larger(first.norm(), last.norm()));
+        let way = path.moves[self.move_index].length_mm();
+        let is_known = remainder(2, size, way, radius_mm) <= UNKNOWN * tolerance;
+        let off = (self.begins - first).norm();
+        is_known && off <= 0.25 * tolerance && (last - first).norm() <= tolerance
+    }
+
+    /// Whether its middle is to be evaluated before anything is decided.
+    pub fn lacks_middle(&self, path: &Path, options: &WriteOptions) -> bool {
+        self.middle.is_none() && !self.ends_suffice(path, options)
+    }
+
     /// What becomes of it.
     pub fn decide(&self, path: &Path, options: &WriteOptions) -> Decision {
+        if self.middle.is_none() && self.ends_suffice(path, options) {
+            return Decision::Accept;
+        }
         let Some(values) = self.node_values() else {
             return Decision::Refine;
         };
@@ -109,7 +131,7 @@ impl Stretch {
         let (unknown, needs_quarters) = match self.course {
             Course::Cubic if !self.fitted => (0.0, true),
             Course::Cubic => (self.unknown_round(motion, &values), true),
-            Course::Smooth { radius_mm } => {
+            Course::Smooth { radius_mm } | Course::Steady { radius_mm } => {
                 // That nothing was seen yet does not make it small: it counts as the tolerance at least.
                 let seen = self.irregular.iter().map(|(_, value)| value);
                 let size = values
