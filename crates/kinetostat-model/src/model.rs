@@ -9,7 +9,7 @@ use nalgebra::Vector3;
 use crate::assembly::controller::{Controller, controller};
 use crate::assembly::mechanism::assemble;
 use crate::assembly::repair::others;
-use crate::elements::damping::damping;
+use crate::elements::damping::{damping, damping_place};
 use crate::elements::placement::{three_digits, written, written_pose};
 use crate::elements::rotary::{RotaryAxis, rotary_axes};
 use crate::elements::workspace::corners;
@@ -184,6 +184,24 @@ impl Model {
     #[must_use]
     pub fn damping(&self) -> Damping {
         damping(&self.document).unwrap_or(Damping::Undamped)
+    }
+
+    /// The line of the file that says how vibrations are damped: its law, or of several dampers the strongest one's.
+    #[must_use]
+    pub fn damping_line(&self) -> Option<usize> {
+        self.line_of(&damping_place(&self.document)?)
+    }
+
+    /// The line at which the first limb of the file begins.
+    #[must_use]
+    pub fn first_limb_line(&self) -> Option<usize> {
+        self.line_of(&KeyPath::root().key("limb").index(0))
+    }
+
+    fn line_of(&self, place: &KeyPath) -> Option<usize> {
+        let source = Source::parse(&self.file, &self.text).ok()?;
+        let found = Finding::new(place, "", "");
+        source.problem(Severity::Warning, &found).line
     }
 
     /// Whether the machine is an arm: three turning drives follow one another in a limb.

@@ -47,17 +47,13 @@ impl VibratingMachine {
     /// where they all have one, and real modes say it all.
     ///
     /// # Errors
-    /// As [`LinearDynamics::complex_modes`].
+    /// As [`LinearDynamics::complex_modes_damped`].
     pub fn complex_modes(&self, damping: &Damping, count: usize) -> Result<Option<ComplexModes>> {
         if !self.dynamics.is_circulatory() {
             return Ok(None);
         }
-        let matrix = match damping {
-            Damping::Undamped | Damping::Structural { .. } => None,
-            law => Some(self.dynamics.damping_matrix(&self.modes, law)?),
-        };
         self.dynamics
-            .complex_modes(matrix.as_ref(), count)
+            .complex_modes_damped(&self.modes, damping, count)
             .map(Some)
     }
 

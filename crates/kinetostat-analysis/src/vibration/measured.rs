@@ -28,6 +28,8 @@ pub struct MeasuredModes {
     pub curves: Vec<String>,
     /// Of each curve the axis of its motion, 0 to 2 for x, y, z of the base, and its sign.
     directions: Vec<(usize, f64)>,
+    /// The same of the force, where it is known to act where the motion is.
+    reference: Option<(usize, f64)>,
 }
 
 /// The model's modes that the tool can show, as they are compared.
@@ -37,6 +39,8 @@ pub struct ShownModes {
     pub numbers: Vec<usize>,
     /// Their frequencies, damping and shapes along the measured directions.
     pub modes: Vec<ShapedMode>,
+    /// Motion of the tool's tip in each, base axes, normalised by mass.
+    pub at_tool: Vec<[f64; 3]>,
 }
 
 impl MeasuredModes {
@@ -80,11 +84,52 @@ impl MeasuredModes {
         fit.left_out_hz
             .extend(others.iter().map(|mode| mode.frequency_hz));
         fit.modes = excited;
+        let at_one_place = own.iter().all(|r| r.response_node == r.reference_node);
+        let force = own.first().map_or(0, |r| r.reference_direction);
+        let reference = match force.abs() {
+            axis @ 1..=3 if at_one_place => Some((axis as usize - 1, f64::from(force.signum()))),
+            _ => None,
+        };
         Ok(Self {
             directions,
+            reference,
             curves: own.iter().map(|response| response.name.clone()).collect(),
             fit,
         })
+    }
+
+    /// A curve whose motion is along its own force, at its own place, and whose modes give way against that force at rest: none
+    /// does, so that a sign is wrong (of a sensor, of a hammer, of an axis).
+    #[must_use]
+    pub fn against_its_force(&self) -> Option<&str> {
+        let (axis, sign) = self.reference?;
+        let own = (self.directions.iter()).position(|(along, _)| *along == axis)?;
+        let flexibility: f64 = (self.fit.modes.iter())
+            .map(|mode| mode.constants[own] / mode.frequency_hz.powi(2))
+            .sum();
+        let turned = flexibility * sign * self.directions[own].1 < 0.0;
+        turned.then_some(self.curves[own].as_str())
+    }
+
+    /// By which factor measured constants (products of mass-normalised shapes at motion and force) are those of the model, of
+    /// each pair; by least squares over the curves. 1 where mass and units are right; nothing where the force is not at
+    /// the place of the motions, or its direction is not known.
+    #[must_use]
+    pub fn amplitudes(&self, shown: &ShownModes, pairs: &[ModePair]) -> Vec<Option<f64>> {
+        let of = |pair: &ModePair| {
+            let (axis, sign) = self.reference?;
+            let by_force = sign * shown.at_tool[pair.model][axis];
+            let model = shown.modes[pair.model].shape.iter();
+            let measured = self.fit.modes[pair.measured].constants.iter();
+            let (mut both, mut own) = (0.0, 0.0);
+            for (model, measured) in model.zip(measured) {
+                let constant = model * by_force;
+                both += measured * constant;
+                own += constant * constant;
+            }
+            (own > 0.0).then(|| both / own)
+        };
+        pairs.iter().map(of).collect()
     }
 
     /// The measured modes, shapes along the directions of the curves.
@@ -126,8 +171,15 @@ impl MeasuredModes {
         let seen = shaped
             .into_iter()
             .filter(|(_, mode)| size(mode) > SEEN * most);
-        let (numbers, modes) = seen.unzip();
-        ShownModes { numbers, modes }
+        let (numbers, modes): (Vec<usize>, Vec<ShapedMode>) = seen.unzip();
+        let tool = |number: &usize| machine.modes.modes[*number].tool;
+        ShownModes {
+            at_tool: (numbers.iter())
+                .map(|number| std::array::from_fn(|k| tool(number)[k]))
+                .collect(),
+            numbers,
+            modes,
+        }
     }
 
     /// Each measured mode with that of the model which it resembles most, if their frequencies are within a factor of 1.5;

@@ -16,8 +16,8 @@ pub enum ToolReceptance<'m> {
 
 impl VibratingMachine {
     /// The receptance of the tool's tip. By the lowest `kept` modes where a number is given. Else by all modes where no
-    /// damping couples them, and by direct solution where one does (dampers at joints, Rayleigh's damping under load) or
-    /// where loads have no potential.
+    /// damping couples them, and by direct solution where one does (dampers at joints, Rayleigh's or structural damping under
+    /// load) or where loads have no potential.
     ///
     /// # Errors
     /// As [`ModalResponse::new`] and [`kinetostat_dynamics::LinearDynamics::direct`].
@@ -26,7 +26,8 @@ impl VibratingMachine {
         damping: &Damping,
         kept: Option<usize>,
     ) -> Result<ToolReceptance<'_>> {
-        let directly = damping.couples_modes() || self.dynamics.is_circulatory();
+        let directly =
+            self.dynamics.modes_are_coupled_by(damping) || self.dynamics.is_circulatory();
         Ok(match kept {
             None if directly => ToolReceptance::Direct(
                 Box::new(self.dynamics.direct(&self.modes, damping)?),
@@ -44,7 +45,7 @@ impl VibratingMachine {
     /// # Errors
     /// As [`Self::tool_receptance`].
     pub fn lost_coupling(&self, damping: &Damping, up_to_hz: f64) -> Result<f64> {
-        if !damping.couples_modes() || self.dynamics.is_circulatory() {
+        if !self.dynamics.modes_are_coupled_by(damping) || self.dynamics.is_circulatory() {
             return Ok(0.0);
         }
         let hz: Vec<f64> = (self.modes.frequencies_hz().into_iter())

@@ -59,7 +59,7 @@ impl MillingCut {
                 kind,
                 "helix",
                 format!("{} deg", helix.to_degrees()),
-                "an angle of at most 70 degrees, in rad",
+                "an angle of at most 70 degrees",
             ));
         }
         self.lag_per_depth = 2.0 * helix.tan() / diameter;

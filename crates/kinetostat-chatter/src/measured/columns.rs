@@ -49,7 +49,8 @@ fn fault(line: usize, quantity: &str, found: impl ToString, expected: &str) -> C
 /// The first line names the columns: `frequency_hz`, and for each response `NAME_re_UNIT` and `NAME_im_UNIT` (or `real` and
 /// `imaginary`), or `NAME_mag_UNIT` and `NAME_phase_deg`. `UNIT` is `m_per_n`, `mm_per_n`, `um_per_n`, `m_per_s_per_n`, `mm_per_s_per_n`,
 /// `m_per_s2_per_n`, `mm_per_s2_per_n` or `g_per_n`. Names as `xy` or `x_by_y` are read as motion along x by a force along y. Columns are
-/// parted by commas, semicolons or tabs; lines that begin with `#` are left out.
+/// parted by commas, semicolons or tabs; lines that begin with `#` are left out, and so are columns of turns or by moments
+/// (`rad_per_n`, `m_per_n_m`; [`turning_columns`] names them).
 ///
 /// ```
 /// let text = "frequency_hz,xx_re_um_per_n,xx_im_um_per_n\n10,0.5,-0.01\n11,0.6,-0.02\n";
@@ -128,6 +129,37 @@ pub fn read_columns(text: &str) -> Result<Vec<MeasuredResponse>> {
     columns.into_iter().zip(values).map(whole).collect()
 }
 
+/// Whether a column is that of a turn, or of what a moment does.
+fn is_turning(name: &str) -> bool {
+    name.contains("_rad_per_") || name.ends_with("_per_n_m")
+}
+
+/// Responses of turns or by moments in columns of text, by their names: [`read_columns`] leaves them out.
+///
+/// ```
+/// let head = "frequency_hz,x_by_x_re_m_per_n,x_by_x_im_m_per_n,rz_by_x_re_rad_per_n,rz_by_x_im_rad_per_n\n";
+/// assert_eq!(kinetostat_chatter::turning_columns(head), ["rz_by_x"]);
+/// ```
+#[must_use]
+pub fn turning_columns(text: &str) -> Vec<String> {
+    let lines = text.trim_start_matches('\u{feff}').lines().map(str::trim);
+    let mut lines = lines.filter(|line| !line.is_empty() && !line.starts_with('#'));
+    let mut names: Vec<String> = Vec::new();
+    for name in lines.next().unwrap_or("").split([';', '\t', ',']) {
+        let name = name.trim().trim_matches('"').to_lowercase();
+        let words = [REAL, IMAGINARY, MAGNITUDE].concat();
+        let stem = words
+            .iter()
+            .find_map(|word| Some(name.split_once(&format!("{word}_"))?.0));
+        if let Some(stem) = stem.filter(|_| is_turning(&name))
+            && names.iter().all(|own| own != stem)
+        {
+            names.push(stem.to_owned());
+        }
+    }
+    names
+}
+
 /// Motion and force of a name as `xy` or `x_by_y`; 0 for what it does not tell.
 fn directions(name: &str) -> (i32, i32) {
     let of = |c: char| "xyz".find(c).map_or(0, |at| at as i32 + 1);
@@ -150,7 +182,7 @@ fn columns(names: &[String], frequency: usize, head: usize) -> Result<Vec<Column
             })
     };
     for (first, name) in names.iter().enumerate() {
-        if first == frequency || name.ends_with("_phase_deg") {
+        if first == frequency || name.ends_with("_phase_deg") || is_turning(name) {
             continue;
         }
         let unit = UNITS.iter().find(|(unit, ..)| name.ends_with(unit));
@@ -196,7 +228,7 @@ fn columns(names: &[String], frequency: usize, head: usize) -> Result<Vec<Column
         true => Err(fault(
             head,
             "columns",
-            "a frequency alone",
+            "no response of a motion along an axis by a force",
             "at least one response",
         )),
         false => Ok(all),

@@ -13,7 +13,7 @@ mod scaling;
 mod universal;
 mod universal_text;
 
-pub use columns::read_columns;
+pub use columns::{read_columns, turning_columns};
 pub use compare::{ModePair, ShapedMode, modal_assurance, pair_modes};
 pub use fit::{Fit, FittedMode, fit_modes};
 pub use quantity::Motion;

@@ -31,6 +31,9 @@ pub(crate) struct FitAnswer {
     pub(crate) shapes_compared: bool,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) scaled: Option<ScaledAnswer>,
+    /// What amplitudes and signs say against the measurement.
+    #[serde(skip)]
+    pub(crate) doubts: Vec<String>,
 }
 
 /// A measured mode with that of the model which it resembles most.
@@ -44,6 +47,9 @@ pub(crate) struct MeasuredMode {
     pub(crate) model_damping_ratio: Option<f64>,
     /// Modal assurance criterion of both shapes along the measured directions.
     pub(crate) modal_assurance: Option<f64>,
+    /// How many times as large as the model's the measured response of the mode is: 1 where masses and units are right,
+    /// negative where a sign is wrong. Null where the force is at another place.
+    pub(crate) amplitude_by_model: Option<f64>,
 }
 
 /// Numbers of the model that were scaled.
@@ -89,8 +95,20 @@ pub(crate) fn answer(
     let shown = measured.shown(machine, ratios.as_deref());
     let pairs = measured.beside(&shown).map_err(of_measurement)?;
     let compared = measured.curves.len() > 1;
+    let amplitudes = measured.amplitudes(&shown, &pairs);
+    let against = measured.against_its_force().map(|curve| {
+        format!(
+            "the curve '{curve}' moves against its own force at rest, which no machine does: the sign of a sensor, of the hammer or of an axis is wrong"
+        )
+    });
+    if let (Some(words), false) = (&against, args.scale.is_empty()) {
+        return Err(Failure::input(format!(
+            "--scale: {words}. Turn it round, and measure again if you do not know which"
+        )));
+    }
     let beside = |(i, mode): (usize, &kinetostat_chatter::FittedMode)| {
-        let pair = pairs.iter().find(|pair| pair.measured == i);
+        let at = pairs.iter().position(|pair| pair.measured == i);
+        let pair = at.map(|at| &pairs[at]);
         let model = pair.map(|pair| &shown.modes[pair.model]);
         MeasuredMode {
             frequency_hz: mode.frequency_hz,
@@ -101,6 +119,7 @@ pub(crate) fn answer(
                 .filter(|_| ratios.is_some())
                 .map(|model| model.damping_ratio),
             modal_assurance: pair.filter(|_| compared).map(|pair| pair.assurance),
+            amplitude_by_model: at.and_then(|at| amplitudes[at]),
         }
     };
     let all: Vec<MeasuredMode> = measured.fit.modes.iter().enumerate().map(beside).collect();
@@ -113,7 +132,10 @@ pub(crate) fn answer(
             lone.frequency_hz
         )));
     }
+    let mut doubts: Vec<String> = against.into_iter().collect();
+    doubts.extend(odd_amplitude(&all, doubts.is_empty()));
     Ok(FitAnswer {
+        doubts,
         curves: measured.curves.clone(),
         misfit: measured.fit.misfit.clone(),
         modes: all,
@@ -123,6 +145,29 @@ pub(crate) fn answer(
             true => None,
             false => Some(scaled(args, (query, damping), &measured)?),
         },
+    })
+}
+
+/// Measured amplitudes beyond this factor of the model's are no matter of masses.
+const APART: f64 = 3.0;
+
+/// What the middle one of the modes' amplitudes says, beside modes of the model that they resemble.
+fn odd_amplitude(modes: &[MeasuredMode], signs_are_right: bool) -> Option<String> {
+    let alike = |mode: &&MeasuredMode| mode.modal_assurance.is_none_or(|mac| mac > 0.5);
+    let mut own: Vec<f64> = (modes.iter().filter(alike))
+        .filter_map(|mode| mode.amplitude_by_model)
+        .collect();
+    own.sort_by(|a, b| a.abs().total_cmp(&b.abs()));
+    let middle = *own.get(own.len() / 2)?;
+    let size = middle.abs();
+    if !(1.0 / APART..=APART).contains(&size) {
+        return Some(format!(
+            "measured amplitudes are {} times those of the model: check the units of the measurement (um or mm taken for m are 1e-6 and 1e-3, g for m/s^2 are 9.81), and the masses of the model",
+            kinetostat::number::short(size)
+        ));
+    }
+    (middle < 0.0 && signs_are_right).then(|| {
+        "measured modes move against those of the model: the sign of a sensor, of the hammer or of an axis is wrong".to_owned()
     })
 }
 

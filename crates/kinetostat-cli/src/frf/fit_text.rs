@@ -21,6 +21,7 @@ pub(crate) fn fit_text(fit: &FitAnswer) -> String {
         "apart",
         "damping",
         "MAC",
+        "amplitude",
     ];
     let mut rows = vec![heads.map(str::to_owned).to_vec()];
     let some = |x: Option<f64>, digits| x.map_or_else(String::new, |x| number(x, digits));
@@ -37,6 +38,7 @@ pub(crate) fn fit_text(fit: &FitAnswer) -> String {
             apart.map_or_else(String::new, |percent| format!("{percent:+.1} %")),
             some(mode.model_damping_ratio, 3),
             some(mode.modal_assurance, 3),
+            some(mode.amplitude_by_model, 3),
         ]);
     }
     out.push_str(&columns(&rows, 0));
@@ -48,6 +50,9 @@ pub(crate) fn fit_text(fit: &FitAnswer) -> String {
         if fit.curves.len() == 1 { "" } else { "s" },
         number(100.0 * worst, 3)
     ));
+    if fit.modes.iter().any(|m| m.amplitude_by_model.is_some()) {
+        say("Amplitude: how many times as large as the model's the measured response of the mode is; 1 where masses and units are right.".to_owned());
+    }
     if !fit.left_out_hz.is_empty() {
         let list: Vec<String> = fit.left_out_hz.iter().map(|hz| number(*hz, 4)).collect();
         say(format!(

@@ -2,26 +2,52 @@
 
 use std::path::Path;
 
-use kinetostat_chatter::{MeasuredResponse, read_columns, read_universal};
+use kinetostat_chatter::{MeasuredResponse, read_columns, read_universal, turning_columns};
 use kinetostat_machining::{Warning, WarningCode};
 
 use crate::files::input_files::InputFiles;
 use crate::ui::failure::{Answer, Failure};
 
+/// What was measured, and what stands beside it in the file.
+#[derive(Default)]
+pub(crate) struct Measured {
+    pub(crate) responses: Vec<MeasuredResponse>,
+    /// Responses of turns or by moments, which nothing is done with.
+    pub(crate) turning: Vec<String>,
+}
+
 /// Of a universal file, or of a table with columns as `xx_re_um_per_n`.
-pub(crate) fn read(files: &InputFiles, path: &Path) -> Answer<Vec<MeasuredResponse>> {
+pub(crate) fn read(files: &InputFiles, path: &Path) -> Answer<Measured> {
     let text = files.text("measured responses", path)?;
-    let universal = text.lines().next().is_some_and(|line| line.trim() == "-1");
+    let mut written = text.lines().map(str::trim).filter(|line| !line.is_empty());
+    let universal = written.next() == Some("-1");
     let found = match universal {
         true => read_universal(&text).map(|file| file.responses),
         false => read_columns(&text),
     };
-    found.map_err(|error| Failure::input(format!("{}: {error}", path.display())))
+    let failed = |error| Failure::input(format!("{}: {error}", path.display()));
+    Ok(Measured {
+        responses: found.map_err(failed)?,
+        turning: match universal {
+            true => Vec::new(),
+            false => turning_columns(&text),
+        },
+    })
 }
 
 /// What a measured file does not say, or says of another place than the tool's tip.
-pub(crate) fn warnings(measured: &[MeasuredResponse]) -> Vec<Warning> {
+pub(crate) fn warnings(file: &Measured) -> Vec<Warning> {
+    let measured = &file.responses;
     let mut all = Vec::new();
+    if !file.turning.is_empty() {
+        all.push(Warning::new(
+            WarningCode::Model,
+            format!(
+                "not read of the measured responses, since they are of turns or by moments: {}",
+                file.turning.join(", ")
+            ),
+        ));
+    }
     let unit = measured.iter().filter(|m| !m.units_stated).count();
     if unit > 0 {
         all.push(Warning::new(

@@ -18,6 +18,7 @@ use crate::frf::answer::{FrfAnswer, curves};
 use crate::frf::arguments::{FrfArgs, QuantityWord};
 use crate::ui::failure::{Answer, Failure};
 use crate::vibration::damping::words;
+use crate::vibration::pair::{frequency_hz, growth_per_s};
 use crate::vibration::subject;
 
 /// Most frequencies of a response.
@@ -47,7 +48,7 @@ pub(crate) fn run(args: &FrfArgs) -> Answer<()> {
     let files = ClaimedFiles::claim(&args.outputs, &inputs)?;
     let measured = match &args.measured {
         Some(path) => measured::read(&InputFiles::default(), path)?,
-        None => Vec::new(),
+        None => measured::Measured::default(),
     };
     let posture = query.posture()?;
     let machine = subject::machine(&query, &posture, &held)?;
@@ -62,7 +63,7 @@ pub(crate) fn run(args: &FrfArgs) -> Answer<()> {
     let mut warnings = query.warnings.clone();
     warnings.extend(subject::limits(&machine, &posture));
     warnings.extend(measured::warnings(&measured));
-    if args.modes.is_some() && damping.couples_modes() {
+    if args.modes.is_some() && machine.dynamics.modes_are_coupled_by(&damping) {
         warnings.push(Warning::new(
             WarningCode::Model,
             "with --modes each mode has its own damping alone, and what couples modes is left out; without --modes the response is solved directly".to_owned(),
@@ -75,6 +76,18 @@ pub(crate) fn run(args: &FrfArgs) -> Answer<()> {
         ));
     }
     let receptance = response.over(&frequencies).map_err(subject::refused)?;
+    let finite = |m: &Receptance| m.iter().all(|v| v.re.is_finite() && v.im.is_finite());
+    if let Some(at) = receptance.iter().position(|m| !finite(m)) {
+        return Err(Failure::unanswered(format!(
+            "the tool has no finite response at {} Hz: a direction is free there, or a mode without damping",
+            frequencies[at]
+        )));
+    }
+    if args.outputs.plot.is_some() && !text::moves(&entries, &receptance) {
+        return Err(Failure::input(
+            "--plot: the tool moves along none of these axes (it is held, or the machine cannot move it there), and there is nothing to draw",
+        ));
+    }
     let asked: Vec<Receptance> = (receptance.iter().zip(&frequencies))
         .map(|(moved, hz)| moved * quantity.factor(std::f64::consts::TAU * hz))
         .collect();
@@ -83,10 +96,30 @@ pub(crate) fn run(args: &FrfArgs) -> Answer<()> {
             args,
             modes,
             (&query, &machine, &damping),
-            &measured,
+            &measured.responses,
         )?),
         None => None,
     };
+    let doubts = fit.iter().flat_map(|fit| fit.doubts.iter().cloned());
+    warnings.extend(doubts.map(|words| Warning::new(WarningCode::Model, words)));
+    let complex = machine
+        .complex_modes(&Damping::Undamped, usize::MAX)
+        .map_err(subject::refused)?;
+    let (natural_frequencies_hz, natural_growth_per_s) = match &complex {
+        None => (machine.modes.frequencies_hz(), None),
+        Some(found) => {
+            let (hz, growth) = (found.modes.iter())
+                .map(|pair| (frequency_hz(pair), growth_per_s(pair)))
+                .unzip();
+            (hz, Some(growth))
+        }
+    };
+    if args.fit.is_some() && complex.is_some() {
+        warnings.push(Warning::new(
+            WarningCode::NoPotential,
+            "measured modes are compared with modes of the symmetric part of the stiffness: the loads have no potential, and real modes are none of this machine".to_owned(),
+        ));
+    }
     let answer = FrfAnswer {
         schema: 1,
         kinetostat_version: env!("CARGO_PKG_VERSION"),
@@ -100,10 +133,11 @@ pub(crate) fn run(args: &FrfArgs) -> Answer<()> {
         damping: words(&damping),
         solution: response.solution(),
         quantity: args.quantity.word(),
-        natural_frequencies_hz: machine.modes.frequencies_hz(),
+        natural_frequencies_hz,
+        natural_growth_per_s,
         frequencies_hz: frequencies.clone(),
         curves: curves(&entries, args.quantity, &frequencies, &asked),
-        measured: measured.iter().map(|m| m.name.clone()).collect(),
+        measured: measured.responses.iter().map(|m| m.name.clone()).collect(),
         fit,
         warnings,
     };
@@ -116,7 +150,13 @@ pub(crate) fn run(args: &FrfArgs) -> Answer<()> {
                 .flatten(),
         ),
         csv: text::table(&answer)?,
-        svg: text::drawn(&answer, args.quantity, &entries, &receptance, &measured),
+        svg: text::drawn(
+            &answer,
+            args.quantity,
+            &entries,
+            &receptance,
+            &measured.responses,
+        ),
         failure: None,
     };
     files.finish(&shown, &answer)
@@ -127,12 +167,12 @@ fn frequencies(of: &[f64]) -> Answer<Vec<f64>> {
     let &[low, high, count] = of else {
         return Err(Failure::input("--frequencies needs LO HI N"));
     };
-    if count == 1.0 && low == high && low > 0.0 && low.is_finite() {
+    if count == 1.0 && low == high && low >= 0.0 && low.is_finite() {
         return Ok(vec![low]);
     }
-    if !(low > 0.0 && high > low && high.is_finite()) {
+    if !(low >= 0.0 && high > low && high.is_finite()) {
         return Err(Failure::input(format!(
-            "--frequencies {low} {high}: frequencies in Hz are needed, the first above 0 and the second above the first"
+            "--frequencies {low} {high}: frequencies in Hz are needed, the first not below 0 and the second above the first"
         )));
     }
     if !(2.0..=MOST).contains(&count) || count.fract() != 0.0 {

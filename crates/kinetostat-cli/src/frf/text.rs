@@ -78,14 +78,7 @@ pub(crate) fn answer_text(query: &PlaceQuery, a: &FrfAnswer, not_drawn: Option<S
         "dB: 20 log10 of the magnitude by 1 of its unit.",
         0,
     ));
-    let list: Vec<String> = (a.natural_frequencies_hz.iter())
-        .filter(|f| **f <= high)
-        .map(|f| number(*f, 5))
-        .collect();
-    out.push_str(&wrapped(
-        &format!("Natural frequencies up to there, Hz: {}", list.join(", ")),
-        0,
-    ));
+    out.push_str(&wrapped(&natural_frequencies(a, high), 0));
     if let Some(words) = not_drawn {
         out.push_str(&wrapped(&words, 0));
     }
@@ -94,6 +87,27 @@ pub(crate) fn answer_text(query: &PlaceQuery, a: &FrfAnswer, not_drawn: Option<S
     }
     out.push_str(&warnings::warnings(&a.warnings));
     out
+}
+
+/// Natural frequencies up to one; of complex pairs with their growth.
+fn natural_frequencies(a: &FrfAnswer, high: f64) -> String {
+    let growth = |k: usize| a.natural_growth_per_s.as_ref().map_or(0.0, |all| all[k]);
+    let list: Vec<String> = (a.natural_frequencies_hz.iter().enumerate())
+        .filter(|(_, f)| **f <= high)
+        .map(|(k, f)| match growth(k) {
+            0.0 => number(*f, 5),
+            rate if rate > 0.0 => format!("{} (GROWS by {} 1/s)", number(*f, 5), number(rate, 3)),
+            rate => format!("{} (dies away by {} 1/s)", number(*f, 5), number(-rate, 3)),
+        })
+        .collect();
+    let of = match a.natural_growth_per_s {
+        Some(_) => " of the complex pairs without damping",
+        None => "",
+    };
+    format!(
+        "Natural frequencies up to there{of}, Hz: {}",
+        list.join(", ")
+    )
 }
 
 /// One row for each frequency; real part, imaginary part, magnitude and phase of each entry.
@@ -137,6 +151,11 @@ fn drawable(entries: &[(usize, usize)], receptance: &[Receptance]) -> Vec<(usize
     let most = along.iter().map(size).fold(0.0, larger);
     let shown = along.into_iter().filter(|e| size(e) > NOTHING * most);
     shown.collect()
+}
+
+/// Whether the tool moves along any of the axes that would be drawn.
+pub(crate) fn moves(entries: &[(usize, usize)], receptance: &[Receptance]) -> bool {
+    !drawable(entries, receptance).is_empty()
 }
 
 /// What was asked for and is not drawn, in words.

@@ -21,7 +21,7 @@ use std::path::{Path, PathBuf};
 
 use kinetostat::{Mechanism, MotionKind, Wrench};
 use kinetostat_dynamics::check_masses;
-use kinetostat_machining::{MapTask, Variable, Warning, straight_tool, unusual_load};
+use kinetostat_machining::{MapTask, Variable, Warning, WarningCode, straight_tool, unusual_load};
 use kinetostat_model::Model;
 use nalgebra::UnitQuaternion;
 
@@ -175,6 +175,7 @@ fn warnings(
 ) -> Vec<Warning> {
     let mut warnings: Vec<Warning> = of_model(model).collect();
     warnings.extend(no_potential(&model.mechanism));
+    warnings.extend(symmetric_part(model, loads, task));
     warnings.extend(loads.iter().flat_map(unusual_load));
     warnings.extend(figures.warnings(task.mechanism.size()));
     if orientations.follows {
@@ -182,6 +183,19 @@ fn warnings(
         warnings.push(orientation::follows(turned, stated, true));
     }
     warnings
+}
+
+/// Frequencies of a map are those of real modes, which are none where loads have no potential.
+fn symmetric_part(model: &Model, loads: &[Wrench], task: &MapTask<'_>) -> Option<Warning> {
+    let frequencies = task.variables.iter().any(|v| v.needs_mass());
+    let of_limbs = no_potential(&model.mechanism).is_some();
+    let dead = loads.iter().any(|load| load.moment().norm() > 0.0);
+    (frequencies && (of_limbs || dead)).then(|| {
+        Warning::new(
+            WarningCode::NoPotential,
+            "frequencies of this map are those of the symmetric part of the stiffness: loads have no potential (followers, or a moment that does not turn with the tool), and the machine swings in complex pairs. `kinetostat modes` has these at a place, and says whether one grows".to_owned(),
+        )
+    })
 }
 
 /// A map that is solved.

@@ -5,6 +5,9 @@
 
 mod answer;
 pub(crate) mod arguments;
+mod doubtful;
+mod fields;
+mod pairs;
 mod shapes;
 mod text;
 
@@ -26,7 +29,7 @@ pub(crate) fn run(args: &ModesArgs) -> Answer<()> {
     let machine = subject::machine(&query, &posture, &held)?;
     let answer = answer(args, &query, &posture, &machine, &damping)?;
     let svg = match args.outputs.plot.is_some() {
-        true => shapes::drawn(&query, &posture, &machine, args.modes),
+        true => shapes::drawn(&query, &posture, &machine, (&damping, args.modes))?,
         false => String::new(),
     };
     let shown = Shown {

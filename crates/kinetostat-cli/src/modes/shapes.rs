@@ -1,12 +1,15 @@
-//! Mode shapes drawn: each in the two phases in which the machine turns back, over the machine at rest.
+//! Mode shapes drawn: each in two phases over the machine at rest.
 
 use kinetostat::Posture;
 use kinetostat_analysis::vibration::VibratingMachine;
-use kinetostat_dynamics::{Mode, ModeKind};
+use kinetostat_dynamics::{ComplexMode, Damping, Mode, ModeKind};
 use kinetostat_report::{Drawing, Magnified, Moved, Placed};
 
 use crate::place::query::PlaceQuery;
+use crate::ui::failure::Answer;
 use crate::ui::numbers::number;
+use crate::vibration::pair::{frequency_hz, growth_per_s};
+use crate::vibration::subject::refused;
 
 /// Most modes of one drawing.
 const MOST: usize = 6;
@@ -16,27 +19,76 @@ const HEIGHT: usize = 470;
 /// How far a part may move for its path to be straight, times the natural length.
 const SMALL: f64 = 1e-6;
 
-/// The lowest modes below each other; phases 90 and 270 degrees side by side.
+/// A mode or a complex pair as it is drawn.
+struct Drawn {
+    /// Frequency and what becomes of it.
+    words: String,
+    /// What moves in the first phase, and in the second.
+    phases: [Mode; 2],
+    degrees: [u32; 2],
+}
+
+/// A pair whose parts swing out of step by more than this share is drawn a quarter of a period later.
+const STEP: f64 = 1e-3;
+
+fn of_mode(mode: &Mode) -> Drawn {
+    let kind = match mode.kind {
+        ModeKind::Free => ", free",
+        ModeKind::Unstable => ", UNSTABLE",
+        _ => "",
+    };
+    let mut back = mode.clone();
+    back.shape.neg_mut();
+    Drawn {
+        words: format!("{} Hz{kind}", number(mode.frequency_hz(), 4)),
+        phases: [mode.clone(), back],
+        degrees: [90, 270],
+    }
+}
+
+fn of_pair(machine: &VibratingMachine, pair: &ComplexMode) -> Drawn {
+    let [first, later] = machine.dynamics.shapes_of_pair(pair);
+    let growth = growth_per_s(pair);
+    let kind = match (growth, pair.grows()) {
+        (0.0, _) => String::new(),
+        (_, true) => format!(", GROWS by {} 1/s", number(growth, 3)),
+        (_, false) => format!(", dies away by {} 1/s", number(-growth, 3)),
+    };
+    let in_step = later.shape.amax() <= STEP * first.shape.amax();
+    let mut back = first.clone();
+    back.shape.neg_mut();
+    Drawn {
+        words: format!("{} Hz{kind}", number(frequency_hz(pair), 4)),
+        phases: [first, if in_step { back } else { later }],
+        degrees: if in_step { [90, 270] } else { [90, 180] },
+    }
+}
+
+/// The lowest modes below each other, two phases side by side: those in which the machine turns back, or of a complex pair
+/// whose parts swing out of step that in which the tool moves farthest and one a quarter of a period later.
 pub(crate) fn drawn(
     query: &PlaceQuery,
     posture: &Posture,
     machine: &VibratingMachine,
-    modes: usize,
-) -> String {
-    let list: Vec<(usize, &Mode)> = machine
-        .modes
-        .modes
-        .iter()
-        .enumerate()
-        .take(modes.min(MOST))
-        .collect();
+    (damping, modes): (&Damping, usize),
+) -> Answer<String> {
+    let modes = modes.min(MOST);
+    let complex = machine.complex_modes(damping, modes).map_err(refused)?;
+    let list: Vec<Drawn> = match &complex {
+        None => (machine.modes.modes.iter().take(modes))
+            .map(of_mode)
+            .collect(),
+        Some(found) => (found.modes.iter())
+            .map(|pair| of_pair(machine, pair))
+            .collect(),
+    };
     let (width, height) = (2 * WIDTH, HEIGHT * list.len());
     let mut out = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" viewBox=\"0 0 {width} {height}\">\n"
     );
-    for (row, (index, mode)) in list.into_iter().enumerate() {
-        for (column, sign) in [1.0, -1.0].into_iter().enumerate() {
-            let panel = phase(query, posture, machine, (index, mode), sign);
+    for (row, mode) in list.iter().enumerate() {
+        for column in 0..2 {
+            let panel = phase(query, posture, machine, (row, mode), column);
             let place = format!(
                 "<svg x=\"{}\" y=\"{}\" width=\"{WIDTH}\" height=\"{HEIGHT}\"",
                 column * WIDTH,
@@ -47,7 +99,7 @@ pub(crate) fn drawn(
         }
     }
     out.push_str("</svg>\n");
-    out
+    Ok(out)
 }
 
 /// A drawing with other sizes in its first element.
@@ -78,25 +130,24 @@ fn phase(
     query: &PlaceQuery,
     posture: &Posture,
     machine: &VibratingMachine,
-    (index, mode): (usize, &Mode),
-    sign: f64,
+    (index, mode): (usize, &Drawn),
+    column: usize,
 ) -> String {
-    let most = mode.shape.amax();
-    let step = sign * SMALL / if most > 0.0 { most } else { 1.0 };
+    // Both phases by the same step.
+    let most = mode.phases[0].shape.amax();
+    let step = SMALL / if most > 0.0 { most } else { 1.0 };
     let from = Placed::solved(posture, &machine.equilibrium.state);
-    let to = Placed::solved(posture, &machine.moved_in(posture, mode, step));
+    let to = Placed::solved(
+        posture,
+        &machine.moved_in(posture, &mode.phases[column], step),
+    );
     let mut drawing = Drawing::of(&query.mechanism, from.clone());
-    let kind = match mode.kind {
-        ModeKind::Free => ", free",
-        ModeKind::Unstable => ", UNSTABLE",
-        _ => "",
-    };
-    let degrees = if sign > 0.0 { 90 } else { 270 };
     drawing.title = format!(
-        "{}, mode {}: {} Hz{kind}, phase {degrees} deg",
+        "{}, mode {}: {}, phase {} deg",
         query.name,
         index + 1,
-        number(mode.frequency_hz(), 4)
+        mode.words,
+        mode.degrees[column]
     );
     drawing.moved = Some(Moved {
         from,

@@ -3,7 +3,7 @@
 use kinetostat::number::larger;
 use kinetostat_dynamics::{DirectionCounts, EnergyShare, ModeKind, Verdict};
 
-use crate::modes::answer::{Circulatory, ModeAnswer, ModesAnswer};
+use crate::modes::fields::{Circulatory, ModeAnswer, ModesAnswer};
 use crate::place::query::PlaceQuery;
 use crate::ui::csv_cell::text as safe_cell;
 use crate::ui::csv_table::{cell, cell_if_any, written};
@@ -32,25 +32,41 @@ pub(crate) fn answer_text(query: &PlaceQuery, a: &ModesAnswer) -> String {
         0,
     ));
     match &a.circulatory {
-        Some(found) => out.push_str(&wrapped(&of_circulatory(found), 0)),
-        None if !a.stable => out.push_str(&wrapped(
+        Some(found) => {
+            out.push_str(&wrapped(&of_circulatory(a, found), 0));
+            out.push_str(&wrapped("Modes are the complex pairs under these loads.", 0));
+            if a.structural {
+                out.push_str(&wrapped(
+                    "Structural damping is not in the pairs: it is defined for a steady vibration, and says nothing of what grows or dies away. `kinetostat frf` has it.",
+                    0,
+                ));
+            }
+        }
+        None if a.stable == Some(false) => out.push_str(&wrapped(
             "The equilibrium is NOT stable: what has a negative frequency (square below zero) runs away.",
             0,
         )),
         None => {}
     }
     out.push('\n');
-    let mut rows = vec![
-        ["mode", "Hz", "damping, %", "the tool moves along", "turns"]
-            .map(str::to_owned)
-            .to_vec(),
-    ];
+    let mut head = vec!["mode", "Hz"];
+    if a.circulatory.is_some() {
+        head.push("growth, 1/s");
+    }
+    head.extend(["damping, %", "the tool moves along", "turns"]);
+    let mut rows = vec![head.into_iter().map(str::to_owned).collect()];
     rows.extend(a.modes.iter().map(row));
     out.push_str(&columns(&rows, 0));
     out.push_str(&wrapped(
         "Along: motion of the tip, base axes, its largest part 1. Turns: rad for 1 m of that largest part; where it turns in place, their largest part is 1.",
         0,
     ));
+    if a.circulatory.is_some() {
+        out.push_str(&wrapped(
+            "Growth: the real part of lambda in e^(lambda t). Where parts of a pair swing out of step, the motion is that of the instant at which the tool moves farthest.",
+            0,
+        ));
+    }
     out.push_str("\nWhat moves, and what is strained\n");
     for mode in &a.modes {
         let strained = match largest(&mode.elastic_energy) {
@@ -65,7 +81,7 @@ pub(crate) fn answer_text(query: &PlaceQuery, a: &ModesAnswer) -> String {
         )));
     }
     out.push_str("\nDirections\n");
-    for line in directions(&a.directions) {
+    for line in directions(&a.directions, a.circulatory.is_some()) {
         out.push_str(&item(&line));
     }
     if !a.neutral.is_empty() {
@@ -85,12 +101,8 @@ pub(crate) fn answer_text(query: &PlaceQuery, a: &ModesAnswer) -> String {
 }
 
 /// What becomes of a small disturbance under loads without a potential.
-fn of_circulatory(found: &Circulatory) -> String {
-    let grows = found
-        .modes
-        .iter()
-        .max_by(|a, b| a.growth_per_s.total_cmp(&b.growth_per_s));
-    let how = grows.map_or_else(String::new, |mode| {
+fn of_circulatory(a: &ModesAnswer, found: &Circulatory) -> String {
+    let how = a.fastest_growing.as_ref().map_or_else(String::new, |mode| {
         format!(
             " (at {} Hz, by {} 1/s)",
             number(mode.frequency_hz, 4),
@@ -109,7 +121,7 @@ fn of_circulatory(found: &Circulatory) -> String {
             "The equilibrium is NOT stable: it goes away without swinging (divergence){how}."
         ),
         Verdict::NotJudged { links } => format!(
-            "Loads have no potential, and whether the machine flutters is not judged: links of one segment are too coarse for it ({}). Give them two segments and more.",
+            "Loads have no potential, and whether the machine flutters is not judged: links of one segment are too coarse for it ({}). Give them two segments and more; until then the growth of the pairs below says nothing.",
             links.join(", ")
         ),
         _ => "Loads have no potential.".to_owned(),
@@ -132,9 +144,10 @@ fn clean(part: f64, largest: f64) -> f64 {
 }
 
 fn row(mode: &ModeAnswer) -> Vec<String> {
-    let word = match mode.kind {
-        ModeKind::Free => " free",
-        ModeKind::Unstable => " unstable",
+    let word = match (mode.kind, mode.growth_per_s) {
+        (ModeKind::Free, _) => " free",
+        (ModeKind::Unstable, _) => " unstable",
+        (_, Some(growth)) if growth < 0.0 && mode.frequency_hz == 0.0 => " creeps back",
         _ => "",
     };
     let along = mode.tool_translation_per_sqrt_kg;
@@ -151,14 +164,18 @@ fn row(mode: &ModeAnswer) -> Vec<String> {
         (false, true) => ("it turns in place".to_owned(), shown_turns(most_turned)),
         (false, false) => ("does not move".to_owned(), String::new()),
     };
-    vec![
+    let mut row = vec![
         format!("{}{word}", mode.number),
         number(mode.frequency_hz, 5),
-        mode.damping_ratio
-            .map_or_else(|| "-".to_owned(), |z| fixed(100.0 * z, 2)),
+    ];
+    row.extend(mode.growth_per_s.map(|growth| number(growth, 3)));
+    let damping = mode.damping_ratio;
+    row.extend([
+        damping.map_or_else(|| "-".to_owned(), |z| fixed(100.0 * z, 2)),
         along,
         turns,
-    ]
+    ]);
+    row
 }
 
 /// The largest shares in words.
@@ -168,11 +185,15 @@ fn largest(shares: &[EnergyShare]) -> String {
     each.collect::<Vec<_>>().join(", ")
 }
 
-fn directions(c: &DirectionCounts) -> Vec<String> {
+fn directions(c: &DirectionCounts, pairs: bool) -> Vec<String> {
+    let (quiet, unstable) = match pairs {
+        false => ("vibrate", "are UNSTABLE: negative stiffness"),
+        true => ("pairs do not grow", "pairs GROW"),
+    };
     let lines = [
-        (c.vibrating, "vibrate"),
+        (c.vibrating, quiet),
         (c.free, "are free: mass without stiffness, frequency 0"),
-        (c.unstable, "are UNSTABLE: negative stiffness"),
+        (c.unstable, unstable),
         (
             c.massless,
             "are massless: they follow at once and have no mode",
@@ -198,6 +219,7 @@ pub(crate) fn table(a: &ModesAnswer) -> Answer<Vec<u8>> {
         "mode",
         "kind",
         "frequency_hz",
+        "growth_per_s",
         "squared_rad_per_s_2",
         "damping_ratio",
         "x_per_sqrt_kg",
@@ -221,6 +243,7 @@ pub(crate) fn table(a: &ModesAnswer) -> Answer<Vec<u8>> {
             mode.number.to_string(),
             kind.to_owned(),
             cell(mode.frequency_hz),
+            cell_if_any(mode.growth_per_s),
             cell(mode.squared_rad_per_s_2),
             cell_if_any(mode.damping_ratio),
         ];

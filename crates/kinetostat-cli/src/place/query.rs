@@ -46,6 +46,10 @@ pub(crate) struct PlaceQuery {
     pub(crate) controller: Option<Controller>,
     /// How the model says that vibrations are damped.
     pub(crate) damping: Damping,
+    /// The line that says so.
+    pub(crate) damping_line: Option<usize>,
+    /// The line at which the first limb of the model begins.
+    pub(crate) first_limb_line: Option<usize>,
     pub(crate) wrench: Wrench,
     pub(crate) inputs: Vec<PathBuf>,
     pub(crate) deviations: Vec<String>,
@@ -141,6 +145,8 @@ pub(crate) fn place_query_of(
         joints,
         controller: read.controller.clone(),
         damping: read.damping(),
+        damping_line: read.damping_line(),
+        first_limb_line: read.first_limb_line(),
         wrench,
         inputs: path.into_iter().collect(),
         deviations: deviation_descriptions(read),

@@ -5,5 +5,6 @@
 pub(crate) mod arguments;
 pub(crate) mod damping;
 pub(crate) mod damping_numbers;
+pub(crate) mod pair;
 pub(crate) mod stability;
 pub(crate) mod subject;

@@ -46,10 +46,16 @@ pub(crate) fn machine(
     })
 }
 
-/// File and line of an inertia that no body has: the model has warned of it.
+/// File and line of an inertia that no body has (the model has warned of it), or of where masses are missing.
 fn line_of(error: &Error, query: &PlaceQuery) -> Option<String> {
-    let Error::Inertia { part, .. } = error else {
-        return None;
+    let part = match error {
+        Error::Inertia { part, .. } => part,
+        // A preset is no file that one could write in.
+        Error::NoMass(_) if !query.inputs.is_empty() => {
+            let line = query.first_limb_line?;
+            return Some(format!("{}, line {line}", query.source));
+        }
+        _ => return None,
     };
     let of_part = |warning: &&Warning| {
         let own = warning.message.split('\'').nth(1);
@@ -94,7 +100,7 @@ pub(crate) fn limits(machine: &VibratingMachine, posture: &Posture) -> Vec<Warni
     if machine.dynamics.is_circulatory() {
         warnings.push(Warning::new(
             WarningCode::NoPotential,
-            "loads have no potential (a moment that does not turn with the tool): frequencies are those of the symmetric part of the stiffness; whether the machine flutters, `kinetostat modes` says".to_owned(),
+            "loads have no potential (followers, or a moment that does not turn with the tool): frequencies are those of complex pairs, and a pair may grow (`kinetostat modes` says whether one does)".to_owned(),
         ));
     }
     let without = machine.without_mass(posture);

@@ -231,7 +231,7 @@ fn questions_without_an_answer_are_refused_by_name() {
         ("modes arm6.toml --damping -0.1", "below zero"),
         ("modes arm6.toml --hold w", "'w'"),
         ("modes arm6.toml --viscous q9=3", "q6"),
-        ("frf arm6.toml --frequencies 0 10 5", "--frequencies"),
+        ("frf arm6.toml --frequencies -1 10 5", "--frequencies"),
         ("frf arm6.toml --frequencies 1 10 1.5", "whole"),
         (
             "lobes arm6.toml --teeth 2 --coefficients-n-per-mm2 800 240 0 --rpm 1000 2000 3",

@@ -22,7 +22,9 @@ pub enum Damping {
     /// None.
     #[default]
     Undamped,
-    /// The same ratio `zeta` in every vibration about the loaded equilibrium: typical robots have 0.01 to 0.04.
+    /// The same ratio `zeta` in every vibration about the loaded equilibrium: typical robots have 0.01 to 0.04. Where loads
+    /// have no potential, in every complex pair: `q'' + 2 zeta |lambda| q' - lambda^2 q = 0` of one that swings undamped as
+    /// `lambda`.
     Ratio(f64),
     /// Ratios of the lowest vibrations, as measured; the last one counts for all above.
     Ratios(Vec<f64>),
@@ -53,13 +55,6 @@ impl Damping {
             Self::Structural { .. } => "structural",
             Self::Viscous(_) => "viscous joints",
         }
-    }
-
-    /// Whether what it does in one mode drives others, so that a sum of modes with their own ratios is no longer exact: dampers
-    /// at joints, and Rayleigh's damping, whose stiffness is that of the springs and not that under load.
-    #[must_use]
-    pub fn couples_modes(&self) -> bool {
-        matches!(self, Self::Rayleigh { .. } | Self::Viscous(_))
     }
 
     /// Refuses numbers that no damping has.
@@ -108,17 +103,56 @@ pub(crate) struct ModalDamping {
     pub loss: f64,
 }
 
+/// What loads and bowing change of the springs' stiffness below this share of it is rounding.
+const SAME: f64 = 1e-10;
+
 impl LinearDynamics {
-    /// Damping matrix `C` by independent coordinates, for modal, Rayleigh and viscous damping; zero for structural.
+    /// Whether what damping does in one mode drives others, so that a sum of modes with their own ratios is no longer exact:
+    /// dampers at joints do, and where loads or bowing change the stiffness Rayleigh's and structural damping, which go by
+    /// that of the springs (`K` is not diagonal in the modes of `K - H`).
+    #[must_use]
+    pub fn modes_are_coupled_by(&self, damping: &Damping) -> bool {
+        match damping {
+            Damping::Undamped | Damping::Ratio(_) | Damping::Ratios(_) => false,
+            Damping::Viscous(_) => true,
+            Damping::Rayleigh {
+                stiffness_s: 0.0, ..
+            }
+            | Damping::Structural { loss_factor: 0.0 } => false,
+            Damping::Rayleigh { .. } | Damping::Structural { .. } => self.differs_from_springs(),
+        }
+    }
+
+    /// Whether `K - H` is another matrix than `K`.
+    fn differs_from_springs(&self) -> bool {
+        let (k, e) = (&self.tangent, &self.elastic);
+        let size = |i: usize| larger(k[(i, i)].abs(), e[(i, i)].abs());
+        (0..self.len()).any(|i| {
+            (0..=i).any(|j| {
+                let off = larger((k[(i, j)] - e[(i, j)]).abs(), (k[(j, i)] - e[(j, i)]).abs());
+                off > SAME * (size(i) * size(j)).sqrt()
+            })
+        })
+    }
+
+    /// Damping matrix `C` by independent coordinates, for modal, Rayleigh and viscous damping; zero for structural. Of ratios
+    /// it is that of the modes, and where loads have no potential that of the complex pairs.
     ///
     /// # Errors
-    /// As [`Damping::check`]; a joint that does not exist.
+    /// As [`Damping::check`]; a joint that does not exist; with ratios as [`Self::complex_modes`] where loads have no
+    /// potential.
     pub fn damping_matrix(&self, modes: &Modes, damping: &Damping) -> Result<DMatrix<f64>> {
         damping.check()?;
         let n = self.len();
         let mut matrix = DMatrix::zeros(n, n);
         match damping {
             Damping::Undamped | Damping::Structural { .. } => {}
+            Damping::Ratio(ratio) if self.is_circulatory() => {
+                matrix = self.damping_of_pairs(std::slice::from_ref(ratio))?;
+            }
+            Damping::Ratios(list) if self.is_circulatory() => {
+                matrix = self.damping_of_pairs(list)?;
+            }
             Damping::Ratio(_) | Damping::Ratios(_) => {
                 // C = sum M phi 2 zeta w phi^T M: nothing on massless coordinates.
                 for (mode, own) in modes.modes.iter().zip(self.modal_damping(modes, damping)?) {

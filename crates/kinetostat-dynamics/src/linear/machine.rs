@@ -187,7 +187,26 @@ fn closed(
         start_units.extend([length, length, length, 1.0, 1.0, 1.0]);
     }
     let name = machine.name().to_owned();
-    whole.constrained(&name, Some(start), Some(rows), tool, length, start_units)
+    let own = whole.constrained(&name, Some(start), Some(rows), tool, length, start_units)?;
+    Ok(without_rounding(own, held))
+}
+
+/// What rounding leaves of the tool's motions along held directions is taken out: it would look like a motion where there
+/// is no other.
+fn without_rounding(mut own: LinearDynamics, held: &Held) -> LinearDynamics {
+    let tool = &own.blocks[own.places[own.tool].block];
+    let (Some(basis), Some(&first)) = (&mut own.basis, tool.first()) else {
+        return own;
+    };
+    for k in (0..6).filter(|&k| held.directions[k]) {
+        let along = held.axes.matrix().column(k % 3).into_owned();
+        for mut column in basis.column_iter_mut() {
+            let mut part = column.fixed_rows_mut::<3>(first + 3 * (k / 3));
+            let moved = along.dot(&part);
+            part -= along * moved;
+        }
+    }
+    own
 }
 
 /// Motion of a platform's origin as the tip of a limb has it, by the unknowns of `start`, 6 x m.

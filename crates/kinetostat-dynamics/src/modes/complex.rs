@@ -1,13 +1,15 @@
 //! Complex modes: loads without a potential (dead moments, follower forces) and any damping [D 6].
 //!
-//! `(K - H + lambda C + lambda^2 M) phi = 0`. The eigenvalues are found as `1 / lambda` (without damping `1 / w^2`), so
-//! that massless coordinates give zero and need no treatment.
+//! `(K - H + lambda C + lambda^2 M) phi = 0`.
 
 use nalgebra::{Complex, DMatrix, DVector};
 
+use crate::damping::Damping;
 use crate::error::{Error, Result};
 use crate::linear::LinearDynamics;
-use crate::modes::pencil::neutral_directions;
+use crate::modes::Modes;
+use crate::modes::pair_damping::{damped, ratio_of};
+use crate::modes::quadratic::Quadratic;
 
 /// A mode of a machine with loads without a potential, or with damping.
 #[derive(Clone, Debug)]
@@ -32,6 +34,18 @@ impl ComplexMode {
     #[must_use]
     pub fn damping_ratio(&self) -> f64 {
         -self.eigenvalue.re / self.eigenvalue.norm()
+    }
+
+    /// Whether a disturbance in it grows, beyond rounding.
+    #[must_use]
+    pub fn grows(&self) -> bool {
+        grows(self.eigenvalue)
+    }
+
+    /// Whether it swings at all.
+    #[must_use]
+    pub fn swings(&self) -> bool {
+        swings(self.eigenvalue)
     }
 
     /// `-lambda^2`, (rad/s)^2: `w^2` of an undamped mode.
@@ -64,8 +78,12 @@ pub enum Verdict {
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct ComplexModes {
-    /// One of every pair, by ascending `|lambda|`.
+    /// One of every pair, by ascending `|lambda|`; where a pair grows without damping, also that which dies away beside it.
     pub modes: Vec<ComplexMode>,
+    /// How many there are in all.
+    pub count: usize,
+    /// Eigenvalues of all of them that grow, the fastest first.
+    pub growing: Vec<Complex<f64>>,
     /// What becomes of a small disturbance.
     pub verdict: Verdict,
     /// Largest `|Im w^2| / |w^2|` of the undamped machine: how far loads without a potential make modes complex. Zero with
@@ -105,209 +123,116 @@ impl LinearDynamics {
         count: usize,
     ) -> Result<ComplexModes> {
         let pencil = Quadratic::of(self, damping)?;
-        let mut values = pencil.eigenvalues().ok_or_else(|| self.not_found())?;
-        values.sort_by(|a, b| a.norm().total_cmp(&b.norm()));
-        let finite = values.iter().all(|v| v.re.is_finite() && v.im.is_finite());
-        if !finite {
-            return Err(self.not_found());
-        }
+        let values = pencil.eigenvalues().ok_or_else(|| self.not_found())?;
         let complexity = match damping {
             Some(_) => 0.0,
-            None => values
-                .iter()
-                .map(|v| -(v * v))
-                .map(|s| s.im.abs() / s.norm())
-                .fold(0.0, kinetostat::number::larger),
+            None => complexity_of(&values),
         };
-        let verdict = self.verdict(&values, damping.is_some());
-        values.truncate(count);
-        let modes = values.into_iter().map(|value| pencil.mode(value));
         Ok(ComplexModes {
-            modes: modes.collect(),
-            verdict,
+            count: values.len(),
+            growing: growing(&values),
+            verdict: self.verdict(&values),
             complexity,
+            modes: modes_of(
+                &pencil,
+                values.iter().copied().zip(values.iter().copied()),
+                count,
+            ),
         })
     }
 
-    fn not_found(&self) -> Error {
+    /// Complex modes with a law of damping, the lowest `count` of them, as [`Self::complex_modes`]; ratios are those of the
+    /// complex pairs. Structural damping is left out: it is defined for a steady vibration, and of what grows or dies away
+    /// it says nothing.
+    ///
+    /// # Errors
+    /// As [`Self::complex_modes`] and [`Self::damping_matrix`].
+    pub fn complex_modes_damped(
+        &self,
+        modes: &Modes,
+        damping: &Damping,
+        count: usize,
+    ) -> Result<ComplexModes> {
+        damping.check()?;
+        let ratios = match damping {
+            Damping::Undamped | Damping::Structural { .. } => {
+                return self.complex_modes(None, count);
+            }
+            Damping::Ratio(ratio) => std::slice::from_ref(ratio),
+            Damping::Ratios(list) => list,
+            law => return self.complex_modes(Some(&self.damping_matrix(modes, law)?), count),
+        };
+        // Ratios couple no pairs: shapes stay, and each eigenvalue has its own damping.
+        let pencil = Quadratic::of(self, None)?;
+        let undamped = pencil.eigenvalues().ok_or_else(|| self.not_found())?;
+        let all: Vec<_> = (undamped.iter().enumerate())
+            .map(|(k, value)| damped(*value, ratio_of(ratios, k)))
+            .collect();
+        Ok(ComplexModes {
+            count: all.len(),
+            growing: growing(&all),
+            verdict: self.verdict(&all),
+            complexity: 0.0,
+            modes: modes_of(&pencil, undamped.into_iter().zip(all), count),
+        })
+    }
+
+    pub(crate) fn not_found(&self) -> Error {
         Error::NotSolved(format!(
             "the complex modes of '{}' were not found: a direction without stiffness, or a load at which one loses it",
             self.name
         ))
     }
 
-    fn verdict(&self, values: &[Complex<f64>], damped: bool) -> Verdict {
-        let circulatory = self.is_circulatory();
-        if circulatory && !self.coarse_links.is_empty() {
+    fn verdict(&self, values: &[Complex<f64>]) -> Verdict {
+        if self.is_circulatory() && !self.coarse_links.is_empty() {
             return Verdict::NotJudged {
                 links: self.coarse_links.clone(),
             };
         }
-        let grows = |v: &&Complex<f64>| v.re > REAL * v.norm();
-        match values.iter().find(grows) {
-            None => Verdict::Stable,
-            Some(v) if v.im.abs() > REAL * v.norm() => Verdict::Flutter,
-            Some(_)
-                if !damped
-                    || values
-                        .iter()
-                        .filter(grows)
-                        .all(|v| v.im.abs() <= REAL * v.norm()) =>
-            {
-                Verdict::Divergence
-            }
-            Some(_) => Verdict::Flutter,
+        let growing = growing(values);
+        match growing.iter().any(|value| swings(*value)) {
+            true => Verdict::Flutter,
+            false if growing.is_empty() => Verdict::Stable,
+            false => Verdict::Divergence,
         }
     }
 }
 
-/// The quadratic pencil in natural units, neutral directions left out.
-struct Quadratic {
-    mass: DMatrix<f64>,
-    damping: Option<DMatrix<f64>>,
-    tangent: DMatrix<f64>,
-    /// Independent coordinates by those of the pencil.
-    back: DMatrix<f64>,
+/// Those that grow, the fastest first.
+fn growing(values: &[Complex<f64>]) -> Vec<Complex<f64>> {
+    let mut own: Vec<_> = values.iter().copied().filter(|v| grows(*v)).collect();
+    own.sort_by(|a, b| b.re.total_cmp(&a.re));
+    own
 }
 
-impl Quadratic {
-    fn of(d: &LinearDynamics, damping: Option<&DMatrix<f64>>) -> Result<Self> {
-        let n = d.len();
-        if let Some(c) = damping
-            && c.shape() != (n, n)
-        {
-            return Err(Error::Question(format!(
-                "the damping matrix is {} x {}, '{}' has {n} coordinates",
-                c.nrows(),
-                c.ncols(),
-                d.name
-            )));
-        }
-        let u = DMatrix::from_diagonal(&DVector::from_column_slice(&d.units));
-        let within = |a: &DMatrix<f64>, basis: &DMatrix<f64>| basis.tr_mul(&(a * basis));
-        let (mass, tangent) = (within(&d.mass, &u), within(&d.tangent, &u));
-        let (neutral, rest) = neutral_directions(&mass, &tangent);
-        let back = match neutral.ncols() {
-            0 => u,
-            _ => u * rest,
-        };
-        Ok(Self {
-            mass: within(&d.mass, &back),
-            damping: damping.map(|c| within(c, &back)),
-            tangent: within(&d.tangent, &back),
-            back,
+fn grows(value: Complex<f64>) -> bool {
+    value.re > REAL * value.norm()
+}
+
+fn swings(value: Complex<f64>) -> bool {
+    value.im.abs() > REAL * value.norm()
+}
+
+fn complexity_of(values: &[Complex<f64>]) -> f64 {
+    let squares = values.iter().map(|value| value * value);
+    squares
+        .map(|s| s.im.abs() / s.norm())
+        .fold(0.0, kinetostat::number::larger)
+}
+
+/// The lowest modes, by the eigenvalues of the pencil and what they become.
+fn modes_of(
+    pencil: &Quadratic,
+    values: impl Iterator<Item = (Complex<f64>, Complex<f64>)>,
+    count: usize,
+) -> Vec<ComplexMode> {
+    let (own, damped): (Vec<_>, Vec<_>) = values.take(count).unzip();
+    (pencil.shapes(&own).into_iter().zip(damped))
+        .map(|([right, left], eigenvalue)| ComplexMode {
+            eigenvalue,
+            right,
+            left,
         })
-    }
-
-    /// Finite eigenvalues, one of every conjugate pair (or of `+-lambda` without damping).
-    fn eigenvalues(&self) -> Option<Vec<Complex<f64>>> {
-        let n = self.mass.nrows();
-        let units: Vec<f64> = (0..n)
-            .map(|i| {
-                let own = self.tangent[(i, i)].abs();
-                if own > 0.0 { 1.0 / own.sqrt() } else { 1.0 }
-            })
-            .collect();
-        let scaled =
-            |a: &DMatrix<f64>| DMatrix::from_fn(n, n, |i, j| a[(i, j)] * units[i] * units[j]);
-        let lu = scaled(&self.tangent).lu();
-        let mass = lu.solve(&scaled(&self.mass))?;
-        let Some(damping) = &self.damping else {
-            let values = eigenvalues_of(mass)?;
-            let most = largest(&values);
-            return Some(
-                values
-                    .into_iter()
-                    .filter(|v| v.norm() > ZERO * most)
-                    .map(growing_root)
-                    .collect(),
-            );
-        };
-        let damping = lu.solve(&scaled(damping))?;
-        // [x; lambda x] by 1/lambda; time in units in which the fastest entries are alike.
-        let time = mass
-            .iter()
-            .fold(0.0_f64, |m, x| if x.abs() > m { x.abs() } else { m })
-            .sqrt();
-        let mut a = DMatrix::zeros(2 * n, 2 * n);
-        a.view_mut((0, 0), (n, n)).copy_from(&(-damping / time));
-        a.view_mut((0, n), (n, n))
-            .copy_from(&(-mass / (time * time)));
-        a.view_mut((n, 0), (n, n)).fill_with_identity();
-        let values = eigenvalues_of(a)?;
-        let most = largest(&values);
-        let finite = values
-            .into_iter()
-            .filter(|v| v.norm() > ZERO.sqrt() * most)
-            .map(|v| (v * time).inv());
-        Some(finite.filter(|v| v.im >= 0.0).collect())
-    }
-
-    fn mode(&self, value: Complex<f64>) -> ComplexMode {
-        let n = self.mass.nrows();
-        let p = DMatrix::from_fn(n, n, |i, j| {
-            let c = self.damping.as_ref().map_or(0.0, |c| c[(i, j)]);
-            value * value * self.mass[(i, j)] + value * c + self.tangent[(i, j)]
-        });
-        let back = self.back.map(|x| Complex::new(x, 0.0));
-        let shape = |p: DMatrix<Complex<f64>>| normalised(&back * null_vector(p));
-        ComplexMode {
-            eigenvalue: value,
-            left: shape(p.transpose()),
-            right: shape(p),
-        }
-    }
-}
-
-/// `1/w^2` below this share of the largest is that of a massless coordinate.
-const ZERO: f64 = 1e-13;
-
-fn largest(values: &[Complex<f64>]) -> f64 {
-    values
-        .iter()
-        .fold(0.0_f64, |m, v| if v.norm() > m { v.norm() } else { m })
-}
-
-/// The root `lambda` of `lambda^2 = -w^2` that grows, or swings forwards, from `1/w^2`.
-fn growing_root(inverse: Complex<f64>) -> Complex<f64> {
-    let root = (-inverse.inv()).sqrt();
-    if root.re < -1e-9 * root.norm() || (root.re.abs() <= 1e-9 * root.norm() && root.im < 0.0) {
-        -root
-    } else {
-        root
-    }
-}
-
-fn eigenvalues_of(a: DMatrix<f64>) -> Option<Vec<Complex<f64>>> {
-    let schur = nalgebra::linalg::Schur::try_new(a, f64::EPSILON, 10_000)?;
-    Some(schur.complex_eigenvalues().iter().copied().collect())
-}
-
-/// Null vector of a singular matrix: two steps of inverse iteration with its factors.
-fn null_vector(mut p: DMatrix<Complex<f64>>) -> DVector<Complex<f64>> {
-    let n = p.nrows();
-    let size = p
-        .iter()
-        .fold(0.0_f64, |m, x| if x.norm() > m { x.norm() } else { m });
-    for i in 0..n {
-        p[(i, i)] += Complex::new(1e-14 * size, 0.0);
-    }
-    let lu = p.lu();
-    // A start that no symmetry of a machine is orthogonal to.
-    let mut x = DVector::from_fn(n, |i, _| {
-        Complex::new(1.0 + 0.37 * ((i * i + 3 * i) % 7) as f64, 0.0)
-    });
-    for _ in 0..3 {
-        if let Some(next) = lu.solve(&x) {
-            x = normalised(next);
-        }
-    }
-    x
-}
-
-fn normalised(x: DVector<Complex<f64>>) -> DVector<Complex<f64>> {
-    let most = x.iter().fold(Complex::new(0.0, 0.0), |m: Complex<f64>, v| {
-        if v.norm() > m.norm() { *v } else { m }
-    });
-    x.map(|v| v / most)
+        .collect()
 }

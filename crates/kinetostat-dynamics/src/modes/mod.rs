@@ -1,9 +1,13 @@
 //! Modes about the loaded equilibrium: signed frequencies, shapes, and what takes part in them.
 
 pub(crate) mod complex;
+pub(crate) mod eigenvalues;
 pub(crate) mod mode;
 pub(crate) mod moved;
+pub(crate) mod pair_damping;
+pub(crate) mod pair_shape;
 pub(crate) mod pencil;
+pub(crate) mod quadratic;
 pub(crate) mod shares;
 
 use nalgebra::{DMatrix, DVector, Matrix6};

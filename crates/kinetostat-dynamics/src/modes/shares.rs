@@ -1,5 +1,6 @@
 //! Which body moves in a mode, and which spring bends: shares of kinetic and elastic energy.
 
+use nalgebra::DVector;
 use serde::{Deserialize, Serialize};
 
 use crate::linear::LinearDynamics;
@@ -35,25 +36,39 @@ impl LinearDynamics {
     /// Kinetic energy of a mode by bodies, links and platforms, the largest first. They add to one.
     #[must_use]
     pub fn kinetic_shares(&self, mode: &Mode) -> Vec<EnergyShare> {
-        let all = self.all(&mode.shape);
-        shares(self.masses.iter().map(|part| {
-            (
-                part.name.clone(),
-                part.kinetic(&self.of_block(part.block, &all)),
-            )
-        }))
+        self.kinetic_of(&[&mode.shape])
     }
 
     /// Elastic energy of a mode by springs: joints, drives, and links with all their segments together. The largest first;
     /// they add to one, and are all zero where no spring is strained.
     #[must_use]
     pub fn elastic_shares(&self, mode: &Mode) -> Vec<EnergyShare> {
-        let all = self.all(&mode.shape);
-        shares(self.springs.iter().map(|part| {
-            let own = self.of_block(part.block, &all);
-            let own = own.rows(part.first, part.material.nrows());
-            let name = part.link.as_ref().unwrap_or(&part.name).clone();
-            (name, 0.5 * own.dot(&(&part.material * own)))
+        self.elastic_of(&[&mode.shape])
+    }
+
+    /// Kinetic energy of several shapes together.
+    pub(crate) fn kinetic_of(&self, shapes: &[&DVector<f64>]) -> Vec<EnergyShare> {
+        shares(shapes.iter().flat_map(|shape| {
+            let all = self.all(shape);
+            self.masses.iter().map(move |part| {
+                (
+                    part.name.clone(),
+                    part.kinetic(&self.of_block(part.block, &all)),
+                )
+            })
+        }))
+    }
+
+    /// Elastic energy of several shapes together.
+    pub(crate) fn elastic_of(&self, shapes: &[&DVector<f64>]) -> Vec<EnergyShare> {
+        shares(shapes.iter().flat_map(|shape| {
+            let all = self.all(shape);
+            self.springs.iter().map(move |part| {
+                let own = self.of_block(part.block, &all);
+                let own = own.rows(part.first, part.material.nrows());
+                let name = part.link.as_ref().unwrap_or(&part.name).clone();
+                (name, 0.5 * own.dot(&(&part.material * own)))
+            })
         }))
     }
 }

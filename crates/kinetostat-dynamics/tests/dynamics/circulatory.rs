@@ -3,7 +3,7 @@
 use crate::common::*;
 use kinetostat::model::LinkMass;
 use kinetostat::*;
-use kinetostat_dynamics::{Held, LinearDynamics, Verdict};
+use kinetostat_dynamics::{Damping, Held, LinearDynamics, Verdict};
 use nalgebra::{Vector3, vector};
 
 /// Section with equal bending stiffnesses, torsion stiff, stretched stiff.
@@ -102,5 +102,47 @@ fn becks_column_flutters() {
         }
         println!("{segments}: {low}");
         assert!((low - expected).abs() < 2e-3, "{low}");
+    }
+}
+
+/// A column that bends alike in both planes has each pair twice: damping by ratios sees both. Figures by Euler and Bernoulli's
+/// beam in 40 Hermite elements with `C = M V diag(2 zeta |lambda|) V^-1` (numpy).
+#[test]
+fn ratios_damp_the_pairs_of_both_planes_alike() {
+    let chain = shaft(8);
+    for (load, expected) in [
+        (5.0, [(37.499_007, -2.356_250), (181.691_482, -11.416_583)]),
+        (12.0, [(50.438_489, -3.169_302), (157.697_749, -9.908_937)]),
+    ] {
+        let mut problem = ChainProblem::new(&chain, EndCondition::wrench(Wrench::zero()));
+        let push = Wrench::new(vector![-load * 14700.0, 0.0, 0.0], Vector3::zeros());
+        problem.loads.push(Load::follower(chain.tip(), push));
+        let mut x = vec![0.0; chain.coordinate_count()];
+        for k in 0..8 {
+            x[6 * k] = -load * 14700.0 / 8.0 / (2.1e11 * 60.0);
+        }
+        let d = LinearDynamics::of_chain(&problem, &x, &Wrench::zero(), &Held::nothing()).unwrap();
+        let modes = d.modes().unwrap();
+        let law = Damping::Ratio(0.01);
+        let matrix = d.damping_matrix(&modes, &law).unwrap();
+        let by_matrix = d.complex_modes(Some(&matrix), 4).unwrap();
+        let by_pairs = d.complex_modes_damped(&modes, &law, 4).unwrap();
+        for found in [by_matrix, by_pairs] {
+            assert_eq!(found.verdict, Verdict::Stable);
+            assert_eq!(found.modes.len(), 4);
+            for (k, mode) in found.modes.iter().enumerate() {
+                let (hz, growth) = expected[k / 2];
+                // Eight segments are 1.5e-4 from the continuum in the second pair.
+                assert!(relative(mode.frequency_hz(), hz).abs() < 2.5e-4, "{hz}");
+                assert!(
+                    relative(mode.eigenvalue.re, growth).abs() < 2.5e-4,
+                    "{growth}"
+                );
+            }
+            // Two of a frequency are two shapes: neither is a share of the other.
+            let [a, b] = [&found.modes[0].right, &found.modes[1].right];
+            let along = a.dotc(b).norm() / (a.norm() * b.norm());
+            assert!(along < 0.99, "{along}");
+        }
     }
 }

@@ -38,6 +38,41 @@ pub(crate) fn damping(document: &Document) -> ReadResult<Damping> {
     Ok(law)
 }
 
+/// Where the law stands, or of several dampers the strongest; nothing where there is none.
+pub(crate) fn damping_place(document: &Document) -> Option<KeyPath> {
+    let root = KeyPath::root();
+    if let Some(table) = &document.damping {
+        let place = root.key("damping");
+        let keys = [
+            ("ratio", table.ratio.is_some()),
+            ("ratios", table.ratios.is_some()),
+            ("rayleigh", table.rayleigh.is_some()),
+            ("loss_factor", table.loss_factor.is_some()),
+        ];
+        let key = keys.iter().find(|(_, stated)| *stated);
+        return Some(key.map_or(place.clone(), |(key, _)| place.key(key)));
+    }
+    let mut strongest: Option<(f64, KeyPath)> = None;
+    for (name, chain) in &document.chain {
+        let place = root.key("chain").key(name).key("elements");
+        for (index, element) in chain.elements.iter().enumerate() {
+            let place = place.index(index);
+            let Ok(Some(value)) = damper(&place, element) else {
+                continue;
+            };
+            if strongest.as_ref().is_none_or(|(most, _)| value > *most) {
+                let written = serde_json::to_value(element).unwrap_or_default();
+                let keys = ["damping_n_s_per_m", "damping_n_m_s_per_rad"];
+                let key = keys
+                    .iter()
+                    .find(|key| written.get(**key).is_some_and(|v| !v.is_null()));
+                strongest = Some((value, key.map_or(place.clone(), |key| place.key(key))));
+            }
+        }
+    }
+    strongest.map(|(_, place)| place)
+}
+
 fn law_of(place: &KeyPath, table: &DampingTable) -> ReadResult<Damping> {
     let laws = [
         table.ratio.map(Damping::Ratio),

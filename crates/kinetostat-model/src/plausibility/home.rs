@@ -7,7 +7,7 @@ use kinetostat::{Chain, Mechanism, Pose};
 use crate::plausibility::at_home::frames;
 use crate::plausibility::link_matrix::check as check_link_matrices;
 use crate::plausibility::machine::of_machine;
-use crate::plausibility::masses::no_body;
+use crate::plausibility::masses::{next_to_nothing, no_body};
 use crate::plausibility::numbers::of_numbers;
 use crate::problem::{Finding, KeyPath};
 use crate::schema::Document;
@@ -25,6 +25,9 @@ fn tip(chain: &Chain) -> (Pose, f64) {
     )
 }
 
+/// Springs with more loss than any material.
+const LOSSY: f64 = 1.0;
+
 /// Looks at sizes, masses, gravity and the home posture.
 pub(crate) fn check_plausibility(
     document: &Document,
@@ -35,6 +38,21 @@ pub(crate) fn check_plausibility(
     of_machine(document, mechanism, warnings);
     check_link_matrices(document, warnings);
     let root = KeyPath::root();
+    let loss = document
+        .damping
+        .as_ref()
+        .and_then(|table| table.loss_factor);
+    if let Some(loss) = loss.filter(|loss| *loss > LOSSY) {
+        warnings.push(Finding::new(
+            &root.key("damping").key("loss_factor"),
+            format!(
+                "a loss factor of {}: {} % of critical damping",
+                short(loss),
+                short(50.0 * loss)
+            ),
+            "structures of metal have 0.001 to 0.1, rubber up to 1, and from 2 on nothing swings; a ratio is half a loss factor",
+        ));
+    }
     let mut warn = |place: &KeyPath, message: String, help: &str| {
         warnings.push(Finding::new(place, message, help));
     };
@@ -70,6 +88,10 @@ pub(crate) fn check_plausibility(
     for (i, platform) in mechanism.platforms().iter().skip(1).enumerate() {
         let place = root.key("platform").index(i).key("inertia_kg_m2");
         if let Some(found) = no_body(&place, &platform.name, &platform.inertia) {
+            warn(&place, found.message, &found.help);
+        }
+        let place = root.key("platform").index(i).key("mass_kg");
+        if let Some(found) = next_to_nothing(&place, "the platform", platform.mass) {
             warn(&place, found.message, &found.help);
         }
         if platform.mass > 1e5 {

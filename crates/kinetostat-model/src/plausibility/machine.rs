@@ -14,9 +14,8 @@ use crate::schema::Document;
 /// Looks at figures beside the rest of the machine.
 pub(crate) fn of_machine(document: &Document, mechanism: &Mechanism, warnings: &mut Vec<Finding>) {
     let size = machine_size(mechanism);
-    if size <= 0.0 || !size.is_finite() {
-        return;
-    }
+    // Of axes that meet in one point nothing can be said beside their size.
+    let sized = size > 0.0 && size.is_finite();
     // Limbs of the same chain would say the same again.
     let mut seen: Vec<&str> = Vec::new();
     for (i, written) in document.limb.iter().enumerate() {
@@ -30,12 +29,19 @@ pub(crate) fn of_machine(document: &Document, mechanism: &Mechanism, warnings: &
             limb: i,
             size,
         };
+        check.bodies(warnings);
+        if !sized {
+            continue;
+        }
         check.stiffnesses(warnings);
         check.windup(warnings);
         check.springs6(warnings);
         check.sag(warnings);
         check.masses(warnings);
         check.ranges(warnings);
+    }
+    if !sized {
+        return;
     }
     workspace(document, mechanism, size, warnings);
     deviations(document, size, warnings);

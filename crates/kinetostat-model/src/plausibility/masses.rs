@@ -32,7 +32,32 @@ pub(crate) fn no_body(place: &KeyPath, name: &str, inertia: &Matrix3<f64>) -> Op
 /// Of inertias in files, as the dynamics allow it.
 const ROUNDING: f64 = 1e-6;
 
+/// A body that weighs next to nothing, kg: a hundredth of a gram. What has no mass is written with 0.
+const LIGHT: f64 = 1e-5;
+
+/// A mass that no part of a machine has.
+pub(crate) fn next_to_nothing(place: &KeyPath, what: &str, mass: f64) -> Option<Finding> {
+    (mass > 0.0 && mass < LIGHT).then(|| {
+        Finding::new(
+            place,
+            format!("{what} weighs {} kg", short(mass)),
+            "check the unit: kg; a part without mass is written with 0",
+        )
+    })
+}
+
 impl LimbCheck<'_> {
+    /// Bodies by themselves, whatever the size of the machine.
+    pub(crate) fn bodies(&self, warnings: &mut Vec<Finding>) {
+        for body in self.mechanism.limbs()[self.limb].nominal.bodies() {
+            let place = self.place(&body.name, &["inertia_kg_m2"]);
+            warnings.extend(no_body(&place, &body.name, &body.inertia));
+            let place = self.place(&body.name, &["mass_kg"]);
+            let what = format!("the body '{}'", body.name);
+            warnings.extend(next_to_nothing(&place, &what, body.mass));
+        }
+    }
+
     pub(crate) fn masses(&self, warnings: &mut Vec<Finding>) {
         let chain = &self.mechanism.limbs()[self.limb].nominal;
         let bodies = chain.bodies();
@@ -61,8 +86,6 @@ impl LimbCheck<'_> {
                     "check the unit, and whether it is a placeholder",
                 ));
             }
-            let place = self.place(&body.name, &["inertia_kg_m2"]);
-            warnings.extend(no_body(&place, &body.name, &body.inertia));
             let gyration = (body.inertia.diagonal().amax() / body.mass).sqrt();
             if body.mass > 0.0 && gyration > 2.0 * self.size.max(0.5) {
                 warnings.push(Finding::new(
