@@ -76,6 +76,8 @@ fn verified(
     let guide = guide(task, &prepared.field(task), watch)?;
     watch.stage("places of the original", 0);
     let (pieces, matched) = follow(task.path(), &guide, other)?;
+    // It is as large as the program, and the points that are solved now are larger.
+    drop(guide);
     let written = as_written(task.path(), (other, bytes), pieces);
     let Preparation { load, course } = prepared;
     let Ramped {
