@@ -111,6 +111,8 @@ pub use run::preparation::with_model_field;
 pub use run::summary::feed_arcs;
 pub use table::{FieldCorrection, correct_by_field, wide_table};
 pub use task::{NoMotion, RunError, Task};
-pub use verify::{ExtraCut, Matched, RapidElsewhere, Uncut, Verified, verify_program};
+pub use verify::{
+    Condition, ExtraCut, Matched, OtherCondition, RapidElsewhere, Uncut, Verified, verify_program,
+};
 pub use warning::{Warning, WarningCode};
 pub use watch::{Unwatched, Watch};

@@ -68,6 +68,8 @@ pub enum WarningCode {
     ForceChangesFast,
     /// The correction changes faster along the path than is stated for the load.
     CorrectionChangesFast,
+    /// A verified program has another feed, spindle, tool or frame than its original.
+    OtherThanOriginal,
     /// A load that acts nowhere along the program.
     LoadNeverActs,
     /// The question says nothing of a tool.

@@ -7,6 +7,9 @@ use kinetostat_machining::{
 use kinetostat_report::{Language, Paper, VerifiedProgram};
 use serde::Serialize;
 
+use crate::verify::conditions;
+use crate::verify::frames::OtherWord;
+
 /// The answer of `verify`: lengths in mm, lines of the original and of the program.
 #[derive(Debug, Serialize)]
 pub(crate) struct VerifyAnswer {
@@ -33,6 +36,10 @@ pub(crate) struct VerifyAnswer {
     pub(crate) points: usize,
     /// How the program belongs to its original.
     pub(crate) matched: kinetostat_machining::Matched,
+    /// The forces come from the cut, so that other feeds and speeds are other forces.
+    pub(crate) forces_from_cut: bool,
+    /// Words that one of both programs has and the other does not, by which the control moves its places.
+    pub(crate) other_words: Vec<OtherWord>,
     pub(crate) features: Vec<FeatureResult>,
     /// Places where the program is farthest off, worst first; at most ten.
     pub(crate) worst_points: Vec<PointResult>,
@@ -45,6 +52,7 @@ impl VerifyAnswer {
         (program, against): (&str, &str),
         files: Vec<FileRead>,
         allowed_mm: f64,
+        (forces_from_cut, other_words): (bool, Vec<OtherWord>),
     ) -> Self {
         let result = &verified.run.result;
         let s = &result.summary;
@@ -55,6 +63,15 @@ impl VerifyAnswer {
         let matched = &verified.matched;
         let whole =
             matched.uncut.is_empty() && matched.rapids.is_empty() && matched.extra_cuts.is_empty();
+        let mut conditions = matched.conditions.iter();
+        let is_same = !conditions.any(|other| conditions::is_fault(other, forces_from_cut))
+            && !other_words.iter().any(|word| word.is_frame);
+        let mut warnings = result.warnings.clone();
+        warnings.extend(conditions::warnings(
+            &matched.conditions,
+            &other_words,
+            forces_from_cut,
+        ));
         Self {
             schema: 1,
             kinetostat_version: env!("CARGO_PKG_VERSION"),
@@ -66,6 +83,7 @@ impl VerifyAnswer {
             allowed_mm,
             held: within
                 && whole
+                && is_same
                 && s.stable
                 && result.features.iter().all(|f| f.held != Some(false)),
             missed: worst_points
@@ -80,9 +98,11 @@ impl VerifyAnswer {
             stable: s.stable,
             points: s.points,
             matched: verified.matched.clone(),
+            forces_from_cut,
+            other_words,
             features: result.features.clone(),
             worst_points,
-            warnings: result.warnings.clone(),
+            warnings,
         }
     }
 
@@ -121,53 +141,18 @@ impl VerifyAnswer {
                     .map(|rapid| (rapid.line, rapid.distance_mm))
                     .collect(),
                 extra_cuts: extra.map(|cut| (cut.line, cut.length_mm)).collect(),
+                other_words: self.lines_of_other_words(),
             })
     }
 
-    /// Everything that keeps the program from being as it should be, a sentence each.
-    pub(crate) fn faults(&self) -> Vec<String> {
-        let mut faults = Vec::new();
-        if !self.stable {
-            faults.push(
-                "THE MACHINE IS NOT STABLE under this load: do not run this program.".to_owned(),
-            );
-        }
-        for uncut in &self.matched.uncut {
-            let [first, last] = uncut.lines;
-            let lines = match first == last {
-                true => format!("LINE {first} OF THE ORIGINAL IS NOT CUT"),
-                false => format!("LINES {first} TO {last} OF THE ORIGINAL ARE NOT CUT"),
-            };
-            let length = kinetostat_machining::number::largest_length(uncut.length_mm);
-            faults.push(format!("{lines} by this program: {length} of path."));
-        }
-        for cut in &self.matched.extra_cuts {
-            let length = kinetostat_machining::number::largest_length(cut.length_mm);
-            faults.push(format!(
-                "LINE {} IS A MOVE AT FEED THAT THE ORIGINAL DOES NOT MAKE: {length} long.",
-                cut.line
-            ));
-        }
-        for rapid in &self.matched.rapids {
-            let off = kinetostat_machining::number::largest_length(rapid.distance_mm);
-            let of_original = match rapid.line_of_original {
-                Some(line) => format!("from that of the original (line {line} there)"),
-                None => "from the cut, where the original has none".to_owned(),
-            };
-            faults.push(format!(
-                "THE RAPID AT LINE {} GOES ELSEWHERE: up to {off} {of_original}.",
-                rapid.line
-            ));
-        }
-        if let Some(m) = &self.missed {
-            let (error, allowed) =
-                kinetostat_machining::number::against(m.error_mm, self.allowed_mm);
-            faults.push(format!(
-                "THE TOLERANCE IS MISSED at line {} (line {} of the original): the tool is {error} off, more than the {allowed} that are allowed.",
-                m.output_line, m.line
-            ));
-        }
-        faults.extend(self.features.iter().filter_map(FeatureResult::missed_text));
-        faults
+    /// Lines of the program with another feed, spindle, tool or frame, where that is a fault.
+    fn lines_of_other_words(&self) -> Vec<usize> {
+        let conditions = self.matched.conditions.iter();
+        let conditions = conditions
+            .filter(|other| conditions::is_fault(other, self.forces_from_cut))
+            .map(|other| other.lines[0]);
+        let frames = self.other_words.iter().filter(|word| word.is_frame);
+        let frames = frames.map(|word| word.line.unwrap_or(1));
+        conditions.chain(frames).collect()
     }
 }

@@ -4,6 +4,9 @@
 
 mod answer;
 pub(crate) mod arguments;
+mod conditions;
+mod faults;
+mod frames;
 mod text;
 
 use std::path::{Path, PathBuf};
@@ -36,6 +39,7 @@ use crate::ui::progress::Progress;
 use crate::ui::threads::in_threads;
 use crate::verify::answer::VerifyAnswer;
 use crate::verify::arguments::VerifyArgs;
+use crate::verify::frames::{OtherWord, other_words};
 
 pub(crate) fn run(args: &VerifyArgs) -> Answer<()> {
     let files = InputFiles::default();
@@ -81,7 +85,12 @@ pub(crate) fn run(args: &VerifyArgs) -> Answer<()> {
     let points_out = claim("table of points", &args.original.points)?;
     let vtk_out = claim(PATH_VTK, &args.original.vtk)?;
 
-    let (mut found, uncut) = solved(&machine, (&original, &verified), args.original.threads)?;
+    let Solved {
+        mut found,
+        uncut,
+        other_words,
+        forces_from_cut,
+    } = solved(&machine, (&original, &verified), args.original.threads)?;
     let own_bound = found.run.result.allowed_mm() + original.rounding_mm();
     let allowed_mm = args.tolerance_um.map_or(own_bound, |um| 1e-3 * um);
     put_features(&mut found.run, &original, allowed_mm, &uncut);
@@ -96,7 +105,13 @@ pub(crate) fn run(args: &VerifyArgs) -> Answer<()> {
         verified.program_name.as_str(),
         original.program_name.as_str(),
     );
-    let answer = VerifyAnswer::of(&found, names, read, allowed_mm);
+    let answer = VerifyAnswer::of(
+        &found,
+        names,
+        read,
+        allowed_mm,
+        (forces_from_cut, other_words),
+    );
     if let Some(index) = json_out {
         claimed.fill(index, json::json(&answer)?.as_bytes())?;
     }
@@ -161,12 +176,21 @@ fn asked(
     Ok(setting)
 }
 
-/// The machine along the second program, and the lines of cuts of the original that this leaves out.
+/// The machine along the second program.
+struct Solved {
+    found: Verified,
+    /// Lines of cuts of the original that it leaves out.
+    uncut: Vec<usize>,
+    other_words: Vec<OtherWord>,
+    forces_from_cut: bool,
+}
+
+/// The machine along the second program, and what it leaves out and has otherwise.
 fn solved(
     machine: &MachineSetup,
     (original, verified): (&Setting, &Setting),
     threads: Option<usize>,
-) -> Answer<(Verified, Vec<usize>)> {
+) -> Answer<Solved> {
     let read = read_program(original)?;
     let other = read_program(verified)?;
     let cuts = |m: &Move| m.is_known_feed() && m.has_length();
@@ -197,5 +221,16 @@ fn solved(
         all.any(|uncut| (uncut.lines[0]..=uncut.lines[1]).contains(line))
     };
     let uncut = cuts.map(|m| m.line).filter(left_out).collect();
-    Ok((found, uncut))
+    let other_words = match (read.gcode(), other.gcode()) {
+        (Some((of_original, _)), Some((of_verified, _))) => {
+            other_words(of_original, of_verified, &original.reading)
+        }
+        _ => Vec::new(),
+    };
+    Ok(Solved {
+        found,
+        uncut,
+        other_words,
+        forces_from_cut: forces.is_some(),
+    })
 }

@@ -81,6 +81,7 @@ mod tables;
 mod tolerances;
 mod uncertain;
 mod verify;
+mod verify_others;
 mod vibration;
 mod without_motion;
 mod words;

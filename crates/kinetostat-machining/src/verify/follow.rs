@@ -6,8 +6,10 @@ use kinetostat_program::{
 
 use crate::task::{NoMotion, RunError};
 use crate::verify::matched::{ExtraCut, Matched};
+use crate::verify::on_guide::{OnGuide, Search};
 use crate::verify::places::{End, ends, feet};
 use crate::verify::rapids::{Reached, elsewhere, largest_shift_mm, without_air};
+use crate::verify::stretches::Stretches;
 use crate::verify::uncut::uncut;
 
 /// An end this near to where the original goes on to another move lies there, mm; or if the program is farther from the guide, as
@@ -26,6 +28,12 @@ pub(crate) struct Followed {
     pub(crate) piece: Piece,
     /// Index of the move in the other program, and the share of it at which the piece ends.
     pub(crate) other_end: (usize, f64),
+    /// The share of it at which the piece begins.
+    pub(crate) other_from: f64,
+    /// Its end is where it is: the load turns there, or it is where a move of the original was found again.
+    pub(crate) is_held: bool,
+    /// A part of a move that the original makes just so.
+    pub(crate) is_same: bool,
 }
 
 /// Pieces of the other program along the guide, which was written from the original, and how it belongs to that.
@@ -43,14 +51,23 @@ pub(crate) fn follow(
     let of_other = NominalPath::new(other).map_err(nothing)?;
     let ends = ends(&of_other);
     let feet = feet(&nominal, other, &ends)?;
-    let far = |a: &usize, b: &usize| feet[*a].distance_mm.total_cmp(&feet[*b].distance_mm);
-    let farthest = (0..ends.len()).max_by(far).unwrap_or(0);
+    let far = |index: usize| feet[index].map_or(0.0, |foot| foot.distance_mm);
+    let farthest = (0..ends.len()).max_by(|a, b| far(*a).total_cmp(&far(*b)));
+    let farthest = farthest.unwrap_or(0);
+    let stretches = Stretches::of(guide, &nominal);
+    let near_mm = usual_distance_mm(&feet).max(AT_CORNER_MM);
+    let search = Search {
+        stretches: &stretches,
+        original,
+        other,
+        near_mm,
+        beside_mm: beside_mm(shift_mm),
+    };
+    let places = search.places(&ends, &feet);
     let mut along = Along {
         original,
         other,
-        guide,
-        stretches: stretches(guide, &nominal),
-        near_mm: usual_distance_mm(&feet).max(AT_CORNER_MM),
+        stretches: &stretches,
         shift_mm,
         nominal: &nominal,
         pieces: Vec::new(),
@@ -58,22 +75,24 @@ pub(crate) fn follow(
         passes: Vec::new(),
         extra_cuts: Vec::new(),
     };
-    along.go(&ends, &feet);
+    along.go(&ends, &places);
     let with = (&of_other, along.passes.as_slice());
     let rapids = elsewhere((original, guide, &nominal), with, shift_mm);
     let matched = Matched {
-        largest_distance_mm: feet[farthest].distance_mm,
+        largest_distance_mm: far(farthest),
         largest_distance_line: other.moves[ends[farthest].move_index].line,
         uncut: uncut(original, (&nominal, guide), &along.covered),
         rapids,
         extra_cuts: along.extra_cuts,
+        conditions: Vec::new(),
     };
     Ok((along.pieces, matched))
 }
 
 /// The largest distance from the guide but for those that stand out: one wrong block says nothing of how near the others are.
-fn usual_distance_mm(feet: &[Foot]) -> f64 {
-    let mut distances: Vec<f64> = feet.iter().map(|foot| foot.distance_mm).collect();
+fn usual_distance_mm(feet: &[Option<Foot>]) -> f64 {
+    let feet = feet.iter().flatten();
+    let mut distances: Vec<f64> = feet.map(|foot| foot.distance_mm).collect();
     distances.sort_by(f64::total_cmp);
     let three_quarters = distances.get(distances.len() * 3 / 4).copied();
     let most = (OUTSTANDING * three_quarters.unwrap_or(0.0)).max(AT_CORNER_MM);
@@ -81,47 +100,17 @@ fn usual_distance_mm(feet: &[Foot]) -> f64 {
     usual.copied().unwrap_or(0.0)
 }
 
-/// A part of the guide along one move of the original, or at one place of it where the load turns.
-struct Stretch {
-    /// Indices of its pieces in the nominal path of the guide.
-    pieces: std::ops::Range<usize>,
-    /// Where it begins and ends along that, mm.
-    along_mm: [f64; 2],
-    turns: bool,
-}
-
-fn stretches(guide: &Corrected, nominal: &NominalPath<'_>) -> Vec<Stretch> {
-    let mut stretches: Vec<Stretch> = Vec::new();
-    let of = |index: usize| &guide.pieces[nominal.pieces()[index].move_index];
-    for (index, own) in nominal.pieces().iter().enumerate() {
-        let piece = of(index);
-        let end_mm = own.from_mm + own.length_mm;
-        match stretches.last_mut() {
-            Some(last)
-                if last.turns == piece.turn.is_some()
-                    && of(last.pieces.start).move_index == piece.move_index
-                    && nominal.pieces()[last.pieces.start].pass == own.pass =>
-            {
-                last.pieces.end = index + 1;
-                last.along_mm[1] = end_mm;
-            }
-            _ => stretches.push(Stretch {
-                pieces: index..index + 1,
-                along_mm: [own.from_mm, end_mm],
-                turns: piece.turn.is_some(),
-            }),
-        }
-    }
-    stretches
+/// How much longer a way may be than another that it belongs to, mm, by steps at corners.
+fn beside_mm(shift_mm: f64) -> f64 {
+    let (_, steps_mm, corrections) = OTHER_LENGTH;
+    steps_mm + corrections * shift_mm
 }
 
 struct Along<'a> {
     original: &'a Path,
     other: &'a Path,
-    guide: &'a Corrected,
     nominal: &'a NominalPath<'a>,
-    stretches: Vec<Stretch>,
-    near_mm: f64,
+    stretches: &'a Stretches<'a>,
     /// The largest correction, mm.
     shift_mm: f64,
     pieces: Vec<Followed>,
@@ -133,37 +122,115 @@ struct Along<'a> {
 }
 
 impl Along<'_> {
-    fn go(&mut self, ends: &[End], feet: &[Foot]) {
+    fn go(&mut self, ends: &[End], places: &[Option<OnGuide>]) {
         let mut at = 0.0;
-        for (end, foot) in ends.iter().zip(feet) {
-            let to = self.at_corner(foot);
-            let follows = !end.begins_pass && !self.goes_elsewhere(end, [at, to]);
-            match self.covered.last_mut().filter(|_| follows) {
+        // The tool is on the original.
+        let mut is_on = false;
+        for (index, end) in ends.iter().enumerate() {
+            is_on &= !end.begins_pass;
+            let Some(place) = places[index] else {
+                if !end.begins_pass {
+                    self.push_extra_cut(end);
+                }
+                is_on = false;
+                self.reach(end, at, None);
+                continue;
+            };
+            let is_inside = end.shares[1] < 1.0 && !end.begins_pass;
+            match place.same_as {
+                Some(_) if is_inside => continue,
+                Some(same) => {
+                    if !is_on {
+                        self.begin_same(end, same, place.piece);
+                    }
+                    self.same(end, same);
+                    at = place.leaves_mm.max(at);
+                }
+                None if is_on && !self.goes_elsewhere(end, [at, place.arrives_mm]) => {
+                    let to = place.arrives_mm.max(at);
+                    self.part(end, [at, to], place.piece);
+                    at = place.leaves_mm.max(to);
+                }
                 None => {
                     if !end.begins_pass {
-                        self.extra_cuts.push(ExtraCut {
-                            line: self.other.moves[end.move_index].line,
-                            length_mm: self.length_mm(end),
-                        });
+                        self.push_extra_cut(end);
                     }
-                    self.begin(end, to, foot.piece);
-                    at = to;
-                    self.covered.push([to, to]);
-                }
-                Some(covered) => {
-                    let to = to.max(at);
-                    covered[1] = to;
-                    self.part(end, [at, to], foot.piece);
-                    at = to;
+                    at = place.leaves_mm;
+                    self.begin(end, at, place.piece);
+                    self.covered.push([place.arrives_mm; 2]);
                 }
             }
-            let there = Reached {
-                along_mm: at,
-                pass: self.nominal.pieces()[foot.piece].pass,
-            };
-            match self.passes.last_mut().filter(|_| !end.begins_pass) {
-                None => self.passes.push([there, there]),
-                Some(pass) => pass[1] = there,
+            is_on = true;
+            if place.leaves_mm > place.arrives_mm
+                && let Some(last) = self.pieces.last_mut()
+            {
+                last.is_held = true;
+            }
+            self.cover(&place, at);
+            self.reach(end, at, Some(place.piece));
+        }
+    }
+
+    fn push_extra_cut(&mut self, end: &End) {
+        self.extra_cuts.push(ExtraCut {
+            line: self.other.moves[end.move_index].line,
+            length_mm: self.length_mm(end),
+        });
+    }
+
+    /// The program has come to a place; where it goes on behind one that is farther than any step, what lies between is not cut.
+    fn cover(&mut self, place: &OnGuide, at: f64) {
+        let leaves_out = place.leaves_mm - place.arrives_mm > beside_mm(self.shift_mm);
+        let to = if leaves_out { place.arrives_mm } else { at };
+        if let Some(covered) = self.covered.last_mut() {
+            covered[1] = covered[1].max(to);
+        }
+        if leaves_out {
+            self.covered.push([place.leaves_mm; 2]);
+        }
+    }
+
+    /// A pass of the other program has come to a place of the guide.
+    fn reach(&mut self, end: &End, along_mm: f64, piece: Option<usize>) {
+        let before = self.passes.last().map_or(0, |pass| pass[1].pass);
+        let pass = piece.map_or(before, |piece| self.stretches.pass_of_piece(piece));
+        let there = Reached { along_mm, pass };
+        match self.passes.last_mut().filter(|_| !end.begins_pass) {
+            None => self.passes.push([there, there]),
+            Some(pass) => pass[1] = there,
+        }
+    }
+
+    /// The tool comes back to the original where a move of it begins.
+    fn begin_same(&mut self, end: &End, same: usize, piece: usize) {
+        let begins = self.stretches.span_mm(same).map_or(0.0, |span| span[0]);
+        let start = End {
+            move_index: end.move_index,
+            shares: [0.0; 2],
+            begins_pass: true,
+            position: self.other.moves[end.move_index].start,
+        };
+        self.begin(&start, begins, piece);
+        self.covered.push([begins; 2]);
+    }
+
+    /// A move of the original that the other program makes just so.
+    fn same(&mut self, end: &End, same: usize) {
+        let whole = End {
+            move_index: end.move_index,
+            shares: [0.0, 1.0],
+            begins_pass: false,
+            position: end.position,
+        };
+        for index in self.stretches.along_move(same).into_iter().flatten() {
+            let stretch = &self.stretches.all[index];
+            if !stretch.turns {
+                let along_mm = stretch.along_mm;
+                let shares = along_mm.map(|at| self.stretches.place(index, at).1);
+                self.push(&whole, index, along_mm, shares);
+                if let Some(last) = self.pieces.last_mut() {
+                    (last.is_held, last.is_same) = (true, true);
+                }
             }
         }
     }
@@ -175,8 +242,8 @@ impl Along<'_> {
 
     /// Whether a part of a move is no part of the original: it leaves a way of that out, or crosses where that lifts the tool.
     fn goes_elsewhere(&self, end: &End, [from, to]: [f64; 2]) -> bool {
-        let (times, steps_mm, corrections) = OTHER_LENGTH;
-        let beside_mm = steps_mm + corrections * self.shift_mm;
+        let times = OTHER_LENGTH.0;
+        let beside_mm = beside_mm(self.shift_mm);
         let (own, way) = (self.length_mm(end), to - from);
         let leaves_out = way > times * own + beside_mm;
         // Just inside: where passes meet both are at the same length.
@@ -189,30 +256,10 @@ impl Along<'_> {
         leaves_out || crosses
     }
 
-    /// The nearest end of a stretch, if there is one as near as the program is to its guide.
-    fn at_corner(&self, foot: &Foot) -> f64 {
-        let along_mm = foot.along_mm;
-        let after = self
-            .stretches
-            .partition_point(|stretch| stretch.along_mm[1] < along_mm);
-        let Some(stretch) = self.stretches.get(after) else {
-            return self.nominal.length_mm();
-        };
-        // On a short stretch no farther than to its nearer end.
-        let near = (self.near_mm)
-            .max(foot.distance_mm)
-            .min(0.5 * (stretch.along_mm[1] - stretch.along_mm[0]));
-        let ends = stretch.along_mm.into_iter();
-        let nearest = ends.min_by(|a, b| (a - along_mm).abs().total_cmp(&(b - along_mm).abs()));
-        nearest
-            .filter(|end| (end - along_mm).abs() <= near)
-            .unwrap_or(along_mm)
-    }
-
     /// Where a pass begins: a place without a correction of its own.
     fn begin(&mut self, end: &End, at: f64, piece: usize) {
-        let stretch = self.stretch_at(at, piece);
-        let (move_index, share, _) = self.place(stretch, at);
+        let stretch = self.stretches.at(at, piece);
+        let (move_index, share, _) = self.stretches.place(stretch, at);
         self.pieces.push(Followed {
             piece: Piece::uncorrected(
                 move_index,
@@ -221,20 +268,23 @@ impl Along<'_> {
                 self.other.moves[end.move_index].line,
             ),
             other_end: (end.move_index, end.shares[1]),
+            other_from: end.shares[0],
+            is_held: false,
+            is_same: false,
         });
     }
 
     /// A part of a move of the other program between two lengths along the guide, divided where stretches meet.
     fn part(&mut self, end: &End, [from, to]: [f64; 2], piece: usize) {
         if to <= from {
-            let stretch = self.stretch_at(to, piece);
+            let stretch = self.stretches.at(to, piece);
             self.push(end, stretch, [from, to], [0.0, 1.0]);
             return;
         }
-        let first = self.stretch_from(from);
+        let first = self.stretches.from(from);
         let mut begun = 0.0;
-        for index in first..self.stretches.len() {
-            let [begins, ends] = self.stretches[index].along_mm;
+        for index in first..self.stretches.all.len() {
+            let [begins, ends] = self.stretches.all[index].along_mm;
             if index > first && begins >= to {
                 break;
             }
@@ -247,49 +297,8 @@ impl Along<'_> {
         }
     }
 
-    /// The stretch of a place that was found on a piece of the guide. Where one pass ends another begins at the same length, and the
-    /// piece tells which of them it is.
-    fn stretch_at(&self, along_mm: f64, piece: usize) -> usize {
-        let pieces = self.nominal.pieces();
-        let usual = self.stretch_from(along_mm);
-        let pass = |stretch: &Stretch| pieces[stretch.pieces.start].pass;
-        if pass(&self.stretches[usual]) == pieces[piece].pass {
-            return usual;
-        }
-        let behind = |stretch: &Stretch| stretch.pieces.end <= piece;
-        self.stretches.partition_point(behind)
-    }
-
-    /// The stretch in which a way begins.
-    fn stretch_from(&self, along_mm: f64) -> usize {
-        let after = self
-            .stretches
-            .partition_point(|stretch| stretch.along_mm[1] <= along_mm);
-        after.min(self.stretches.len() - 1)
-    }
-
-    /// Move and share of the original at a length along the guide in a stretch, and how much of the load's turn is done there.
-    fn place(&self, stretch: usize, along_mm: f64) -> (usize, f64, Option<Turn>) {
-        let pieces = self.stretches[stretch].pieces.clone();
-        let all = self.nominal.pieces();
-        let after = all[pieces.clone()].partition_point(|piece| piece.from_mm <= along_mm);
-        let own = &all[(pieces.start + after).saturating_sub(1).max(pieces.start)];
-        let part = ((along_mm - own.from_mm) / own.length_mm).clamp(0.0, 1.0);
-        let piece = &self.guide.pieces[own.move_index];
-        let between = |from: f64, to: f64| from + part * (to - from);
-        let turn = piece.turn.map(|turn| Turn {
-            part_to: between(turn.part_from, turn.part_to),
-            ..turn
-        });
-        (
-            piece.move_index,
-            between(piece.share_from, piece.share_to),
-            turn,
-        )
-    }
-
     fn push(&mut self, end: &End, stretch: usize, along_mm: [f64; 2], done: [f64; 2]) {
-        let [from, to] = along_mm.map(|at| self.place(stretch, at));
+        let [from, to] = along_mm.map(|at| self.stretches.place(stretch, at));
         let motion = &self.other.moves[end.move_index];
         let [begins, ends] = end.shares;
         let [share_from, share_to] = done.map(|done| begins + done * (ends - begins));
@@ -318,6 +327,9 @@ impl Along<'_> {
                 )
             },
             other_end: (end.move_index, share_to),
+            other_from: share_from,
+            is_held: false,
+            is_same: false,
         });
     }
 }

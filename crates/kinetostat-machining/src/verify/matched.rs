@@ -18,6 +18,38 @@ pub struct Matched {
     /// Moves at feed that the original does not make.
     #[serde(default)]
     pub extra_cuts: Vec<ExtraCut>,
+    /// Where cuts that both make have another feed, another speed of the spindle or another tool.
+    #[serde(default)]
+    pub conditions: Vec<OtherCondition>,
+}
+
+/// What of a cut is otherwise than in the original.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Condition {
+    /// F, or how it counts.
+    Feed,
+    /// Speed of the spindle, or its direction.
+    Spindle,
+    /// The tool.
+    Tool,
+}
+
+/// Moves that the original makes otherwise than where they go.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct OtherCondition {
+    /// What differs.
+    pub condition: Condition,
+    /// Lines of the program, first and last.
+    pub lines: [usize; 2],
+    /// Line of the original that the first belongs to.
+    pub line_of_original: usize,
+    /// What the original says there.
+    pub of_original: String,
+    /// What the program says there.
+    pub of_program: String,
+    /// Whether both name a tool.
+    pub tools_named: bool,
 }
 
 /// A rapid of a program that goes elsewhere than that of the original.

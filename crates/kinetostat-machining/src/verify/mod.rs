@@ -11,15 +11,19 @@
 //! the error is exact to second order in the distance from the guide; along it, where an error moves no material, it is that of
 //! the correspondence.
 
+mod conditions;
+mod exact;
 mod follow;
 mod matched;
+mod on_guide;
 mod pieces;
 mod places;
 mod rapids;
+mod stretches;
 mod uncut;
 
 use kinetostat::number::smaller;
-use kinetostat_program::{Arcs, Corrected, CorrectionField, Path, Unwatched};
+use kinetostat_program::{Arcs, Corrected, CorrectionField, Path, Unwatched, WriteError};
 
 use crate::load::ramps::Ramped;
 use crate::run::checked::Checked;
@@ -30,11 +34,13 @@ use crate::run::preparation::Preparation;
 use crate::run::sites::sites_of_written;
 use crate::run::way_out::with_way_out;
 use crate::task::{RunError, Task};
+use crate::verify::conditions::conditions;
+use crate::verify::exact::exact;
 use crate::verify::follow::follow;
 use crate::verify::pieces::as_written;
 use crate::watch::Watch;
 
-pub use matched::{ExtraCut, Matched, RapidElsewhere, Uncut};
+pub use matched::{Condition, ExtraCut, Matched, OtherCondition, RapidElsewhere, Uncut};
 
 /// A program that was verified.
 #[derive(Clone, Debug)]
@@ -73,11 +79,15 @@ fn verified(
     watch: &dyn Watch,
 ) -> Result<Verified, RunError> {
     let prepared = Preparation::of_correction(task, None, watch)?;
-    let guide = guide(task, &prepared.field(task), watch)?;
+    let field = prepared.field(task);
+    let guide = guide(task, &field, watch)?;
     watch.stage("places of the original", 0);
-    let (pieces, matched) = follow(task.path(), &guide, other)?;
+    let (pieces, mut matched) = follow(task.path(), &guide, other)?;
     // It is as large as the program, and the points that are solved now are larger.
     drop(guide);
+    let pieces = exact(task.path(), &field, pieces);
+    let most_feed_factor = task.writing.max_feed_factor;
+    matched.conditions = conditions(task.path(), other, &pieces, most_feed_factor);
     let written = as_written(task.path(), (other, bytes), pieces);
     let Preparation { load, course } = prepared;
     let Ramped {
@@ -115,5 +125,13 @@ fn guide(
     writing.tolerance_mm = smaller(writing.tolerance_mm, GUIDE_MM);
     writing.chord_tolerance_mm = smaller(writing.chord_tolerance_mm, GUIDE_MM);
     watch.stage("corrections", 0);
-    Ok(task.program.write(field, &writing, &Unwatched)?)
+    let in_lines = task.program.write(field, &writing, &Unwatched);
+    // In some languages the tool turns on a circle as it could not in straight motions, and the other way round.
+    writing.arcs = task.writing.arcs;
+    match in_lines {
+        Err(WriteError::Motion { .. }) if writing.arcs != Arcs::Lines => {
+            Ok(task.program.write(field, &writing, &Unwatched)?)
+        }
+        in_lines => Ok(in_lines?),
+    }
 }

@@ -15,7 +15,10 @@ pub(crate) fn as_written(
     let turns = states(original) && states(other);
     let (mut orientations, mut rotary_deg) = (Vec::new(), Vec::new());
     if turns {
-        for Followed { other_end, piece } in &followed {
+        for Followed {
+            other_end, piece, ..
+        } in &followed
+        {
             let (index, share) = *other_end;
             let turn = other.moves[index].tool_turn.as_ref();
             // A move that does not state how the tool stands leaves it to what the original says there.

@@ -49,15 +49,21 @@ pub(crate) fn ends(other: &NominalPath<'_>) -> Vec<End> {
     ends
 }
 
-/// The place of the guide for each end.
+/// So many ends may be nowhere on the guide, as a share of all: of more it is another program.
+const MOST_AWAY: f64 = 0.25;
+
+/// How often an end that leaps ahead is left out, and the order looked for anew.
+const LEAPS: usize = 8;
+
+/// The place of the guide for each end; none for the few that are nowhere near it, or only in another order.
 ///
 /// # Errors
-/// One is nowhere near it, or only behind those before it.
+/// More than a few are.
 pub(crate) fn feet(
     guide: &NominalPath<'_>,
     other: &Path,
     ends: &[End],
-) -> Result<Vec<Foot>, RunError> {
+) -> Result<Vec<Option<Foot>>, RunError> {
     let points: Vec<Vector3<f64>> = ends.iter().map(|end| end.position).collect();
     let mut last = None;
     for window_mm in WINDOWS_MM {
@@ -65,15 +71,10 @@ pub(crate) fn feet(
             .iter()
             .map(|point| guide.nearest_within(point, window_mm))
             .collect();
-        widen_few(guide, &points, (&mut near, window_mm));
-        // Nobody is asked for an order of points one of which is nowhere.
-        let found = match near.iter().position(Vec::is_empty) {
-            Some(lost) => Err((lost, WhyLeftOut::BeyondWindow)),
-            None => in_order(&points, &near, window_mm)
-                .into_iter()
-                .enumerate()
-                .map(|(index, foot)| foot.map_err(|why| (index, why)))
-                .collect(),
+        let found = match widened(guide, &points, (&mut near, window_mm)) {
+            // Nobody is asked for an order of points many of which are nowhere.
+            Err(lost) => Err((lost, WhyLeftOut::BeyondWindow)),
+            Ok(()) => ordered(&points, near, window_mm),
         };
         match found {
             Ok(feet) => return Ok(feet),
@@ -92,19 +93,74 @@ pub(crate) fn feet(
     })
 }
 
+/// Whether so many of all ends are few enough to be left out.
+fn is_few(lost: usize, all: usize) -> bool {
+    lost as f64 <= MOST_AWAY * all as f64 || (lost <= 2 && 2 * lost < all)
+}
+
+/// The feet in their order. One end that leaps ahead, to a part of the original that comes later, leaves those behind it without any:
+/// it is left out where that leaves more of the others.
+///
+/// # Errors
+/// The first end without a foot and why, where there are many.
+fn ordered(
+    points: &[Vector3<f64>],
+    mut near: Vec<Vec<Foot>>,
+    window_mm: f64,
+) -> Result<Vec<Option<Foot>>, (usize, WhyLeftOut)> {
+    let lost = |feet: &[Result<Foot, WhyLeftOut>]| feet.iter().filter(|foot| foot.is_err()).count();
+    let mut best = in_order(points, &near, window_mm);
+    for _ in 0..LEAPS {
+        let out_of_order = |foot: &Result<Foot, WhyLeftOut>| *foot == Err(WhyLeftOut::OutOfOrder);
+        let leaps = best.iter().position(out_of_order).and_then(|first| {
+            let mut before = (0..first).rev();
+            before.find(|index| best[*index].is_ok())
+        });
+        let Some(leaps) = leaps else {
+            break;
+        };
+        let its_feet = std::mem::take(&mut near[leaps]);
+        let without = in_order(points, &near, window_mm);
+        if lost(&without) >= lost(&best) {
+            near[leaps] = its_feet;
+            break;
+        }
+        best = without;
+    }
+    let first = best.iter().position(Result::is_err);
+    match first.zip(first.and_then(|first| best[first].err())) {
+        Some(first) if !is_few(lost(&best), points.len()) => Err(first),
+        _ => Ok(best.into_iter().map(Result::ok).collect()),
+    }
+}
+
 /// Looks farther away for the few ends that are nowhere near: one wrong block is to widen the window of no other.
-fn widen_few(
+///
+/// # Errors
+/// The first of them, where there are many.
+fn widened(
     guide: &NominalPath<'_>,
     points: &[Vector3<f64>],
     (near, window_mm): (&mut [Vec<Foot>], f64),
-) {
+) -> Result<(), usize> {
     let lost: Vec<usize> = (0..near.len()).filter(|k| near[*k].is_empty()).collect();
-    if lost.len() > 2 && lost.len() * FEW > near.len() {
-        return;
+    let [.., widest_mm] = WINDOWS_MM;
+    let mut away = 0;
+    for k in &lost {
+        let nearest = guide.nearest(&points[*k]);
+        away += usize::from(nearest.is_none_or(|foot| foot.distance_mm > widest_mm));
+    }
+    let farther = lost.len() - away;
+    let Some(first) = lost.first() else {
+        return Ok(());
+    };
+    if !is_few(away, near.len()) || (farther > 2 && farther * FEW > near.len()) {
+        return Err(*first);
     }
     for k in lost {
         let wider = WINDOWS_MM.into_iter().filter(|mm| *mm > window_mm);
         let mut found = wider.map(|mm| guide.nearest_within(&points[k], mm));
         near[k] = found.find(|feet| !feet.is_empty()).unwrap_or_default();
     }
+    Ok(())
 }

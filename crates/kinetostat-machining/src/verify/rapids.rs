@@ -23,7 +23,8 @@ pub(crate) fn largest_shift_mm(original: &Path, guide: &Corrected) -> f64 {
     guide.pieces.iter().map(shift).fold(0.0, larger)
 }
 
-/// The other program with its moves at feed as rapids where they are rapids of the original: a retract at feed cuts nothing.
+/// The other program with its moves at feed as rapids where they are rapids of the original: a retract at feed cuts nothing, nor does
+/// a way along which the program has cut before.
 pub(crate) fn without_air<'a>(
     original: &NominalPath<'_>,
     nominal: &NominalPath<'_>,
@@ -33,7 +34,8 @@ pub(crate) fn without_air<'a>(
     let is_rapid = |m: &&Move| m.kind == MoveKind::Rapid && m.known == Knowledge::Whole;
     let mut rapids: Vec<&Move> = original.path().moves.iter().filter(is_rapid).collect();
     rapids.sort_by(|a, b| a.start.x.total_cmp(&b.start.x));
-    let is_air = |own: &Move| {
+    let is_air = |index: usize| {
+        let own = &other.moves[index];
         if own.kind != MoveKind::Feed || own.curve != Curve::Line || !own.is_known_feed() {
             return false;
         }
@@ -45,14 +47,14 @@ pub(crate) fn without_air<'a>(
             let beside = (m.point(0.5) - middle).norm();
             (m.start - own.start).norm() <= near_mm
                 && (m.end - own.end).norm() <= near_mm
-                // Not where a cut goes nearer by, as it is or compensated.
-                && [original, nominal].into_iter().all(|cuts| {
+                // Not where a cut goes nearer by, as it is or compensated, unless it has been made.
+                && ([original, nominal].into_iter().all(|cuts| {
                     cuts.nearest(&middle).is_none_or(|foot| foot.distance_mm > beside)
-                })
+                }) || is_cut_before(other, index, ON_WAY_MM + shift_mm))
         })
     };
     let air: Vec<usize> = (0..other.moves.len())
-        .filter(|index| is_air(&other.moves[*index]))
+        .filter(|index| is_air(*index))
         .collect();
     if air.is_empty() {
         return Cow::Borrowed(other);
@@ -62,6 +64,31 @@ pub(crate) fn without_air<'a>(
         changed.moves[index].kind = MoveKind::Rapid;
     }
     Cow::Owned(changed)
+}
+
+/// A way lies on another within this, mm, beside what corrections shift it by.
+const ON_WAY_MM: f64 = 0.05;
+
+/// So many moves back is looked for one that has cut a way before.
+const LOOKED_BACK: usize = 200;
+
+/// Places of a way that are looked at.
+const LOOKED_AT: usize = 16;
+
+/// Whether moves at feed before have been along all of a straight way: the lift out of a hole and the way back to its ground.
+fn is_cut_before(path: &Path, index: usize, within_mm: f64) -> bool {
+    let own = &path.moves[index];
+    let before = &path.moves[index.saturating_sub(LOOKED_BACK)..index];
+    let is_straight = |m: &&Move| m.is_known_feed() && m.curve == Curve::Line;
+    let cuts = before.iter().filter(is_straight).map(|m| Way {
+        line: m.line,
+        ends: [m.start, m.end],
+    });
+    let cuts: Vec<Way> = cuts.collect();
+    (0..=LOOKED_AT).all(|k| {
+        let place = own.point(k as f64 / LOOKED_AT as f64);
+        cuts.iter().any(|cut| cut.distance(&place) <= within_mm)
+    })
 }
 
 /// A straight way of the tool in a rapid.

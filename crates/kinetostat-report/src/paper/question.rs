@@ -37,6 +37,8 @@ pub struct VerifiedProgram {
     pub rapids: Vec<(usize, f64)>,
     /// Lines of its moves at feed that the original does not make, with their length, mm.
     pub extra_cuts: Vec<(usize, f64)>,
+    /// Lines of it with another feed, spindle, tool or frame than the original, where that is a fault.
+    pub other_words: Vec<usize>,
 }
 
 impl<'a> Paper<'a> {

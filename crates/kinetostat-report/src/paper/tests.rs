@@ -181,6 +181,7 @@ fn a_verified_program_has_its_own_verdict() {
             uncut: vec![([4, 6], 12.5)],
             rapids: vec![(9, 6.0)],
             extra_cuts: vec![(12, 40.0)],
+            other_words: vec![14],
         });
     let text = said(&paper);
     assert!(text.contains("Toleranz verfehlt"), "{text}");
@@ -188,6 +189,10 @@ fn a_verified_program_has_its_own_verdict() {
     assert!(text.contains("vorlage.ngc"), "{text}");
     assert!(text.contains("Der Eilgang in Zeile 9"), "{text}");
     assert!(text.contains("Zeile 12 dieses Programms"), "{text}");
+    assert!(
+        text.contains("In Zeile 14 hat dieses Programm einen anderen Vorschub"),
+        "{text}"
+    );
     // Nothing is said of another load at corners, which was not solved.
     assert!(!text.contains("Gleichgewicht"), "{text}");
 }

@@ -117,6 +117,10 @@ fn verdict(of: &Of<'_>) -> Block {
         let values = [("line", line.as_str()), ("length", &length)];
         sentences.push(fill(sentence, &values));
     }
+    for line in of.paper.verified.iter().flat_map(|v| &v.other_words) {
+        let line = number::count(*line);
+        sentences.push(fill(words.other_word, &[("line", line.as_str())]));
+    }
     sentences.push(words.model_only.to_owned());
     Block::Verdict {
         level,

@@ -154,4 +154,5 @@ pub(super) const WORDS: Words = Words {
     uncut: "Lines {first} to {last} of the original are not cut by this program: {length} of path.",
     rapid_elsewhere: "The rapid at line {line} of this program goes elsewhere than that of the original, by up to {length}.",
     extra_cut: "Line {line} of this program is a move at feed that the original does not make: {length} long.",
+    other_word: "Line {line} of this program has another feed, spindle, tool or frame than the original.",
 };

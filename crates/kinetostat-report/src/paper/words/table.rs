@@ -166,6 +166,8 @@ pub(crate) struct Words {
     pub(crate) rapid_elsewhere: &'static str,
     /// A move at feed that the original does not make: `{line}`, `{length}`.
     pub(crate) extra_cut: &'static str,
+    /// Another feed, spindle, tool or frame than in the original: `{line}`.
+    pub(crate) other_word: &'static str,
 }
 
 impl Words {

@@ -157,4 +157,5 @@ pub(super) const WORDS: Words = Words {
     uncut: "Die Zeilen {first} bis {last} des Originals schneidet dieses Programm nicht: {length} Bahn.",
     rapid_elsewhere: "Der Eilgang in Zeile {line} dieses Programms geht anderswo als der des Originals, um bis zu {length}.",
     extra_cut: "Zeile {line} dieses Programms ist eine Vorschubbewegung, die das Original nicht macht: {length} lang.",
+    other_word: "In Zeile {line} hat dieses Programm einen anderen Vorschub, eine andere Drehzahl oder Drehrichtung, ein anderes Werkzeug oder einen anderen Nullpunkt als das Original.",
 };

@@ -1,0 +1,57 @@
+//! Feeds, speeds and tools that differ from those of the original, in words.
+
+use kinetostat_machining::{Condition, OtherCondition, Warning, WarningCode};
+
+use crate::verify::frames::OtherWord;
+
+/// Whether the program must not run so: forces from the cut are others with another feed or spindle, and another tool that both
+/// name is of another length.
+pub(crate) fn is_fault(other: &OtherCondition, forces_from_cut: bool) -> bool {
+    match other.condition {
+        Condition::Feed | Condition::Spindle => forces_from_cut,
+        Condition::Tool => other.tools_named,
+    }
+}
+
+/// What differs, as a sentence.
+pub(crate) fn said(other: &OtherCondition, forces_from_cut: bool) -> String {
+    let what = match other.condition {
+        Condition::Feed => "ANOTHER FEED",
+        Condition::Spindle => "ANOTHER SPEED OR DIRECTION OF THE SPINDLE",
+        Condition::Tool => "ANOTHER TOOL",
+    };
+    let [first, last] = other.lines;
+    let lines = match first == last {
+        true => format!("at line {first}"),
+        false => format!("at lines {first} to {last}"),
+    };
+    let follows = match (other.condition, forces_from_cut) {
+        (Condition::Feed | Condition::Spindle, true) => {
+            ": the forces that the program is corrected for come from that cut"
+        }
+        (Condition::Tool, _) => ": its length may be another",
+        _ => "",
+    };
+    format!(
+        "{what} {lines}: {}, where the original has {} (line {} there){follows}.",
+        other.of_program, other.of_original, other.line_of_original
+    )
+}
+
+/// What differs and is no fault.
+pub(crate) fn warnings(
+    conditions: &[OtherCondition],
+    words: &[OtherWord],
+    forces_from_cut: bool,
+) -> Vec<Warning> {
+    let conditions = conditions
+        .iter()
+        .filter(|other| !is_fault(other, forces_from_cut))
+        .map(|other| {
+            let text = said(other, forces_from_cut);
+            Warning::new(WarningCode::OtherThanOriginal, text.trim_end_matches('.'))
+        });
+    let words = words.iter().filter(|word| !word.is_frame);
+    let words = words.map(|word| Warning::new(WarningCode::OtherThanOriginal, word.said()));
+    conditions.chain(words).collect()
+}

@@ -1,0 +1,63 @@
+//! What keeps a verified program from being as it should be.
+
+use kinetostat_machining::FeatureResult;
+
+use crate::verify::answer::VerifyAnswer;
+use crate::verify::conditions;
+
+impl VerifyAnswer {
+    /// Everything that keeps the program from being as it should be, a sentence each.
+    pub(crate) fn faults(&self) -> Vec<String> {
+        let mut faults = Vec::new();
+        if !self.stable {
+            faults.push(
+                "THE MACHINE IS NOT STABLE under this load: do not run this program.".to_owned(),
+            );
+        }
+        for uncut in &self.matched.uncut {
+            let [first, last] = uncut.lines;
+            let lines = match first == last {
+                true => format!("LINE {first} OF THE ORIGINAL IS NOT CUT"),
+                false => format!("LINES {first} TO {last} OF THE ORIGINAL ARE NOT CUT"),
+            };
+            let length = kinetostat_machining::number::largest_length(uncut.length_mm);
+            faults.push(format!("{lines} by this program: {length} of path."));
+        }
+        for cut in &self.matched.extra_cuts {
+            let length = kinetostat_machining::number::largest_length(cut.length_mm);
+            faults.push(format!(
+                "LINE {} IS A MOVE AT FEED THAT THE ORIGINAL DOES NOT MAKE: {length} long.",
+                cut.line
+            ));
+        }
+        for rapid in &self.matched.rapids {
+            let off = kinetostat_machining::number::largest_length(rapid.distance_mm);
+            let of_original = match rapid.line_of_original {
+                Some(line) => format!("from that of the original (line {line} there)"),
+                None => "from the cut, where the original has none".to_owned(),
+            };
+            faults.push(format!(
+                "THE RAPID AT LINE {} GOES ELSEWHERE: up to {off} {of_original}.",
+                rapid.line
+            ));
+        }
+        let conditions = self.matched.conditions.iter();
+        faults.extend(
+            conditions
+                .filter(|other| conditions::is_fault(other, self.forces_from_cut))
+                .map(|other| conditions::said(other, true)),
+        );
+        let frames = self.other_words.iter().filter(|word| word.is_frame);
+        faults.extend(frames.map(|word| format!("ANOTHER FRAME: {}.", word.said())));
+        if let Some(m) = &self.missed {
+            let (error, allowed) =
+                kinetostat_machining::number::against(m.error_mm, self.allowed_mm);
+            faults.push(format!(
+                "THE TOLERANCE IS MISSED at line {} (line {} of the original): the tool is {error} off, more than the {allowed} that are allowed.",
+                m.output_line, m.line
+            ));
+        }
+        faults.extend(self.features.iter().filter_map(FeatureResult::missed_text));
+        faults
+    }
+}

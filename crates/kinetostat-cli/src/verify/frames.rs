@@ -1,0 +1,125 @@
+//! Words of a program that move its places as the control has it set up, and not as the program says.
+
+use kinetostat_program::{Program, ReadOptions};
+use serde::Serialize;
+
+/// Frames of G-code, in the order of their origins under `[reading]`.
+const FRAMES: [&str; 9] = [
+    "G54", "G55", "G56", "G57", "G58", "G59", "G59.1", "G59.2", "G59.3",
+];
+
+/// Lengths and radii of the tool that the control adds.
+const OFFSETS: [&str; 6] = ["G43", "G43.1", "G43.2", "G44", "G41", "G42"];
+
+/// A word that one of both programs has and the other does not.
+#[derive(Clone, Debug, Serialize)]
+pub(crate) struct OtherWord {
+    pub(crate) word: String,
+    /// Line of the program; none where only the original has it.
+    pub(crate) line: Option<usize>,
+    /// Line of the original; none where only the program has it.
+    pub(crate) line_of_original: Option<usize>,
+    /// Whether it names a frame, and does not add a length of the tool.
+    pub(crate) is_frame: bool,
+}
+
+impl OtherWord {
+    /// What is wrong with it.
+    pub(crate) fn said(&self) -> String {
+        let what = match (self.line, self.line_of_original) {
+            (Some(line), _) => format!("{} at line {line} is not in the original", self.word),
+            (None, line) => format!(
+                "{} at line {} of the original is not in this program",
+                self.word,
+                line.unwrap_or(0)
+            ),
+        };
+        match self.is_frame {
+            true => format!(
+                "{what}: it is not known where the control has this frame (state its origin with --work-offset if it is the one that the program is made for)"
+            ),
+            false => format!("{what}: the control moves the tool by what its table has there"),
+        }
+    }
+}
+
+/// The words that only one of both programs has. Frames whose origins are stated are where the programs are read, and the first of
+/// them is in force without a word.
+pub(crate) fn other_words(
+    original: &Program,
+    verified: &Program,
+    reading: &ReadOptions,
+) -> Vec<OtherWord> {
+    let (of_original, of_verified) = (words(original), words(verified));
+    let is_unknown = |word: &str| match FRAMES.iter().position(|frame| *frame == word) {
+        Some(index) => reading.work_offsets_mm[index].is_none(),
+        None => OFFSETS.contains(&word),
+    };
+    let has_frame = |words: &[(String, usize)]| {
+        let mut words = words.iter();
+        words.any(|(word, _)| FRAMES.contains(&word.as_str()))
+    };
+    let only = |own: &[(String, usize)], others: &[(String, usize)]| -> Vec<(String, usize)> {
+        let missing = own.iter().filter(|(word, _)| {
+            let known = others.iter().any(|(other, _)| other == word);
+            let usual = word == FRAMES[0] && !has_frame(others);
+            is_unknown(word) && !known && !usual
+        });
+        missing.cloned().collect()
+    };
+    let is_frame = |word: &String| FRAMES.contains(&word.as_str());
+    let added = only(&of_verified, &of_original);
+    let left_out = only(&of_original, &of_verified);
+    let added = added.into_iter().map(|(word, line)| OtherWord {
+        is_frame: is_frame(&word),
+        word,
+        line: Some(line),
+        line_of_original: None,
+    });
+    let left_out = left_out.into_iter().map(|(word, line)| OtherWord {
+        is_frame: is_frame(&word),
+        word,
+        line: None,
+        line_of_original: Some(line),
+    });
+    added.chain(left_out).collect()
+}
+
+/// Words with G, each with the first line that has it.
+fn words(program: &Program) -> Vec<(String, usize)> {
+    let mut found: Vec<(String, usize)> = Vec::new();
+    for line in 1..=program.line_count() {
+        let text = String::from_utf8_lossy(program.line_bytes(line).unwrap_or_default());
+        for word in words_of(&text) {
+            if !found.iter().any(|(known, _)| *known == word) {
+                found.push((word, line));
+            }
+        }
+    }
+    found
+}
+
+/// Words with G of a line, without blanks, leading zeros and zeros behind the point.
+fn words_of(line: &str) -> Vec<String> {
+    let mut rest = line.chars().filter(|c| !c.is_whitespace()).peekable();
+    let mut found = Vec::new();
+    let mut depth = 0_usize;
+    while let Some(c) = rest.next() {
+        match c {
+            '(' => depth += 1,
+            ')' => depth = depth.saturating_sub(1),
+            ';' if depth == 0 => break,
+            'g' | 'G' if depth == 0 => {
+                let mut number = String::new();
+                while let Some(digit) = rest.next_if(|c| c.is_ascii_digit() || *c == '.') {
+                    number.push(digit);
+                }
+                if let Ok(value) = number.parse::<f64>() {
+                    found.push(format!("G{value}"));
+                }
+            }
+            _ => {}
+        }
+    }
+    found
+}

@@ -1,0 +1,167 @@
+//! Where on the guide the moves of another program end, and where from the next ones go on.
+
+use std::collections::HashMap;
+
+use kinetostat_program::{Curve, Foot, Move, Path};
+use nalgebra::Vector3;
+
+use crate::verify::places::End;
+use crate::verify::stretches::Stretches;
+
+/// Ends of moves nearer than this are one, mm: what is left after inches and increments.
+const SAME_MM: f64 = 1e-6;
+
+/// A program that makes a step where the load turns ends it as near to the end of the guide's, as a share of the step.
+const STEPS_WITHIN: f64 = 0.1;
+
+/// Where an end lies on the guide.
+#[derive(Clone, Copy)]
+pub(crate) struct OnGuide {
+    /// Length along the guide to which the move before goes, mm, and from which the one behind goes on: the guide turns the load
+    /// between both where the program does not.
+    pub(crate) arrives_mm: f64,
+    pub(crate) leaves_mm: f64,
+    /// Piece of the guide that it was found on.
+    pub(crate) piece: usize,
+    /// Index of the move of the original that is the same as the one that ends here, or that this is a part of.
+    pub(crate) same_as: Option<usize>,
+}
+
+/// Where the other program is to be found on its guide.
+pub(crate) struct Search<'a> {
+    pub(crate) stretches: &'a Stretches<'a>,
+    pub(crate) original: &'a Path,
+    pub(crate) other: &'a Path,
+    /// How near the program usually is to the guide, mm.
+    pub(crate) near_mm: f64,
+    /// How far places of the program and those of the original may be from one another along the guide, mm.
+    pub(crate) beside_mm: f64,
+}
+
+impl Search<'_> {
+    /// The places of all ends, none where an end is nowhere on the guide.
+    pub(crate) fn places(&self, ends: &[End], feet: &[Option<Foot>]) -> Vec<Option<OnGuide>> {
+        let of_foot = |foot: &Foot| {
+            let to = self.stretches.at_corner(foot, self.near_mm);
+            OnGuide {
+                arrives_mm: to,
+                leaves_mm: to,
+                piece: foot.piece,
+                same_as: None,
+            }
+        };
+        let found: Vec<_> = feet.iter().map(|foot| foot.as_ref().map(of_foot)).collect();
+        let mut places = found.clone();
+        for (index, place) in places.iter_mut().enumerate() {
+            if let Some(place) = place
+                && let Some([from, to]) = self.lone_turn(index, (ends, &found))
+            {
+                (place.arrives_mm, place.leaves_mm) = (from, to);
+            }
+        }
+        self.put_same_moves(ends, feet, &mut places);
+        places
+    }
+
+    fn pass(&self, piece: usize) -> usize {
+        self.stretches.pass_of_piece(piece)
+    }
+
+    /// The turn of the load in which this end lies alone: the program makes no step there, and the load turns at one place of it.
+    fn lone_turn(
+        &self,
+        index: usize,
+        (ends, found): (&[End], &[Option<OnGuide>]),
+    ) -> Option<[f64; 2]> {
+        let own = found[index]?;
+        let [from, to] = self
+            .stretches
+            .turn_at(own.arrives_mm, self.pass(own.piece))?;
+        let length = to - from;
+        let slack = self.near_mm.min(0.5 * length).max(STEPS_WITHIN * length);
+        let of_pass = |index: usize, begins: usize| {
+            let end = ends.get(begins).filter(|end| !end.begins_pass);
+            end.and(found.get(index).copied().flatten())
+        };
+        let before = index
+            .checked_sub(1)
+            .and_then(|before| of_pass(before, index));
+        let after = of_pass(index + 1, index + 1);
+        let steps_before = before.is_some_and(|place| place.arrives_mm >= from - slack);
+        let steps_after = after.is_some_and(|place| place.arrives_mm <= to + slack);
+        (!steps_before && !steps_after).then_some([from, to])
+    }
+
+    /// Moves that the original makes just so are those of the original.
+    fn put_same_moves(&self, ends: &[End], feet: &[Option<Foot>], places: &mut [Option<OnGuide>]) {
+        let mut of_original: HashMap<[i64; 6], Vec<usize>> = HashMap::new();
+        for (index, own) in self.original.moves.iter().enumerate() {
+            if own.is_known_feed() {
+                of_original.entry(key(own)).or_default().push(index);
+            }
+        }
+        for last in 0..ends.len() {
+            let end = &ends[last];
+            let (Some(foot), true) = (feet[last], !end.begins_pass && end.shares[1] == 1.0) else {
+                continue;
+            };
+            let motion = &self.other.moves[end.move_index];
+            let same = of_original.get(&key(motion)).into_iter().flatten();
+            let same = same.filter(|index| is_same(&self.original.moves[**index], motion));
+            let spans = same.filter_map(|index| Some((*index, self.stretches.span_mm(*index)?)));
+            let far = |span: &[f64; 2]| (span[1] - foot.along_mm).abs();
+            let nearest = spans.min_by(|a, b| far(&a.1).total_cmp(&far(&b.1)));
+            let Some((index, [begins, ends_mm])) =
+                nearest.filter(|(_, span)| far(span) <= self.beside_mm)
+            else {
+                continue;
+            };
+            let parts = (0..=last).rev();
+            let parts: Vec<usize> = parts
+                .take_while(|part| {
+                    ends[*part].move_index == end.move_index && !ends[*part].begins_pass
+                })
+                .collect();
+            let first = parts.last().copied().unwrap_or(last);
+            for part in parts {
+                if let Some(place) = places[part].as_mut() {
+                    place.same_as = Some(index);
+                }
+            }
+            let pass = self.pass(self.stretches.first_piece(index).unwrap_or(foot.piece));
+            let turn_at = |at: f64| self.stretches.turn_at(at, pass);
+            if let Some(place) = places[last].as_mut() {
+                place.arrives_mm = ends_mm;
+                place.leaves_mm = turn_at(ends_mm)
+                    .filter(|turn| turn[0] >= ends_mm)
+                    .map_or(ends_mm, |turn| turn[1]);
+            }
+            let before = first.checked_sub(1);
+            if let Some(place) = before.and_then(|before| places[before].as_mut()) {
+                place.leaves_mm = begins;
+                let turn = turn_at(begins).filter(|turn| turn[1] <= begins);
+                let most = turn.map_or(begins, |turn| turn[0]);
+                place.arrives_mm = match ends[first - 1].begins_pass {
+                    true => most,
+                    false => place.arrives_mm.min(begins),
+                };
+            }
+        }
+    }
+}
+
+/// Where a move begins and ends, in steps far below what is written.
+fn key(motion: &Move) -> [i64; 6] {
+    let [from, to] = [motion.start, motion.end].map(|p: Vector3<f64>| {
+        let step = |x: f64| (x / (100.0 * SAME_MM)).round() as i64;
+        [step(p.x), step(p.y), step(p.z)]
+    });
+    [from[0], from[1], from[2], to[0], to[1], to[2]]
+}
+
+/// Whether two moves between the same places are one.
+fn is_same(a: &Move, b: &Move) -> bool {
+    let same = |share: f64| (a.point(share) - b.point(share)).norm() <= SAME_MM;
+    matches!(a.curve, Curve::Line) == matches!(b.curve, Curve::Line)
+        && [0.0, 0.3, 0.7, 1.0].into_iter().all(same)
+}

@@ -1,0 +1,162 @@
+//! The guide as stretches: parts of it along one move of the original, and places where the load turns.
+
+use std::collections::HashMap;
+
+use kinetostat_program::{Corrected, Foot, NominalPath, Turn};
+
+/// A part of the guide along one move of the original, or at one place of it where the load turns.
+pub(crate) struct Stretch {
+    /// Indices of its pieces in the nominal path of the guide.
+    pub(crate) pieces: std::ops::Range<usize>,
+    /// Where it begins and ends along that, mm.
+    pub(crate) along_mm: [f64; 2],
+    pub(crate) turns: bool,
+    /// Index of the move of the original.
+    pub(crate) move_index: usize,
+    /// The pass of the guide that it is a part of.
+    pub(crate) pass: usize,
+}
+
+impl Stretch {
+    fn length_mm(&self) -> f64 {
+        self.along_mm[1] - self.along_mm[0]
+    }
+}
+
+/// All stretches of a guide in their order.
+pub(crate) struct Stretches<'a> {
+    guide: &'a Corrected,
+    nominal: &'a NominalPath<'a>,
+    pub(crate) all: Vec<Stretch>,
+    /// First and last of those that go along a move of the original, by its index.
+    of_move: HashMap<usize, [usize; 2]>,
+}
+
+impl<'a> Stretches<'a> {
+    pub(crate) fn of(guide: &'a Corrected, nominal: &'a NominalPath<'a>) -> Self {
+        let mut all: Vec<Stretch> = Vec::new();
+        for (index, own) in nominal.pieces().iter().enumerate() {
+            let piece = &guide.pieces[own.move_index];
+            let end_mm = own.from_mm + own.length_mm;
+            match all.last_mut() {
+                Some(last)
+                    if last.turns == piece.turn.is_some()
+                        && last.move_index == piece.move_index
+                        && last.pass == own.pass =>
+                {
+                    last.pieces.end = index + 1;
+                    last.along_mm[1] = end_mm;
+                }
+                _ => all.push(Stretch {
+                    pieces: index..index + 1,
+                    along_mm: [own.from_mm, end_mm],
+                    turns: piece.turn.is_some(),
+                    move_index: piece.move_index,
+                    pass: own.pass,
+                }),
+            }
+        }
+        let mut of_move: HashMap<usize, [usize; 2]> = HashMap::new();
+        for (index, stretch) in all.iter().enumerate().filter(|(_, s)| !s.turns) {
+            let both = of_move.entry(stretch.move_index).or_insert([index; 2]);
+            both[1] = index;
+        }
+        Self {
+            guide,
+            nominal,
+            all,
+            of_move,
+        }
+    }
+
+    /// The first piece of the guide along a move of the original.
+    pub(crate) fn first_piece(&self, move_index: usize) -> Option<usize> {
+        let [first, _] = self.of_move.get(&move_index)?;
+        Some(self.all[*first].pieces.start)
+    }
+
+    /// The pass of a piece of the guide.
+    pub(crate) fn pass_of_piece(&self, piece: usize) -> usize {
+        self.nominal.pieces()[piece].pass
+    }
+
+    /// Those between the first and the last that go along a move of the original; none of a move that the guide does not make.
+    pub(crate) fn along_move(&self, move_index: usize) -> Option<std::ops::RangeInclusive<usize>> {
+        let [first, last] = self.of_move.get(&move_index)?;
+        Some(*first..=*last)
+    }
+
+    /// Where the guide begins and ends to go along a move of the original, mm.
+    pub(crate) fn span_mm(&self, move_index: usize) -> Option<[f64; 2]> {
+        let [first, last] = self.of_move.get(&move_index)?;
+        Some([self.all[*first].along_mm[0], self.all[*last].along_mm[1]])
+    }
+
+    /// The nearest end of a stretch, if there is one as near as the program is to its guide.
+    pub(crate) fn at_corner(&self, foot: &Foot, near_mm: f64) -> f64 {
+        let along_mm = foot.along_mm;
+        let ends_before = |stretch: &Stretch| stretch.along_mm[1] < along_mm;
+        let after = self.all.partition_point(ends_before);
+        let Some(stretch) = self.all.get(after) else {
+            return self.nominal.length_mm();
+        };
+        // On a short stretch no farther than to its nearer end.
+        let near = (near_mm)
+            .max(foot.distance_mm)
+            .min(0.5 * stretch.length_mm());
+        let ends = stretch.along_mm.into_iter();
+        let nearest = ends.min_by(|a, b| (a - along_mm).abs().total_cmp(&(b - along_mm).abs()));
+        nearest
+            .filter(|end| (end - along_mm).abs() <= near)
+            .unwrap_or(along_mm)
+    }
+
+    /// Where the load turns at a place of a pass, mm along the guide.
+    pub(crate) fn turn_at(&self, along_mm: f64, pass: usize) -> Option<[f64; 2]> {
+        let first = (self.all).partition_point(|stretch| stretch.along_mm[1] < along_mm);
+        let here = self.all[first..].iter();
+        let here = here.take_while(|stretch| stretch.along_mm[0] <= along_mm);
+        let mut turns = here.filter(|stretch| stretch.turns && stretch.pass == pass);
+        turns.next().map(|stretch| stretch.along_mm)
+    }
+
+    /// The stretch of a place that was found on a piece of the guide. Where one pass ends another begins at the same length, and the
+    /// piece tells which of them it is.
+    pub(crate) fn at(&self, along_mm: f64, piece: usize) -> usize {
+        let pieces = self.nominal.pieces();
+        let usual = self.from(along_mm);
+        if self.all[usual].pass == pieces[piece].pass {
+            return usual;
+        }
+        let behind = |stretch: &Stretch| stretch.pieces.end <= piece;
+        self.all.partition_point(behind)
+    }
+
+    /// The stretch in which a way begins.
+    pub(crate) fn from(&self, along_mm: f64) -> usize {
+        let ends_before = |stretch: &Stretch| stretch.along_mm[1] <= along_mm;
+        self.all
+            .partition_point(ends_before)
+            .min(self.all.len() - 1)
+    }
+
+    /// Move and share of the original at a length along the guide in a stretch, and how much of the load's turn is done there.
+    pub(crate) fn place(&self, stretch: usize, along_mm: f64) -> (usize, f64, Option<Turn>) {
+        let pieces = self.all[stretch].pieces.clone();
+        let all = self.nominal.pieces();
+        let after = all[pieces.clone()].partition_point(|piece| piece.from_mm <= along_mm);
+        let own = &all[(pieces.start + after).saturating_sub(1).max(pieces.start)];
+        let part = ((along_mm - own.from_mm) / own.length_mm).clamp(0.0, 1.0);
+        let piece = &self.guide.pieces[own.move_index];
+        let between = |from: f64, to: f64| from + part * (to - from);
+        let turn = piece.turn.map(|turn| Turn {
+            part_to: between(turn.part_from, turn.part_to),
+            ..turn
+        });
+        (
+            piece.move_index,
+            between(piece.share_from, piece.share_to),
+            turn,
+        )
+    }
+}
