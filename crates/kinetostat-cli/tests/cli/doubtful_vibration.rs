@@ -86,7 +86,7 @@ fn what_a_machine_without_extent_has_wrong_is_named_by_its_line() {
         (
             "check light.toml",
             0,
-            vec![format!("line {body}"), "5e-9 kg".into()],
+            vec![format!("line {body}"), "5.00e-9 kg".into()],
         ),
         (
             "modes none.toml",

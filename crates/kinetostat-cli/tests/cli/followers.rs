@@ -148,13 +148,14 @@ fn the_response_under_followers_has_the_damping_of_the_pairs() {
     let answer = json(&said(here.path(), line).answered());
     assert_eq!(answer["solution"], "direct");
     let curve = &answer["curves"][0];
-    for (at, re, im) in [
-        (0, 6.871_778e-6, -1.073_676e-7),
-        (3, -7.214_157e-6, -5.084_507e-7),
-        (14, -7.041_229e-6, -9.124_118e-7),
+    // Beside the second pair (157.7 Hz) what eight segments are off in its frequency counts tenfold.
+    for (at, re, im, share) in [
+        (0, 6.871_778e-6, -1.073_676e-7, 2e-4),
+        (3, -7.214_157e-6, -5.084_507e-7, 1e-3),
+        (14, -7.041_229e-6, -9.124_118e-7, 3e-3),
     ] {
         let apart = (number(&curve["real"][at]) - re).hypot(number(&curve["imaginary"][at]) - im);
-        assert!(apart < 1e-3 * re.hypot(im), "{at} {curve}");
+        assert!(apart < share * re.hypot(im), "{at} {curve}");
     }
     near(
         number(&answer["natural_frequencies_hz"][0]),
