@@ -65,7 +65,7 @@ pub(crate) fn measurement(m: &MeasurementResult) -> String {
         out.push_str(&rows_text(&found.rejected_rows, what));
         out.push_str(
             told_by(found.told_by)
-                .map(|said| item(said))
+                .map(item)
                 .as_deref()
                 .unwrap_or_default(),
         );

@@ -65,11 +65,7 @@ fn a_part_of_the_path_is_found_where_it_is() {
         let (_, path) = read(text);
         let nominal = NominalPath::new(&path).unwrap();
         for covered in COVERED {
-            for (from, angle, shift) in [
-                (0.0, 0.0, 0.0),
-                (0.0, 3e-3, 0.3),
-                (0.37, 3e-3, 0.3),
-            ] {
+            for (from, angle, shift) in [(0.0, 0.0, 0.0), (0.0, 3e-3, 0.3), (0.37, 3e-3, 0.3)] {
                 let (cut, planted) = cut(text, from, covered);
                 let turn = UnitQuaternion::from_scaled_axis(Vector3::new(0.3, -0.5, 0.8) * angle);
                 let away = |p: &Vector3<f64>| turn * p + Vector3::new(shift, -shift, shift);
