@@ -7,7 +7,7 @@
 use kinetostat_program::{Arc, CorrectionField, Path, Piece, Request, WrittenCircle};
 use nalgebra::Vector3;
 
-use crate::verify::follow::Followed;
+use crate::verify::followed::Followed;
 
 /// Steps of Newton's method; the guide is near enough that the second one has nothing left to do but where the program is far from it.
 const STEPS: usize = 2;

@@ -7,13 +7,15 @@
 //! is taken from it: positions and orientations are those that the other program commands, and the machine is solved there.
 //!
 //! Ends of the other program's moves are given to the guide in their order ([`kinetostat_program::in_order`]), their moves are
-//! divided where the original goes on to another move, and the pieces are solved as those of any written program. Across the path
-//! the error is exact to second order in the distance from the guide; along it, where an error moves no material, it is that of
-//! the correspondence.
+//! divided where the original goes on to another move, each place is taken to its foot on the compensated path itself, by corrections
+//! that are solved for it, and the pieces are solved as those of any written program. Inside a move of the original the error is so the
+//! distance from the compensated path: along that, where an error moves no material, there is none but at ends.
 
+mod along;
 mod conditions;
 mod exact;
 mod follow;
+mod followed;
 mod matched;
 mod on_guide;
 mod pieces;

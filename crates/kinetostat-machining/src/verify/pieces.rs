@@ -3,7 +3,7 @@
 use kinetostat_program::{Accounting, Corrected, MoveKind, Path};
 use nalgebra::UnitQuaternion;
 
-use crate::verify::follow::Followed;
+use crate::verify::followed::Followed;
 
 /// The other program as one that was written from the original.
 pub(crate) fn as_written(
