@@ -38,7 +38,7 @@ use crate::map::orientations::Orientations;
 use crate::map::picture::Picture;
 use crate::map::query::{grid, loads};
 use crate::map::solve::{Sinks, solve};
-use crate::map::store::{self, Manifest, Store};
+use crate::map::store::{Manifest, Store};
 use crate::map::unanswered::without_figures;
 use crate::place::orientation;
 use crate::ui::failure::{Answer, Failure};
