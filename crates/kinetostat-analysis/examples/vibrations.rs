@@ -116,7 +116,7 @@ fn lobes(machine: &VibratingMachine) -> Result<f64> {
         damping: &DAMPING,
         frame: chatter::FeedFrame::vertical(0.0)?,
         cut,
-        modes_up_to_hz: f64::INFINITY,
+        swinging: chatter::Swinging::All,
     }
     .regeneration()?;
     let request = chatter::LobeRequest::new(1000.0, 6000.0, 200, 4e-3);

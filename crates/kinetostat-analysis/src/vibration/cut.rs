@@ -1,7 +1,10 @@
 //! The machine in a milling cut: its tool response in the axes of the cut [D 8, D 10].
 
-use kinetostat_chatter::{ChatterError, FeedFrame, MillingCut, Mode, Regeneration, ToolResponse};
-use kinetostat_dynamics::{Damping, Error};
+use kinetostat_chatter::{
+    ChatterError, FeedFrame, MillingCut, Mode, Regeneration, Swinging, ToolResponse,
+};
+use kinetostat_dynamics::{Damping, Error, TranslationalModes};
+use nalgebra::Vector3;
 
 use crate::vibration::machine::VibratingMachine;
 
@@ -16,8 +19,8 @@ pub struct MachineCut<'m> {
     pub frame: FeedFrame,
     /// What is cut.
     pub cut: MillingCut,
-    /// Modes above this frequency count by their flexibility at rest, Hz.
-    pub modes_up_to_hz: f64,
+    /// Which of its modes swing; the others count by their flexibility at rest.
+    pub swinging: Swinging,
 }
 
 /// Why a machine has no lobes.
@@ -35,6 +38,9 @@ pub enum MachineCutError {
     Cut(#[from] ChatterError),
 }
 
+/// A ratio below which a mode has no damping of a machine: dampers at some joints alone hardly move it.
+const SCARCE: f64 = 1e-4;
+
 impl MachineCut<'_> {
     /// The cut with the response of the tool's tip.
     ///
@@ -48,30 +54,68 @@ impl MachineCut<'_> {
                 counts.unstable, counts.massless_unstable, counts.free
             )));
         }
-        // Those above the band are springs, however they are damped.
         let own_hz = self.machine.modes.frequencies_hz();
-        let kept = own_hz.iter().filter(|hz| **hz <= self.modes_up_to_hz);
-        let kept = kept.count();
-        if let (0, Some(lowest_hz)) = (kept, own_hz.first()) {
+        if let (Swinging::UpTo(band_hz), Some(lowest_hz)) = (self.swinging, own_hz.first())
+            && band_hz < *lowest_hz
+        {
             return Err(MachineCutError::NoVibration(format!(
-                "there are no lobes: the lowest mode of the machine is at {lowest_hz:.4} Hz, and modes up to {} Hz were asked for",
-                self.modes_up_to_hz
+                "there are no lobes: the lowest mode of the machine is at {lowest_hz:.4} Hz, and modes up to {band_hz} Hz were asked for",
             )));
         }
-        let response = self.machine.tool_response(self.damping, kept)?;
-        let data = response.translational()?;
-        let modes = data.shapes.iter().zip(&data.squared).zip(&data.ratios);
-        let modes = modes.zip(&own_hz).map(|(((shape, squared), ratio), hz)| {
-            Mode::new(*shape, *squared, *ratio).map_err(|mut error| {
-                error.quantity = format!("{} of the mode at {hz:.4} Hz", error.quantity);
-                error
-            })
-        });
-        let tool = ToolResponse::new(modes.collect::<Result<_, _>>()?)?;
-        let tool = tool.with_residual(data.residual)?;
-        Ok(Regeneration::new(
-            tool.in_frame(&self.frame),
-            self.cut.clone().into(),
-        )?)
+        let response = self.machine.tool_response(self.damping, usize::MAX)?;
+        let tool = self.tool(&response.translational()?, &own_hz)?;
+        Ok(
+            Regeneration::new(tool.in_frame(&self.frame), self.cut.clone().into())?
+                .with_swinging(self.swinging),
+        )
+    }
+
+    /// The response with the modes that can swing. Of those that cannot, damped by more than the critical or, above the band,
+    /// by nothing that counts, the flexible ones are errors and the rest springs.
+    fn tool(
+        &self,
+        data: &TranslationalModes,
+        own_hz: &[f64],
+    ) -> Result<ToolResponse, MachineCutError> {
+        let above = |hz: f64| match self.swinging {
+            Swinging::UpTo(band_hz) | Swinging::AtLeastTo(band_hz) => hz > band_hz,
+            _ => false,
+        };
+        let (mut modes, mut odd) = (Vec::with_capacity(own_hz.len()), Vec::new());
+        let each = data.shapes.iter().zip(&data.squared).zip(&data.ratios);
+        for (((shape, squared), ratio), hz) in each.zip(own_hz) {
+            match Mode::new(*shape, *squared, *ratio) {
+                Ok(mode) if *ratio >= SCARCE || !above(*hz) => modes.push(mode),
+                other => odd.push((shape, *squared, *hz, other)),
+            }
+        }
+        // At rest, in the measure of the peaks of those that swing.
+        let across = |shape: &Vector3<f64>| {
+            let turned = self.frame.rotation().transpose() * shape;
+            turned.xy().norm() * shape.norm()
+        };
+        let largest = match ToolResponse::new(modes.clone()) {
+            Ok(tool) => (tool.in_frame(&self.frame).modes().iter())
+                .map(Mode::peak_flexibility)
+                .fold(0.0, kinetostat::number::larger),
+            Err(_) => 0.0,
+        };
+        let mut residual = data.residual;
+        for (shape, squared, hz, found) in odd {
+            let flexible = across(shape) / squared >= Swinging::SHARE * largest;
+            let counts = match self.swinging {
+                Swinging::AtLeastTo(_) => flexible,
+                _ => !above(hz),
+            };
+            match found {
+                Ok(mode) if counts => modes.push(mode),
+                Err(mut error) if counts => {
+                    error.quantity = format!("{} of the mode at {hz:.4} Hz", error.quantity);
+                    return Err(error.into());
+                }
+                _ => residual += shape * shape.transpose() / squared,
+            }
+        }
+        Ok(ToolResponse::new(modes)?.with_residual(residual)?)
     }
 }

@@ -112,7 +112,7 @@ impl Regeneration {
     /// let along = |hz, stiffness| Mode::with_stiffness([1.0, 0.0, 0.0].into(), stiffness, hz, 0.02);
     /// let tool = ToolResponse::new(vec![along(20.0, 1e6)?, along(700.0, 2e7)?, along(900.0, 1e9)?])?;
     /// let cut = MillingCut::new(2, Arc::slot(), Coefficients::new(6e8, 2e8, 0.0)?)?;
-    /// let slot = Regeneration::new(tool, cut.into())?.with_swinging(Swinging::Automatic);
+    /// let slot = Regeneration::new(tool, cut.into())?.with_swinging(Swinging::AtLeastTo(0.0));
     /// let stability = slot.stability_at(8000.0, 1e-3)?; // rpm, m
     /// assert!((stability.modes_up_to_hz - 700.0).abs() < 1e-6);
     /// # Ok::<(), kinetostat_chatter::ChatterError>(())

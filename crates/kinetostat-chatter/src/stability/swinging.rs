@@ -11,10 +11,10 @@ pub enum Swinging {
     /// All.
     #[default]
     All,
-    /// All up to the fastest one that counts: whose peak flexibility across the tool axis ([`Mode::peak_flexibility`]) is 1 % of the
+    /// All up to a frequency, Hz, and beyond it up to the fastest one that counts: whose peak flexibility across the tool axis ([`Mode::peak_flexibility`]) is 1 % of the
     /// largest or more, or that could chatter by itself at depths that would else be called stable. As far as the calculation
     /// resolves them at the speed: about 57 vibrations while a tooth cuts.
-    Automatic,
+    AtLeastTo(f64),
     /// Those up to a frequency, Hz.
     UpTo(f64),
 }
@@ -73,11 +73,13 @@ impl Selection {
         let modes: Vec<Known> = sorted.modes().iter().map(known).collect();
         let counted = match swinging {
             Swinging::All => return None,
-            Swinging::Automatic => modes.iter().rposition(Known::counts),
+            Swinging::AtLeastTo(hz) => modes
+                .iter()
+                .rposition(|m| m.counts() || m.of.frequency_hz <= hz),
             Swinging::UpTo(hz) => modes.iter().rposition(|m| m.of.frequency_hz <= hz),
         };
         Some(Self {
-            automatic: swinging == Swinging::Automatic,
+            automatic: matches!(swinging, Swinging::AtLeastTo(_)),
             modes,
             count: counted.map_or(1, |last| last + 1),
         })

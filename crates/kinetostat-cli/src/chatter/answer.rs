@@ -20,6 +20,8 @@ pub(crate) struct ChatterAnswer {
     pub(crate) material: String,
     /// In words.
     pub(crate) damping: String,
+    /// Fastest mode that swings at any place; those above count by their flexibility at rest.
+    pub(crate) modes_up_to_hz: Option<f64>,
     /// Places of the program at which the tool cuts.
     pub(crate) places_in_cut: usize,
     pub(crate) places_judged: usize,
@@ -60,6 +62,12 @@ pub(crate) struct Place {
     pub(crate) kind: Option<Instability>,
     /// Lowest frequency of the machine there.
     pub(crate) first_hz: Option<f64>,
+    /// Fastest mode that swings in the calculation.
+    pub(crate) modes_up_to_hz: Option<f64>,
+    /// By how much the force may be more or less than the law of the material says.
+    pub(crate) force_spread_percent: f64,
+    /// Stable, and not so with a force larger by the spread.
+    pub(crate) within_spread: bool,
     /// How the teeth shake the tool; null where it chatters or is not judged.
     pub(crate) vibration: Option<Vibration>,
     /// Places of the program that are like it.
@@ -110,9 +118,13 @@ pub(crate) struct Stretch {
     pub(crate) depth_mm: f64,
     /// Does not chatter anywhere in the stretch at this speed.
     pub(crate) stable_depth_mm: f64,
-    /// Nearest speed at which the depths of the program do not chatter; null: none within half and one and a half times, or not
-    /// tried.
+    /// Speed at which the depths of the program, with its feeds per tooth, do not chatter: the nearest with stable speeds beside
+    /// it; null: none of those from half to one and a half times in steps of 5 %, or not tried.
     pub(crate) stable_rpm: Option<f64>,
+    /// A speed beside it, 5 % away, chatters; of such ones that with the largest limit.
+    pub(crate) stable_speed_is_narrow: bool,
+    /// Feed that keeps the feed per tooth at that speed; null where this changes along the stretch.
+    pub(crate) stable_feed_mm_per_min: Option<f64>,
     /// Speeds are tried for the worst stretches.
     pub(crate) speeds_tried: bool,
     pub(crate) chatter_hz: f64,
@@ -136,6 +148,7 @@ impl ChatterAnswer {
             model: model.to_owned(),
             material: material.to_owned(),
             damping,
+            modes_up_to_hz: found.modes_up_to_hz(),
             places_in_cut: found.places,
             places_judged: found.sites.iter().filter(|site| site.is_judged()).count(),
             chatters: !found.stretches.is_empty(),
@@ -150,7 +163,10 @@ impl ChatterAnswer {
                     rpm: s.rpm,
                     depth_mm: s.depth_mm,
                     stable_depth_mm: s.stable_depth_mm,
-                    stable_rpm: s.stable_rpm,
+                    stable_rpm: s.stable_speed.map(|stable| stable.rpm),
+                    stable_speed_is_narrow: s.stable_speed.is_some_and(|stable| stable.is_narrow),
+                    stable_feed_mm_per_min: (s.stable_speed)
+                        .and_then(|stable| stable.feed_mm_per_min),
                     speeds_tried: s.speeds_tried,
                     chatter_hz: s.chatter_hz,
                     kind: s.kind,
@@ -186,6 +202,9 @@ fn place(judged: &JudgedSite, source: Option<String>) -> Place {
         chatter_hz: judged.chatter_hz,
         kind: judged.kind,
         first_hz: judged.first_hz,
+        modes_up_to_hz: judged.modes_up_to_hz,
+        force_spread_percent: 100.0 * judged.force_spread,
+        within_spread: judged.is_within_spread(),
         vibration: judged.forced.as_ref().map(Vibration::of),
         places: judged.places,
         from_path_mm: judged.path_mm[0],

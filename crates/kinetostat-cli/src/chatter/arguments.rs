@@ -30,7 +30,7 @@ pub(crate) struct ChatterArgs {
     pub(crate) program: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) damping: DampingArgs,
-    /// Modes above this count by their flexibility at rest, Hz [default: 300]
+    /// Modes above this count by their flexibility at rest, Hz [default: 300, and as far as modes count]
     #[arg(long, value_name = "F", allow_negative_numbers = true, value_parser = number)]
     pub(crate) modes_up_to_hz: Option<f64>,
     /// Places of one cut that are farther apart are judged by themselves, mm [default: 25]

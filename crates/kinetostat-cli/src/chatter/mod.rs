@@ -29,6 +29,7 @@ use crate::ui::failure::{Answer, Failure};
 use crate::ui::progress::Progress;
 use crate::ui::threads::in_threads;
 use crate::vibration::damping::words;
+use crate::vibration::stability::implausible;
 
 pub(crate) fn run(args: &ChatterArgs) -> Answer<()> {
     let files = InputFiles::default();
@@ -73,6 +74,7 @@ pub(crate) fn run(args: &ChatterArgs) -> Answer<()> {
     let flat = setting.flat.as_ref();
     let mut said = warnings(Some(forces));
     said.extend(setting.of_expansion());
+    said.extend(implausible(&judging.damping));
     let damping = words(&judging.damping);
     let result = found.result(damping.clone());
     let material = machine.cut.as_ref().map_or("", |cut| &cut.material);

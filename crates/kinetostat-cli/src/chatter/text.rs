@@ -13,25 +13,34 @@ use crate::vibration::stability::instability;
 /// Most stretches that are shown to a person; JSON has all.
 const SHOWN: usize = 20;
 
+/// What the last column of the stretches says.
+const SPEEDS: &str = "Other speeds are tried from half to one and a half times that of the program in steps of 5 %, with the depths and feeds per tooth of the program (F is the feed with that speed). The nearest whose neighbours are stable, too, is stated; where there is none, the one with the largest limit, which is narrow: 5 % away the cut chatters.";
+
 pub(crate) fn answer_text(a: &ChatterAnswer, found: &ChatterResult) -> String {
     let mut out = wrapped(
         &format!(
-            "{} on {}, {}; damping: {}. {} places of the program are in the cut; {} stand for them.",
+            "{} on {}, {}; damping: {}{}. {} places of the program are in the cut; {} stand for them.",
             a.program,
             a.model,
             a.material,
             a.damping,
+            a.modes_up_to_hz.map_or_else(String::new, |hz| format!(
+                "; modes up to {} Hz",
+                number(hz, 4)
+            )),
             a.places_in_cut,
             a.places.len()
         ),
         0,
     );
     out.push('\n');
-    if !a.chatters {
-        out.push_str(&wrapped(&found.verdict_text(), 0));
-    } else {
+    if a.chatters {
         out.push_str("Lines that chatter\n");
         out.push_str(&stretches(a));
+        out.push_str(&wrapped(SPEEDS, 0));
+    }
+    if !a.chatters || a.places.iter().any(|p| p.within_spread) {
+        out.push_str(&wrapped(&found.verdict_text(), 0));
     }
     for text in [found.nearest_text(), found.vibration_text()] {
         out.push_str(&text.map_or_else(String::new, |text| wrapped(&text, 0)));
@@ -82,8 +91,19 @@ fn stretches(a: &ChatterAnswer) -> String {
 
 fn stable_at(s: &Stretch) -> String {
     match (s.stable_rpm, s.speeds_tried) {
-        (Some(rpm), _) => number(rpm, 4),
-        (None, true) => "none near".to_owned(),
+        (Some(rpm), _) => {
+            let feed = match s.stable_feed_mm_per_min {
+                Some(feed) => format!("F{}", number(feed, 4)),
+                None => format!("F x {}", number(rpm / s.rpm, 3)),
+            };
+            let narrow = if s.stable_speed_is_narrow {
+                ", narrow"
+            } else {
+                ""
+            };
+            format!("{} ({feed}){narrow}", number(rpm, 4))
+        }
+        (None, true) => "none".to_owned(),
         (None, false) => "not tried".to_owned(),
     }
 }

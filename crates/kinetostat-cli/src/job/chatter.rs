@@ -1,18 +1,22 @@
 //! How finely chatter along a program is judged: `[chatter]` of a job, options of `chatter`.
 
+use kinetostat_chatter::Swinging;
 use kinetostat_dynamics::Damping;
 
 use crate::job::job_file::JobFile;
 use crate::job::values::{NotAllowed, above_zero, chosen};
 use crate::ui::failure::Answer;
 
+/// Modes up to this frequency vibrate whether they count or not, Hz.
+const AT_LEAST_HZ: f64 = 300.0;
+
 /// How finely chatter is judged.
 #[derive(Clone, Debug)]
 pub(crate) struct ChatterSetting {
     /// Of the job; without it that of the model.
     pub(crate) damping: Option<Damping>,
-    /// Modes above this count by their flexibility at rest, Hz.
-    pub(crate) modes_up_to_hz: f64,
+    /// Which modes swing; the others count by their flexibility at rest.
+    pub(crate) swinging: Swinging,
     /// Places farther apart are judged by themselves, mm.
     pub(crate) every_mm: f64,
     /// Most places that are judged.
@@ -72,7 +76,7 @@ impl ChatterSetting {
         )?;
         Ok(Self {
             damping: ratio.map(Damping::Ratio),
-            modes_up_to_hz: modes_up_to_hz.unwrap_or(300.0),
+            swinging: modes_up_to_hz.map_or(Swinging::AtLeastTo(AT_LEAST_HZ), Swinging::UpTo),
             every_mm: every_mm.unwrap_or(25.0),
             most_places: most_places.unwrap_or(2000),
         })

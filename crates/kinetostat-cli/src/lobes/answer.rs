@@ -31,8 +31,10 @@ pub(crate) struct LobesAnswer {
     /// Whose they are, and the thickness of the chip at which its law was taken as a straight line; null where they were stated.
     pub(crate) material: Option<String>,
     pub(crate) chip_mm: Option<f64>,
-    /// Modes that vibrate; those above count by their flexibility at rest.
+    /// Modes that vibrate; those above count by their flexibility at rest. At some speeds it may be fewer.
     pub(crate) modes_hz: Vec<f64>,
+    /// The fastest of them.
+    pub(crate) modes_up_to_hz: f64,
     /// Largest depth that was looked at.
     pub(crate) depth_limit_mm: f64,
     pub(crate) best: Option<Best>,
@@ -44,15 +46,24 @@ pub(crate) struct LobesAnswer {
 #[derive(Serialize)]
 pub(crate) struct Best {
     pub(crate) speed_rpm: f64,
+    /// A limit, or the largest depth that was looked at.
     pub(crate) depth_mm: f64,
+    /// Stable up to the largest depth that was looked at, as so many speeds are: no limit is known.
+    pub(crate) no_limit_found: bool,
+    pub(crate) speeds_without_limit: usize,
 }
 
-impl From<(f64, f64)> for Best {
-    fn from((speed_rpm, depth): (f64, f64)) -> Self {
-        Self {
+impl Best {
+    pub(crate) fn of(diagram: &LobeDiagram) -> Option<Self> {
+        let (speed_rpm, depth) = diagram.best()?;
+        let all = diagram.points.iter();
+        let without = all.filter(|point| point.exact.limit().is_none()).count();
+        Some(Self {
             speed_rpm,
             depth_mm: 1e3 * depth,
-        }
+            no_limit_found: without > 0,
+            speeds_without_limit: without,
+        })
     }
 }
 
@@ -67,6 +78,8 @@ pub(crate) struct Point {
     pub(crate) chatter_hz: Option<f64>,
     /// All stretches of depth that are stable; those above the first are islands.
     pub(crate) stable_mm: Vec<(f64, f64)>,
+    /// Fastest mode that swings in the calculation at this speed.
+    pub(crate) modes_up_to_hz: f64,
     /// Zeroth order, no bound.
     pub(crate) zeroth_order_mm: Option<f64>,
 }
@@ -82,6 +95,7 @@ pub(crate) fn points(diagram: &LobeDiagram) -> Vec<Point> {
             stable_mm: (point.exact.stable().into_iter())
                 .map(|(low, high)| (1e3 * low, 1e3 * high))
                 .collect(),
+            modes_up_to_hz: point.exact.modes_up_to_hz,
             zeroth_order_mm: point.zeroth_order.map(|z| 1e3 * z.depth),
         }
     };

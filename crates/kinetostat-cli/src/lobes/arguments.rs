@@ -55,9 +55,9 @@ pub(crate) struct LobesArgs {
     /// From the tip towards the spindle, base axes [default: against z of the tool's tip]
     #[arg(long, num_args = 3, value_names = ["X", "Y", "Z"], allow_negative_numbers = true, value_parser = number, help_heading = "Tool")]
     pub(crate) tool_axis: Option<Vec<f64>>,
-    /// Modes above this count by their flexibility at rest, Hz
-    #[arg(long, value_name = "F", allow_negative_numbers = true, value_parser = number, default_value = "1000")]
-    pub(crate) modes_up_to_hz: f64,
+    /// Modes above this count by their flexibility at rest, Hz [default: 1000, and as far as modes count]
+    #[arg(long, value_name = "F", allow_negative_numbers = true, value_parser = number)]
+    pub(crate) modes_up_to_hz: Option<f64>,
     #[command(flatten)]
     pub(crate) material: MaterialArgs,
     #[command(flatten)]

@@ -9,6 +9,10 @@ use crate::lobes::arguments::LobesArgs;
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::numbers::number;
 
+/// Tangential coefficients that materials have, N/mm^2: foams and wax have some tens, hardened steel with chips of some
+/// hundredths of a millimetre ten thousand.
+const PLAUSIBLE: std::ops::RangeInclusive<f64> = 5.0..=20_000.0;
+
 /// The linear law of force of the cut.
 pub(crate) struct CutCoefficients {
     pub(crate) law: Coefficients,
@@ -87,6 +91,29 @@ fn stated(given: &[f64]) -> Answer<Coefficients> {
         return Err(Failure::input(format!(
             "--coefficients-n-per-mm2: KR is {radial} beside KT {tangential}; it looks like a ratio. In N/mm^2 it is {}",
             radial * tangential
+        )));
+    }
+    if !PLAUSIBLE.contains(&tangential) {
+        return Err(Failure::input(format!(
+            "--coefficients-n-per-mm2: KT is {tangential} N/mm^2; {} to {} are possible, from foam to hardened steel at thin chips{}",
+            PLAUSIBLE.start(),
+            PLAUSIBLE.end(),
+            match PLAUSIBLE.contains(&(1e-6 * tangential)) {
+                true => format!(
+                    ". It looks like a value in Pa: in N/mm^2 it is {}",
+                    1e-6 * tangential
+                ),
+                false => String::new(),
+            }
+        )));
+    }
+    let larger = [radial, axial]
+        .into_iter()
+        .find(|k| k.abs() > *PLAUSIBLE.end());
+    if let Some(other) = larger {
+        return Err(Failure::input(format!(
+            "--coefficients-n-per-mm2: {other} N/mm^2 is more than any material has ({} at most)",
+            PLAUSIBLE.end()
         )));
     }
     Coefficients::new(1e6 * tangential, 1e6 * radial, 1e6 * axial).map_err(Failure::input)

@@ -10,7 +10,7 @@ mod text;
 
 use kinetostat::Pose;
 use kinetostat_analysis::vibration::{MachineCut, MachineCutError};
-use kinetostat_chatter::{Arc, FeedFrame, LobeRequest, Milled, MillingCut};
+use kinetostat_chatter::{Arc, FeedFrame, LobeRequest, Milled, MillingCut, Swinging};
 use kinetostat_dynamics::Held;
 use kinetostat_machining::{Warning, WarningCode};
 use kinetostat_report::lobes_svg;
@@ -22,8 +22,12 @@ use crate::lobes::arguments::LobesArgs;
 use crate::lobes::coefficients::CutCoefficients;
 use crate::options::vector;
 use crate::ui::failure::{Answer, Failure};
-use crate::vibration::stability::damped;
+use crate::ui::numbers::number;
+use crate::vibration::stability::{damped, implausible, left_out_warning};
 use crate::vibration::{damping::words, subject};
+
+/// Modes up to this frequency vibrate whether they count or not, Hz.
+const AT_LEAST_HZ: f64 = 1000.0;
 
 pub(crate) fn run(args: &LobesArgs) -> Answer<()> {
     let (cut, coefficients) = cut(args)?;
@@ -36,25 +40,34 @@ pub(crate) fn run(args: &LobesArgs) -> Answer<()> {
     let frame = frame(args, &query.target)?;
     let posture = query.posture()?;
     let machine = subject::machine(&query, &posture, &Held::nothing())?;
+    let asked = args.modes_up_to_hz;
+    let swinging = asked.map_or(Swinging::AtLeastTo(AT_LEAST_HZ), Swinging::UpTo);
     let regeneration = MachineCut {
         machine: &machine,
         damping: &damping,
         frame,
         cut,
-        modes_up_to_hz: args.modes_up_to_hz,
+        swinging,
     }
     .regeneration()
     .map_err(refused)?;
-    let modes_hz: Vec<f64> = (regeneration.response().modes().iter())
-        .map(kinetostat_chatter::Mode::frequency_hz)
-        .collect();
     let diagram = regeneration
         .lobes(&request)
         .map_err(|e| Failure::unanswered(format!("lobes: {e}")))?;
     let mut warnings = query.warnings.clone();
     warnings.extend(subject::limits(&machine, &posture));
-    let off = machine.lost_coupling(&damping, args.modes_up_to_hz);
+    let band_hz = diagram.modes_up_to_hz();
+    // The last one is compared with itself, whose digits are those of another sum.
+    let in_band = |hz: &f64| *hz <= band_hz * (1.0 + 1e-9);
+    let modes_hz = machine.modes.frequencies_hz();
+    let modes_hz: Vec<f64> = modes_hz.into_iter().filter(in_band).collect();
+    if let Some((left_out, rpm)) = diagram.left_out() {
+        let at = format!("at {} rpm", number(rpm, 4));
+        warnings.push(left_out_warning(&left_out, swinging, (&at, rpm)));
+    }
+    let off = machine.lost_coupling(&damping, band_hz);
     warnings.extend(subject::lost_coupling(off.map_err(subject::refused)?));
+    warnings.extend(implausible(&damping));
     warnings.extend(coefficients.warnings.iter().cloned());
     if let Some((speed, why)) = diagram.without_answer.first() {
         warnings.push(Warning::new(
@@ -97,7 +110,8 @@ pub(crate) fn run(args: &LobesArgs) -> Answer<()> {
             .map(|(_, chip_mm)| *chip_mm),
         modes_hz,
         depth_limit_mm: args.depth_mm,
-        best: diagram.best().map(Into::into),
+        modes_up_to_hz: band_hz,
+        best: answer::Best::of(&diagram),
         points: answer::points(&diagram),
         warnings,
     };

@@ -1,6 +1,6 @@
 //! The answer of `lobes` for a person, and as a table.
 
-use crate::lobes::answer::LobesAnswer;
+use crate::lobes::answer::{Best, LobesAnswer};
 use crate::place::query::PlaceQuery;
 use crate::ui::csv_table::{cell, cell_if_any, written};
 use crate::ui::failure::Answer;
@@ -65,19 +65,15 @@ pub(crate) fn answer_text(query: &PlaceQuery, a: &LobesAnswer) -> String {
     out.push_str(&columns(&rows, 0));
     if every > 1 {
         out.push_str(&wrapped(
-            &format!("Every {every}th speed is shown; files have all."),
+            &format!(
+                "One speed in {every} is shown of {}; files have all.",
+                a.points.len()
+            ),
             0,
         ));
     }
     if let Some(best) = &a.best {
-        out.push_str(&wrapped(
-            &format!(
-                "Deepest stable cut of these speeds: {} mm at {} rpm.",
-                number(best.depth_mm, 4),
-                number(best.speed_rpm, 5)
-            ),
-            0,
-        ));
+        out.push_str(&wrapped(&deepest(best, a.points.len()), 0));
     }
     out.push_str(&wrapped(
         "The limits are as true as masses, stiffness and damping of the model; modes of spindle and tool are in them only if the model has them. The limit of zeroth order is no bound.",
@@ -85,6 +81,21 @@ pub(crate) fn answer_text(query: &PlaceQuery, a: &LobesAnswer) -> String {
     ));
     out.push_str(&warnings::warnings(&a.warnings));
     out
+}
+
+fn deepest(best: &Best, speeds: usize) -> String {
+    let (depth, rpm) = (number(best.depth_mm, 4), number(best.speed_rpm, 5));
+    match (best.no_limit_found, best.speeds_without_limit) {
+        (false, _) => format!("Deepest stable cut of these speeds: {depth} mm at {rpm} rpm."),
+        (true, without) if without == speeds => format!(
+            "No limit was found: all speeds are stable up to {} mm, the largest depth that was looked at (--depth-mm).",
+            short(best.depth_mm)
+        ),
+        (true, without) => format!(
+            "Deepest stable cut of these speeds: {} mm or more at {without} of {speeds} speeds, the slowest {rpm} rpm; that is the largest depth that was looked at (--depth-mm), and no limit.",
+            short(best.depth_mm)
+        ),
+    }
 }
 
 /// One row for each speed.
@@ -96,6 +107,7 @@ pub(crate) fn table(a: &LobesAnswer) -> Answer<Vec<u8>> {
         "chatter_hz",
         "stable_mm",
         "zeroth_order_mm",
+        "modes_up_to_hz",
     ];
     let mut rows = vec![head.map(str::to_owned).to_vec()];
     for p in &a.points {
@@ -110,6 +122,7 @@ pub(crate) fn table(a: &LobesAnswer) -> Answer<Vec<u8>> {
             cell_if_any(p.chatter_hz),
             stretches.collect::<Vec<_>>().join(" "),
             cell_if_any(p.zeroth_order_mm),
+            cell(p.modes_up_to_hz),
         ]);
     }
     written(&rows)

@@ -3,7 +3,7 @@
 use kinetostat_analysis::vibration::program::{
     ChatterQuestion, ProgramChatter, ProgramChatterError,
 };
-use kinetostat_dynamics::Damping;
+use kinetostat_dynamics::{Damping, Error};
 use kinetostat_machining::{
     ChatterResult, CutQuestion, ForceAlongPath, Run, Task, Warning, WarningCode, Watch,
 };
@@ -15,7 +15,7 @@ use crate::job::machine::MachineSetup;
 use crate::job::setting::Setting;
 use crate::ui::failure::{Answer, Code, Failure};
 use crate::vibration::damping::{DampingArgs, words};
-use crate::vibration::stability::damped;
+use crate::vibration::stability::{damped, implausible, left_out_warning};
 use crate::vibration::subject;
 
 /// Stretches of which a warning tells.
@@ -80,7 +80,7 @@ impl<'a> Judging<'a> {
             forces,
             cut: self.cut,
             damping: &self.damping,
-            modes_up_to_hz: self.setting.modes_up_to_hz,
+            swinging: self.setting.swinging,
             every_mm: self.setting.every_mm,
             most: self.setting.most_places,
         };
@@ -92,6 +92,7 @@ impl<'a> Judging<'a> {
 pub(crate) fn put_chatter(run: &mut Run, found: &ProgramChatter, judging: &Judging<'_>) {
     let result = found.result(words(&judging.damping));
     run.result.warnings.extend(chattering(&result));
+    run.result.warnings.extend(implausible(&judging.damping));
     run.result.warnings.extend(limits(found, judging.setting));
     run.result.chatter = Some(result);
 }
@@ -140,14 +141,12 @@ pub(crate) fn limits(found: &ProgramChatter, setting: &ChatterSetting) -> Vec<Wa
             found.places
         ));
     }
-    let passing = found.sites.iter().filter_map(|site| site.forced.as_ref());
-    let passing = passing.map(|forced| forced.tooth_passing_hz);
-    if let Some(fastest) = passing.max_by(f64::total_cmp)
-        && fastest > setting.modes_up_to_hz
-    {
-        say(format!(
-            "teeth pass at up to {fastest:.0} Hz, and modes above {:.0} Hz count by their flexibility alone: a mode of the machine near the teeth is not seen (--modes-up-to-hz, modes_up_to_hz under [chatter])",
-            setting.modes_up_to_hz
+    if let Some((left_out, site)) = found.left_out() {
+        let at = format!("line {}", site.site.line);
+        all.push(left_out_warning(
+            &left_out,
+            setting.swinging,
+            (&at, site.site.station.rpm),
         ));
     }
     all.extend(subject::lost_coupling(found.lost_coupling()));
@@ -164,6 +163,11 @@ pub(crate) fn limits(found: &ProgramChatter, setting: &ChatterSetting) -> Vec<Wa
 /// Why there is no answer, with the line of the program.
 pub(crate) fn refused(error: ProgramChatterError, setting: &Setting) -> Failure {
     match error {
+        // That is so on all lines.
+        ProgramChatterError::Machine {
+            error: error @ Error::NoMass(_),
+            ..
+        } => subject::refused(error),
         ProgramChatterError::Machine { line, error } => {
             let mut failure = subject::refused(error);
             failure.plain = format!("line {line}: {}", failure.plain);

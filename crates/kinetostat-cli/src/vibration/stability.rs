@@ -1,10 +1,15 @@
-//! What `lobes` and `chatter` share: damping that there must be, and how a cut becomes unstable, in a word.
+//! What `lobes` and `chatter` share: damping that there must be, modes that are left out, and how a cut becomes unstable, in a word.
 
-use kinetostat_chatter::Instability;
+use kinetostat_chatter::{Instability, LeftOut, Swinging};
 use kinetostat_dynamics::Damping;
+use kinetostat_machining::{Warning, WarningCode};
 
 use crate::ui::failure::{Answer, Failure};
+use crate::ui::numbers::number;
 use crate::vibration::damping::DampingArgs;
+
+/// A ratio to critical damping that is larger than that of any machine.
+const GREAT: f64 = 0.5;
 
 /// The law of damping, of the options or else of the model; without damping there is no stable cut, and `who` (a verb in its
 /// number) says so.
@@ -15,6 +20,56 @@ pub(crate) fn damped(args: &DampingArgs, of_model: &Damping, who: &str) -> Answe
         ))),
         damping => Ok(damping),
     }
+}
+
+/// Damping that no machine has: limits rise with it.
+pub(crate) fn implausible(damping: &Damping) -> Option<Warning> {
+    let of = match damping {
+        Damping::Structural { loss_factor } if *loss_factor >= 1.0 => format!(
+            "a loss factor of {loss_factor} damps every mode by {} % of critical",
+            number(50.0 * loss_factor, 3)
+        ),
+        Damping::Ratio(ratio) if *ratio >= GREAT => {
+            format!("{} % of critical in every mode", number(100.0 * ratio, 3))
+        }
+        Damping::Ratios(list) => {
+            let great = list.iter().find(|ratio| **ratio >= GREAT)?;
+            format!("{} % of critical in a mode", number(100.0 * great, 3))
+        }
+        _ => return None,
+    };
+    Some(Warning::new(
+        WarningCode::Model,
+        format!(
+            "damping: {of}, and machines have 1 to 10 %. Limits of depth rise with the damping: these are too large unless it was measured"
+        ),
+    ))
+}
+
+/// A mode that is taken as a spring although it counts, somewhere and at a spindle speed, rpm.
+pub(crate) fn left_out_warning(
+    mode: &LeftOut,
+    swinging: Swinging,
+    (at, rpm): (&str, f64),
+) -> Warning {
+    let why = match swinging {
+        Swinging::UpTo(hz) => format!(
+            "modes up to {} Hz were asked for (--modes-up-to-hz, modes_up_to_hz under [chatter]): leave that out",
+            number(hz, 4)
+        ),
+        _ => format!(
+            "at {} rpm it vibrates more often while a tooth cuts than the calculation follows",
+            number(rpm, 4)
+        ),
+    };
+    Warning::new(
+        WarningCode::ChatterNotJudged,
+        format!(
+            "{at}: the mode at {} Hz counts by its flexibility at rest alone, and whether the cut chatters with it is not seen. Its peak at the tip across the tool axis is {} % of the largest; {why}",
+            number(mode.frequency_hz, 4),
+            number(100.0 * mode.share, 2)
+        ),
+    )
 }
 
 /// How a cut becomes unstable; empty where it does not.

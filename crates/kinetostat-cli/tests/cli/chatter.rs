@@ -106,8 +106,12 @@ fn what_the_answer_says_of_a_program_holds_for_the_changed_program() {
         assert_eq!(stretch(&found, 14).is_some(), chatters, "{depth} {found}");
     }
     if let Some(rpm) = deep["stable_rpm"].as_f64() {
-        // The feed per tooth stays.
+        // The feed per tooth stays, and so is it said.
         let feed = 600.0 * rpm / 3000.0;
+        let told = number(deep, "stable_feed_mm_per_min");
+        assert!((told / feed - 1.0).abs() < 1e-3, "{told} {feed}");
+        let text = format!("(F{feed:.0}");
+        assert!(OF_PROGRAM.text.contains(&text), "{text}");
         let other = PROGRAM
             .replace("S3000", &format!("S{rpm:.1}"))
             .replace("F600", &format!("F{feed:.2}"));
@@ -133,7 +137,7 @@ fn limits_of_slots_are_those_of_lobes_at_their_places() {
         let at = place_in_base(place);
         let words = format!(
             "lobes heavy_6r --at {at} --tool-length-mm 200 --damping 0.03 --teeth 2 --helix-deg 30 --diameter-mm 12 \
-             --coefficients-n-per-mm2 796 168 -222 --immersion 1 --modes-up-to-hz 300 --tool-axis 0 0 1 --feed-direction {feed} --rpm 3000 3001 2 --depth-mm 12 --json"
+             --coefficients-n-per-mm2 796 168 -222 --immersion 1 --tool-axis 0 0 1 --feed-direction {feed} --rpm 3000 3001 2 --depth-mm 12 --json"
         );
         let other = said(here.path(), &words).answered();
         let other: Value = serde_json::from_str(&other.out).expect("JSON");
@@ -315,24 +319,6 @@ fn dampers_that_couple_modes_are_told() {
     assert!(place.is_some(), "{program}");
     let without = answer(here.path());
     assert!(!without["warnings"].to_string().contains("couples modes"));
-}
-
-/// Modes that are left out say nothing of teeth that pass beside them.
-#[test]
-fn teeth_that_pass_beyond_the_modes_that_count_are_told() {
-    let here = here(PROGRAM);
-    let told = |of: &Value| {
-        let mut all = list(of, "warnings").iter();
-        all.any(|w| {
-            w["message"]
-                .as_str()
-                .is_some_and(|text| text.contains("teeth pass at up to 100 Hz"))
-        })
-    };
-    assert!(!told(&OF_PROGRAM.answer));
-    let line = "chatter job.toml --damping 0.03 --modes-up-to-hz 60 --json";
-    let few: Value = serde_json::from_str(&said(here.path(), line).answered().out).expect("JSON");
-    assert!(told(&few), "{few}");
 }
 
 /// A run of a job with `[chatter]` says the same as `chatter`, in its result, its text and its reports of all languages.

@@ -10,6 +10,7 @@ mod assemble;
 mod axes_alone;
 mod book;
 mod chatter;
+mod chatter_modes;
 mod checks_under_load;
 mod commands;
 mod controller;

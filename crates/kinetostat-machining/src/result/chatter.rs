@@ -26,6 +26,12 @@ pub struct ChatterPlace {
     pub chatter_hz: Option<f64>,
     /// Lowest frequency of the machine there, Hz.
     pub first_hz: Option<f64>,
+    /// Frequency of the fastest mode that swings in the calculation, Hz; those above count by their flexibility at rest.
+    #[serde(default)]
+    pub modes_up_to_hz: Option<f64>,
+    /// By how much the force of the cut may be more or less than its law says, percent.
+    #[serde(default)]
+    pub force_spread_percent: f64,
     /// Forced vibration of the tip about its mean place, root of the mean square, um; none where it chatters.
     pub vibration_rms_um: Option<f64>,
     /// Its strongest frequency, Hz.
@@ -47,9 +53,18 @@ pub struct ChatterLines {
     pub depth_mm: f64,
     /// Depth that does not chatter anywhere there at this speed, mm.
     pub stable_depth_mm: f64,
-    /// Nearest spindle speed at which the depths of the program do not chatter, rpm; none within half and one and a half times
-    /// that of the program, or not tried.
+    /// Spindle speed at which the depths of the program with its feeds per tooth do not chatter, rpm: the nearest one with stable
+    /// speeds beside it; none of those from half to one and a half times that of the program in steps of 5 %, or not tried.
     pub stable_rpm: Option<f64>,
+    /// A speed beside it, 5 % away, chatters; of such ones it is that with the largest limit.
+    #[serde(default)]
+    pub stable_speed_is_narrow: bool,
+    /// Feed that keeps the feed per tooth at that speed, mm/min; none where the feed per tooth changes along the lines.
+    #[serde(default)]
+    pub stable_feed_mm_per_min: Option<f64>,
+    /// Whether speeds were tried: they are for the worst lines.
+    #[serde(default)]
+    pub speeds_tried: bool,
     /// Frequency of the chatter, Hz.
     pub chatter_hz: f64,
 }
@@ -75,10 +90,38 @@ pub struct ChatterResult {
     pub places: Vec<ChatterPlace>,
 }
 
+impl ChatterPlace {
+    /// Depth at which it chatters if the force is larger by its spread, mm.
+    #[must_use]
+    pub fn limit_with_more_force_mm(&self) -> Option<f64> {
+        // The force is the product of depth and law.
+        Some(self.limit_mm? / (1.0 + 0.01 * self.force_spread_percent))
+    }
+
+    /// Whether it does not chatter with the law of the force as it is, and would with a force larger by its spread.
+    #[must_use]
+    pub fn is_within_spread(&self) -> bool {
+        let limit = self.limit_with_more_force_mm();
+        self.chatters == Some(false) && limit.is_some_and(|limit| limit <= self.depth_mm)
+    }
+}
+
 impl ChatterResult {
     /// Whether it chatters anywhere, in a sentence.
     #[must_use]
     pub fn verdict_text(&self) -> String {
+        let within = self.places.iter().filter(|p| p.is_within_spread()).count();
+        let spread = match within {
+            0 => String::new(),
+            _ => format!(
+                " At {within} of {} judged places the limit lies within the spread of the force's law: with a force that much larger they chatter.",
+                self.places_judged
+            ),
+        };
+        self.verdict_alone() + &spread
+    }
+
+    fn verdict_alone(&self) -> String {
         match (self.stretches.len(), self.places_judged) {
             (0, 0) => "No place is judged.".to_owned(),
             (0, _) => "No judged place chatters.".to_owned(),
@@ -94,8 +137,16 @@ impl ChatterResult {
         let first = place.first_hz.map_or_else(String::new, |first| {
             format!("; lowest frequency of the machine there {}", hertz(first))
         });
+        let spread = match place.is_within_spread() {
+            true => format!(
+                " The force may be {} % more than its law says: then it chatters from {} on.",
+                significant(place.force_spread_percent, 2, Rounding::Nearest),
+                millimetres(place.limit_with_more_force_mm()?)
+            ),
+            false => String::new(),
+        };
         Some(format!(
-            "Nearest to its limit is line {}: it cuts {} deep at {} rpm, and chatters from {} on{first}.",
+            "Nearest to its limit is line {}: it cuts {} deep at {} rpm, and chatters from {} on{first}.{spread}",
             place.line,
             millimetres(place.depth_mm),
             significant(place.rpm, 5, Rounding::Nearest),

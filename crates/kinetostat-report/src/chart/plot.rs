@@ -37,6 +37,8 @@ pub(crate) struct Look<'a> {
     pub(crate) tight: bool,
     /// Corners of shaded areas, below all lines; together they are one.
     pub(crate) areas: &'a [Vec<(f64, f64)>],
+    /// Points that lie within the frame, though nothing is drawn there.
+    pub(crate) within: &'a [(f64, f64)],
 }
 
 impl Look<'_> {
@@ -139,6 +141,7 @@ impl Plot {
             lines
                 .chain(self.marks.iter().map(|m| m.at))
                 .chain(look.areas.iter().flatten().copied())
+                .chain(look.within.iter().copied())
                 .filter(|p| p.0.is_finite() && p.1.is_finite())
         };
         let x = Span::of(points().map(|p| p.0))?;

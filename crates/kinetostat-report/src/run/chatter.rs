@@ -51,6 +51,10 @@ fn row(stretch: &ChatterLines) -> Value {
 /// Of a stretch: lines, speed, depth, stable depth, frequency, stable speed; numbers in type, without units.
 pub(crate) fn cells(stretch: &ChatterLines) -> [String; 6] {
     let digits = |value, digits| number::significant(value, digits, Rounding::Nearest);
+    // A speed without room is no advice for a page.
+    let with_room = stretch
+        .stable_rpm
+        .filter(|_| !stretch.stable_speed_is_narrow);
     let [first, last] = stretch.lines.map(number::count);
     [
         match first == last {
@@ -61,9 +65,16 @@ pub(crate) fn cells(stretch: &ChatterLines) -> [String; 6] {
         digits(stretch.depth_mm, 3),
         digits(stretch.stable_depth_mm, 3),
         digits(stretch.chatter_hz, 3),
-        stretch
-            .stable_rpm
-            .map_or_else(|| MISSING.to_owned(), |rpm| digits(rpm, 4)),
+        // With the feed that keeps the feed per tooth.
+        match (with_room, stretch.stable_feed_mm_per_min) {
+            (None, _) => MISSING.to_owned(),
+            (Some(rpm), Some(feed)) => format!("{} (F {})", digits(rpm, 4), digits(feed, 4)),
+            (Some(rpm), None) => format!(
+                "{} (F \u{d7} {})",
+                digits(rpm, 4),
+                digits(rpm / stretch.rpm, 3)
+            ),
+        },
     ]
 }
 

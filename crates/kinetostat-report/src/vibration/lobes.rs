@@ -30,10 +30,12 @@ pub(crate) fn draw(diagram: &LobeDiagram, title: &str) -> String {
         marks: best(diagram, depth),
     };
     let areas = areas(diagram, depth);
+    let within = ends(diagram, depth(floor));
     let look = Look {
         decades: [false, decades],
         tight: true,
         areas: &areas,
+        within: &within,
         ..Look::default()
     };
     stacked(&[(&plot, look)], STYLE)
@@ -100,8 +102,49 @@ fn lines(diagram: &LobeDiagram, depth: impl Fn(f64) -> f64 + Copy) -> Vec<PlotLi
         dashed: true,
         points: zeroth.collect(),
     });
+    all.push(PlotLine {
+        name: "stable up to here, the largest depth looked at".into(),
+        colour: 2,
+        dashed: false,
+        points: without_limit(diagram, depth(diagram.up_to)),
+    });
     all.retain(|line| line.points.iter().any(|(_, y)| y.is_finite()));
     all
+}
+
+/// Along the largest depth where there is no limit up to it: to the middle between a speed that has none and one that has.
+fn without_limit(diagram: &LobeDiagram, top: f64) -> Vec<(f64, f64)> {
+    let has_none = |point: &LobePoint| point.exact.limit().is_none();
+    let mut points = Vec::new();
+    for pair in diagram.points.windows(2) {
+        let [left, right] = [&pair[0], &pair[1]].map(|point| point.exact.speed_rpm);
+        let middle = 0.5 * (left + right);
+        let stretch = match (has_none(&pair[0]), has_none(&pair[1])) {
+            (true, true) => [left, right],
+            (true, false) => [left, middle],
+            (false, true) => [middle, right],
+            (false, false) => continue,
+        };
+        points.extend(stretch.map(|speed| (speed, top)));
+        points.push((f64::NAN, f64::NAN));
+    }
+    points
+}
+
+/// The slowest and the fastest speed that were asked for, at a height.
+fn ends(diagram: &LobeDiagram, height: f64) -> Vec<(f64, f64)> {
+    let answered = diagram.points.iter().map(|point| point.exact.speed_rpm);
+    let others = diagram.without_answer.iter().map(|(speed, _)| *speed);
+    let mut all: Vec<f64> = answered.chain(others).collect();
+    all.sort_by(f64::total_cmp);
+    match diagram.points.is_empty() {
+        true => Vec::new(),
+        false => [all.first(), all.last()]
+            .into_iter()
+            .flatten()
+            .map(|speed| (*speed, height))
+            .collect(),
+    }
 }
 
 /// Crossings of two speeds that belong together: one by one where there are as many, else the limits.

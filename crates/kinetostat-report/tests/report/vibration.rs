@@ -70,6 +70,8 @@ fn lobes_show_flip_hopf_islands_and_the_zeroth_order_under_its_name() {
     let area = svg.split("class=\"unstable\" d=\"").nth(1).unwrap();
     let area = area.split('"').next().unwrap();
     assert_eq!(area.matches('z').count(), 1 + 2 + 2 + 2, "{area}");
+    // The last speed has no limit: a line along the largest depth says so.
+    assert!(svg.contains("stable up to here, the largest depth looked at"));
     // Nothing at all is no fault.
     let nothing = LobeDiagram {
         points: vec![],

@@ -2,6 +2,7 @@
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
+use kinetostat_chatter::LeftOut;
 use kinetostat_machining::{LoadAlongPath, Watch};
 use rayon::prelude::*;
 
@@ -94,6 +95,20 @@ impl ProgramChatter {
     pub fn lost_coupling(&self) -> f64 {
         let each = self.sites.iter().map(|site| site.lost_coupling);
         each.fold(0.0, kinetostat::number::larger)
+    }
+
+    /// Of the modes that are taken as springs although they count, the one with the largest share, and the place.
+    #[must_use]
+    pub fn left_out(&self) -> Option<(LeftOut, &JudgedSite)> {
+        let each = self.sites.iter().filter_map(|s| Some((s.left_out?, s)));
+        each.max_by(|a, b| a.0.share.total_cmp(&b.0.share))
+    }
+
+    /// Frequency of the fastest mode that swings at any place, Hz; those above are springs everywhere.
+    #[must_use]
+    pub fn modes_up_to_hz(&self) -> Option<f64> {
+        let each = self.sites.iter().filter_map(|site| site.modes_up_to_hz);
+        each.max_by(f64::total_cmp)
     }
 
     /// The place with the least limit by its depth.

@@ -2,7 +2,7 @@
 
 use kinetostat::Wrench;
 use kinetostat_chatter::{
-    Arc, Coefficients, Crossing, FeedFrame, Instability, MillingCut, Regeneration,
+    Arc, Coefficients, Crossing, FeedFrame, Instability, LeftOut, MillingCut, Regeneration,
 };
 use kinetostat_dynamics::Held;
 use kinetostat_machining::{LoadAlongPath, posture_at};
@@ -48,6 +48,12 @@ pub struct JudgedSite {
     pub first_hz: Option<f64>,
     /// How the teeth shake the tool; `None` where it chatters or nothing is said.
     pub forced: Option<ForcedVibration>,
+    /// Frequency of the fastest mode that swings in the calculation, Hz; those above are springs.
+    pub modes_up_to_hz: Option<f64>,
+    /// Of the modes that are springs although they count, the one with the largest share.
+    pub left_out: Option<LeftOut>,
+    /// By how much the force of the cut may be more or less than its law says, share of it.
+    pub force_spread: f64,
     /// By how much the response by modes with their own damping alone is off at the frequencies of the modes, share of it; 0
     /// where no damper couples modes.
     pub lost_coupling: f64,
@@ -62,6 +68,14 @@ impl JudgedSite {
     #[must_use]
     pub fn is_judged(&self) -> bool {
         !matches!(self.verdict, Verdict::NotJudged(_))
+    }
+
+    /// Whether it is stable, and not so with a force larger by its spread: the force is the product of depth and law.
+    #[must_use]
+    pub fn is_within_spread(&self) -> bool {
+        let reached =
+            |limit_mm: f64| limit_mm <= self.site.station.depth_mm * (1.0 + self.force_spread);
+        self.verdict == Verdict::Stable && self.limit_mm.is_some_and(reached)
     }
 
     /// Whether it is worse than another one of the same group: it chatters, or its limit is nearer to its depth; of places
@@ -89,6 +103,9 @@ impl JudgedSite {
             kind: None,
             first_hz: None,
             forced: None,
+            modes_up_to_hz: None,
+            left_out: None,
+            force_spread: 0.0,
             lost_coupling: 0.0,
             places: group.count(),
             path_mm: group.path_mm(),
@@ -99,8 +116,7 @@ impl JudgedSite {
 /// The cut at a place with the machine in its posture.
 pub(crate) struct SiteCut {
     pub regeneration: Regeneration,
-    /// As [`JudgedSite::lost_coupling`].
-    pub lost_coupling: f64,
+    machine: VibratingMachine,
 }
 
 /// The limit at a spindle speed, looked for up to a depth, m, and, where the cut is stable up to it, a few times deeper.
@@ -108,6 +124,9 @@ pub(crate) struct Limit {
     pub limit: Option<Crossing>,
     /// m.
     pub looked_up_to: f64,
+    /// As [`JudgedSite::modes_up_to_hz`].
+    pub modes_up_to_hz: f64,
+    pub left_out: Option<LeftOut>,
 }
 
 impl Limit {
@@ -121,11 +140,15 @@ impl Limit {
         let mut found = Self {
             limit: None,
             looked_up_to: 0.0,
+            modes_up_to_hz: 0.0,
+            left_out: None,
         };
         for share in DEPTHS.into_iter().filter(|share| *share <= deepest) {
             found.looked_up_to = share * depth;
             let stability = regeneration.stability_at(rpm, found.looked_up_to)?;
             found.limit = stability.limit().copied();
+            found.modes_up_to_hz = stability.modes_up_to_hz;
+            found.left_out = stability.left_out;
             if found.limit.is_some() {
                 break;
             }
@@ -170,7 +193,7 @@ impl ChatterQuestion<'_> {
         }
         let SiteCut {
             regeneration,
-            lost_coupling,
+            machine,
         } = match self.site_cut(load, site)? {
             Ok(cut) => cut,
             Err(why) => return Ok(JudgedSite::not_judged(site, group, why)),
@@ -182,6 +205,9 @@ impl ChatterQuestion<'_> {
             Err(error) => return Ok(JudgedSite::not_judged(site, group, error.to_string())),
         };
         let limit = found.limit;
+        let lost_coupling = machine
+            .lost_coupling(self.damping, found.modes_up_to_hz)
+            .map_err(|error| Self::of_machine(site, error))?;
         let modes = regeneration.response().modes();
         let chatters = limit.is_some_and(|crossing| crossing.depth <= depth);
         let forced =
@@ -209,6 +235,9 @@ impl ChatterQuestion<'_> {
                 .map(kinetostat_chatter::Mode::frequency_hz)
                 .reduce(|a, b| if b < a { b } else { a }),
             forced,
+            modes_up_to_hz: Some(found.modes_up_to_hz),
+            left_out: found.left_out,
+            force_spread: self.tool_of(site)?.spread,
             lost_coupling,
             places: group.count(),
             path_mm: group.path_mm(),
@@ -241,7 +270,7 @@ impl ChatterQuestion<'_> {
             .wrench(&placement, site.move_index, site.station.share)
             .force();
         let wrench = Wrench::new(force, Vector3::zeros());
-        let of_machine = |error| ProgramChatterError::Machine { line, error };
+        let of_machine = |error| Self::of_machine(site, error);
         let machine = posture_at(mechanism, &pose)
             .map_err(Into::into)
             .and_then(|posture| VibratingMachine::at(&posture, &wrench, &Held::nothing()))
@@ -252,18 +281,23 @@ impl ChatterQuestion<'_> {
             damping: self.damping,
             frame,
             cut,
-            modes_up_to_hz: self.modes_up_to_hz,
+            swinging: self.swinging,
         };
         match of_cut.regeneration() {
             Ok(regeneration) => Ok(Ok(SiteCut {
                 regeneration,
-                lost_coupling: machine
-                    .lost_coupling(self.damping, self.modes_up_to_hz)
-                    .map_err(of_machine)?,
+                machine,
             })),
             Err(MachineCutError::NoVibration(why)) => Ok(Err(why)),
             Err(MachineCutError::Machine(error)) => Err(of_machine(error)),
             Err(MachineCutError::Cut(error)) => Err(ProgramChatterError::Cut { line, error }),
+        }
+    }
+
+    fn of_machine(site: &CutSite, error: kinetostat_dynamics::Error) -> ProgramChatterError {
+        ProgramChatterError::Machine {
+            line: site.line,
+            error,
         }
     }
 

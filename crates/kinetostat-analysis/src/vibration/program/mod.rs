@@ -17,4 +17,4 @@ pub use forced::ForcedVibration;
 pub use judge::{JudgedSite, Verdict};
 pub use question::{ChatterQuestion, ProgramChatterError};
 pub use site::CutSite;
-pub use stretches::ChatterStretch;
+pub use stretches::{ChatterStretch, StableSpeed};

@@ -1,6 +1,6 @@
 //! The question of chatter along a program.
 
-use kinetostat_chatter::ChatterError;
+use kinetostat_chatter::{ChatterError, Swinging};
 use kinetostat_dynamics::{Damping, Error};
 use kinetostat_machining::{CutFailure, CutQuestion, CuttingTool, ForceAlongPath, Task};
 
@@ -17,8 +17,8 @@ pub struct ChatterQuestion<'a> {
     pub cut: &'a CutQuestion,
     /// How the machine is damped.
     pub damping: &'a Damping,
-    /// Modes above this count by their flexibility at rest, Hz.
-    pub modes_up_to_hz: f64,
+    /// Which modes of the machine swing; the others count by their flexibility at rest.
+    pub swinging: Swinging,
     /// Places farther apart than this are judged by themselves, mm.
     pub every_mm: f64,
     /// Most places that are judged.

@@ -44,6 +44,8 @@ fn place(judged: &JudgedSite) -> ChatterPlace {
         looked_up_to_mm: judged.looked_up_to_mm,
         chatter_hz: judged.chatter_hz,
         first_hz: judged.first_hz,
+        modes_up_to_hz: judged.modes_up_to_hz,
+        force_spread_percent: 100.0 * judged.force_spread,
         vibration_rms_um: forced.map(|f| 1e3 * f.root_mean_square_mm),
         strongest_hz: forced.map(|f| f.strongest_hz),
         nearest_mode_hz: forced.map(|f| f.nearest_mode_hz),
@@ -57,7 +59,12 @@ fn lines(stretch: &ChatterStretch) -> ChatterLines {
         rpm: stretch.rpm,
         depth_mm: stretch.depth_mm,
         stable_depth_mm: stretch.stable_depth_mm,
-        stable_rpm: stretch.stable_rpm,
+        stable_rpm: stretch.stable_speed.map(|stable| stable.rpm),
+        stable_speed_is_narrow: stretch.stable_speed.is_some_and(|stable| stable.is_narrow),
+        stable_feed_mm_per_min: stretch
+            .stable_speed
+            .and_then(|stable| stable.feed_mm_per_min),
+        speeds_tried: stretch.speeds_tried,
         chatter_hz: stretch.chatter_hz,
     }
 }

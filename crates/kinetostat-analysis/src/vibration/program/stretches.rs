@@ -1,16 +1,19 @@
 //! Stretches of a program that chatter, and what would not.
 
-use kinetostat_chatter::Instability;
+use kinetostat_chatter::{Instability, Regeneration};
 use kinetostat_machining::{LoadAlongPath, Watch};
 use rayon::prelude::*;
 
 use crate::vibration::program::judge::{JudgedSite, Limit, SiteCut, Verdict};
 use crate::vibration::program::question::{ChatterQuestion, ProgramChatterError};
 
-/// Spindle speeds that are tried, by that of the program: from, to, and how many.
-const SPEEDS: (f64, f64, usize) = (0.5, 1.5, 21);
+/// Spindle speeds that are tried, by that of the program: from, to, and how many. The first and the last are tried for those
+/// beside them.
+const SPEEDS: (f64, f64, usize) = (0.45, 1.55, 23);
 /// Places of a stretch at which a speed is tried.
 const TRIED: usize = 6;
+/// Change of a feed, share of it, up to which it is one.
+const SAME_FEED: f64 = 2e-3;
 /// Stretches for which other speeds are looked for; the worst ones.
 const MOST: usize = 12;
 
@@ -27,15 +30,27 @@ pub struct ChatterStretch {
     pub depth_mm: f64,
     /// Depth that does not chatter anywhere there at this speed, mm.
     pub stable_depth_mm: f64,
-    /// Spindle speed nearest to that of the program at which the depths of the program do not chatter at the places that were
-    /// tried, rpm, with the speeds beside it stable as well; `None` where there is none within half and one and a half times.
-    pub stable_rpm: Option<f64>,
+    /// Another spindle speed; `None` where of those from half to one and a half times that of the program, in steps of 5 % of
+    /// it, none is stable.
+    pub stable_speed: Option<StableSpeed>,
     /// Whether speeds were tried: they are for the worst stretches.
     pub speeds_tried: bool,
     /// Of the worst place: frequency of the chatter at its limit, Hz, and how it begins.
     pub chatter_hz: f64,
     /// Flip or Hopf.
     pub kind: Instability,
+}
+
+/// A spindle speed at which the depths of the program, with its feeds per tooth, do not chatter at the places that were tried.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StableSpeed {
+    /// rpm.
+    pub rpm: f64,
+    /// Whether a speed beside it, 5 % of that of the program away, chatters: of such ones it is that with the largest limit by its
+    /// depth. Else it is the nearest one.
+    pub is_narrow: bool,
+    /// Feed, mm/min, that keeps the feed per tooth; `None` where this changes along the stretch.
+    pub feed_mm_per_min: Option<f64>,
 }
 
 /// Stretches of places that chatter, in the order of the path.
@@ -77,7 +92,7 @@ pub(crate) fn stretches(
                     rpm: station.rpm,
                     depth_mm: station.depth_mm,
                     stable_depth_mm: limit_mm,
-                    stable_rpm: None,
+                    stable_speed: None,
                     speeds_tried: false,
                     chatter_hz,
                     kind,
@@ -96,20 +111,21 @@ pub(crate) fn stretches(
             return Err(ProgramChatterError::Cancelled);
         }
         let (stretch, sites) = &mut all[i];
-        stretch.stable_rpm = stable_rpm(question, load, stretch.rpm, sites)?;
+        stretch.stable_speed = stable_speed(question, load, stretch.rpm, sites)?;
         stretch.speeds_tried = true;
         watch.advance(done + 1);
     }
     Ok(all.into_iter().map(|(stretch, _)| stretch).collect())
 }
 
-/// The speed nearest to that of the program which is stable at places of a stretch.
-fn stable_rpm(
+/// The speed nearest to that of the program which is stable with its neighbours at places of a stretch; else the one with the
+/// largest limit.
+fn stable_speed(
     question: &ChatterQuestion<'_>,
     load: &LoadAlongPath<'_>,
     rpm: f64,
     sites: &[&JudgedSite],
-) -> Result<Option<f64>, ProgramChatterError> {
+) -> Result<Option<StableSpeed>, ProgramChatterError> {
     let (from, to, count) = SPEEDS;
     let speeds: Vec<f64> = (0..count)
         .map(|k| rpm * (from + (to - from) * k as f64 / (count - 1) as f64))
@@ -118,30 +134,80 @@ fn stable_rpm(
     let step = sites.len().div_ceil(TRIED);
     // The last place, too: the machine stands otherwise there.
     let tried = sites.iter().step_by(step).chain(sites.last());
+    let mut cuts = Vec::new();
     for judged in tried {
-        let site = &judged.site;
-        let Ok(SiteCut { regeneration, .. }) = question.site_cut(load, site)? else {
+        let Ok(SiteCut { regeneration, .. }) = question.site_cut(load, &judged.site)? else {
             continue;
         };
-        let depth = 1e-3 * site.station.depth_mm;
+        let depth = 1e-3 * judged.site.station.depth_mm;
         let still = speeds.par_iter().zip(&mut stable).filter(|(_, s)| **s);
         still.for_each(|(speed, is_stable)| {
             // Where no multiplier is found nothing is known to be stable.
             let found = Limit::of(&regeneration, *speed, depth, 1.0);
             *is_stable = found.is_ok_and(|found| found.limit.is_none());
         });
+        cuts.push((regeneration, depth));
     }
-    let alone = |k: usize| {
-        let beside = [k.checked_sub(1), Some(k + 1)];
-        let mut known = beside.into_iter().flatten().filter_map(|i| stable.get(i));
-        !known.all(|beside| *beside)
+    let offered = 1..count - 1;
+    let apart = |k: &usize| (speeds[*k] - rpm).abs();
+    let has_room = |k: &usize| stable[k - 1] && stable[*k] && stable[k + 1];
+    let nearest = offered.clone().filter(has_room);
+    let nearest = nearest.min_by(|a, b| apart(a).total_cmp(&apart(b)));
+    let found = match nearest {
+        Some(k) => Some((speeds[k], false)),
+        None => {
+            let alone: Vec<f64> = offered.filter(|k| stable[*k]).map(|k| speeds[k]).collect();
+            let largest = match alone[..] {
+                // One needs no comparison.
+                [] | [_] => alone.first().copied(),
+                _ => (alone.par_iter().map(|speed| (room(&cuts, *speed), *speed)))
+                    .collect::<Vec<_>>()
+                    .into_iter()
+                    .reduce(|a, b| if b.0 > a.0 { b } else { a })
+                    .map(|(_, speed)| speed),
+            };
+            largest.map(|speed| (speed, true))
+        }
     };
-    let good = (0..count).filter(|k| stable[*k] && !alone(*k));
-    Ok(good
-        .min_by(|a, b| {
-            (speeds[*a] - rpm)
-                .abs()
-                .total_cmp(&(speeds[*b] - rpm).abs())
+    let Some((stable_rpm, is_narrow)) = found else {
+        return Ok(None);
+    };
+    Ok(Some(StableSpeed {
+        rpm: stable_rpm,
+        is_narrow,
+        feed_mm_per_min: feed(question, sites, stable_rpm)?,
+    }))
+}
+
+/// Least limit by its depth of the cuts at a speed, as far as it is looked for.
+fn room(cuts: &[(Regeneration, f64)], rpm: f64) -> f64 {
+    let of = |(regeneration, depth): &(Regeneration, f64)| {
+        let found = Limit::of(regeneration, rpm, *depth, f64::INFINITY);
+        found.map_or(0.0, |found| {
+            let limit = found.limit.map(|crossing| crossing.depth);
+            limit.unwrap_or(found.looked_up_to) / depth
         })
-        .map(|k| speeds[k]))
+    };
+    cuts.iter()
+        .map(of)
+        .reduce(|a, b| if b < a { b } else { a })
+        .unwrap_or(0.0)
+}
+
+/// Feed at a speed with the feed per tooth of the program, mm/min, where that is one along the stretch.
+fn feed(
+    question: &ChatterQuestion<'_>,
+    sites: &[&JudgedSite],
+    rpm: f64,
+) -> Result<Option<f64>, ProgramChatterError> {
+    let mut known: Option<f64> = None;
+    for judged in sites {
+        let teeth = question.tool_of(&judged.site)?.tool.teeth();
+        let own = judged.site.station.feed_per_tooth_mm * teeth as f64 * rpm;
+        match known {
+            Some(known) if (own - known).abs() > SAME_FEED * known => return Ok(None),
+            _ => known = known.or(Some(own)),
+        }
+    }
+    Ok(known)
 }

@@ -36,11 +36,13 @@ pub(super) fn chatter(of: &Of<'_>) -> Vec<Block> {
     if let Some((place, limit)) = found.nearest.as_ref().and_then(|p| Some((p, p.limit_mm?))) {
         let (line, depth) = (number::count(place.line), digits(place.depth_mm, "mm"));
         let values = [("line", line.as_str()), ("depth", &depth)];
-        remark(
-            words.chatter_nearest,
-            digits(limit, "mm"),
-            fill(words.chatter_nearest_text, &values),
-        );
+        let mut text = fill(words.chatter_nearest_text, &values);
+        if let (true, Some(least)) = (place.is_within_spread(), place.limit_with_more_force_mm()) {
+            let (spread, least) = (digits(place.force_spread_percent, "%"), digits(least, "mm"));
+            let values = [("spread", spread.as_str()), ("limit", &least)];
+            text.push_str(&fill(words.chatter_spread_text, &values));
+        }
+        remark(words.chatter_nearest, digits(limit, "mm"), text);
     }
     let shaken = found.most_shaken.as_ref();
     if let Some((place, rms)) = shaken.and_then(|p| Some((p, p.vibration_rms_um?))) {

@@ -130,6 +130,7 @@ pub(super) const WORDS: Words = Words {
     ],
     chatter_nearest: "Limit of depth nearest to the cut",
     chatter_nearest_text: "on line {line}, where the program cuts {depth} deep",
+    chatter_spread_text: "; the force may be {spread} more than its law says, and the cut then chatters from {limit} on",
     shaken: "Forced vibration of the tip (rms)",
     shaken_text: "on line {line}, most of it at {frequency}, beside a mode at {mode}",
     wall: "What it leaves on a wall",

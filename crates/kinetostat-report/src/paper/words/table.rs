@@ -135,6 +135,8 @@ pub(crate) struct Words {
     pub(crate) chatter_columns: [&'static str; 5],
     pub(crate) chatter_nearest: &'static str,
     pub(crate) chatter_nearest_text: &'static str,
+    /// Behind it, where the limit lies within the spread of the force.
+    pub(crate) chatter_spread_text: &'static str,
     pub(crate) shaken: &'static str,
     pub(crate) shaken_text: &'static str,
     pub(crate) wall: &'static str,

@@ -133,6 +133,7 @@ pub(super) const WORDS: Words = Words {
     ],
     chatter_nearest: "Profondeur limite la plus proche de la passe",
     chatter_nearest_text: "à la ligne {line}, où le programme coupe sur {depth} de profondeur",
+    chatter_spread_text: " ; l’effort peut dépasser sa loi de {spread}, et la passe broute alors dès {limit}",
     shaken: "Vibration forcée de la pointe (valeur efficace)",
     shaken_text: "à la ligne {line}, surtout à {frequency}, à côté d’un mode à {mode}",
     wall: "Trace laissée sur une paroi",

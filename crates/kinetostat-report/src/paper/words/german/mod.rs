@@ -133,6 +133,7 @@ pub(super) const WORDS: Words = Words {
     ],
     chatter_nearest: "Grenztiefe, der der Schnitt am nächsten kommt",
     chatter_nearest_text: "in Zeile {line}, wo das Programm {depth} tief schneidet",
+    chatter_spread_text: "; die Kraft kann um {spread} größer sein als nach ihrem Gesetz, dann rattert der Schnitt ab {limit}",
     shaken: "Erzwungene Schwingung der Spitze (Effektivwert)",
     shaken_text: "in Zeile {line}, vor allem mit {frequency}, neben einer Eigenschwingung mit {mode}",
     wall: "Was sie an einer Wand hinterlässt",
