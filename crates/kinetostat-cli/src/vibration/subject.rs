@@ -2,7 +2,7 @@
 
 use kinetostat::{Directions, Posture};
 use kinetostat_analysis::vibration::VibratingMachine;
-use kinetostat_dynamics::{Damping, Error, Held};
+use kinetostat_dynamics::{Error, Held};
 use kinetostat_machining::{Warning, WarningCode};
 
 use crate::end_condition::holding::list;
