@@ -108,7 +108,9 @@ impl Evaluator<'_> {
             .collect();
         if known.iter().any(|(figure, _)| !figure.is_finite()) || known.is_empty() {
             let message = match objective {
-                Objective::Drive => "the model states no rating of a drive (rated_force_n or rated_torque_n_m of its actuators): add them, or take another --objective",
+                Objective::Drive => {
+                    "the model states no rating of a drive (rated_force_n or rated_torque_n_m of its actuators): add them, or take another --objective"
+                }
                 Objective::Buckling => "the machine has no inner freedom that could buckle",
                 _ => "no figure was found",
             };

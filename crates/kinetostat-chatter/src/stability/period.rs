@@ -2,7 +2,6 @@
 
 use std::f64::consts::TAU;
 
-
 use crate::cut::Cut;
 use crate::error::Result;
 use crate::number::Complex64;

@@ -313,8 +313,25 @@ fn dampers_that_couple_modes_are_told() {
     };
     let program = of(&["chatter", "job.toml"]).expect("told of the program");
     let place = of(&[
-        "lobes", "heavy_6r", "--at", "1450", "70", "500", "--teeth", "2", "--immersion", "1", "--up",
-        "--coefficients-n-per-mm2", "800", "240", "0", "--rpm", "3000", "3000", "1",
+        "lobes",
+        "heavy_6r",
+        "--at",
+        "1450",
+        "70",
+        "500",
+        "--teeth",
+        "2",
+        "--immersion",
+        "1",
+        "--up",
+        "--coefficients-n-per-mm2",
+        "800",
+        "240",
+        "0",
+        "--rpm",
+        "3000",
+        "3000",
+        "1",
     ]);
     assert!(place.is_some(), "{program}");
     let without = answer(here.path());

@@ -165,7 +165,11 @@ fn measured_amplitudes_stand_beside_those_of_the_model() {
     };
     for (name, factor, words) in [
         ("right.csv", 1.0, "rz_by_x"),
-        ("thousand.csv", 1e-3, "times those of the model: check the units"),
+        (
+            "thousand.csv",
+            1e-3,
+            "times those of the model: check the units",
+        ),
         ("negative.csv", -1.0, "against its own force"),
     ] {
         let answer = json(&fit(name, "").answered());

@@ -61,12 +61,22 @@ fn a_bar_that_bends_under_its_mass_at_its_end_is_said() {
     );
     let (lumped, warned) = first("lumped.toml", between_hinges("", &body));
     assert!((lumped / 12.0_f64.sqrt() - 1.0).abs() < 5e-4, "{lumped}");
-    assert!(warned.contains("'line.bar mass' behind 'line.bar'") || warned.contains("'bar mass' behind 'bar'"), "{warned}");
+    assert!(
+        warned.contains("'line.bar mass' behind 'line.bar'")
+            || warned.contains("'bar mass' behind 'bar'"),
+        "{warned}"
+    );
     // Along the bar: pi^2, and one segment is 11 % above it.
-    let (spread, warned) = first("spread.toml", between_hinges(", density_kg_m3 = 7850, segments = 4", ""));
+    let (spread, warned) = first(
+        "spread.toml",
+        between_hinges(", density_kg_m3 = 7850, segments = 4", ""),
+    );
     assert!((spread / pi.powi(2) - 1.0).abs() < 2e-3, "{spread}");
     assert_eq!(warned, "[]");
     // A body elsewhere is not the bar's.
-    let (_, warned) = first("behind.toml", between_hinges("", &body.replace("-500", "300")));
+    let (_, warned) = first(
+        "behind.toml",
+        between_hinges("", &body.replace("-500", "300")),
+    );
     assert!(!warned.contains("own masses"), "{warned}");
 }

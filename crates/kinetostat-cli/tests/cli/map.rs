@@ -80,7 +80,12 @@ fn heads_of_a_table_carry_units() {
         )
         .answered();
         let table = std::fs::read_to_string(here.path().join("map.csv")).expect("the table");
-        let heads: Vec<&str> = table.lines().next().unwrap_or_default().split(',').collect();
+        let heads: Vec<&str> = table
+            .lines()
+            .next()
+            .unwrap_or_default()
+            .split(',')
+            .collect();
         let [command, effort] = of_drive;
         for head in [
             "stiffness_x_n_per_m",

@@ -169,14 +169,18 @@ fn the_middles_of_very_short_blocks_count_where_the_load_turns() {
         places.push(at);
     }
     let lines = places[1..].iter();
-    let lines: String = lines.map(|[x, y]| format!("G1 X{x:.6} Y{y:.6}\n")).collect();
+    let lines: String = lines
+        .map(|[x, y]| format!("G1 X{x:.6} Y{y:.6}\n"))
+        .collect();
     let program = format!("G21 G90\nG0 X0 Y0 Z2\nG1 Z0 F600\n{lines}G0 Z5\nM2\n");
     std::fs::write(here.path().join("fine.ngc"), program).unwrap();
     let words = "compensate --model orthoglide --tool-length-mm 100 --part-origin-mm 3 -2 97 --milling 215 -10 -25 \
                  --tolerance-um 60 --decimals 6 --program fine.ngc --out out.ngc --json";
     let said = run(here.path(), &words.split_whitespace().collect::<Vec<_>>()).answered();
     let answer: serde_json::Value = serde_json::from_str(&said.out).unwrap();
-    let stated = answer["summary"]["max_position_error_after_mm"].as_f64().unwrap();
+    let stated = answer["summary"]["max_position_error_after_mm"]
+        .as_f64()
+        .unwrap();
     let written = std::fs::read_to_string(here.path().join("out.ngc")).unwrap();
     let mut now = [0.0_f64; 3];
     let mut commanded = Vec::new();
@@ -223,7 +227,10 @@ fn the_middles_of_very_short_blocks_count_where_the_load_turns() {
     });
     let most = largest(off.collect::<Vec<_>>());
     assert!((0.005..0.06).contains(&most), "{most}");
-    assert!(stated >= 0.999 * most && stated < 1.05 * most, "{stated} {most}");
+    assert!(
+        stated >= 0.999 * most && stated < 1.05 * most,
+        "{stated} {most}"
+    );
 }
 
 /// Blocks of a finishing program are solved where they end, every one; inside only as many as there would be if they were as long

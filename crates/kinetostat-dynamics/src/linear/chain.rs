@@ -62,7 +62,9 @@ pub(crate) fn lumped_links(chain: &Chain, prefix: &str) -> Vec<LumpedLink> {
             }
             Element::Node(node) => {
                 let bodies = chain.bodies().iter();
-                let body = bodies.filter(|body| body.node == *node).find(|b| b.mass > 0.0);
+                let body = bodies
+                    .filter(|body| body.node == *node)
+                    .find(|b| b.mass > 0.0);
                 if let (Some(link), Some(body)) = (behind, body)
                     && is_along(link, &way.translation.vector)
                 {
