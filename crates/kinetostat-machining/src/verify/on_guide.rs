@@ -1,6 +1,6 @@
 //! Where on the guide the moves of another program end, and where from the next ones go on.
 
-use std::collections::HashMap;
+use std::collections::BTreeMap;
 
 use kinetostat_program::{Curve, Foot, Move, Path};
 use nalgebra::Vector3;
@@ -94,7 +94,7 @@ impl Search<'_> {
 
     /// Moves that the original makes just so are those of the original.
     fn put_same_moves(&self, ends: &[End], feet: &[Option<Foot>], places: &mut [Option<OnGuide>]) {
-        let mut of_original: HashMap<[i64; 6], Vec<usize>> = HashMap::new();
+        let mut of_original: BTreeMap<[i64; 6], Vec<usize>> = BTreeMap::new();
         for (index, own) in self.original.moves.iter().enumerate() {
             if own.is_known_feed() {
                 of_original.entry(key(own)).or_default().push(index);

@@ -1,6 +1,6 @@
 //! The guide as stretches: parts of it along one move of the original, and places where the load turns.
 
-use std::collections::HashMap;
+use std::collections::BTreeMap;
 
 use kinetostat_program::{Corrected, Foot, NominalPath, Turn};
 
@@ -29,7 +29,7 @@ pub(crate) struct Stretches<'a> {
     nominal: &'a NominalPath<'a>,
     pub(crate) all: Vec<Stretch>,
     /// First and last of those that go along a move of the original, by its index.
-    of_move: HashMap<usize, [usize; 2]>,
+    of_move: BTreeMap<usize, [usize; 2]>,
 }
 
 impl<'a> Stretches<'a> {
@@ -56,7 +56,7 @@ impl<'a> Stretches<'a> {
                 }),
             }
         }
-        let mut of_move: HashMap<usize, [usize; 2]> = HashMap::new();
+        let mut of_move: BTreeMap<usize, [usize; 2]> = BTreeMap::new();
         for (index, stretch) in all.iter().enumerate().filter(|(_, s)| !s.turns) {
             let both = of_move.entry(stretch.move_index).or_insert([index; 2]);
             both[1] = index;

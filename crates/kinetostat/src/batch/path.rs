@@ -13,9 +13,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use nalgebra::Vector3;
-
-use crate::batch::assessed::{Look, Way, numbers};
+use crate::batch::assessed::{Way, numbers};
 use crate::batch::compiled::Batch;
 use crate::batch::equilibria::BatchEquilibrium;
 use crate::batch::equilibria::Details;
@@ -142,21 +140,16 @@ impl AlongPath {
             found.ok().filter(|found| self.continued(poses, found))
         };
         let way = Way::of(poses, wrenches, self.length);
-        let Some(stretches) = way.worth_it() else {
+        if !way.could_save() {
             return all_at_once();
-        };
+        }
         let mut found = self.rest(poses, wrenches)?;
         // What kernels do not decide is found by the general engine, one after the other.
         let by_kernels = found.status.iter().all(|s| *s == Status::Vectorised);
         let evenly = by_kernels.then(|| {
-            way.stabilities(stretches, |wanted| {
-                let moved = |(i, by): &Look| {
-                    let mut pose = poses[*i];
-                    pose.translation.vector += Vector3::from(*by);
-                    pose
-                };
-                let poses: Vec<Pose> = wanted.iter().map(moved).collect();
-                let wrenches: Vec<Wrench> = wanted.iter().map(|(i, _)| wrenches[*i]).collect();
+            way.stabilities(|wanted| {
+                let poses: Vec<Pose> = wanted.iter().map(|i| poses[*i]).collect();
+                let wrenches: Vec<Wrench> = wanted.iter().map(|i| wrenches[*i]).collect();
                 let some = batch
                     .equilibrium(&poses, &wrenches, Details::Stability)
                     .ok()?;
