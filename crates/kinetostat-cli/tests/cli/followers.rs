@@ -185,7 +185,7 @@ fn a_loss_factor_is_that_of_the_springs_whatever_the_load() {
     // Half of Euler's load, and nine tenths of it.
     let cases = [
         (
-            18135.398_087,
+            18_135.398_087,
             [
                 ("y", 0, 5.507_234e-5, -6.800_978e-6),
                 ("y", 1, -1.248_183e-5, -3.962_609e-7),
@@ -194,7 +194,7 @@ fn a_loss_factor_is_that_of_the_springs_whatever_the_load() {
             ],
         ),
         (
-            32643.716_557,
+            32_643.716_557,
             [
                 ("y", 0, 4.417_25e-5, -4.454_539e-4),
                 ("y", 1, -1.036_133e-5, -2.682_193e-7),
