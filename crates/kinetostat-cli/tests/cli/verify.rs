@@ -73,7 +73,9 @@ fn an_own_program_has_the_error_that_its_compensation_claims() {
             number(&found, "max_position_error_of_original_mm")
                 - of("max_position_error_before_mm"),
         );
-        assert!(same.holds(1e-9), "{same}");
+        // The largest is where the writer divided a block: 0.002 mm a millimetre, at places that the file's digits state to
+        // 0.05 um.
+        assert!(same.holds(1e-7), "{same}");
         assert_eq!(
             code,
             i32::from(after > number(&found, "allowed_mm")) * 3,
@@ -95,7 +97,7 @@ fn the_original_is_as_far_off_as_deflect_says() {
     assert!(text.contains("THE TOLERANCE IS MISSED at line"), "{text}");
     let output = run(here.path(), &["deflect", "job.toml", "--json"]);
     let deflected: Value = serde_json::from_str(&output.out).unwrap();
-    // The moves of both are one: so are the figures, at corners, too.
+    // The moves of both are one: so are the figures, at corners, too, but for the places at which they are looked at.
     for [of_verify, of_deflect] in [
         ["max_position_error_mm", "max_position_error_before_mm"],
         [
@@ -106,7 +108,7 @@ fn the_original_is_as_far_off_as_deflect_says() {
         let off = number(&deflected["summary"], of_deflect);
         let mut same = Worst::new();
         same.add(number(&found, of_verify) - off);
-        assert!(off > 0.5 && same.holds(1e-6), "{same} of {off}");
+        assert!(off > 0.5 && same.holds(1e-5), "{same} of {off}");
     }
 }
 
@@ -172,8 +174,15 @@ fn what_is_wrong_in_a_program_of_others_is_found_where_it_is() {
     let length = number(&found["matched"]["extra_cuts"][0], "length_mm");
     assert!((80.0..80.1).contains(&length), "{said}");
     // All of it.
-    let shifted = PART.replace("G21 G90\n", "G21 G90\nG0 X100 Y100 Z5\nG91\n");
-    std::fs::write(here.path().join("away.ngc"), shifted).unwrap();
+    let shifted = |word: &str| match word.strip_prefix('X') {
+        Some(x) => format!("X{}", x.parse::<i32>().unwrap() + 100),
+        None => word.to_owned(),
+    };
+    let lines = PART.lines().map(|line| {
+        let words: Vec<String> = line.split(' ').map(shifted).collect();
+        words.join(" ") + "\n"
+    });
+    std::fs::write(here.path().join("away.ngc"), lines.collect::<String>()).unwrap();
     let (code, _, said) = verified(here.path(), "away.ngc", &[]);
     assert_eq!(code, 1, "{said}");
     assert!(
