@@ -177,7 +177,7 @@ fn another_question_is_refused_by_the_field_that_differs() {
     let (code, said) = ended(here.path(), &["--decimals", "5"]);
     assert_eq!(code, Some(1), "{said}");
     assert!(
-        said.contains("what differs now is how the program is written"),
+        said.contains("what differs now is a tolerance, or how the program is written"),
         "{said}"
     );
     assert!(said.contains("--restart"), "{said}");

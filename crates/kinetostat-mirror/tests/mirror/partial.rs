@@ -28,7 +28,7 @@ fn off(way_mm: f64) -> Vector3<f64> {
 /// What was cut along a part of the path, one place a millimetre, and its deviations across the path: root mean square.
 fn cut(text: &str, from: f64, covered: f64) -> (Vec<Vector3<f64>>, f64) {
     let (_, path) = read(text);
-    let nominal = NominalPath::new(&path).unwrap();
+    let nominal = NominalPath::new(&path).expect("a path");
     let count = nominal.length_mm() as usize;
     let places = sampled(&path, count);
     let [first, end] = [from, from + covered].map(|share| (count as f64 * share) as usize);
@@ -38,7 +38,7 @@ fn cut(text: &str, from: f64, covered: f64) -> (Vec<Vector3<f64>>, f64) {
         .clone()
         .map(|k| {
             let away = off(k as f64);
-            let foot = nominal.nearest(&(places[k] + away)).unwrap();
+            let foot = nominal.nearest(&(places[k] + away)).expect("a place");
             sum += foot.distance_mm.powi(2);
             places[k] + away
         })
