@@ -1,5 +1,8 @@
 //! Damping, by name: each result says which it was.
 
+mod complex_modes;
+pub(crate) mod pairs;
+
 use nalgebra::DMatrix;
 
 use kinetostat::number::larger;

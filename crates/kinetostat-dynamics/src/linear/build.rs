@@ -4,7 +4,7 @@ use nalgebra::DMatrix;
 
 use crate::ends::null_space::null_space;
 use crate::error::{Error, Result};
-use crate::linear::chain::LumpedLink;
+use crate::linear::LumpedLink;
 use crate::linear::limb::LimbShare;
 use crate::linear::{LinearDynamics, NamedCoordinate, Place, SpringPart};
 use crate::mass::{MassKind, MassPart};

@@ -10,7 +10,7 @@ use crate::error::Result;
 use crate::linear::build::Whole;
 use crate::linear::limb::LimbShare;
 use crate::linear::rotor::rotors_of_chain;
-use crate::linear::{LinearDynamics, NamedCoordinate};
+use crate::linear::{LinearDynamics, LumpedLink, NamedCoordinate};
 
 /// Natural units of a chain's coordinates: a slide by the natural length, a turn by a radian.
 pub(crate) fn units(chain: &Chain, length: f64) -> impl Iterator<Item = f64> + '_ {
@@ -30,16 +30,6 @@ pub(crate) fn coarse_links<'a>(
         .clone()
         .filter(move |s| links.clone().filter(|other| other.link == s.link).count() == 1)
         .map(move |s| format!("{prefix}{}", s.link))
-}
-
-/// The mass of an elastic link that is put to its far end: a body right behind it whose centre lies along it. Where the link
-/// bends by itself, all of that mass goes with the end.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct LumpedLink {
-    /// Name of the link.
-    pub link: String,
-    /// Name of the body.
-    pub body: String,
 }
 
 /// Links whose masses stand at their ends.

@@ -10,7 +10,6 @@ pub(crate) mod spin;
 
 use nalgebra::{DMatrix, DVector, Matrix6xX};
 
-use crate::linear::chain::LumpedLink;
 use crate::mass::MassPart;
 
 /// A spring: its motions by the coordinates of its block, and its stiffness.
@@ -42,6 +41,16 @@ pub(crate) struct NamedCoordinate {
     pub name: String,
     /// Index among all coordinates.
     pub index: usize,
+}
+
+/// The mass of an elastic link that is put to its far end: a body right behind it whose centre lies along it. Where the link
+/// bends by itself, all of that mass goes with the end.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct LumpedLink {
+    /// Name of the link.
+    pub link: String,
+    /// Name of the body.
+    pub body: String,
 }
 
 /// A machine about a loaded equilibrium: mass, tangent stiffness and the motions of its nodes by independent

@@ -4,11 +4,8 @@
 
 use nalgebra::{Complex, DMatrix, DVector};
 
-use crate::damping::Damping;
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::linear::LinearDynamics;
-use crate::modes::Modes;
-use crate::modes::pair_damping::{damped, ratio_of};
 use crate::modes::quadratic::Quadratic;
 
 /// A mode of a machine with loads without a potential, or with damping.
@@ -141,50 +138,7 @@ impl LinearDynamics {
         })
     }
 
-    /// Complex modes with a law of damping, the lowest `count` of them, as [`Self::complex_modes`]; ratios are those of the
-    /// complex pairs. Structural damping is left out: it is defined for a steady vibration, and of what grows or dies away
-    /// it says nothing.
-    ///
-    /// # Errors
-    /// As [`Self::complex_modes`] and [`Self::damping_matrix`].
-    pub fn complex_modes_damped(
-        &self,
-        modes: &Modes,
-        damping: &Damping,
-        count: usize,
-    ) -> Result<ComplexModes> {
-        damping.check()?;
-        let ratios = match damping {
-            Damping::Undamped | Damping::Structural { .. } => {
-                return self.complex_modes(None, count);
-            }
-            Damping::Ratio(ratio) => std::slice::from_ref(ratio),
-            Damping::Ratios(list) => list,
-            law => return self.complex_modes(Some(&self.damping_matrix(modes, law)?), count),
-        };
-        // Ratios couple no pairs: shapes stay, and each eigenvalue has its own damping.
-        let pencil = Quadratic::of(self, None)?;
-        let undamped = pencil.eigenvalues().ok_or_else(|| self.not_found())?;
-        let all: Vec<_> = (undamped.iter().enumerate())
-            .map(|(k, value)| damped(*value, ratio_of(ratios, k)))
-            .collect();
-        Ok(ComplexModes {
-            count: all.len(),
-            growing: growing(&all),
-            verdict: self.verdict(&all),
-            complexity: 0.0,
-            modes: modes_of(&pencil, undamped.into_iter().zip(all), count),
-        })
-    }
-
-    pub(crate) fn not_found(&self) -> Error {
-        Error::NotSolved(format!(
-            "the complex modes of '{}' were not found: a direction without stiffness, or a load at which one loses it",
-            self.name
-        ))
-    }
-
-    fn verdict(&self, values: &[Complex<f64>]) -> Verdict {
+    pub(crate) fn verdict(&self, values: &[Complex<f64>]) -> Verdict {
         if self.is_circulatory() && !self.coarse_links.is_empty() {
             return Verdict::NotJudged {
                 links: self.coarse_links.clone(),
@@ -200,7 +154,7 @@ impl LinearDynamics {
 }
 
 /// Those that grow, the fastest first.
-fn growing(values: &[Complex<f64>]) -> Vec<Complex<f64>> {
+pub(crate) fn growing(values: &[Complex<f64>]) -> Vec<Complex<f64>> {
     let mut own: Vec<_> = values.iter().copied().filter(|v| grows(*v)).collect();
     own.sort_by(|a, b| b.re.total_cmp(&a.re));
     own
@@ -222,7 +176,7 @@ fn complexity_of(values: &[Complex<f64>]) -> f64 {
 }
 
 /// The lowest modes, by the eigenvalues of the pencil and what they become.
-fn modes_of(
+pub(crate) fn modes_of(
     pencil: &Quadratic,
     values: impl Iterator<Item = (Complex<f64>, Complex<f64>)>,
     count: usize,

@@ -4,7 +4,6 @@ pub(crate) mod complex;
 pub(crate) mod eigenvalues;
 pub(crate) mod mode;
 pub(crate) mod moved;
-pub(crate) mod pair_damping;
 pub(crate) mod pair_shape;
 pub(crate) mod pencil;
 pub(crate) mod quadratic;

@@ -181,3 +181,13 @@ fn normalised(x: DVector<Complex<f64>>) -> DVector<Complex<f64>> {
     });
     x.map(|v| v / most)
 }
+
+impl LinearDynamics {
+    /// Why there are no complex modes.
+    pub(crate) fn not_found(&self) -> Error {
+        Error::NotSolved(format!(
+            "the complex modes of '{}' were not found: a direction without stiffness, or a load at which one loses it",
+            self.name
+        ))
+    }
+}

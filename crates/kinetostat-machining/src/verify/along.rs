@@ -1,5 +1,6 @@
 //! The way of another program along its guide, from end to end.
 
+use kinetostat::number::larger;
 use kinetostat_program::{Arc, Curve, NominalPath, Path, Piece, Turn, WrittenCircle};
 
 use crate::verify::followed::Followed;
@@ -98,7 +99,7 @@ impl Along<'_> {
         let leaves_out = place.leaves_mm - place.arrives_mm > beside_mm(self.shift_mm);
         let to = if leaves_out { place.arrives_mm } else { at };
         if let Some(covered) = self.covered.last_mut() {
-            covered[1] = covered[1].max(to);
+            covered[1] = larger(covered[1], to);
         }
         if leaves_out {
             self.covered.push([place.leaves_mm; 2]);
