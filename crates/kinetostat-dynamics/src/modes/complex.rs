@@ -95,7 +95,7 @@ impl LinearDynamics {
     /// Complex modes, with a damping matrix ([`Self::damping_matrix`]) or without (`None`); the lowest `count` of them.
     ///
     /// # Errors
-    /// [`Error::NotSolved`] where `K - H` is singular (a free direction, or exactly at a critical load), or where the
+    /// [`crate::Error::NotSolved`] where `K - H` is singular (a free direction, or exactly at a critical load), or where the
     /// eigenvalues were not found.
     ///
     /// ```
