@@ -57,7 +57,8 @@ def chatter(
     viscous : str | float | Sequence[str | float]
         Dampers at joints and springs by name, N s/m or N m s/rad, as in "joint 1"=900
     modes_up_to_hz : float
-        Modes above this count by their flexibility at rest, Hz [default: 300, and as far as modes count]
+        Modes above this count by their flexibility at rest, Hz [default: 300, and as far as modes
+        count]
     every_mm : float
         Places of one cut that are farther apart are judged by themselves, mm [default: 25]
     most_places : int

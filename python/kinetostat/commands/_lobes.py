@@ -113,7 +113,8 @@ def lobes(
     tool_axis : Sequence[float]
         From the tip towards the spindle, base axes [default: against z of the tool's tip]
     modes_up_to_hz : float
-        Modes above this count by their flexibility at rest, Hz [default: 1000, and as far as modes count]
+        Modes above this count by their flexibility at rest, Hz [default: 1000, and as far as modes
+        count]
     material : str | float
         What is cut, by any of its names; case, spaces and hyphens do not matter
     materials : path
