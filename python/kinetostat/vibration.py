@@ -438,7 +438,8 @@ class Vibration:
         >>> ks.Machine.preset("heavy_6r").posture().vibration().reduced(3).stiffness.shape
         (9, 9)
         """
-        mass, stiffness, basis, kept_hz, left_out_hz, frequencies = self._native.reduced(at, kept)
+        place, count = or_none(text, "at", at), whole_number("kept", kept, 0, _ALL_MODES)
+        mass, stiffness, basis, kept_hz, left_out_hz, frequencies = self._native.reduced(place, count)
         return ReducedVibration(mass, stiffness, basis, kept_hz, left_out_hz, frequencies[:, 0].copy(), frequencies[:, 1].copy())
 
     def response(
