@@ -1,7 +1,7 @@
 //! Modes whose frequency or damping is not what it seems.
 
 use kinetostat_analysis::vibration::VibratingMachine;
-use kinetostat_dynamics::{EnergyShare, LumpedLink, Mode, ModeKind};
+use kinetostat_dynamics::{EnergyShare, Mode, ModeKind};
 use kinetostat_machining::{Warning, WarningCode};
 
 /// Modes that creep back instead of swinging; `place` is the line of the damping in the model, where it is that.
@@ -37,65 +37,50 @@ pub(crate) fn overdamped(
 
 /// Modes that are links of one segment which bend by themselves.
 pub(crate) fn bends_coarse_links(machine: &VibratingMachine, shown: &[Mode]) -> Option<Warning> {
-    let coarse = machine.dynamics.coarse_links();
-    let most_is_theirs = |shares: &[EnergyShare]| {
-        let own = shares.iter().filter(|s| coarse.contains(&s.name));
-        own.map(|s| s.share).sum::<f64>() > 0.5
-    };
-    let modes = shown.iter().enumerate();
-    let bending: Vec<String> = modes
-        .filter(|(_, mode)| {
-            mode.kind == ModeKind::Vibration
-                && most_is_theirs(&machine.dynamics.kinetic_shares(mode))
-                && most_is_theirs(&machine.dynamics.elastic_shares(mode))
-        })
-        .map(|(k, _)| (k + 1).to_string())
-        .collect();
-    (!bending.is_empty()).then(|| {
-        Warning::new(
-            WarningCode::Model,
-            format!(
-                "links of one segment bend by themselves in mode {}: these frequencies are up to 11 % too high. Write segments = 4 beside the links' length",
-                bending.join(", ")
-            ),
-        )
-    })
+    let coarse = |name: &String| machine.dynamics.coarse_links().contains(name);
+    let modes = mostly_of(machine, shown, coarse, coarse)?;
+    Some(Warning::new(
+        WarningCode::Model,
+        format!(
+            "links of one segment bend by themselves in mode {modes}: these frequencies are up to 11 % too high. Write segments = 4 beside the links' length"
+        ),
+    ))
 }
 
 /// Modes in which a link bends under its own mass, which the model puts to its end.
 pub(crate) fn bends_lumped_links(machine: &VibratingMachine, shown: &[Mode]) -> Option<Warning> {
-    let dynamics = &machine.dynamics;
-    let most_is_theirs = |shares: &[EnergyShare], name: fn(&LumpedLink) -> &str| {
-        let is_theirs = |share: &&EnergyShare| {
-            let mut all = dynamics.lumped_links().iter();
-            all.any(|lumped| name(lumped) == share.name)
-        };
-        shares
-            .iter()
-            .filter(is_theirs)
-            .map(|s| s.share)
-            .sum::<f64>()
-            > 0.5
+    let lumped = machine.dynamics.lumped_links();
+    let body = |name: &String| lumped.iter().any(|own| own.body == *name);
+    let link = |name: &String| lumped.iter().any(|own| own.link == *name);
+    let first = lumped.first()?;
+    let modes = mostly_of(machine, shown, body, link)?;
+    Some(Warning::new(
+        WarningCode::Model,
+        format!(
+            "links bend under bodies at their ends that are their own masses (such as '{}' behind '{}') in mode {modes}: these frequencies are up to two thirds too low. Give each link density_kg_m3 or mass_kg_per_m in place of its body",
+            first.body, first.link
+        ),
+    ))
+}
+
+/// Numbers of the vibrations of which most of the kinetic and most of the elastic energy is in parts of these names.
+fn mostly_of(
+    machine: &VibratingMachine,
+    shown: &[Mode],
+    moves: impl Fn(&String) -> bool,
+    bends: impl Fn(&String) -> bool,
+) -> Option<String> {
+    let share_of = |shares: Vec<EnergyShare>, own: &dyn Fn(&String) -> bool| {
+        let own = shares.iter().filter(|share| own(&share.name));
+        own.map(|share| share.share).sum::<f64>()
     };
-    let modes = shown.iter().enumerate();
-    let bending: Vec<String> = modes
-        .filter(|(_, mode)| {
-            mode.kind == ModeKind::Vibration
-                && most_is_theirs(&dynamics.kinetic_shares(mode), |lumped| &lumped.body)
-                && most_is_theirs(&dynamics.elastic_shares(mode), |lumped| &lumped.link)
-        })
-        .map(|(k, _)| (k + 1).to_string())
-        .collect();
-    let first = dynamics.lumped_links().first()?;
-    (!bending.is_empty()).then(|| {
-        Warning::new(
-            WarningCode::Model,
-            format!(
-                "links bend under bodies at their ends that are their own masses (such as '{}' behind '{}') in mode {}: these frequencies are up to two thirds too low. Give each link density_kg_m3 or mass_kg_per_m in place of its body",
-                first.body,
-                first.link,
-                bending.join(", ")
-            ),
-        )
-    })
+    let dynamics = &machine.dynamics;
+    let is_theirs = |(_, mode): &(usize, &Mode)| {
+        mode.kind == ModeKind::Vibration
+            && share_of(dynamics.kinetic_shares(mode), &moves) > 0.5
+            && share_of(dynamics.elastic_shares(mode), &bends) > 0.5
+    };
+    let all = shown.iter().enumerate().filter(is_theirs);
+    let numbers: Vec<String> = all.map(|(k, _)| (k + 1).to_string()).collect();
+    (!numbers.is_empty()).then(|| numbers.join(", "))
 }
