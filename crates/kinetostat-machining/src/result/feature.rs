@@ -96,8 +96,7 @@ pub fn add_to_features(
         for result in results.iter_mut().filter(inside) {
             result.points += 1;
             let before = size(&point.error_before_mm);
-            // Only a second program has steps.
-            if !point.kind.is_step() {
+            if point.programmed {
                 note(&mut result.error_before_mm, before);
             }
             let (most, own) = match written {

@@ -110,9 +110,7 @@ impl Programmed {
         }
     }
 
-    /// Ends and middles of equal pieces of a block at feed, as shares of it, and which of them are ends: between
-    /// the ends of a long block the load or the machine may differ much. A very short one has no middle.
-    fn shares(&self, motion: &Move) -> impl Iterator<Item = (f64, bool)> + use<> {
+    fn pieces(&self, motion: &Move) -> usize {
         let length = motion.length_mm();
         // Of a program that only turns all lengths are zero.
         let pieces = match length > 0.0 {
@@ -120,11 +118,17 @@ impl Programmed {
             false => 1,
         };
         let pieces = pieces.max(turns(motion, 1.0));
-        let pieces = match &motion.curve {
+        match &motion.curve {
             Curve::Line => pieces,
             Curve::Arc(arc) => pieces.max(arc.chords_within(ARC_MM)),
-        };
-        let middles = pieces > 1 || length > self.short_mm || motion.turns_in_place();
+        }
+    }
+
+    /// Ends and middles of equal pieces of a block at feed, as shares of it, and which of them are ends: between
+    /// the ends of a long block the load or the machine may differ much. A very short one has no middle.
+    fn shares(&self, motion: &Move) -> impl Iterator<Item = (f64, bool)> + use<> {
+        let pieces = self.pieces(motion);
+        let middles = pieces > 1 || motion.length_mm() > self.short_mm || motion.turns_in_place();
         (1..=2 * pieces)
             .filter(move |half| middles || half % 2 == 0)
             .map(move |half| (half as f64 / (2 * pieces) as f64, half % 2 == 0))
@@ -166,7 +170,8 @@ fn jumps(path: &Path, load: &LoadAlongPath<'_>, placement: &Placement, i: usize)
 }
 
 /// Where a program is looked at as it is given: ends and middles of all blocks, and their starts where the load jumps; of blocks longer
-/// than a spacing those of their pieces.
+/// than a spacing those of their pieces; and inside the others where the load departs from what their ends say. A first look goes without
+/// the last of these.
 pub(crate) struct OfPath<'a> {
     path: &'a Path,
     load: &'a LoadAlongPath<'a>,
@@ -257,8 +262,16 @@ impl<'a> OfPath<'a> {
     pub fn sites(self) -> impl Iterator<Item = Site> + 'a {
         let own = self.path.own_moves();
         own.flat_map(move |i| {
-            let shares = self.shares(i).into_iter();
-            shares.map(|place| self.site(i, place)).collect::<Vec<_>>()
+            let mut shares = self.shares(i);
+            let motion = &self.path.moves[i];
+            if motion.is_known_feed() && !shares.is_empty() && self.programmed.pieces(motion) == 1 {
+                let inside = places_of_load(self.load, self.placement, i);
+                shares.extend(inside.into_iter().map(|share| (share, false)));
+                shares.sort_by(|a, b| a.0.total_cmp(&b.0));
+                shares.dedup_by(|later, first| later.0 == first.0);
+            }
+            let sites = shares.into_iter().map(|place| self.site(i, place));
+            sites.collect::<Vec<_>>()
         })
     }
 }
@@ -397,7 +410,8 @@ pub(crate) fn of_written<'a>(
             let divided = piece.share_from > 0.0 || piece.share_to < 1.0;
             let is_line = motion.curve == Curve::Line;
             // What the load does inside a block shows at no end of it.
-            let load_inside = match divided {
+            let is_one = programmed.pieces(motion) == 1;
+            let load_inside = match divided && !is_one {
                 true => Vec::new(),
                 false => places_of_load(load, placement, piece.move_index),
             };
@@ -415,17 +429,19 @@ pub(crate) fn of_written<'a>(
                 // divided is looked at where the program is.
                 places.push((0.5, share_at(0.5), false));
             }
-            places.extend(load_inside.into_iter().map(|share| (share, share, false)));
+            let of_load = load_inside.into_iter().map(|share| (share, is_one));
             if piece.share_from == 0.0 && jumps(path, load, placement, piece.move_index) {
                 places.push((0.0, 0.0, true));
             }
-            for (share, _) in programmed.shares(motion) {
-                at_end |= share == piece.share_to;
+            let of_program = programmed.shares(motion).map(|(share, _)| (share, true));
+            for (share, programmed) in of_program.chain(of_load) {
+                at_end |= programmed && share == piece.share_to;
                 if share > piece.share_from && share < piece.share_to {
-                    places.push(((share - piece.share_from) / width, share, true));
+                    places.push(((share - piece.share_from) / width, share, programmed));
                 }
             }
-            places.sort_by(|a, b| a.1.total_cmp(&b.1));
+            places.sort_by(|a, b| a.1.total_cmp(&b.1).then(b.2.cmp(&a.2)));
+            places.dedup_by(|later, first| later.1 == first.1);
             for (place, share, programmed) in places {
                 push((place, share), at(share), (false, programmed));
             }
