@@ -102,7 +102,7 @@ pub use result::uncertainty_band::{BandPlace, ScatteredError, UncertainNumber, U
 pub use run::compensate::{analyse, analyse_part, compensate_part, compensate_program};
 pub use run::conclude::{Run, load_description, of_program};
 pub use run::cutting::{cut_places, cutting_result};
-pub use run::look_at_part::{look_at_part, places_of_part};
+pub use run::look_at_part::look_at_part;
 pub use run::merged::MergedRun;
 pub use run::movable::{MovableProgram, Reach};
 pub use run::of_whole::OfWhole;

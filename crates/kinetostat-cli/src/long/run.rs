@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 
 use kinetostat_machining::{
     Envelope, FeatureResult, FileRead, OfWhole, Run, RunError, Warning, WarningCode, Watch,
-    add_to_features, analyse_part, compensate_part, judge_features, look_at_part, places_of_part,
+    add_to_features, analyse_part, compensate_part, judge_features, look_at_part,
 };
 use kinetostat_model::Model;
 use kinetostat_program::{Part, PartError, PartLength, Parts, Survey, WrittenSoFar};
@@ -187,18 +187,15 @@ impl<'a> LongRun<'a> {
 
     /// A first look at every part: what takes hours to be solved everywhere is refused in seconds.
     fn look(&self, length: PartLength, watch: &Progress) -> Answer<OfWhole> {
-        let mut whole = OfWhole::default();
+        let mut whole = OfWhole {
+            moves: self.survey.moves,
+            ..OfWhole::default()
+        };
         let nothing = WrittenSoFar::nothing(self.survey, &self.setting.reading);
-        watch.stage("counting places", self.survey.lines);
-        for part in self.parts(length)? {
-            let part = part.map_err(|error| self.failed(error))?;
-            self.refuse_if_cancelled(watch)?;
-            whole.places += self.with_part(&part, &nothing, false, places_of_part)?;
-            watch.advance(part.next_line() - 1);
-        }
         watch.stage("first look", self.survey.lines);
         for part in self.parts(length)? {
             let part = part.map_err(|error| self.failed(error))?;
+            self.refuse_if_cancelled(watch)?;
             let compensate = self.aim == Aim::Compensate;
             let looked = self.with_part(&part, &nothing, false, |task| {
                 look_at_part(whole, task, compensate, watch)

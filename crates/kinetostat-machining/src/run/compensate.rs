@@ -55,7 +55,7 @@ fn analysed(task: &Task<'_>, whole: Option<&OfWhole>, watch: &dyn Watch) -> Resu
         ..
     } = load;
     let sites = || of_path(task.path(), &load, &task.placement, spacing_mm(task));
-    let (mut points, _) = solve(task, sites, (false, course.as_ref()), watch)?;
+    let (mut points, _) = solve(task, sites(), (false, course.as_ref()), watch)?;
     let checked = Checked {
         force_band: force_band(task, &mut points, sites, watch)?,
         places: places(task, &points, sites, course.as_ref()),
@@ -104,7 +104,7 @@ fn compensated(
         };
         let (points, worse) = solve(
             task,
-            || sites_of_written(task, load, &written),
+            sites_of_written(task, load, &written),
             (true, course.as_ref()),
             watch,
         )?;
@@ -138,7 +138,7 @@ fn compensated(
         (written, check) = write_and_read_again(task, &NoCorrection, watch)?;
         (points, worse) = solve(
             task,
-            || sites_of_written(task, load, &written),
+            sites_of_written(task, load, &written),
             (true, course.as_ref()),
             watch,
         )?;
@@ -152,10 +152,14 @@ fn compensated(
         return Err(RunError::Jump { line });
     }
     let sites = || sites_of_written(task, load, &written);
+    let steps = || {
+        let any = written.pieces.iter().any(|piece| piece.turn.is_some());
+        any.then(sites).into_iter().flatten()
+    };
     let checked = Checked {
         speed_percent: 100.0 * check.largest_speed_error,
-        if_turns_mm: by_the_other_reading(task, CornerLoad::Turns, sites, watch)?,
-        if_follows_mm: by_the_other_reading(task, CornerLoad::FollowsFeed, sites, watch)?,
+        if_turns_mm: by_the_other_reading(task, CornerLoad::Turns, steps, watch)?,
+        if_follows_mm: by_the_other_reading(task, CornerLoad::FollowsFeed, steps, watch)?,
         force_band: force_band(task, &mut points, sites, watch)?,
         places: places(task, &points, sites, course.as_ref()),
         divided_again: match within_before {

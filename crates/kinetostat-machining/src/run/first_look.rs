@@ -10,7 +10,7 @@ use crate::load::along_path::LoadAlongPath;
 use crate::result::point::PointResult;
 use crate::run::machines::Machines;
 use crate::run::points::{Solving, chunk};
-use crate::run::sites::{OfPath, spacing_mm};
+use crate::run::sites::{Site, places_on_moves};
 use crate::task::{RunError, Task};
 use crate::watch::Watch;
 
@@ -21,13 +21,24 @@ const FIRST_LOOKS: usize = 8;
 /// solved everywhere.
 const GROSS: f64 = 10.0;
 
-/// How many places a first look could take.
-pub(crate) fn count_sites(task: &Task<'_>, load: &LoadAlongPath<'_>) -> usize {
-    places(task, load).count()
-}
-
-fn places<'a>(task: &'a Task<'_>, load: &'a LoadAlongPath<'_>) -> OfPath<'a> {
-    OfPath::new(task.path(), load, &task.placement, spacing_mm(task))
+/// Some places on the moves of a program, spread evenly over them: ends of moves, or more of each where there are few.
+/// `whole`: of how many moves in all, and how many of them come before the first that is this path's own.
+fn sites(
+    task: &Task<'_>,
+    load: &LoadAlongPath<'_>,
+    (moves, before): (usize, usize),
+) -> impl Iterator<Item = Site> {
+    let on_each = FIRST_LOOKS.div_ceil(moves.max(1));
+    let every = (moves * on_each).div_ceil(FIRST_LOOKS).max(1);
+    let own = task.path().own_moves();
+    let own_first = own.start;
+    let chosen = own.flat_map(move |index| {
+        let first = (before + index - own_first) * on_each;
+        let numbers = (0..on_each).filter(move |k| (first + k) % every == 0);
+        numbers.map(move |k| (index, (k + 1) as f64 / on_each as f64))
+    });
+    let chosen: Vec<(usize, f64)> = chosen.collect();
+    places_on_moves(task, load, &chosen).into_iter()
 }
 
 /// A few places of a program, each solved by itself.
@@ -51,32 +62,27 @@ impl FirstLook {
         load: &LoadAlongPath<'_>,
         watch: &dyn Watch,
     ) -> Result<Self, RunError> {
-        let all = count_sites(task, load);
-        Self::of_whole(task, load, (all, 0), watch)
+        Self::of_whole(task, load, (task.path().own_moves().len(), 0), watch)
     }
 
-    /// Those of the few places of a whole program that lie on a part of it: the program has so many places that could be looked
-    /// at, and so many of them lie before the part.
+    /// Those of the few places of a whole program that lie on a part of it: the program has so many moves, and so many of
+    /// them come before the part.
     ///
     /// # Errors
     /// [`RunError::Cancelled`].
     pub fn of_whole(
         task: &Task<'_>,
         load: &LoadAlongPath<'_>,
-        (all, before): (usize, usize),
+        whole: (usize, usize),
         watch: &dyn Watch,
     ) -> Result<Self, RunError> {
-        let every = all.div_ceil(FIRST_LOOKS).max(1);
-        // Places are counted from the beginning of the whole program.
-        let first = before.next_multiple_of(every) - before;
         let machines = Machines::new(task);
         let mut look = Self {
             points: Vec::new(),
             first: None,
             not_converged: false,
         };
-        let sites = places(task, load).every(first, every);
-        for (index, site) in sites.into_iter().enumerate() {
+        for (index, site) in sites(task, load, whole).enumerate() {
             if watch.cancelled() {
                 return Err(RunError::Cancelled);
             }

@@ -3,19 +3,13 @@
 use kinetostat::number::smaller;
 
 use crate::load::along_path::LoadAlongPath;
-use crate::run::first_look::{FirstLook, count_sites};
+use crate::run::first_look::FirstLook;
 use crate::run::of_whole::OfWhole;
 use crate::run::preparation::{load, refuse};
 use crate::task::{RunError, Task};
 use crate::watch::Watch;
 
-/// How many places of a part a first look could take: the sum of those of all parts is [`OfWhole::places`].
-#[must_use]
-pub fn places_of_part(task: &Task<'_>) -> usize {
-    count_sites(task, &load(task))
-}
-
-/// A first look at a part, with what was found before; `compensate`: it is to be corrected. What takes hours to be solved
+/// A first look at a part, with what was found in those before it; `compensate`: it is to be corrected. What takes hours to be solved
 /// everywhere is refused here, at some places of every part; the smallest stiffness is that of the places which a first look at
 /// the whole program takes, so that it does not depend on how long the parts are.
 ///
@@ -28,17 +22,15 @@ pub fn look_at_part(
     watch: &dyn Watch,
 ) -> Result<OfWhole, RunError> {
     let load: LoadAlongPath<'_> = load(task);
-    let here = count_sites(task, &load);
-    let looked = FirstLook::of_whole(task, &load, (here, 0), watch)?;
+    let looked = FirstLook::new(task, &load, watch)?;
     refuse(match compensate {
         true => looked.gross(task),
         false => looked.folding_load(task),
     })?;
-    let counted = (before.places, before.places_before);
-    let of_whole = FirstLook::of_whole(task, &load, counted, watch)?;
+    let of_whole = FirstLook::of_whole(task, &load, (before.moves, before.moves_before), watch)?;
     Ok(OfWhole {
         stiffness_n_per_mm: smaller(before.stiffness_n_per_mm, of_whole.stiffness()),
-        places_before: before.places_before + here,
+        moves_before: before.moves_before + task.path().own_moves().len(),
         ..before
     })
 }

@@ -3,10 +3,10 @@
 /// What is known of a whole program where a part of it is run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OfWhole {
-    /// Places of the whole program that a first look could take, and those of them before the part.
-    pub places: usize,
-    /// See [`OfWhole::places`].
-    pub places_before: usize,
+    /// Moves of the whole program, over which the places of a first look are spread.
+    pub moves: usize,
+    /// Those of them that come before the next part at which is looked.
+    pub moves_before: usize,
     /// Smallest stiffness against a force at the places that a first look took, N/mm; infinite before the first.
     pub stiffness_n_per_mm: f64,
     /// The program is left as it is: it keeps its tolerance so, or nothing can be written.
@@ -16,8 +16,8 @@ pub struct OfWhole {
 impl Default for OfWhole {
     fn default() -> Self {
         Self {
-            places: 0,
-            places_before: 0,
+            moves: 0,
+            moves_before: 0,
             stiffness_n_per_mm: f64::INFINITY,
             as_it_is: false,
         }

@@ -24,34 +24,28 @@ use kinetostat::batch::AlongPath;
 pub(crate) const BATCH: usize = 16_384;
 
 /// All points in their order, and the first of a written program that is worse than before. Sites are
-/// made as they are needed: a long program has many.
-pub(crate) fn solve<S: Iterator<Item = Site>>(
+/// made as they are needed, and once: a long program has many.
+pub(crate) fn solve(
     task: &Task<'_>,
-    sites: impl Fn() -> S,
+    mut sites: impl Iterator<Item = Site>,
     (written, course): (bool, Option<&ArmCourse>),
     watch: &dyn Watch,
 ) -> Result<(Vec<PointResult>, Option<RunError>), RunError> {
-    let total = sites().count();
-    // A part of a longer program may only rise and go on.
-    if total == 0 && task.path().part.is_none() {
-        return Err(RunError::NoMotion(NoMotion::NoLength));
-    }
     let name = if written {
         "deflections of the written program"
     } else {
         "deflections"
     };
-    watch.stage(name, total);
-    let mut points: Vec<PointResult> = Vec::with_capacity(total);
+    let own = task.path().own_moves();
+    watch.stage(name, own.len());
+    let mut points: Vec<PointResult> = Vec::with_capacity(own.len());
     let mut worse = None;
     let machines = Machines::new(task);
     let figures = JointFigures::new(task.mechanism, &task.bounds.ratings);
-    let mut sites = sites();
     loop {
         let batch: Vec<Site> = sites.by_ref().take(BATCH).collect();
-        if batch.is_empty() {
-            return Ok((points, worse));
-        }
+        let Some(last) = batch.last() else { break };
+        let done = (last.move_index + 1).saturating_sub(own.start);
         if watch.cancelled() {
             return Err(RunError::Cancelled);
         }
@@ -73,7 +67,12 @@ pub(crate) fn solve<S: Iterator<Item = Site>>(
             worse = worse.or_else(|| worse_than_before(task, site, &point));
             points.push(point);
         }
-        watch.advance(points.len());
+        watch.advance(done);
+    }
+    // A part of a longer program may only rise and go on.
+    match points.is_empty() && task.path().part.is_none() {
+        true => Err(RunError::NoMotion(NoMotion::NoLength)),
+        false => Ok((points, worse)),
     }
 }
 

@@ -170,9 +170,8 @@ fn jumps(path: &Path, load: &LoadAlongPath<'_>, placement: &Placement, i: usize)
 }
 
 /// Where a program is looked at as it is given: ends and middles of all blocks, and their starts where the load jumps; of blocks longer
-/// than a spacing those of their pieces; and inside the others where the load departs from what their ends say. A first look goes without
-/// the last of these.
-pub(crate) struct OfPath<'a> {
+/// than a spacing those of their pieces; and inside the others where the load departs from what their ends say.
+struct OfPath<'a> {
     path: &'a Path,
     load: &'a LoadAlongPath<'a>,
     placement: &'a Placement,
@@ -181,7 +180,7 @@ pub(crate) struct OfPath<'a> {
 }
 
 impl<'a> OfPath<'a> {
-    pub fn new(
+    fn new(
         path: &'a Path,
         load: &'a LoadAlongPath<'a>,
         placement: &'a Placement,
@@ -238,28 +237,8 @@ impl<'a> OfPath<'a> {
         }
     }
 
-    /// How many places there are.
-    pub fn count(&self) -> usize {
-        let own = self.path.own_moves();
-        own.map(|i| self.shares(i).len()).sum()
-    }
-
-    /// Every so manyth of them, from one of them on. What lies between is only counted.
-    pub fn every(&self, first: usize, every: usize) -> Vec<Site> {
-        let (mut found, mut seen, mut next) = (Vec::new(), 0, first);
-        for i in self.path.own_moves() {
-            let shares = self.shares(i);
-            while let Some(place) = next.checked_sub(seen).and_then(|k| shares.get(k)) {
-                found.push(self.site(i, *place));
-                next += every;
-            }
-            seen += shares.len();
-        }
-        found
-    }
-
     /// All of them, one after the other.
-    pub fn sites(self) -> impl Iterator<Item = Site> + 'a {
+    fn sites(self) -> impl Iterator<Item = Site> + 'a {
         let own = self.path.own_moves();
         own.flat_map(move |i| {
             let mut shares = self.shares(i);
@@ -284,6 +263,28 @@ pub(crate) fn of_path<'a>(
     spacing_mm: f64,
 ) -> impl Iterator<Item = Site> + 'a {
     OfPath::new(path, load, placement, spacing_mm).sites()
+}
+
+/// Places at shares of moves, as the program is given; none on moves that lead nowhere, and the end of a rapid or of a move from
+/// a place that the program does not state.
+pub(crate) fn places_on_moves(
+    task: &Task<'_>,
+    load: &LoadAlongPath<'_>,
+    chosen: &[(usize, f64)],
+) -> Vec<Site> {
+    let path = task.path();
+    let of_path = OfPath::new(path, load, &task.placement, spacing_mm(task));
+    let site = |(index, share): &(usize, f64)| {
+        let motion = &path.moves[*index];
+        let share = match (motion.known, motion.kind) {
+            (Knowledge::Nothing, _) => return None,
+            (Knowledge::Whole, MoveKind::Feed) if stays(motion) => return None,
+            (Knowledge::Whole, MoveKind::Feed) => *share,
+            _ => 1.0,
+        };
+        Some(of_path.site(*index, (share, share == 1.0)))
+    };
+    chosen.iter().filter_map(site).collect()
 }
 
 /// Seed of the irregular places: the division of blocks has another, so that what it overlooked is not

@@ -99,7 +99,7 @@ fn verified(
     } = load;
     let sites = || sites_of_written(task, &load, &written);
     // A place where the program is worse than the original is a finding here.
-    let (points, _worse) = solve(task, sites, (true, course.as_ref()), watch)?;
+    let (points, _worse) = solve(task, sites(), (true, course.as_ref()), watch)?;
     let checked = Checked {
         places: places(task, &points, sites, course.as_ref()),
         ramps,

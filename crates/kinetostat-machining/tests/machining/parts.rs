@@ -4,7 +4,7 @@ use kinetostat::{Directions, Mechanism, Pose};
 use kinetostat_machining::{
     Bounds, CuttingLoad, MergedRun, OfWhole, Placement, ProgramLoad, Run, RunInputs, Task,
     Unwatched, analyse, analyse_part, compensate_part, compensate_program, look_at_part,
-    places_of_part, straight_tool,
+    straight_tool,
 };
 use kinetostat_model::Model;
 use kinetostat_program::{
@@ -96,15 +96,10 @@ fn in_parts(
     };
     let parts = || Parts::new(text.as_bytes(), (&survey, &reading), length);
     let mut so_far = WrittenSoFar::nothing(&survey, &reading);
-    let mut of_whole = OfWhole::default();
-    for part in parts() {
-        let part = part.expect("part");
-        let program = GcodePart {
-            part: &part,
-            so_far: &so_far,
-        };
-        of_whole.places += with_task(machine, &program, places_of_part);
-    }
+    let mut of_whole = OfWhole {
+        moves: survey.moves,
+        ..OfWhole::default()
+    };
     for part in parts() {
         let part = part.expect("part");
         let program = GcodePart {

@@ -104,6 +104,8 @@ impl Survey {
         let mut line = Vec::new();
         loop {
             let mut reader = Reader::following(&state);
+            reader.reserve(BLOCK, 0);
+            interpreter.reserve(BLOCK);
             let mut count = 0;
             while count < BLOCK {
                 line.clear();

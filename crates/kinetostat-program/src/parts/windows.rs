@@ -134,6 +134,8 @@ impl<'o, R: BufRead> Parts<'o, R> {
         let next_first = end.saturating_sub(beside).max(before + 1);
         let mut reader = Reader::following(&self.reader);
         let mut interpreter = self.interpreter.following();
+        reader.reserve(self.ends.len(), self.held.len());
+        interpreter.reserve(self.ends.len());
         let mut kept = None;
         let mut start = 0;
         for (index, stop) in self.ends.iter().enumerate() {

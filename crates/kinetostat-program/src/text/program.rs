@@ -302,6 +302,13 @@ impl Reader {
         reader
     }
 
+    /// Makes room for so many lines of so many bytes in all, so that nothing is moved as they are read.
+    pub(crate) fn reserve(&mut self, lines: usize, bytes: usize) {
+        self.program.bytes.reserve(bytes);
+        self.program.lines.reserve(lines);
+        self.program.words.reserve(5 * lines);
+    }
+
     /// What the lines that were read tell of those that follow.
     pub(crate) fn state(&self) -> ReaderState {
         ReaderState {

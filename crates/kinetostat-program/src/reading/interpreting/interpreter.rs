@@ -89,6 +89,12 @@ impl<'o> Interpreter<'o> {
         }
     }
 
+    /// Makes room for so many motions.
+    pub(crate) fn reserve(&mut self, motions: usize) {
+        self.moves.reserve(motions);
+        self.knowledge.reserve(motions);
+    }
+
     /// The motions that were read since the last call, each with the axes that are known before and after it.
     pub(crate) fn take_moves(&mut self) -> impl Iterator<Item = (Move, [[bool; 3]; 2])> + use<> {
         self.events.clear();
