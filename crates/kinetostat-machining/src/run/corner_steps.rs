@@ -5,7 +5,7 @@ use kinetostat::number::larger;
 
 use crate::load::law::CornerLoad;
 use crate::run::other_load::errors_under;
-use crate::run::sites::Site;
+use crate::run::sites::site::Site;
 use crate::task::{RunError, Task};
 use crate::watch::Watch;
 

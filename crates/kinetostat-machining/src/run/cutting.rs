@@ -8,7 +8,7 @@ use crate::cut::profile::ForceAlongPath;
 use crate::cut::station::CutStation;
 use crate::result::cutting::{CutPlace, CuttingResult};
 use crate::result::point::PointKind;
-use crate::run::sites::starts;
+use crate::run::sites::site::starts;
 
 /// Lines with the largest forces that are listed.
 const WORST: usize = 10;

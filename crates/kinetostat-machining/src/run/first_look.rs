@@ -10,7 +10,8 @@ use crate::load::along_path::LoadAlongPath;
 use crate::result::point::PointResult;
 use crate::run::machines::Machines;
 use crate::run::points::{Solving, chunk};
-use crate::run::sites::{Site, places_on_moves};
+use crate::run::sites::of_path::places_on_moves;
+use crate::run::sites::site::Site;
 use crate::task::{RunError, Task};
 use crate::watch::Watch;
 

@@ -9,7 +9,7 @@ use crate::result::point::{PointKind, PointResult, size};
 use crate::result::run_result::RunResult;
 use crate::result::selection::thinned;
 use crate::run::other_load::errors_under;
-use crate::run::sites::Site;
+use crate::run::sites::site::Site;
 use crate::task::{RunError, Task};
 use crate::watch::Watch;
 

@@ -4,7 +4,7 @@ use kinetostat::batch::AlongPath;
 
 use crate::load::tool::{Tool, tool_on};
 use crate::postures::orientation::Orientation;
-use crate::run::sites::Site;
+use crate::run::sites::site::Site;
 use crate::task::Task;
 
 /// The machine of a run with each of its tools, ready to solve many postures.

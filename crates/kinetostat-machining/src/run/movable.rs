@@ -17,7 +17,8 @@ use crate::run::joints::joints_result;
 use crate::run::machines::Machines;
 use crate::run::points::{Solving, chunk, failed};
 use crate::run::preparation::{has_motion, load};
-use crate::run::sites::{Site, of_path, spacing_mm};
+use crate::run::sites::of_path::of_path;
+use crate::run::sites::site::{Site, spacing_mm};
 use crate::task::{NoMotion, RunError, Task};
 use crate::watch::Watch;
 

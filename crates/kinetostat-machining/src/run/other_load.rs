@@ -5,7 +5,7 @@ use kinetostat::{Pose, Wrench};
 use crate::postures::neighbour::in_chunks;
 use crate::run::machines::Machines;
 use crate::run::points::BATCH;
-use crate::run::sites::Site;
+use crate::run::sites::site::Site;
 use crate::task::{RunError, Task};
 use crate::watch::Watch;
 

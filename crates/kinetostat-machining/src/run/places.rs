@@ -11,7 +11,7 @@ use crate::result::point::{PointKind, PointResult, size};
 use crate::result::program_place::ProgramPlace;
 use crate::result::selection::{thinned, worst};
 use crate::run::machines::Machines;
-use crate::run::sites::Site;
+use crate::run::sites::site::Site;
 use crate::task::Task;
 
 /// About so many places of a run as the task asks for, those with the largest errors among them; none on rapids and on steps, where the

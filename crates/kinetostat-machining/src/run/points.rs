@@ -15,7 +15,7 @@ use crate::postures::orientation::Orientation;
 use crate::result::point::{PointResult, size};
 use crate::run::following::turn_deg;
 use crate::run::machines::Machines;
-use crate::run::sites::Site;
+use crate::run::sites::site::Site;
 use crate::task::{NoMotion, RunError, Task, kinds};
 use crate::watch::Watch;
 use kinetostat::batch::AlongPath;

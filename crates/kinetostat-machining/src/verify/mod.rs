@@ -33,7 +33,7 @@ use crate::run::conclude::{Run, conclude};
 use crate::run::places::places;
 use crate::run::points::solve;
 use crate::run::preparation::Preparation;
-use crate::run::sites::sites_of_written;
+use crate::run::sites::of_written::sites_of_written;
 use crate::run::way_out::with_way_out;
 use crate::task::{RunError, Task};
 use crate::verify::conditions::conditions;

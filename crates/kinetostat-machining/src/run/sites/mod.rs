@@ -1,0 +1,9 @@
+//! Where along a path, or along a written program, errors are looked at.
+
+mod along_piece;
+mod commanded;
+mod of_load;
+pub(crate) mod of_path;
+pub(crate) mod of_written;
+mod programmed;
+pub(crate) mod site;

@@ -1,0 +1,74 @@
+//! Where the load along a path asks for a place of its own.
+
+use kinetostat::Wrench;
+use kinetostat_program::{Path, Piece, Turn};
+
+use crate::load::along_path::LoadAlongPath;
+use crate::load::law::CornerLoad;
+use crate::placement::Placement;
+
+/// The load at the start of a move is another one than that before it, or a cut begins there.
+pub(super) fn jumps(
+    path: &Path,
+    load: &LoadAlongPath<'_>,
+    placement: &Placement,
+    i: usize,
+) -> bool {
+    let Some(before) = i.checked_sub(1) else {
+        return true;
+    };
+    if !path.moves[before].is_known_feed() {
+        return true;
+    }
+    let before = load.wrench(placement, before, 1.0).0;
+    let after = load.wrench(placement, i, 0.0).0;
+    (after - before).norm() > 1e-6 * (before.norm() + after.norm())
+}
+
+/// Departure of the load from the straight line between the ends of a block, share of it, that is looked at.
+const STRAIGHT: f64 = 1e-5;
+
+/// Where a load inside a block is farthest from what its ends say: where it or its slope jumps and midway between, and in the
+/// middle where it turns. None where it goes evenly from one end to the other.
+pub(super) fn places_of_load(
+    load: &LoadAlongPath<'_>,
+    placement: &Placement,
+    index: usize,
+) -> Vec<f64> {
+    if load.is_steady(index) {
+        return Vec::new();
+    }
+    let mut shares = load.breaks(index);
+    shares.retain(|share| *share > 0.0 && *share < 1.0);
+    let [begin, middle, end] = [0.0, 0.5, 1.0].map(|share| load.wrench(placement, index, share).0);
+    let turns = (middle - 0.5 * (begin + end)).norm() > STRAIGHT * (begin.norm() + end.norm());
+    if shares.is_empty() && !turns {
+        return shares;
+    }
+    shares.extend([0.0, 1.0]);
+    shares.sort_by(f64::total_cmp);
+    let between: Vec<f64> = shares.windows(2).map(|w| 0.5 * (w[0] + w[1])).collect();
+    shares.extend(between);
+    shares.retain(|share| *share > 0.0 && *share < 1.0);
+    shares
+}
+
+/// The load on a corner step, as chosen and by the other reading.
+pub(super) fn on_step(
+    piece: &Piece,
+    turn: &Turn,
+    place: f64,
+    load: &LoadAlongPath<'_>,
+    placement: &Placement,
+) -> (Wrench, Option<Wrench>) {
+    let part = turn.part_from + place * (turn.part_to - turn.part_from);
+    let from = (turn.from_move, turn.from_share);
+    let to = (piece.move_index, turn.to_share);
+    let turns = load.turning_wrench(placement, from, to, part);
+    let along = piece.commanded_to - piece.commanded_from;
+    let follows = load.wrench_towards(placement, to.0, to.1, &along);
+    match load.load_of(piece.move_index).at_corners {
+        CornerLoad::Turns => (turns, Some(follows)),
+        CornerLoad::FollowsFeed => (follows, Some(turns)),
+    }
+}

@@ -1,0 +1,128 @@
+//! Where a program is looked at as it is given.
+
+use kinetostat_program::{Knowledge, MoveKind, Path};
+
+use crate::load::along_path::LoadAlongPath;
+use crate::placement::Placement;
+use crate::run::sites::of_load::{jumps, places_of_load};
+use crate::run::sites::programmed::Programmed;
+use crate::run::sites::site::{Site, kind, known_length, spacing_mm, starts, stays};
+use crate::task::Task;
+
+/// Where a program is looked at as it is given: ends and middles of all blocks, and their starts where the load jumps; of blocks longer
+/// than a spacing those of their pieces; and inside the others where the load departs from what their ends say.
+struct OfPath<'a> {
+    path: &'a Path,
+    load: &'a LoadAlongPath<'a>,
+    placement: &'a Placement,
+    starts: Vec<f64>,
+    programmed: Programmed,
+}
+
+impl<'a> OfPath<'a> {
+    fn new(
+        path: &'a Path,
+        load: &'a LoadAlongPath<'a>,
+        placement: &'a Placement,
+        spacing_mm: f64,
+    ) -> Self {
+        Self {
+            path,
+            load,
+            placement,
+            starts: starts(path),
+            programmed: Programmed::new(path, spacing_mm),
+        }
+    }
+
+    /// Shares of a move, and which of them are ends.
+    fn shares(&self, i: usize) -> Vec<(f64, bool)> {
+        let motion = &self.path.moves[i];
+        match (motion.known, motion.kind) {
+            (Knowledge::Nothing, _) => Vec::new(),
+            (Knowledge::End, _) | (_, MoveKind::Rapid) => vec![(1.0, true)],
+            (Knowledge::Whole, MoveKind::Feed) if stays(motion) => Vec::new(),
+            (Knowledge::Whole, MoveKind::Feed) => {
+                let jumps = jumps(self.path, self.load, self.placement, i);
+                let start = jumps.then_some((0.0, false));
+                start
+                    .into_iter()
+                    .chain(self.programmed.shares(motion))
+                    .collect()
+            }
+        }
+    }
+
+    /// The place at a share of a move, with what acts there.
+    fn site(&self, i: usize, (share, end): (f64, bool)) -> Site {
+        let motion = &self.path.moves[i];
+        let desired = motion.point(share);
+        Site {
+            line: motion.line,
+            move_index: i,
+            output_line: 0,
+            kind: kind(motion),
+            share,
+            path_mm: self.starts[i] + share * known_length(motion),
+            start_mm: self.starts[i],
+            programmed: true,
+            desired,
+            commanded: desired,
+            orientation: motion.orientation(share),
+            commanded_orientation: motion.orientation(share),
+            commanded_deg: None,
+            wrench: self.load.wrench(self.placement, i, share),
+            other_wrench: None,
+            end,
+        }
+    }
+
+    /// All of them, one after the other.
+    fn sites(self) -> impl Iterator<Item = Site> + 'a {
+        let own = self.path.own_moves();
+        own.flat_map(move |i| {
+            let mut shares = self.shares(i);
+            let motion = &self.path.moves[i];
+            if motion.is_known_feed() && !shares.is_empty() && self.programmed.pieces(motion) == 1 {
+                let inside = places_of_load(self.load, self.placement, i);
+                shares.extend(inside.into_iter().map(|share| (share, false)));
+                shares.sort_by(|a, b| a.0.total_cmp(&b.0));
+                shares.dedup_by(|later, first| later.0 == first.0);
+            }
+            let sites = shares.into_iter().map(|place| self.site(i, place));
+            sites.collect::<Vec<_>>()
+        })
+    }
+}
+
+/// The places of [`OfPath`], one after the other.
+pub(crate) fn of_path<'a>(
+    path: &'a Path,
+    load: &'a LoadAlongPath<'a>,
+    placement: &'a Placement,
+    spacing_mm: f64,
+) -> impl Iterator<Item = Site> + 'a {
+    OfPath::new(path, load, placement, spacing_mm).sites()
+}
+
+/// Places at shares of moves, as the program is given; none on moves that lead nowhere, and the end of a rapid or of a move from
+/// a place that the program does not state.
+pub(crate) fn places_on_moves(
+    task: &Task<'_>,
+    load: &LoadAlongPath<'_>,
+    chosen: &[(usize, f64)],
+) -> Vec<Site> {
+    let path = task.path();
+    let of_path = OfPath::new(path, load, &task.placement, spacing_mm(task));
+    let site = |(index, share): &(usize, f64)| {
+        let motion = &path.moves[*index];
+        let share = match (motion.known, motion.kind) {
+            (Knowledge::Nothing, _) => return None,
+            (Knowledge::Whole, MoveKind::Feed) if stays(motion) => return None,
+            (Knowledge::Whole, MoveKind::Feed) => *share,
+            _ => 1.0,
+        };
+        Some(of_path.site(*index, (share, share == 1.0)))
+    };
+    chosen.iter().filter_map(site).collect()
+}

@@ -1,0 +1,107 @@
+//! A place at which errors are looked at.
+
+use kinetostat::Wrench;
+use kinetostat_program::{Knowledge, Move, MoveKind, Path};
+use nalgebra::{UnitQuaternion, Vector3};
+
+use crate::near::natural_length;
+use crate::placement::Placement;
+use crate::result::point::PointKind;
+use crate::run::sites::commanded::rotary;
+use crate::task::Task;
+
+/// A place on the path with its load and, for a written program, what is commanded there.
+#[derive(Clone, Debug)]
+pub(crate) struct Site {
+    pub line: usize,
+    /// Index of its move in the path.
+    pub move_index: usize,
+    pub output_line: usize,
+    pub kind: PointKind,
+    pub share: f64,
+    pub path_mm: f64,
+    /// Length of the path before its move, mm.
+    pub start_mm: f64,
+    /// One of the places at which a program is looked at however it is written.
+    pub programmed: bool,
+    /// Where the tool should be, mm, program coordinates.
+    pub desired: Vector3<f64>,
+    /// What the written program commands, mm; the same without compensation.
+    pub commanded: Vector3<f64>,
+    /// Orientation of the tool in the program, part axes from tool axes; `None` in a program of positions.
+    pub orientation: Option<UnitQuaternion<f64>>,
+    /// What the written program commands; the same without compensation, or where only the position is corrected.
+    pub commanded_orientation: Option<UnitQuaternion<f64>>,
+    /// Where the written program has the rotary axes, deg; none where it has them as the program.
+    pub commanded_deg: Option<Vec<f64>>,
+    pub wrench: Wrench,
+    /// On a corner step, the load by the reading that was not chosen.
+    pub other_wrench: Option<Wrench>,
+    /// End of a piece (or block), where a full answer is wanted; otherwise its middle.
+    pub end: bool,
+}
+
+impl Site {
+    /// Where the program lies there.
+    pub(crate) fn placement(&self, task: &Task<'_>) -> Placement {
+        let motion = &task.path().moves[self.move_index];
+        task.placement.on(motion, self.share)
+    }
+
+    /// Where it lies as the written program turns it.
+    pub(crate) fn commanded_placement(&self, task: &Task<'_>) -> Placement {
+        let motion = &task.path().moves[self.move_index];
+        match (&self.commanded_deg, rotary(motion)) {
+            (Some(angles), Some(rotary)) => task.placement.turned(Some(&rotary.axes.part(angles))),
+            _ => self.placement(task),
+        }
+    }
+}
+
+/// Length of the path before every move, mm; of a part of a longer program counted from the beginning of that, for the moves
+/// that are its own and those behind them.
+pub(crate) fn starts(path: &Path) -> Vec<f64> {
+    let own = path.own_moves();
+    let before_mm = path.part.as_ref().map_or(0.0, |part| part.before_mm);
+    let mut length = before_mm;
+    let moves = path.moves.iter().enumerate();
+    moves
+        .map(|(index, m)| {
+            if index <= own.start {
+                length = before_mm;
+            }
+            let start = length;
+            length += known_length(m);
+            start
+        })
+        .collect()
+}
+
+pub(super) fn kind(motion: &Move) -> PointKind {
+    match motion.kind {
+        MoveKind::Rapid => PointKind::Rapid,
+        MoveKind::Feed => PointKind::Feed,
+    }
+}
+
+/// A move from a place that the program does not tell has no length that counts.
+pub(super) fn known_length(motion: &Move) -> f64 {
+    if motion.known == Knowledge::Whole {
+        motion.length_mm()
+    } else {
+        0.0
+    }
+}
+
+/// A move from a known place that neither goes nor turns.
+pub(super) fn stays(motion: &Move) -> bool {
+    motion.known == Knowledge::Whole && !motion.has_length() && !motion.turns_in_place()
+}
+
+/// Length from which on a block is looked at in more places, mm of the program.
+pub(crate) fn spacing_mm(task: &Task<'_>) -> f64 {
+    SPACING * 1e3 * natural_length(task.mechanism) / task.placement.scale
+}
+
+/// Share of the natural length after which a long piece is looked at in one more place.
+const SPACING: f64 = 1.0 / 16.0;
