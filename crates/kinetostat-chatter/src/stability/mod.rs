@@ -2,11 +2,14 @@
 //!
 //! `collocation` has the points of a stretch of the period, split where teeth come and go; `legendre` solves a mode on it,
 //! `cutting` puts the modes together, `period` the stretches; `operator` is the monodromy operator at a depth; `krylov` finds
-//! its largest multiplier; `scan` looks along the depth; `swinging` says which modes count, `counted` sees to it that they do. Source: `dynamics.md` section 10 [D 8].
+//! its largest multiplier, with `followed` and `eigenvalues`; `scan` looks along the depth; `swinging` says which modes count,
+//! `counted` sees to it that they do. Source: `dynamics.md` section 10 [D 8].
 
 mod collocation;
 mod counted;
 mod cutting;
+mod eigenvalues;
+mod followed;
 mod krylov;
 mod legendre;
 mod multiplier;
@@ -22,6 +25,6 @@ pub use scan::{Crossing, SpeedStability};
 pub use swinging::{LeftOut, Swinging};
 
 pub(crate) use collocation::Chebyshev;
-pub(crate) use krylov::{by_qr, eigenvalues};
+pub(crate) use eigenvalues::{by_qr, eigenvalues};
 pub(crate) use operator::Operator;
 pub(crate) use period::Period;

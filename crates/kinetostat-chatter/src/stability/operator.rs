@@ -3,7 +3,12 @@
 use nalgebra::{DMatrix, DVector, Dyn, LU};
 
 use crate::error::{ChatterError, ChatterErrorKind, Result};
+use crate::number::Complex64;
+use crate::stability::krylov;
 use crate::stability::period::Period;
+
+/// Most periods after which the largest multiplier is looked for.
+const MOST_SETTLED: usize = 48;
 
 /// The monodromy operator of a period at a depth.
 ///
@@ -90,6 +95,13 @@ impl<'a> Operator<'a> {
     /// What one period makes of a disturbance.
     pub(crate) fn apply(&self, before: &DVector<f64>) -> Result<DVector<f64>> {
         Ok(self.driven(before, None)?.0)
+    }
+
+    /// Its largest multiplier to a residual by its size, with its vector.
+    pub(crate) fn largest(&self, accuracy: f64) -> Result<(Complex64, DVector<Complex64>)> {
+        // Of many modes most die away.
+        let settled = MOST_SETTLED.min(2 * self.period.states.len());
+        krylov::largest((self.size(), settled), accuracy, |x| self.apply(x))
     }
 
     /// The operator as a matrix.

@@ -7,6 +7,7 @@ use crate::cut::{Cut, checked_depth, checked_speed};
 use crate::error::{ChatterError, ChatterErrorKind, Result};
 use crate::number::{Complex64, larger};
 use crate::response::{Mode, ToolResponse};
+use crate::stability::eigenvalues::eigenvalues;
 use crate::stability::krylov;
 use crate::stability::multiplier::Multiplier;
 use crate::stability::operator::Operator;
@@ -187,8 +188,7 @@ impl Regeneration {
     pub fn multiplier_with(&self, speed_rpm: f64, depth: f64, fineness: f64) -> Result<Multiplier> {
         let period = self.period(speed_rpm, checked_depth(depth)?, fineness)?;
         let operator = Operator::new(&period, depth);
-        let (value, vector) =
-            krylov::largest(operator.size(), krylov::ACCURATE, |x| operator.apply(x))?;
+        let (value, vector) = operator.largest(krylov::ACCURATE)?;
         Ok(Multiplier::new(
             value,
             &vector,
@@ -204,7 +204,7 @@ impl Regeneration {
     /// As [`Self::multiplier`].
     pub fn multipliers(&self, speed_rpm: f64, depth: f64) -> Result<Vec<(f64, f64)>> {
         let period = self.period(speed_rpm, checked_depth(depth)?, 1.0)?;
-        let all: Vec<Complex64> = krylov::eigenvalues(Operator::new(&period, depth).dense()?)?;
+        let all: Vec<Complex64> = eigenvalues(Operator::new(&period, depth).dense()?)?;
         Ok(all.iter().map(|value| (value.re, value.im)).collect())
     }
 

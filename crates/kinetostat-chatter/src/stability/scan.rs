@@ -139,15 +139,14 @@ impl<'a> Along<'a> {
 
     fn logarithm(&self, depth: f64, accuracy: f64) -> Result<f64> {
         self.with(depth, |operator| {
-            let value = krylov::largest(operator.size(), accuracy, |x| operator.apply(x))?.0;
+            let value = operator.largest(accuracy)?.0;
             Ok(value.norm().ln())
         })
     }
 
     fn multiplier(&self, depth: f64) -> Result<Multiplier> {
         self.with(depth, |operator| {
-            let (value, vector) =
-                krylov::largest(operator.size(), krylov::ACCURATE, |x| operator.apply(x))?;
+            let (value, vector) = operator.largest(krylov::ACCURATE)?;
             let response = self.regeneration.response();
             Ok(Multiplier::new(value, &vector, operator, depth, response))
         })

@@ -46,13 +46,17 @@ fn deflect_and_compensate_agree_before_compensation() {
         let corrected = json(here, &line);
         let [plain, corrected] = [&plain["summary"], &corrected["summary"]];
         let number = |of: &Value, name: &str| of[name].as_f64().unwrap_or(f64::NAN);
+        // A written program is looked at in more places than the one as given: in one of them the error may be a
+        // little larger.
+        let [a, b] = [plain, corrected].map(|of| number(of, "max_position_error_before_mm"));
+        assert!(a > 0.0 && b >= a * (1.0 - 1e-9), "{preset}: {a} {b}");
+        assert!(b <= a * (1.0 + 1e-4), "{preset}: {a} {b}");
         // Without compensation: the same figure to the last digit shown.
         for (name, shown) in [
             (
-                "max_position_error_before_mm",
-                largest_length as fn(f64) -> String,
+                "rms_position_error_before_mm",
+                mean_length as fn(f64) -> String,
             ),
-            ("rms_position_error_before_mm", mean_length),
             ("feed_length_mm", mean_length),
             ("max_error_by_own_weight_mm", largest_length),
         ] {

@@ -96,7 +96,8 @@ pub fn add_to_features(
         for result in results.iter_mut().filter(inside) {
             result.points += 1;
             let before = size(&point.error_before_mm);
-            if point.programmed {
+            // Only a second program has steps.
+            if !point.kind.is_step() {
                 note(&mut result.error_before_mm, before);
             }
             let (most, own) = match written {

@@ -64,7 +64,7 @@ fn of_stretch(number: usize, point: &PointResult) -> [f64; PER_STRETCH] {
     [
         -(number as f64),
         match point.kind {
-            PointKind::Feed if point.programmed => before,
+            PointKind::Feed => before,
             _ => f64::NAN,
         },
         off_rapids(before),
@@ -83,7 +83,6 @@ fn of_stretch(number: usize, point: &PointResult) -> [f64; PER_STRETCH] {
 /// for i in 0..100_000 {
 ///     let mut point = PointResult::default();
 ///     point.line = i + 1;
-///     point.programmed = true;
 ///     point.path_mm = i as f64;
 ///     point.error_before_mm = [if i == 54_321 { 2.0 } else { 1.0 }, 0.0, 0.0];
 ///     kept.add(&point);

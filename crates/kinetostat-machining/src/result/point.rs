@@ -54,7 +54,7 @@ pub struct PointResult {
     /// The end of a piece; otherwise the middle of one.
     #[serde(skip)]
     pub end: bool,
-    /// One of the places at which the program is looked at as it is given, compensated or not: figures
+    /// One of the places at which the program is looked at as it is given, compensated or not: means
     /// without compensation come from these.
     #[serde(skip)]
     pub programmed: bool,

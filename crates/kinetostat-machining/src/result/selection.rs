@@ -70,9 +70,9 @@ pub(crate) fn extreme_values(p: &PointResult) -> impl Iterator<Item = f64> + '_ 
     };
     let of_all = [
         size(&p.error_before_mm),
-        match p.programmed {
-            true => size(&p.error_before_mm),
-            false => f64::NAN,
+        match p.kind.is_step() {
+            true => f64::NAN,
+            false => size(&p.error_before_mm),
         },
         size(&p.error_after_mm),
         size(&p.correction_mm),
@@ -110,8 +110,8 @@ const MOST_WORST: usize = 10;
 /// Indices of the worst points before compensation, at most ten, not two from one line or from
 /// neighbouring ones.
 pub(crate) fn worst(points: &[PointResult]) -> Vec<usize> {
-    let programmed = |i: &usize| points[*i].programmed;
-    let cutting = |i: &usize| programmed(i) && points[*i].kind == PointKind::Feed;
+    let programmed = |i: &usize| !points[*i].kind.is_step();
+    let cutting = |i: &usize| points[*i].kind == PointKind::Feed;
     let mut order: Vec<usize> = (0..points.len()).filter(cutting).collect();
     if order.is_empty() {
         order = (0..points.len()).filter(programmed).collect();

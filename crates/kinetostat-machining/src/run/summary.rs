@@ -30,7 +30,7 @@ pub(crate) fn summarise(
     // NaN stays visible.
     let larger = |a: f64, b: f64| if b > a || b.is_nan() { b } else { a };
     let most = |f: &dyn Fn(&PointResult) -> f64| cutting.iter().map(|p| f(p)).fold(0.0, larger);
-    // Figures without compensation are those of the program's own places, whether another is written or not.
+    // The mean without compensation is that of the program's own places, whether another is written or not.
     let programmed: Vec<&PointResult> = cutting.iter().filter(|p| p.programmed).copied().collect();
     let rms = |points: &[&PointResult], f: &dyn Fn(&PointResult) -> f64| {
         along_path(points, |p| f(p).powi(2)).sqrt()
@@ -52,7 +52,11 @@ pub(crate) fn summarise(
             .filter(|m| m.is_known_feed())
             .map(kinetostat_program::Move::length_mm)
             .sum(),
-        max_position_error_before_mm: programmed.iter().map(|p| before(p)).fold(0.0, larger),
+        max_position_error_before_mm: most(&|p| match p.kind {
+            // Only a written program has steps.
+            PointKind::Corner | PointKind::Entry => 0.0,
+            _ => before(p),
+        }),
         rms_position_error_before_mm: rms(&programmed, &before),
         max_position_error_after_mm: most(&after),
         rms_position_error_after_mm: rms(&cutting, &after),

@@ -14,7 +14,7 @@ const TURN_DEG: f64 = 10.0;
 pub(super) const ARC_MM: f64 = 0.01;
 
 /// The places at which a program is looked at as it is given: the same whether and how it is written anew,
-/// so that figures without compensation are the same in every run.
+/// so that means without compensation are the same in every run.
 pub(super) struct Programmed {
     longest_mm: f64,
     pub short_mm: f64,
