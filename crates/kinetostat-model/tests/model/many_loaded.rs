@@ -187,6 +187,53 @@ fn every_preset_has_the_same_stability_scalar_and_vectorised() {
     assert_eq!(without, OUT_OF_REACH);
 }
 
+/// Presets with masses along their links, moved as they can be: poses and loads off all axes, to buckling and back.
+#[test]
+fn presets_with_masses_along_their_links_are_solved_together() {
+    let count = 9;
+    for (name, moves) in [
+        ("hexaglide", [1.0; 6]),
+        ("tripteron", [1.0, 1.0, 1.0, 0.0, 0.0, 0.0]),
+        ("prs3", [0.0, 0.0, 1.0, 0.0, 0.0, 0.0]),
+        ("rrr3_planar", [1.0, 1.0, 0.0, 0.0, 0.0, 1.0]),
+    ] {
+        let mechanism = &Model::preset(name).expect("a preset").mechanism;
+        let limbs = mechanism.limbs().iter();
+        assert!(limbs.clone().all(|l| !l.actual.segment_masses().is_empty()));
+        let batch = Batch::new(mechanism);
+        assert_eq!(
+            (batch.engine().reason(), batch.engine_unloaded().reason()),
+            (None, None)
+        );
+        let home = mechanism.platforms()[mechanism.tool()].home;
+        let size = 0.05 * length(mechanism);
+        let unit = |k: usize| if k < 3 { size } else { 0.05 };
+        let twist = |i: usize| Vector6::from_fn(|k, _| moves[k] * unit(k) * irregular(6 * i + k));
+        let poses: Vec<Pose> = (0..count).map(|i| moved(&home, &Twist(twist(i)))).collect();
+        let wrenches = wrenches(count);
+        let all = batch
+            .equilibrium(&poses, &wrenches, kinetostat::batch::Details::Stability)
+            .expect("sizes");
+        let mut worst = <[Worst; 4]>::default();
+        for i in 0..count {
+            assert_eq!(all.status[i], Status::Vectorised, "{name} {i}");
+            let scalar = mechanism.posture(&poses[i]).expect("reachable");
+            let scalar = scalar.deflected_by(&wrenches[i]).expect("an equilibrium");
+            for (w, x) in worst.iter_mut().zip(errors_of(&all, i, &scalar)) {
+                w.add(x);
+            }
+        }
+        let worst = worst.map(|w| w.of_all(count));
+        println!("{name}: apart {worst:?}");
+        let [stiffness, forces, softness, share_to_buckling] = worst;
+        assert!(stiffness < 1e-11 && forces < 1e-9, "{name}: {worst:?}");
+        assert!(
+            softness < 1e-9 && share_to_buckling < 1e-9,
+            "{name}: {worst:?}"
+        );
+    }
+}
+
 #[test]
 fn every_preset_is_compensated_the_same_scalar_and_vectorised() {
     let (count, mut without) = (11, Vec::new());

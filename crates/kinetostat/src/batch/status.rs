@@ -55,9 +55,6 @@ pub enum NoKernel {
     /// A limb has more than six passive joints.
     #[error("'{0}' has more than six passive joints")]
     PassiveJoints(String),
-    /// Links of a limb have a mass along them.
-    #[error("links of '{0}' have a mass along them")]
-    LinksWithMass(String),
     /// A spring is not like those that kernels know.
     #[error("'{limb}': '{spring}' {what}")]
     Spring {

@@ -244,6 +244,7 @@ impl<S: Simd> LoadedLimb<S> {
                 }
             }
         }
+        self.own_weight(spring, &mut torque, moment);
         torque
     }
 

@@ -13,10 +13,11 @@ use pulp::Simd;
 
 use crate::batch::limb::law;
 use crate::batch::limb::loaded::{LoadedLimb, deflection, twist, twists};
+use crate::batch::limb::own_weight::{couples, sum_along};
 use crate::batch::numbers::apart::apart;
 use crate::batch::numbers::lanes::Lanes;
 use crate::batch::numbers::reflection::{reflect, reflection};
-use crate::batch::numbers::vectors::{Vec3, cross, dot, minus};
+use crate::batch::numbers::vectors::{Vec3, constant, cross, dot, minus};
 use crate::batch::numbers::wrenches::{Mat6, inner6, outer};
 use crate::batch::plan::steps::{Law, Plan, Spring, Step, Support};
 
@@ -183,22 +184,40 @@ impl<S: Simd> Shape<S> {
                             continue;
                         }
                         last -= 1;
-                        let own = self.couple(last, last, &loads);
+                        let own = self.couple(last, last, &loads, None);
                         let place = self.motions[last].place;
                         self.add(place, place, own);
                     }
                     Step::Spring(spring) => {
                         let mut end = last;
                         last -= spring.coordinates.iter().flatten().count();
-                        while end > last {
-                            end -= 1;
-                            self.couple(end, last, &loads);
-                        }
                         law -= usize::from(matches!(spring.law, Law::Parallelogram(..)));
                         let first = self.motions[last].place;
                         let root = root(simd, limb, spring, law);
                         let s = twists(simd, plan, limb, spring);
+                        // Axes y and z of the near end, for the weight of a segment.
+                        let axes = [[s[1][0], s[1][1], s[1][2]], [s[2][0], s[2][1], s[2][2]]];
+                        let g = constant(simd, gravity);
+                        while end > last {
+                            end -= 1;
+                            let turning = match &spring.own_weight {
+                                Some(own) => {
+                                    let turns = [root.0[4][end - last], root.0[5][end - last]];
+                                    Some(sum_along(&turns, &couples(own, &axes, &g)))
+                                }
+                                None => None,
+                            };
+                            self.couple(end, last, &loads, turning);
+                        }
                         self.within(spring, first, (&s, &root), &loads);
+                        if let Some(own) = &spring.own_weight {
+                            let c = limb.lean_along(own, &axes);
+                            let turning = cross(&c, &g);
+                            for k in 0..3 {
+                                loads.moment[k] = loads.moment[k] + turning[k];
+                            }
+                            loads.turning(&g, &c);
+                        }
                     }
                     Step::Shift(_) | Step::Rotate(_) => {}
                 }
@@ -206,9 +225,16 @@ impl<S: Simd> Shape<S> {
         })
     }
 
-    /// Couples motion `at` with the first `count` ones; returns `s^T G s` of its own.
+    /// Couples motion `at` with the first `count` ones; returns `s^T G s` of its own. `turning`: moment on what lies
+    /// before the motion that goes with it, besides.
     #[inline(always)]
-    fn couple(&mut self, at: usize, count: usize, loads: &Loads<S>) -> Lanes<S> {
+    fn couple(
+        &mut self,
+        at: usize,
+        count: usize,
+        loads: &Loads<S>,
+        turning: Option<Vec3<S>>,
+    ) -> Lanes<S> {
         let s = self.motions[at].twist;
         let place = self.motions[at].place;
         let turned = outer(&loads.force, &loads.moment, &s);
@@ -220,6 +246,11 @@ impl<S: Simd> Shape<S> {
         for i in 0..6 {
             // s^T A = -(A s)^T.
             row[i] = row[i] - turned[i] * 0.5;
+        }
+        if let Some(turning) = turning {
+            for k in 0..3 {
+                row[3 + k] = row[3 + k] + turning[k];
+            }
         }
         for j in 0..count {
             let other = self.motions[j].place;
@@ -540,15 +571,25 @@ impl<S: Simd> Loads<S> {
         let [x, y, z] = *force;
         let zero = x.same(0.0);
         let hat = [[zero, -z, y], [z, zero, -x], [-y, x, zero]];
-        let along = dot(force, arm);
         for i in 0..3 {
             for j in 0..3 {
                 let half = hat[i][j] * 0.5;
                 self.g[3 + i][j] = self.g[3 + i][j] - half;
                 self.g[j][3 + i] = self.g[j][3 + i] - half;
+            }
+        }
+        self.turning(force, arm);
+    }
+
+    /// Its part of turns: that of a pair of forces with the moment `arm x f`.
+    #[inline(always)]
+    fn turning(&mut self, force: &Vec3<S>, arm: &Vec3<S>) {
+        let along = dot(force, arm);
+        for i in 0..3 {
+            for j in 0..3 {
                 // hat(f) hat(arm) = arm f^T - (f . arm).
                 let both = arm[i].times_plus(force[j], arm[j] * force[i]);
-                self.g[3 + i][3 + j] = both.times_plus(x.same(0.5), self.g[3 + i][3 + j]);
+                self.g[3 + i][3 + j] = both.times_plus(along.same(0.5), self.g[3 + i][3 + j]);
             }
             self.g[3 + i][3 + i] = self.g[3 + i][3 + i] - along;
         }

@@ -24,16 +24,16 @@ use crate::batch::numbers::vectors::{Vec3, cross, dot, minus};
 use crate::batch::numbers::wrenches::{Mat6, dot6, outer, solve_small, weight};
 use crate::batch::plan::steps::{Law, Plan, Spring, Step, Support};
 
-struct Pass<S: Simd> {
+pub(super) struct Pass<S: Simd> {
     /// `[D E; G H]`, column by column.
-    z: [[Lanes<S>; 12]; 12],
+    pub(super) z: [[Lanes<S>; 12]; 12],
     /// Six and the passive joints.
-    width: usize,
+    pub(super) width: usize,
     /// Force and moment beyond, about the tip's place.
-    force: Vec3<S>,
-    moment: Vec3<S>,
-    regular: Lanes<S>,
-    simd: S,
+    pub(super) force: Vec3<S>,
+    pub(super) moment: Vec3<S>,
+    pub(super) regular: Lanes<S>,
+    pub(super) simd: S,
 }
 
 /// Tangent stiffness at the tip, 6 x 6 by rows, and its smallest relative pivot.
@@ -57,10 +57,18 @@ pub(crate) fn stiffness<S: Simd>(
         };
         let mut mass = 0;
         for step in &plan.steps {
-            if let Step::Mass { mass: m, .. } = step {
-                let arm = minus(&limb.masses[mass], &limb.point);
-                pass.load(&weight(simd, gravity, *m), &arm);
-                mass += 1;
+            match step {
+                Step::Mass { mass: m, .. } => {
+                    let arm = minus(&limb.masses[mass], &limb.point);
+                    pass.load(&weight(simd, gravity, *m), &arm);
+                    mass += 1;
+                }
+                Step::Spring(spring) => {
+                    if let Some(own) = &spring.own_weight {
+                        pass.load_of_segment(limb, spring, own, gravity);
+                    }
+                }
+                Step::Joint(_) | Step::Shift(_) | Step::Rotate(_) => {}
             }
         }
         let (mut mass, mut law) = (0, 0);
@@ -93,7 +101,10 @@ pub(crate) fn stiffness<S: Simd>(
                 }
                 Step::Spring(spring) => {
                     let c = compliance(simd, limb, spring, &mut law, &mut pass.regular);
-                    pass.spring(plan, limb, spring, &c);
+                    match &spring.own_weight {
+                        None => pass.spring(plan, limb, spring, &c),
+                        Some(own) => pass.segment(plan, limb, (spring, own), &c, gravity),
+                    }
                 }
                 Step::Shift(_) | Step::Rotate(_) => {}
             }
@@ -153,7 +164,12 @@ impl<S: Simd> Pass<S> {
 
     /// `S^T (y + A t)` for one column: `A` is skew.
     #[inline(always)]
-    fn row(s: &[Lanes<S>; 6], minus: &[Lanes<S>; 6], c: usize, t: &[Lanes<S>; 12]) -> Lanes<S> {
+    pub(super) fn row(
+        s: &[Lanes<S>; 6],
+        minus: &[Lanes<S>; 6],
+        c: usize,
+        t: &[Lanes<S>; 12],
+    ) -> Lanes<S> {
         let turned = dot6(minus, t);
         if c < 6 { s[c] - turned } else { -turned }
     }

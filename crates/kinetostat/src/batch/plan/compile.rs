@@ -3,6 +3,7 @@
 
 use nalgebra::{DMatrix, Matrix3, Rotation3, Vector3};
 
+use crate::batch::plan::segments::{halves_at, own_weight};
 use crate::batch::plan::steps::{
     Amount, Drive, Joint, Law, Plan, Polar, Rows, Screw, Search, Sphere, Spring, Step, Support,
 };
@@ -25,9 +26,6 @@ impl Plan {
             .collect();
         if passive.len() > 6 {
             return Err(NoKernel::PassiveJoints(chain.name().to_owned()));
-        }
-        if !chain.segment_masses().is_empty() {
-            return Err(NoKernel::LinksWithMass(chain.name().to_owned()));
         }
         let mut writer = Writer {
             chain,
@@ -228,6 +226,12 @@ impl Writer<'_> {
                             mass: body.mass,
                         });
                     }
+                    if let Some(mass) = halves_at(chain, *node) {
+                        self.steps.push(Step::Mass {
+                            at: self.pending.1.into(),
+                            mass,
+                        });
+                    }
                 }
                 Element::Motion(motion) => match block_of(chain, motion) {
                     Some(block) if block.len() > 1 => {
@@ -389,6 +393,10 @@ impl Writer<'_> {
         for (i, d) in directions.iter().enumerate() {
             coordinates[*d] = Some(block.first + i);
         }
+        let own_weight = match own_weight(self.chain, block, &coordinates) {
+            Ok(own) => own,
+            Err(what) => return refusal(what),
+        };
         let spread = |m: &DMatrix<f64>| {
             let mut full = Box::new([0.0; 36]);
             for (i, r) in directions.iter().enumerate() {
@@ -405,6 +413,7 @@ impl Writer<'_> {
             compliance: spread(&inverse),
             stiffness: spread(k),
             law,
+            own_weight,
         })
     }
 }

@@ -7,4 +7,5 @@
 //! ```
 
 pub(crate) mod compile;
+pub(crate) mod segments;
 pub(crate) mod steps;

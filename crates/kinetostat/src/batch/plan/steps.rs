@@ -100,6 +100,20 @@ pub(crate) struct Spring {
     /// Its stiffness, row by row.
     pub stiffness: Box<[f64; 36]>,
     pub law: Law,
+    /// Of a segment with a mass along it.
+    pub own_weight: Option<OwnWeight>,
+}
+
+/// What the weight of a mass along a segment does besides that of its halves at the ends, see
+/// [`crate::batch::plan::segments`].
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct OwnWeight {
+    /// Number of the segment in the limb.
+    pub place: usize,
+    /// Coordinates of the turns about y and z.
+    pub turns: [usize; 2],
+    /// A twelfth of mass times length, kg m.
+    pub moment: f64,
 }
 
 /// How a spring of several directions answers.
@@ -188,6 +202,13 @@ impl Plan {
         self.steps.iter().filter(own).count()
     }
 
+    /// Number of segments with a mass along them.
+    pub fn own_weights(&self) -> usize {
+        let own =
+            |step: &&Step| matches!(step, Step::Spring(spring) if spring.own_weight.is_some());
+        self.steps.iter().filter(own).count()
+    }
+
     /// The same joints and springs with other numbers: buffers of one fit the other.
     pub fn is_like(&self, other: &Self) -> bool {
         let kind = std::mem::discriminant::<Support>;
@@ -195,7 +216,9 @@ impl Plan {
         let like = |(a, b): (&Step, &Step)| match (a, b) {
             (Step::Joint(a), Step::Joint(b)) => kind(&a.support) == kind(&b.support),
             (Step::Spring(a), Step::Spring(b)) => {
-                a.coordinates == b.coordinates && law(&a.law) == law(&b.law)
+                a.coordinates == b.coordinates
+                    && law(&a.law) == law(&b.law)
+                    && a.own_weight.is_some() == b.own_weight.is_some()
             }
             (a, b) => std::mem::discriminant(a) == std::mem::discriminant(b),
         };
