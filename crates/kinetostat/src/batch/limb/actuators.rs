@@ -28,7 +28,8 @@ pub(crate) fn forces<S: Simd>(simd: S, plan: &Plan, limb: &LoadedLimb<S>, out: &
                 }
             }
             Step::Spring(spring) => {
-                limb.spring_bears(spring, &mut force, &mut moment);
+                let mut torque = limb.spring_bears(spring, &mut force, &mut moment);
+                limb.own_weight(spring, &mut torque, &mut moment);
             }
         }
     }

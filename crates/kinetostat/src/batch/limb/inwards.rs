@@ -11,6 +11,15 @@ use crate::batch::numbers::wrenches::{back, lever, rotated_back, slid};
 use crate::batch::plan::steps::{Joint, Law, Plan, Spring, Step, Support};
 use crate::spatial::MotionKind;
 
+/// What a pass back has with it at a place.
+#[derive(Clone, Copy)]
+struct Reached<S: Simd> {
+    force: Vec3<S>,
+    moment: Vec3<S>,
+    motion: Motion<S>,
+    tally: Tally<S>,
+}
+
 impl<S: Simd> LoadedLimb<S> {
     /// Torques of the wrench at the tip and of the weights, where the limb lies; then the springs
     /// follow in the lanes where `active` is one.
@@ -71,6 +80,18 @@ impl<S: Simd> LoadedLimb<S> {
                             self.joint_carries(joint, gone, &mut motion);
                         }
                     }
+                    // Apart, on copies: the sweeps of other limbs keep their numbers in registers.
+                    Step::Spring(spring) if spring.own_weight.is_some() => {
+                        let at = Reached {
+                            force,
+                            moment,
+                            motion,
+                            tally,
+                        };
+                        let at = self.segment::<MOVING>(spring, active, at);
+                        (force, moment) = (at.force, at.moment);
+                        (motion, tally) = (at.motion, at.tally);
+                    }
                     Step::Spring(spring) => {
                         if matches!(spring.law, Law::Parallelogram(..)) {
                             law -= 1;
@@ -87,6 +108,26 @@ impl<S: Simd> LoadedLimb<S> {
             self.before = self.tally.change;
             self.tally = tally;
             self.bent = true;
+        })
+    }
+
+    /// Goes along the spring of a segment with a mass along it.
+    #[inline(always)]
+    fn segment<const MOVING: bool>(
+        &mut self,
+        spring: &Spring,
+        active: Lanes<S>,
+        mut at: Reached<S>,
+    ) -> Reached<S> {
+        apart!(self.simd, {
+            let mut torque = self.spring_bears(spring, &mut at.force, &mut at.moment);
+            self.own_weight(spring, &mut torque, &mut at.moment);
+            // Segments have no laws by posture.
+            let gone = self.spring_follows(spring, 0, torque, active, &mut at.tally);
+            if MOVING {
+                self.spring_carries(spring, &gone, &mut at.motion);
+            }
+            at
         })
     }
 
@@ -244,7 +285,6 @@ impl<S: Simd> LoadedLimb<S> {
                 }
             }
         }
-        self.own_weight(spring, &mut torque, moment);
         torque
     }
 

@@ -89,8 +89,6 @@ pub(crate) struct LoadedLimb<S: Simd> {
     pub moved: Vec<[Lanes<S>; 2]>,
     /// Gravity at every mass, m/s^2, axes of the frame there.
     pub gravity: Vec<Vec3<S>>,
-    /// The same at the near end of every segment with a mass along it.
-    pub bending: Vec<Vec3<S>>,
     /// Of the springs that depend on the commanded posture, in the order of the steps.
     pub laws: Vec<Symmetric<S>>,
     /// Springs are deflected. The first pass finds them as they are drawn.
@@ -144,7 +142,6 @@ impl<S: Simd> LoadedLimb<S> {
             places: vec![place; plan.screws.len()],
             gravity: masses.clone(),
             masses,
-            bending: vec![[zero; 3]; plan.own_weights()],
             rotation: identity(simd),
             point: [zero; 3],
             moved: vec![[zero; 2]; plan.screws.len()],

@@ -192,7 +192,8 @@ impl<S: Simd> Newton<S> {
                         }
                     }
                     Step::Spring(spring) => {
-                        let torque = limb.spring_bears(spring, &mut force, &mut moment);
+                        let mut torque = limb.spring_bears(spring, &mut force, &mut moment);
+                        limb.own_weight(spring, &mut torque, &mut moment);
                         let mut x = [torque[0].same(0.0); 6];
                         for d in 0..6 {
                             if let Some(own) = spring.coordinates[d] {

@@ -3,11 +3,12 @@
 use pulp::Simd;
 
 use crate::batch::limb::loaded::LoadedLimb;
-use crate::batch::limb::own_weight::{couples, leans};
+use crate::batch::limb::own_weight::couples;
+use crate::batch::numbers::apart::apart;
 use crate::batch::numbers::lanes::Lanes;
 use crate::batch::numbers::vectors::{Vec3, cross, dot};
 use crate::batch::numbers::wrenches::{Mat6, back, lever, shift, slid, turn};
-use crate::batch::plan::steps::{Joint, Spring, Support};
+use crate::batch::plan::steps::{Joint, OwnWeight, Spring, Support};
 use crate::spatial::MotionKind;
 
 /// A spring of several directions, eliminated: names as above.
@@ -130,9 +131,7 @@ impl<S: Simd> Stage<S> {
         }
         self.assemble(spring, force, moment, p);
         if let Some(own) = &spring.own_weight {
-            let (zero, one) = (self.slid[0].same(0.0), self.slid[0].same(1.0));
-            let axes = [[zero, one, zero], [zero, zero, one]];
-            self.bends(&couples(own, &axes, &limb.bending[own.place]));
+            self.bends(own, &limb.gravity[own.near]);
         }
         self.factor(spring, stable);
         for r in 0..6 {
@@ -149,25 +148,24 @@ impl<S: Simd> Stage<S> {
             }
         }
         if let Some(own) = &spring.own_weight {
-            let (c, g) = (limb.lean(own), limb.bending[own.place]);
-            let turning = cross(&c, &g);
-            for k in 0..3 {
-                moment[k] = moment[k] + turning[k];
-            }
-            leans(&c, &g, p);
+            *moment = limb.leans(own, *moment, p);
         }
     }
 
     /// The weight of the segment turns with its near end, and bears on it by its bending.
     #[inline(always)]
-    fn bends(&mut self, couples: &[Vec3<S>; 2]) {
-        for d in 0..2 {
-            for k in 0..3 {
-                let x = couples[d][k];
-                self.passed_on[3 + k][4 + d] = self.passed_on[3 + k][4 + d] + x;
-                self.follows[4 + d][3 + k] = self.follows[4 + d][3 + k] + x;
+    fn bends(&mut self, own: &OwnWeight, gravity: &Vec3<S>) {
+        apart!(gravity[0].simd(), {
+            let (zero, one) = (gravity[0].same(0.0), gravity[0].same(1.0));
+            let couples = couples(own, &[[zero, one, zero], [zero, zero, one]], gravity);
+            for d in 0..2 {
+                for k in 0..3 {
+                    let x = couples[d][k];
+                    self.passed_on[3 + k][4 + d] = self.passed_on[3 + k][4 + d] + x;
+                    self.follows[4 + d][3 + k] = self.follows[4 + d][3 + k] + x;
+                }
             }
-        }
+        });
     }
 
     /// Takes displacements, sines and cosines of the spring from its limb; coordinates that it does not have are zero.

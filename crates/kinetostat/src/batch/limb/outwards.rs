@@ -4,7 +4,6 @@ use pulp::Simd;
 
 use crate::batch::limb::loaded::LoadedLimb;
 use crate::batch::limb::motion_axis::{MotionAxis, amount};
-use crate::batch::limb::own_weight::seen_from;
 use crate::batch::numbers::apart::apart;
 use crate::batch::numbers::lanes::Lanes;
 use crate::batch::numbers::vectors::{
@@ -91,21 +90,25 @@ impl<S: Simd> LoadedLimb<S> {
                             }
                         }
                     }
-                    Step::Spring(spring) => {
-                        if let Some(own) = &spring.own_weight {
-                            self.bending[own.place] = seen_from(&r, gravity);
-                        }
-                        if !self.bent && !PLACES {
-                            continue;
-                        }
+                    Step::Spring(spring) if self.bent || PLACES => {
                         if FOLLOWS {
                             self.spring_goes_along(spring, law, &r, &p);
                             law += usize::from(matches!(spring.law, Law::Parallelogram(..)));
                         }
                         self.spring::<PLACES>(spring, &mut r, &mut p);
                     }
+                    Step::Spring(_) => {}
                     Step::Mass { at, .. } => {
-                        self.gravity[mass] = seen_from(&r, gravity);
+                        let mut own = [Lanes::new(simd, 0.0); 3];
+                        for k in 0..3 {
+                            if gravity[k] != 0.0 {
+                                let g = Lanes::new(simd, gravity[k]);
+                                for i in 0..3 {
+                                    own[i] = r[3 * k + i].times_plus(g, own[i]);
+                                }
+                            }
+                        }
+                        self.gravity[mass] = own;
                         if PLACES {
                             self.masses[mass] = carried(&r, &constant(simd, at), &p);
                         }

@@ -13,25 +13,11 @@
 use pulp::Simd;
 
 use crate::batch::limb::loaded::LoadedLimb;
+use crate::batch::numbers::apart::apart;
 use crate::batch::numbers::lanes::Lanes;
-use crate::batch::numbers::vectors::{Mat3, Vec3, cross};
+use crate::batch::numbers::vectors::{Vec3, cross};
 use crate::batch::numbers::wrenches::Mat6;
 use crate::batch::plan::steps::{OwnWeight, Spring};
-
-/// A constant vector of the base in the axes of a frame.
-#[inline(always)]
-pub(crate) fn seen_from<S: Simd>(r: &Mat3<S>, v: &[f64; 3]) -> Vec3<S> {
-    let mut own = [r[0].same(0.0); 3];
-    for k in 0..3 {
-        if v[k] != 0.0 {
-            let along = r[0].same(v[k]);
-            for i in 0..3 {
-                own[i] = r[3 * k + i].times_plus(along, own[i]);
-            }
-        }
-    }
-    own
-}
 
 /// `C_d x g` of `ry` and `rz`, from the axes `y` and `z` of the near end.
 #[inline(always)]
@@ -59,20 +45,6 @@ pub(crate) fn sum_along<S: Simd>([a, b]: &[Lanes<S>; 2], [u, v]: &[Vec3<S>; 2]) 
     sum
 }
 
-/// `d(c x g) = c x (g x w)` in the axes of the near end.
-#[inline(always)]
-pub(crate) fn leans<S: Simd>(c: &Vec3<S>, gravity: &Vec3<S>, p: &mut Mat6<S>) {
-    let (zero, one) = (c[0].same(0.0), c[0].same(1.0));
-    for k in 0..3 {
-        let mut w = [zero; 3];
-        w[k] = one;
-        let moment = cross(c, &cross(gravity, &w));
-        for r in 0..3 {
-            p[3 + r][3 + k] = p[3 + r][3 + k] + moment[r];
-        }
-    }
-}
-
 impl<S: Simd> LoadedLimb<S> {
     /// `c`, near axes.
     #[inline(always)]
@@ -89,18 +61,51 @@ impl<S: Simd> LoadedLimb<S> {
         sum_along(&[y, z], axes)
     }
 
-    /// Adds what the spring of a segment bears of it, and what goes on to its near end.
+    /// Adds what the spring of a segment bears of it, and what goes on to its near end. Apart, and on copies: few limbs have
+    /// such segments, and the sweeps of the others keep their numbers in registers.
     #[inline(always)]
     pub fn own_weight(&self, spring: &Spring, torque: &mut [Lanes<S>; 6], moment: &mut Vec3<S>) {
-        let Some(own) = &spring.own_weight else {
-            return;
-        };
-        let g = &self.bending[own.place];
-        torque[4] = g[2].times_plus(g[2].same(own.moment), torque[4]);
-        torque[5] = g[1].times_from(g[1].same(own.moment), torque[5]);
-        let turning = cross(&self.lean(own), g);
-        for k in 0..3 {
-            moment[k] = moment[k] + turning[k];
+        if let Some(own) = &spring.own_weight {
+            (*torque, *moment) = self.with_own_weight(own, *torque, *moment);
         }
+    }
+
+    #[inline(always)]
+    fn with_own_weight(
+        &self,
+        own: &OwnWeight,
+        mut torque: [Lanes<S>; 6],
+        mut moment: Vec3<S>,
+    ) -> ([Lanes<S>; 6], Vec3<S>) {
+        apart!(self.simd, {
+            let g = &self.gravity[own.near];
+            torque[4] = g[2].times_plus(g[2].same(own.moment), torque[4]);
+            torque[5] = g[1].times_from(g[1].same(own.moment), torque[5]);
+            let turning = cross(&self.lean(own), g);
+            for k in 0..3 {
+                moment[k] = moment[k] + turning[k];
+            }
+            (torque, moment)
+        })
+    }
+
+    /// Adds how the moment on the near end goes by its turn to `P` ([`crate::batch::limb::newton`]), near axes; the
+    /// moment with it.
+    #[inline(always)]
+    pub fn leans(&self, own: &OwnWeight, mut moment: Vec3<S>, p: &mut Mat6<S>) -> Vec3<S> {
+        apart!(self.simd, {
+            let (c, g) = (self.lean(own), self.gravity[own.near]);
+            let turning = cross(&c, &g);
+            for k in 0..3 {
+                moment[k] = moment[k] + turning[k];
+                let mut w = [g[0].same(0.0); 3];
+                w[k] = g[0].same(1.0);
+                let turned = cross(&c, &cross(&g, &w));
+                for r in 0..3 {
+                    p[3 + r][3 + k] = p[3 + r][3 + k] + turned[r];
+                }
+            }
+            moment
+        })
     }
 }

@@ -184,39 +184,27 @@ impl<S: Simd> Shape<S> {
                             continue;
                         }
                         last -= 1;
-                        let own = self.couple(last, last, &loads, None);
+                        let own = self.couple(last, last, &loads);
                         let place = self.motions[last].place;
                         self.add(place, place, own);
                     }
                     Step::Spring(spring) => {
                         let mut end = last;
                         last -= spring.coordinates.iter().flatten().count();
+                        while end > last {
+                            end -= 1;
+                            self.couple(end, last, &loads);
+                        }
                         law -= usize::from(matches!(spring.law, Law::Parallelogram(..)));
                         let first = self.motions[last].place;
                         let root = root(simd, limb, spring, law);
                         let s = twists(simd, plan, limb, spring);
-                        // Axes y and z of the near end, for the weight of a segment.
-                        let axes = [[s[1][0], s[1][1], s[1][2]], [s[2][0], s[2][1], s[2][2]]];
-                        let g = constant(simd, gravity);
-                        while end > last {
-                            end -= 1;
-                            let turning = match &spring.own_weight {
-                                Some(own) => {
-                                    let turns = [root.0[4][end - last], root.0[5][end - last]];
-                                    Some(sum_along(&turns, &couples(own, &axes, &g)))
-                                }
-                                None => None,
-                            };
-                            self.couple(end, last, &loads, turning);
-                        }
                         self.within(spring, first, (&s, &root), &loads);
                         if let Some(own) = &spring.own_weight {
-                            let c = limb.lean_along(own, &axes);
-                            let turning = cross(&c, &g);
-                            for k in 0..3 {
-                                loads.moment[k] = loads.moment[k] + turning[k];
-                            }
-                            loads.turning(&g, &c);
+                            let axes = [[s[1][0], s[1][1], s[1][2]], [s[2][0], s[2][1], s[2][2]]];
+                            let g = constant(simd, gravity);
+                            self.couple_own_weight(last, &couples(own, &axes, &g), &root.0);
+                            loads.own_weight(&limb.lean_along(own, &axes), &g);
                         }
                     }
                     Step::Shift(_) | Step::Rotate(_) => {}
@@ -225,16 +213,31 @@ impl<S: Simd> Shape<S> {
         })
     }
 
-    /// Couples motion `at` with the first `count` ones; returns `s^T G s` of its own. `turning`: moment on what lies
-    /// before the motion that goes with it, besides.
+    /// Couples the six motions of a spring from `at` on with those before it by the weight of its segment: `couples` are its
+    /// moments on the near end by the two turns.
     #[inline(always)]
-    fn couple(
-        &mut self,
-        at: usize,
-        count: usize,
-        loads: &Loads<S>,
-        turning: Option<Vec3<S>>,
-    ) -> Lanes<S> {
+    fn couple_own_weight(&mut self, at: usize, couples: &[Vec3<S>; 2], root: &Mat6<S>) {
+        apart!(self.simd, {
+            for k in 0..6 {
+                let turning = sum_along(&[root[4][k], root[5][k]], couples);
+                let place = self.motions[at + k].place;
+                for j in 0..at {
+                    let Motion {
+                        place: other,
+                        twist,
+                    } = &self.motions[j];
+                    let (other, turn) = (*other, [twist[3], twist[4], twist[5]]);
+                    let value = dot(&turning, &turn);
+                    self.add(place, other, value);
+                    self.add(other, place, value);
+                }
+            }
+        });
+    }
+
+    /// Couples motion `at` with the first `count` ones; returns `s^T G s` of its own.
+    #[inline(always)]
+    fn couple(&mut self, at: usize, count: usize, loads: &Loads<S>) -> Lanes<S> {
         let s = self.motions[at].twist;
         let place = self.motions[at].place;
         let turned = outer(&loads.force, &loads.moment, &s);
@@ -246,11 +249,6 @@ impl<S: Simd> Shape<S> {
         for i in 0..6 {
             // s^T A = -(A s)^T.
             row[i] = row[i] - turned[i] * 0.5;
-        }
-        if let Some(turning) = turning {
-            for k in 0..3 {
-                row[3 + k] = row[3 + k] + turning[k];
-            }
         }
         for j in 0..count {
             let other = self.motions[j].place;
@@ -579,6 +577,16 @@ impl<S: Simd> Loads<S> {
             }
         }
         self.turning(force, arm);
+    }
+
+    /// Adds what the weight of a segment does besides that of its halves: the moment `c x g` turns with the near end.
+    #[inline(always)]
+    fn own_weight(&mut self, c: &Vec3<S>, gravity: &Vec3<S>) {
+        let turning = cross(c, gravity);
+        for k in 0..3 {
+            self.moment[k] = self.moment[k] + turning[k];
+        }
+        self.turning(gravity, c);
     }
 
     /// Its part of turns: that of a pair of forces with the moment `arm x f`.

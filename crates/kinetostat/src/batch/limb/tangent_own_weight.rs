@@ -112,11 +112,13 @@ impl<S: Simd> Pass<S> {
         own: &OwnWeight,
         gravity: &[f64; 3],
     ) {
-        let g = constant(self.simd, gravity);
-        let moment = Bends::new(limb, spring, own, &g).moment();
-        for k in 0..3 {
-            self.moment[k] = self.moment[k] + moment[k];
-        }
+        apart!(self.simd, {
+            let g = constant(self.simd, gravity);
+            let moment = Bends::new(limb, spring, own, &g).moment();
+            for k in 0..3 {
+                self.moment[k] = self.moment[k] + moment[k];
+            }
+        });
     }
 
     /// A segment with a mass along it, its spring of compliance `c`.

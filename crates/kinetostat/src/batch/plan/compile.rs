@@ -3,7 +3,7 @@
 
 use nalgebra::{DMatrix, Matrix3, Rotation3, Vector3};
 
-use crate::batch::plan::segments::{halves_at, own_weight};
+use crate::batch::plan::segments::{begins_at, halves_at, own_weight};
 use crate::batch::plan::steps::{
     Amount, Drive, Joint, Law, Plan, Polar, Rows, Screw, Search, Sphere, Spring, Step, Support,
 };
@@ -227,6 +227,10 @@ impl Writer<'_> {
                         });
                     }
                     if let Some(mass) = halves_at(chain, *node) {
+                        if begins_at(chain, *node) {
+                            // In the axes of the segment.
+                            self.flush();
+                        }
                         self.steps.push(Step::Mass {
                             at: self.pending.1.into(),
                             mass,
@@ -393,7 +397,9 @@ impl Writer<'_> {
         for (i, d) in directions.iter().enumerate() {
             coordinates[*d] = Some(block.first + i);
         }
-        let own_weight = match own_weight(self.chain, block, &coordinates) {
+        let masses = self.steps.iter();
+        let masses = masses.filter(|s| matches!(s, Step::Mass { .. }));
+        let own_weight = match own_weight(self.chain, block, &coordinates, masses.count()) {
             Ok(own) => own,
             Err(what) => return refusal(what),
         };

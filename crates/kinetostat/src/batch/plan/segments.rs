@@ -24,23 +24,32 @@ pub(super) fn halves_at(chain: &Chain, node: usize) -> Option<f64> {
     own.map(|s| 0.5 * s.total()).reduce(|a, b| a + b)
 }
 
-/// What the weight of the segment that a spring bends does with these coordinates in the six directions; nothing of a spring
-/// without a mass along it.
+/// A segment with a mass along it begins at a node.
+pub(super) fn begins_at(chain: &Chain, node: usize) -> bool {
+    chain.segment_masses().iter().any(|s| s.near == node)
+}
+
+/// What the weight of the segment that a spring bends does with these coordinates in the six directions, behind so many
+/// masses; nothing of a spring without a mass along it.
 pub(super) fn own_weight(
     chain: &Chain,
     block: &SpringBlock,
     coordinates: &[Option<usize>; 6],
+    masses: usize,
 ) -> Result<Option<OwnWeight>, &'static str> {
-    let mut segments = chain.segment_masses().iter().enumerate();
-    let own = segments.find(|(_, s)| chain.springs()[s.spring].first == block.first);
-    let Some((place, segment)) = own else {
+    let mut segments = chain.segment_masses().iter();
+    let Some(segment) = segments.find(|s| chain.springs()[s.spring].first == block.first) else {
         return Ok(None);
+    };
+    // The last one is at the node before the spring.
+    let Some(near) = masses.checked_sub(1) else {
+        return Err("has a mass along it and no node before it");
     };
     let [_, _, _, _, Some(ry), Some(rz)] = *coordinates else {
         return Err("has a mass along it and does not bend both ways");
     };
     Ok(Some(OwnWeight {
-        place,
+        near,
         turns: [ry, rz],
         moment: segment.total() * segment.length / 12.0,
     }))

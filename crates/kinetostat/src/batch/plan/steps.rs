@@ -108,8 +108,8 @@ pub(crate) struct Spring {
 /// [`crate::batch::plan::segments`].
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct OwnWeight {
-    /// Number of the segment in the limb.
-    pub place: usize,
+    /// Of the half of the mass at the near end, among the masses of the limb.
+    pub near: usize,
     /// Coordinates of the turns about y and z.
     pub turns: [usize; 2],
     /// A twelfth of mass times length, kg m.
@@ -199,13 +199,6 @@ impl Plan {
             Step::Spring(spring) => matches!(spring.law, Law::Parallelogram(..)),
             _ => false,
         };
-        self.steps.iter().filter(own).count()
-    }
-
-    /// Number of segments with a mass along them.
-    pub fn own_weights(&self) -> usize {
-        let own =
-            |step: &&Step| matches!(step, Step::Spring(spring) if spring.own_weight.is_some());
         self.steps.iter().filter(own).count()
     }
 
