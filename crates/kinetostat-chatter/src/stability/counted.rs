@@ -1,7 +1,7 @@
 //! Stability at a speed with the modes that count there.
 
 use crate::cut::{checked_depth, checked_speed};
-use crate::error::Result;
+use crate::error::{ChatterError, ChatterErrorKind, Result};
 use crate::stability::cutting::resolved_hz;
 use crate::stability::regeneration::{Regeneration, Selected};
 use crate::stability::scan::SpeedStability;
@@ -56,6 +56,19 @@ impl Regeneration {
             if let Some(more) = selection.modes[count..resolved].iter().rposition(could) {
                 count += more + 1;
                 continue;
+            }
+            let unseen = selection.modes[count..].iter().find(|mode| could(mode));
+            if let (true, Some(mode)) = (selection.automatic, unseen) {
+                return Err(ChatterError::new(
+                    ChatterErrorKind::NotConverged,
+                    format!("limit at {speed_rpm} rpm up to {:.4} mm", 1e3 * up_to),
+                    format!(
+                        "the mode at {:.2} Hz vibrates too often while a tooth is in the cut to be followed, and could chatter by itself from {:.4} mm on",
+                        mode.of.frequency_hz,
+                        1e3 * mode.alone
+                    ),
+                    "a higher speed, a smaller depth, or modes up to a frequency of your own: faster ones are springs then",
+                ));
             }
             let left = selection.modes[count..].iter();
             let left = left.filter(|mode| mode.counts() || could(mode));

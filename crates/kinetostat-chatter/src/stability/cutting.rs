@@ -22,15 +22,15 @@ const MOST_POINTS: f64 = 400.0;
 /// More points by which an answer is checked.
 const CHECKED: f64 = 4.0 / 3.0;
 
-/// How often a mode may vibrate on a stretch with the points of a check.
-fn most_cycles() -> f64 {
-    (MOST_POINTS / CHECKED - LEAST_POINTS) / POINTS_PER_CYCLE
+/// How often a mode may vibrate on a stretch with so many times the usual points.
+fn most_cycles(fineness: f64) -> f64 {
+    (MOST_POINTS / fineness - LEAST_POINTS) / POINTS_PER_CYCLE
 }
 
 /// Frequency of the fastest mode, Hz, that the stretches of a cut resolve at a speed for all depths up to one, m.
 pub(crate) fn resolved_hz(cut: &Cut, speed_rpm: f64, up_to: f64) -> f64 {
     let turn = cut.longest(up_to);
-    let cycles = most_cycles() - turn / TAU;
+    let cycles = most_cycles(CHECKED) - turn / TAU;
     cycles * (TAU * speed_rpm / 60.0) / turn
 }
 
@@ -113,14 +113,18 @@ fn points(states: &[State], duration: f64, turn: f64, fineness: f64) -> Result<u
     match wanted <= MOST_POINTS {
         true => Ok(wanted.ceil() as usize),
         false => Err(ChatterError::new(
-            ChatterErrorKind::Setting,
+            // With the points of a check it is one speed that has no answer, and not a question without sense.
+            match fineness > CHECKED {
+                true => ChatterErrorKind::NotConverged,
+                false => ChatterErrorKind::Setting,
+            },
             "mode against spindle speed",
             format!(
                 "a mode at {fastest:.0} Hz vibrates {cycles:.0} times while a tooth is in the cut"
             ),
             format!(
-                "at most about {:.0} times: take faster modes as springs (modes up to a lower frequency), or a higher speed",
-                most_cycles()
+                "at most about {:.0} times with as many points as the limit wants: take faster modes as springs (modes up to a lower frequency), or a higher speed",
+                most_cycles(larger(fineness, CHECKED))
             ),
         )),
     }

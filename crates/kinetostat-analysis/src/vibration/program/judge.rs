@@ -145,7 +145,15 @@ impl Limit {
         };
         for share in DEPTHS.into_iter().filter(|share| *share <= deepest) {
             found.looked_up_to = share * depth;
-            let stability = regeneration.stability_at(rpm, found.looked_up_to)?;
+            let stability = match regeneration.stability_at(rpm, found.looked_up_to) {
+                Ok(stability) => stability,
+                // What is beyond the depth of the program need not be known.
+                Err(error) if share <= 1.0 => return Err(error),
+                Err(_) => {
+                    found.looked_up_to = depth;
+                    break;
+                }
+            };
             found.limit = stability.limit().copied();
             found.modes_up_to_hz = stability.modes_up_to_hz;
             found.left_out = stability.left_out;

@@ -10,8 +10,9 @@ use crate::vibration::program::question::{ChatterQuestion, ProgramChatterError};
 /// Spindle speeds that are tried, by that of the program: from, to, and how many. The first and the last are tried for those
 /// beside them.
 const SPEEDS: (f64, f64, usize) = (0.45, 1.55, 23);
-/// Places of a stretch at which a speed is tried.
+/// Places of a stretch at which a speed is tried, and how many more of its lines that do not chatter as programmed.
 const TRIED: usize = 6;
+const TRIED_BESIDE: usize = 3;
 /// Change of a feed, share of it, up to which it is one.
 const SAME_FEED: f64 = 2e-3;
 /// Stretches for which other speeds are looked for; the worst ones.
@@ -111,7 +112,15 @@ pub(crate) fn stretches(
             return Err(ProgramChatterError::Cancelled);
         }
         let (stretch, sites) = &mut all[i];
-        stretch.stable_speed = stable_speed(question, load, stretch.rpm, sites)?;
+        // At another speed other places of the same lines may chatter.
+        let [first, last] = stretch.lines;
+        let is_beside = |site: &&JudgedSite| {
+            site.verdict == Verdict::Stable
+                && (first..=last).contains(&site.site.line)
+                && site.site.station.rpm == stretch.rpm
+        };
+        let beside: Vec<&JudgedSite> = judged.iter().filter(is_beside).collect();
+        stretch.stable_speed = stable_speed(question, load, stretch.rpm, (sites, &beside))?;
         stretch.speeds_tried = true;
         watch.advance(done + 1);
     }
@@ -124,7 +133,7 @@ fn stable_speed(
     question: &ChatterQuestion<'_>,
     load: &LoadAlongPath<'_>,
     rpm: f64,
-    sites: &[&JudgedSite],
+    (sites, beside): (&[&JudgedSite], &[&JudgedSite]),
 ) -> Result<Option<StableSpeed>, ProgramChatterError> {
     let (from, to, count) = SPEEDS;
     let speeds: Vec<f64> = (0..count)
@@ -134,6 +143,10 @@ fn stable_speed(
     let step = sites.len().div_ceil(TRIED);
     // The last place, too: the machine stands otherwise there.
     let tried = sites.iter().step_by(step).chain(sites.last());
+    let step_beside = beside.len().div_ceil(TRIED_BESIDE).max(1);
+    let tried = tried
+        .chain(beside.iter().step_by(step_beside))
+        .chain(beside.last());
     let mut cuts = Vec::new();
     for judged in tried {
         let Ok(SiteCut { regeneration, .. }) = question.site_cut(load, &judged.site)? else {

@@ -47,7 +47,7 @@ impl<S: Simd> Bends<S> {
 
     /// Moment on the near end.
     #[inline(always)]
-    fn moment(&self) -> Vec3<S> {
+    fn moment_on_near_end(&self) -> Vec3<S> {
         cross(&self.lean, &self.gravity)
     }
 
@@ -114,7 +114,7 @@ impl<S: Simd> Pass<S> {
     ) {
         apart!(self.simd, {
             let g = constant(self.simd, gravity);
-            let moment = Bends::new(limb, spring, own, &g).moment();
+            let moment = Bends::new(limb, spring, own, &g).moment_on_near_end();
             for k in 0..3 {
                 self.moment[k] = self.moment[k] + moment[k];
             }
@@ -134,7 +134,7 @@ impl<S: Simd> Pass<S> {
         apart!(self.simd, {
             let (zero, one) = (Lanes::new(self.simd, 0.0), Lanes::new(self.simd, 1.0));
             let bends = Bends::new(limb, spring, own, &constant(self.simd, gravity));
-            let moment = bends.moment();
+            let moment = bends.moment_on_near_end();
             for k in 0..3 {
                 self.moment[k] = self.moment[k] - moment[k];
             }
