@@ -1,6 +1,6 @@
 //! Which modes swing: those that count must, whatever the band of the rest.
 
-use kinetostat_chatter::{Mode, Swinging, ToolResponse};
+use kinetostat_chatter::{ChatterErrorKind, LobeRequest, Mode, Swinging, ToolResponse};
 use nalgebra::Vector3;
 
 use crate::support::{X, Y, aluminium, arc, cut, regeneration};
@@ -89,7 +89,8 @@ fn a_mode_that_could_chatter_by_itself_counts_whatever_its_share() {
     assert!(automatic.modes_up_to_hz > 1200.0 && automatic.left_out.is_none());
 }
 
-/// At 200 turns a minute a mode at 700 Hz vibrates 105 times while a tooth cuts, which is not followed: the rest is answered, and the mode is told.
+/// At 200 turns a minute a mode at 700 Hz vibrates 105 times while a tooth cuts, which is not followed: where it could chatter
+/// by itself nothing is said (it was "stable", or the limit of the arm), and at smaller depths the mode is named.
 #[test]
 fn a_mode_too_fast_for_the_speed_is_left_out_and_told() {
     let all = regeneration(
@@ -101,15 +102,28 @@ fn a_mode_too_fast_for_the_speed_is_left_out_and_told() {
         error.to_string().contains("while a tooth is in the cut"),
         "{error}"
     );
-    let found = all.clone().with_swinging(Swinging::AtLeastTo(0.0));
-    let found = found.stability_at(200.0, 5e-3).unwrap();
+    let automatic = all.clone().with_swinging(Swinging::AtLeastTo(0.0));
+    let error = automatic.stability_at(200.0, 5e-3).unwrap_err();
+    assert_eq!(error.kind, ChatterErrorKind::NotConverged);
+    assert!(
+        error.to_string().contains("could chatter by itself from"),
+        "{error}"
+    );
+    // Of a diagram the other speeds are answered.
+    let lobes = automatic.lobes(&LobeRequest::new(200.0, 400.0, 2, 5e-3));
+    let lobes = lobes.unwrap();
+    assert_eq!((lobes.points.len(), lobes.without_answer.len()), (1, 1));
+    assert_eq!(lobes.without_answer[0].0, 200.0);
+    assert_eq!(lobes.best().map(|best| best.0), Some(400.0));
+    // No mode chatters by itself at a hundredth of a millimetre.
+    let found = automatic.stability_at(200.0, 1e-5).unwrap();
     assert_eq!(found.modes_up_to_hz, 150.0);
     assert!(
         found
             .left_out
             .is_some_and(|left_out| left_out.frequency_hz > 690.0)
     );
-    assert!(found.limit().is_some());
+    assert!(found.limit().is_none());
     // A little faster it is followed.
     let faster = all
         .with_swinging(Swinging::AtLeastTo(0.0))

@@ -12,6 +12,7 @@ use serde::Serialize;
 
 use crate::files::input_files::InputFiles;
 use crate::frf::arguments::FrfArgs;
+use crate::frf::one_force::of_one_force;
 use crate::place::query::PlaceQuery;
 use crate::ui::failure::{Answer, Failure};
 use crate::vibration::damping_numbers::{DampingNumber, is_of_damping, named, with};
@@ -84,7 +85,8 @@ pub(crate) fn answer(
     responses: &[MeasuredResponse],
 ) -> Answer<FitAnswer> {
     let band = (args.frequencies[0], args.frequencies[1]);
-    let measured = MeasuredModes::fitted(responses, modes, band).map_err(of_measurement)?;
+    let (own, others) = of_one_force(responses, &args.from);
+    let measured = MeasuredModes::fitted(&own, modes, band).map_err(of_measurement)?;
     let ratios = match damping {
         Damping::Undamped => None,
         law => {
@@ -134,6 +136,7 @@ pub(crate) fn answer(
     }
     let mut doubts: Vec<String> = against.into_iter().collect();
     doubts.extend(odd_amplitude(&all, doubts.is_empty()));
+    doubts.extend(others);
     Ok(FitAnswer {
         doubts,
         curves: measured.curves.clone(),

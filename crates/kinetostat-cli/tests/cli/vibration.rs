@@ -700,3 +700,28 @@ fn one_speed_and_one_frequency() {
         assert_eq!(said(here.path(), &line).code, 1, "{line}");
     }
 }
+
+/// Three taps of a hammer: the curves by the force that is asked for are fitted, and the others are named. They were passed over
+/// without a word, whatever `--from` said.
+#[test]
+fn curves_by_other_forces_are_named() {
+    let here = arm6();
+    let here = here.path();
+    let place = "frf arm6.toml --damping 0.02 --frequencies 5 40 900";
+    said(here, &format!("{place} --from x,y --to x,y --csv own.csv")).answered();
+    let fitted = |force: &str| {
+        let line = format!("{place} --measured own.csv --fit 2 --from {force} --json");
+        json(&said(here, &line).answered())
+    };
+    for force in ["x", "y"] {
+        let answer = fitted(force);
+        let curves = answer["fit"]["curves"].as_array().expect("curves");
+        assert_eq!(curves.len(), 2, "{answer}");
+        for curve in curves {
+            let name = curve.as_str().expect("a name");
+            assert!(name.ends_with(&format!("_by_{force}")), "{force}: {name}");
+        }
+        let warnings = answer["warnings"].to_string();
+        assert!(warnings.contains("2 of 4 measured curves"), "{warnings}");
+    }
+}
