@@ -147,8 +147,9 @@ fn refuse_nowhere(placed: &Placed, space: &Space) -> Answer<()> {
 /// Options of other commands along a program that mean nothing here.
 fn refuse_what_says_nothing(given: &ProgramArgs) -> Answer<()> {
     let turn = &given.turn;
-    let what = if given.report.is_some() || given.points.is_some() || given.vtk.is_some() {
-        "--report, --points and --vtk: give them to `kinetostat deflect` with the best placement"
+    let writes = [&given.report, &given.pdf, &given.points, &given.vtk];
+    let what = if writes.iter().any(|path| path.is_some()) {
+        "--report, --pdf, --points and --vtk: give them to `kinetostat deflect` with the best placement"
     } else if turn.free_turn || turn.stiff_turn || turn.turn_plot.is_some() {
         "--free-turn, --stiff-turn and --turn-plot: it turns the tool by --turn-tool-deg, the same along the whole program"
     } else if given.uncertain.uncertain.is_some() || given.uncertain.machines.is_some() {

@@ -22,6 +22,7 @@
 mod candidates;
 mod closest;
 mod everywhere;
+mod extent;
 mod free;
 mod horn;
 mod motion;

@@ -5,6 +5,7 @@ use crate::points::{MeasuredPoint, MeasuredPoints};
 use crate::registration::candidates::{Candidate, ToldBy, chosen};
 use crate::registration::closest::{Closest, Counting};
 use crate::registration::everywhere::everywhere;
+use crate::registration::extent::of_the_same_size;
 use crate::registration::horn::{Pair, closest_motion};
 use crate::registration::motion::{FreeMotion, Motion};
 use crate::registration::starts::starts;
@@ -109,6 +110,7 @@ pub fn register(
     points: &MeasuredPoints,
     options: RegistrationOptions,
 ) -> Result<Registration, MirrorError> {
+    of_the_same_size(nominal, points)?;
     let points = points.points();
     are_different(points)?;
     let judged = some_of(points, JUDGED);

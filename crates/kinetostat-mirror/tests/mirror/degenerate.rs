@@ -181,3 +181,19 @@ fn one_or_two_places_are_no_measurement_to_register() {
         }
     }
 }
+
+/// Points of the whole path in inches or metres lay well on a piece of one line: the part was "right" then.
+#[test]
+fn points_in_another_unit_are_refused() {
+    let (_, path) = read("G21 G90\nG0 X0 Y0 Z0\nG1 X100 F600\nY60\nX0\nY0\n");
+    let nominal = NominalPath::new(&path).unwrap();
+    for by in [1.0 / 25.4, 1e-3, 1e3, 25.4] {
+        let points: Vec<_> = sampled(&path, 300).iter().map(|p| p * by).collect();
+        let measured = MeasuredPoints::at(&points).unwrap();
+        let error = register(&nominal, &measured, RegistrationOptions::default()).unwrap_err();
+        assert!(
+            error.to_string().contains("Check the unit"),
+            "{by}: {error}"
+        );
+    }
+}
