@@ -35,7 +35,7 @@ fn sites(
     let own_first = own.start;
     let chosen = own.flat_map(move |index| {
         let first = (before + index - own_first) * on_each;
-        let numbers = (0..on_each).filter(move |k| (first + k) % every == 0);
+        let numbers = (0..on_each).filter(move |k| (first + k).is_multiple_of(every));
         numbers.map(move |k| (index, (k + 1) as f64 / on_each as f64))
     });
     let chosen: Vec<(usize, f64)> = chosen.collect();
