@@ -110,9 +110,9 @@ pub fn register(
     points: &MeasuredPoints,
     options: RegistrationOptions,
 ) -> Result<Registration, MirrorError> {
+    are_different(points.points())?;
     of_the_same_size(nominal, points)?;
     let points = points.points();
-    are_different(points)?;
     let judged = some_of(points, JUDGED);
     let candidates = candidates((nominal, options), points, &judged);
     let free = |motion: &Motion| {
