@@ -57,6 +57,8 @@ pub struct JudgedSite {
     /// By how much the response by modes with their own damping alone is off at the frequencies of the modes, share of it; 0
     /// where no damper couples modes.
     pub lost_coupling: f64,
+    /// Nothing is said because its limit was not found: it may chatter.
+    pub(crate) is_open: bool,
     /// Places of the program that this one stands for.
     pub places: usize,
     /// From where to where along the path these lie, mm.
@@ -78,11 +80,12 @@ impl JudgedSite {
         self.verdict == Verdict::Stable && self.limit_mm.is_some_and(reached)
     }
 
-    /// Whether it is worse than another one of the same group: it chatters, or its limit is nearer to its depth; of places
-    /// with neither the first stands.
+    /// Whether it is worse than another one of the same group: it chatters, or its limit was not found, or is nearer to its
+    /// depth; of places with neither the first stands.
     fn is_worse_than(&self, other: &Self) -> bool {
         let rank = |judged: &Self| match judged.verdict {
-            Verdict::Chatters => 2,
+            Verdict::Chatters => 3,
+            Verdict::NotJudged(_) if judged.is_open => 2,
             Verdict::Stable => 1,
             Verdict::NotJudged(_) => 0,
         };
@@ -107,6 +110,7 @@ impl JudgedSite {
             left_out: None,
             force_spread: 0.0,
             lost_coupling: 0.0,
+            is_open: false,
             places: group.count(),
             path_mm: group.path_mm(),
         }
@@ -210,7 +214,12 @@ impl ChatterQuestion<'_> {
         let found = Limit::of(&regeneration, site.station.rpm, depth, f64::INFINITY);
         let found = match found {
             Ok(found) => found,
-            Err(error) => return Ok(JudgedSite::not_judged(site, group, error.to_string())),
+            Err(error) => {
+                return Ok(JudgedSite {
+                    is_open: true,
+                    ..JudgedSite::not_judged(site, group, error.to_string())
+                });
+            }
         };
         let limit = found.limit;
         let lost_coupling = machine
@@ -247,6 +256,7 @@ impl ChatterQuestion<'_> {
             left_out: found.left_out,
             force_spread: self.tool_of(site)?.spread,
             lost_coupling,
+            is_open: false,
             places: group.count(),
             path_mm: group.path_mm(),
         })
