@@ -26,6 +26,8 @@ pub struct MeasuredModes {
     pub fit: Fit,
     /// Names of the curves.
     pub curves: Vec<String>,
+    /// Names of the curves by other forces, which are not fitted: shapes are those of curves by the same force.
+    pub others: Vec<String>,
     /// Of each curve the axis of its motion, 0 to 2 for x, y, z of the base, and its sign.
     directions: Vec<(usize, f64)>,
     /// The same of the force, where it is known to act where the motion is.
@@ -44,21 +46,26 @@ pub struct ShownModes {
 }
 
 impl MeasuredModes {
-    /// Fits so many modes in a band, Hz, to the curves by the force of the first one. Axes of the measurement are those of the base.
+    /// Fits so many modes in a band, Hz, to the curves by one force: the first along the first of these axes (0 to 2 for x, y, z) that
+    /// has one, else that of the first curve. Axes of the measurement are those of the base.
     ///
     /// # Errors
     /// A curve without a direction along x, y or z, and those of [`fit_modes`].
     pub fn fitted(
         responses: &[MeasuredResponse],
+        axes: &[usize],
         modes: usize,
         band_hz: (f64, f64),
     ) -> Result<Self, ChatterError> {
-        let reference = |r: &MeasuredResponse| (r.reference_node, r.reference_direction.abs());
-        let first = responses.first().map(reference);
-        let own: Vec<MeasuredResponse> = (responses.iter())
-            .filter(|response| Some(reference(response)) == first)
-            .cloned()
-            .collect();
+        let force = |r: &MeasuredResponse| (r.reference_node, r.reference_direction.unsigned_abs());
+        let along = |axis: &usize| {
+            let mut all = responses.iter();
+            all.find(|response| force(response).1 as usize == axis + 1)
+        };
+        let chosen = axes.iter().find_map(along).or_else(|| responses.first());
+        let chosen = chosen.map(force);
+        let is_own = |response: &MeasuredResponse| Some(force(response)) == chosen;
+        let (own, by_others): (Vec<_>, Vec<_>) = responses.iter().cloned().partition(is_own);
         let directions = own.iter().map(|response| {
             let direction = response.response_direction;
             match direction.abs() {
@@ -93,7 +100,11 @@ impl MeasuredModes {
         Ok(Self {
             directions,
             reference,
-            curves: own.iter().map(|response| response.name.clone()).collect(),
+            curves: own.into_iter().map(|response| response.name).collect(),
+            others: by_others
+                .into_iter()
+                .map(|response| response.name)
+                .collect(),
             fit,
         })
     }

@@ -12,7 +12,6 @@ use serde::Serialize;
 
 use crate::files::input_files::InputFiles;
 use crate::frf::arguments::FrfArgs;
-use crate::frf::one_force::of_one_force;
 use crate::place::query::PlaceQuery;
 use crate::ui::failure::{Answer, Failure};
 use crate::vibration::damping_numbers::{DampingNumber, is_of_damping, named, with};
@@ -85,8 +84,8 @@ pub(crate) fn answer(
     responses: &[MeasuredResponse],
 ) -> Answer<FitAnswer> {
     let band = (args.frequencies[0], args.frequencies[1]);
-    let (own, others) = of_one_force(responses, &args.from);
-    let measured = MeasuredModes::fitted(&own, modes, band).map_err(of_measurement)?;
+    let axes: Vec<usize> = args.from.iter().map(|axis| *axis as usize).collect();
+    let measured = MeasuredModes::fitted(responses, &axes, modes, band).map_err(of_measurement)?;
     let ratios = match damping {
         Damping::Undamped => None,
         law => {
@@ -136,7 +135,7 @@ pub(crate) fn answer(
     }
     let mut doubts: Vec<String> = against.into_iter().collect();
     doubts.extend(odd_amplitude(&all, doubts.is_empty()));
-    doubts.extend(others);
+    doubts.extend(by_other_forces(&measured));
     Ok(FitAnswer {
         doubts,
         curves: measured.curves.clone(),
@@ -149,6 +148,17 @@ pub(crate) fn answer(
             false => Some(scaled(args, (query, damping), &measured)?),
         },
     })
+}
+
+/// What is said of measured curves that are not fitted.
+fn by_other_forces(measured: &MeasuredModes) -> Option<String> {
+    let (own, others) = (&measured.curves, &measured.others);
+    let (first, other) = (own.first()?, others.first()?);
+    Some(format!(
+        "{} of {} measured curves are by other forces than that of '{first}' ('{other}' for one) and are not fitted: --from names the axis of the force whose curves are",
+        others.len(),
+        own.len() + others.len()
+    ))
 }
 
 /// Measured amplitudes beyond this factor of the model's are no matter of masses.

@@ -7,7 +7,6 @@ pub(crate) mod arguments;
 mod fit;
 mod fit_text;
 mod measured;
-mod one_force;
 mod text;
 
 use kinetostat_dynamics::{Damping, Quantity, Receptance};

@@ -21,9 +21,8 @@ use crate::run::of_whole::OfWhole;
 use crate::run::places::places;
 use crate::run::points::solve;
 use crate::run::preparation::{Preparation, refuse};
-use crate::run::sites::of_path::of_path;
+use crate::run::sites::of_path::sites_of_path;
 use crate::run::sites::of_written::sites_of_written;
-use crate::run::sites::site::spacing_mm;
 use crate::run::summary::feed_arcs;
 use crate::run::way_out::with_way_out;
 use crate::task::{RunError, Task};
@@ -56,7 +55,7 @@ fn analysed(task: &Task<'_>, whole: Option<&OfWhole>, watch: &dyn Watch) -> Resu
         findings: ramps,
         ..
     } = load;
-    let sites = || of_path(task.path(), &load, &task.placement, spacing_mm(task));
+    let sites = || sites_of_path(task, &load);
     let (mut points, _) = solve(task, sites(), (false, course.as_ref()), watch)?;
     let checked = Checked {
         force_band: force_band(task, &mut points, sites, watch)?,

@@ -23,7 +23,7 @@ const FIRST_LOOKS: usize = 8;
 const GROSS: f64 = 10.0;
 
 /// Some places on the moves of a program, spread evenly over them: ends of moves, or more of each where there are few.
-/// `whole`: of how many moves in all, and how many of them come before the first that is this path's own.
+/// Of how many moves in all, and how many of them come before the first that is this path's own.
 fn sites(
     task: &Task<'_>,
     load: &LoadAlongPath<'_>,
@@ -63,18 +63,29 @@ impl FirstLook {
         load: &LoadAlongPath<'_>,
         watch: &dyn Watch,
     ) -> Result<Self, RunError> {
-        Self::of_whole(task, load, (task.path().own_moves().len(), 0), watch)
+        Self::at(task, load, (task.path().own_moves().len(), 0), watch)
     }
 
-    /// Those of the few places of a whole program that lie on a part of it: the program has so many moves, and so many of
-    /// them come before the part.
+    /// Those of the few places of a whole program of so many moves that lie on a part of it.
     ///
     /// # Errors
     /// [`RunError::Cancelled`].
     pub fn of_whole(
         task: &Task<'_>,
         load: &LoadAlongPath<'_>,
-        whole: (usize, usize),
+        moves: usize,
+        watch: &dyn Watch,
+    ) -> Result<Self, RunError> {
+        let path = task.path();
+        let before = path.part.as_ref().map_or(0, |part| part.moves_before);
+        let before = before + path.own_moves().start;
+        Self::at(task, load, (moves, before), watch)
+    }
+
+    fn at(
+        task: &Task<'_>,
+        load: &LoadAlongPath<'_>,
+        spread: (usize, usize),
         watch: &dyn Watch,
     ) -> Result<Self, RunError> {
         let machines = Machines::new(task);
@@ -83,7 +94,7 @@ impl FirstLook {
             first: None,
             not_converged: false,
         };
-        for (index, site) in sites(task, load, whole).enumerate() {
+        for (index, site) in sites(task, load, spread).enumerate() {
             if watch.cancelled() {
                 return Err(RunError::Cancelled);
             }

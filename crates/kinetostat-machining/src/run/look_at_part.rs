@@ -27,10 +27,9 @@ pub fn look_at_part(
         true => looked.gross(task),
         false => looked.folding_load(task),
     })?;
-    let of_whole = FirstLook::of_whole(task, &load, (before.moves, before.moves_before), watch)?;
+    let of_whole = FirstLook::of_whole(task, &load, before.moves, watch)?;
     Ok(OfWhole {
         stiffness_n_per_mm: smaller(before.stiffness_n_per_mm, of_whole.stiffness()),
-        moves_before: before.moves_before + task.path().own_moves().len(),
         ..before
     })
 }

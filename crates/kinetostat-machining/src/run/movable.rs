@@ -17,8 +17,8 @@ use crate::run::joints::joints_result;
 use crate::run::machines::Machines;
 use crate::run::points::{Solving, chunk, failed};
 use crate::run::preparation::{has_motion, load};
-use crate::run::sites::of_path::of_path;
-use crate::run::sites::site::{Site, spacing_mm};
+use crate::run::sites::of_path::sites_of_path;
+use crate::run::sites::site::Site;
 use crate::task::{NoMotion, RunError, Task};
 use crate::watch::Watch;
 
@@ -57,7 +57,7 @@ impl<'t, 'm> MovableProgram<'t, 'm> {
         let load = load(task);
         let looked = FirstLook::new(task, &load, watch)?;
         let load = load.ramped(looked.stiffness()).acting;
-        let sites = || of_path(task.path(), &load, &task.placement, spacing_mm(task));
+        let sites = || sites_of_path(task, &load);
         let total = sites().count();
         if total == 0 {
             return Err(RunError::NoMotion(NoMotion::NoLength));

@@ -5,8 +5,6 @@
 pub struct OfWhole {
     /// Moves of the whole program, over which the places of a first look are spread.
     pub moves: usize,
-    /// Those of them that come before the next part at which is looked.
-    pub moves_before: usize,
     /// Smallest stiffness against a force at the places that a first look took, N/mm; infinite before the first.
     pub stiffness_n_per_mm: f64,
     /// The program is left as it is: it keeps its tolerance so, or nothing can be written.
@@ -17,7 +15,6 @@ impl Default for OfWhole {
     fn default() -> Self {
         Self {
             moves: 0,
-            moves_before: 0,
             stiffness_n_per_mm: f64::INFINITY,
             as_it_is: false,
         }

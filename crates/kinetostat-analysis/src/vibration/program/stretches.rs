@@ -140,13 +140,7 @@ fn stable_speed(
         .map(|k| rpm * (from + (to - from) * k as f64 / (count - 1) as f64))
         .collect();
     let mut stable = vec![true; count];
-    let step = sites.len().div_ceil(TRIED);
-    // The last place, too: the machine stands otherwise there.
-    let tried = sites.iter().step_by(step).chain(sites.last());
-    let step_beside = beside.len().div_ceil(TRIED_BESIDE).max(1);
-    let tried = tried
-        .chain(beside.iter().step_by(step_beside))
-        .chain(beside.last());
+    let tried = some_of(sites, TRIED).chain(some_of(beside, TRIED_BESIDE));
     let mut cuts = Vec::new();
     for judged in tried {
         let Ok(SiteCut { regeneration, .. }) = question.site_cut(load, &judged.site)? else {
@@ -190,6 +184,17 @@ fn stable_speed(
         is_narrow,
         feed_mm_per_min: feed(question, sites, stable_rpm)?,
     }))
+}
+
+/// About so many places of some, evenly; the last one, too: the machine stands otherwise there.
+fn some_of<'a, 's>(
+    sites: &'a [&'s JudgedSite],
+    most: usize,
+) -> impl Iterator<Item = &'s JudgedSite> + use<'a, 's> {
+    let step = sites.len().div_ceil(most).max(1);
+    let chosen = sites.iter().enumerate();
+    let chosen = chosen.filter(move |(k, _)| k.is_multiple_of(step) || k + 1 == sites.len());
+    chosen.map(|(_, site)| *site)
 }
 
 /// Least limit by its depth of the cuts at a speed, as far as it is looked for.

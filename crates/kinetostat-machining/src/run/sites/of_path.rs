@@ -20,22 +20,18 @@ struct OfPath<'a> {
 }
 
 impl<'a> OfPath<'a> {
-    fn new(
-        path: &'a Path,
-        load: &'a LoadAlongPath<'a>,
-        placement: &'a Placement,
-        spacing_mm: f64,
-    ) -> Self {
+    fn new(task: &'a Task<'_>, load: &'a LoadAlongPath<'a>) -> Self {
+        let path = task.path();
         Self {
             path,
             load,
-            placement,
+            placement: &task.placement,
             starts: starts(path),
-            programmed: Programmed::new(path, spacing_mm),
+            programmed: Programmed::new(path, spacing_mm(task)),
         }
     }
 
-    /// Shares of a move, and which of them are ends.
+    /// Shares of a move in order, and which of them are ends.
     fn shares(&self, i: usize) -> Vec<(f64, bool)> {
         let motion = &self.path.moves[i];
         match (motion.known, motion.kind) {
@@ -43,12 +39,19 @@ impl<'a> OfPath<'a> {
             (Knowledge::End, _) | (_, MoveKind::Rapid) => vec![(1.0, true)],
             (Knowledge::Whole, MoveKind::Feed) if stays(motion) => Vec::new(),
             (Knowledge::Whole, MoveKind::Feed) => {
+                let pieces = self.programmed.pieces(motion);
                 let jumps = jumps(self.path, self.load, self.placement, i);
-                let start = jumps.then_some((0.0, false));
-                start
-                    .into_iter()
-                    .chain(self.programmed.shares(motion))
-                    .collect()
+                let start = jumps.then_some((0.0, false)).into_iter();
+                let mut shares: Vec<(f64, bool)> = start
+                    .chain(self.programmed.shares(motion, pieces))
+                    .collect();
+                if pieces == 1 {
+                    let inside = places_of_load(self.load, self.placement, i);
+                    shares.extend(inside.into_iter().map(|share| (share, false)));
+                    shares.sort_by(|a, b| a.0.total_cmp(&b.0));
+                    shares.dedup_by(|later, first| later.0 == first.0);
+                }
+                shares
             }
         }
     }
@@ -76,33 +79,19 @@ impl<'a> OfPath<'a> {
             end,
         }
     }
-
-    /// All of them, one after the other.
-    fn sites(self) -> impl Iterator<Item = Site> + 'a {
-        let own = self.path.own_moves();
-        own.flat_map(move |i| {
-            let mut shares = self.shares(i);
-            let motion = &self.path.moves[i];
-            if motion.is_known_feed() && !shares.is_empty() && self.programmed.pieces(motion) == 1 {
-                let inside = places_of_load(self.load, self.placement, i);
-                shares.extend(inside.into_iter().map(|share| (share, false)));
-                shares.sort_by(|a, b| a.0.total_cmp(&b.0));
-                shares.dedup_by(|later, first| later.0 == first.0);
-            }
-            let sites = shares.into_iter().map(|place| self.site(i, place));
-            sites.collect::<Vec<_>>()
-        })
-    }
 }
 
 /// The places of [`OfPath`], one after the other.
-pub(crate) fn of_path<'a>(
-    path: &'a Path,
+pub(crate) fn sites_of_path<'a>(
+    task: &'a Task<'_>,
     load: &'a LoadAlongPath<'a>,
-    placement: &'a Placement,
-    spacing_mm: f64,
 ) -> impl Iterator<Item = Site> + 'a {
-    OfPath::new(path, load, placement, spacing_mm).sites()
+    let of_path = OfPath::new(task, load);
+    task.path().own_moves().flat_map(move |i| {
+        let shares = of_path.shares(i).into_iter();
+        let sites = shares.map(|place| of_path.site(i, place));
+        sites.collect::<Vec<_>>()
+    })
 }
 
 /// Places at shares of moves, as the program is given; none on moves that lead nowhere, and the end of a rapid or of a move from
@@ -113,7 +102,7 @@ pub(crate) fn places_on_moves(
     chosen: &[(usize, f64)],
 ) -> Vec<Site> {
     let path = task.path();
-    let of_path = OfPath::new(path, load, &task.placement, spacing_mm(task));
+    let of_path = OfPath::new(task, load);
     let site = |(index, share): &(usize, f64)| {
         let motion = &path.moves[*index];
         let share = match (motion.known, motion.kind) {

@@ -16,7 +16,7 @@ const SEED: u64 = 4;
 
 /// Ends of all pieces of a written program and irregular places inside them, no farther apart than twice the spacing,
 /// the middles of pieces of divided blocks, and the places of the program as it is given
-/// ([`crate::run::sites::of_path::of_path`] with the same spacing), one after the other; of blocks that were not divided the
+/// ([`crate::run::sites::of_path::sites_of_path`]), one after the other; of blocks that were not divided the
 /// places where the load departs from what their ends say. Blocks that are very short, were not divided and are under a steady
 /// load are all looked at where they end, and inside as many as there is room for such pieces on their length, chosen without a
 /// pattern.
@@ -121,7 +121,8 @@ impl OfWritten<'_> {
         let AlongPiece { piece, motion, .. } = along;
         let divided = piece.share_from > 0.0 || piece.share_to < 1.0;
         // What the load does inside a block shows at no end of it.
-        let is_one = self.programmed.pieces(motion) == 1;
+        let pieces = self.programmed.pieces(motion);
+        let is_one = pieces == 1;
         let of_load = match divided && !is_one {
             true => Vec::new(),
             false => places_of_load(self.load, self.placement, piece.move_index),
@@ -147,7 +148,7 @@ impl OfWritten<'_> {
                 ..along.spot(0.0)
             });
         }
-        let of_program = self.programmed.shares(motion);
+        let of_program = self.programmed.shares(motion, pieces);
         let of_program = of_program.map(|(share, _)| (share, true));
         let of_load = of_load.into_iter().map(|share| (share, is_one));
         for (share, programmed) in of_program.chain(of_load) {

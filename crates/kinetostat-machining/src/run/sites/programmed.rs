@@ -48,10 +48,13 @@ impl Programmed {
         }
     }
 
-    /// Ends and middles of equal pieces of a block at feed, as shares of it, and which of them are ends: between
+    /// Ends and middles of its equal pieces ([`Self::pieces`]) of a block at feed, as shares of it, and which of them are ends: between
     /// the ends of a long block the load or the machine may differ much. A very short one has no middle.
-    pub fn shares(&self, motion: &Move) -> impl Iterator<Item = (f64, bool)> + use<> {
-        let pieces = self.pieces(motion);
+    pub fn shares(
+        &self,
+        motion: &Move,
+        pieces: usize,
+    ) -> impl Iterator<Item = (f64, bool)> + use<> {
         let middles = pieces > 1 || motion.length_mm() > self.short_mm || motion.turns_in_place();
         (1..=2 * pieces)
             .filter(move |half| middles || half % 2 == 0)
