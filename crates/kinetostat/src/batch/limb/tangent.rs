@@ -200,6 +200,27 @@ impl<S: Simd> Pass<S> {
         }
     }
 
+    /// What the load beyond does by the twists of a spring: `A s` of each, and the rows of `L` of its rotations.
+    #[inline(always)]
+    pub(super) fn turning(&self, s: &Mat6<S>) -> (Mat6<S>, [[Lanes<S>; 6]; 3]) {
+        let zero = Lanes::new(self.simd, 0.0);
+        let mut turned = [[zero; 6]; 6];
+        for d in 0..6 {
+            turned[d] = outer(&self.force, &self.moment, &s[d]);
+        }
+        let mut l = [[zero; 6]; 3];
+        for i in 0..3 {
+            for j in 0..3 + i {
+                let mut sum = s[3 + i][0] * turned[j][0];
+                for k in 1..6 {
+                    sum = s[3 + i][k].times_plus(turned[j][k], sum);
+                }
+                l[i][j] = sum;
+            }
+        }
+        (turned, l)
+    }
+
     /// A spring of six directions: `q = C (r + L q)`, and only the rows of the rotations of `L` are not
     /// zero, so that three numbers `L q` are found first.
     #[inline(always)]
@@ -207,20 +228,7 @@ impl<S: Simd> Pass<S> {
         apart!(self.simd, {
             let (zero, one) = (Lanes::new(self.simd, 0.0), Lanes::new(self.simd, 1.0));
             let s = twists(self.simd, plan, limb, spring);
-            let mut turned = [[zero; 6]; 6];
-            for d in 0..6 {
-                turned[d] = outer(&self.force, &self.moment, &s[d]);
-            }
-            let mut l = [[zero; 6]; 3];
-            for i in 0..3 {
-                for j in 0..3 + i {
-                    let mut sum = s[3 + i][0] * turned[j][0];
-                    for k in 1..6 {
-                        sum = s[3 + i][k].times_plus(turned[j][k], sum);
-                    }
-                    l[i][j] = sum;
-                }
-            }
+            let (turned, l) = self.turning(&s);
             let mut n = [[zero; 3]; 3];
             for i in 0..3 {
                 for k in 0..3 {

@@ -19,7 +19,7 @@ use crate::batch::limb::tangent::Pass;
 use crate::batch::numbers::apart::apart;
 use crate::batch::numbers::lanes::Lanes;
 use crate::batch::numbers::vectors::{Vec3, constant, cross, dot};
-use crate::batch::numbers::wrenches::{Mat6, dot6, inner6, outer, solve_small};
+use crate::batch::numbers::wrenches::{Mat6, dot6, inner6, solve_small};
 use crate::batch::plan::steps::{OwnWeight, Plan, Spring};
 
 /// What the weight of a segment does, base axes.
@@ -139,18 +139,7 @@ impl<S: Simd> Pass<S> {
                 self.moment[k] = self.moment[k] - moment[k];
             }
             let s = twists(self.simd, plan, limb, spring);
-            let mut turned = [[zero; 6]; 6];
-            for d in 0..6 {
-                turned[d] = outer(&self.force, &self.moment, &s[d]);
-            }
-            let mut l = [[zero; 6]; 3];
-            for i in 0..3 {
-                for j in 0..3 + i {
-                    for k in 0..6 {
-                        l[i][j] = s[3 + i][k].times_plus(turned[j][k], l[i][j]);
-                    }
-                }
-            }
+            let (turned, l) = self.turning(&s);
             // `q` and the six numbers by each of them.
             let about = [self.z[3], self.z[4], self.z[5]];
             let (mut by, mut m, mut inverse) = ([[zero; 6]; 6], [[zero; 6]; 6], [[zero; 6]; 6]);
