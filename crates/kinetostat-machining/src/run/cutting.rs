@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use kinetostat_program::{Knowledge, Move, MoveKind, Path};
+use kinetostat_program::{Move, MoveKind, Path};
 
 use crate::cut::profile::ForceAlongPath;
 use crate::cut::station::CutStation;
@@ -69,10 +69,7 @@ fn place(
     (index, start_mm): (usize, f64),
     station: &CutStation,
 ) -> CutPlace {
-    let length = match motion.known {
-        Knowledge::Whole => motion.length_mm(),
-        _ => 0.0,
-    };
+    let length = motion.known_length_mm();
     let limit = forces
         .spindle()
         .filter(|_| station.rpm > 0.0)

@@ -4,7 +4,7 @@ use std::io::BufRead;
 
 use crate::parts::lines::{Lines, PartError};
 use crate::parts::survey::Survey;
-use crate::path::moves::{Knowledge, Move, Path};
+use crate::path::moves::Path;
 use crate::path::part::PathPart;
 use crate::reading::interpreting::interpreter::Interpreter;
 use crate::reading::options::ReadOptions;
@@ -159,7 +159,7 @@ impl<'o, R: BufRead> Parts<'o, R> {
         let moves = at(own.start)..at(own.end);
         let before_mm = self.before_mm;
         for motion in &path.moves[moves.clone()] {
-            self.before_mm += known_length(motion);
+            self.before_mm += motion.known_length_mm();
         }
         let moves_before = self.moves_before - moves.start;
         self.moves_before += moves.len();
@@ -186,14 +186,6 @@ impl<'o, R: BufRead> Parts<'o, R> {
             path,
             is_last,
         })
-    }
-}
-
-/// A move from a place that the program does not tell has no length that counts.
-fn known_length(motion: &Move) -> f64 {
-    match motion.known {
-        Knowledge::Whole => motion.length_mm(),
-        _ => 0.0,
     }
 }
 

@@ -173,6 +173,23 @@ impl Move {
         self.length_between_mm(0.0, 1.0)
     }
 
+    /// Length of the move, in mm; 0 of one from a place that the program does not tell, which has no length that counts.
+    ///
+    /// ```
+    /// # use kinetostat_program::{Program, ReadOptions, interpret};
+    /// let program = Program::read("G21 G90\nG1 X0 Y0 Z0 F600\nG1 X10\n")?;
+    /// let path = interpret(&program, &ReadOptions::default())?;
+    /// let lengths: Vec<f64> = path.moves.iter().map(|m| m.known_length_mm()).collect();
+    /// assert_eq!(lengths, [0.0, 10.0]);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn known_length_mm(&self) -> f64 {
+        match self.known {
+            Knowledge::Whole => self.length_mm(),
+            _ => 0.0,
+        }
+    }
+
     /// Whether it is longer than what is left of two equal places after the arithmetic of increments and inches.
     pub fn has_length(&self) -> bool {
         self.length_mm() > NO_LENGTH_MM

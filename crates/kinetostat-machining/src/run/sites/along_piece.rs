@@ -5,7 +5,7 @@ use kinetostat_program::{Corrected, GreatCircle, Move, Path, Piece, ToolTurn};
 
 use crate::result::point::PointKind;
 use crate::run::sites::commanded::{commanded_angles, commanded_turn, great_circle, rotary};
-use crate::run::sites::site::{Site, kind, known_length};
+use crate::run::sites::site::{Site, kind};
 
 /// A place on a piece.
 pub(super) struct Spot {
@@ -111,7 +111,7 @@ impl<'a> AlongPiece<'a> {
             output_line: piece.output_line,
             kind: self.kind,
             share,
-            path_mm: self.start_mm + share * known_length(motion),
+            path_mm: self.start_mm + share * motion.known_length_mm(),
             start_mm: self.start_mm,
             programmed,
             desired: motion.point(share),

@@ -6,7 +6,7 @@ use crate::load::along_path::LoadAlongPath;
 use crate::placement::Placement;
 use crate::run::sites::of_load::{jumps, places_of_load};
 use crate::run::sites::programmed::Programmed;
-use crate::run::sites::site::{Site, kind, known_length, spacing_mm, starts, stays};
+use crate::run::sites::site::{Site, kind, spacing_mm, starts, stays};
 use crate::task::Task;
 
 /// Where a program is looked at as it is given: ends and middles of all blocks, and their starts where the load jumps; of blocks longer
@@ -66,7 +66,7 @@ impl<'a> OfPath<'a> {
             output_line: 0,
             kind: kind(motion),
             share,
-            path_mm: self.starts[i] + share * known_length(motion),
+            path_mm: self.starts[i] + share * motion.known_length_mm(),
             start_mm: self.starts[i],
             programmed: true,
             desired,

@@ -2,8 +2,6 @@
 
 use kinetostat_program::{Curve, Move, MoveKind, Path};
 
-use crate::run::sites::site::known_length;
-
 /// Blocks longer than this share of the path that is cut are looked at in more places.
 const PIECES: f64 = 500.0;
 
@@ -25,7 +23,7 @@ impl Programmed {
         let cut = path.moves.iter().filter(|m| m.kind == MoveKind::Feed);
         let length = match &path.part {
             Some(part) => part.whole_feed_mm,
-            None => cut.map(known_length).sum::<f64>(),
+            None => cut.map(Move::known_length_mm).sum::<f64>(),
         };
         Self {
             longest_mm: (length / PIECES).min(spacing_mm),

@@ -71,7 +71,7 @@ pub(crate) fn starts(path: &Path) -> Vec<f64> {
                 length = before_mm;
             }
             let start = length;
-            length += known_length(m);
+            length += m.known_length_mm();
             start
         })
         .collect()
@@ -81,15 +81,6 @@ pub(super) fn kind(motion: &Move) -> PointKind {
     match motion.kind {
         MoveKind::Rapid => PointKind::Rapid,
         MoveKind::Feed => PointKind::Feed,
-    }
-}
-
-/// A move from a place that the program does not tell has no length that counts.
-pub(super) fn known_length(motion: &Move) -> f64 {
-    if motion.known == Knowledge::Whole {
-        motion.length_mm()
-    } else {
-        0.0
     }
 }
 
