@@ -34,7 +34,7 @@ impl VerifyAnswer {
             let off = kinetostat_machining::number::largest_length(rapid.distance_mm);
             let of_original = match rapid.line_of_original {
                 Some(line) => format!("from that of the original (line {line} there)"),
-                None => "from the cut, where the original has none".to_owned(),
+                None => "beside or along the cut, where the original has none".to_owned(),
             };
             faults.push(format!(
                 "THE RAPID AT LINE {} GOES ELSEWHERE: up to {off} {of_original}.",

@@ -316,6 +316,50 @@ pub(crate) fn line_of(text: &str, is: impl Fn(&str) -> bool) -> usize {
     1 + text.lines().position(is).unwrap()
 }
 
+/// A freehand line of short blocks, whose directions and lengths are not known to follow any rule.
+fn freehand(directions: &mut impl FnMut() -> [f64; 2]) -> String {
+    let [mut x, mut y, mut heading] = [0.0_f64; 3];
+    let mut text = "G21 G90\nG0 X0 Y0 Z5\nG1 Z0 F600\n".to_owned();
+    for _ in 0..120 {
+        let [turn, length] = directions();
+        heading += 0.2 * turn - 0.1;
+        let length = [0.05, 0.2, 0.5][(3.0 * length) as usize];
+        x += length * heading.cos();
+        y += length * heading.sin();
+        if x.hypot(y) > 30.0 {
+            heading += std::f64::consts::FRAC_PI_2;
+        }
+        text.push_str(&format!("G1 X{x:.4} Y{y:.4}\n"));
+    }
+    text + "G0 Z5\nM2\n"
+}
+
+/// On blocks shorter than the corrections turn, a compensated path is much shorter than the cut, and goes back upon itself: places of it
+/// are not given to the next corner of the original because that is near along the compensated path.
+#[test]
+fn own_programs_of_short_irregular_blocks_are_verified() {
+    let mut seed = 3_u64;
+    let mut even = || {
+        seed = seed
+            .wrapping_mul(6364136223846793005)
+            .wrapping_add(1442695040888963407);
+        (seed >> 11) as f64 / (1_u64 << 53) as f64
+    };
+    for _ in 0..8 {
+        let here = part();
+        let text = freehand(&mut || [even(), even()]);
+        std::fs::write(here.path().join("part.ngc"), text).unwrap();
+        let claimed = number(
+            &compensated(here.path(), &[])["summary"],
+            "max_position_error_after_mm",
+        );
+        let (code, found, said) = verified(here.path(), "out.ngc", &[]);
+        assert_eq!(code, 0, "{said}");
+        let off = number(&found, "max_position_error_mm");
+        assert!(off <= 1.001 * claimed, "{off} {claimed}");
+    }
+}
+
 #[test]
 fn rapids_are_those_of_the_original() {
     let here = part();
@@ -345,6 +389,30 @@ fn rapids_are_those_of_the_original() {
     });
     assert_eq!(code, 3, "{said}");
     assert!(said.contains("NOT CUT"), "{said}");
+    // Nor is a piece of it, be it a step at a corner.
+    let pieces = |text: &str| {
+        let lines = text.lines().collect::<Vec<_>>();
+        let both = lines.windows(2).enumerate();
+        let inside = both.filter(|(_, w)| w.iter().all(|line| line.starts_with("G1 X")));
+        inside.map(|(index, _)| index).collect::<Vec<usize>>()
+    };
+    let text = std::fs::read_to_string(here.path().join("out.ngc")).unwrap();
+    let pieces = pieces(&text);
+    assert!(pieces.len() > 5, "{text}");
+    for piece in pieces {
+        let (code, _, said) = changed(here.path(), |text| {
+            let lines = text.lines().enumerate();
+            let quick = |(index, line): (usize, &str)| match index == piece {
+                true => format!("{}\n", line.replace("G1 ", "G0 ")),
+                false => format!("{line}\n"),
+            };
+            lines.map(quick).collect()
+        });
+        let line = piece + 1;
+        assert_eq!(code, 3, "line {line}: {said}");
+        let is_named = said.contains("NOT CUT") || said.contains(&format!("RAPID AT LINE {line} "));
+        assert!(is_named, "line {line}: {said}");
+    }
     // A lift at feed cuts nothing.
     let (code, found, said) = changed(here.path(), |text| {
         let lift = line_of(text, |line| line.starts_with("G0 Z5"));

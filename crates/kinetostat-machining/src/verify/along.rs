@@ -49,7 +49,7 @@ impl Along<'_> {
                     self.push_extra_cut(end);
                 }
                 is_on = false;
-                self.reach(end, at, None);
+                self.reach(end, [at, at], None);
                 continue;
             };
             let is_inside = end.shares[1] < 1.0 && !end.begins_pass;
@@ -83,7 +83,7 @@ impl Along<'_> {
                 last.is_held = true;
             }
             self.cover(&place, at);
-            self.reach(end, at, Some(place.piece));
+            self.reach(end, [place.arrives_mm.min(at), at], Some(place.piece));
         }
     }
 
@@ -107,10 +107,14 @@ impl Along<'_> {
     }
 
     /// A pass of the other program has come to a place of the guide.
-    fn reach(&mut self, end: &End, along_mm: f64, piece: Option<usize>) {
+    fn reach(&mut self, end: &End, [arrives_mm, along_mm]: [f64; 2], piece: Option<usize>) {
         let before = self.passes.last().map_or(0, |pass| pass[1].pass);
         let pass = piece.map_or(before, |piece| self.stretches.pass_of_piece(piece));
-        let there = Reached { along_mm, pass };
+        let there = Reached {
+            along_mm,
+            arrives_mm,
+            pass,
+        };
         match self.passes.last_mut().filter(|_| !end.begins_pass) {
             None => self.passes.push([there, there]),
             Some(pass) => pass[1] = there,

@@ -64,7 +64,7 @@ pub(crate) fn follow(
     let matched = Matched {
         largest_distance_mm: far(farthest),
         largest_distance_line: other.moves[ends[farthest].move_index].line,
-        uncut: uncut(original, (&nominal, guide), &along.covered),
+        uncut: uncut(original, (&nominal, guide), (&along.covered, near_mm)),
         rapids,
         extra_cuts: along.extra_cuts,
         conditions: Vec::new(),

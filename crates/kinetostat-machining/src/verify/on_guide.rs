@@ -42,7 +42,7 @@ impl Search<'_> {
     /// The places of all ends, none where an end is nowhere on the guide.
     pub(crate) fn places(&self, ends: &[End], feet: &[Option<Foot>]) -> Vec<Option<OnGuide>> {
         let of_foot = |foot: &Foot| {
-            let to = self.stretches.at_corner(foot, self.near_mm);
+            let to = self.stretches.at_corner(foot, self.near_mm, self.original);
             OnGuide {
                 arrives_mm: to,
                 leaves_mm: to,

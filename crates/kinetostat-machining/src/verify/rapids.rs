@@ -11,6 +11,9 @@ use crate::verify::matched::RapidElsewhere;
 /// Rapids nearer than this are the same, mm, beside what corrections shift them by: clearances are larger.
 const NEAR_MM: f64 = 1.0;
 
+/// A rapid that leads on by less comes back to where the cut was left, mm: its ends are rounded.
+const LEADS_ON_MM: f64 = 0.002;
+
 /// More of them are not listed.
 const MOST: usize = 100;
 
@@ -129,6 +132,8 @@ fn rapids(moves: &[Move]) -> Vec<Way> {
 #[derive(Clone, Copy)]
 pub(crate) struct Reached {
     pub(crate) along_mm: f64,
+    /// Before the turn of the load that is made there, if one is.
+    pub(crate) arrives_mm: f64,
     /// The pass of the guide that it was found on.
     pub(crate) pass: usize,
 }
@@ -208,9 +213,29 @@ pub(crate) fn elsewhere(
             ends: [from.ends[0], to.ends[1]],
         });
         let stays: Vec<Way> = stays.into_iter().collect();
-        found.extend(worst(&own, &stays).filter(is_other));
+        let beside = worst(&own, &stays).filter(is_other);
+        // One that leads back has its part cut again.
+        let goes_on = |[from, to]: [Reached; 2]| to.along_mm >= from.arrives_mm - LEADS_ON_MM;
+        let leads_on = || {
+            let leads = leads_on(stays.first()?, own.last()?.line)?;
+            ended.zip(begins).filter(|(a, b)| goes_on([*a, *b]))?;
+            Some(leads)
+        };
+        found.extend(beside.or_else(leads_on));
     }
     found
+}
+
+/// A rapid that leaves out a part of a cut: between both its ends there is a way, be it the step of a corner.
+fn leads_on(way: &Way, line: usize) -> Option<RapidElsewhere> {
+    let [from, to] = way.ends;
+    let distance_mm = (to - from).norm();
+    (distance_mm > LEADS_ON_MM).then_some(RapidElsewhere {
+        line,
+        line_of_original: None,
+        position_mm: to.into(),
+        distance_mm,
+    })
 }
 
 /// Where ways are farthest from one another: ends of each from the other.

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use kinetostat_program::{Corrected, Foot, NominalPath, Turn};
+use kinetostat_program::{Corrected, Foot, NominalPath, Path, Turn};
 
 /// A part of the guide along one move of the original, or at one place of it where the load turns.
 pub(crate) struct Stretch {
@@ -92,23 +92,27 @@ impl<'a> Stretches<'a> {
         Some([self.all[*first].along_mm[0], self.all[*last].along_mm[1]])
     }
 
-    /// The nearest end of a stretch, if there is one as near as the program is to its guide.
-    pub(crate) fn at_corner(&self, foot: &Foot, near_mm: f64) -> f64 {
+    /// The nearest end of a stretch, if there is one as near as the program is to its guide: along the guide, and along the original,
+    /// of which a compensated path that turns back upon itself shows little.
+    pub(crate) fn at_corner(&self, foot: &Foot, near_mm: f64, original: &Path) -> f64 {
         let along_mm = foot.along_mm;
         let ends_before = |stretch: &Stretch| stretch.along_mm[1] < along_mm;
         let after = self.all.partition_point(ends_before);
         let Some(stretch) = self.all.get(after) else {
             return self.nominal.length_mm();
         };
+        let near_mm = near_mm.max(foot.distance_mm);
         // On a short stretch no farther than to its nearer end.
-        let near = (near_mm)
-            .max(foot.distance_mm)
-            .min(0.5 * stretch.length_mm());
+        let near_on_guide_mm = near_mm.min(0.5 * stretch.length_mm());
         let ends = stretch.along_mm.into_iter();
         let nearest = ends.min_by(|a, b| (a - along_mm).abs().total_cmp(&(b - along_mm).abs()));
-        nearest
-            .filter(|end| (end - along_mm).abs() <= near)
-            .unwrap_or(along_mm)
+        let is_near = |end: f64| {
+            let [here, there] = [along_mm, end].map(|at| self.place(after, at).1);
+            let length_mm = original.moves[stretch.move_index].length_mm();
+            (end - along_mm).abs() <= near_on_guide_mm
+                && (there - here).abs() * length_mm <= near_mm
+        };
+        nearest.filter(|end| is_near(*end)).unwrap_or(along_mm)
     }
 
     /// Where the load turns at a place of a pass, mm along the guide.
