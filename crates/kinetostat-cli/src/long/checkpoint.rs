@@ -16,6 +16,7 @@ use serde::{Deserialize, Serialize};
 use crate::files::hash::{FNV1A, fnv1a};
 use crate::files::held_folder::{LOCK, hold};
 use crate::files::journal::{Contents, Entry};
+use crate::long::difference::difference;
 use crate::ui::failure::{Answer, Code, Failure};
 use crate::ui::system_error::description;
 
@@ -24,12 +25,12 @@ use crate::ui::system_error::description;
 pub(crate) struct Manifest(pub(crate) Vec<(String, String)>);
 
 impl Manifest {
-    /// The first field that another run has otherwise.
-    fn differs_in(&self, other: &Self) -> Option<&str> {
+    /// The first field that another run has otherwise, with what of it differs.
+    fn differs_in(&self, other: &Self) -> Option<String> {
         let both = self.0.iter().zip(&other.0);
         let found = both.into_iter().find(|(a, b)| a != b);
-        let longer = || (self.0.len() != other.0.len()).then_some("the settings");
-        found.map(|(a, _)| a.0.as_str()).or_else(longer)
+        let longer = || (self.0.len() != other.0.len()).then(|| "the settings".to_owned());
+        found.map(|(a, b)| difference(a, b)).or_else(longer)
     }
 }
 
@@ -107,7 +108,7 @@ impl Checkpoint {
         match kept.as_ref().map(|kept| kept.differs_in(manifest)) {
             Some(None) => Ok(true),
             Some(Some(field)) if self.has_work() => Err(Failure::input(format!(
-                "'{}' keeps a run that was interrupted, and what differs now is {field}: give the same question to go on with it, or --restart to begin anew (or delete the folder)",
+                "'{}' keeps a run that was interrupted, and what differs now is {field}; give the same question to go on with it, or --restart to begin anew (or delete the folder)",
                 self.folder.display()
             ))),
             _ => {

@@ -5,7 +5,8 @@
 //! ([`checkpoint`]) until they are in place.
 
 pub(crate) mod checkpoint;
-pub(crate) mod partial;
+pub(crate) mod difference;
+mod partial;
 pub(crate) mod put_in_place;
 pub(crate) mod run;
 mod source;

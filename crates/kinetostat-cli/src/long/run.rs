@@ -107,7 +107,7 @@ impl<'a> LongRun<'a> {
                 "the version of kinetostat",
                 env!("CARGO_PKG_VERSION").to_owned(),
             ),
-            ("the command", format!("{:?}", self.aim)),
+            ("the command", format!("{:#?}", self.aim)),
             ("the program", hashes(&s.program_files)),
             (
                 "the model",
@@ -118,28 +118,28 @@ impl<'a> LongRun<'a> {
             ),
             (
                 "the way in which the program is read",
-                format!("{:?}", s.reading),
+                format!("{:#?}", s.reading),
             ),
             (
                 "a tolerance, or how the program is written",
-                format!("{:?}", s.writing),
+                format!("{:#?}", s.writing),
             ),
-            ("the load", format!("{:?}", self.machine.load)),
+            ("the load", format!("{:#?}", self.machine.load)),
             (
                 "the place of the part",
-                format!("{:?}", self.machine.placement),
+                format!("{:#?}", self.machine.placement),
             ),
             ("the tool", self.machine.run_inputs.tool.clone()),
-            ("a limit", format!("{:?}", s.limits)),
+            ("a limit", format!("{:#?}", s.limits)),
             (
                 "the list of points",
-                format!("{:?}", (self.flags.all_points, &self.targets.points)),
+                format!("{:#?}", (self.flags.all_points, &self.targets.points)),
             ),
             (
                 "the compensated program's name",
-                format!("{:?}", self.targets.program),
+                format!("{:#?}", self.targets.program),
             ),
-            ("the features", format!("{:?}", s.features)),
+            ("the features", format!("{:#?}", s.features)),
             ("the length of the parts", format!("{length:?}")),
         ];
         Manifest(

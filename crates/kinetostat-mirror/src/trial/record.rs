@@ -14,6 +14,11 @@ pub struct MeasuredFile {
     pub sha256: String,
 }
 
+/// States without the word are of trials that were mirrored, or of the last one.
+fn yes() -> bool {
+    true
+}
+
 /// One trial: what was measured of the program with the correction before, and what became of it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Trial {
@@ -23,6 +28,9 @@ pub struct Trial {
     pub measured: Vec<MeasuredFile>,
     /// Share of the deviation that was mirrored.
     pub relaxation: f64,
+    /// Whether the correction was changed by it: not where nothing was left to correct.
+    #[serde(default = "yes")]
+    pub mirrored: bool,
     /// Sizes, of the first measurement where there are several.
     pub figures: DeviationFigures,
     /// Root mean square of the smoothed deviation, of the mean of all measurements, mm.

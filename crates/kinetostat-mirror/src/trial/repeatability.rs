@@ -68,6 +68,13 @@ pub struct Averaging {
     pub relaxation_before: f64,
 }
 
+impl Averaging {
+    /// How many stretches of the path are smoothed apart from one another.
+    pub(crate) fn independent(&self) -> f64 {
+        self.length_mm / (std::f64::consts::PI.sqrt() * self.smoothing_mm)
+    }
+}
+
 /// The root mean square that a smoothed deviation has where nothing but scatter is left, mm, and what is within it.
 ///
 /// ```
@@ -92,7 +99,6 @@ pub fn floor_mm(repeatability: Repeatability, averaging: &Averaging) -> [f64; 2]
     };
     let with_correction = (2.0 / (2.0 - averaging.relaxation_before)).sqrt();
     let floor = of_one * with_correction / (averaging.measurements as f64).sqrt();
-    let independent = averaging.length_mm / (std::f64::consts::PI.sqrt() * averaging.smoothing_mm);
-    let share = (2.0 / independent.max(1.0)).sqrt();
+    let share = (2.0 / averaging.independent().max(1.0)).sqrt();
     [floor, floor * (1.0 + 2.0 * share).sqrt()]
 }

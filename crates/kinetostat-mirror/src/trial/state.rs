@@ -9,7 +9,7 @@ use crate::trial::convergence::Convergence;
 use crate::trial::passing::passed;
 use crate::trial::record::{MeasuredFile, Trial};
 use crate::trial::repeatability::{Averaging, Repeatability, floor_mm};
-use crate::trial::taking::{are_new, have_places};
+use crate::trial::taking::{are_new, have_places, shows_the_correction};
 use kinetostat_program::NominalPath;
 
 /// Of the form of the state.
@@ -143,7 +143,7 @@ impl MirrorState {
     ///
     /// # Errors
     /// A relaxation that is not above 0 and below 2; no measurement, one of another path, or one that an earlier trial has taken
-    /// or that comes twice; one of which most points have no place on the path.
+    /// or that comes twice; one of which most points have no place on the path; one that shows nothing of the last correction.
     pub fn take(
         &mut self,
         nominal: &NominalPath<'_>,
@@ -191,7 +191,8 @@ impl MirrorState {
             relaxation_before: self.trials.last().map_or(0.0, |last| last.relaxation),
         };
         let floor = repeatability.map(|known| floor_mm(known, &averaging));
-        let convergence = self.trials.last().and_then(|last| {
+        let last = self.trials.last().filter(|last| last.mirrored);
+        let convergence = last.and_then(|last| {
             let passed = passed(
                 &places,
                 &self.deviation_mm,
@@ -201,6 +202,10 @@ impl MirrorState {
             let deviations = [&self.deviation_mm, &deviation, &passed].map(Vec::as_slice);
             Convergence::between(deviations, &seen_lengths, last.relaxation)
         });
+        if let Some(found) = &convergence {
+            let independent = averaging.independent().max(1.0);
+            shows_the_correction((measured, &self.trials), found, independent)?;
+        }
         let outcome = match (floor, convergence) {
             _ if deviation.iter().all(|d| d.norm() <= NOTHING_MM) => Outcome::NothingToCorrect,
             (Some([_, within]), _) if left_mm <= within => Outcome::WithinRepeatability,
@@ -217,6 +222,7 @@ impl MirrorState {
             number: self.trials.len() + 1,
             measured: measured.iter().map(|(file, _)| file.clone()).collect(),
             relaxation,
+            mirrored: goes_on,
             figures: first.figures,
             left_mm,
             floor_mm: floor.map(|[floor, _]| floor),
