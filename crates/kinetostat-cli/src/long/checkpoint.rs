@@ -72,6 +72,18 @@ pub(crate) struct Checkpoint {
     lock: Option<fs::File>,
 }
 
+/// How a failure begins of which the rest of the run may be kept.
+const NOT_KEPT: &str = "what is done so far cannot be kept";
+
+/// What is done of a run cannot be kept.
+pub(crate) fn not_kept(path: &Path, error: &std::io::Error) -> Failure {
+    Failure::input(format!(
+        "{NOT_KEPT} in '{}': {}",
+        path.display(),
+        description(error)
+    ))
+}
+
 const MANIFEST: &str = "manifest.json";
 const STATE: &str = "state.json";
 const STATE_BEFORE: &str = "state-before.json";
@@ -91,11 +103,7 @@ impl Checkpoint {
     }
 
     fn refused(&self, error: &std::io::Error) -> Failure {
-        Failure::input(format!(
-            "what is done so far cannot be kept in '{}': {}; what was kept before is not lost, and the same command goes on from there",
-            self.folder.display(),
-            description(error)
-        ))
+        not_kept(&self.folder, error)
     }
 
     /// Begins a run, or goes on with one that was interrupted: whether there may be one. `restart`: what was kept is thrown away.
@@ -161,14 +169,34 @@ impl Checkpoint {
         failure
     }
 
-    /// A failure of a run of which something is done; where it was stopped, that the same command goes on from there.
-    pub(crate) fn while_stopped(&self, mut failure: Failure) -> Failure {
-        if failure.code == Code::Stopped {
-            failure.plain.push_str(&format!(
+    /// A failure of a run, with what becomes of what was done: where it was stopped, or that could not be kept.
+    /// The folder stays where there is anything in it to go on from.
+    pub(crate) fn left(self, mut failure: Failure) -> Failure {
+        let is_not_kept = failure.plain.starts_with(NOT_KEPT);
+        let stopped = failure.code == Code::Stopped;
+        let has_work = self.has_work();
+        let done = match (has_work, is_not_kept, stopped) {
+            (true, true, _) => {
+                "; what was kept before is not lost, and the same command goes on from there"
+                    .to_owned()
+            }
+            (false, true, _) => {
+                "; nothing had been kept yet: with room there, the same command begins anew"
+                    .to_owned()
+            }
+            (true, false, true) => format!(
                 "; what is done is kept in '{}', and the same command goes on from there",
                 self.folder.display()
-            ));
+            ),
+            _ => String::new(),
+        };
+        if !done.is_empty() {
+            failure.plain.push_str(&done);
             failure.styled = None;
+        }
+        // One that another run holds is not ours to remove.
+        if !has_work && self.lock.is_some() {
+            self.remove();
         }
         failure
     }

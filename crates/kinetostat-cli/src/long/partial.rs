@@ -5,8 +5,8 @@ use std::io::{BufReader, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
 use crate::files::journal::Contents;
+use crate::long::checkpoint::not_kept;
 use crate::ui::failure::{Answer, Failure};
-use crate::ui::system_error::description;
 
 /// An output that grows part by part.
 pub(crate) struct Partial {
@@ -16,11 +16,7 @@ pub(crate) struct Partial {
 }
 
 fn refused(path: &Path, error: &std::io::Error) -> Failure {
-    Failure::input(format!(
-        "what is done so far cannot be kept in '{}': {}; nothing of it is lost, and the same command goes on from there",
-        path.display(),
-        description(error)
-    ))
+    not_kept(path, error)
 }
 
 impl Partial {

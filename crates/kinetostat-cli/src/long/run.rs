@@ -209,23 +209,21 @@ impl<'a> LongRun<'a> {
     /// The run, from its outputs claimed to its result.
     pub(crate) fn run(self, outputs: &mut RunOutputs) -> Answer<(Run, LongFiles)> {
         let progress = Progress::new();
-        let length = part_length(self.flags);
+        let length = part_length(self.flags, self.model);
         let mut kept = checkpoint(self.targets);
-        kept.open(&self.manifest(length), self.flags.restart)?;
-        let mut work = Work::go_on(&kept, self.survey, self.setting)?;
+        let opened = kept.open(&self.manifest(length), self.flags.restart);
+        let begun = opened.and_then(|_| Work::go_on(&kept, self.survey, self.setting));
+        let mut work = match begun {
+            Ok(work) => work,
+            Err(failure) => return Err(kept.left(failure)),
+        };
         let done = self.work(&mut work, (&kept, length), outputs, &progress);
         if done.is_err() && work.state.parts > 0 && work.is_whole {
             // What can be kept is kept; why it ended is said.
             let _ = work.keep(&kept);
         }
         if let Err(failure) = done {
-            return Err(match work.state.parts > 0 || work.state.as_it_is {
-                true => kept.while_stopped(failure),
-                false => {
-                    kept.remove();
-                    failure
-                }
-            });
+            return Err(kept.left(failure));
         }
         progress.finish();
         let reading = self.survey.warnings.iter();

@@ -4,6 +4,7 @@ use std::fs::File;
 use std::io::{BufRead, BufReader};
 use std::path::Path;
 
+use kinetostat_model::Model;
 use kinetostat_program::PartLength;
 
 use crate::files::input_files::InputFiles;
@@ -23,14 +24,21 @@ const FIRST_BYTES: usize = 1 << 20;
 /// Lines of a long program by which its language and settings are recognised.
 const FIRST_LINES: usize = 400;
 
+/// Lines of a part on a machine with platforms between base and tool, where a place takes some ten times as long as on others: what is
+/// done is kept at the end of a part. It follows from the model alone, so that bytes do not depend on how fast a computer is.
+const OWN_OF_SEVERAL: usize = 2_000;
+
 /// How long parts are: `--part-lines` is for tests, and has a program of any length run in parts.
-pub(crate) fn part_length(flags: &ProgramArgs) -> PartLength {
-    match flags.part_lines {
-        Some(own) => PartLength {
-            own,
-            ..PartLength::default()
-        },
-        None => PartLength::default(),
+pub(crate) fn part_length(flags: &ProgramArgs, model: &Model) -> PartLength {
+    let usual = PartLength::default();
+    let several = model.mechanism.platforms().len() > 2;
+    let own = match several {
+        true => OWN_OF_SEVERAL,
+        false => usual.own,
+    };
+    PartLength {
+        own: flags.part_lines.unwrap_or(own),
+        ..usual
     }
 }
 

@@ -6,6 +6,7 @@
 mod answer;
 pub(crate) mod arguments;
 mod asked;
+mod part;
 mod picture;
 mod text;
 
@@ -25,6 +26,7 @@ use crate::job::run_warnings;
 use crate::job::setting::setting;
 use crate::placing::answer::{AtBest, PlaceAnswer};
 use crate::placing::arguments::PlacingArgs;
+use crate::placing::part::beside_the_part;
 use crate::program::aim::Aim;
 use crate::program::solve::{forces_of, with_task};
 use crate::ui::failure::{Answer, Failure};
@@ -102,6 +104,8 @@ pub(crate) fn run(args: &PlacingArgs) -> Answer<()> {
         .as_ref()
         .map_or_else(Vec::new, |run| run.result.warnings.clone());
     warnings.extend(run_warnings::of_run(&model, job));
+    let part = question.part.as_ref();
+    warnings.extend(part.and_then(|part| beside_the_part(part, read.path())));
     let result = at_best.as_ref().map(|run| &run.result);
     let answer = PlaceAnswer {
         schema: 1,

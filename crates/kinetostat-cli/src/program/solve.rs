@@ -83,17 +83,20 @@ pub(crate) fn forces_of(
     }
 }
 
+/// No smaller tolerance can be stated, mm.
+const SMALLEST_MM: f64 = 1e-6;
+
 /// Shares what is asked for in all out among straight pieces, chords of arcs (where there are some) and rounding. Where rounding
 /// takes nearly all of it, a fifth is left for the pieces, and the verdict says what comes of it.
 fn share_out(writing: &mut WriteOptions, (asked_mm, rounding_mm): (f64, f64), path: &ToolPath) {
-    writing.chord_tolerance_mm = smaller(writing.chord_tolerance_mm, 0.4 * asked_mm);
+    let chords_mm = smaller(writing.chord_tolerance_mm, 0.4 * asked_mm);
+    writing.chord_tolerance_mm = larger(chords_mm, SMALLEST_MM);
     let chords_mm = match kinetostat_machining::feed_arcs(path) {
         0 => 0.0,
         _ => writing.chord_tolerance_mm,
     };
     let left_mm = larger(asked_mm - rounding_mm - chords_mm, 0.2 * asked_mm);
-    // No smaller one can be stated.
-    writing.tolerance_mm = larger(left_mm, 1e-6);
+    writing.tolerance_mm = larger(left_mm, SMALLEST_MM);
 }
 
 /// What `work` makes of the task of a run over a program that was read.

@@ -116,6 +116,25 @@ fn a_part_behind_an_obstacle_is_not_to_be_moved_by_nothing() {
     assert!(err.contains("The machine reaches all of it there"), "{err}");
 }
 
+/// A box that has nothing to do with the program keeps clear of obstacles what is not the part.
+#[test]
+fn a_box_that_the_program_does_not_cut_in_is_told() {
+    let here = workplace();
+    let write = |name: &str, text: &str| std::fs::write(here.path().join(name), text).unwrap();
+    write("plate.ngc", PLATE);
+    let said = |part: &str| {
+        let free = format!("[place]\nx_mm = [1400, 1410]\npart_box_mm = {part}\n");
+        write("job.toml", &job("plate.ngc", &free));
+        let words = ["place", "job.toml", "--samples", "4"];
+        let said = run(here.path(), &words).answered();
+        said.out.split_whitespace().collect::<Vec<_>>().join(" ")
+    };
+    let around = said("[[-10, -10, -40], [150, 80, 0]]");
+    assert!(!around.contains("outside part_box_mm"), "{around}");
+    let elsewhere = said("[[1400, 70, 400], [1600, 170, 500]]");
+    assert!(elsewhere.contains("outside part_box_mm"), "{elsewhere}");
+}
+
 #[test]
 fn questions_without_sense_are_refused() {
     let here = workplace();
