@@ -59,6 +59,7 @@ pub use modes::complex::{ComplexMode, ComplexModes, Verdict};
 pub use modes::{DirectionCounts, EnergyShare, Mode, ModeKind, Modes};
 pub use reduction::{BoundedFrequency, ReducedLimb};
 pub use response::by_limbs::LimbResponse;
+pub use response::coupled::CoupledDamping;
 pub use response::direct::DirectResponse;
 pub use response::modal::{ModalResponse, TranslationalModes};
 pub use response::{Quantity, Receptance};

@@ -4,7 +4,7 @@ use kinetostat_chatter::{
     ChatterError, FeedFrame, MillingCut, Mode, Regeneration, Swinging, ToolResponse,
 };
 use kinetostat_dynamics::{Damping, Error, TranslationalModes};
-use nalgebra::Vector3;
+use nalgebra::{DMatrix, Vector3};
 
 use crate::vibration::machine::VibratingMachine;
 
@@ -82,11 +82,16 @@ impl MachineCut<'_> {
             _ => false,
         };
         let (mut modes, mut odd) = (Vec::with_capacity(own_hz.len()), Vec::new());
+        // Where each mode stands in the data.
+        let mut places = Vec::with_capacity(own_hz.len());
         let each = data.shapes.iter().zip(&data.squared).zip(&data.ratios);
-        for (((shape, squared), ratio), hz) in each.zip(own_hz) {
+        for (place, (((shape, squared), ratio), hz)) in each.zip(own_hz).enumerate() {
             match Mode::new(*shape, *squared, *ratio) {
-                Ok(mode) if *ratio >= SCARCE || !above(*hz) => modes.push(mode),
-                other => odd.push((shape, *squared, *hz, other)),
+                Ok(mode) if *ratio >= SCARCE || !above(*hz) => {
+                    modes.push(mode);
+                    places.push(place);
+                }
+                other => odd.push((place, (shape, *squared, *hz, other))),
             }
         }
         // At rest, in the measure of the peaks of those that swing.
@@ -101,14 +106,17 @@ impl MachineCut<'_> {
             Err(_) => 0.0,
         };
         let mut residual = data.residual;
-        for (shape, squared, hz, found) in odd {
+        for (place, (shape, squared, hz, found)) in odd {
             let flexible = across(shape) / squared >= Swinging::SHARE * largest;
             let counts = match self.swinging {
                 Swinging::AtLeastTo(_) => flexible,
                 _ => !above(hz),
             };
             match found {
-                Ok(mode) if counts => modes.push(mode),
+                Ok(mode) if counts => {
+                    modes.push(mode);
+                    places.push(place);
+                }
                 Err(mut error) if counts => {
                     error.quantity = format!("{} of the mode at {hz:.4} Hz", error.quantity);
                     return Err(error.into());
@@ -116,6 +124,14 @@ impl MachineCut<'_> {
                 _ => residual += shape * shape.transpose() / squared,
             }
         }
-        Ok(ToolResponse::new(modes)?.with_residual(residual)?)
+        let tool = ToolResponse::new(modes)?.with_residual(residual)?;
+        let Some(coupling) = &data.coupling else {
+            return Ok(tool);
+        };
+        let before = data.shapes.len();
+        places.extend(before..before + coupling.held.len());
+        let n = places.len();
+        let rates = DMatrix::from_fn(n, n, |i, j| coupling.rates[(places[i], places[j])]);
+        Ok(tool.with_coupled_damping(rates, coupling.held.clone())?)
     }
 }

@@ -39,8 +39,9 @@ impl VibratingMachine {
         })
     }
 
-    /// By how much the response of the tool's tip along axes, with each mode's own damping alone, is off at the frequencies
-    /// of the vibrations up to one, Hz: the largest share of the direct response. 0 where no damping couples modes.
+    /// By how much the response of the tool's tip along axes by modes, with what viscous damping couples, is off at the frequencies
+    /// of the vibrations up to one, Hz: the largest share of the direct response. 0 where no damping couples modes. What dampers do
+    /// on parts without mass is not in the modes, nor what structural damping couples.
     ///
     /// # Errors
     /// As [`Self::tool_receptance`].
@@ -51,11 +52,11 @@ impl VibratingMachine {
         let hz: Vec<f64> = (self.modes.frequencies_hz().into_iter())
             .filter(|hz| *hz > 0.0 && *hz <= up_to_hz)
             .collect();
-        let [by_modes, directly] =
-            [Some(usize::MAX), None].map(|kept| self.tool_receptance(damping, kept)?.over(&hz));
-        let off = by_modes?.into_iter().zip(directly?).map(|(modal, direct)| {
-            let along = |m: Receptance| m.fixed_view::<3, 3>(0, 0).into_owned();
-            (along(modal) - along(direct)).norm() / along(direct).norm()
+        let by_modes = self.tool_response(damping, usize::MAX)?.translational()?;
+        let directly = self.tool_receptance(damping, None)?.over(&hz)?;
+        let off = hz.iter().zip(directly).map(|(hz, direct)| {
+            let along = direct.fixed_view::<3, 3>(0, 0).into_owned();
+            (by_modes.receptance_at_hz(*hz) - along).norm() / along.norm()
         });
         Ok(off.fold(0.0, kinetostat::number::larger))
     }

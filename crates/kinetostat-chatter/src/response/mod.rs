@@ -2,6 +2,7 @@
 //!
 //! Takes modal data at the cutting point; gives receptances in any frame. Sources: `dynamics.md` sections 3, 7 and 8.
 
+mod coupling;
 mod frame;
 mod mode;
 mod tool;
@@ -9,3 +10,5 @@ mod tool;
 pub use frame::FeedFrame;
 pub use mode::Mode;
 pub use tool::ToolResponse;
+
+pub(crate) use coupling::Coupling;

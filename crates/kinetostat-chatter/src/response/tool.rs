@@ -2,10 +2,11 @@
 
 use std::f64::consts::TAU;
 
-use nalgebra::{Complex, Matrix3};
+use nalgebra::{Complex, DMatrix, Matrix3, Vector3};
 
 use crate::error::{ChatterError, ChatterErrorKind, Result};
 use crate::number::Complex64;
+use crate::response::coupling::Coupling;
 use crate::response::frame::FeedFrame;
 use crate::response::mode::Mode;
 
@@ -14,6 +15,8 @@ use crate::response::mode::Mode;
 pub struct ToolResponse {
     modes: Vec<Mode>,
     residual: Matrix3<f64>,
+    /// Where damping couples modes.
+    coupling: Option<Coupling>,
 }
 
 impl ToolResponse {
@@ -33,7 +36,51 @@ impl ToolResponse {
         Ok(Self {
             modes,
             residual: Matrix3::zeros(),
+            coupling: None,
         })
+    }
+
+    /// The same with damping that couples the modes, as dampers at joints do, with each other and with what has no mass.
+    ///
+    /// `held` are directions without mass of unit stiffness that dampers hold, as translations of the cutting point, m per
+    /// sqrt(N m), in the axes of the shapes; their flexibility `h h^T` is a part of the residual one. `rates` is the damping by modes in
+    /// their order (1/s, with `2 zeta_k w_k` on the diagonal), then by these directions (s, with their times of relaxation on
+    /// the diagonal).
+    ///
+    /// ```
+    /// use kinetostat_chatter::{Mode, ToolResponse};
+    /// use nalgebra::DMatrix;
+    ///
+    /// let mode = |x, y, hz| Mode::along([x, y, 0.0].into(), 50.0, hz, 0.02);
+    /// let modes = vec![mode(1.0, 0.0, 20.0)?, mode(0.0, 1.0, 24.0)?];
+    /// let own = |k: usize| 2.0 * 0.02 * modes[k].angular_frequency();
+    /// let rates = DMatrix::from_row_slice(2, 2, &[own(0), 3.0, 3.0, own(1)]);
+    /// let tool = ToolResponse::new(modes.clone())?.with_coupled_damping(rates, Vec::new())?;
+    /// // A force along x moves the tool along y.
+    /// assert!(tool.receptance(20.0)[(1, 0)].norm() > 0.1 * tool.receptance(20.0)[(0, 0)].norm());
+    /// # Ok::<(), kinetostat_chatter::ChatterError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// A matrix of another size, not symmetric, with another diagonal, or that feeds energy to a vibration.
+    pub fn with_coupled_damping(
+        mut self,
+        rates: DMatrix<f64>,
+        held: Vec<Vector3<f64>>,
+    ) -> Result<Self> {
+        self.coupling = Coupling::new(&self.modes, rates, held)?;
+        Ok(self)
+    }
+
+    /// Where damping couples modes.
+    pub(crate) fn coupling(&self) -> Option<&Coupling> {
+        self.coupling.as_ref()
+    }
+
+    /// Flexibility without inertia and without dampers, m/N.
+    pub(crate) fn at_once(&self) -> Matrix3<f64> {
+        let held = self.coupling.iter().flat_map(Coupling::held);
+        held.fold(self.residual, |sum, h| sum - h * h.transpose())
     }
 
     /// The same with the static flexibility of the modes that are left out, m/N, in the axes of the shapes:
@@ -81,7 +128,8 @@ impl ToolResponse {
         self.modes.iter().fold(self.residual, spring)
     }
 
-    /// Receptance, m/N: `G(w) = sum phi phi^T/(w_k^2 - w^2 + 2 i zeta w_k w) + G_res` (`dynamics.md` section 8).
+    /// Receptance, m/N: `G(w) = sum phi phi^T/(w_k^2 - w^2 + 2 i zeta w_k w) + G_res` (`dynamics.md` section 8), and with all rates
+    /// where damping couples modes.
     #[must_use]
     pub fn receptance(&self, frequency_hz: f64) -> Matrix3<Complex<f64>> {
         self.at(TAU * frequency_hz)
@@ -89,6 +137,10 @@ impl ToolResponse {
 
     /// As [`Self::receptance`], at an angular frequency, rad/s.
     pub(crate) fn at(&self, angular_frequency: f64) -> Matrix3<Complex64> {
+        if let Some(coupling) = &self.coupling {
+            let of_all = coupling.receptance(&self.modes, angular_frequency);
+            return self.at_once().map(Complex64::from) + of_all;
+        }
         let residual = self.residual.map(Complex64::from);
         self.modes.iter().fold(residual, |sum, mode| {
             let gain = mode.gain(angular_frequency);
@@ -118,16 +170,29 @@ impl ToolResponse {
                 .map(|mode| mode.with_shape(turned * mode.shape()))
                 .collect(),
             residual: turned * self.residual * turned.transpose(),
+            coupling: self.coupling.as_ref().map(|c| c.turned(&turned)),
         }
     }
 
     /// The same with the modes in the order of their frequencies, of which all but the lowest `count` (at least one) are springs.
     pub(crate) fn with_lowest(&self, count: usize) -> Self {
-        let mut modes = self.modes.clone();
-        modes.sort_by(|a, b| a.frequency_hz().total_cmp(&b.frequency_hz()));
-        let rest = modes.split_off(count.clamp(1, modes.len()));
-        let residual = rest.iter().fold(self.residual, spring);
-        Self { modes, residual }
+        let mut order: Vec<usize> = (0..self.modes.len()).collect();
+        let hz = |k: usize| self.modes[k].frequency_hz();
+        order.sort_by(|a, b| hz(*a).total_cmp(&hz(*b)));
+        let rest = order.split_off(count.clamp(1, order.len()));
+        self.of(&order, &rest)
+    }
+
+    /// The same with some of its modes, in this order, and others as springs.
+    fn of(&self, kept: &[usize], springs: &[usize]) -> Self {
+        let springs = springs.iter().map(|k| &self.modes[*k]);
+        let modes: Vec<Mode> = kept.iter().map(|k| self.modes[*k]).collect();
+        let coupling = self.coupling.as_ref();
+        Self {
+            residual: springs.fold(self.residual, spring),
+            coupling: coupling.and_then(|coupling| coupling.of((&modes, kept))),
+            modes,
+        }
     }
 
     /// The same with the modes above a frequency taken as springs: what they give statically joins the residual flexibility.
@@ -135,12 +200,12 @@ impl ToolResponse {
     /// # Errors
     /// No mode at or below the frequency.
     pub fn with_modes_up_to(&self, frequency_hz: f64) -> Result<Self> {
-        let (kept, rest): (Vec<Mode>, Vec<Mode>) = self
-            .modes
-            .iter()
-            .partition(|mode| mode.frequency_hz() <= frequency_hz);
-        let residual = rest.iter().fold(self.residual, spring);
-        Self::new(kept)?.with_residual(residual)
+        let (kept, rest): (Vec<usize>, Vec<usize>) =
+            (0..self.modes.len()).partition(|k| self.modes[*k].frequency_hz() <= frequency_hz);
+        let found = self.of(&kept, &rest);
+        // Refuses none.
+        Self::new(found.modes.clone())?;
+        Ok(found)
     }
 }
 

@@ -11,6 +11,7 @@ use crate::number::{Complex64, larger};
 use crate::response::ToolResponse;
 use crate::stability::collocation::Chebyshev;
 use crate::stability::legendre::Answer;
+use crate::stability::states::State;
 
 /// Points of a stretch beside those for its vibrations.
 const LEAST_POINTS: f64 = 14.0;
@@ -36,17 +37,6 @@ pub(crate) fn resolved_hz(cut: &Cut, speed_rpm: f64, up_to: f64) -> f64 {
 
 /// At a node, of each difference: the force on the tool by depth and difference, N/m^2, and the direction of the displacement.
 type Factors = Vec<(Vector3<f64>, Vector3<f64>)>;
-
-/// A mode as a complex state `u` of the size of a displacement: the point moves by `direction Im u`, and a force `F` drives
-/// `u' = root u + gain . F`.
-#[derive(Clone, Debug)]
-pub(crate) struct State {
-    pub(crate) root: Complex64,
-    /// Unit vector of the shape.
-    pub(crate) direction: Vector3<f64>,
-    /// m/(N s).
-    pub(crate) gain: Vector3<f64>,
-}
 
 /// What a stretch in the cut does: displacements along the chip at its nodes are `state u_0 + force (a d)`, where `d` is
 /// their difference from one period before.
@@ -101,6 +91,11 @@ impl Cutting {
     }
 }
 
+/// Product of a real vector and a complex one.
+fn scaled(real: &Vector3<f64>, complex: &Vector3<Complex64>) -> Complex64 {
+    complex.x * real.x + complex.y * real.y + complex.z * real.z
+}
+
 /// Number of nodes of a stretch.
 fn points(states: &[State], duration: f64, turn: f64, fineness: f64) -> Result<usize> {
     // How fast it dies away counts as how fast it swings.
@@ -143,10 +138,10 @@ fn free(
         for (i, (share, factors)) in chebyshev.nodes.iter().zip(factors).enumerate() {
             let turned = (mode.root * (duration * share)).exp();
             for (k, (_, along)) in factors.iter().enumerate() {
-                let moved = along.dot(&mode.direction);
-                // Im((x + i y) turned) = x Im turned + y Re turned
-                free[(kinds * i + k, 2 * m)] = moved * turned.im;
-                free[(kinds * i + k, 2 * m + 1)] = moved * turned.re;
+                let moved = scaled(along, &mode.direction) * turned;
+                // Im((x + i y) moved) = x Im moved + y Re moved
+                free[(kinds * i + k, 2 * m)] = moved.im;
+                free[(kinds * i + k, 2 * m + 1)] = moved.re;
             }
         }
     }
@@ -187,9 +182,13 @@ impl Through {
             for (a, axes) in axes.iter_mut().enumerate() {
                 for (b, sum) in axes.iter_mut().enumerate() {
                     let share = mode.direction[a] * mode.gain[b] * duration;
-                    if share != 0.0 && counts[a] && pushes[b] {
-                        let sum = sum.get_or_insert_with(|| DMatrix::zeros(n, n + 1));
-                        sum.zip_apply(&answer.imaginary, |sum, value| *sum += share * value);
+                    if share == Complex64::default() || !counts[a] || !pushes[b] {
+                        continue;
+                    }
+                    let sum = sum.get_or_insert_with(|| DMatrix::zeros(n, n + 1));
+                    sum.zip_apply(&answer.imaginary, |sum, value| *sum += share.re * value);
+                    if share.im != 0.0 {
+                        sum.zip_apply(&answer.real, |sum, value| *sum += share.im * value);
                     }
                 }
             }
@@ -225,11 +224,11 @@ impl Through {
             }
         }
         // What acts without inertia.
+        let at_once = response.at_once();
         for (i, factors) in factors.iter().enumerate() {
             for (k, (_, along)) in factors.iter().enumerate() {
                 for (l, (pushed, _)) in factors.iter().enumerate() {
-                    force[(kinds * i + k, kinds * i + l)] +=
-                        along.dot(&(response.residual() * pushed));
+                    force[(kinds * i + k, kinds * i + l)] += along.dot(&(at_once * pushed));
                 }
             }
         }
@@ -241,7 +240,13 @@ impl Through {
         let (n, kinds) = (factors.len(), factors[0].len());
         DMatrix::from_fn(2 * states.len(), kinds * n, |row, column| {
             let (pushed, _) = &factors[column / kinds][column % kinds];
-            self.end[(row, column / kinds)] * states[row / 2].gain.dot(pushed)
+            let gain = scaled(pushed, &states[row / 2].gain);
+            let [real, imaginary] =
+                [0, 1].map(|part| self.end[(row - row % 2 + part, column / kinds)]);
+            match row % 2 {
+                0 => gain.re * real - gain.im * imaginary,
+                _ => gain.re * imaginary + gain.im * real,
+            }
         })
     }
 }

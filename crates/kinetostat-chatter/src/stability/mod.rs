@@ -1,6 +1,6 @@
 //! Exact stability of a regenerative cut: multipliers of the monodromy operator, and the depths between which it is stable.
 //!
-//! `collocation` has the points of a stretch of the period, split where teeth come and go; `legendre` solves a mode on it,
+//! `collocation` has the points of a stretch of the period, split where teeth come and go; `states` has the modes, `legendre` solves one on it,
 //! `cutting` puts the modes together, `period` the stretches; `operator` is the monodromy operator at a depth; `krylov` finds
 //! its largest multiplier, with `followed` and `eigenvalues`; `scan` looks along the depth; `swinging` says which modes count,
 //! `counted` sees to it that they do. Source: `dynamics.md` section 10 [D 8].
@@ -17,6 +17,7 @@ mod operator;
 mod period;
 mod regeneration;
 mod scan;
+mod states;
 mod swinging;
 
 pub use multiplier::{Instability, Multiplier};

@@ -6,7 +6,8 @@ use crate::cut::Cut;
 use crate::error::Result;
 use crate::number::Complex64;
 use crate::response::ToolResponse;
-use crate::stability::cutting::{Cutting, State};
+use crate::stability::cutting::Cutting;
+use crate::stability::states::State;
 
 /// A stretch of time without a tooth that comes or goes.
 #[derive(Clone, Debug)]
@@ -35,7 +36,7 @@ pub(crate) struct Period {
 impl Period {
     /// The period of a cut at a speed and, for helical teeth, a depth, with `fineness` times the usual points.
     pub(crate) fn new(
-        response: &ToolResponse,
+        (response, states): (&ToolResponse, Vec<State>),
         cut: &Cut,
         speed_rpm: f64,
         depth: f64,
@@ -43,20 +44,6 @@ impl Period {
     ) -> Result<Self> {
         let delay = cut.delay(speed_rpm)?;
         let speed = TAU * speed_rpm / 60.0;
-        let states: Vec<State> = response
-            .modes()
-            .iter()
-            .filter(|mode| mode.shape().norm() > 0.0)
-            .map(|mode| {
-                let root = mode.root();
-                let size = mode.shape().norm();
-                State {
-                    root,
-                    direction: mode.shape() / size,
-                    gain: mode.shape() * (size / root.im),
-                }
-            })
-            .collect();
         let pieces = cut.pieces(depth);
         let starts = pieces.first().map_or(0.0, |piece| piece.start);
         let stretches = pieces

@@ -12,6 +12,7 @@ use crate::stability::krylov;
 use crate::stability::multiplier::Multiplier;
 use crate::stability::operator::Operator;
 use crate::stability::period::Period;
+use crate::stability::states::{State, states};
 use crate::stability::swinging::{Selection, Swinging};
 
 /// Change of a multiplier with a third more points that is accepted, share of it.
@@ -36,6 +37,8 @@ const FINEST: f64 = 4.0;
 pub struct Regeneration {
     response: ToolResponse,
     cut: Cut,
+    /// Its modes, or why they cannot be told apart.
+    states: Result<Vec<State>>,
     /// Most that a force of 1 N moves the tool by at any frequency, at most, m/N.
     gain: f64,
     /// Which modes swing; without it all do.
@@ -98,6 +101,7 @@ impl Regeneration {
     fn of_all(response: ToolResponse, cut: Cut) -> Self {
         let gain = peak(&response);
         Self {
+            states: states(&response),
             response,
             cut,
             gain,
@@ -218,7 +222,14 @@ impl Regeneration {
                 "0.3 to 10 times the usual points",
             ));
         }
-        Period::new(&self.response, &self.cut, speed_rpm, depth, fineness)
+        let states = self.states.clone()?;
+        Period::new(
+            (&self.response, states),
+            &self.cut,
+            speed_rpm,
+            depth,
+            fineness,
+        )
     }
 }
 

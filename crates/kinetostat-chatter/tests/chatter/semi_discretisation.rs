@@ -49,6 +49,21 @@ pub fn multiplier(
     depth: f64,
     steps: usize,
 ) -> f64 {
+    let own =
+        |k: usize| 2.0 * tool.modes()[k].damping_ratio() * tool.modes()[k].angular_frequency();
+    let m = tool.modes().len();
+    let rates = DMatrix::from_fn(m, m, |i, j| if i == j { own(i) } else { 0.0 });
+    multiplier_with((tool, &rates), cut, speed_rpm, depth, steps)
+}
+
+/// The same with rates of damping between the modes, 1/s.
+fn multiplier_with(
+    (tool, rates): (&ToolResponse, &DMatrix<f64>),
+    cut: &Plain,
+    speed_rpm: f64,
+    depth: f64,
+    steps: usize,
+) -> f64 {
     let m = tool.modes().len();
     let tau = 60.0 / speed_rpm / cut.teeth as f64;
     let h = tau / steps as f64;
@@ -72,13 +87,12 @@ pub fn multiplier(
             };
             let mut big = DMatrix::zeros(n + 4, n + 4);
             for a in 0..m {
-                let (w, z) = (
-                    tool.modes()[a].angular_frequency(),
-                    tool.modes()[a].damping_ratio(),
-                );
+                let w = tool.modes()[a].angular_frequency();
                 big[(a, m + a)] = 1.0;
                 big[(m + a, a)] -= w * w;
-                big[(m + a, m + a)] = -2.0 * z * w;
+                for b in 0..m {
+                    big[(m + a, m + b)] = -rates[(a, b)];
+                }
                 let [px, py] = push(a);
                 for b in 0..m {
                     big[(m + a, b)] += px * shape(b).x + py * shape(b).y;
@@ -145,5 +159,18 @@ pub fn extrapolated(
     steps: usize,
 ) -> f64 {
     let [coarse, fine] = [steps, steps * 3 / 2].map(|k| multiplier(tool, cut, speed_rpm, depth, k));
+    fine + (fine - coarse) / (2.25 - 1.0)
+}
+
+/// The same with rates of damping between the modes, 1/s.
+pub fn extrapolated_with(
+    tool: (&ToolResponse, &DMatrix<f64>),
+    cut: &Plain,
+    speed_rpm: f64,
+    depth: f64,
+    steps: usize,
+) -> f64 {
+    let of = |k: usize| multiplier_with(tool, cut, speed_rpm, depth, k);
+    let [coarse, fine] = [steps, steps * 3 / 2].map(of);
     fine + (fine - coarse) / (2.25 - 1.0)
 }

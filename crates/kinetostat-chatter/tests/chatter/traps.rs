@@ -22,7 +22,7 @@ fn limit(machine: &Regeneration, speed: f64) -> f64 {
         .map_or(f64::NAN, |l| l.depth)
 }
 
-fn plain(machine: &MillingCut, slices: usize) -> Plain {
+pub fn plain(machine: &MillingCut, slices: usize) -> Plain {
     Plain {
         teeth: machine.teeth(),
         entry: machine.arc().entry(),

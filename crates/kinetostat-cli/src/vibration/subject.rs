@@ -81,13 +81,13 @@ pub(crate) fn refused(error: Error) -> Failure {
 /// Largest share by which a response by modes may be off before it is said.
 const COUPLED: f64 = 0.02;
 
-/// Dampers that couple modes, where a cut is judged by modes with their own damping alone.
+/// What damping does that is not in the modes, where a cut is judged by them: on parts without mass, or by the material.
 pub(crate) fn lost_coupling(off: f64) -> Option<Warning> {
     (off > COUPLED).then(|| {
         Warning::new(
             WarningCode::Model,
             format!(
-                "this damping couples modes, and limits are those of modes with their own damping alone: the response of the tool's tip is up to {:.0} % off so (`kinetostat frf` solves it directly)",
+                "this damping is not all in the modes (dampers on parts without mass, or structural damping under load), and limits are those of the modes: the response of the tool's tip is up to {:.0} % off so (`kinetostat frf` solves it directly)",
                 100.0 * off
             ),
         )

@@ -181,7 +181,7 @@ impl LinearDynamics {
     }
 
     /// How much a joint or spring coordinate moves by the independent ones.
-    fn motion_of_coordinate(&self, name: &str) -> Result<nalgebra::DVector<f64>> {
+    pub(crate) fn motion_of_coordinate(&self, name: &str) -> Result<nalgebra::DVector<f64>> {
         let found = self.coordinates.iter().find(|c| c.name == name);
         let found = found.ok_or_else(|| Error::UnknownName {
             what: "joint or spring",

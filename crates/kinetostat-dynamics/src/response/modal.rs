@@ -9,6 +9,7 @@ use crate::linear::LinearDynamics;
 use crate::linear::places::Point;
 use crate::modes::pencil::{neutral_directions, symmetric};
 use crate::modes::{ModeKind, Modes};
+use crate::response::coupled::CoupledDamping;
 use crate::response::{Quantity, Receptance};
 
 /// One mode as two points see it.
@@ -43,6 +44,8 @@ pub struct TranslationalModes {
     pub ratios: Vec<f64>,
     /// Residual flexibility of everything else, m/N.
     pub residual: Matrix3<f64>,
+    /// What damping couples, where it does.
+    pub coupling: Option<CoupledDamping>,
 }
 
 /// Response between two points by a sum of modes.
@@ -76,6 +79,7 @@ pub struct ModalResponse {
     residual: Matrix6<f64>,
     same: bool,
     damping: Damping,
+    coupling: Option<CoupledDamping>,
 }
 
 impl ModalResponse {
@@ -115,11 +119,13 @@ impl ModalResponse {
         }
         let residual = dynamics.flexibility(modes, &b_at, &b_from, &terms, kept)?;
         terms.truncate(kept.max(modes.counts.free + modes.counts.unstable));
+        let coupling = dynamics.coupled_damping(modes, damping, (&b_at, terms.len()))?;
         Ok(Self {
             terms,
             residual,
             same: at == from,
             damping: damping.clone(),
+            coupling,
         })
     }
 
@@ -202,6 +208,7 @@ impl ModalResponse {
                 })
                 .collect(),
             residual: self.residual.fixed_view::<3, 3>(0, 0).into_owned(),
+            coupling: self.coupling.clone(),
         })
     }
 
@@ -283,7 +290,7 @@ impl LinearDynamics {
     }
 
     /// `(K - H + s M)^-1 b` by the independent coordinates; neutral directions take no part.
-    fn solved_with_shift(
+    pub(crate) fn solved_with_shift(
         &self,
         shift: f64,
         b: &DMatrix<f64>,
