@@ -1,5 +1,6 @@
 //! Analyses by themselves; with models and machines the command line tests them.
 
+mod coupled_damping;
 mod rotation;
 mod sensitivity;
 mod shares;
