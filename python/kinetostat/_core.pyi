@@ -139,22 +139,16 @@ class Vibration:
     def response(
         self, frequencies: _Floats, law: str, at: str | None, by: str | None, quantity: str, modes: int | None
     ) -> NDArray[np.complex128]: ...
-    def tool_modes(self, law: str) -> tuple[_Floats, _Floats, _Floats, _Floats]: ...
+    def tool_modes(self, law: str) -> tuple[_Floats, _Floats, _Floats, _Floats, _Floats, _Floats | None]: ...
 
 def vibration_of(posture: Posture, wrench: ArrayLike, held: tuple[bool, bool, bool, bool, bool, bool]) -> Vibration: ...
 def coupled_limit_of(
-    shapes: _Floats,
-    squared: _Floats,
-    ratios: _Floats,
-    residual: _Floats,
+    tip: object,
     chip: list[float],
     force: list[float],
 ) -> tuple[float, bool, float] | None: ...
 def lobes_of(
-    shapes: _Floats,
-    squared: _Floats,
-    ratios: _Floats,
-    residual: _Floats,
+    tip: object,
     cut: object,
     speeds: _Floats,
     up_to: float,
@@ -162,10 +156,7 @@ def lobes_of(
     progress: _Progress | None = None,
 ) -> dict[str, Any]: ...
 def multipliers_of(
-    shapes: _Floats,
-    squared: _Floats,
-    ratios: _Floats,
-    residual: _Floats,
+    tip: object,
     cut: object,
     speeds: _Floats,
     depths: _Floats,

@@ -173,18 +173,20 @@ def tool_modes(directions: ArrayLike, *, stiffness: ArrayLike, frequencies_hz: A
     return ToolModes(shapes, squared, ratios, np.zeros((3, 3)))
 
 
-def _of_tool(tool: ToolModes) -> tuple[Floats, Floats, Floats, Floats]:
+def _of_tool(tool: ToolModes) -> ToolModes:
     of_kind("tool", tool, ToolModes, "a kinetostat.vibration.ToolModes")
-    return (
-        finite("shapes", tool.shapes),
-        finite("squared", tool.squared),
-        finite("damping_ratios", tool.damping_ratios),
-        finite("residual", tool.residual),
+    return ToolModes(
+        shapes=finite("shapes", tool.shapes),
+        squared=finite("squared", tool.squared),
+        damping_ratios=finite("damping_ratios", tool.damping_ratios),
+        residual=finite("residual", tool.residual),
+        held=finite("held", tool.held),
+        rates=None if tool.rates is None else finite("rates", tool.rates),
     )
 
 
-def _asked(tool: ToolModes, cut: MillingCut) -> tuple[Floats, Floats, Floats, Floats, _Cut]:
-    return (*_of_tool(tool), of_kind("cut", cut, MillingCut, "a kinetostat.chatter.MillingCut")._native())
+def _asked(tool: ToolModes, cut: MillingCut) -> tuple[ToolModes, _Cut]:
+    return (_of_tool(tool), of_kind("cut", cut, MillingCut, "a kinetostat.chatter.MillingCut")._native())
 
 
 def _speeds(name: str, value: ArrayLike) -> Floats:
@@ -220,7 +222,7 @@ def coupled_limit(tool: ToolModes, *, chip: ArrayLike, force: ArrayLike) -> Coup
     >>> coupled_limit(tip, chip=[1, 0, 0], force=[1, 0, 0]) is None
     True
     """
-    found = _core.coupled_limit_of(*_of_tool(tool), one("chip", chip, (3,)).tolist(), one("force", force, (3,)).tolist())
+    found = _core.coupled_limit_of(_of_tool(tool), one("chip", chip, (3,)).tolist(), one("force", force, (3,)).tolist())
     return None if found is None else CoupledLimit(*found)
 
 

@@ -196,6 +196,12 @@ class ToolModes:
     """(m,): ratios to critical damping."""
     residual: Floats
     """(3, 3): flexibility of what has no mode, m/N."""
+    held: Floats = dataclasses.field(default_factory=lambda: np.zeros((0, 3)))
+    """(h, 3): motion of the tip, m per sqrt(N m), in directions without mass of unit stiffness that dampers hold; what they give at rest is
+    in the residual."""
+    rates: Floats | None = None
+    """(m + h, m + h), where damping couples modes: damping by modes (1/s, ``2 zeta w`` on the diagonal), then by the directions
+    that are held (s, their times of relaxation on the diagonal)."""
 
 
 @dataclasses.dataclass(frozen=True, eq=False)

@@ -252,6 +252,30 @@ def test_an_arm_chatters_as_its_own_modes_do(arm):
     np.testing.assert_allclose(again.limit, found.limit, rtol=1e-6)
 
 
+def test_dampers_that_couple_modes_are_in_the_lobes(arm):
+    vibration = arm.vibration()
+    damping = Damping.viscous(q1=900.0, q2=900.0, q3=400.0, q4=60.0, q5=60.0, q6=20.0)
+    tip = vibration.tool_modes(damping)
+    h, n = len(tip.held), len(tip.shapes) + len(tip.held)
+    assert tip.rates.shape == (n, n)
+    np.testing.assert_allclose(np.diag(tip.rates)[: n - h], 2 * tip.damping_ratios * np.sqrt(tip.squared), rtol=1e-6)
+    # Put together here, the modal data are the direct response.
+    hz = np.array([5.0, 17.0, 40.0, 90.0])
+    direct = vibration.response(hz, damping, direct=True)[:, :3, :3]
+    points, stiff = np.vstack([tip.shapes, tip.held]), np.concatenate([tip.squared, np.ones(h)])
+    mass = np.concatenate([np.ones(n - h), np.zeros(h)])
+    for f, wanted in zip(hz, direct, strict=True):
+        w = 2 * np.pi * f
+        dynamic = np.diag(stiff - w * w * mass) + 1j * w * tip.rates
+        found = points.T @ np.linalg.solve(dynamic, points) + tip.residual - tip.held.T @ tip.held
+        assert np.abs(found - wanted).max() <= 1e-7 * np.abs(wanted).max()
+    cut = chatter.MillingCut(2, 0.5, True, (8e8, 2.4e8, 0.0))
+    alone = ks.vibration.ToolModes(tip.shapes, tip.squared, tip.damping_ratios, tip.residual)
+    with_all, without = (chatter.lobes(t, cut, [2000.0, 3000.0], up_to=20e-3).limit for t in (tip, alone))
+    assert np.all(np.isfinite(with_all))
+    assert np.abs(with_all / without - 1).max() > 1e-3
+
+
 @pytest.mark.parametrize(
     ("change", "said"),
     [

@@ -1,6 +1,6 @@
 //! Stability of a milling cut from modal data of the tool.
 
-use kinetostat::nalgebra::{Matrix3, Vector3};
+use kinetostat::nalgebra::{DMatrix, Matrix3, Vector3};
 use kinetostat_chatter::{
     Arc, ChatterError, Coefficients, Coupled, FeedFrame, Instability, Milled, MillingCut, Mode,
     Process, Regeneration, ToolResponse, coupled_limit, zeroth_order,
@@ -50,12 +50,26 @@ impl Cut {
     }
 }
 
-fn tool(
-    shapes: &Numbers<'_>,
-    squared: &Numbers<'_>,
-    ratios: &Numbers<'_>,
-    residual: &Numbers<'_>,
-) -> PyResult<ToolResponse> {
+/// Modal data of a tool's tip as Python hands them over.
+#[derive(FromPyObject)]
+pub struct Tip<'py> {
+    shapes: Numbers<'py>,
+    squared: Numbers<'py>,
+    damping_ratios: Numbers<'py>,
+    residual: Numbers<'py>,
+    held: Numbers<'py>,
+    rates: Option<Numbers<'py>>,
+}
+
+fn tool(tip: &Tip<'_>) -> PyResult<ToolResponse> {
+    let Tip {
+        shapes,
+        squared,
+        damping_ratios: ratios,
+        residual,
+        held,
+        rates,
+    } = tip;
     let (count, shapes) = rows("shapes", shapes, &[3])?;
     let (squares, squared) = rows("squared", squared, &[])?;
     let (damped, ratios) = rows("damping_ratios", ratios, &[])?;
@@ -74,27 +88,37 @@ fn tool(
         .collect::<Result<Vec<_>, _>>()
         .map_err(refused)?;
     let residual = Matrix3::from_row_slice(residual);
-    ToolResponse::new(modes)
+    let tool = ToolResponse::new(modes)
         .and_then(|tool| tool.with_residual(residual))
+        .map_err(refused)?;
+    let Some(rates) = rates else {
+        return Ok(tool);
+    };
+    let (without_mass, held) = rows("held", held, &[3])?;
+    let n = count + without_mass;
+    let (_, rates) = rows("rates", rates, &[n])?;
+    if rates.len() != n * n {
+        let found = format!("rates has {} numbers, expected ({n}, {n})", rates.len());
+        return Err(error(Class::Argument, found));
+    }
+    let held = held.as_chunks::<3>().0.iter().map(|h| Vector3::from(*h));
+    tool.with_coupled_damping(DMatrix::from_row_slice(n, n, rates), held.collect())
         .map_err(refused)
 }
 
 /// Limits of a cut over spindle speeds (s,), rpm, up to a depth, m; NaN where there is none. See `kinetostat.chatter.lobes`.
 #[pyfunction]
-#[pyo3(signature = (shapes, squared, ratios, residual, cut, speeds, up_to, threads=None, progress=None))]
+#[pyo3(signature = (tip, cut, speeds, up_to, threads=None, progress=None))]
 pub fn lobes_of<'py>(
     py: Python<'py>,
-    shapes: Numbers<'py>,
-    squared: Numbers<'py>,
-    ratios: Numbers<'py>,
-    residual: Numbers<'py>,
+    tip: Tip<'py>,
     cut: Cut,
     speeds: Numbers<'py>,
     up_to: f64,
     threads: Option<usize>,
     progress: Option<Bound<'py, PyAny>>,
 ) -> PyResult<Bound<'py, PyDict>> {
-    let tool = tool(&shapes, &squared, &ratios, &residual)?;
+    let tool = tool(&tip)?;
     let regeneration = cut.regeneration(&tool).map_err(refused)?;
     let (_, speeds) = rows("speeds_rpm", &speeds, &[])?;
     let speeds = speeds.to_vec();
@@ -138,20 +162,17 @@ pub fn lobes_of<'py>(
 
 /// Size of the largest multiplier of one period at speeds (rpm) and depths (m), (n,) each.
 #[pyfunction]
-#[pyo3(signature = (shapes, squared, ratios, residual, cut, speeds, depths, threads=None, progress=None))]
+#[pyo3(signature = (tip, cut, speeds, depths, threads=None, progress=None))]
 pub fn multipliers_of<'py>(
     py: Python<'py>,
-    shapes: Numbers<'py>,
-    squared: Numbers<'py>,
-    ratios: Numbers<'py>,
-    residual: Numbers<'py>,
+    tip: Tip<'py>,
     cut: Cut,
     speeds: Numbers<'py>,
     depths: Numbers<'py>,
     threads: Option<usize>,
     progress: Option<Bound<'py, PyAny>>,
 ) -> PyResult<Bound<'py, PyArray1<f64>>> {
-    let tool = tool(&shapes, &squared, &ratios, &residual)?;
+    let tool = tool(&tip)?;
     let regeneration = cut.regeneration(&tool).map_err(refused)?;
     let (count, speeds) = rows("speeds_rpm", &speeds, &[])?;
     let (other, depths) = rows("depths", &depths, &[])?;
@@ -184,14 +205,11 @@ pub fn multipliers_of<'py>(
 /// flutters, frequency, Hz; nothing where none does. See `kinetostat.chatter.coupled_limit`.
 #[pyfunction]
 pub fn coupled_limit_of<'py>(
-    shapes: Numbers<'py>,
-    squared: Numbers<'py>,
-    ratios: Numbers<'py>,
-    residual: Numbers<'py>,
+    tip: Tip<'py>,
     chip: [f64; 3],
     force: [f64; 3],
 ) -> PyResult<Option<(f64, bool, f64)>> {
-    let tool = tool(&shapes, &squared, &ratios, &residual)?;
+    let tool = tool(&tip)?;
     let process = Process::new(chip.into(), force.into()).map_err(refused)?;
     let found = coupled_limit(&tool, &process).map_err(refused)?;
     Ok(found.map(|limit| {

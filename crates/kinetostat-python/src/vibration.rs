@@ -278,7 +278,8 @@ impl Vibration {
         numbers.into_pyarray(py).reshape([found.len(), 6, 6])
     }
 
-    /// Modal data of the tool's tip for chatter: shapes (m, 3), squares (m,), ratios (m,), residual (3, 3).
+    /// Modal data of the tool's tip for chatter: shapes (m, 3), squares (m,), ratios (m,), residual (3, 3), what has no mass and is held by
+    /// dampers (h, 3), and the damping between all of them (m + h, m + h).
     fn tool_modes<'py>(&self, py: Python<'py>, law: &str) -> PyResult<ToolModes<'py>> {
         let law = damping(law)?;
         let found = self.0.tool_response(&law, usize::MAX);
@@ -286,11 +287,28 @@ impl Vibration {
             .and_then(|response| response.translational())
             .map_err(of_dynamics)?;
         let shapes = data.shapes.iter().flat_map(|s| [s.x, s.y, s.z]).collect();
+        let (held, rates) = data.coupling.map_or_else(Default::default, |coupling| {
+            (coupling.held, Some(coupling.rates))
+        });
         Ok((
             array(py, shapes, [data.shapes.len(), 3])?,
             PyArray1::from_vec(py, data.squared),
             PyArray1::from_vec(py, data.ratios),
             array(py, data.residual.transpose().as_slice().to_vec(), [3, 3])?,
+            array(
+                py,
+                held.iter().flat_map(|h| [h.x, h.y, h.z]).collect(),
+                [held.len(), 3],
+            )?,
+            rates
+                .map(|r| {
+                    array(
+                        py,
+                        r.transpose().as_slice().to_vec(),
+                        [r.nrows(), r.ncols()],
+                    )
+                })
+                .transpose()?,
         ))
     }
 }
@@ -308,10 +326,12 @@ type Reduced<'py> = (
     Bound<'py, PyArray2<f64>>,
 );
 
-/// Shapes, squares, ratios, residual.
+/// Shapes, squares, ratios, residual, held, rates.
 type ToolModes<'py> = (
     Bound<'py, PyArray2<f64>>,
     Bound<'py, PyArray1<f64>>,
     Bound<'py, PyArray1<f64>>,
     Bound<'py, PyArray2<f64>>,
+    Bound<'py, PyArray2<f64>>,
+    Option<Bound<'py, PyArray2<f64>>>,
 );

@@ -56,7 +56,7 @@ fn the_response_of_a_cut_has_all_of_the_damping() {
         ("heavy_6r", rayleigh),
         ("hexapod", viscous(&[("leg 1.screw", 2e4)])),
     ];
-    let (mut worst, mut alone, mut of_cut) = (Worst::new(), Worst::new(), Worst::new());
+    let [mut worst, mut alone, mut of_cut, mut lost] = [(); 4].map(|()| Worst::new());
     let mut count = 0;
     for (name, damping) in cases {
         let machine = machine(name);
@@ -90,7 +90,12 @@ fn the_response_of_a_cut_has_all_of_the_damping() {
             swinging: Swinging::All,
         };
         let turned = cut.frame.rotation().map(Complex::from);
+        // Refused where a mode has no damping: there is nothing to tell then.
         let cut = cut.regeneration();
+        if cut.is_ok() {
+            let told = machine.lost_coupling(&damping, 100.0).expect("a share");
+            lost.add_at(told, || format!("{name}, {damping:?}"));
+        }
         for ((hz, wanted), own) in hz.iter().zip(&directly).zip(&by_modes) {
             let along =
                 |m: &kinetostat_dynamics::Receptance| m.fixed_view::<3, 3>(0, 0).into_owned();
@@ -112,4 +117,9 @@ fn the_response_of_a_cut_has_all_of_the_damping() {
     assert!(worst.of(count) < OFF, "{worst}");
     assert!(alone.of(count) > 0.1, "{alone}");
     assert!(of_cut.value() < OFF, "{of_cut}");
+    assert!(lost.of(2) < OFF, "{lost}");
+    // Structural damping goes by the springs, which the weight has changed: that is no damping of velocities, and told.
+    let structural = Damping::Structural { loss_factor: 0.1 };
+    let told = machine("heavy_6r").lost_coupling(&structural, 1000.0);
+    assert!(told.expect("a share") > 1e-6);
 }

@@ -107,6 +107,19 @@ impl ChatterPlace {
 }
 
 impl ChatterResult {
+    /// How many places were looked at without an answer.
+    ///
+    /// ```
+    /// use kinetostat_machining::ChatterResult;
+    ///
+    /// assert_eq!(ChatterResult::default().without_answer(), 0);
+    /// ```
+    #[must_use]
+    pub fn without_answer(&self) -> usize {
+        let places = self.places.iter();
+        places.filter(|place| place.chatters.is_none()).count()
+    }
+
     /// Whether it chatters anywhere, in a sentence.
     #[must_use]
     pub fn verdict_text(&self) -> String {
@@ -124,7 +137,11 @@ impl ChatterResult {
     fn verdict_alone(&self) -> String {
         match (self.stretches.len(), self.places_judged) {
             (0, 0) => "No place is judged.".to_owned(),
-            (0, _) => "No judged place chatters.".to_owned(),
+            (0, _) => match self.without_answer() {
+                0 => "No judged place chatters.".to_owned(),
+                1 => "No judged place chatters; one place has no answer.".to_owned(),
+                count => format!("No judged place chatters; {count} places have no answer."),
+            },
             (1, _) => "One stretch of the program chatters.".to_owned(),
             (count, _) => format!("{count} stretches of the program chatter."),
         }

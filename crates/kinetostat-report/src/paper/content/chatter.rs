@@ -20,7 +20,16 @@ pub(super) fn chatter(of: &Of<'_>) -> Vec<Block> {
         (0, _) => words.chatter_none,
         _ => words.chatter_some,
     };
-    blocks.push(Block::Paragraph(verdict.to_owned()));
+    let without = found.without_answer();
+    let verdict = match without {
+        0 => verdict.to_owned(),
+        _ => {
+            let count = number::count(without);
+            let said = fill(words.chatter_without, &[("count", count.as_str())]);
+            format!("{verdict} {said}")
+        }
+    };
+    blocks.push(Block::Paragraph(verdict));
     if !found.stretches.is_empty() {
         let mut columns = vec![Column::words(words.lines)];
         columns.extend(words.chatter_columns.map(Column::figures));

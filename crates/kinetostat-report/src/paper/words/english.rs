@@ -120,6 +120,7 @@ pub(super) const WORDS: Words = Words {
     head_chatter: "Chatter and vibration",
     chatter_unjudged: "No place is judged.",
     chatter_none: "No judged place chatters.",
+    chatter_without: "Places without an answer: {count}.",
     chatter_some: "These lines chatter:",
     chatter_columns: [
         "Speed,\u{a0}rpm",

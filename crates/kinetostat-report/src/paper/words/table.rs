@@ -130,6 +130,7 @@ pub(crate) struct Words {
     pub(crate) head_chatter: &'static str,
     pub(crate) chatter_unjudged: &'static str,
     pub(crate) chatter_none: &'static str,
+    pub(crate) chatter_without: &'static str,
     pub(crate) chatter_some: &'static str,
     /// Speed, depth, stable depth, frequency, stable speed.
     pub(crate) chatter_columns: [&'static str; 5],

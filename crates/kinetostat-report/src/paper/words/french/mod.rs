@@ -123,6 +123,7 @@ pub(super) const WORDS: Words = Words {
     head_chatter: "Broutement et vibrations",
     chatter_unjudged: "Aucune position n’est jugée.",
     chatter_none: "Aucune position jugée ne broute.",
+    chatter_without: "Positions sans réponse : {count}.",
     chatter_some: "Les lignes suivantes broutent :",
     chatter_columns: [
         "Vitesse,\u{a0}tr/min",

@@ -123,6 +123,7 @@ pub(super) const WORDS: Words = Words {
     head_chatter: "Rattern und Schwingungen",
     chatter_unjudged: "Keine Stelle ist beurteilt.",
     chatter_none: "Keine der beurteilten Stellen rattert.",
+    chatter_without: "Stellen ohne Antwort: {count}.",
     chatter_some: "Diese Zeilen rattern:",
     chatter_columns: [
         "Drehzahl,\u{a0}1/min",
