@@ -98,7 +98,8 @@ fn dampers_at_joints_are_solved_directly() {
         &format!("lobes two.toml --viscous near=9000 across=500 {CUT} --rpm 1000 2000 3 --json"),
     )
     .answered();
-    assert!(lobes.out.contains("couples modes"), "{}", lobes.out);
+    // What couples modes is in the lobes: there is nothing to tell.
+    assert!(!lobes.out.contains("not all in the modes"), "{}", lobes.out);
 }
 
 /// A damper that a mode does not move gives it no damping: rounding is none, and no cut is stable then.

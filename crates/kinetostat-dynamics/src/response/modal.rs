@@ -1,15 +1,15 @@
 //! Response by the sum of modes with residual flexibility: what modes that are left out, and massless coordinates, do at
 //! rest [D 8; MacNeal 1971, Rubin 1975]. At 0 Hz it is the loaded compliance exactly, however few modes are kept.
 
-use nalgebra::{Complex, DMatrix, DVector, Matrix3, Matrix6, Vector3, Vector6};
+use nalgebra::{Complex, DMatrix, DVector, Matrix6, Vector3, Vector6};
 
 use crate::damping::{Damping, ModalDamping};
 use crate::error::{Error, Result};
 use crate::linear::LinearDynamics;
 use crate::linear::places::Point;
-use crate::modes::pencil::{neutral_directions, symmetric};
 use crate::modes::{ModeKind, Modes};
 use crate::response::coupled::CoupledDamping;
+use crate::response::translational::TranslationalModes;
 use crate::response::{Quantity, Receptance};
 
 /// One mode as two points see it.
@@ -29,23 +29,6 @@ impl Term {
         let imaginary = self.damping.loss * self.squared.abs() + 2.0 * self.damping.ratio * own * w;
         Complex::new(self.squared - w * w, imaginary).inv()
     }
-}
-
-/// Modal data of the translations of one point: what lobes are computed from.
-///
-/// The receptance is `sum_k phi_k phi_k^T / (w_k^2 - w^2 + 2 i zeta_k w_k w) + residual`, base axes.
-#[derive(Clone, Debug, PartialEq)]
-pub struct TranslationalModes {
-    /// Mode shapes at the point, normalised by mass, `1/sqrt(kg)`.
-    pub shapes: Vec<Vector3<f64>>,
-    /// Signed squares of the angular frequencies, (rad/s)^2; negative where unstable, zero where free.
-    pub squared: Vec<f64>,
-    /// Shares of critical damping.
-    pub ratios: Vec<f64>,
-    /// Residual flexibility of everything else, m/N.
-    pub residual: Matrix3<f64>,
-    /// What damping couples, where it does.
-    pub coupling: Option<CoupledDamping>,
 }
 
 /// Response between two points by a sum of modes.
@@ -281,60 +264,4 @@ impl LinearDynamics {
             false => Err(self.no_flexibility()),
         }
     }
-
-    fn no_flexibility(&self) -> Error {
-        Error::NotSolved(format!(
-            "'{}' has a massless direction without stiffness that its loads couple with others: its flexibility at rest is not defined",
-            self.name
-        ))
-    }
-
-    /// `(K - H + s M)^-1 b` by the independent coordinates; neutral directions take no part.
-    pub(crate) fn solved_with_shift(
-        &self,
-        shift: f64,
-        b: &DMatrix<f64>,
-        neutral: bool,
-    ) -> Result<DMatrix<f64>> {
-        let n = self.len();
-        let u = &self.units;
-        let scaled = |a: &DMatrix<f64>| DMatrix::from_fn(n, n, |i, j| a[(i, j)] * u[i] * u[j]);
-        let (mass, tangent) = (scaled(&self.mass), scaled(&self.tangent));
-        let mut right = DMatrix::from_fn(n, b.ncols(), |i, j| b[(i, j)] * u[i]);
-        let basis = neutral.then(|| neutral_directions(&mass, &symmetric(tangent.clone())).1);
-        let mut a = tangent + mass * shift;
-        if let Some(rest) = &basis {
-            a = rest.tr_mul(&(a * rest));
-            right = rest.tr_mul(&right);
-        }
-        let mut x = solve_scaled(a, right).ok_or_else(|| self.no_flexibility())?;
-        if let Some(rest) = &basis {
-            x = rest * x;
-        }
-        Ok(DMatrix::from_fn(n, b.ncols(), |i, j| x[(i, j)] * u[i]))
-    }
-}
-
-/// `A^-1 b` with rows and columns in units of the diagonal.
-fn solve_scaled(mut a: DMatrix<f64>, mut b: DMatrix<f64>) -> Option<DMatrix<f64>> {
-    let n = a.nrows();
-    let units: Vec<f64> = (0..n)
-        .map(|i| {
-            let own = a[(i, i)].abs();
-            if own > 0.0 { 1.0 / own.sqrt() } else { 1.0 }
-        })
-        .collect();
-    for j in 0..n {
-        for i in 0..n {
-            a[(i, j)] *= units[i] * units[j];
-        }
-    }
-    for (mut row, unit) in b.row_iter_mut().zip(&units) {
-        row *= *unit;
-    }
-    let mut x = a.lu().solve(&b)?;
-    for (mut row, unit) in x.row_iter_mut().zip(&units) {
-        row *= *unit;
-    }
-    Some(x)
 }
