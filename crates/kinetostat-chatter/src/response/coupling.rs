@@ -11,6 +11,9 @@ const SAME: f64 = 1e-9;
 /// What a matrix may be off of what it should be, as a share.
 const OFF: f64 = 1e-6;
 
+/// Directions without mass relax at most so many times as fast as the fastest mode swings, rad/s.
+const FASTEST: f64 = 4.0;
+
 /// `q'' + R_qq q' + R_qz z' + W^2 q = Phi^T F` and `z + R_zq q' + R_zz z' = H^T F`: modes `q` and directions without mass `z`, of unit
 /// stiffness, with a symmetric matrix `R`.
 #[derive(Clone, Debug, PartialEq)]
@@ -103,12 +106,12 @@ impl Coupling {
         }
     }
 
-    /// Of some of the modes, with the directions that relax no faster than the fastest of these swings: others are springs.
+    /// Of some of the modes, with the directions that relax at most [`FASTEST`] times as fast as the fastest of these swings: others are springs.
     pub(crate) fn of(&self, (modes, kept): (&[Mode], &[usize])) -> Option<Self> {
         let fastest = modes.iter().map(Mode::angular_frequency).fold(0.0, larger);
         let before = self.rates.nrows() - self.held.len();
         let slow: Vec<usize> = (before..self.rates.nrows())
-            .filter(|k| self.rates[(*k, *k)] * fastest >= 1.0)
+            .filter(|k| FASTEST * self.rates[(*k, *k)] * fastest >= 1.0)
             .collect();
         let places: Vec<usize> = kept.iter().chain(&slow).copied().collect();
         let n = places.len();

@@ -98,12 +98,15 @@ fn scaled(real: &Vector3<f64>, complex: &Vector3<Complex64>) -> Complex64 {
 
 /// Number of nodes of a stretch.
 fn points(states: &[State], duration: f64, turn: f64, fineness: f64) -> Result<usize> {
-    // How fast it dies away counts as how fast it swings.
-    let fastest = states
-        .iter()
-        .map(|state| state.root.norm() / TAU)
-        .fold(0.0, larger);
-    let cycles = fastest * duration + turn / TAU;
+    // How fast it dies away counts as how fast it swings; what only dies away is a layer at the beginning, of which polynomials need
+    // the square root (the coefficients of exp(-a x) fall as exp(-n^2/a)).
+    let cycles_of = |state: &State| match state.root.im == 0.0 {
+        true => (state.root.norm() * duration).sqrt(),
+        false => state.root.norm() * duration / TAU,
+    };
+    let most = states.iter().map(cycles_of).fold(0.0, larger);
+    let fastest = most / duration;
+    let cycles = most + turn / TAU;
     let wanted = fineness * (LEAST_POINTS + POINTS_PER_CYCLE * cycles);
     match wanted <= MOST_POINTS {
         true => Ok(wanted.ceil() as usize),
