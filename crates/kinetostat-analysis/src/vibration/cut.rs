@@ -86,7 +86,11 @@ impl MachineCut<'_> {
         let mut places = Vec::with_capacity(own_hz.len());
         let each = data.shapes.iter().zip(&data.squared).zip(&data.ratios);
         for (place, (((shape, squared), ratio), hz)) in each.zip(own_hz).enumerate() {
-            match Mode::new(*shape, *squared, *ratio) {
+            let mode = match data.coupling.is_some() && *squared > 0.0 {
+                true => Mode::with_rate(*shape, *squared, 2.0 * ratio * squared.sqrt()),
+                false => Mode::new(*shape, *squared, *ratio),
+            };
+            match mode {
                 Ok(mode) if *ratio >= SCARCE || !above(*hz) => {
                     modes.push(mode);
                     places.push(place);

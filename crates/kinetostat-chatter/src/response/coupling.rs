@@ -12,7 +12,7 @@ const SAME: f64 = 1e-9;
 const OFF: f64 = 1e-6;
 
 /// Directions without mass relax at most so many times as fast as the fastest mode swings, rad/s.
-const FASTEST: f64 = 4.0;
+const FASTEST: f64 = 30.0;
 
 /// `q'' + R_qq q' + R_qz z' + W^2 q = Phi^T F` and `z + R_zq q' + R_zz z' = H^T F`: modes `q` and directions without mass `z`, of unit
 /// stiffness, with a symmetric matrix `R`.
@@ -85,7 +85,9 @@ impl Coupling {
             true => own(i),
             false => 0.5 * (rates[(i, j)] + rates[(j, i)]),
         });
-        Ok((couples || n > m).then_some(Self { rates, held }))
+        // A mode that does not swing has no root of a mode.
+        let creeps = modes.iter().any(|mode| mode.damping_ratio() >= 1.0);
+        Ok((couples || creeps || n > m).then_some(Self { rates, held }))
     }
 
     /// Rates of modes, then of directions without mass.
@@ -117,7 +119,8 @@ impl Coupling {
         let n = places.len();
         let rates = DMatrix::from_fn(n, n, |i, j| self.rates[(places[i], places[j])]);
         let couples = (0..n).any(|i| (0..i).any(|j| rates[(i, j)] != 0.0));
-        (couples || !slow.is_empty()).then(|| Self {
+        let creeps = modes.iter().any(|mode| mode.damping_ratio() >= 1.0);
+        (couples || creeps || !slow.is_empty()).then(|| Self {
             rates,
             held: slow.iter().map(|k| self.held[k - before]).collect(),
         })

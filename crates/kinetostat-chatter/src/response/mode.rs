@@ -61,6 +61,36 @@ impl Mode {
         })
     }
 
+    /// As [`Self::new`], of a mode that dampers may hold beyond the critical damping, so that it creeps back and does not swing: by its
+    /// rate `2 zeta w`, 1/s. For a tool with [coupled damping](crate::ToolResponse::with_coupled_damping), whose complex modes
+    /// are its vibrations.
+    ///
+    /// ```
+    /// use kinetostat_chatter::Mode;
+    ///
+    /// let held = Mode::with_rate([0.2, 0.0, 0.0].into(), 1e4, 500.0)?;
+    /// assert!((held.damping_ratio() - 2.5).abs() < 1e-12);
+    /// # Ok::<(), kinetostat_chatter::ChatterError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`Self::new`]; a rate that is negative or none.
+    pub fn with_rate(shape: Vector3<f64>, squared_frequency: f64, rate: f64) -> Result<Self> {
+        above(
+            ChatterErrorKind::Response,
+            "rate of damping",
+            rate,
+            0.0,
+            false,
+            "1/s",
+        )?;
+        let mode = Self::new(shape, squared_frequency, 0.0)?;
+        Ok(Self {
+            damping_ratio: 0.5 * rate / mode.angular_frequency,
+            ..mode
+        })
+    }
+
     /// A mode that moves along one direction with a modal mass.
     ///
     /// ```

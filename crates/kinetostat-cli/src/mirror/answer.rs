@@ -2,7 +2,7 @@
 
 use kinetostat_mirror::{
     Convergence, DeviationFigures, LeftOut, Measurement, MirrorState, Outcome, Outlier,
-    Registration, Repeatability, ToldBy, Unseen,
+    Registration, ToldBy, Unseen,
 };
 use kinetostat_program::Accounting;
 use serde::Serialize;
@@ -34,9 +34,6 @@ pub(crate) struct MeasurementResult {
     pub(crate) file: String,
     pub(crate) registration: Option<RegistrationResult>,
     pub(crate) figures: DeviationFigures,
-    /// How many times as large as the repeatability stated the scatter of a point is, where that is more than twice.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub(crate) scatter_of_repeatability: Option<f64>,
     pub(crate) outliers: Vec<Outlier>,
     /// Rows beside a corner that may belong to its other leg.
     pub(crate) beside_corners: Vec<usize>,
@@ -76,21 +73,9 @@ impl From<&Registration> for RegistrationResult {
     }
 }
 
-/// Points that scatter by so many times the repeatability stated are not what was stated.
-const TIMES: f64 = 2.0;
-
 impl MeasurementResult {
-    pub(crate) fn of(
-        file: &str,
-        (found, stated): (&Measurement, Option<Repeatability>),
-        features: Vec<FeatureMeasured>,
-    ) -> Self {
-        let times = match stated {
-            Some(Repeatability::OfPoints(sigma_mm)) => Some(found.figures.scatter_mm / sigma_mm),
-            _ => None,
-        };
+    pub(crate) fn of(file: &str, found: &Measurement, features: Vec<FeatureMeasured>) -> Self {
         Self {
-            scatter_of_repeatability: times.filter(|times| *times > TIMES),
             file: file.to_owned(),
             registration: found.registration.as_ref().map(Into::into),
             figures: found.figures,

@@ -18,7 +18,6 @@ use std::path::{Path, PathBuf};
 use kinetostat_machining::FieldCorrection;
 use kinetostat_mirror::{
     MeasuredFile, Measurement, MirrorError, MirrorField, MirrorState, NominalPath, Outcome,
-    Repeatability,
 };
 
 use crate::files::hash::sha256;
@@ -86,7 +85,7 @@ pub(crate) fn run(args: &MirrorArgs) -> Answer<()> {
         (&setting, &nominal),
         model,
         (&state, outcome, relaxation),
-        (&measured, known),
+        &measured,
         &made,
     );
     let to_screen = claimed.to_screen;
@@ -198,7 +197,7 @@ fn answer_of(
     (setting, nominal): (&Setting, &NominalPath<'_>),
     model: Option<String>,
     (state, outcome, relaxation): (&MirrorState, Outcome, f64),
-    (measured, known): (&[(MeasuredFile, Measurement)], Option<Repeatability>),
+    measured: &[(MeasuredFile, Measurement)],
     made: &FieldCorrection,
 ) -> MirrorAnswer {
     let last = state.trials.last();
@@ -216,7 +215,7 @@ fn answer_of(
             .iter()
             .map(|(file, found)| {
                 let features = of_features(&setting.features, (nominal, found), smoothing_mm);
-                MeasurementResult::of(&file.name, (found, known), features)
+                MeasurementResult::of(&file.name, found, features)
             })
             .collect(),
         left_mm: last.map_or(f64::NAN, |trial| trial.left_mm),

@@ -16,7 +16,7 @@ pub(crate) fn overdamped(
     let warning = Warning::new(
         WarningCode::Model,
         format!(
-            "damped beyond critical: {} (mode {}, {:.4} Hz: {:.0} %). What is damped so does not swing, and lobes up to there have no answer. Check the dampers",
+            "damped beyond critical: {} (mode {}, {:.4} Hz: {:.0} %). What is damped so does not swing. Check the dampers",
             match all.len() {
                 1 => "one mode".to_owned(),
                 count => format!("{count} modes, the first"),

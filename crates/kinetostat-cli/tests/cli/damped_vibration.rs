@@ -153,6 +153,53 @@ fn modes_beyond_critical_damping() {
     );
 }
 
+/// Two masses, a spring with a damper in series with one without mass, and dampers that hold two of three modes beyond critical:
+/// limits by another program (Chebyshev collocation of the state space of these seven states, written without sight of this one).
+#[test]
+fn limits_with_strong_dampers_and_springs_without_mass_are_those_of_another_program() {
+    let here = workplace();
+    let model = |a: f64, b: f64, c: f64, y: f64| {
+        format!(
+            "schema = 1\n[mechanism]\nname = \"two\"\ngravity_m_per_s2 = [0, 0, 0]\n[[platform]]\nname = \"tool\"\nhome = {{ position_mm = [0, 0, 0] }}\n\
+             [chain.arm]\nelements = [\n\
+             {{ spring = \"prismatic\", name = \"xa\", axis = \"x\", stiffness_n_per_m = 4.0e6, damping_n_s_per_m = {a} }},\n\
+             {{ body = \"m1\", mass_kg = 40 }},\n\
+             {{ spring = \"prismatic\", name = \"xb\", axis = \"x\", stiffness_n_per_m = 9.0e6, damping_n_s_per_m = {b} }},\n\
+             {{ spring = \"prismatic\", name = \"xc\", axis = \"x\", stiffness_n_per_m = 3.0e7, damping_n_s_per_m = {c} }},\n\
+             {{ spring = \"prismatic\", name = \"ya\", axis = \"y\", stiffness_n_per_m = 6.0e6, damping_n_s_per_m = {y} }},\n\
+             {{ body = \"m2\", mass_kg = 12 }},\n]\n\
+             [[limb]]\nname = \"arm\"\nfrom = \"base\"\nto = \"tool\"\nchain = \"arm\"\n"
+        )
+    };
+    let half_up = "--teeth 2 --immersion 0.5 --up";
+    let little_down = "--teeth 3 --immersion 0.1 --climb";
+    let series = [0.0, 1.5e4, 0.0, 300.0];
+    let held = [2e5, 2e5, 50.0, 200.0];
+    let cases = [
+        (held, half_up, 1500, 2.107678338),
+        (held, half_up, 3000, 3.203670893),
+        (held, half_up, 6000, 3.508482356),
+        ([600.0, 2e4, 0.0, 500.0], half_up, 6000, 6.918415050),
+        (series, little_down, 3000, 1.060696296),
+        (series, little_down, 4500, 0.640423333),
+        (series, little_down, 6000, 0.752463837),
+    ];
+    let mut worst = Worst::new();
+    let all = cases.len();
+    for ([a, b, c, y], cut, rpm, expected) in cases {
+        std::fs::write(here.path().join("held.toml"), model(a, b, c, y)).expect("written");
+        let line = format!(
+            "lobes held.toml {cut} --coefficients-n-per-mm2 800 240 0 --rpm {rpm} {rpm} 1 --tool-axis 0 0 1 --depth-mm 12 --json"
+        );
+        let answer = json(here.path(), &line);
+        let found = answer["points"][0]["limit_mm"].as_f64().expect("a limit");
+        worst.add_at(found / expected - 1.0, || {
+            format!("{line}: {found} {expected}")
+        });
+    }
+    assert!(worst.of(all) < 1e-6, "{worst}");
+}
+
 /// A dead moment has no potential: complex modes say whether it flutters, and the response is solved directly.
 #[test]
 fn loads_without_a_potential_are_judged() {

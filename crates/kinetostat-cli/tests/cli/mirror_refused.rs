@@ -99,38 +99,6 @@ fn a_program_without_the_last_correction_is_not_corrected_twice() {
     mirror(here.path(), &["third.csv"], &more).answered();
 }
 
-/// Points that scatter far more than what is stated of them.
-#[test]
-fn a_scatter_that_is_not_what_was_stated_is_told() {
-    let here = workplace();
-    let put = |name: &str, text: &str| std::fs::write(here.path().join(name), text).unwrap();
-    put("circle.ngc", CIRCLE);
-    let rows: Vec<String> = (1..360)
-        .map(|k| {
-            let (sine, cosine) = f64::from(k).to_radians().sin_cos();
-            // Evenly from -0.05 to 0.05, in no order.
-            let by = 0.001 * f64::from((k * 37) % 101 - 50);
-            format!("{},{},{by}\n", (30.0 + by) * cosine, (30.0 - by) * sine)
-        })
-        .collect();
-    put("trial1.csv", &table(&rows));
-    for (um, is_told) in [("5", true), ("25", false)] {
-        let more = [
-            "--no-register",
-            "--force-overwrite",
-            "--repeatability-um",
-            um,
-        ];
-        let said = mirror(here.path(), &["trial1.csv"], &more).answered();
-        assert_eq!(
-            said.out.contains("THE POINTS SCATTER"),
-            is_told,
-            "{um}: {said:?}"
-        );
-        std::fs::remove_file(here.path().join("state.toml")).unwrap();
-    }
-}
-
 #[test]
 fn a_measurement_given_again_is_told_by_its_numbers() {
     let here = workplace();

@@ -90,7 +90,7 @@ fn is_cut_before(path: &Path, index: usize, within_mm: f64) -> bool {
     let cuts: Vec<Way> = cuts.collect();
     (0..=LOOKED_AT).all(|k| {
         let place = own.point(k as f64 / LOOKED_AT as f64);
-        cuts.iter().any(|cut| cut.distance(&place) <= within_mm)
+        cuts.iter().any(|cut| cut.holds(&place, within_mm))
     })
 }
 
@@ -101,6 +101,17 @@ struct Way {
 }
 
 impl Way {
+    /// Whether a place lies beside it within a distance, and not beyond its ends: corrections shift a way across, not along.
+    fn holds(&self, point: &Vector3<f64>, within_mm: f64) -> bool {
+        let [from, to] = &self.ends;
+        let length = (to - from).norm();
+        if length <= ON_WAY_MM {
+            return (point - from).norm() <= ON_WAY_MM;
+        }
+        let along = (point - from).dot(&(to - from)) / length;
+        (-ON_WAY_MM..=length + ON_WAY_MM).contains(&along) && self.distance(point) <= within_mm
+    }
+
     fn distance(&self, point: &Vector3<f64>) -> f64 {
         let [from, to] = &self.ends;
         let way = to - from;
@@ -214,8 +225,14 @@ pub(crate) fn elsewhere(
         });
         let stays: Vec<Way> = stays.into_iter().collect();
         let beside = worst(&own, &stays).filter(is_other);
-        // One that leads back has its part cut again.
-        let goes_on = |[from, to]: [Reached; 2]| to.along_mm >= from.arrives_mm - LEADS_ON_MM;
+        // One that leads back has its part cut again. Beside an end of a pass, as in a hole that is pecked, another pass may be meant.
+        let goes_on = |[from, to]: [Reached; 2]| {
+            let inside = known.get(from.pass).is_some_and(|pass| {
+                let [begins, ends] = pass.along_mm;
+                begins + slack_mm < from.arrives_mm && to.along_mm < ends - slack_mm
+            });
+            inside && from.pass == to.pass && to.along_mm >= from.arrives_mm - LEADS_ON_MM
+        };
         let leads_on = || {
             let leads = leads_on(stays.first()?, own.last()?.line)?;
             ended.zip(begins).filter(|(a, b)| goes_on([*a, *b]))?;
