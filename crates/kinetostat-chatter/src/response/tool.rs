@@ -57,7 +57,7 @@ impl ToolResponse {
     /// let rates = DMatrix::from_row_slice(2, 2, &[own(0), 3.0, 3.0, own(1)]);
     /// let tool = ToolResponse::new(modes.clone())?.with_coupled_damping(rates, Vec::new())?;
     /// // A force along x moves the tool along y.
-    /// assert!(tool.receptance(20.0)[(1, 0)].norm() > 0.1 * tool.receptance(20.0)[(0, 0)].norm());
+    /// assert!(tool.receptance(20.0)[(1, 0)].norm() > 0.04 * tool.receptance(20.0)[(0, 0)].norm());
     /// # Ok::<(), kinetostat_chatter::ChatterError>(())
     /// ```
     ///
