@@ -5,14 +5,14 @@
 
 use std::f64::consts::TAU;
 
-use nalgebra::{DMatrix, Matrix3, Vector3};
+use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
 
 use crate::branches::{Branches, Place};
 use crate::cut::Cut;
 use crate::error::{ChatterError, ChatterErrorKind, Result, above};
 use crate::number::smaller;
-use crate::response::ToolResponse;
+use crate::response::{ToolResponse, first_order};
 use crate::stability::eigenvalues;
 
 /// How a process without delay makes a tool unstable.
@@ -168,55 +168,6 @@ pub fn coupled_roots(
     let mut all: Vec<(f64, f64)> = eigenvalues(matrix)?.iter().map(|s| (s.re, s.im)).collect();
     all.sort_by(|a, b| b.0.total_cmp(&a.0).then_with(|| b.1.total_cmp(&a.1)));
     Ok(all)
-}
-
-/// The first-order form of a tool on which a force by displacement acts: of `q`, `q'` and what has no mass but dampers.
-fn first_order(response: &ToolResponse, force: &Matrix3<f64>) -> DMatrix<f64> {
-    let modes = response.modes();
-    let m = modes.len();
-    let own = |i: usize, j: usize| match i == j {
-        true => 2.0 * modes[i].damping_ratio() * modes[i].angular_frequency(),
-        false => 0.0,
-    };
-    let coupling = response.coupling();
-    let held = coupling.map_or(0, |coupling| coupling.held().len());
-    let rates = coupling.map_or_else(|| DMatrix::from_fn(m, m, own), |c| c.rates().clone());
-    let point = |k: usize| coupling.map_or_else(|| modes[k].shape(), |c| c.point(modes, k));
-    let pushed = |i: usize, j: usize| point(i).dot(&(force * point(j)));
-    // R_zz z' = H^T F - z - R_zq q'
-    let n = 2 * m + held;
-    let mut relaxing = DMatrix::zeros(held, n);
-    for i in 0..held {
-        for j in 0..m {
-            relaxing[(i, j)] = pushed(m + i, j);
-            relaxing[(i, m + j)] = -rates[(m + i, j)];
-        }
-        for j in 0..held {
-            relaxing[(i, 2 * m + j)] = pushed(m + i, m + j) - f64::from(u8::from(i == j));
-        }
-    }
-    if held > 0 {
-        // Times of relaxation are positive: there is a solution.
-        let times = rates.view((m, m), (held, held)).into_owned().lu();
-        times.solve_mut(&mut relaxing);
-    }
-    // q'' = Phi^T F - W^2 q - R_qq q' - R_qz z'
-    let mut driven = -(rates.view((0, m), (m, held)) * &relaxing);
-    let mut matrix = DMatrix::zeros(n, n);
-    for (i, mode) in modes.iter().enumerate() {
-        matrix[(i, m + i)] = 1.0;
-        driven[(i, i)] -= mode.angular_frequency().powi(2);
-        for j in 0..m {
-            driven[(i, j)] += pushed(i, j);
-            driven[(i, m + j)] -= rates[(i, j)];
-        }
-        for j in 0..held {
-            driven[(i, 2 * m + j)] += pushed(i, m + j);
-        }
-    }
-    matrix.view_mut((m, 0), (m, n)).copy_from(&driven);
-    matrix.view_mut((2 * m, 0), (held, n)).copy_from(&relaxing);
-    matrix
 }
 
 /// The process stiffness, N/m, from which two undamped modes of equal mass along right angles flutter [D 11]; `None` where

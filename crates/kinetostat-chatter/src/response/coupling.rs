@@ -41,11 +41,11 @@ impl Coupling {
             return Err(fault(found, &expected));
         }
         let own = |k: usize| match modes.get(k) {
-            Some(mode) => 2.0 * mode.damping_ratio() * mode.angular_frequency(),
+            Some(mode) => mode.rate(),
             None => rates[(k, k)],
         };
         let size = |i: usize, j: usize| (rates[(i, i)].abs() * rates[(j, j)].abs()).sqrt();
-        // Comparisons that are false for a number that is none.
+        // Comparisons that are false for NaN.
         let is_fit = (0..n).all(|i| {
             let diagonal = larger(own(i), rates[(i, i)]);
             (rates[(i, i)] - own(i)).abs() <= OFF * diagonal

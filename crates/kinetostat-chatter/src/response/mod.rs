@@ -3,6 +3,7 @@
 //! Takes modal data at the cutting point; gives receptances in any frame. Sources: `dynamics.md` sections 3, 7 and 8.
 
 mod coupling;
+mod first_order;
 mod frame;
 mod mode;
 mod tool;
@@ -12,3 +13,4 @@ pub use mode::Mode;
 pub use tool::ToolResponse;
 
 pub(crate) use coupling::Coupling;
+pub(crate) use first_order::first_order;

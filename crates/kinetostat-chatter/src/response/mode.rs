@@ -194,6 +194,11 @@ impl Mode {
         Self { shape, ..*self }
     }
 
+    /// Rate of damping `2 zeta w`, 1/s.
+    pub(crate) fn rate(&self) -> f64 {
+        2.0 * self.damping_ratio * self.angular_frequency
+    }
+
     /// Root of the first-order form with positive imaginary part, rad/s: `-zeta w + i w sqrt(1 - zeta^2)`.
     pub(crate) fn root(&self) -> Complex64 {
         let (zeta, w) = (self.damping_ratio, self.angular_frequency);

@@ -5,11 +5,11 @@
 //! `p p^T / (y^T (2 s M + R) y) / (i w - s)` to the receptance, with `p = P y`: a state `u` with `u' = s u + F . p / (..)` moves the tool by
 //! `p u`, and its conjugate by the conjugate of that. There is no other part: what is at once is residual flexibility.
 
-use nalgebra::{DMatrix, DVector, Vector3};
+use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 
 use crate::error::{ChatterError, ChatterErrorKind, Result};
 use crate::number::{Complex64, larger};
-use crate::response::{Coupling, Mode, ToolResponse};
+use crate::response::{Coupling, Mode, ToolResponse, first_order};
 use crate::stability::eigenvalues::{by_qr, start};
 
 /// A mode as a complex state `u` of the size of a displacement: the point moves by `Im(direction u)`, and a force `F` drives
@@ -76,9 +76,10 @@ fn of_complex_modes(response: &ToolResponse, coupling: &Coupling) -> Result<Vec<
         squares: squares.collect(),
         rates: coupling.rates(),
     };
-    let roots = pencil
-        .roots()
+    let all = by_qr(&first_order(response, &Matrix3::zeros()))
         .ok_or_else(|| fault("no convergence of the QR iteration".to_owned()))?;
+    // Of each pair the one that turns forward.
+    let roots: Vec<Complex64> = all.into_iter().filter(|root| root.im >= 0.0).collect();
     let mut found: Vec<Root> = Vec::with_capacity(roots.len());
     for (index, root) in roots.into_iter().enumerate() {
         let root = pencil
@@ -107,7 +108,7 @@ fn of_complex_modes(response: &ToolResponse, coupling: &Coupling) -> Result<Vec<
     let moves = |state: &State| state.direction.iter().all(|x| x.is_finite());
     let states: Vec<State> = found.iter().map(state).filter(moves).collect();
     let missed = missed(response, &states);
-    // False for a number that is none.
+    // False for NaN.
     match missed <= MISSED {
         true => Ok(states),
         false => Err(fault(format!(
@@ -127,7 +128,7 @@ fn missed(response: &ToolResponse, states: &[State]) -> f64 {
         };
         // Im(direction u) of a force that turns: half of both, the second from the conjugate.
         let half = Complex64::new(0.0, -0.5);
-        let sum: nalgebra::Matrix3<Complex64> = states
+        let sum: Matrix3<Complex64> = states
             .iter()
             .map(|state| {
                 let at = Complex64::new(0.0, w);
@@ -159,36 +160,6 @@ impl Pencil<'_> {
             Some(square) => (1.0, *square),
             None => (0.0, 1.0),
         }
-    }
-
-    /// All roots, of each pair the one that turns forward.
-    fn roots(&self) -> Option<Vec<Complex64>> {
-        let (m, all) = (self.squares.len(), self.rates.nrows());
-        let held = all - m;
-        let part = |from: (usize, usize), shape| self.rates.view(from, shape).into_owned();
-        // z' = -R_zz^-1 (z + R_zq q')
-        let times = part((m, m), (held, held)).try_inverse()?;
-        let between = part((m, 0), (held, m));
-        let by_rate = -(&times * &between);
-        let by_held = -times;
-        let of_modes = part((0, 0), (m, m)) + between.tr_mul(&by_rate);
-        let of_held = between.tr_mul(&by_held);
-        // In `W q`, `q'` and `z` its entries are of one size.
-        let mut first_order = DMatrix::zeros(2 * m + held, 2 * m + held);
-        for i in 0..m {
-            let w = self.squares[i].sqrt();
-            first_order[(i, m + i)] = w;
-            first_order[(m + i, i)] = -w;
-        }
-        let mut put = |at: (usize, usize), block: DMatrix<f64>| {
-            first_order.view_mut(at, block.shape()).copy_from(&block);
-        };
-        put((m, m), -of_modes);
-        put((m, 2 * m), -of_held);
-        put((2 * m, m), by_rate);
-        put((2 * m, 2 * m), by_held);
-        let all = by_qr(&first_order)?;
-        Some(all.into_iter().filter(|root| root.im >= 0.0).collect())
     }
 
     fn at(&self, s: Complex64) -> DMatrix<Complex64> {

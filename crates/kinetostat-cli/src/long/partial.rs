@@ -2,7 +2,7 @@
 
 use std::fs::{File, OpenOptions};
 use std::io::{BufReader, Read, Seek, SeekFrom, Write};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use crate::files::journal::Contents;
 use crate::long::checkpoint::not_kept;
@@ -15,10 +15,6 @@ pub(crate) struct Partial {
     contents: Contents,
 }
 
-fn refused(path: &Path, error: &std::io::Error) -> Failure {
-    not_kept(path, error)
-}
-
 impl Partial {
     /// An empty one.
     pub(crate) fn create(path: PathBuf) -> Answer<Self> {
@@ -28,7 +24,7 @@ impl Partial {
             .create(true)
             .truncate(true)
             .open(&path)
-            .map_err(|error| refused(&path, &error))?;
+            .map_err(|error| not_kept(&path, &error))?;
         Ok(Self {
             path,
             file,
@@ -70,7 +66,7 @@ impl Partial {
 
     pub(crate) fn append(&mut self, bytes: &[u8]) -> Answer<()> {
         let written = self.file.write_all(bytes);
-        written.map_err(|error| refused(&self.path, &error))?;
+        written.map_err(|error| not_kept(&self.path, &error))?;
         self.contents.append(bytes);
         Ok(())
     }
@@ -78,14 +74,14 @@ impl Partial {
     /// All that was appended is on the disk.
     pub(crate) fn sync(&self) -> Answer<()> {
         let done = self.file.sync_data();
-        done.map_err(|error| refused(&self.path, &error))
+        done.map_err(|error| not_kept(&self.path, &error))
     }
 
     /// Its bytes from the beginning.
     pub(crate) fn reader(&self) -> Answer<BufReader<File>> {
         let file = File::open(&self.path);
         Ok(BufReader::new(
-            file.map_err(|error| refused(&self.path, &error))?,
+            file.map_err(|error| not_kept(&self.path, &error))?,
         ))
     }
 
