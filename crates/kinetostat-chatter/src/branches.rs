@@ -17,6 +17,8 @@ const NONE: f64 = 1e-12;
 /// A tool and a process that pushes back without delay: force by displacement.
 pub(crate) struct Branches<'a> {
     pub(crate) response: &'a ToolResponse,
+    /// Its receptance at an angular frequency, rad/s, m/N.
+    pub(crate) receptance: Box<dyn Fn(f64) -> Matrix3<Complex64> + 'a>,
     /// Of rank 2 at most.
     pub(crate) mean: Matrix3<f64>,
 }
@@ -34,7 +36,7 @@ impl Branches<'_> {
     /// The two eigenvalues that are not 0 for certain: those in the plane of the chip.
     pub(crate) fn eigenvalues(&self, frequency: f64) -> [Complex64; 2] {
         // The mean matrix has rank 2 at most: G D0 and its part in the range of D0^T have the same eigenvalues but zeros.
-        let product = self.response.at(frequency) * self.mean.map(Complex64::from);
+        let product = (self.receptance)(frequency) * self.mean.map(Complex64::from);
         let basis = plane(&self.mean);
         let part = |i: usize, j: usize| {
             let (left, right) = (basis[i].map(Complex64::from), basis[j].map(Complex64::from));

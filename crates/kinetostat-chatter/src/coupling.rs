@@ -106,6 +106,7 @@ pub fn coupled_limit(response: &ToolResponse, process: &Process) -> Result<Optio
     }
     let branches = Branches {
         response,
+        receptance: Box::new(|w| response.at(w)),
         mean: process.matrix,
     };
     let mut best = static_loss(&branches);

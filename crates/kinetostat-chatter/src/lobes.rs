@@ -156,10 +156,11 @@ impl Regeneration {
         let speeds: Vec<f64> = (0..request.speeds)
             .map(|i| request.from_rpm + step * i as f64)
             .collect();
+        let steps = zeroth_order::steps(self);
         let at = |speed: &f64| -> Result<LobePoint> {
             Ok(LobePoint {
                 exact: self.stability_at(*speed, request.up_to)?,
-                zeroth_order: zeroth_order::limit(self, *speed)?,
+                zeroth_order: zeroth_order::limit_on(&steps, self, *speed)?,
             })
         };
         let mut without_answer: Vec<(f64, ChatterError)> = Vec::new();

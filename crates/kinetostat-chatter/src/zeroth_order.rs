@@ -37,16 +37,35 @@ fn depth(mu: Complex64) -> Option<f64> {
 /// # Errors
 /// A speed that is not positive.
 pub fn limit(regeneration: &Regeneration, speed_rpm: f64) -> Result<Option<ZerothOrderLimit>> {
+    limit_on(&steps(regeneration), regeneration, speed_rpm)
+}
+
+/// The steps of both branches over all frequencies, which are the same at every speed.
+pub(crate) fn steps(regeneration: &Regeneration) -> Vec<(Place, Place)> {
+    let mut steps = Vec::new();
+    of(regeneration).walk(|from, to| steps.push((*from, *to)));
+    steps
+}
+
+/// As [`limit`], with the [`steps`] of the branches.
+pub(crate) fn limit_on(
+    steps: &[(Place, Place)],
+    regeneration: &Regeneration,
+    speed_rpm: f64,
+) -> Result<Option<ZerothOrderLimit>> {
     let delay = regeneration.cut().delay(speed_rpm)?;
     let branches = of(regeneration);
     let mut best: Option<ZerothOrderLimit> = None;
-    branches.walk(|from, to| within(&branches, delay, from, to, &mut best));
+    for (from, to) in steps {
+        within(&branches, delay, from, to, &mut best);
+    }
     Ok(best)
 }
 
 fn of(regeneration: &Regeneration) -> Branches<'_> {
     Branches {
         response: regeneration.response(),
+        receptance: Box::new(|w| regeneration.at(w)),
         mean: regeneration.cut().mean_matrix(),
     }
 }

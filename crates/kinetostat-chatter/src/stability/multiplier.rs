@@ -6,8 +6,8 @@ use nalgebra::{DVector, Vector3};
 use serde::{Deserialize, Serialize};
 
 use crate::number::{Complex64, cis};
-use crate::response::ToolResponse;
 use crate::stability::operator::Operator;
+use crate::stability::regeneration::Regeneration;
 
 /// How a cut becomes unstable.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -44,7 +44,7 @@ impl Multiplier {
         vector: &DVector<Complex64>,
         operator: &Operator<'_>,
         depth: f64,
-        response: &ToolResponse,
+        regeneration: &Regeneration,
     ) -> Self {
         let flip = value.re < 0.0 && value.im.abs() <= 1e-7 * value.norm();
         Self {
@@ -54,7 +54,7 @@ impl Multiplier {
                 true => Instability::Flip,
                 false => Instability::Hopf,
             },
-            frequency_hz: strongest(value, vector, operator, depth, response),
+            frequency_hz: strongest(value, vector, operator, depth, regeneration),
         }
     }
 }
@@ -65,7 +65,7 @@ fn strongest(
     vector: &DVector<Complex64>,
     operator: &Operator<'_>,
     depth: f64,
-    response: &ToolResponse,
+    regeneration: &Regeneration,
 ) -> f64 {
     let period = operator.period;
     let states = 2 * period.states.len();
@@ -95,7 +95,7 @@ fn strongest(
                 }
             }
         }
-        let moved = (response.at(frequency) * force).norm();
+        let moved = (regeneration.at(frequency) * force).norm();
         if moved > best.0 {
             best = (moved, frequency.abs());
         }

@@ -1,6 +1,6 @@
 //! A tool in a regenerative cut.
 
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 
 use crate::branches::grid;
 use crate::cut::{Cut, checked_depth, checked_speed};
@@ -12,7 +12,7 @@ use crate::stability::krylov;
 use crate::stability::multiplier::Multiplier;
 use crate::stability::operator::Operator;
 use crate::stability::period::Period;
-use crate::stability::states::{State, states};
+use crate::stability::states::{State, receptance, states};
 use crate::stability::swinging::{Selection, Swinging};
 
 /// Change of a multiplier with a third more points that is accepted, share of it.
@@ -99,14 +99,36 @@ impl Regeneration {
 
     /// Of what has been looked at, all modes swinging.
     fn of_all(response: ToolResponse, cut: Cut) -> Self {
-        let gain = peak(&response);
-        Self {
+        let all = Self {
             states: states(&response),
             response,
             cut,
-            gain,
+            gain: f64::INFINITY,
             selected: None,
+        };
+        Self {
+            gain: all.peak(),
+            ..all
         }
+    }
+
+    /// The tool's receptance at an angular frequency, rad/s, m/N.
+    pub(crate) fn at(&self, w: f64) -> Matrix3<Complex64> {
+        match (self.response.coupling(), &self.states) {
+            (Some(_), Ok(states)) => {
+                self.response.at_once().map(Complex64::from) + receptance(states, w)
+            }
+            _ => self.response.at(w),
+        }
+    }
+
+    /// Largest size of the receptance over all frequencies: at those that are close together at the peaks, and a little more.
+    fn peak(&self) -> f64 {
+        let size = |frequency: f64| self.at(frequency).map(|entry| entry.norm()).norm();
+        let modes = self.response.modes().iter();
+        let at_peaks = modes.map(|m| size(m.angular_frequency()));
+        let all = grid(&self.response).into_iter().map(size).chain(at_peaks);
+        1.05 * all.fold(size(0.0), larger)
     }
 
     /// The same, where stability is asked for with modes that count swinging, and the others as springs.
@@ -198,7 +220,7 @@ impl Regeneration {
             &vector,
             &operator,
             depth,
-            &self.response,
+            self,
         ))
     }
 
@@ -231,12 +253,4 @@ impl Regeneration {
             fineness,
         )
     }
-}
-
-/// Largest size of the receptance over all frequencies: at those that are close together at the peaks, and a little more.
-fn peak(response: &ToolResponse) -> f64 {
-    let size = |frequency: f64| response.at(frequency).map(|entry| entry.norm()).norm();
-    let at_peaks = response.modes().iter().map(|m| size(m.angular_frequency()));
-    let all = grid(response).into_iter().map(size).chain(at_peaks);
-    1.05 * all.fold(size(0.0), larger)
 }

@@ -147,8 +147,14 @@ impl<'a> Along<'a> {
     fn multiplier(&self, depth: f64) -> Result<Multiplier> {
         self.with(depth, |operator| {
             let (value, vector) = operator.largest(krylov::ACCURATE)?;
-            let response = self.regeneration.response();
-            Ok(Multiplier::new(value, &vector, operator, depth, response))
+            let regeneration = self.regeneration;
+            Ok(Multiplier::new(
+                value,
+                &vector,
+                operator,
+                depth,
+                regeneration,
+            ))
         })
     }
 }

@@ -117,27 +117,26 @@ fn of_complex_modes(response: &ToolResponse, coupling: &Coupling) -> Result<Vec<
     }
 }
 
+/// What the states give way by at an angular frequency, rad/s: a sum, where the response itself solves a system of equations.
+pub(crate) fn receptance(states: &[State], w: f64) -> Matrix3<Complex64> {
+    // Im(direction u) of a force that turns: half of both, the second from the conjugate.
+    let half = Complex64::new(0.0, -0.5);
+    let at = Complex64::new(0.0, w);
+    let each = states.iter().map(|state| {
+        let forward = (half / (at - state.root), half / (-at - state.root).conj());
+        let product = state.direction * state.gain.transpose();
+        product.map(|x| x * forward.0 - x.conj() * forward.1)
+    });
+    each.sum()
+}
+
 /// The largest share by which states miss the flexible part of a response, at the frequencies of the modes.
 fn missed(response: &ToolResponse, states: &[State]) -> f64 {
     let residual = response.at_once().map(Complex64::from);
     let of = |w: f64| {
         let wanted = response.at(w) - residual;
-        let by = |state: &State, at: Complex64| {
-            let product = state.direction * state.gain.transpose();
-            product / (at - state.root)
-        };
-        // Im(direction u) of a force that turns: half of both, the second from the conjugate.
-        let half = Complex64::new(0.0, -0.5);
-        let sum: Matrix3<Complex64> = states
-            .iter()
-            .map(|state| {
-                let at = Complex64::new(0.0, w);
-                let conjugate = by(state, -at).map(|x| x.conj());
-                (by(state, at) - conjugate) * half
-            })
-            .sum();
-        let off = (sum - wanted).map(|x| x.norm()).norm();
-        off / wanted.map(|x| x.norm()).norm()
+        let off = receptance(states, w) - wanted;
+        off.map(|x| x.norm()).norm() / wanted.map(|x| x.norm()).norm()
     };
     let hz = response
         .modes()
