@@ -17,6 +17,9 @@ use crate::stability::states::State;
 const LEAST_POINTS: f64 = 14.0;
 /// Points for each vibration of the fastest mode: pi of them begin to resolve one.
 const POINTS_PER_CYCLE: f64 = 5.0;
+/// Share of the largest peak of all states from which a state is resolved: what a stretch makes of a smaller one, which is small
+/// and acts through itself once more, is off by about the square of its share. More points show whether that is so.
+const RESOLVED: f64 = 1e-3;
 /// More points than this cost more than a stretch is worth.
 const MOST_POINTS: f64 = 400.0;
 
@@ -104,7 +107,10 @@ fn points(states: &[State], duration: f64, turn: f64, fineness: f64) -> Result<u
         true => (state.root.norm() * duration).sqrt(),
         false => state.root.norm() * duration / TAU,
     };
-    let most = states.iter().map(cycles_of).fold(0.0, larger);
+    let peak = |state: &State| state.gain.norm() / state.root.re.abs();
+    let largest = states.iter().map(peak).fold(0.0, larger);
+    let resolved = (states.iter()).filter(|state| peak(state) >= RESOLVED * largest);
+    let most = resolved.map(cycles_of).fold(0.0, larger);
     let fastest = most / duration;
     let cycles = most + turn / TAU;
     let wanted = fineness * (LEAST_POINTS + POINTS_PER_CYCLE * cycles);

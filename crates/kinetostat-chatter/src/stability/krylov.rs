@@ -18,19 +18,32 @@ pub(crate) const ACCURATE: f64 = 1e-10;
 /// Residual where it matters on which side of the unit circle it lies.
 pub(crate) const ROUGH: f64 = 1e-6;
 
+/// Periods after which the largest eigenvalue is looked for, at most.
+const SETTLED: usize = 48;
+/// The same where the first vector of a depth nearby is known, and the share of numbers without order in it: what is larger at
+/// this depth grows out of that share, or out of the space, long before a residual is accepted.
+const SETTLED_AGAIN: usize = 28;
+const FRESH: f64 = 1e-4;
+
 /// The largest eigenvalue of an operator on vectors of a length to a residual by its size, with its vector.
 ///
-/// The first vector has gone through `settled` periods: what dies away quickly is gone then, and the space need not hold it.
+/// The first vector has gone through some periods: what dies away quickly is gone then, and the space need not hold it. It is
+/// kept in `last`, for the next depth. Of few states, so many as `most`, fewer periods are enough.
 /// The QR iteration of the small matrix costs more than anything else here, so it is asked only which eigenvalue is the
 /// largest: one is followed by inverse iteration as the space grows, until its residual is small, and then the QR iteration
 /// says whether there is a larger one.
 pub(crate) fn largest(
-    (size, settled): (usize, usize),
+    (size, most): (usize, usize),
     accuracy: f64,
+    last: &mut Option<DVector<f64>>,
     mut apply: impl FnMut(&DVector<f64>) -> Result<DVector<f64>>,
 ) -> Result<(Complex64, DVector<Complex64>)> {
-    let mut first = start(size).normalize();
-    for _ in 0..settled {
+    let fresh = start(size).normalize();
+    let (mut first, settled) = match last.take().filter(|last| last.len() == size) {
+        Some(last) => (last + fresh * FRESH, SETTLED_AGAIN),
+        None => (fresh, SETTLED),
+    };
+    for _ in 0..settled.min(most) {
         let next = apply(&first)?;
         let length = next.norm();
         if !(length > 0.0 && length.is_finite()) {
@@ -38,6 +51,7 @@ pub(crate) fn largest(
         }
         first = next / length;
     }
+    *last = Some(first.clone());
     let mut basis: Vec<DVector<f64>> = vec![first];
     let mut hessenberg: Vec<Vec<f64>> = Vec::new();
     let mut wanted = FIRST.min(size);

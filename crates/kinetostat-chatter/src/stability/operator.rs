@@ -7,9 +7,6 @@ use crate::number::Complex64;
 use crate::stability::krylov;
 use crate::stability::period::Period;
 
-/// Most periods after which the largest multiplier is looked for.
-const MOST_SETTLED: usize = 48;
-
 /// The monodromy operator of a period at a depth.
 ///
 /// Its vectors hold the states of the modes at the beginning of the period (real and imaginary parts), then the displacements
@@ -97,11 +94,15 @@ impl<'a> Operator<'a> {
         Ok(self.driven(before, None)?.0)
     }
 
-    /// Its largest multiplier to a residual by its size, with its vector.
-    pub(crate) fn largest(&self, accuracy: f64) -> Result<(Complex64, DVector<Complex64>)> {
+    /// Its largest multiplier to a residual by its size, with its vector; `last` is where the search began at a depth nearby.
+    pub(crate) fn largest(
+        &self,
+        accuracy: f64,
+        last: &mut Option<DVector<f64>>,
+    ) -> Result<(Complex64, DVector<Complex64>)> {
         // Of many modes most die away.
-        let settled = MOST_SETTLED.min(2 * self.period.states.len());
-        krylov::largest((self.size(), settled), accuracy, |x| self.apply(x))
+        let of = (self.size(), 2 * self.period.states.len());
+        krylov::largest(of, accuracy, last, |x| self.apply(x))
     }
 
     /// The operator as a matrix.

@@ -214,14 +214,8 @@ impl Regeneration {
     pub fn multiplier_with(&self, speed_rpm: f64, depth: f64, fineness: f64) -> Result<Multiplier> {
         let period = self.period(speed_rpm, checked_depth(depth)?, fineness)?;
         let operator = Operator::new(&period, depth);
-        let (value, vector) = operator.largest(krylov::ACCURATE)?;
-        Ok(Multiplier::new(
-            value,
-            &vector,
-            &operator,
-            depth,
-            self,
-        ))
+        let (value, vector) = operator.largest(krylov::ACCURATE, &mut None)?;
+        Ok(Multiplier::new(value, &vector, &operator, depth, self))
     }
 
     /// All multipliers `(real, imaginary)` of one tooth period, the largest first; dense, for a look at the whole spectrum.

@@ -4,6 +4,9 @@
 //! unit circle, fine where it is near, so that islands (a stable stretch above an unstable one) are found. Every crossing is
 //! then closed in on.
 
+use std::cell::RefCell;
+
+use nalgebra::DVector;
 use serde::{Deserialize, Serialize};
 
 use crate::error::{ChatterError, ChatterErrorKind, Result};
@@ -109,6 +112,8 @@ struct Along<'a> {
     fineness: f64,
     /// The period, where it does not depend on the depth.
     period: Option<Period>,
+    /// Where the search for the largest multiplier began at the depth before.
+    last: RefCell<Option<DVector<f64>>>,
 }
 
 impl<'a> Along<'a> {
@@ -122,6 +127,7 @@ impl<'a> Along<'a> {
             speed_rpm,
             fineness,
             period,
+            last: RefCell::new(None),
         })
     }
 
@@ -139,14 +145,15 @@ impl<'a> Along<'a> {
 
     fn logarithm(&self, depth: f64, accuracy: f64) -> Result<f64> {
         self.with(depth, |operator| {
-            let value = operator.largest(accuracy)?.0;
+            let value = operator.largest(accuracy, &mut self.last.borrow_mut())?.0;
             Ok(value.norm().ln())
         })
     }
 
     fn multiplier(&self, depth: f64) -> Result<Multiplier> {
         self.with(depth, |operator| {
-            let (value, vector) = operator.largest(krylov::ACCURATE)?;
+            let (value, vector) =
+                operator.largest(krylov::ACCURATE, &mut self.last.borrow_mut())?;
             let regeneration = self.regeneration;
             Ok(Multiplier::new(
                 value,
