@@ -10,7 +10,7 @@ pub(crate) fn difference((name, kept): &(String, String), (_, now): &(String, St
     let Some(first) = first else {
         return name.clone();
     };
-    let [was, is] = [of_kept[first], of_now[first]].map(word);
+    let [was, is] = [&of_kept, &of_now].map(|lines| word_at(lines, first));
     let place = place(&of_kept, first);
     let values = [was, is].map(|(_, value)| value);
     let is_short = |value: &&str| {
@@ -37,6 +37,17 @@ fn word(line: &str) -> (Option<&str>, &str) {
         Some((name, value)) => (Some(name), value),
         None => (None, line),
     }
+}
+
+/// The word that begins at a line: of what may be missing, what it is where it takes a line, or "none".
+fn word_at<'t>(lines: &[&'t str], at: usize) -> (Option<&'t str>, &'t str) {
+    let (name, value) = word(lines[at]);
+    let value = match (value, lines.get(at + 1..at + 3)) {
+        ("None", _) => "none",
+        ("Some(", Some([inside, end])) if word(end).1 == ")" => word(inside).1,
+        _ => value,
+    };
+    (name, value)
 }
 
 fn indent(line: &str) -> usize {
@@ -103,7 +114,10 @@ mod tests {
             "how it is written (steps.largest_mm: 2.0 there, 2.5 now)"
         );
         let other = between(said(1.0, None), said(1.0, Some(2.5)));
-        assert_eq!(other, "how it is written (steps.largest_mm)");
+        assert_eq!(
+            other,
+            "how it is written (steps.largest_mm: none there, 2.5 now)"
+        );
         let plain = between("0.1.0".to_owned(), "0.2.0".to_owned());
         assert_eq!(plain, "how it is written (0.1.0 there, 0.2.0 now)");
     }
