@@ -7,6 +7,7 @@ use crate::alignment::{AlignedPoint, Alignment, LeftOut, align};
 use crate::deviation::along_path::smoothed_along;
 use crate::deviation::kernel::{Kernel, Smoothed};
 use crate::deviation::outliers::{Outlier, take_outliers};
+use crate::deviation::scatter::scatter_mm;
 use crate::deviation::stations::Stations;
 use crate::deviation::unseen::{Unseen, unseen};
 use crate::error::MirrorError;
@@ -60,8 +61,13 @@ pub struct DeviationFigures {
     pub smoothed_largest_mm: f64,
     /// Root of the mean product of deviation and smoothed deviation, mm: what the proof of convergence is about.
     pub passing_rms_mm: f64,
-    /// Standard deviation of a point from the smoothed deviation in one direction, from the median, mm.
+    /// Standard deviation of a point in one direction, mm, from what differs between neighbours no farther apart than the
+    /// smoothing length.
     pub scatter_mm: f64,
+    /// There are too few such neighbours: the scatter is that about the smoothed deviation, with all in it that bends within
+    /// a smoothing length. The true one is no larger.
+    #[serde(default)]
+    pub scatter_has_bends: bool,
     /// Mean number of points that a smoothed deviation rests on.
     pub effective_points: f64,
 }
@@ -85,6 +91,8 @@ pub struct Measurement {
     pub at_stations: Vec<Smoothed>,
     /// What the points leave open.
     pub unseen: Vec<Unseen>,
+    /// [`MeasuredPoints::known_to_mm`] of its points.
+    pub known_to_mm: f64,
     /// Sizes.
     pub figures: DeviationFigures,
 }
@@ -151,7 +159,8 @@ pub fn measure(
         length_mm: settings.smoothing_mm,
     };
     let [at_points, at_stations] = smoothed_along(&stations, kernel, &points);
-    let figures = figures(&points, &at_points, (&stations, &at_stations));
+    let scatter = scatter_mm(&stations, &points, settings.smoothing_mm);
+    let figures = figures(&points, &at_points, (&stations, &at_stations), scatter);
     Ok(Measurement {
         unseen: unseen(nominal, &points, settings.smoothing_mm),
         registration,
@@ -161,6 +170,7 @@ pub fn measure(
         beside_corners: taken.beside_corners,
         left_out,
         at_stations,
+        known_to_mm: measured.known_to_mm(),
         figures,
     })
 }
@@ -205,6 +215,7 @@ fn figures(
     points: &[AlignedPoint],
     at_points: &[Smoothed],
     (stations, at_stations): (&Stations, &[Smoothed]),
+    scatter_mm: Option<f64>,
 ) -> DeviationFigures {
     let mean = |pairs: &mut dyn Iterator<Item = (f64, f64)>| {
         let (mut sum, mut total) = (0.0, 0.0);
@@ -242,7 +253,8 @@ fn figures(
             .map(|s| s.deviation_mm.norm())
             .fold(0.0, larger),
         passing_rms_mm: larger(mean(&mut passing.into_iter()), 0.0).sqrt(),
-        scatter_mm: OF_TWO_DIRECTIONS * median(off.collect()),
+        scatter_mm: scatter_mm.unwrap_or_else(|| OF_TWO_DIRECTIONS * median(off.collect())),
+        scatter_has_bends: scatter_mm.is_none(),
         effective_points: mean(&mut seen().map(|(s, length)| (s.effective_points, *length))),
     }
 }

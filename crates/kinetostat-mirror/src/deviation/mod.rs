@@ -5,6 +5,8 @@ mod kernel;
 mod measure;
 mod on_lines;
 mod outliers;
+mod piece_means;
+mod scatter;
 mod stations;
 mod unseen;
 
@@ -13,5 +15,7 @@ pub use kernel::{Kernel, Smoothed};
 pub use measure::{DeviationFigures, MeasureSettings, Measurement, measure};
 pub use on_lines::{OnLines, on_lines};
 pub use outliers::Outlier;
+pub use piece_means::PieceMean;
+pub(crate) use piece_means::piece_means;
 pub use stations::{Stations, Stretch};
 pub use unseen::Unseen;
