@@ -36,7 +36,7 @@ impl<'m> Place<'m> {
     ) -> Option<Self> {
         let first = before.partition_point(|mean| mean.stretch < now.stretch);
         let end = before.partition_point(|mean| mean.stretch <= now.stretch);
-        let nodes = around(&before[first..end], now.along_mm, smoothing_mm)?;
+        let nodes = around(before.get(first..end)?, now.along_mm, smoothing_mm)?;
         let [straight, cubic] =
             nodes.map(|nodes| shares(before, first + nodes.start..first + nodes.end, now.along_mm));
         let changed = |shares: &[(usize, f64)]| {

@@ -32,6 +32,9 @@ const LEAST_ANSWER: f64 = 0.2;
 /// A hundred times as likely: `2 ln 100`, three standard deviations.
 const CLEARLY: f64 = 9.210_340_371_976_184;
 
+/// To what a share is known of points without any scatter: sums of numbers of sixteen digits.
+const ROUNDING: f64 = 1e-9;
+
 /// What is seen of a correction.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Seen {
@@ -101,7 +104,7 @@ impl Seen {
         let of_interpolation = (0.5 * (answer - straight)).powi(2);
         Self {
             answer,
-            known_to: (of_points + of_rest + of_interpolation).sqrt(),
+            known_to: larger((of_points + of_rest + of_interpolation).sqrt(), ROUNDING),
         }
     }
 

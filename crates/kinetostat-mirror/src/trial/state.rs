@@ -180,16 +180,14 @@ impl MirrorState {
                 .iter()
                 .any(|m| m.1.at_stations[k].effective_points > 0.0)
         };
-        let (mut sum, mut total) = (0.0, 0.0);
-        for (k, length) in lengths.iter().enumerate().filter(|(k, _)| seen(*k)) {
-            sum += length * deviation[k].norm_squared();
-            total += length;
-        }
-        let left_mm = (sum / total).sqrt();
         let lengths = lengths.iter().enumerate();
         let seen_lengths: Vec<f64> = lengths
             .map(|(k, l)| if seen(k) { *l } else { 0.0 })
             .collect();
+        let total: f64 = seen_lengths.iter().sum();
+        let squares = seen_lengths.iter().zip(&deviation);
+        let squares: f64 = squares.map(|(l, d)| l * d.norm_squared()).sum();
+        let left_mm = (squares / total).sqrt();
         let averaging = Averaging {
             effective_points: first.figures.effective_points,
             measurements: measured.len(),
