@@ -82,13 +82,15 @@ impl From<&Registration> for RegistrationResult {
 /// scatter is taken from it comes out twice as large by chance once in some hundred times.
 const TIMES: f64 = 2.0;
 
-/// How many times as large as stated the scatter is, where it is known that it is too large.
+/// How many times as large as stated the scatter is, where it is known that it is too large. A program that follows its correction
+/// within a tolerance kinks by about that: these kinks are no scatter of the measurement.
 fn scatter_of_repeatability(found: &Measurement, stated: Option<Repeatability>) -> Option<f64> {
     let times = match stated {
         Some(Repeatability::OfPoints(sigma_mm)) => found.figures.scatter_mm / sigma_mm,
         _ => return None,
     };
-    (times > TIMES && !found.figures.scatter_has_bends).then_some(times)
+    let beyond_known = found.figures.scatter_mm > TIMES * found.known_to_mm;
+    (times > TIMES && beyond_known && !found.figures.scatter_has_bends).then_some(times)
 }
 
 impl MeasurementResult {
