@@ -47,8 +47,8 @@ mod trial;
 
 pub use alignment::{AlignedPoint, Alignment, LeftOut};
 pub use deviation::{
-    DeviationFigures, Kernel, MeasureSettings, Measurement, OnLines, Outlier, Smoothed, Stations,
-    Stretch, Unseen, measure, on_lines,
+    DeviationFigures, Kernel, MeasureSettings, Measurement, OnLines, Outlier, PieceMean, Smoothed,
+    Stations, Stretch, Unseen, measure, on_lines,
 };
 pub use error::MirrorError;
 pub use kinetostat_program::{Foot, NominalPath, Pass, WhyLeftOut};

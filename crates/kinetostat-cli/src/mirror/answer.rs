@@ -2,7 +2,7 @@
 
 use kinetostat_mirror::{
     Convergence, DeviationFigures, LeftOut, Measurement, MirrorState, Outcome, Outlier,
-    Registration, ToldBy, Unseen,
+    Registration, Repeatability, ToldBy, Unseen,
 };
 use kinetostat_program::Accounting;
 use serde::Serialize;
@@ -25,6 +25,8 @@ pub(crate) struct MirrorAnswer {
     pub(crate) floor_mm: Option<f64>,
     pub(crate) left_in_trials_mm: Vec<f64>,
     pub(crate) convergence: Option<Convergence>,
+    /// Whether it was seen that the last correction was in the program that was measured.
+    pub(crate) shows_correction: Option<bool>,
     pub(crate) largest_correction_mm: f64,
     pub(crate) accounting: Accounting,
 }
@@ -34,6 +36,9 @@ pub(crate) struct MeasurementResult {
     pub(crate) file: String,
     pub(crate) registration: Option<RegistrationResult>,
     pub(crate) figures: DeviationFigures,
+    /// How many times as large as the repeatability stated the scatter of a point is, where that is more than twice.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) scatter_of_repeatability: Option<f64>,
     pub(crate) outliers: Vec<Outlier>,
     /// Rows beside a corner that may belong to its other leg.
     pub(crate) beside_corners: Vec<usize>,
@@ -73,9 +78,29 @@ impl From<&Registration> for RegistrationResult {
     }
 }
 
+/// Points that scatter by so many times the repeatability stated are not what was stated: with the fewest neighbours that a
+/// scatter is taken from it comes out twice as large by chance once in some hundred times.
+const TIMES: f64 = 2.0;
+
+/// How many times as large as stated the scatter is, where it is known that it is too large. A program that follows its correction
+/// within a tolerance kinks by about that: these kinks are no scatter of the measurement.
+fn scatter_of_repeatability(found: &Measurement, stated: Option<Repeatability>) -> Option<f64> {
+    let times = match stated {
+        Some(Repeatability::OfPoints(sigma_mm)) => found.figures.scatter_mm / sigma_mm,
+        _ => return None,
+    };
+    let beyond_known = found.figures.scatter_mm > TIMES * found.known_to_mm;
+    (times > TIMES && beyond_known && !found.figures.scatter_has_bends).then_some(times)
+}
+
 impl MeasurementResult {
-    pub(crate) fn of(file: &str, found: &Measurement, features: Vec<FeatureMeasured>) -> Self {
+    pub(crate) fn of(
+        file: &str,
+        (found, stated): (&Measurement, Option<Repeatability>),
+        features: Vec<FeatureMeasured>,
+    ) -> Self {
         Self {
+            scatter_of_repeatability: scatter_of_repeatability(found, stated),
             file: file.to_owned(),
             registration: found.registration.as_ref().map(Into::into),
             figures: found.figures,

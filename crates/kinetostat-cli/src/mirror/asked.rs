@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use kinetostat_mirror::{MeasureSettings, MirrorState, NominalPath, Stations};
+use kinetostat_mirror::{MeasureSettings, NominalPath, Stations};
 
 use crate::files::input_files::InputFiles;
 use crate::job::arguments::{ProgramArgs, WritingFlags};
@@ -83,22 +83,4 @@ pub(crate) fn settings_of(args: &MirrorArgs, nominal: &NominalPath<'_>) -> Answe
             settings.window_mm
         ))),
     }
-}
-
-pub(crate) fn read_state(files: &InputFiles, path: &Path) -> Answer<MirrorState> {
-    let text = files.text("state", path)?;
-    toml::from_str(&text).map_err(|error| {
-        let before = error.span().map_or(0, |span| span.start);
-        let line = 1 + text.as_bytes()[..before].iter().filter(|b| **b == b'\n').count();
-        Failure::input(format!(
-            "'{}', line {line}: this is no state of trials: {}; name the file that an earlier run wrote with --state",
-            path.display(),
-            error.message()
-        ))
-    })
-}
-
-pub(crate) fn state_text(state: &MirrorState) -> Answer<String> {
-    toml::to_string(state)
-        .map_err(|error| Failure::input(format!("the state cannot be written: {error}")))
 }

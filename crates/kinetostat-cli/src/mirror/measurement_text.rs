@@ -34,7 +34,10 @@ pub(crate) fn measurement(m: &MeasurementResult) -> String {
                 largest_length(f.smoothed_largest_mm),
             ),
             row(
-                "scatter of a point in one direction",
+                match f.scatter_has_bends {
+                    true => "scatter of a point in one direction, at most",
+                    false => "scatter of a point in one direction",
+                },
                 mean_length(f.scatter_mm),
             ),
             row(
@@ -72,6 +75,12 @@ pub(crate) fn measurement(m: &MeasurementResult) -> String {
     }
     let what = "lie beside a corner and may belong to its other leg: they do not count";
     out.push_str(&rows_text(&m.beside_corners, what));
+    if let Some(times) = m.scatter_of_repeatability {
+        out.push_str(&item(&format!(
+            "THE POINTS SCATTER by {} times the repeatability stated: what counts as an outlier follows the scatter, and when to stop follows what was stated; look at the measurement, or state what it repeats to",
+            number(times, 2)
+        )));
+    }
     for outlier in m.outliers.iter().take(LISTED) {
         out.push_str(&item(&format!(
             "row {} is left out: {} from the path, {} from what its neighbours say, where {} could be",

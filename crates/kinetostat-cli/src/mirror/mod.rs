@@ -10,6 +10,7 @@ mod features;
 mod measured;
 mod measurement_text;
 mod plot;
+mod state_file;
 mod text;
 mod written;
 
@@ -18,6 +19,7 @@ use std::path::{Path, PathBuf};
 use kinetostat_machining::FieldCorrection;
 use kinetostat_mirror::{
     MeasuredFile, Measurement, MirrorError, MirrorField, MirrorState, NominalPath, Outcome,
+    Repeatability,
 };
 
 use crate::files::hash::sha256;
@@ -30,9 +32,10 @@ use crate::job::program::read_program;
 use crate::job::setting::Setting;
 use crate::mirror::answer::{MeasurementResult, MirrorAnswer, largest_correction_mm};
 use crate::mirror::arguments::MirrorArgs;
-use crate::mirror::asked::{asked, flags_of, names_model, read_state, settings_of, state_text};
+use crate::mirror::asked::{asked, flags_of, names_model, settings_of};
 use crate::mirror::features::of_features;
 use crate::mirror::measured::{measurements, repeatability};
+use crate::mirror::state_file::{read_state, state_text};
 use crate::mirror::written::written;
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::json;
@@ -85,7 +88,7 @@ pub(crate) fn run(args: &MirrorArgs) -> Answer<()> {
         (&setting, &nominal),
         model,
         (&state, outcome, relaxation),
-        &measured,
+        (&measured, known),
         &made,
     );
     let to_screen = claimed.to_screen;
@@ -197,7 +200,7 @@ fn answer_of(
     (setting, nominal): (&Setting, &NominalPath<'_>),
     model: Option<String>,
     (state, outcome, relaxation): (&MirrorState, Outcome, f64),
-    measured: &[(MeasuredFile, Measurement)],
+    (measured, known): (&[(MeasuredFile, Measurement)], Option<Repeatability>),
     made: &FieldCorrection,
 ) -> MirrorAnswer {
     let last = state.trials.last();
@@ -215,13 +218,14 @@ fn answer_of(
             .iter()
             .map(|(file, found)| {
                 let features = of_features(&setting.features, (nominal, found), smoothing_mm);
-                MeasurementResult::of(&file.name, found, features)
+                MeasurementResult::of(&file.name, (found, known), features)
             })
             .collect(),
         left_mm: last.map_or(f64::NAN, |trial| trial.left_mm),
         floor_mm: last.and_then(|trial| trial.floor_mm),
         left_in_trials_mm: state.trials.iter().map(|trial| trial.left_mm).collect(),
         convergence: last.and_then(|trial| trial.convergence),
+        shows_correction: last.and_then(|trial| trial.shows_correction),
         largest_correction_mm: largest_correction_mm(state),
         accounting: made.written.accounting.clone(),
     }

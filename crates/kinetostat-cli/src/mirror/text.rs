@@ -5,7 +5,7 @@ use kinetostat_mirror::Outcome;
 
 use crate::mirror::answer::MirrorAnswer;
 use crate::mirror::measurement_text::measurement;
-use crate::ui::layout::{columns, wrapped};
+use crate::ui::layout::{columns, item, wrapped};
 use crate::ui::numbers::{given, number};
 
 pub(crate) fn answer_text(a: &MirrorAnswer) -> String {
@@ -21,6 +21,12 @@ pub(crate) fn answer_text(a: &MirrorAnswer) -> String {
         ),
         0,
     );
+    // Where nothing is mirrored, nothing is mirrored twice.
+    if a.shows_correction == Some(false) && matches!(a.outcome, Outcome::GoOn | Outcome::Risen) {
+        out.push_str(&item(
+            "IT CANNOT BE TOLD whether the last correction was in the program that was measured: what it changes is within what the points scatter by, or other places were measured; if the program before it was run, the same is mirrored twice",
+        ));
+    }
     for measured in &a.measurements {
         out.push('\n');
         out.push_str(&measurement(measured));

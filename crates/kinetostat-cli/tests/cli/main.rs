@@ -59,6 +59,7 @@ mod mirror;
 mod mirror_corners;
 mod mirror_partial;
 mod mirror_refused;
+mod mirror_state;
 mod named_at_once;
 mod other_language;
 mod paper;

@@ -5,12 +5,13 @@ use serde::{Deserialize, Serialize};
 
 use crate::alignment::{AlignedPoint, Alignment, LeftOut, align};
 use crate::deviation::along_path::smoothed_along;
+use crate::deviation::figures::{DeviationFigures, figures};
 use crate::deviation::kernel::{Kernel, Smoothed};
 use crate::deviation::outliers::{Outlier, take_outliers};
+use crate::deviation::scatter::scatter_mm;
 use crate::deviation::stations::Stations;
 use crate::deviation::unseen::{Unseen, unseen};
 use crate::error::MirrorError;
-use crate::number::{OF_TWO_DIRECTIONS, larger, median};
 use crate::points::{MeasuredPoint, MeasuredPoints};
 use crate::registration::{Motion, Registration, RegistrationOptions, register};
 use kinetostat_program::{NominalPath, WhyLeftOut};
@@ -45,27 +46,6 @@ impl Default for MeasureSettings {
     }
 }
 
-/// Sizes of deviations.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct DeviationFigures {
-    /// Points that count.
-    pub points: usize,
-    /// Root of the mean square of their deviations, mm.
-    pub rms_mm: f64,
-    /// The largest of them, mm.
-    pub largest_mm: f64,
-    /// Root of the mean square along the path after smoothing, mm.
-    pub smoothed_rms_mm: f64,
-    /// The largest after smoothing, mm.
-    pub smoothed_largest_mm: f64,
-    /// Root of the mean product of deviation and smoothed deviation, mm: what the proof of convergence is about.
-    pub passing_rms_mm: f64,
-    /// Standard deviation of a point from the smoothed deviation in one direction, from the median, mm.
-    pub scatter_mm: f64,
-    /// Mean number of points that a smoothed deviation rests on.
-    pub effective_points: f64,
-}
-
 /// A measurement, compared with the path.
 #[derive(Clone, Debug)]
 pub struct Measurement {
@@ -85,6 +65,8 @@ pub struct Measurement {
     pub at_stations: Vec<Smoothed>,
     /// What the points leave open.
     pub unseen: Vec<Unseen>,
+    /// [`MeasuredPoints::known_to_mm`] of its points.
+    pub known_to_mm: f64,
     /// Sizes.
     pub figures: DeviationFigures,
 }
@@ -151,7 +133,8 @@ pub fn measure(
         length_mm: settings.smoothing_mm,
     };
     let [at_points, at_stations] = smoothed_along(&stations, kernel, &points);
-    let figures = figures(&points, &at_points, (&stations, &at_stations));
+    let scatter = scatter_mm(&stations, &points, settings.smoothing_mm);
+    let figures = figures(&points, &at_points, (&stations, &at_stations), scatter);
     Ok(Measurement {
         unseen: unseen(nominal, &points, settings.smoothing_mm),
         registration,
@@ -161,6 +144,7 @@ pub fn measure(
         beside_corners: taken.beside_corners,
         left_out,
         at_stations,
+        known_to_mm: measured.known_to_mm(),
         figures,
     })
 }
@@ -199,50 +183,4 @@ fn nothing_left(
         measured.points().len(),
         settings.window_mm
     )
-}
-
-fn figures(
-    points: &[AlignedPoint],
-    at_points: &[Smoothed],
-    (stations, at_stations): (&Stations, &[Smoothed]),
-) -> DeviationFigures {
-    let mean = |pairs: &mut dyn Iterator<Item = (f64, f64)>| {
-        let (mut sum, mut total) = (0.0, 0.0);
-        for (value, weight) in pairs {
-            sum += value * weight;
-            total += weight;
-        }
-        sum / total
-    };
-    let both = || points.iter().zip(at_points);
-    let squares = points
-        .iter()
-        .map(|p| (p.deviation_mm.norm_squared(), p.weight));
-    let passing = both().map(|(p, smoothed)| {
-        let product = p.deviation_mm.dot(&smoothed.deviation_mm);
-        (product, p.weight * smoothed.support)
-    });
-    let off = both().map(|(p, smoothed)| (p.deviation_mm - smoothed.deviation_mm).norm());
-    let lengths = stations.lengths_mm();
-    let seen = || {
-        let all = at_stations.iter().zip(&lengths);
-        all.filter(|(smoothed, _)| smoothed.effective_points > 0.0)
-    };
-    let smoothed = seen().map(|(smoothed, length)| (smoothed.deviation_mm.norm_squared(), *length));
-    DeviationFigures {
-        points: points.len(),
-        rms_mm: mean(&mut squares.into_iter()).sqrt(),
-        largest_mm: points
-            .iter()
-            .map(|p| p.deviation_mm.norm())
-            .fold(0.0, larger),
-        smoothed_rms_mm: mean(&mut smoothed.into_iter()).sqrt(),
-        smoothed_largest_mm: at_stations
-            .iter()
-            .map(|s| s.deviation_mm.norm())
-            .fold(0.0, larger),
-        passing_rms_mm: larger(mean(&mut passing.into_iter()), 0.0).sqrt(),
-        scatter_mm: OF_TWO_DIRECTIONS * median(off.collect()),
-        effective_points: mean(&mut seen().map(|(s, length)| (s.effective_points, *length))),
-    }
 }

@@ -1,13 +1,16 @@
 //! Trials one after the other: their corrections, what is to be expected of the next, and when to stop.
 
+mod compared;
 mod convergence;
 mod field;
 mod joined;
+mod machined;
 mod passing;
 mod record;
 mod repeatability;
 mod state;
 mod taking;
+mod together;
 
 pub use convergence::{Convergence, bound_on_relaxation, expected_factor};
 pub use field::{MirrorField, SumOfFields};

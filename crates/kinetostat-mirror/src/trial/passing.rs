@@ -13,13 +13,9 @@ pub(crate) fn passed(
     measured: &Measurement,
     smoothing_mm: f64,
 ) -> Vec<Vector3<f64>> {
-    let along = stations.along_mm();
     let at = |point: &AlignedPoint| {
-        let own = &stations.stretches()[stations.stretch_of(point.piece)].stations;
-        let after = along[own.clone()].partition_point(|at| *at <= point.along_mm);
-        let k = own.start + after.clamp(1, own.len() - 1);
-        let share = (point.along_mm - along[k - 1]) / (along[k] - along[k - 1]);
-        let there = deviation_mm[k - 1].lerp(&deviation_mm[k], share.clamp(0.0, 1.0));
+        let stretch = stations.stretch_of(point.piece);
+        let there = between_stations(stations, deviation_mm, (stretch, point.along_mm));
         AlignedPoint {
             deviation_mm: there - point.tangent * point.tangent.dot(&there),
             ..*point
@@ -34,4 +30,18 @@ pub(crate) fn passed(
         .iter()
         .map(|smoothed| smoothed.deviation_mm)
         .collect()
+}
+
+/// What is kept at the stations, at a place between them: a stretch and a length along the path, mm.
+pub(crate) fn between_stations(
+    stations: &Stations,
+    at_stations: &[Vector3<f64>],
+    (stretch, along_mm): (usize, f64),
+) -> Vector3<f64> {
+    let along = stations.along_mm();
+    let own = &stations.stretches()[stretch].stations;
+    let after = along[own.clone()].partition_point(|at| *at <= along_mm);
+    let k = own.start + after.clamp(1, own.len() - 1);
+    let share = (along_mm - along[k - 1]) / (along[k] - along[k - 1]);
+    at_stations[k - 1].lerp(&at_stations[k], share.clamp(0.0, 1.0))
 }

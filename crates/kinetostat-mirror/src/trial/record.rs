@@ -41,4 +41,7 @@ pub struct Trial {
     /// Against the trial before.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub convergence: Option<Convergence>,
+    /// Whether it was seen that the program that was measured had the last correction in it; none where there was no correction.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub shows_correction: Option<bool>,
 }

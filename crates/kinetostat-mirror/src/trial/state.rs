@@ -3,13 +3,16 @@
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
-use crate::deviation::{MeasureSettings, Measurement, Stations};
+use crate::deviation::{MeasureSettings, Measurement, PieceMean, Stations, piece_means};
 use crate::error::MirrorError;
+use crate::number::larger;
 use crate::trial::convergence::Convergence;
+use crate::trial::machined::{Seen, scatter_mm};
 use crate::trial::passing::passed;
 use crate::trial::record::{MeasuredFile, Trial};
 use crate::trial::repeatability::{Averaging, Repeatability, floor_mm};
-use crate::trial::taking::{are_new, have_places, shows_the_correction};
+use crate::trial::taking::{are_new, have_places, may_show_the_correction};
+use crate::trial::together::mean_deviation;
 use kinetostat_program::NominalPath;
 
 /// Of the form of the state.
@@ -50,6 +53,9 @@ pub struct MirrorState {
     pub correction_mm: Vec<Vector3<f64>>,
     /// Smoothed deviation of the last trial at each of them, mm.
     pub deviation_mm: Vec<Vector3<f64>>,
+    /// What the points of the last trial say, against which those of the next are held.
+    #[serde(default)]
+    pub means: Vec<PieceMean>,
 }
 
 impl MirrorState {
@@ -72,6 +78,7 @@ impl MirrorState {
             correction_mm: vec![Vector3::zeros(); along_mm.len()],
             deviation_mm: vec![Vector3::zeros(); along_mm.len()],
             along_mm,
+            means: Vec::new(),
         })
     }
 
@@ -173,16 +180,14 @@ impl MirrorState {
                 .iter()
                 .any(|m| m.1.at_stations[k].effective_points > 0.0)
         };
-        let (mut sum, mut total) = (0.0, 0.0);
-        for (k, length) in lengths.iter().enumerate().filter(|(k, _)| seen(*k)) {
-            sum += length * deviation[k].norm_squared();
-            total += length;
-        }
-        let left_mm = (sum / total).sqrt();
         let lengths = lengths.iter().enumerate();
         let seen_lengths: Vec<f64> = lengths
             .map(|(k, l)| if seen(k) { *l } else { 0.0 })
             .collect();
+        let total: f64 = seen_lengths.iter().sum();
+        let squares = seen_lengths.iter().zip(&deviation);
+        let squares: f64 = squares.map(|(l, d)| l * d.norm_squared()).sum();
+        let left_mm = (squares / total).sqrt();
         let averaging = Averaging {
             effective_points: first.figures.effective_points,
             measurements: measured.len(),
@@ -202,10 +207,18 @@ impl MirrorState {
             let deviations = [&self.deviation_mm, &deviation, &passed].map(Vec::as_slice);
             Convergence::between(deviations, &seen_lengths, last.relaxation)
         });
-        if let Some(found) = &convergence {
-            let independent = averaging.independent().max(1.0);
-            shows_the_correction((measured, &self.trials), found, independent)?;
-        }
+        let means = piece_means(&places, measured.iter().map(|(_, found)| found));
+        let shows_correction = last.map(|last| {
+            let scatter = measured.iter().map(|(_, found)| scatter_mm(found));
+            let seen = Seen::of(
+                &places,
+                (self, last.relaxation),
+                &means,
+                scatter.fold(last.figures.scatter_mm, larger),
+            );
+            may_show_the_correction((measured, &self.trials), &seen)
+        });
+        let shows_correction = shows_correction.transpose()?;
         let outcome = match (floor, convergence) {
             _ if deviation.iter().all(|d| d.norm() <= NOTHING_MM) => Outcome::NothingToCorrect,
             (Some([_, within]), _) if left_mm <= within => Outcome::WithinRepeatability,
@@ -227,19 +240,10 @@ impl MirrorState {
             left_mm,
             floor_mm: floor.map(|[floor, _]| floor),
             convergence,
+            shows_correction,
         });
         self.deviation_mm = deviation;
+        self.means = means;
         Ok(outcome)
     }
-}
-
-/// The mean of the smoothed deviations at each station, of the measurements that see it.
-fn mean_deviation(measured: &[(MeasuredFile, Measurement)], stations: usize) -> Vec<Vector3<f64>> {
-    let mean = |k: usize| {
-        let all = measured.iter().map(|(_, m)| &m.at_stations[k]);
-        let seen: Vec<_> = all.filter(|s| s.effective_points > 0.0).collect();
-        let sum: Vector3<f64> = seen.iter().map(|s| s.deviation_mm).sum();
-        sum / seen.len().max(1) as f64
-    };
-    (0..stations).map(mean).collect()
 }

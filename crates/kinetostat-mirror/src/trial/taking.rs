@@ -3,7 +3,7 @@
 use crate::alignment::LeftOut;
 use crate::deviation::Measurement;
 use crate::error::MirrorError;
-use crate::trial::convergence::Convergence;
+use crate::trial::machined::Seen;
 use crate::trial::record::{MeasuredFile, Trial};
 use kinetostat_program::WhyLeftOut;
 
@@ -31,30 +31,25 @@ pub(crate) fn are_new(
     Ok(())
 }
 
-/// A machine that answers with less than this share of a correction, scatter included, was not given it: no machine converges by
-/// corrections that it all but ignores.
-const NO_ANSWER: f64 = 0.1;
-
-/// Measurements that show something of the correction before: those of the program before it would have it corrected twice.
-pub(crate) fn shows_the_correction(
+/// Measurements that may be of the program with the correction before: those of the program without it would have it corrected twice.
+/// Whether they show it.
+pub(crate) fn may_show_the_correction(
     (measured, trials): (&[(MeasuredFile, Measurement)], &[Trial]),
-    found: &Convergence,
-    independent: f64,
-) -> Result<(), MirrorError> {
-    let answer = 1.0 + found.departure;
-    let most = answer.abs() + 2.0 * found.spread / independent.sqrt();
-    if most >= NO_ANSWER {
-        return Ok(());
+    seen: &Seen,
+) -> Result<bool, MirrorError> {
+    if !seen.is_nothing() {
+        return Ok(seen.is_some());
     }
     let names: Vec<&str> = measured
         .iter()
         .map(|(file, _)| file.name.as_str())
         .collect();
     Err(MirrorError::new(format!(
-        "{}: nothing is seen of the correction that trial {} wrote ({:.1} % of it): the program before it seems to have been run or measured once more, and it would be corrected twice; nothing was mirrored. Measure the new program (all measurements of one trial are given together), or begin with a new state",
+        "{}: nothing is seen of the correction that trial {} wrote ({:.1} +- {:.1} % of it): the program before it seems to have been run or measured once more, and it would be corrected twice; nothing was mirrored. Measure the new program (all measurements of one trial are given together), or begin with a new state",
         names.join(", "),
         trials.len(),
-        100.0 * answer
+        100.0 * seen.answer,
+        100.0 * seen.known_to
     )))
 }
 

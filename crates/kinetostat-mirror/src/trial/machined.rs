@@ -1,0 +1,129 @@
+//! Whether the program that was measured had the last correction in it.
+//!
+//! A trial that found the smoothed deviation `a` corrected the program by `-rho a`. A machine that answers with the share `beta` of
+//! a correction shows `e - beta rho a` in the next trial, with the `e` that the points of the trial before had there; of the program
+//! before, run or measured once more, `beta` is 0. So the change from trial to trial is fitted by `-beta rho a` (weighted least squares,
+//! the weight of a place by how many points its change rests on), and `beta` is known to the standard deviation `s` by three things that add up:
+//!
+//! - the scatter of the points, as it goes through the interpolation of those before to the places of those now;
+//! - what the fit leaves beyond it (drift, an answer that differs along the path): alike over a smoothing length, so that it
+//!   averages out only over the pieces of the path that are smoothed apart;
+//! - half of what straight interpolation in place of the cubic one would change: an upper bound of what the cubic one misses
+//!   of waves longer than four ways between points.
+//!
+//! By how much the fit is worse (`-2 ln` of its likelihood) with `beta = 0` is `(beta / s)^2`; with an answer that a machine may have, from `b` on,
+//! `((b - beta) / s)^2`, nothing where `beta` is larger. The smaller one explains the measurement better, clearly if it is a hundred times as likely
+//! (the ratio of likelihoods, Neyman and Pearson 1933).
+
+use std::collections::BTreeSet;
+
+use nalgebra::Vector3;
+
+use crate::deviation::{Measurement, PieceMean, Stations};
+use crate::number::larger;
+use crate::trial::compared::Place;
+use crate::trial::passing::between_stations;
+use crate::trial::state::MirrorState;
+
+/// A machine may answer with this share of a correction: ten trials then leave a tenth of the error. None that answers with less is
+/// worth correcting by trials.
+const LEAST_ANSWER: f64 = 0.2;
+
+/// A hundred times as likely: `2 ln 100`, three standard deviations.
+const CLEARLY: f64 = 9.210_340_371_976_184;
+
+/// To what a share is known of points without any scatter: sums of numbers of sixteen digits.
+const ROUNDING: f64 = 1e-9;
+
+/// What is seen of a correction.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Seen {
+    /// Share of it, NaN where no place was measured before and now.
+    pub answer: f64,
+    /// Standard deviation of that.
+    pub known_to: f64,
+}
+
+/// To which a point of a measurement is known, mm.
+pub(crate) fn scatter_mm(measured: &Measurement) -> f64 {
+    larger(measured.figures.scatter_mm, measured.known_to_mm)
+}
+
+impl Seen {
+    /// In the means of a trial, of what the state before it corrected; points before and now scatter by `scatter_mm`.
+    pub(crate) fn of(
+        stations: &Stations,
+        (state, relaxation): (&MirrorState, f64),
+        now: &[PieceMean],
+        scatter_mm: f64,
+    ) -> Self {
+        let smoothing_mm = state.settings.smoothing_mm;
+        let places = now.iter().filter_map(|mean| {
+            let own = (mean.stretch, mean.along_mm);
+            let sent = between_stations(stations, &state.deviation_mm, own) * relaxation;
+            Place::of(mean, &state.means, sent, smoothing_mm)
+        });
+        Self::in_places(
+            &places.collect::<Vec<_>>(),
+            &state.means,
+            (scatter_mm, smoothing_mm),
+        )
+    }
+
+    fn in_places(
+        places: &[Place<'_>],
+        before: &[PieceMean],
+        (scatter_mm, smoothing_mm): (f64, f64),
+    ) -> Self {
+        let of_all = |one: &dyn Fn(&Place<'_>) -> f64| places.iter().map(one).sum::<f64>();
+        let sent_square = of_all(&|p| p.weight * p.sent_mm.norm_squared());
+        let answer = -of_all(&|p| p.weight * p.change_mm.dot(&p.sent_mm)) / sent_square;
+        let straight = -of_all(&|p| p.weight * p.straight_mm.dot(&p.sent_mm)) / sent_square;
+        let mut carried = vec![Vector3::zeros(); before.len()];
+        for place in places {
+            for (index, share) in &place.before {
+                carried[*index] += place.sent_mm * (place.weight * share);
+            }
+        }
+        let of_now = of_all(&|p| (p.weight * p.sent_mm).norm_squared() / p.now.points);
+        let of_before = carried.iter().zip(before);
+        let of_before: f64 = of_before
+            .map(|(sum, mean)| sum.norm_squared() / mean.points)
+            .sum();
+        let of_points = scatter_mm.powi(2) * (of_now + of_before) / sent_square.powi(2);
+
+        let count = places.len() as f64;
+        let left = of_all(&|p| p.weight * (p.change_mm + p.sent_mm * answer).norm_squared());
+        let beyond = left / (2.0 * count - 1.0) - scatter_mm.powi(2);
+        let apart_mm = std::f64::consts::PI.sqrt() * smoothing_mm;
+        let pieces = places
+            .iter()
+            .map(|p| (p.now.stretch, (p.now.along_mm / apart_mm) as u64));
+        let pieces = pieces.collect::<BTreeSet<_>>().len() as f64;
+        let of_rest = larger(beyond, 0.0) * count / (pieces * sent_square);
+        let of_interpolation = (0.5 * (answer - straight)).powi(2);
+        Self {
+            answer,
+            known_to: larger((of_points + of_rest + of_interpolation).sqrt(), ROUNDING),
+        }
+    }
+
+    /// How much worse the fit is for a machine that was not given the correction, and for one that was.
+    fn worse(&self) -> [f64; 2] {
+        let below = larger(LEAST_ANSWER - self.answer, 0.0);
+        [self.answer, below].map(|off| (off / self.known_to).powi(2))
+    }
+
+    /// That the program was run without the correction explains the measurement, and clearly better than that it was run with it.
+    pub(crate) fn is_nothing(&self) -> bool {
+        let [without, with] = self.worse();
+        let explains = without < CLEARLY || self.answer.abs() < 0.5 * LEAST_ANSWER;
+        explains && with - without > CLEARLY
+    }
+
+    /// That it was run with the correction explains the measurement clearly better.
+    pub(crate) fn is_some(&self) -> bool {
+        let [without, with] = self.worse();
+        without - with > CLEARLY
+    }
+}
