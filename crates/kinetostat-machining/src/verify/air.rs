@@ -2,6 +2,7 @@
 
 use std::borrow::Cow;
 
+use kinetostat::number::{larger, smaller};
 use kinetostat_program::{Curve, Knowledge, Move, MoveKind, NominalPath, Path};
 
 use crate::verify::rapids::NEAR_MM;
@@ -18,6 +19,16 @@ pub(crate) fn without_air<'a>(
     let is_rapid = |m: &&Move| m.kind == MoveKind::Rapid && m.known == Knowledge::Whole;
     let mut rapids: Vec<&Move> = original.path().moves.iter().filter(is_rapid).collect();
     rapids.sort_by(|a, b| a.start.x.total_cmp(&b.start.x));
+    // How far cuts before may be from a way along them: a lift may go where the cut is not shifted to. A way that is where the cuts are
+    // is compensated as those are, and another cut nearby is none along it.
+    let beside_cuts = |own: &Move| {
+        let places = [0.0, 0.5, 1.0].map(|share| own.point(share));
+        let feet = places.iter().filter_map(|place| nominal.nearest(place));
+        smaller(
+            shift_mm,
+            feet.map(|foot| foot.distance_mm).fold(0.0, larger),
+        )
+    };
     let is_air = |index: usize| {
         let own = &other.moves[index];
         if own.kind != MoveKind::Feed || own.curve != Curve::Line || !own.is_known_feed() {
@@ -34,7 +45,7 @@ pub(crate) fn without_air<'a>(
                 // Not where a cut goes nearer by, as it is or compensated, unless it has been made.
                 && ([original, nominal].into_iter().all(|cuts| {
                     cuts.nearest(&middle).is_none_or(|foot| foot.distance_mm > beside)
-                }) || is_cut_before(other, index, ON_WAY_MM + shift_mm))
+                }) || is_cut_before(other, index, ON_WAY_MM + beside_cuts(own)))
         })
     };
     let air: Vec<usize> = (0..other.moves.len())
@@ -56,18 +67,12 @@ const LOOKED_BACK: usize = 200;
 /// Places of a way that are looked at.
 const LOOKED_AT: usize = 16;
 
-/// Whether moves at feed before have been along all of a straight way: the lift out of a hole and the way back to its ground. A cut that
-/// goes across the way rather than along it is another one nearby.
+/// Whether moves at feed before have been along all of a straight way: the lift out of a hole and the way back to its ground.
 fn is_cut_before(path: &Path, index: usize, within_mm: f64) -> bool {
     let own = &path.moves[index];
     let before = &path.moves[index.saturating_sub(LOOKED_BACK)..index];
-    let way = own.end - own.start;
     let is_straight = |m: &&Move| m.is_known_feed() && m.curve == Curve::Line;
-    let is_along = |m: &&Move| {
-        let cut = m.end - m.start;
-        cut.dot(&way).abs() >= cut.cross(&way).norm()
-    };
-    let cuts = before.iter().filter(is_straight).filter(is_along);
+    let cuts = before.iter().filter(is_straight);
     let cuts = cuts.map(|m| Way {
         line: m.line,
         ends: [m.start, m.end],
