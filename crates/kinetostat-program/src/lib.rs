@@ -58,7 +58,7 @@ mod text;
 mod writing;
 
 pub use along::foot::Foot;
-pub use along::in_order::in_order;
+pub use along::in_order::{in_order, in_order_by};
 pub use along::nominal::{FeedPiece, NoFeedMove, NominalPath, Pass};
 pub use along::why::WhyLeftOut;
 pub use checking::field::{Farthest, FieldCheck, verify_against_field};

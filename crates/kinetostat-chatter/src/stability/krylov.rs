@@ -28,22 +28,28 @@ const FRESH: f64 = 1e-4;
 /// The largest eigenvalue of an operator on vectors of a length to a residual by its size, with its vector.
 ///
 /// The first vector has gone through some periods: what dies away quickly is gone then, and the space need not hold it. It is
-/// kept in `last`, for the next depth. Of few states, so many as `most`, fewer periods are enough.
+/// kept in `last`, for the next depth: its first entries, the `states`, which make the others in the next period, whatever their
+/// number. Of few states fewer periods are enough.
 /// The QR iteration of the small matrix costs more than anything else here, so it is asked only which eigenvalue is the
 /// largest: one is followed by inverse iteration as the space grows, until its residual is small, and then the QR iteration
 /// says whether there is a larger one.
 pub(crate) fn largest(
-    (size, most): (usize, usize),
+    (size, states): (usize, usize),
     accuracy: f64,
     last: &mut Option<DVector<f64>>,
     mut apply: impl FnMut(&DVector<f64>) -> Result<DVector<f64>>,
 ) -> Result<(Complex64, DVector<Complex64>)> {
-    let fresh = start(size).normalize();
-    let (mut first, settled) = match last.take().filter(|last| last.len() == size) {
-        Some(last) => (last + fresh * FRESH, SETTLED_AGAIN),
-        None => (fresh, SETTLED),
+    let mut first = start(size).normalize();
+    let settled = match last {
+        Some(last) => {
+            first *= FRESH;
+            let mut before = first.rows_mut(0, states);
+            before += &*last;
+            SETTLED_AGAIN
+        }
+        None => SETTLED,
     };
-    for _ in 0..settled.min(most) {
+    for _ in 0..settled.min(states) {
         let next = apply(&first)?;
         let length = next.norm();
         if !(length > 0.0 && length.is_finite()) {
@@ -51,7 +57,7 @@ pub(crate) fn largest(
         }
         first = next / length;
     }
-    *last = Some(first.clone());
+    *last = first.rows(0, states).try_normalize(0.0);
     let mut basis: Vec<DVector<f64>> = vec![first];
     let mut hessenberg: Vec<Vec<f64>> = Vec::new();
     let mut wanted = FIRST.min(size);

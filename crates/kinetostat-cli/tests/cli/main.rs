@@ -83,6 +83,7 @@ mod tables;
 mod tolerances;
 mod uncertain;
 mod verify;
+mod verify_ends;
 mod verify_others;
 mod vibration;
 mod without_motion;

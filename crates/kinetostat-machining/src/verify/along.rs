@@ -129,6 +129,7 @@ impl Along<'_> {
             shares: [0.0; 2],
             begins_pass: true,
             position: self.other.moves[end.move_index].start,
+            cut_mm: end.cut_mm - self.length_mm(end),
         };
         self.begin(&start, begins, piece);
         self.covered.push([begins; 2]);
@@ -141,6 +142,7 @@ impl Along<'_> {
             shares: [0.0, 1.0],
             begins_pass: false,
             position: end.position,
+            cut_mm: end.cut_mm,
         };
         for index in self.stretches.along_move(same).into_iter().flatten() {
             let stretch = &self.stretches.all[index];

@@ -3,12 +3,13 @@
 use kinetostat_program::{Corrected, Foot, NominalPath, Path};
 
 use crate::task::{NoMotion, RunError};
+use crate::verify::air::without_air;
 use crate::verify::along::{Along, beside_mm};
 use crate::verify::followed::Followed;
 use crate::verify::matched::Matched;
 use crate::verify::on_guide::Search;
 use crate::verify::places::{ends, feet};
-use crate::verify::rapids::{elsewhere, largest_shift_mm, without_air};
+use crate::verify::rapids::{elsewhere, largest_shift_mm};
 use crate::verify::stretches::Stretches;
 use crate::verify::uncut::uncut;
 

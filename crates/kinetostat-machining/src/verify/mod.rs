@@ -11,6 +11,7 @@
 //! that are solved for it, and the pieces are solved as those of any written program. Inside a move of the original the error is so the
 //! distance from the compensated path: along that, where an error moves no material, there is none but at ends.
 
+mod air;
 mod along;
 mod conditions;
 mod exact;
@@ -23,6 +24,7 @@ mod places;
 mod rapids;
 mod stretches;
 mod uncut;
+mod way;
 
 use kinetostat::number::smaller;
 use kinetostat_program::{Arcs, Corrected, CorrectionField, Path, Unwatched, WriteError};

@@ -41,8 +41,11 @@ pub(crate) struct Search<'a> {
 impl Search<'_> {
     /// The places of all ends, none where an end is nowhere on the guide.
     pub(crate) fn places(&self, ends: &[End], feet: &[Option<Foot>]) -> Vec<Option<OnGuide>> {
-        let of_foot = |foot: &Foot| {
-            let to = self.stretches.at_corner(foot, self.near_mm, self.original);
+        let of_foot = |(index, foot): (usize, &Foot)| {
+            let ends_pass = ends.get(index + 1).is_none_or(|next| next.begins_pass);
+            let end = ends_pass.then(|| self.stretches.at_end(foot)).flatten();
+            let corner = || (self.stretches).at_corner(foot, self.near_mm, self.original);
+            let to = end.unwrap_or_else(corner);
             OnGuide {
                 arrives_mm: to,
                 leaves_mm: to,
@@ -50,7 +53,10 @@ impl Search<'_> {
                 same_as: None,
             }
         };
-        let found: Vec<_> = feet.iter().map(|foot| foot.as_ref().map(of_foot)).collect();
+        let feet_of_ends = feet.iter().enumerate();
+        let found: Vec<_> = feet_of_ends
+            .map(|(index, foot)| foot.as_ref().map(|foot| of_foot((index, foot))))
+            .collect();
         let mut places = found.clone();
         for (index, place) in places.iter_mut().enumerate() {
             if let Some(place) = place

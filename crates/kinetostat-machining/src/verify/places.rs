@@ -1,6 +1,6 @@
 //! The ends of another program's moves, in their order, and which places of the guide belong to them.
 
-use kinetostat_program::{Curve, Foot, NominalPath, Path, WhyLeftOut, in_order};
+use kinetostat_program::{Curve, Foot, NominalPath, Path, WhyLeftOut, in_order_by};
 use nalgebra::Vector3;
 
 use crate::task::RunError;
@@ -22,6 +22,8 @@ pub(crate) struct End {
     pub(crate) shares: [f64; 2],
     pub(crate) begins_pass: bool,
     pub(crate) position: Vector3<f64>,
+    /// How far the program has cut up to there, mm.
+    pub(crate) cut_mm: f64,
 }
 
 /// Starts of passes and ends of moves at feed, of arcs those of parts of them.
@@ -35,6 +37,7 @@ pub(crate) fn ends(other: &NominalPath<'_>) -> Vec<End> {
             shares,
             begins_pass,
             position: motion.point(shares[1]),
+            cut_mm: piece.from_mm + shares[1] * piece.length_mm,
         };
         if pass.replace(piece.pass) != Some(piece.pass) {
             ends.push(end([0.0, 0.0], true));
@@ -74,7 +77,7 @@ pub(crate) fn feet(
         let found = match widened(guide, &points, (&mut near, window_mm)) {
             // Nobody is asked for an order of points many of which are nowhere.
             Err(lost) => Err((lost, WhyLeftOut::BeyondWindow)),
-            Ok(()) => ordered(&points, near, window_mm),
+            Ok(()) => ordered(ends, near, window_mm),
         };
         match found {
             Ok(feet) => return Ok(feet),
@@ -104,12 +107,13 @@ fn is_few(lost: usize, all: usize) -> bool {
 /// # Errors
 /// The first end without a foot and why, where there are many.
 fn ordered(
-    points: &[Vector3<f64>],
+    ends: &[End],
     mut near: Vec<Vec<Foot>>,
     window_mm: f64,
 ) -> Result<Vec<Option<Foot>>, (usize, WhyLeftOut)> {
     let lost = |feet: &[Result<Foot, WhyLeftOut>]| feet.iter().filter(|foot| foot.is_err()).count();
-    let mut best = in_order(points, &near, window_mm);
+    let way_mm = |from: usize, to: usize| ends[to].cut_mm - ends[from].cut_mm;
+    let mut best = in_order_by(&near, window_mm, way_mm);
     for _ in 0..LEAPS {
         let out_of_order = |foot: &Result<Foot, WhyLeftOut>| *foot == Err(WhyLeftOut::OutOfOrder);
         let leaps = best.iter().position(out_of_order).and_then(|first| {
@@ -120,7 +124,7 @@ fn ordered(
             break;
         };
         let its_feet = std::mem::take(&mut near[leaps]);
-        let without = in_order(points, &near, window_mm);
+        let without = in_order_by(&near, window_mm, way_mm);
         if lost(&without) >= lost(&best) {
             near[leaps] = its_feet;
             break;
@@ -129,7 +133,7 @@ fn ordered(
     }
     let first = best.iter().position(Result::is_err);
     match first.zip(first.and_then(|first| best[first].err())) {
-        Some(first) if !is_few(lost(&best), points.len()) => Err(first),
+        Some(first) if !is_few(lost(&best), ends.len()) => Err(first),
         _ => Ok(best.into_iter().map(Result::ok).collect()),
     }
 }

@@ -1,15 +1,14 @@
-//! Rapids of another program beside those of the original: where they go, and which of its moves at feed are none.
-
-use std::borrow::Cow;
+//! Rapids of another program beside those of the original: where they go.
 
 use kinetostat::number::larger;
-use kinetostat_program::{Corrected, Curve, Knowledge, Move, MoveKind, NominalPath, Path};
+use kinetostat_program::{Corrected, Knowledge, Move, MoveKind, NominalPath, Path};
 use nalgebra::Vector3;
 
 use crate::verify::matched::RapidElsewhere;
+use crate::verify::way::Way;
 
 /// Rapids nearer than this are the same, mm, beside what corrections shift them by: clearances are larger.
-const NEAR_MM: f64 = 1.0;
+pub(crate) const NEAR_MM: f64 = 1.0;
 
 /// A rapid that leads on by less comes back to where the cut was left, mm: its ends are rounded.
 const LEADS_ON_MM: f64 = 0.002;
@@ -24,104 +23,6 @@ pub(crate) fn largest_shift_mm(original: &Path, guide: &Corrected) -> f64 {
         (piece.commanded_to - nominal).norm()
     };
     guide.pieces.iter().map(shift).fold(0.0, larger)
-}
-
-/// The other program with its moves at feed as rapids where they are rapids of the original: a retract at feed cuts nothing, nor does
-/// a way along which the program has cut before.
-pub(crate) fn without_air<'a>(
-    original: &NominalPath<'_>,
-    nominal: &NominalPath<'_>,
-    (other, shift_mm): (&'a Path, f64),
-) -> Cow<'a, Path> {
-    let near_mm = NEAR_MM + shift_mm;
-    let is_rapid = |m: &&Move| m.kind == MoveKind::Rapid && m.known == Knowledge::Whole;
-    let mut rapids: Vec<&Move> = original.path().moves.iter().filter(is_rapid).collect();
-    rapids.sort_by(|a, b| a.start.x.total_cmp(&b.start.x));
-    let is_air = |index: usize| {
-        let own = &other.moves[index];
-        if own.kind != MoveKind::Feed || own.curve != Curve::Line || !own.is_known_feed() {
-            return false;
-        }
-        let from = rapids.partition_point(|m| m.start.x < own.start.x - near_mm);
-        let candidates = rapids[from..].iter();
-        let mut candidates = candidates.take_while(|m| m.start.x <= own.start.x + near_mm);
-        let middle = own.point(0.5);
-        candidates.any(|m| {
-            let beside = (m.point(0.5) - middle).norm();
-            (m.start - own.start).norm() <= near_mm
-                && (m.end - own.end).norm() <= near_mm
-                // Not where a cut goes nearer by, as it is or compensated, unless it has been made.
-                && ([original, nominal].into_iter().all(|cuts| {
-                    cuts.nearest(&middle).is_none_or(|foot| foot.distance_mm > beside)
-                }) || is_cut_before(other, index, ON_WAY_MM + shift_mm))
-        })
-    };
-    let air: Vec<usize> = (0..other.moves.len())
-        .filter(|index| is_air(*index))
-        .collect();
-    if air.is_empty() {
-        return Cow::Borrowed(other);
-    }
-    let mut changed = other.clone();
-    for index in air {
-        changed.moves[index].kind = MoveKind::Rapid;
-    }
-    Cow::Owned(changed)
-}
-
-/// A way lies on another within this, mm, beside what corrections shift it by.
-const ON_WAY_MM: f64 = 0.05;
-
-/// So many moves back is looked for one that has cut a way before.
-const LOOKED_BACK: usize = 200;
-
-/// Places of a way that are looked at.
-const LOOKED_AT: usize = 16;
-
-/// Whether moves at feed before have been along all of a straight way: the lift out of a hole and the way back to its ground.
-fn is_cut_before(path: &Path, index: usize, within_mm: f64) -> bool {
-    let own = &path.moves[index];
-    let before = &path.moves[index.saturating_sub(LOOKED_BACK)..index];
-    let is_straight = |m: &&Move| m.is_known_feed() && m.curve == Curve::Line;
-    let cuts = before.iter().filter(is_straight).map(|m| Way {
-        line: m.line,
-        ends: [m.start, m.end],
-    });
-    let cuts: Vec<Way> = cuts.collect();
-    (0..=LOOKED_AT).all(|k| {
-        let place = own.point(k as f64 / LOOKED_AT as f64);
-        cuts.iter().any(|cut| cut.holds(&place, within_mm))
-    })
-}
-
-/// A straight way of the tool in a rapid.
-struct Way {
-    line: usize,
-    ends: [Vector3<f64>; 2],
-}
-
-impl Way {
-    /// Whether a place lies beside it within a distance, and not beyond its ends: corrections shift a way across, not along.
-    fn holds(&self, point: &Vector3<f64>, within_mm: f64) -> bool {
-        let [from, to] = &self.ends;
-        let length = (to - from).norm();
-        if length <= ON_WAY_MM {
-            return (point - from).norm() <= ON_WAY_MM;
-        }
-        let along = (point - from).dot(&(to - from)) / length;
-        (-ON_WAY_MM..=length + ON_WAY_MM).contains(&along) && self.distance(point) <= within_mm
-    }
-
-    fn distance(&self, point: &Vector3<f64>) -> f64 {
-        let [from, to] = &self.ends;
-        let way = to - from;
-        let squared = way.norm_squared();
-        let share = match squared > 0.0 {
-            true => ((point - from).dot(&way) / squared).clamp(0.0, 1.0),
-            false => 0.0,
-        };
-        (from + share * way - point).norm()
-    }
 }
 
 /// Rapids from and to places that the program states.

@@ -4,6 +4,8 @@ use std::collections::BTreeMap;
 
 use kinetostat_program::{Corrected, Foot, NominalPath, Path, Turn};
 
+use crate::verify::uncut::LEAST_MM;
+
 /// A part of the guide along one move of the original, or at one place of it where the load turns.
 pub(crate) struct Stretch {
     /// Indices of its pieces in the nominal path of the guide.
@@ -113,6 +115,15 @@ impl<'a> Stretches<'a> {
                 && (there - here).abs() * length_mm <= near_mm
         };
         nearest.filter(|end| is_near(*end)).unwrap_or(along_mm)
+    }
+
+    /// The end of the cut on which a place lies, if the place is no farther before it than what may be left out, mm along the guide: a
+    /// cut that ends there ends too early by an error of the tool at that end, which the tolerance is for.
+    pub(crate) fn at_end(&self, foot: &Foot) -> Option<f64> {
+        let [begins, ends] = self.nominal.passes()[self.pass_of_piece(foot.piece)].along_mm;
+        // On a short cut no farther than to its nearer end.
+        let within_mm = LEAST_MM.min(0.5 * (ends - begins));
+        (ends - foot.along_mm <= within_mm).then_some(ends)
     }
 
     /// Where the load turns at a place of a pass, mm along the guide.

@@ -4,8 +4,8 @@ use kinetostat_program::{Corrected, NominalPath, Path};
 
 use crate::verify::matched::Uncut;
 
-/// Less than this is left out by where an end of a pass is rounded to, mm.
-const LEAST_MM: f64 = 0.05;
+/// Less than this at an end of a pass is no part that is left out, mm: it is by what the tool is off there.
+pub(crate) const LEAST_MM: f64 = 0.05;
 
 /// Less than this inside a pass, where the original goes on cutting and the program makes a rapid, is left out by what ends are rounded
 /// to, mm; or twice as much as the program is off its guide.

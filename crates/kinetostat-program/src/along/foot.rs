@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 
-use crate::along::nominal::NominalPath;
+use crate::along::nominal::{NominalPath, SAME_MM};
 use crate::path::curve::Curve;
 
 /// Steps towards the foot on an arc, each of which leaves a share of the distance to it like that of the point's distance
@@ -143,7 +143,8 @@ impl NominalPath<'_> {
             let motion = self.motion(&self.pieces()[index]);
             let tangent = motion.tangent(share).unwrap_or_else(Vector3::zeros);
             let away = point - motion.point(share);
-            sign * tangent.dot(&away) <= 1e-9 * away.norm()
+            // A point at the end itself is nearest to that: which way it is away from there is rounding.
+            away.norm() <= SAME_MM || sign * tangent.dot(&away) <= 1e-9 * away.norm()
         };
         let sign = if share == to { 1.0 } else { -1.0 };
         let is_nearest = beyond.is_none_or(|beyond| leaves(beyond, sign));

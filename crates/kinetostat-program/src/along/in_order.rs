@@ -27,7 +27,37 @@ pub fn in_order(
     feet: &[Vec<Foot>],
     window_mm: f64,
 ) -> Vec<Result<Foot, WhyLeftOut>> {
-    let mut chosen = Vec::with_capacity(points.len());
+    in_order_by(feet, window_mm, |from, to| {
+        (points[to] - points[from]).norm()
+    })
+}
+
+/// As [`in_order`], of points between which the way is known otherwise than from where they are: `way_mm` tells it for the indices
+/// of two points. Between two cuts, for one, it is none, however far the rapid goes: the length along a path leaves rapids out.
+///
+/// ```
+/// use kinetostat_program::{NominalPath, Program, ReadOptions, in_order_by, interpret};
+/// use nalgebra::Vector3;
+///
+/// // Two pecks of one hole: the second begins where the first one was cut.
+/// let text = "G21 G90\nG0 X3 Y4 Z1\nG1 Z-2 F300\nG0 Z1\nG0 Z-1.8\nG1 Z-5\n";
+/// let path = interpret(&Program::read(text)?, &ReadOptions::default())?;
+/// let nominal = NominalPath::new(&path)?;
+/// let depths = [-1.0, -2.0, -1.8, -5.0];
+/// let feet = depths.map(|z| nominal.nearest_within(&Vector3::new(3.0, 4.0, z), 0.5));
+/// let cut_mm = [2.0, 3.0, 3.0, 6.2];
+/// let found = in_order_by(&feet, 0.5, |from, to| cut_mm[to] - cut_mm[from]);
+/// let along: Vec<f64> = found.iter().flatten().map(|foot| foot.along_mm).collect();
+/// assert!(along.iter().zip(cut_mm).all(|(found, cut)| (found - cut).abs() < 1e-12));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[must_use]
+pub fn in_order_by(
+    feet: &[Vec<Foot>],
+    window_mm: f64,
+    way_mm: impl Fn(usize, usize) -> f64,
+) -> Vec<Result<Foot, WhyLeftOut>> {
+    let mut chosen = Vec::with_capacity(feet.len());
     // Layers of points that have a way to them, with the index of the point.
     let mut layers: Vec<(usize, Vec<Reached>)> = Vec::new();
     for (index, feet) in feet.iter().enumerate() {
@@ -45,7 +75,7 @@ pub fn in_order(
                     before: None,
                 });
             };
-            let way = (points[index] - points[*before]).norm();
+            let way = way_mm(*before, index);
             let costs = layer.iter().enumerate().filter_map(|(k, from)| {
                 let step = step(foot.along_mm - from.foot.along_mm, way, window_mm)?;
                 Some((from.cost + step, k))

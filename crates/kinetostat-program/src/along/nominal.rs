@@ -15,7 +15,7 @@ use crate::path::moves::{Move, Path};
 pub struct NoFeedMove;
 
 /// Two places are one where they are no farther apart than this, mm: what is left after inches and increments.
-const SAME_MM: f64 = 1e-6;
+pub(crate) const SAME_MM: f64 = 1e-6;
 
 /// How far the chords that a search goes by leave their arcs, mm.
 const CHORD_MM: f64 = 0.01;

@@ -17,6 +17,7 @@ mod divided_blocks;
 mod expanding;
 mod expanding_radius;
 mod fault_lists;
+mod feet;
 mod fewest_arcs;
 mod fitted_arcs;
 mod internal;

@@ -1,0 +1,138 @@
+//! `verify`: ends of cuts and depths of holes.
+
+// Helpers of tests, which clippy does not count as tests.
+#![allow(clippy::unwrap_used)]
+
+use std::path::Path;
+
+use serde_json::{Value, json};
+
+use crate::verify::{JOB, changed, compensated, line_of, number, verified};
+
+/// A slot and beside it a pecked hole, nearer than corrections are large; what follows it is the hole alone.
+const SLOT: &str = "G0 X9.5 Y-8.6 Z10\nG0 Z1\nG1 Z-1 F900\nG1 X29.7 Y-8.2\nG0 Z10\n";
+const HOLE: &str = "G0 X29 Y-7.9 Z10\nG0 Z1\nG1 Z-0.85 F900\nG0 Z1\nG0 Z-0.65\nG1 Z-2.6\nG0 Z10\n";
+
+/// The compensated program of cuts, in `out.ngc`.
+fn compensated_cuts(cuts: &str) -> tempfile::TempDir {
+    let here = crate::common::workplace();
+    std::fs::write(here.path().join("job.toml"), JOB).unwrap();
+    let text = format!("G21 G90\n{cuts}M2\n");
+    std::fs::write(here.path().join("part.ngc"), text).unwrap();
+    compensated(here.path(), &["--no-header"]);
+    here
+}
+
+/// The same with the depth of the block in a line less by a length, mm.
+fn lifted(text: &str, line: usize, by_mm: f64) -> String {
+    let lift = |word: &str| match word.strip_prefix('Z') {
+        Some(z) => format!("Z{:.4}", z.parse::<f64>().unwrap() + by_mm),
+        None => word.to_owned(),
+    };
+    let lines = text.lines().enumerate();
+    let lines = lines.map(|(index, block)| match index + 1 == line {
+        true => block.split(' ').map(lift).collect::<Vec<_>>().join(" "),
+        false => block.to_owned(),
+    });
+    lines.map(|block| block + "\n").collect()
+}
+
+/// Line of the last block at feed before the rapid that leaves the place of `HOLE` for good.
+fn ground(text: &str) -> usize {
+    let lines: Vec<&str> = text.lines().collect();
+    lines
+        .iter()
+        .rposition(|line| line.starts_with("G1"))
+        .unwrap()
+        + 1
+}
+
+fn uncut(found: &Value) -> &Value {
+    &found["matched"]["uncut"]
+}
+
+#[test]
+fn a_hole_is_cut_though_a_slot_nearby_was_cut_before() {
+    let here = compensated_cuts(&format!("{SLOT}{HOLE}"));
+    let (code, found, said) = verified(here.path(), "out.ngc", &[]);
+    assert_eq!(code, 0, "{said}");
+    assert_eq!(uncut(&found), &json!([]), "{said}");
+}
+
+#[test]
+fn a_peck_that_is_left_short_is_all_that_is_wrong() {
+    let here = compensated_cuts(HOLE);
+    // The first peck ends where the load has come: its second block, down to 0.85 mm, is left out.
+    let text = std::fs::read_to_string(here.path().join("out.ngc")).unwrap();
+    let short = line_of(&text, |line| {
+        line.starts_with("G1") && line.contains("Z-0.8")
+    });
+    let depth = |line: usize| {
+        let block = text.lines().nth(line - 1).unwrap();
+        let z = block.split(' ').find_map(|word| word.strip_prefix('Z'));
+        z.unwrap().parse::<f64>().unwrap()
+    };
+    let (code, found, said) = changed(here.path(), |text| {
+        let lines = text.lines().enumerate();
+        let kept = lines.filter(|(index, _)| index + 1 != short);
+        kept.map(|(_, line)| format!("{line}\n")).collect()
+    });
+    assert_eq!(code, 3, "{said}");
+    assert_eq!(uncut(&found).as_array().map(Vec::len), Some(1), "{said}");
+    assert_eq!(uncut(&found)[0]["lines"], json!([4, 4]), "{said}");
+    let left = number(&uncut(&found)[0], "length_mm");
+    assert!(
+        (left - (depth(short - 1) - depth(short))).abs() < 1e-5,
+        "{said}"
+    );
+    assert_eq!(found["matched"]["rapids"], json!([]), "{said}");
+    assert_eq!(found["missed"], Value::Null, "{said}");
+}
+
+/// What is said of `HOLE` behind `SLOT` with its ground lifted, against a tolerance.
+fn too_shallow(here: &Path, by_mm: f64, tolerance_um: &str) -> (i32, Value, String) {
+    let text = std::fs::read_to_string(here.join("out.ngc")).unwrap();
+    std::fs::write(here.join("other.ngc"), lifted(&text, ground(&text), by_mm)).unwrap();
+    verified(here, "other.ngc", &["--tolerance-um", tolerance_um])
+}
+
+#[test]
+fn a_hole_that_is_too_shallow_is_off_by_as_much() {
+    let here = compensated_cuts(&format!("{SLOT}{HOLE}"));
+    for by_mm in [0.004, 0.021, 0.048] {
+        for (tolerance_um, code) in [(1e3 * by_mm - 1.0, 3), (1e3 * by_mm + 1.0, 0)] {
+            let (found_code, found, said) =
+                too_shallow(here.path(), by_mm, &tolerance_um.to_string());
+            assert_eq!(found_code, code, "{by_mm} {tolerance_um}: {said}");
+            let off = number(&found, "max_position_error_mm");
+            assert!((off - by_mm).abs() < 6e-4, "{off} {by_mm}");
+        }
+    }
+    // What is missed by more is not cut.
+    let (code, found, said) = too_shallow(here.path(), 0.06, "200");
+    assert_eq!(code, 3, "{said}");
+    let left = number(&uncut(&found)[0], "length_mm");
+    assert!((left - 0.06).abs() < 1e-3, "{left} {said}");
+}
+
+#[test]
+fn a_slot_that_ends_too_early_is_off_by_as_much() {
+    let here = compensated_cuts(SLOT);
+    let (code, found, said) = changed(here.path(), |text| {
+        let last = ground(text);
+        let shorter = |word: &str| match word.strip_prefix('X') {
+            Some(x) => format!("X{:.4}", x.parse::<f64>().unwrap() - 0.03),
+            None => word.to_owned(),
+        };
+        let lines = text.lines().enumerate();
+        let lines = lines.map(|(index, block)| match index + 1 == last {
+            true => block.split(' ').map(shorter).collect::<Vec<_>>().join(" "),
+            false => block.to_owned(),
+        });
+        lines.map(|block| block + "\n").collect()
+    });
+    assert_eq!(code, 3, "{said}");
+    assert_eq!(found["missed"]["line"], 5, "{said}");
+    let off = number(&found, "max_position_error_mm");
+    assert!((off - 0.03).abs() < 1e-3, "{off}");
+}
