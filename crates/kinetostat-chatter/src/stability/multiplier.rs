@@ -2,12 +2,11 @@
 
 use std::f64::consts::TAU;
 
-use nalgebra::{DVector, Vector3};
+use nalgebra::{DVector, Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
 
 use crate::number::{Complex64, cis};
 use crate::stability::operator::Operator;
-use crate::stability::regeneration::Regeneration;
 
 /// How a cut becomes unstable.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -44,7 +43,7 @@ impl Multiplier {
         vector: &DVector<Complex64>,
         operator: &Operator<'_>,
         depth: f64,
-        regeneration: &Regeneration,
+        receptance: &dyn Fn(f64) -> Matrix3<Complex64>,
     ) -> Self {
         let flip = value.re < 0.0 && value.im.abs() <= 1e-7 * value.norm();
         Self {
@@ -54,7 +53,7 @@ impl Multiplier {
                 true => Instability::Flip,
                 false => Instability::Hopf,
             },
-            frequency_hz: strongest(value, vector, operator, depth, regeneration),
+            frequency_hz: strongest(value, vector, operator, depth, receptance),
         }
     }
 }
@@ -65,7 +64,7 @@ fn strongest(
     vector: &DVector<Complex64>,
     operator: &Operator<'_>,
     depth: f64,
-    regeneration: &Regeneration,
+    receptance: &dyn Fn(f64) -> Matrix3<Complex64>,
 ) -> f64 {
     let period = operator.period;
     let states = 2 * period.states.len();
@@ -95,7 +94,7 @@ fn strongest(
                 }
             }
         }
-        let moved = (regeneration.at(frequency) * force).norm();
+        let moved = (receptance(frequency) * force).norm();
         if moved > best.0 {
             best = (moved, frequency.abs());
         }

@@ -215,7 +215,9 @@ impl Regeneration {
         let period = self.period(speed_rpm, checked_depth(depth)?, fineness)?;
         let operator = Operator::new(&period, depth);
         let (value, vector) = operator.largest(krylov::ACCURATE, &mut None)?;
-        Ok(Multiplier::new(value, &vector, &operator, depth, self))
+        Ok(Multiplier::new(value, &vector, &operator, depth, &|w| {
+            self.at(w)
+        }))
     }
 
     /// All multipliers `(real, imaginary)` of one tooth period, the largest first; dense, for a look at the whole spectrum.

@@ -154,13 +154,13 @@ impl<'a> Along<'a> {
         self.with(depth, |operator| {
             let (value, vector) =
                 operator.largest(krylov::ACCURATE, &mut self.last.borrow_mut())?;
-            let regeneration = self.regeneration;
+            let receptance = |w| self.regeneration.at(w);
             Ok(Multiplier::new(
                 value,
                 &vector,
                 operator,
                 depth,
-                regeneration,
+                &receptance,
             ))
         })
     }

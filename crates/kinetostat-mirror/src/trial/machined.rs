@@ -23,7 +23,6 @@ use crate::deviation::{Measurement, PieceMean, Stations};
 use crate::number::larger;
 use crate::trial::compared::Place;
 use crate::trial::passing::between_stations;
-use crate::trial::state::MirrorState;
 
 /// A machine may answer with this share of a correction: ten trials then leave a tenth of the error. None that answers with less is
 /// worth correcting by trials.
@@ -34,6 +33,16 @@ const CLEARLY: f64 = 9.210_340_371_976_184;
 
 /// To what a share is known of points without any scatter: sums of numbers of sixteen digits.
 const ROUNDING: f64 = 1e-9;
+
+/// The trial before, whose correction is looked for.
+pub(crate) struct Before<'a> {
+    /// Its smoothed deviation at the stations, mm.
+    pub deviation_mm: &'a [Vector3<f64>],
+    /// What its points say.
+    pub means: &'a [PieceMean],
+    pub relaxation: f64,
+    pub smoothing_mm: f64,
+}
 
 /// What is seen of a correction.
 #[derive(Clone, Copy, Debug)]
@@ -50,22 +59,22 @@ pub(crate) fn scatter_mm(measured: &Measurement) -> f64 {
 }
 
 impl Seen {
-    /// In the means of a trial, of what the state before it corrected; points before and now scatter by `scatter_mm`.
+    /// In the means of a trial, of what the trial before corrected; points before and now scatter by `scatter_mm`.
     pub(crate) fn of(
         stations: &Stations,
-        (state, relaxation): (&MirrorState, f64),
+        before: &Before<'_>,
         now: &[PieceMean],
         scatter_mm: f64,
     ) -> Self {
-        let smoothing_mm = state.settings.smoothing_mm;
+        let smoothing_mm = before.smoothing_mm;
         let places = now.iter().filter_map(|mean| {
             let own = (mean.stretch, mean.along_mm);
-            let sent = between_stations(stations, &state.deviation_mm, own) * relaxation;
-            Place::of(mean, &state.means, sent, smoothing_mm)
+            let sent = between_stations(stations, before.deviation_mm, own) * before.relaxation;
+            Place::of(mean, before.means, sent, smoothing_mm)
         });
         Self::in_places(
             &places.collect::<Vec<_>>(),
-            &state.means,
+            before.means,
             (scatter_mm, smoothing_mm),
         )
     }
@@ -115,14 +124,14 @@ impl Seen {
     }
 
     /// That the program was run without the correction explains the measurement, and clearly better than that it was run with it.
-    pub(crate) fn is_nothing(&self) -> bool {
+    pub(crate) fn is_missing(&self) -> bool {
         let [without, with] = self.worse();
         let explains = without < CLEARLY || self.answer.abs() < 0.5 * LEAST_ANSWER;
         explains && with - without > CLEARLY
     }
 
     /// That it was run with the correction explains the measurement clearly better.
-    pub(crate) fn is_some(&self) -> bool {
+    pub(crate) fn is_there(&self) -> bool {
         let [without, with] = self.worse();
         without - with > CLEARLY
     }

@@ -7,7 +7,7 @@ use crate::deviation::{MeasureSettings, Measurement, PieceMean, Stations, piece_
 use crate::error::MirrorError;
 use crate::number::larger;
 use crate::trial::convergence::Convergence;
-use crate::trial::machined::{Seen, scatter_mm};
+use crate::trial::machined::{Before, Seen, scatter_mm};
 use crate::trial::passing::passed;
 use crate::trial::record::{MeasuredFile, Trial};
 use crate::trial::repeatability::{Averaging, Repeatability, floor_mm};
@@ -210,9 +210,15 @@ impl MirrorState {
         let means = piece_means(&places, measured.iter().map(|(_, found)| found));
         let shows_correction = last.map(|last| {
             let scatter = measured.iter().map(|(_, found)| scatter_mm(found));
+            let before = Before {
+                deviation_mm: &self.deviation_mm,
+                means: &self.means,
+                relaxation: last.relaxation,
+                smoothing_mm: self.settings.smoothing_mm,
+            };
             let seen = Seen::of(
                 &places,
-                (self, last.relaxation),
+                &before,
                 &means,
                 scatter.fold(last.figures.scatter_mm, larger),
             );

@@ -37,8 +37,8 @@ pub(crate) fn may_show_the_correction(
     (measured, trials): (&[(MeasuredFile, Measurement)], &[Trial]),
     seen: &Seen,
 ) -> Result<bool, MirrorError> {
-    if !seen.is_nothing() {
-        return Ok(seen.is_some());
+    if !seen.is_missing() {
+        return Ok(seen.is_there());
     }
     let names: Vec<&str> = measured
         .iter()
