@@ -9,7 +9,8 @@ mod coefficients;
 mod text;
 
 use kinetostat::Pose;
-use kinetostat_analysis::vibration::{MachineCut, MachineCutError};
+use kinetostat::number::larger;
+use kinetostat_analysis::vibration::{MachineCut, MachineCutError, VibratingMachine};
 use kinetostat_chatter::{Arc, FeedFrame, LobeRequest, Milled, MillingCut, Swinging};
 use kinetostat_dynamics::Held;
 use kinetostat_machining::{Warning, WarningCode};
@@ -69,6 +70,7 @@ pub(crate) fn run(args: &LobesArgs) -> Answer<()> {
     warnings.extend(subject::lost_coupling(off.map_err(subject::refused)?));
     warnings.extend(implausible(&damping));
     warnings.extend(coefficients.warnings.iter().cloned());
+    warnings.extend(beyond_all_modes(&request, args.teeth, &machine));
     if let Some((speed, why)) = diagram.without_answer.first() {
         warnings.push(Warning::new(
             WarningCode::ChatterNotJudged,
@@ -123,6 +125,30 @@ pub(crate) fn run(args: &LobesArgs) -> Answer<()> {
         failure: None,
     };
     files.finish(&shown, &answer)
+}
+
+/// Teeth that pass so many times as fast as the fastest mode of the machine swings are told: nothing of it answers there.
+const BEYOND_MODES: f64 = 10.0;
+
+/// Where the teeth pass far beyond all modes: the spindle speed is a slip, or the model has no modes of spindle and tool.
+fn beyond_all_modes(
+    request: &LobeRequest,
+    teeth: usize,
+    machine: &VibratingMachine,
+) -> Option<Warning> {
+    let passing_hz = request.to_rpm * teeth as f64 / 60.0;
+    let fastest_hz = machine.modes.frequencies_hz().into_iter().fold(0.0, larger);
+    (passing_hz > BEYOND_MODES * fastest_hz).then(|| {
+        Warning::new(
+            WarningCode::Model,
+            format!(
+                "at {} rpm the teeth pass at {} Hz, and the fastest mode of the model has {} Hz: no limit there says anything of a real spindle; check --rpm and --teeth",
+                number(request.to_rpm, 4),
+                number(passing_hz, 4),
+                number(fastest_hz, 4)
+            ),
+        )
+    })
 }
 
 fn cut(args: &LobesArgs) -> Answer<(MillingCut, CutCoefficients)> {

@@ -45,7 +45,7 @@ pub(crate) fn may_show_the_correction(
         .map(|(file, _)| file.name.as_str())
         .collect();
     Err(MirrorError::new(format!(
-        "{}: nothing is seen of the correction that trial {} wrote ({:.1} +- {:.1} % of it): the program before it seems to have been run or measured once more, and it would be corrected twice; nothing was mirrored. Measure the new program (all measurements of one trial are given together), or begin with a new state",
+        "{}: nothing is seen of the correction that trial {} wrote ({:.1} +- {:.1} % of it): the program before it seems to have been run or measured once more, and it would be corrected twice; nothing was mirrored. Measure the new program (all measurements of one trial are given together). Where it was run, the machine drifts from trial to trial by as much as is corrected: let it come to rest, or begin with a new state and the program that was run",
         names.join(", "),
         trials.len(),
         100.0 * seen.answer,
