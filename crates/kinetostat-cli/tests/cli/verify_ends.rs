@@ -136,3 +136,40 @@ fn a_slot_that_ends_too_early_is_off_by_as_much() {
     let off = number(&found, "max_position_error_mm");
     assert!((off - 0.03).abs() < 1e-3, "{off}");
 }
+
+/// A block of two thousandths of a millimetre from a corner on, as writers leave them, ends where it ends: it was taken for the corner,
+/// and the tool said to be off by its length.
+#[test]
+fn a_short_block_from_a_corner_on_ends_where_it_ends() {
+    const CONTOUR: &str = "G0 X9.5 Y-8.6 Z10\nG0 Z1\nG1 Z-1 F900\nG1 X24.7 Y-8.2\nG1 X25.1 Y6.4\nG1 X12.3 Y7.2\nG0 Z10\n";
+    let here = compensated_cuts(CONTOUR);
+    let (code, found, said) = verified(here.path(), "out.ngc", &[]);
+    assert_eq!(code, 0, "{said}");
+    let whole = number(&found, "max_position_error_mm");
+    let text = std::fs::read_to_string(here.path().join("out.ngc")).unwrap();
+    let mut at = [0.0; 3];
+    let (mut blocks, mut added) = (String::new(), 0);
+    for block in text.lines() {
+        let before = at;
+        for word in block.split(' ') {
+            let axis = word.chars().next().and_then(|axis| "XYZ".find(axis));
+            if let (Some(axis), Some(Ok(value))) = (axis, word.get(1..).map(str::parse)) {
+                at[axis] = value;
+            }
+        }
+        let way = [0, 1, 2].map(|axis| at[axis] - before[axis]);
+        let length = way.iter().map(|w: &f64| w * w).sum::<f64>().sqrt();
+        if block.starts_with("G1") && length > 5.0 {
+            let [x, y, z] = [0, 1, 2].map(|axis| before[axis] + way[axis] * 0.0018 / length);
+            blocks += &format!("G1 X{x:.5} Y{y:.5} Z{z:.5}\n");
+            added += 1;
+        }
+        blocks += &format!("{block}\n");
+    }
+    assert!(added >= 3, "{added}: {text}");
+    std::fs::write(here.path().join("other.ngc"), blocks).unwrap();
+    let (code, found, said) = verified(here.path(), "other.ngc", &[]);
+    assert_eq!(code, 0, "{said}");
+    let off = number(&found, "max_position_error_mm");
+    assert!(off <= whole + 2e-4, "{off} {whole}");
+}

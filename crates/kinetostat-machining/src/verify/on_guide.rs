@@ -41,22 +41,30 @@ pub(crate) struct Search<'a> {
 impl Search<'_> {
     /// The places of all ends, none where an end is nowhere on the guide.
     pub(crate) fn places(&self, ends: &[End], feet: &[Option<Foot>]) -> Vec<Option<OnGuide>> {
-        let of_foot = |(index, foot): (usize, &Foot)| {
-            let ends_pass = ends.get(index + 1).is_none_or(|next| next.begins_pass);
-            let end = ends_pass.then(|| self.stretches.at_end(foot)).flatten();
-            let corner = || (self.stretches).at_corner(foot, self.near_mm, self.original);
-            let to = end.unwrap_or_else(corner);
-            OnGuide {
-                arrives_mm: to,
-                leaves_mm: to,
+        let tied: Vec<Option<f64>> = (feet.iter().enumerate())
+            .map(|(index, foot)| Some(self.tied(foot.as_ref()?, ends.get(index + 1))))
+            .collect();
+        let of_foot = |(index, foot): (usize, &Option<Foot>)| {
+            let (foot, to) = (foot.as_ref()?, tied[index]?);
+            // A block from a corner on that is shorter than ends are near to it ends where it ends.
+            let off = |index: usize| Some((feet[index].as_ref()?.along_mm - tied[index]?).abs());
+            let shares_it = |other: usize, begins: usize| {
+                ends.get(begins).is_some_and(|end| !end.begins_pass)
+                    && tied.get(other).copied().flatten() == Some(to)
+                    && off(other) < off(index)
+            };
+            let before = index.checked_sub(1);
+            let is_other = before.is_some_and(|before| shares_it(before, index))
+                || shares_it(index + 1, index + 1);
+            let at = if is_other { foot.along_mm } else { to };
+            Some(OnGuide {
+                arrives_mm: at,
+                leaves_mm: at,
                 piece: foot.piece,
                 same_as: None,
-            }
+            })
         };
-        let feet_of_ends = feet.iter().enumerate();
-        let found: Vec<_> = feet_of_ends
-            .map(|(index, foot)| foot.as_ref().map(|foot| of_foot((index, foot))))
-            .collect();
+        let found: Vec<_> = feet.iter().enumerate().map(of_foot).collect();
         let mut places = found.clone();
         for (index, place) in places.iter_mut().enumerate() {
             if let Some(place) = place
@@ -67,6 +75,15 @@ impl Search<'_> {
         }
         self.put_same_moves(ends, feet, &mut places);
         places
+    }
+
+    /// The corner or the end of a cut at which a place lies, where there is one as near, mm along the guide; else where the place is. The
+    /// end behind it, if any, is `next`.
+    fn tied(&self, foot: &Foot, next: Option<&End>) -> f64 {
+        let ends_pass = next.is_none_or(|next| next.begins_pass);
+        let end = ends_pass.then(|| self.stretches.at_end(foot)).flatten();
+        let corner = || (self.stretches).at_corner(foot, self.near_mm, self.original);
+        end.unwrap_or_else(corner)
     }
 
     fn pass(&self, piece: usize) -> usize {
