@@ -123,9 +123,9 @@ pub(crate) fn receptance(states: &[State], w: f64) -> Matrix3<Complex64> {
     let half = Complex64::new(0.0, -0.5);
     let at = Complex64::new(0.0, w);
     let each = states.iter().map(|state| {
-        let forward = (half / (at - state.root), half / (-at - state.root).conj());
+        let (own, conjugate) = (half / (at - state.root), half / (-at - state.root).conj());
         let product = state.direction * state.gain.transpose();
-        product.map(|x| x * forward.0 - x.conj() * forward.1)
+        product.map(|x| x * own - x.conj() * conjugate)
     });
     each.sum()
 }

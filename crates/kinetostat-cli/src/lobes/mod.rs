@@ -127,7 +127,7 @@ pub(crate) fn run(args: &LobesArgs) -> Answer<()> {
     files.finish(&shown, &answer)
 }
 
-/// Teeth that pass so many times as fast as the fastest mode of the machine swings are told: nothing of it answers there.
+/// From this ratio of the tooth passing frequency to the highest natural frequency on the machine hardly responds, and a warning says so.
 const BEYOND_MODES: f64 = 10.0;
 
 /// Where the teeth pass far beyond all modes: the spindle speed is a slip, or the model has no modes of spindle and tool.

@@ -6,6 +6,16 @@ use kinetostat_program::{
 };
 use nalgebra::Vector3;
 
+/// Points on the nearest place, without registration.
+pub(crate) const SETTINGS: kinetostat_mirror::MeasureSettings =
+    kinetostat_mirror::MeasureSettings {
+        smoothing_mm: 5.0,
+        window_mm: 2.0,
+        align: kinetostat_mirror::Alignment::Nearest,
+        register: false,
+        scale: false,
+    };
+
 pub fn read(text: &str) -> (Program, Path) {
     let program = Program::read(text.to_owned()).expect("a program");
     let path = interpret(&program, &ReadOptions::default()).expect("a path");

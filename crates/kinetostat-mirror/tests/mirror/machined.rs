@@ -1,20 +1,13 @@
 //! Whether the last correction was in the program that was measured: machines whose answer is written down here.
 
 use kinetostat_mirror::{
-    MeasureSettings, MeasuredFile, MeasuredPoints, Measurement, MirrorState, NominalPath, measure,
+    MeasuredFile, MeasuredPoints, Measurement, MirrorState, NominalPath, measure,
 };
 use nalgebra::Vector3;
 
-use crate::machine::{Noise, read};
+use crate::machine::{Noise, SETTINGS, read};
 
 const LINE: &str = "G21 G90\nG0 X0 Y0 Z0\nG1 X120 F600\nM2\n";
-const SETTINGS: MeasureSettings = MeasureSettings {
-    smoothing_mm: 5.0,
-    window_mm: 2.0,
-    align: kinetostat_mirror::Alignment::Nearest,
-    register: false,
-    scale: false,
-};
 
 /// What the machine is off by without a correction, mm.
 fn off(x: f64, height: f64) -> Vector3<f64> {

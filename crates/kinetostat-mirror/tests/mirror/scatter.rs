@@ -1,20 +1,12 @@
 //! The scatter of a point, told by neighbours: waves have none, noise has its own.
 
-use kinetostat_mirror::{DeviationFigures, MeasureSettings, MeasuredPoints, NominalPath, measure};
+use kinetostat_mirror::{DeviationFigures, MeasuredPoints, NominalPath, measure};
 use nalgebra::Vector3;
 
-use crate::machine::{Noise, read};
+use crate::machine::{Noise, SETTINGS, read};
 
 /// A line along no axis, a circle in another plane's height, and a short line: three contours.
 const CONTOURS: &str = "G21 G90\nG0 X0 Y0 Z0\nG1 X160 Y120 Z60 F600\nG0 Z90\nG0 X300 Y0 Z20\nG1 Z10\nG2 X300 Y0 I-40 J0\nG0 Z90\nG0 X0 Y200 Z0\nG1 X60 Y200\nM2\n";
-
-const SETTINGS: MeasureSettings = MeasureSettings {
-    smoothing_mm: 5.0,
-    window_mm: 2.0,
-    align: kinetostat_mirror::Alignment::Nearest,
-    register: false,
-    scale: false,
-};
 
 fn figures(program: &str, points: &[Vector3<f64>]) -> DeviationFigures {
     let (_, path) = read(program);
