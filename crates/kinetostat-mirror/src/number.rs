@@ -14,6 +14,11 @@ pub(crate) fn larger(a: f64, b: f64) -> f64 {
     if b > a || b.is_nan() { b } else { a }
 }
 
+/// The smaller of two numbers, NaN where one of them is.
+pub(crate) fn smaller(a: f64, b: f64) -> f64 {
+    if b < a || b.is_nan() { b } else { a }
+}
+
 /// The median; of an even number the mean of the two in the middle. NaN of nothing, and where one of them is.
 pub(crate) fn median(mut values: Vec<f64>) -> f64 {
     if values.is_empty() || values.iter().any(|value| value.is_nan()) {

@@ -15,7 +15,7 @@ use nalgebra::Vector3;
 
 use crate::alignment::AlignedPoint;
 use crate::deviation::stations::Stations;
-use crate::number::{OF_TWO_DIRECTIONS, larger, median};
+use crate::number::{OF_TWO_DIRECTIONS, median, smaller};
 
 /// Of a wave of ten points four of them leave a nineteenth of its height, six a 176th.
 const ORDERS: [usize; 2] = [3, 5];
@@ -32,7 +32,7 @@ pub(crate) fn scatter_mm(
 ) -> Option<f64> {
     let of_orders = ORDERS.map(|order| of_order(stations, points, apart_mm, order));
     let known = of_orders.into_iter().flatten();
-    known.reduce(|one, other| -larger(-one, -other))
+    known.reduce(smaller)
 }
 
 fn of_order(
