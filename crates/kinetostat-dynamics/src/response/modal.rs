@@ -128,24 +128,34 @@ impl ModalResponse {
 
     /// The same into a list that exists already; of the two the shorter counts.
     pub fn over_into(&self, hz: &[f64], quantity: Quantity, out: &mut [Receptance]) {
+        let mut factors = vec![Complex::default(); self.terms.len()];
         for (hz, into) in hz.iter().zip(out) {
             let w = hz * std::f64::consts::TAU;
-            let (mut re, mut im) = (self.residual, Matrix6::zeros());
-            for term in &self.terms {
-                let factor = term.factor(w);
-                for k in 0..36 {
-                    re.as_mut_slice()[k] += factor.re * term.product.as_slice()[k];
-                    im.as_mut_slice()[k] += factor.im * term.product.as_slice()[k];
-                }
+            for (factor, term) in factors.iter_mut().zip(&self.terms) {
+                *factor = term.factor(w);
             }
-            let by = quantity.factor(w);
-            for k in 0..36 {
-                let value = Complex::new(re.as_slice()[k], im.as_slice()[k]);
-                into.as_mut_slice()[k] = match quantity {
-                    Quantity::Displacement => value,
-                    _ => value * by,
-                };
+            for column in 0..6 {
+                self.column_into(column, &factors, into);
             }
+            if quantity != Quantity::Displacement {
+                *into *= quantity.factor(w);
+            }
+        }
+    }
+
+    /// One column of the receptance: its twelve numbers stay in registers while the modes are summed.
+    fn column_into(&self, column: usize, factors: &[Complex<f64>], into: &mut Receptance) {
+        let of = |matrix: &Matrix6<f64>| <[f64; 6]>::from(matrix.column(column).into_owned());
+        let (mut re, mut im) = (of(&self.residual), [0.0; 6]);
+        for (factor, term) in factors.iter().zip(&self.terms) {
+            let product = of(&term.product);
+            for k in 0..6 {
+                re[k] += factor.re * product[k];
+                im[k] += factor.im * product[k];
+            }
+        }
+        for k in 0..6 {
+            into[(k, column)] = Complex::new(re[k], im[k]);
         }
     }
 
