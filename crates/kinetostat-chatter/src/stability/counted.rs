@@ -25,11 +25,33 @@ impl Regeneration {
     /// # Errors
     /// A speed or a depth that is not positive, and modes too fast for the speed ([`crate::ToolResponse::with_modes_up_to`]).
     pub fn stability_at(&self, speed_rpm: f64, up_to: f64) -> Result<SpeedStability> {
+        self.stability_beyond(None, speed_rpm, up_to)
+    }
+
+    /// As [`Self::stability_at`] at the speed of `known`, which was found for this cut up to a smaller depth: where no limit was
+    /// found there and the same modes swing, only the depths beyond are looked at.
+    ///
+    /// # Errors
+    /// As [`Self::stability_at`].
+    pub fn stability_continued(
+        &self,
+        known: &SpeedStability,
+        up_to: f64,
+    ) -> Result<SpeedStability> {
+        self.stability_beyond(Some(known), known.speed_rpm, up_to)
+    }
+
+    fn stability_beyond(
+        &self,
+        known: Option<&SpeedStability>,
+        speed_rpm: f64,
+        up_to: f64,
+    ) -> Result<SpeedStability> {
         checked_speed(speed_rpm)?;
         checked_depth(up_to)?;
         match self.selected() {
-            Some(selected) => self.stability_of(selected, speed_rpm, up_to),
-            None => self.stability_of_all(speed_rpm, up_to),
+            Some(selected) => self.stability_of(selected, known, speed_rpm, up_to),
+            None => self.stability_of_all(known, speed_rpm, up_to),
         }
     }
 
@@ -37,6 +59,7 @@ impl Regeneration {
     fn stability_of(
         &self,
         selected: &Selected,
+        known: Option<&SpeedStability>,
         speed_rpm: f64,
         up_to: f64,
     ) -> Result<SpeedStability> {
@@ -48,8 +71,10 @@ impl Regeneration {
         let mut count = selection.count.min(resolved);
         loop {
             let found = match count == selection.count {
-                true => usual.stability_of_all(speed_rpm, up_to)?,
-                false => self.lowest(count).stability_of_all(speed_rpm, up_to)?,
+                true => usual.stability_of_all(known, speed_rpm, up_to)?,
+                false => self
+                    .lowest(count)
+                    .stability_of_all(known, speed_rpm, up_to)?,
             };
             let reach = found.limit().map_or(up_to, |limit| limit.depth);
             let could = |mode: &Known| mode.alone < reach;

@@ -174,10 +174,23 @@ struct Sample {
 }
 
 impl Regeneration {
-    /// As [`Self::stability_at`], all modes swinging.
-    pub(crate) fn stability_of_all(&self, speed_rpm: f64, up_to: f64) -> Result<SpeedStability> {
+    /// As [`Self::stability_at`] or [`Self::stability_continued`], all modes swinging.
+    pub(crate) fn stability_of_all(
+        &self,
+        known: Option<&SpeedStability>,
+        speed_rpm: f64,
+        up_to: f64,
+    ) -> Result<SpeedStability> {
+        let modes = self.response().modes().iter();
+        let modes_up_to_hz = modes.map(Mode::frequency_hz).fold(0.0, larger);
         // Small gain: below this depth no displacement can keep itself up.
-        let certain = (2.0 * self.gain() * self.cut().bound()).recip();
+        let mut certain = (2.0 * self.gain() * self.cut().bound()).recip();
+        if let Some(known) = known {
+            let same_modes = known.modes_up_to_hz == modes_up_to_hz;
+            if same_modes && known.crossings.is_empty() {
+                certain = larger(certain, known.up_to);
+            }
+        }
         let mut crossings = Vec::new();
         if certain < up_to {
             let along = Along::new(self, speed_rpm, SCANNED)?;
@@ -188,12 +201,11 @@ impl Regeneration {
             // Nothing can chatter; a speed without sense is still one.
             self.cut().delay(speed_rpm)?;
         }
-        let frequencies = self.response().modes().iter().map(Mode::frequency_hz);
         Ok(SpeedStability {
             speed_rpm,
             up_to,
             crossings,
-            modes_up_to_hz: frequencies.fold(0.0, larger),
+            modes_up_to_hz,
             left_out: None,
         })
     }

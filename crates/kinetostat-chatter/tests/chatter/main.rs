@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used)]
 
 mod arm;
+mod continued;
 mod coupled_damping;
 mod coupling;
 mod diagram;

@@ -2,7 +2,7 @@
 
 use kinetostat::Wrench;
 use kinetostat_chatter::{
-    Arc, Coefficients, Crossing, FeedFrame, Instability, LeftOut, MillingCut, Regeneration,
+    Arc, Coefficients, FeedFrame, Instability, LeftOut, MillingCut, Regeneration, SpeedStability,
 };
 use kinetostat_dynamics::Held;
 use kinetostat_machining::{LoadAlongPath, posture_at};
@@ -16,7 +16,8 @@ use crate::vibration::program::site::{CutSite, SiteGroup};
 
 /// Depths are looked at up to so many times that of the program, one after the other until there is a limit: far beyond their
 /// limits cuts grow by so much in one period that nothing can be said in numbers.
-const DEPTHS: [f64; 4] = [0.125, 0.5, 1.0, 3.0];
+const FIRST_DEPTH: f64 = 0.125;
+const DEPTHS: [f64; 3] = [0.5, 1.0, 3.0];
 
 /// What is said of the cut at a place.
 #[derive(Clone, Debug, PartialEq)]
@@ -123,50 +124,28 @@ pub(crate) struct SiteCut {
     machine: VibratingMachine,
 }
 
-/// The limit at a spindle speed, looked for up to a depth, m, and, where the cut is stable up to it, a few times deeper.
-pub(crate) struct Limit {
-    pub limit: Option<Crossing>,
-    /// m.
-    pub looked_up_to: f64,
-    /// As [`JudgedSite::modes_up_to_hz`].
-    pub modes_up_to_hz: f64,
-    pub left_out: Option<LeftOut>,
-}
-
-impl Limit {
-    /// Islands above the limit are not looked for: the tool passes the limit on its way there.
-    pub fn of(
-        regeneration: &Regeneration,
-        rpm: f64,
-        depth: f64,
-        deepest: f64,
-    ) -> kinetostat_chatter::Result<Self> {
-        let mut found = Self {
-            limit: None,
-            looked_up_to: 0.0,
-            modes_up_to_hz: 0.0,
-            left_out: None,
-        };
-        for share in DEPTHS.into_iter().filter(|share| *share <= deepest) {
-            found.looked_up_to = share * depth;
-            let stability = match regeneration.stability_at(rpm, found.looked_up_to) {
-                Ok(stability) => stability,
-                // What is beyond the depth of the program need not be known.
-                Err(error) if share <= 1.0 => return Err(error),
-                Err(_) => {
-                    found.looked_up_to = depth;
-                    break;
-                }
-            };
-            found.limit = stability.limit().copied();
-            found.modes_up_to_hz = stability.modes_up_to_hz;
-            found.left_out = stability.left_out;
-            if found.limit.is_some() {
-                break;
-            }
+/// Stability at a spindle speed up to a depth, m, or up to the first limit below it; where the cut is stable there, up to a
+/// depth a few times larger, if `beyond`. Islands above the limit are not looked for: the tool passes the limit on its way there.
+pub(crate) fn limit_at(
+    regeneration: &Regeneration,
+    rpm: f64,
+    depth: f64,
+    beyond: bool,
+) -> kinetostat_chatter::Result<SpeedStability> {
+    let mut found = regeneration.stability_at(rpm, FIRST_DEPTH * depth)?;
+    for share in DEPTHS {
+        let is_deeper = share > 1.0;
+        if found.limit().is_some() || (is_deeper && !beyond) {
+            break;
         }
-        Ok(found)
+        match regeneration.stability_continued(&found, share * depth) {
+            Ok(deeper) => found = deeper,
+            // What is beyond the depth of the program need not be known.
+            Err(_) if is_deeper => break,
+            Err(error) => return Err(error),
+        }
     }
+    Ok(found)
 }
 
 impl ChatterQuestion<'_> {
@@ -211,7 +190,7 @@ impl ChatterQuestion<'_> {
             Err(why) => return Ok(JudgedSite::not_judged(site, group, why)),
         };
         let depth = 1e-3 * site.station.depth_mm;
-        let found = Limit::of(&regeneration, site.station.rpm, depth, f64::INFINITY);
+        let found = limit_at(&regeneration, site.station.rpm, depth, true);
         let found = match found {
             Ok(found) => found,
             Err(error) => {
@@ -221,7 +200,7 @@ impl ChatterQuestion<'_> {
                 });
             }
         };
-        let limit = found.limit;
+        let limit = found.limit().copied();
         let lost_coupling = machine
             .lost_coupling(self.damping, found.modes_up_to_hz)
             .map_err(|error| Self::of_machine(site, error))?;
@@ -244,7 +223,7 @@ impl ChatterQuestion<'_> {
                 false => Verdict::Stable,
             },
             limit_mm: limit.map(|crossing| 1e3 * crossing.depth),
-            looked_up_to_mm: 1e3 * found.looked_up_to,
+            looked_up_to_mm: 1e3 * found.up_to,
             chatter_hz: limit.map(|crossing| crossing.frequency_hz),
             kind: limit.map(|crossing| crossing.kind),
             first_hz: modes

@@ -4,7 +4,7 @@ use kinetostat_chatter::{Instability, Regeneration};
 use kinetostat_machining::{LoadAlongPath, Watch};
 use rayon::prelude::*;
 
-use crate::vibration::program::judge::{JudgedSite, Limit, SiteCut, Verdict};
+use crate::vibration::program::judge::{JudgedSite, SiteCut, Verdict, limit_at};
 use crate::vibration::program::question::{ChatterQuestion, ProgramChatterError};
 
 /// Spindle speeds that are tried, by that of the program: from, to, and how many. The first and the last are tried for those
@@ -150,8 +150,8 @@ fn stable_speed(
         let still = speeds.par_iter().zip(&mut stable).filter(|(_, s)| **s);
         still.for_each(|(speed, is_stable)| {
             // Where no multiplier is found nothing is known to be stable.
-            let found = Limit::of(&regeneration, *speed, depth, 1.0);
-            *is_stable = found.is_ok_and(|found| found.limit.is_none());
+            let found = limit_at(&regeneration, *speed, depth, false);
+            *is_stable = found.is_ok_and(|found| found.limit().is_none());
         });
         cuts.push((regeneration, depth));
     }
@@ -200,10 +200,10 @@ fn some_of<'a, 's>(
 /// Least limit by its depth of the cuts at a speed, as far as it is looked for.
 fn room(cuts: &[(Regeneration, f64)], rpm: f64) -> f64 {
     let of = |(regeneration, depth): &(Regeneration, f64)| {
-        let found = Limit::of(regeneration, rpm, *depth, f64::INFINITY);
+        let found = limit_at(regeneration, rpm, *depth, true);
         found.map_or(0.0, |found| {
-            let limit = found.limit.map(|crossing| crossing.depth);
-            limit.unwrap_or(found.looked_up_to) / depth
+            let limit = found.limit().map(|crossing| crossing.depth);
+            limit.unwrap_or(found.up_to) / depth
         })
     };
     cuts.iter()
