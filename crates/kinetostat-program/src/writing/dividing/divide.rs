@@ -3,7 +3,7 @@
 use nalgebra::Vector6;
 
 use crate::error::WriteError;
-use crate::field::request::{CorrectionField, Course, Monitor, Request};
+use crate::field::request::{CorrectionField, Monitor, Request};
 use crate::path::curve::Curve;
 use crate::path::moves::Path;
 use crate::writing::corner::follow_turns;
@@ -118,6 +118,20 @@ fn answer(
         }
     }
 
+    let to_confirm =
+        |stretch: &Stretch| matches!(stretch.decide(queries.path, options), Decision::Confirm);
+    let wants: Vec<usize> = (0..open.len()).filter(|i| to_confirm(&open[*i])).collect();
+    let parts = wants.iter().map(|i| open[*i].irregular_part(queries.path));
+    let parts: Vec<f64> = parts.collect();
+    let places = wants.iter().zip(&parts).map(|(i, part)| (&open[*i], *part));
+    let requests =
+        places.map(|(stretch, part)| queries.request(stretch.move_index, stretch.at(part)));
+    let requests: Vec<Request> = requests.collect();
+    let answers = queries.evaluate(&requests)?;
+    for ((i, part), value) in wants.into_iter().zip(parts).zip(answers) {
+        open[i].irregular = Some((part, value));
+    }
+
     let wants: Vec<usize> = (0..open.len())
         .filter(|i| matches!(open[*i].decide(queries.path, options), Decision::Refine))
         .collect();
@@ -126,7 +140,7 @@ fn answer(
         for part in [0.25, 0.75] {
             requests.push(queries.request(stretch.move_index, stretch.at(part)));
         }
-        if stretch.course != Course::Cubic || stretch.fitted {
+        if stretch.lacks_irregular() {
             requests.push(queries.request(
                 stretch.move_index,
                 stretch.at(stretch.irregular_part(queries.path)),
@@ -138,7 +152,7 @@ fn answer(
     for i in wants {
         let stretch = &mut open[i];
         stretch.quarters = Some([answer(), answer()]);
-        if stretch.course != Course::Cubic || stretch.fitted {
+        if stretch.lacks_irregular() {
             stretch.irregular = Some((stretch.irregular_part(queries.path), answer()));
         }
     }
@@ -163,7 +177,7 @@ fn next_round(
         let [first, last] = stretch.ends;
         let share = stretch.at(0.5);
         let decision = match (stretch.decide(path, options), &directed[move_index]) {
-            (Decision::Accept | Decision::Refine, Some(own))
+            (Decision::Accept | Decision::Confirm | Decision::Refine, Some(own))
                 if !own.goes_on(from, to) && !stretch.is_shortest(path, options) =>
             {
                 Decision::Halve
@@ -171,7 +185,7 @@ fn next_round(
             (decision, _) => decision,
         };
         match decision {
-            Decision::Accept | Decision::Refine => stretch.accepted(accepted),
+            Decision::Accept | Decision::Confirm | Decision::Refine => stretch.accepted(accepted),
             Decision::Jump => {
                 // No piece is short enough: the correction jumps here. The tool steps at one place.
                 nodes.push(Node {

@@ -50,6 +50,8 @@ pub(crate) struct Stretch {
 /// What becomes of a stretch with the values known of it.
 pub(crate) enum Decision {
     Accept,
+    /// The place that follows no pattern confirms it, or not.
+    Confirm,
     /// More places decide it.
     Refine,
     Halve,
@@ -128,6 +130,8 @@ impl Stretch {
         let tolerance = options.tolerance_mm;
         let all_requested = self.quarters.is_some();
         let off = departure(&values, [self.begins, self.ends[1]]);
+        let bends = off > 0.25 * tolerance;
+        let changes = (self.ends[1] - self.ends[0]).norm() > tolerance;
         let (unknown, needs_quarters) = match self.course {
             Course::Cubic if !self.fitted => (0.0, true),
             Course::Cubic => (self.unknown_round(motion, &values), true),
@@ -147,10 +151,9 @@ impl Stretch {
                 let turn = motion.turn_ratio(radius, self.share) * (to - from);
                 let way = larger(motion.length_between_mm(from, to), turn * radius);
                 let points = if all_requested { 5 } else { 3 };
-                let change = (self.ends[1] - self.ends[0]).norm();
                 (
                     remainder(points, size, way, radius),
-                    off > 0.25 * tolerance || change > tolerance,
+                    bends || (changes && self.fitted),
                 )
             }
         };
@@ -176,6 +179,9 @@ impl Stretch {
         if !all_requested && (needs_quarters || unknown > UNKNOWN * tolerance) {
             return Decision::Refine;
         }
+        if !all_requested && changes && self.irregular.is_none() {
+            return Decision::Confirm;
+        }
         if unknown > UNKNOWN * tolerance && length > options.smallest_piece_mm && !self.across_pole
         {
             return Decision::Halve;
@@ -193,6 +199,11 @@ impl Stretch {
         let angle = arc.sweep * (self.share[1] - self.share[0]);
         let varies = values.iter().map(|value| (value - values[0]).norm());
         0.02 * angle * angle * varies.fold(0.0, larger)
+    }
+
+    /// Whether a place that follows no pattern is asked for with its quarters.
+    pub fn lacks_irregular(&self) -> bool {
+        self.irregular.is_none() && (self.course != Course::Cubic || self.fitted)
     }
 
     /// Remembers what was found inside, for [`crate::writing::merge::merge`].
