@@ -26,6 +26,7 @@ def mirror(
     register: bool = False,
     no_register: bool = False,
     scale: bool = False,
+    was_run: bool = False,
     units: Literal["mm", "inch"] | None = None,
     arc_tolerance: float | None = None,
     work_offset: str | float | Sequence[str | float] | None = None,
@@ -85,6 +86,9 @@ def mirror(
         corrected too
     scale : bool
         Seek a scale besides the rigid motion
+    was_run : bool
+        The program that was measured is the last one written for certain: go on although its
+        correction is not seen in the points
     units : Literal["mm", "inch"]
         Units of a program that does not say G20 or G21
     arc_tolerance : float
@@ -164,6 +168,7 @@ def mirror(
         ("--register", register),
         ("--no-register", no_register),
         ("--scale", scale),
+        ("--was-run", was_run),
         ("--units", units),
         ("--arc-tolerance", arc_tolerance),
         ("--work-offset", work_offset),

@@ -9,6 +9,7 @@ mod fit_text;
 mod measured;
 mod text;
 
+use kinetostat::number::larger;
 use kinetostat_dynamics::{Damping, Quantity, Receptance};
 use kinetostat_machining::{Warning, WarningCode};
 
@@ -17,6 +18,7 @@ use crate::files::input_files::InputFiles;
 use crate::frf::answer::{FrfAnswer, curves};
 use crate::frf::arguments::{FrfArgs, QuantityWord};
 use crate::ui::failure::{Answer, Failure};
+use crate::ui::numbers::number;
 use crate::vibration::damping::words;
 use crate::vibration::pair::{frequency_hz, growth_per_s};
 use crate::vibration::subject;
@@ -73,6 +75,17 @@ pub(crate) fn run(args: &FrfArgs) -> Answer<()> {
         warnings.push(Warning::new(
             WarningCode::Model,
             "without damping (--damping 0.03, for one) resonances have no height: peaks are as high as a frequency happens to lie near".to_owned(),
+        ));
+    }
+    let highest_hz = frequencies.iter().copied().fold(0.0, larger);
+    if let Some(fastest_hz) = subject::far_below(&machine, highest_hz) {
+        warnings.push(Warning::new(
+            WarningCode::Model,
+            format!(
+                "frequencies go up to {} Hz, and the fastest mode of the model has {} Hz: what is said far beyond it says nothing of a real machine; check --frequencies",
+                number(highest_hz, 4),
+                number(fastest_hz, 4)
+            ),
         ));
     }
     let receptance = response.over(&frequencies).map_err(subject::refused)?;

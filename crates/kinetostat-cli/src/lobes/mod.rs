@@ -9,7 +9,6 @@ mod coefficients;
 mod text;
 
 use kinetostat::Pose;
-use kinetostat::number::larger;
 use kinetostat_analysis::vibration::{MachineCut, MachineCutError, VibratingMachine};
 use kinetostat_chatter::{Arc, FeedFrame, LobeRequest, Milled, MillingCut, Swinging};
 use kinetostat_dynamics::Held;
@@ -127,9 +126,6 @@ pub(crate) fn run(args: &LobesArgs) -> Answer<()> {
     files.finish(&shown, &answer)
 }
 
-/// From this ratio of the tooth passing frequency to the highest natural frequency on the machine hardly responds, and a warning says so.
-const BEYOND_MODES: f64 = 10.0;
-
 /// Where the teeth pass far beyond all modes: the spindle speed is a slip, or the model has no modes of spindle and tool.
 fn beyond_all_modes(
     request: &LobeRequest,
@@ -137,18 +133,16 @@ fn beyond_all_modes(
     machine: &VibratingMachine,
 ) -> Option<Warning> {
     let passing_hz = request.to_rpm * teeth as f64 / 60.0;
-    let fastest_hz = machine.modes.frequencies_hz().into_iter().fold(0.0, larger);
-    (passing_hz > BEYOND_MODES * fastest_hz).then(|| {
-        Warning::new(
-            WarningCode::Model,
-            format!(
-                "at {} rpm the teeth pass at {} Hz, and the fastest mode of the model has {} Hz: no limit there says anything of a real spindle; check --rpm and --teeth",
-                number(request.to_rpm, 4),
-                number(passing_hz, 4),
-                number(fastest_hz, 4)
-            ),
-        )
-    })
+    let fastest_hz = subject::far_below(machine, passing_hz)?;
+    Some(Warning::new(
+        WarningCode::Model,
+        format!(
+            "at {} rpm the teeth pass at {} Hz, and the fastest mode of the model has {} Hz: no limit there says anything of a real spindle; check --rpm and --teeth",
+            number(request.to_rpm, 4),
+            number(passing_hz, 4),
+            number(fastest_hz, 4)
+        ),
+    ))
 }
 
 fn cut(args: &LobesArgs) -> Answer<(MillingCut, CutCoefficients)> {

@@ -77,6 +77,10 @@ pub(crate) struct MirrorArgs {
     /// Seek a scale besides the rigid motion
     #[arg(long, conflicts_with = "no_register")]
     pub(crate) scale: bool,
+    /// The program that was measured is the last one written for certain: go on although its
+    /// correction is not seen in the points
+    #[arg(long, requires = "state")]
+    pub(crate) was_run: bool,
     #[command(flatten)]
     pub(crate) reading: ReadingArgs,
     #[command(flatten)]

@@ -77,9 +77,11 @@ pub(crate) fn run(args: &MirrorArgs) -> Answer<()> {
     )?;
     let relaxation = args.relaxation.unwrap_or(1.0);
     let known = repeatability(args, &measured)?;
-    let outcome = state
-        .take(&nominal, &measured, relaxation, known)
-        .map_err(Failure::from)?;
+    let outcome = match args.was_run {
+        true => state.take_of_last_program(&nominal, &measured, relaxation, known),
+        false => state.take(&nominal, &measured, relaxation, known),
+    };
+    let outcome = outcome.map_err(Failure::from)?;
     let field = MirrorField::new(&nominal, &state).map_err(of_state)?;
     let made = written(machine.as_ref(), (&setting, &read), &field)?;
 

@@ -1,5 +1,6 @@
 //! The machine of a question about vibrations.
 
+use kinetostat::number::larger;
 use kinetostat::{Directions, Posture};
 use kinetostat_analysis::vibration::VibratingMachine;
 use kinetostat_dynamics::{Error, Held};
@@ -92,6 +93,16 @@ pub(crate) fn lost_coupling(off: f64) -> Option<Warning> {
             ),
         )
     })
+}
+
+/// From this ratio of a frequency to the highest natural frequency on a machine hardly responds, and a warning says so.
+const BEYOND_MODES: f64 = 10.0;
+
+/// Frequency of the fastest mode, Hz, where a frequency lies far beyond it: the frequency is a slip, or the model has no modes of
+/// spindle and tool.
+pub(crate) fn far_below(machine: &VibratingMachine, hz: f64) -> Option<f64> {
+    let fastest_hz = machine.modes.frequencies_hz().into_iter().fold(0.0, larger);
+    (hz > BEYOND_MODES * fastest_hz).then_some(fastest_hz)
 }
 
 /// What limits the answer: loads without a potential, parts without mass.

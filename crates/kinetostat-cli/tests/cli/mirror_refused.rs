@@ -52,6 +52,7 @@ fn lengths_of_nothing_are_refused_by_their_option() {
             "0",
             "--smoothing-mm: the smoothing length is 0 mm; this path of",
         ),
+        ("--smoothing-mm", "1e9", " to 2284 mm"),
         ("--smoothing-mm", "1e-300", "allows lengths from 0.00"),
         ("--smoothing-mm", "1e-9", "allows lengths from 0.00"),
         ("--smoothing-mm", "1e-4", "allows lengths from 0.00"),
@@ -94,6 +95,29 @@ fn a_program_without_the_last_correction_is_not_corrected_twice() {
     let says = "nothing is seen of the correction that trial 1 wrote";
     assert!(said.err.contains(says), "{}", said.err);
     assert_eq!(std::fs::read(here.path().join("state.toml")).unwrap(), kept);
+    // Whoever knows that the new program was run goes on, and is told what that means where it is not so.
+    let kept_by_hand = std::fs::copy(
+        here.path().join("state.toml"),
+        here.path().join("kept.toml"),
+    );
+    kept_by_hand.unwrap();
+    let said = mirror(
+        here.path(),
+        &["again.csv"],
+        &[&more[..], &["--was-run"]].concat(),
+    );
+    assert!(said.out.contains("IT CANNOT BE TOLD"), "{}", said.out);
+    assert!(
+        said.out.contains("the same is mirrored twice"),
+        "{}",
+        said.out
+    );
+    said.answered();
+    std::fs::rename(
+        here.path().join("kept.toml"),
+        here.path().join("state.toml"),
+    )
+    .unwrap();
     // A machine that answers by a third is slow, and converges.
     put("third.csv", &table(&raised(0.033)));
     mirror(here.path(), &["third.csv"], &more).answered();

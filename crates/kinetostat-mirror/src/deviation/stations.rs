@@ -121,11 +121,14 @@ impl Stations {
     }
 }
 
-/// A smoothing length with which the stations of this path can be counted.
+/// Beyond so many times the path nothing but the mean of its deviations is left: a slip, or another unit.
+const LONGEST: f64 = 10.0;
+
+/// A smoothing length that says something of this path, and with which its stations can be counted.
 fn possible(nominal: &NominalPath<'_>, smoothing_mm: f64) -> Result<(), MirrorError> {
     let length_mm = nominal.length_mm();
     if smoothing_mm > 0.0
-        && smoothing_mm.is_finite()
+        && smoothing_mm <= LONGEST * length_mm
         && length_mm * IN_SMOOTHING_LENGTH / smoothing_mm <= MOST
     {
         return Ok(());
@@ -134,10 +137,13 @@ fn possible(nominal: &NominalPath<'_>, smoothing_mm: f64) -> Result<(), MirrorEr
     let least = length_mm * IN_SMOOTHING_LENGTH / MOST;
     let digit = 10.0_f64.powf(least.log10().floor() - 1.0);
     let least = (least / digit - 1e-6).ceil() * digit * (1.0 + 1e-6);
+    // Rounded down, for the same reason.
+    let most = 0.9995 * LONGEST * length_mm;
     Err(MirrorError::new(format!(
-        "the smoothing length is {smoothing_mm} mm; this path of {} mm allows lengths from {} mm on",
+        "the smoothing length is {smoothing_mm} mm; this path of {} mm allows lengths from {} to {} mm",
         in_short(length_mm),
-        in_short(least)
+        in_short(least),
+        in_short(most)
     )))
 }
 

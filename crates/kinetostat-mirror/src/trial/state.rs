@@ -158,6 +158,31 @@ impl MirrorState {
         relaxation: f64,
         repeatability: Option<Repeatability>,
     ) -> Result<Outcome, MirrorError> {
+        self.taken((nominal, measured), relaxation, repeatability, false)
+    }
+
+    /// As [`Self::take`] where the program that was measured is the last one for certain: measurements that show nothing of its
+    /// correction are taken too, and the trial says so ([`Trial::shows_correction`]).
+    ///
+    /// # Errors
+    /// As [`Self::take`], but for the last.
+    pub fn take_of_last_program(
+        &mut self,
+        nominal: &NominalPath<'_>,
+        measured: &[(MeasuredFile, Measurement)],
+        relaxation: f64,
+        repeatability: Option<Repeatability>,
+    ) -> Result<Outcome, MirrorError> {
+        self.taken((nominal, measured), relaxation, repeatability, true)
+    }
+
+    fn taken(
+        &mut self,
+        (nominal, measured): (&NominalPath<'_>, &[(MeasuredFile, Measurement)]),
+        relaxation: f64,
+        repeatability: Option<Repeatability>,
+        was_run: bool,
+    ) -> Result<Outcome, MirrorError> {
         if !(relaxation > 0.0 && relaxation < 2.0) {
             return Err(MirrorError::new(format!(
                 "the relaxation is {relaxation}; expected a number above 0 and below 2 (1 mirrors the whole deviation; beyond 2 no machine converges)"
@@ -222,7 +247,7 @@ impl MirrorState {
                 &means,
                 scatter.fold(last.figures.scatter_mm, larger),
             );
-            may_show_the_correction((measured, &self.trials), &seen)
+            may_show_the_correction((measured, &self.trials), &seen, was_run)
         });
         let shows_correction = shows_correction.transpose()?;
         let outcome = match (floor, convergence) {

@@ -32,12 +32,13 @@ pub(crate) fn are_new(
 }
 
 /// Measurements that may be of the program with the correction before: those of the program without it would have it corrected twice.
-/// Whether they show it.
+/// Whether they show it. Of a program that `was_run` for certain nothing is refused.
 pub(crate) fn may_show_the_correction(
     (measured, trials): (&[(MeasuredFile, Measurement)], &[Trial]),
     seen: &Seen,
+    was_run: bool,
 ) -> Result<bool, MirrorError> {
-    if !seen.is_missing() {
+    if was_run || !seen.is_missing() {
         return Ok(seen.is_there());
     }
     let names: Vec<&str> = measured
@@ -45,7 +46,7 @@ pub(crate) fn may_show_the_correction(
         .map(|(file, _)| file.name.as_str())
         .collect();
     Err(MirrorError::new(format!(
-        "{}: nothing is seen of the correction that trial {} wrote ({:.1} +- {:.1} % of it): the program before it seems to have been run or measured once more, and it would be corrected twice; nothing was mirrored. Measure the new program (all measurements of one trial are given together). Where it was run, the machine drifts from trial to trial by as much as is corrected: let it come to rest, or begin with a new state and the program that was run",
+        "{}: nothing is seen of the correction that trial {} wrote ({:.1} +- {:.1} % of it): the program before it seems to have been run or measured once more, and it would be corrected twice; nothing was mirrored. Measure the new program (all measurements of one trial are given together). Where it was run, the machine drifts from trial to trial by as much as is corrected: let it come to rest, or go on with --was-run",
         names.join(", "),
         trials.len(),
         100.0 * seen.answer,

@@ -12,7 +12,17 @@ fn a_smoothing_length_of_nothing_is_refused() {
     let (_, path) = read(SHAPE);
     let nominal = NominalPath::new(&path).unwrap();
     let points = MeasuredPoints::at(&sampled(&path, 300)).unwrap();
-    for smoothing_mm in [0.0, -0.0, -5.0, 1e-300, 1e-9, 1e-4, f64::NAN, f64::INFINITY] {
+    for smoothing_mm in [
+        0.0,
+        -0.0,
+        -5.0,
+        1e-300,
+        1e-9,
+        1e-4,
+        1e9,
+        f64::NAN,
+        f64::INFINITY,
+    ] {
         let settings = MeasureSettings {
             smoothing_mm,
             register: false,
@@ -23,10 +33,13 @@ fn a_smoothing_length_of_nothing_is_refused() {
         let begins = format!("the smoothing length is {smoothing_mm} mm; this path of ");
         assert!(why.starts_with(&begins), "{why}");
         assert!(MirrorState::new(&nominal, "abc", settings).is_err());
-        // What the message names is allowed, and half of it is not.
-        let named = why.split("from ").last().unwrap();
-        let named: f64 = named.trim_end_matches(" mm on").parse().unwrap();
-        assert!(Stations::of(&nominal, named).is_ok(), "{why}");
-        assert!(Stations::of(&nominal, 0.5 * named).is_err(), "{why}");
+        // What the message names is allowed, and half of the least or twice the most is not.
+        let named = why.split("lengths from ").last().unwrap();
+        let (least, most) = named.trim_end_matches(" mm").split_once(" to ").unwrap();
+        let [least, most] = [least, most].map(|x| x.parse::<f64>().unwrap());
+        assert!(Stations::of(&nominal, least).is_ok(), "{why}");
+        assert!(Stations::of(&nominal, 0.5 * least).is_err(), "{why}");
+        assert!(Stations::of(&nominal, most).is_ok(), "{why}");
+        assert!(Stations::of(&nominal, 2.0 * most).is_err(), "{why}");
     }
 }

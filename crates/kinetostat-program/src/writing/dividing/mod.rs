@@ -7,8 +7,8 @@
 //! The field says where `c` or its slope may jump ([`Structure::breaks`](crate::Structure::breaks)): those places are ends of
 //! stretches before anything else ([`beginning`]). Arcs that become straight pieces are divided by their chords as well; for those
 //! to which arcs are fitted ([`crate::writing::fitting`]) the correction is only found out, and how far it bends matters little. A
-//! stretch ([`stretch`]) is then evaluated in its middle, in the quarters where that does not decide it, and there at a place that
-//! follows no pattern too. It is good if
+//! stretch ([`stretch`]) is then evaluated in its middle, where the correction changes along it at a place that follows no pattern
+//! too, and in the quarters where that does not decide it. It is good if
 //!
 //! - the polynomial through these values stays within the tolerance ([`crate::writing::departure`], a bound and
 //!   no sample);

@@ -33,6 +33,8 @@ pub(crate) struct Precision {
     /// How many times `place` a limb may be off, and `torque` its wrench may change, in the last pass, if the next one would be
     /// within them by how fast the passes contract.
     pub ahead: f64,
+    /// The target is corrected where the tool is off by more than this, share of the natural length or rad.
+    pub tool: f64,
 }
 
 impl Precision {
@@ -54,15 +56,17 @@ pub(crate) const EXACT: Precision = Precision {
     last: 1e-10,
     place: 1e-13,
     ahead: 1.0,
+    tool: 3e-13,
 };
 
-/// Along a path. A program is written in tenths of micrometres, and so are tolerances: what is left of a place is a millionth
-/// of that.
+/// Along a path. A program is written in tenths of micrometres, and so are tolerances: what is left of a place is less than a
+/// thousandth of that.
 pub(crate) const IN_USE: Precision = Precision {
-    torque: 1e-10,
-    last: 1e-7,
-    place: 1e-12,
+    torque: 1e-8,
+    last: 1e-6,
+    place: 3e-11,
     ahead: 10.0,
+    tool: 3e-11,
 };
 
 /// Springs turn less than this, rad: see [`crate::batch::limb::outwards`].

@@ -10,6 +10,7 @@ use crate::batch::numbers::lanes::Lanes;
 use crate::batch::numbers::vectors::{
     Mat3, Vec3, carried, column, constant, cross, dot, matrix, minus, select, turn_between,
 };
+use crate::batch::numbers::wrenches::Mat6;
 use crate::batch::plan::steps::{Plan, Polar, Rows, Search};
 
 /// A limb that is not there after so many steps is left to the search posture by posture.
@@ -28,6 +29,9 @@ pub(crate) struct Target<S: Simd> {
 pub(crate) struct Joints<S: Simd> {
     pub commands: Vec<Lanes<S>>,
     pub passive: Vec<Lanes<S>>,
+    /// Columns of the Jacobian and factors of a step: filling them anew in every step took as long as using them.
+    columns: Mat6<S>,
+    factors: Mat6<S>,
 }
 
 impl<S: Simd> Joints<S> {
@@ -36,6 +40,8 @@ impl<S: Simd> Joints<S> {
         Self {
             commands: vec![zero; plan.commands],
             passive: vec![zero; plan.passive.len()],
+            columns: [[zero; 6]; 6],
+            factors: [[zero; 6]; 6],
         }
     }
 
@@ -172,15 +178,16 @@ impl<S: Simd> Joints<S> {
                     break;
                 }
                 forward.along(plan, false, search.end, &self.commands, &self.passive);
-                let mut columns = [[zero; 6]; 6];
-                forward.columns(plan, &search.drives, &mut columns);
+                let columns = &mut self.columns;
+                columns[..unknowns].fill([zero; 6]);
+                forward.columns(plan, &search.drives, columns);
                 let residual = minus(&centre, &forward.point);
                 let mut e = [residual[0], residual[1], residual[2], zero, zero, zero];
                 if search.rows != Rows::Position {
                     let turn = turn_between(&target.rotation, &forward.rotation);
                     for k in 0..3 {
                         e[3 + k] = turn[k] * length;
-                        for column in &mut columns {
+                        for column in &mut columns[..unknowns] {
                             column[3 + k] = column[3 + k] * length;
                         }
                     }
@@ -188,18 +195,33 @@ impl<S: Simd> Joints<S> {
                 let linear = dot(&residual, &residual);
                 let angular = dot(&[e[3], e[4], e[5]], &[e[3], e[4], e[5]]);
                 let (square, mut step) = match search.rows {
-                    Rows::Position if unknowns == 3 => (linear, square_step(&columns, &e)),
+                    Rows::Position if unknowns == 3 => (linear, square_step(columns, &e)),
                     Rows::Position => (
                         linear,
-                        least_squares_step::<S, 0, 3>(simd, unknowns, &columns, &e),
+                        least_squares_step::<S, 0, 3>(
+                            simd,
+                            unknowns,
+                            (columns, &mut self.factors),
+                            &e,
+                        ),
                     ),
                     Rows::Rotation => (
                         angular,
-                        least_squares_step::<S, 3, 6>(simd, unknowns, &columns, &e),
+                        least_squares_step::<S, 3, 6>(
+                            simd,
+                            unknowns,
+                            (columns, &mut self.factors),
+                            &e,
+                        ),
                     ),
                     Rows::Both => (
                         linear + angular,
-                        least_squares_step::<S, 0, 6>(simd, unknowns, &columns, &e),
+                        least_squares_step::<S, 0, 6>(
+                            simd,
+                            unknowns,
+                            (columns, &mut self.factors),
+                            &e,
+                        ),
                     ),
                 };
                 let (mut share, mut largest) = (one, zero);
@@ -247,7 +269,7 @@ fn sphere_centre<S: Simd>(simd: S, plan: &Plan, target: &Target<S>) -> Vec3<S> {
 
 /// Three equations, three unknowns: Cramer's rule.
 #[inline(always)]
-fn square_step<S: Simd>(columns: &[[Lanes<S>; 6]; 6], e: &[Lanes<S>; 6]) -> [Lanes<S>; 6] {
+fn square_step<S: Simd>(columns: &Mat6<S>, e: &[Lanes<S>; 6]) -> [Lanes<S>; 6] {
     let [a, b, c, ..] = columns;
     let (a, b, c) = ([a[0], a[1], a[2]], [b[0], b[1], b[2]], [c[0], c[1], c[2]]);
     let e = [e[0], e[1], e[2]];
@@ -265,18 +287,17 @@ fn square_step<S: Simd>(columns: &[[Lanes<S>; 6]; 6], e: &[Lanes<S>; 6]) -> [Lan
     ]
 }
 
-/// `(J^T J)^-1 J^T e` for the first `unknowns` columns and the rows from `FROM` up to `TO`.
+/// `(J^T J)^-1 J^T e` for the first `unknowns` columns and the rows from `FROM` up to `TO`; `l` takes the factors.
 #[inline(always)]
 fn least_squares_step<S: Simd, const FROM: usize, const TO: usize>(
     simd: S,
     unknowns: usize,
-    columns: &[[Lanes<S>; 6]; 6],
+    (columns, l): (&Mat6<S>, &mut Mat6<S>),
     e: &[Lanes<S>; 6],
 ) -> [Lanes<S>; 6] {
     apart!(simd, {
         let (zero, one) = (Lanes::new(simd, 0.0), Lanes::new(simd, 1.0));
         let unknowns = unknowns.min(6);
-        let mut l = [[zero; 6]; 6];
         let mut x = [zero; 6];
         for j in 0..unknowns {
             let mut pivot = inner::<S, FROM, TO>(&columns[j], &columns[j]);

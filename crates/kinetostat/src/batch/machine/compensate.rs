@@ -14,10 +14,6 @@ use crate::batch::numbers::lanes::Lanes;
 use crate::batch::numbers::vectors::{minus, select, turn_between, turned};
 use crate::spatial::Directions;
 
-/// Farther off than this (share of the natural length, rad) the target is corrected again. The
-/// general engine closes its loops to 1e-12.
-const OFF: f64 = 3e-13;
-
 impl<S: Simd> Machine<S> {
     /// Corrects the target in the lanes that are `able` and whose tool is off its place in one of these directions
     /// (base axes `x y z rx ry rz`; rotations about all axes or none): one in these lanes. The tool is taken to go along.
@@ -40,7 +36,7 @@ impl<S: Simd> Machine<S> {
                     most = most.max(x.abs());
                 }
             }
-            let off = (zero + OFF).where_less(most, able, zero);
+            let off = (zero + self.precision.tool).where_less(most, able, zero);
             for point in [&mut self.target.point, &mut self.point] {
                 for k in 0..3 {
                     point[k] = select(off, point[k] + residual[k], point[k]);
