@@ -1,7 +1,7 @@
 //! Loaded postures: what is wanted of them, and where the answers go.
 
 use crate::batch::compiled::{BLOCKS, Batch, LOADED_BLOCKS, in_parallel, left};
-use crate::batch::limb::loaded::{EXACT, IN_USE};
+use crate::batch::limb::loaded::{ALONG_PATH, EXACT, FROM_DRAWN};
 use crate::batch::limb::shape::springs;
 use crate::batch::machine::group::{Places, Standing};
 use crate::batch::machine::kept;
@@ -449,9 +449,10 @@ impl Batch {
             return;
         };
         let tool = &self.mechanism.platforms()[self.mechanism.tool()];
-        let precision = match places.have_a_start() || self.along {
-            true => IN_USE,
-            false => EXACT,
+        let precision = match (self.along, places.have_a_start()) {
+            (true, _) => ALONG_PATH,
+            (false, true) => FROM_DRAWN,
+            (false, false) => EXACT,
         };
         // On a path only the first posture of each lane's run has no start from its neighbour.
         let blocks = if self.along { BLOCKS } else { LOADED_BLOCKS };

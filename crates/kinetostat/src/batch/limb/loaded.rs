@@ -59,9 +59,18 @@ pub(crate) const EXACT: Precision = Precision {
     tool: 3e-13,
 };
 
+/// Of machines that start from where the drawn one stands: what is left of a place is a millionth of a tenth of a micrometre.
+pub(crate) const FROM_DRAWN: Precision = Precision {
+    torque: 1e-10,
+    last: 1e-7,
+    place: 1e-12,
+    ahead: 10.0,
+    tool: 3e-13,
+};
+
 /// Along a path. A program is written in tenths of micrometres, and so are tolerances: what is left of a place is less than a
 /// thousandth of that.
-pub(crate) const IN_USE: Precision = Precision {
+pub(crate) const ALONG_PATH: Precision = Precision {
     torque: 1e-8,
     last: 1e-6,
     place: 3e-11,
