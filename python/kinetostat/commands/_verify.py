@@ -60,6 +60,7 @@ def verify(
     restart: bool = False,
     threads: int | None = None,
     tolerance_um: float | None = None,
+    decimals: str | float | None = None,
     against: _Path | None = None,
     progress: _Progress | None = None,
 ) -> dict[str, Any]:
@@ -179,6 +180,9 @@ def verify(
         Number of threads; all cores without it. The result is the same
     tolerance_um : float
         How far the tool may be off in all, micrometres [default: what `compensate` allows itself]
+    decimals : str | float
+        Digits after the point with which the program was written, in mm; their rounding is part of
+        what `compensate` allows itself [default: 4, or those of the job]
     against : path
         The original: the program as it is drawn; without it, the one that the job names
     progress : callable
@@ -251,6 +255,7 @@ def verify(
         ("--restart", restart),
         ("--threads", threads),
         ("--tolerance-um", tolerance_um),
+        ("--decimals", decimals),
         ("--against", against),
     ]
     return answered(["verify"], options, progress)

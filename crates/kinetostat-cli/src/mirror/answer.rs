@@ -27,6 +27,8 @@ pub(crate) struct MirrorAnswer {
     pub(crate) convergence: Option<Convergence>,
     /// Whether it was seen that the last correction was in the program that was measured.
     pub(crate) shows_correction: Option<bool>,
+    /// Whether the program was said to have been run (`--was-run`).
+    pub(crate) was_run: bool,
     pub(crate) largest_correction_mm: f64,
     pub(crate) accounting: Accounting,
 }

@@ -89,7 +89,7 @@ pub(crate) fn run(args: &MirrorArgs) -> Answer<()> {
     let answer = answer_of(
         (&setting, &nominal),
         model,
-        (&state, outcome, relaxation),
+        (&state, outcome, relaxation, args.was_run),
         (&measured, known),
         &made,
     );
@@ -201,7 +201,7 @@ impl Claimed {
 fn answer_of(
     (setting, nominal): (&Setting, &NominalPath<'_>),
     model: Option<String>,
-    (state, outcome, relaxation): (&MirrorState, Outcome, f64),
+    (state, outcome, relaxation, was_run): (&MirrorState, Outcome, f64, bool),
     (measured, known): (&[(MeasuredFile, Measurement)], Option<Repeatability>),
     made: &FieldCorrection,
 ) -> MirrorAnswer {
@@ -228,6 +228,7 @@ fn answer_of(
         left_in_trials_mm: state.trials.iter().map(|trial| trial.left_mm).collect(),
         convergence: last.and_then(|trial| trial.convergence),
         shows_correction: last.and_then(|trial| trial.shows_correction),
+        was_run,
         largest_correction_mm: largest_correction_mm(state),
         accounting: made.written.accounting.clone(),
     }

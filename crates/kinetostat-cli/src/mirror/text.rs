@@ -23,9 +23,10 @@ pub(crate) fn answer_text(a: &MirrorAnswer) -> String {
     );
     // Where nothing is mirrored, nothing is mirrored twice.
     if a.shows_correction == Some(false) && matches!(a.outcome, Outcome::GoOn | Outcome::Risen) {
-        out.push_str(&item(
-            "IT CANNOT BE TOLD whether the last correction was in the program that was measured: what it changes is within what the points scatter by, or other places were measured, or the machine drifts; if the program before it was run, the same is mirrored twice",
-        ));
+        out.push_str(&item(match a.was_run {
+            false => "IT CANNOT BE TOLD whether the last correction was in the program that was measured: what it changes is within what the points scatter by, or other places were measured; if the program before it was run, the same is mirrored twice",
+            true => "THE LAST CORRECTION IS NOT SEEN in these points; they are taken because the program that has it is said to have been run (--was-run): if the one before it was, the same is mirrored twice",
+        }));
     }
     for measured in &a.measurements {
         out.push('\n');

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use crate::job::arguments::ProgramArgs;
-use crate::options::{EXIT_CODES, number};
+use crate::options::{EXIT_CODES, number, small};
 
 /// How far off is the tool along any compensated program?
 ///
@@ -42,6 +42,10 @@ pub(crate) struct VerifyArgs {
     /// How far the tool may be off in all, micrometres [default: what `compensate` allows itself]
     #[arg(long, value_name = "UM", help_heading = "Tolerances", allow_negative_numbers = true, value_parser = number)]
     pub(crate) tolerance_um: Option<f64>,
+    /// Digits after the point with which the program was written, in mm; their rounding is part of
+    /// what `compensate` allows itself [default: 4, or those of the job]
+    #[arg(long, value_name = "N", help_heading = "Tolerances", allow_negative_numbers = true, value_parser = small)]
+    pub(crate) decimals: Option<u8>,
     /// Print the result as JSON (the text goes to the standard error), or write it to FILE
     #[arg(long, value_name = "FILE", num_args = 0..=1, default_missing_value = "-", help_heading = "Outputs")]
     pub(crate) json: Option<PathBuf>,

@@ -11,6 +11,9 @@ const FRAMES: [&str; 9] = [
 /// Lengths and radii of the tool that the control adds.
 const OFFSETS: [&str; 6] = ["G43", "G43.1", "G43.2", "G44", "G41", "G42"];
 
+/// Modes in which the control follows the path: from exact stops to rounded corners.
+const PATH_MODES: [&str; 3] = ["G61", "G61.1", "G64"];
+
 /// A word that one of both programs has and the other does not.
 #[derive(Clone, Debug, Serialize)]
 pub(crate) struct OtherWord {
@@ -34,6 +37,11 @@ impl OtherWord {
                 line.unwrap_or(0)
             ),
         };
+        if is_path_mode(&self.word) {
+            return format!(
+                "{what}: the control follows the path otherwise, and leaves its corners by what that allows; nothing here has that in it"
+            );
+        }
         match self.is_frame {
             true => format!(
                 "{what}: it is not known where the control has this frame (state its origin with --work-offset if it is the one that the program is made for)"
@@ -53,7 +61,7 @@ pub(crate) fn other_words(
     let (of_original, of_verified) = (words(original), words(verified));
     let is_unknown = |word: &str| match FRAMES.iter().position(|frame| *frame == word) {
         Some(index) => reading.work_offsets_mm[index].is_none(),
-        None => OFFSETS.contains(&word),
+        None => OFFSETS.contains(&word) || is_path_mode(word),
     };
     let has_frame = |words: &[(String, usize)]| {
         let mut words = words.iter();
@@ -68,7 +76,9 @@ pub(crate) fn other_words(
         missing.cloned().collect()
     };
     let is_frame = |word: &String| FRAMES.contains(&word.as_str());
-    let added = only(&of_verified, &of_original);
+    let mut added = only(&of_verified, &of_original);
+    // Whoever stops at corners follows the path no worse.
+    added.retain(|(word, _)| !word.starts_with("G61"));
     let left_out = only(&of_original, &of_verified);
     let added = added.into_iter().map(|(word, line)| OtherWord {
         is_frame: is_frame(&word),
@@ -83,6 +93,10 @@ pub(crate) fn other_words(
         line_of_original: Some(line),
     });
     added.chain(left_out).collect()
+}
+
+fn is_path_mode(word: &str) -> bool {
+    PATH_MODES.contains(&word.split(' ').next().unwrap_or_default())
 }
 
 /// Words with G, each with the first line that has it.
@@ -115,10 +129,34 @@ fn words_of(line: &str) -> Vec<String> {
                     number.push(digit);
                 }
                 if let Ok(value) = number.parse::<f64>() {
-                    found.push(format!("G{value}"));
+                    let tolerances = match value == 64.0 {
+                        true => tolerances(rest.clone()),
+                        false => String::new(),
+                    };
+                    found.push(format!("G{value}{tolerances}"));
                 }
             }
             _ => {}
+        }
+    }
+    found
+}
+
+/// By how much the control may leave the path, as G64 has it behind itself on its line: ` P0.5 Q0.1`.
+fn tolerances(rest: impl Iterator<Item = char>) -> String {
+    let mut rest = rest
+        .take_while(|c| !matches!(c, '(' | ';'))
+        .map(|c| c.to_ascii_uppercase())
+        .peekable();
+    let mut found = String::new();
+    while let Some(c) = rest.next() {
+        if matches!(c, 'P' | 'Q') {
+            let mut number = String::new();
+            while let Some(digit) = rest.next_if(|c| c.is_ascii_digit() || matches!(c, '.' | '-')) {
+                number.push(digit);
+            }
+            let number = number.parse::<f64>().map_or(number, |x| x.to_string());
+            found.push_str(&format!(" {c}{number}"));
         }
     }
     found

@@ -49,6 +49,7 @@ pub(crate) fn run(args: &VerifyArgs) -> Answer<()> {
     refuse_what_says_nothing(&args.original)?;
     let flags = WritingFlags {
         tolerance_um: args.tolerance_um,
+        decimals: args.decimals,
         ..WritingFlags::default()
     };
     let mut original = asked(&files, job.as_ref(), (&args.original, &flags), model_named)?;

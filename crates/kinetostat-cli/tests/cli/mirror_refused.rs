@@ -106,7 +106,11 @@ fn a_program_without_the_last_correction_is_not_corrected_twice() {
         &["again.csv"],
         &[&more[..], &["--was-run"]].concat(),
     );
-    assert!(said.out.contains("IT CANNOT BE TOLD"), "{}", said.out);
+    assert!(
+        said.out.contains("THE LAST CORRECTION IS NOT SEEN"),
+        "{}",
+        said.out
+    );
     assert!(
         said.out.contains("the same is mirrored twice"),
         "{}",

@@ -140,11 +140,37 @@ fn frames_that_the_original_does_not_state_are_faults() {
         said.contains("G43 at line 1 is not in the original"),
         "{said}"
     );
+    // By half a millimetre the control may leave the path.
+    let said = warned("G64 P0.50");
+    assert!(
+        said.contains(
+            "G64 P0.5 at line 1 is not in the original: the control follows the path otherwise"
+        ),
+        "{said}"
+    );
+    assert!(!warned("G61").contains("G61"));
     let said = warned("T2 M6");
     assert!(
         said.contains("ANOTHER TOOL") && said.contains("T2"),
         "{said}"
     );
+}
+
+/// The rounding of a program with three digits is part of what `compensate` allows itself.
+#[test]
+fn a_program_with_few_digits_is_verified_with_these() {
+    let here = part();
+    compensated(here.path(), &["--decimals", "3"]);
+    let allowed = |more: &[&str]| {
+        let (_, found, said) = verified(here.path(), "out.ngc", more);
+        let allowed = found["allowed_mm"].as_f64();
+        allowed.unwrap_or_else(|| panic!("{said}"))
+    };
+    let more = allowed(&["--decimals", "3"]) - allowed(&[]);
+    // Half of the last digit along three axes.
+    assert!((more - 0.75_f64.sqrt() * 0.9e-3).abs() < 1e-12, "{more}");
+    let (code, _, said) = verified(here.path(), "out.ngc", &["--decimals", "3"]);
+    assert_eq!(code, 0, "{said}");
 }
 
 #[test]

@@ -27,8 +27,8 @@ fn real_programs() -> Vec<(String, Vec<u8>)> {
 
 /// Modes, offsets, units, increments, arcs, dwells, tape marks and line endings of all kinds.
 const MODES: &str = "%\r\nO0007\r\nG21 G90 G17 (part)\r\nG0 X0 Y0 Z5\r\nG1 Z-1 F300\r\nX10\rY10\nG2 X20 Y0 I0 J-10 F600\n\
-G91 X1 Y1\nX1 Y-1\nG90 G92 X0\nX5 Y5\n(still)\nG4 P1\nG20 X1 Y1 F20\nG93 X2 F3\nX3 F2\nG94 F25\nG21 Y3 F500\nG92.1\n\
-G54 X1\nG0 Z5\nS1000 M3\nG1 Z-1\nG3 X11 I5 J0\nX0 Y0 I-5\nG1 X7\nM5\nM2\n%\nnobody reads this\n";
+G1 G91 X1 Y1\nX1 Y-1\nG90 G92 X0\nX5 Y5\n(still)\nG4 P1\nG20\nX1 Y1 F20\nG93 X2 F3\nX3 F2\nG94 F25\nG21\nY3 F500\nG92.1\n\
+G54 X1\nG0 Z5\nS1000 M3\nG1 Z-1\nG3 X11 I5 J0\nX1 I-5\nG1 X7\nM5\nM2\n%\nnobody reads this\n";
 
 fn programs() -> Vec<(String, Vec<u8>)> {
     let mut all = real_programs();

@@ -100,63 +100,30 @@ pub(crate) fn divide(
     })
 }
 
-/// Gets the values that the open stretches need next.
+/// Gets the values that decide what becomes of the open stretches.
 fn answer(
     queries: &mut FieldQueries<'_>,
     open: &mut [Stretch],
     options: &WriteOptions,
 ) -> Result<(), WriteError> {
-    let requests: Vec<Request> = open
-        .iter()
-        .filter(|stretch| stretch.lacks_middle(queries.path, options))
-        .map(|stretch| queries.request(stretch.move_index, stretch.at(0.5)))
-        .collect();
-    let mut answers = queries.evaluate(&requests)?.into_iter();
-    for stretch in open.iter_mut() {
-        if stretch.lacks_middle(queries.path, options) {
-            stretch.middle = answers.next();
+    let path = queries.path;
+    loop {
+        let wanted = open.iter().enumerate();
+        let wanted: Vec<(usize, f64)> = wanted
+            .flat_map(|(i, stretch)| stretch.lacks(path, options).map(move |part| (i, part)))
+            .collect();
+        if wanted.is_empty() {
+            return Ok(());
+        }
+        let request = |(i, part): &(usize, f64)| {
+            let stretch = &open[*i];
+            queries.request(stretch.move_index, stretch.at(*part))
+        };
+        let requests: Vec<Request> = wanted.iter().map(request).collect();
+        for ((i, part), value) in wanted.into_iter().zip(queries.evaluate(&requests)?) {
+            open[i].learn(part, value);
         }
     }
-
-    let to_confirm =
-        |stretch: &Stretch| matches!(stretch.decide(queries.path, options), Decision::Confirm);
-    let wants: Vec<usize> = (0..open.len()).filter(|i| to_confirm(&open[*i])).collect();
-    let parts = wants.iter().map(|i| open[*i].irregular_part(queries.path));
-    let parts: Vec<f64> = parts.collect();
-    let places = wants.iter().zip(&parts).map(|(i, part)| (&open[*i], *part));
-    let requests =
-        places.map(|(stretch, part)| queries.request(stretch.move_index, stretch.at(part)));
-    let requests: Vec<Request> = requests.collect();
-    let answers = queries.evaluate(&requests)?;
-    for ((i, part), value) in wants.into_iter().zip(parts).zip(answers) {
-        open[i].irregular = Some((part, value));
-    }
-
-    let wants: Vec<usize> = (0..open.len())
-        .filter(|i| matches!(open[*i].decide(queries.path, options), Decision::Refine))
-        .collect();
-    let mut requests = Vec::new();
-    for stretch in wants.iter().map(|i| &open[*i]) {
-        for part in [0.25, 0.75] {
-            requests.push(queries.request(stretch.move_index, stretch.at(part)));
-        }
-        if stretch.lacks_irregular() {
-            requests.push(queries.request(
-                stretch.move_index,
-                stretch.at(stretch.irregular_part(queries.path)),
-            ));
-        }
-    }
-    let mut answers = queries.evaluate(&requests)?.into_iter();
-    let mut answer = || answers.next().unwrap_or_default();
-    for i in wants {
-        let stretch = &mut open[i];
-        stretch.quarters = Some([answer(), answer()]);
-        if stretch.lacks_irregular() {
-            stretch.irregular = Some((stretch.irregular_part(queries.path), answer()));
-        }
-    }
-    Ok(())
 }
 
 /// Accepts the good stretches and halves the others.

@@ -26,6 +26,10 @@ const SURPRISE_FITTED: f64 = 0.08;
 /// How many times the tolerance a correction may leave a straight line on a stretch that is no piece: a polynomial follows it.
 const BENT: f64 = 20.0;
 
+/// Parts of a stretch at which the correction is evaluated.
+const MIDDLE: f64 = 0.5;
+const QUARTERS: [f64; 2] = [0.25, 0.75];
+
 /// A stretch of a move that is not accepted yet.
 pub(crate) struct Stretch {
     pub move_index: usize,
@@ -111,9 +115,36 @@ impl Stretch {
         is_known && off <= 0.25 * tolerance && (last - first).norm() <= tolerance
     }
 
-    /// Whether its middle is to be evaluated before anything is decided.
-    pub fn lacks_middle(&self, path: &Path, options: &WriteOptions) -> bool {
-        self.middle.is_none() && !self.ends_suffice(path, options)
+    /// Parts of it at which the correction is to be evaluated before anything is decided.
+    pub fn lacks(&self, path: &Path, options: &WriteOptions) -> impl Iterator<Item = f64> + use<> {
+        let cubic = self.course == Course::Cubic && !self.fitted;
+        let follows_no_pattern = || self.irregular.is_none().then(|| self.irregular_part(path));
+        let [low, high] = QUARTERS;
+        let parts = match self.middle {
+            None if self.ends_suffice(path, options) => [None; 3],
+            None => [Some(MIDDLE), None, None],
+            Some(_) => match self.decide(path, options) {
+                Decision::Confirm => [follows_no_pattern(), None, None],
+                Decision::Refine if cubic => [Some(low), Some(high), None],
+                Decision::Refine => [Some(low), Some(high), follows_no_pattern()],
+                Decision::Accept | Decision::Halve | Decision::Jump => [None; 3],
+            },
+        };
+        parts.into_iter().flatten()
+    }
+
+    /// Takes the correction at one of these parts.
+    pub fn learn(&mut self, part: f64, value: Vector6<f64>) {
+        let [low, high] = QUARTERS;
+        if part == MIDDLE {
+            self.middle = Some(value);
+        } else if part == low {
+            self.quarters = Some([value; 2]);
+        } else if let (true, Some(quarters)) = (part == high, &mut self.quarters) {
+            quarters[1] = value;
+        } else {
+            self.irregular = Some((part, value));
+        }
     }
 
     /// What becomes of it.
@@ -199,11 +230,6 @@ impl Stretch {
         let angle = arc.sweep * (self.share[1] - self.share[0]);
         let varies = values.iter().map(|value| (value - values[0]).norm());
         0.02 * angle * angle * varies.fold(0.0, larger)
-    }
-
-    /// Whether a place that follows no pattern is asked for with its quarters.
-    pub fn lacks_irregular(&self) -> bool {
-        self.irregular.is_none() && (self.course != Course::Cubic || self.fitted)
     }
 
     /// Remembers what was found inside, for [`crate::writing::merge::merge`].
