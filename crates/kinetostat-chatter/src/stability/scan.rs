@@ -184,13 +184,13 @@ impl Regeneration {
         let modes = self.response().modes().iter();
         let modes_up_to_hz = modes.map(Mode::frequency_hz).fold(0.0, larger);
         // Small gain: below this depth no displacement can keep itself up.
-        let mut certain = (2.0 * self.gain() * self.cut().bound()).recip();
-        if let Some(known) = known {
-            let same_modes = known.modes_up_to_hz == modes_up_to_hz;
-            if same_modes && known.crossings.is_empty() {
-                certain = larger(certain, known.up_to);
-            }
-        }
+        let small_gain = (2.0 * self.gain() * self.cut().bound()).recip();
+        let goes_on = |known: &&SpeedStability| {
+            known.crossings.is_empty() && known.modes_up_to_hz == modes_up_to_hz
+        };
+        let certain = known
+            .filter(goes_on)
+            .map_or(small_gain, |known| larger(small_gain, known.up_to));
         let mut crossings = Vec::new();
         if certain < up_to {
             let along = Along::new(self, speed_rpm, SCANNED)?;

@@ -95,7 +95,7 @@ fn a_program_without_the_last_correction_is_not_corrected_twice() {
     let says = "nothing is seen of the correction that trial 1 wrote";
     assert!(said.err.contains(says), "{}", said.err);
     assert_eq!(std::fs::read(here.path().join("state.toml")).unwrap(), kept);
-    // Whoever knows that the new program was run goes on, and is told what that means where it is not so.
+    // With --was-run the trial is taken, with a warning that the correction is not seen.
     let kept_by_hand = std::fs::copy(
         here.path().join("state.toml"),
         here.path().join("kept.toml"),

@@ -14,9 +14,11 @@ use crate::vibration::program::forced::ForcedVibration;
 use crate::vibration::program::question::{ChatterQuestion, ProgramChatterError};
 use crate::vibration::program::site::{CutSite, SiteGroup};
 
-/// Depths are looked at up to so many times that of the program, one after the other until there is a limit: far beyond their
-/// limits cuts grow by so much in one period that nothing can be said in numbers.
+/// Depths are looked at up to so many times that of the program first.
 const FIRST_DEPTH: f64 = 0.125;
+
+/// And then, one after the other until there is a limit, up to so many times: far beyond their limits cuts grow by so much in one
+/// period that nothing can be said in numbers.
 const DEPTHS: [f64; 3] = [0.5, 1.0, 3.0];
 
 /// What is said of the cut at a place.
