@@ -194,34 +194,20 @@ impl<S: Simd> Joints<S> {
                 }
                 let linear = dot(&residual, &residual);
                 let angular = dot(&[e[3], e[4], e[5]], &[e[3], e[4], e[5]]);
+                let with = (&*columns, &mut self.factors);
                 let (square, mut step) = match search.rows {
-                    Rows::Position if unknowns == 3 => (linear, square_step(columns, &e)),
+                    Rows::Position if unknowns == 3 => (linear, square_step(with.0, &e)),
                     Rows::Position => (
                         linear,
-                        least_squares_step::<S, 0, 3>(
-                            simd,
-                            unknowns,
-                            (columns, &mut self.factors),
-                            &e,
-                        ),
+                        least_squares_step::<S, 0, 3>(simd, unknowns, with, &e),
                     ),
                     Rows::Rotation => (
                         angular,
-                        least_squares_step::<S, 3, 6>(
-                            simd,
-                            unknowns,
-                            (columns, &mut self.factors),
-                            &e,
-                        ),
+                        least_squares_step::<S, 3, 6>(simd, unknowns, with, &e),
                     ),
                     Rows::Both => (
                         linear + angular,
-                        least_squares_step::<S, 0, 6>(
-                            simd,
-                            unknowns,
-                            (columns, &mut self.factors),
-                            &e,
-                        ),
+                        least_squares_step::<S, 0, 6>(simd, unknowns, with, &e),
                     ),
                 };
                 let (mut share, mut largest) = (one, zero);
