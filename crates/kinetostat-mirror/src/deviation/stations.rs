@@ -46,7 +46,7 @@ pub struct Stretch {
 /// assert_eq!(stations.along_mm(), [0.0, 2.5, 5.0, 7.5, 10.0, 10.0, 12.5, 15.0]);
 /// assert_eq!(stations.stretches()[1].stations, 5..8);
 /// let why = Stations::of(&nominal, 1e-9).unwrap_err().to_string();
-/// assert!(why.ends_with("this path of 15 mm allows lengths from 0.00006 mm on"), "{why}");
+/// assert!(why.ends_with("path of 15 mm allows lengths from 0.00006 mm to 10 times its own"), "{why}");
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
@@ -59,7 +59,8 @@ impl Stations {
     /// Four stations on a smoothing length, two at least on each stretch.
     ///
     /// # Errors
-    /// A smoothing length that is not above 0, or so small that the path has more than a million stations.
+    /// A smoothing length that is not above 0, that is more than ten times the path, or so small that the path has more
+    /// than a million stations.
     pub fn of(nominal: &NominalPath<'_>, smoothing_mm: f64) -> Result<Self, MirrorError> {
         possible(nominal, smoothing_mm)?;
         let mut along_mm = Vec::new();
@@ -137,13 +138,10 @@ fn possible(nominal: &NominalPath<'_>, smoothing_mm: f64) -> Result<(), MirrorEr
     let least = length_mm * IN_SMOOTHING_LENGTH / MOST;
     let digit = 10.0_f64.powf(least.log10().floor() - 1.0);
     let least = (least / digit - 1e-6).ceil() * digit * (1.0 + 1e-6);
-    // Rounded down, for the same reason.
-    let most = 0.9995 * LONGEST * length_mm;
     Err(MirrorError::new(format!(
-        "the smoothing length is {smoothing_mm} mm; this path of {} mm allows lengths from {} to {} mm",
+        "the smoothing length is {smoothing_mm} mm; this path of {} mm allows lengths from {} mm to {LONGEST} times its own",
         in_short(length_mm),
-        in_short(least),
-        in_short(most)
+        in_short(least)
     )))
 }
 
