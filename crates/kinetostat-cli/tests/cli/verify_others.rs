@@ -235,6 +235,22 @@ fn a_peck_at_feed_inside_what_is_drilled_cuts_nothing() {
     assert_eq!(code, 3, "{said}");
 }
 
+/// The first block of the circle is 15 um long, where the load comes over it, and as near to the lift out of the hole as corrections
+/// are large: it was taken for that lift, and the program said to be off by what was left out.
+#[test]
+fn a_short_block_beside_a_lift_is_none() {
+    const HEAVY: &str = "model = \"heavy_6r\"\n[placement]\npart_origin_mm = [1500, 0, 900]\n[tool]\nlength_mm = 180\n";
+    let hole = "G0 X20 Y10 Z5\nG0 Z1\nG1 Z-2 F200\nG0 Z1\nG0 Z-1.8\nG1 Z-3 F200\nG0 Z5\nG0 Z-1\n";
+    let circle = "G1 X20.5 F300\nG3 I-0.5 J0\nG1 X20\nG0 Z5\n";
+    let slot = "G1 X22.1 Y10.3 F300\nG0 Z1\n";
+    for cut in [circle, slot] {
+        let load = "{ radial_n = 215, tangential_n = -10, axial_n = -25 }";
+        let here = job(&format!("G21 G90\n{hole}{cut}M2\n"), HEAVY, load);
+        let [claimed, found] = both(here.path(), &["--tolerance-um", "3"]);
+        assert!(found <= claimed + 2e-4, "{found} {claimed}");
+    }
+}
+
 #[test]
 fn a_gouge_is_named_at_its_own_line() {
     let here = part();

@@ -42,6 +42,7 @@ pub(crate) fn without_air<'a>(
             let beside = (m.point(0.5) - middle).norm();
             (m.start - own.start).norm() <= near_mm
                 && (m.end - own.end).norm() <= near_mm
+                && goes_the_same_way(own, m)
                 // Not where a cut goes nearer by, as it is or compensated, unless it has been made.
                 && ([original, nominal].into_iter().all(|cuts| {
                     cuts.nearest(&middle).is_none_or(|foot| foot.distance_mm > beside)
@@ -59,6 +60,15 @@ pub(crate) fn without_air<'a>(
         changed.moves[index].kind = MoveKind::Rapid;
     }
     Cow::Owned(changed)
+}
+
+/// Corrections change a rapid by at most this share of it, or a move is not taken for it.
+const CHANGED: f64 = 0.75;
+
+/// Whether a move goes where a rapid goes and about as far: a short block and a slot beside a lift are near both of its ends.
+fn goes_the_same_way(own: &Move, rapid: &Move) -> bool {
+    let [own, rapid] = [own, rapid].map(|m| m.end - m.start);
+    (own - rapid).norm() <= CHANGED * rapid.norm()
 }
 
 /// So many moves back is looked for one that has cut a way before.
