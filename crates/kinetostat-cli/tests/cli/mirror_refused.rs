@@ -52,7 +52,7 @@ fn lengths_of_nothing_are_refused_by_their_option() {
             "0",
             "--smoothing-mm: the smoothing length is 0 mm; this path of",
         ),
-        ("--smoothing-mm", "1e9", " to 2284 mm"),
+        ("--smoothing-mm", "1e9", " to 10 times its own"),
         ("--smoothing-mm", "1e-300", "allows lengths from 0.00"),
         ("--smoothing-mm", "1e-9", "allows lengths from 0.00"),
         ("--smoothing-mm", "1e-4", "allows lengths from 0.00"),

@@ -163,6 +163,31 @@ fn where_controllers_disagree_the_line_is_named() {
     }
 }
 
+/// What a control may leave the path by is told where it matters, in millimetres.
+#[test]
+fn a_path_tolerance_is_told() {
+    let told = |mode: &str, units: &str| {
+        let (_, path) = read(&format!("{units} G90\n{mode}\nG0 X0 Y0 Z0\nG1 X1 F20\n")).unwrap();
+        let found = path.warnings.into_iter().map(|w| (w.line, w.text));
+        found.collect::<Vec<_>>()
+    };
+    let [(line, text)] = &told("G64 P0.5", "G21")[..] else {
+        panic!("one warning");
+    };
+    assert_eq!(*line, 2);
+    assert!(
+        text.starts_with("the control may leave the path by 0.5 mm"),
+        "{text}"
+    );
+    let [(_, text)] = &told("G64 P0.002", "G20")[..] else {
+        panic!("one warning");
+    };
+    assert!(text.contains("by 0.0508 mm"), "{text}");
+    for quiet in ["G64", "G64 P0.005", "G61", "G4 P0.5"] {
+        assert_eq!(told(quiet, "G21"), [], "{quiet}");
+    }
+}
+
 /// A warning that concerns many lines names the first of them and their number, and a warning of one line
 /// only that.
 #[test]

@@ -10,6 +10,7 @@ mod judge;
 mod question;
 mod result;
 mod site;
+mod speeds;
 mod stretches;
 
 pub use along::ProgramChatter;
@@ -17,4 +18,5 @@ pub use forced::ForcedVibration;
 pub use judge::{JudgedSite, Verdict};
 pub use question::{ChatterQuestion, ProgramChatterError};
 pub use site::CutSite;
-pub use stretches::{ChatterStretch, StableSpeed};
+pub use speeds::StableSpeed;
+pub use stretches::ChatterStretch;

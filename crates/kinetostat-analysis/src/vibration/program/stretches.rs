@@ -1,20 +1,12 @@
 //! Stretches of a program that chatter, and what would not.
 
-use kinetostat_chatter::{Instability, Regeneration};
+use kinetostat_chatter::Instability;
 use kinetostat_machining::{LoadAlongPath, Watch};
-use rayon::prelude::*;
 
-use crate::vibration::program::judge::{JudgedSite, SiteCut, Verdict, limit_at};
+use crate::vibration::program::judge::{JudgedSite, Verdict};
 use crate::vibration::program::question::{ChatterQuestion, ProgramChatterError};
+use crate::vibration::program::speeds::{StableSpeed, stable_speed};
 
-/// Spindle speeds that are tried, by that of the program: from, to, and how many. The first and the last are tried for those
-/// beside them.
-const SPEEDS: (f64, f64, usize) = (0.45, 1.55, 23);
-/// Places of a stretch at which a speed is tried, and how many more of its lines that do not chatter as programmed.
-const TRIED: usize = 6;
-const TRIED_BESIDE: usize = 3;
-/// Change of a feed, share of it, up to which it is one.
-const SAME_FEED: f64 = 2e-3;
 /// Stretches for which other speeds are looked for; the worst ones.
 const MOST: usize = 12;
 
@@ -40,18 +32,6 @@ pub struct ChatterStretch {
     pub chatter_hz: f64,
     /// Flip or Hopf.
     pub kind: Instability,
-}
-
-/// A spindle speed at which the depths of the program, with its feeds per tooth, do not chatter at the places that were tried.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct StableSpeed {
-    /// rpm.
-    pub rpm: f64,
-    /// Whether a speed beside it, 5 % of that of the program away, chatters: of such ones it is that with the largest limit by its
-    /// depth. Else it is the nearest one.
-    pub is_narrow: bool,
-    /// Feed, mm/min, that keeps the feed per tooth; `None` where this changes along the stretch.
-    pub feed_mm_per_min: Option<f64>,
 }
 
 /// Stretches of places that chatter, in the order of the path.
@@ -125,107 +105,4 @@ pub(crate) fn stretches(
         watch.advance(done + 1);
     }
     Ok(all.into_iter().map(|(stretch, _)| stretch).collect())
-}
-
-/// The speed nearest to that of the program which is stable with its neighbours at places of a stretch; else the one with the
-/// largest limit.
-fn stable_speed(
-    question: &ChatterQuestion<'_>,
-    load: &LoadAlongPath<'_>,
-    rpm: f64,
-    (sites, beside): (&[&JudgedSite], &[&JudgedSite]),
-) -> Result<Option<StableSpeed>, ProgramChatterError> {
-    let (from, to, count) = SPEEDS;
-    let speeds: Vec<f64> = (0..count)
-        .map(|k| rpm * (from + (to - from) * k as f64 / (count - 1) as f64))
-        .collect();
-    let mut stable = vec![true; count];
-    let tried = some_of(sites, TRIED).chain(some_of(beside, TRIED_BESIDE));
-    let mut cuts = Vec::new();
-    for judged in tried {
-        let Ok(SiteCut { regeneration, .. }) = question.site_cut(load, &judged.site)? else {
-            continue;
-        };
-        let depth = 1e-3 * judged.site.station.depth_mm;
-        let still = speeds.par_iter().zip(&mut stable).filter(|(_, s)| **s);
-        still.for_each(|(speed, is_stable)| {
-            // Where no multiplier is found nothing is known to be stable.
-            let found = limit_at(&regeneration, *speed, depth, false);
-            *is_stable = found.is_ok_and(|found| found.limit().is_none());
-        });
-        cuts.push((regeneration, depth));
-    }
-    let offered = 1..count - 1;
-    let apart = |k: &usize| (speeds[*k] - rpm).abs();
-    let has_room = |k: &usize| stable[k - 1] && stable[*k] && stable[k + 1];
-    let nearest = offered.clone().filter(has_room);
-    let nearest = nearest.min_by(|a, b| apart(a).total_cmp(&apart(b)));
-    let found = match nearest {
-        Some(k) => Some((speeds[k], false)),
-        None => {
-            let alone: Vec<f64> = offered.filter(|k| stable[*k]).map(|k| speeds[k]).collect();
-            let largest = match alone[..] {
-                // One needs no comparison.
-                [] | [_] => alone.first().copied(),
-                _ => (alone.par_iter().map(|speed| (room(&cuts, *speed), *speed)))
-                    .collect::<Vec<_>>()
-                    .into_iter()
-                    .reduce(|a, b| if b.0 > a.0 { b } else { a })
-                    .map(|(_, speed)| speed),
-            };
-            largest.map(|speed| (speed, true))
-        }
-    };
-    let Some((stable_rpm, is_narrow)) = found else {
-        return Ok(None);
-    };
-    Ok(Some(StableSpeed {
-        rpm: stable_rpm,
-        is_narrow,
-        feed_mm_per_min: feed(question, sites, stable_rpm)?,
-    }))
-}
-
-/// About so many places of some, evenly; the last one, too: the machine stands otherwise there.
-fn some_of<'a, 's>(
-    sites: &'a [&'s JudgedSite],
-    most: usize,
-) -> impl Iterator<Item = &'s JudgedSite> + use<'a, 's> {
-    let step = sites.len().div_ceil(most).max(1);
-    let chosen = sites.iter().enumerate();
-    let chosen = chosen.filter(move |(k, _)| k.is_multiple_of(step) || k + 1 == sites.len());
-    chosen.map(|(_, site)| *site)
-}
-
-/// Least limit by its depth of the cuts at a speed, as far as it is looked for.
-fn room(cuts: &[(Regeneration, f64)], rpm: f64) -> f64 {
-    let of = |(regeneration, depth): &(Regeneration, f64)| {
-        let found = limit_at(regeneration, rpm, *depth, true);
-        found.map_or(0.0, |found| {
-            let limit = found.limit().map(|crossing| crossing.depth);
-            limit.unwrap_or(found.up_to) / depth
-        })
-    };
-    cuts.iter()
-        .map(of)
-        .reduce(|a, b| if b < a { b } else { a })
-        .unwrap_or(0.0)
-}
-
-/// Feed at a speed with the feed per tooth of the program, mm/min, where that is one along the stretch.
-fn feed(
-    question: &ChatterQuestion<'_>,
-    sites: &[&JudgedSite],
-    rpm: f64,
-) -> Result<Option<f64>, ProgramChatterError> {
-    let mut known: Option<f64> = None;
-    for judged in sites {
-        let teeth = question.tool_of(&judged.site)?.tool.teeth();
-        let own = judged.site.station.feed_per_tooth_mm * teeth as f64 * rpm;
-        match known {
-            Some(known) if (own - known).abs() > SAME_FEED * known => return Ok(None),
-            _ => known = known.or(Some(own)),
-        }
-    }
-    Ok(known)
 }

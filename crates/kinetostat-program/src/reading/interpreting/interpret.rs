@@ -86,6 +86,7 @@ impl Interpreter<'_> {
         if block.codes.tool_centre_point {
             self.modes.directions = self.rotary.law_of_directions(block, &self.modes)?;
         }
+        self.warn_of_path_tolerance(block);
         self.change_tool_length(block)?;
         self.tools.note(block)?;
         self.spindle.note(block, self.modes.units())?;

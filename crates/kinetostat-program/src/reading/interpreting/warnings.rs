@@ -2,11 +2,30 @@
 
 use crate::path::moves::ExtraMode;
 use crate::reading::beside::OTHER_AXES;
+use crate::reading::block::Block;
 use crate::reading::interpreting::interpreter::Interpreter;
-use crate::reading::options::OtherAxes;
+use crate::reading::options::{OtherAxes, Units};
 use crate::text::program::Program;
 
+/// Paths that controls leave by less are not told of, mm: what is written holds hundredths.
+const LEAVES_MM: f64 = 0.01;
+
 impl Interpreter<'_> {
+    /// `G64 P0.5` lets the control round corners by half a millimetre, whatever is written between them.
+    pub(super) fn warn_of_path_tolerance(&mut self, block: &Block<'_>) {
+        // P belongs to G64, and is no word of the block.
+        let mut words = block.words.iter();
+        let (Some(own), Some(640)) = (words.find(|w| w.letter == b'P'), block.codes.path_mode)
+        else {
+            return;
+        };
+        let tolerance = own.value;
+        let mm = tolerance * self.modes.units().map_or(1.0, Units::mm_per_unit);
+        if mm > LEAVES_MM {
+            self.repeated.note(block.line_number, &format!("the control may leave the path by {mm} mm from here on (G64 P{tolerance}), however it is corrected: no figure has that in it"));
+        }
+    }
+
     pub(super) fn warn_block_delete(&mut self, line: usize) {
         self.repeated.note(line, "blocks marked with / are taken as run; the output is right only with the machine's block delete switch off (--block-delete skip leaves them out)");
     }
