@@ -9,7 +9,7 @@ use crate::path::moves::Path;
 use crate::writing::corner::follow_turns;
 use crate::writing::directed_moves::{DirectedMove, directed_moves, refuse_other_angles};
 use crate::writing::dividing::beginning::{Fitted, first_round};
-use crate::writing::dividing::stretch::{Decision, Stretch};
+use crate::writing::dividing::stretch::{Decision, Place, Stretch};
 use crate::writing::jump::Jump;
 use crate::writing::merge::{Accepted, merge};
 use crate::writing::node::{Node, is_divided};
@@ -109,19 +109,19 @@ fn answer(
     let path = queries.path;
     loop {
         let wanted = open.iter().enumerate();
-        let wanted: Vec<(usize, f64)> = wanted
-            .flat_map(|(i, stretch)| stretch.lacks(path, options).map(move |part| (i, part)))
+        let wanted: Vec<(usize, Place)> = wanted
+            .flat_map(|(i, stretch)| stretch.lacks(path, options).map(move |place| (i, place)))
             .collect();
         if wanted.is_empty() {
             return Ok(());
         }
-        let request = |(i, part): &(usize, f64)| {
+        let request = |(i, place): &(usize, Place)| {
             let stretch = &open[*i];
-            queries.request(stretch.move_index, stretch.at(*part))
+            queries.request(stretch.move_index, stretch.at(place.part()))
         };
         let requests: Vec<Request> = wanted.iter().map(request).collect();
-        for ((i, part), value) in wanted.into_iter().zip(queries.evaluate(&requests)?) {
-            open[i].learn(part, value);
+        for ((i, place), value) in wanted.into_iter().zip(queries.evaluate(&requests)?) {
+            open[i].learn(place, value);
         }
     }
 }

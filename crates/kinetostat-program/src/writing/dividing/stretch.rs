@@ -26,9 +26,27 @@ const SURPRISE_FITTED: f64 = 0.08;
 /// How many times the tolerance a correction may leave a straight line on a stretch that is no piece: a polynomial follows it.
 const BENT: f64 = 20.0;
 
-/// Parts of a stretch at which the correction is evaluated.
-const MIDDLE: f64 = 0.5;
-const QUARTERS: [f64; 2] = [0.25, 0.75];
+/// A place of a stretch at which the correction is evaluated.
+#[derive(Clone, Copy)]
+pub(crate) enum Place {
+    Middle,
+    FirstQuarter,
+    LastQuarter,
+    /// One that follows no pattern, at a part of the stretch.
+    Irregular(f64),
+}
+
+impl Place {
+    /// Which part of the stretch lies before it.
+    pub fn part(self) -> f64 {
+        match self {
+            Place::Middle => 0.5,
+            Place::FirstQuarter => 0.25,
+            Place::LastQuarter => 0.75,
+            Place::Irregular(part) => part,
+        }
+    }
+}
 
 /// A stretch of a move that is not accepted yet.
 pub(crate) struct Stretch {
@@ -115,35 +133,42 @@ impl Stretch {
         is_known && off <= 0.25 * tolerance && (last - first).norm() <= tolerance
     }
 
-    /// Parts of it at which the correction is to be evaluated before anything is decided.
-    pub fn lacks(&self, path: &Path, options: &WriteOptions) -> impl Iterator<Item = f64> + use<> {
+    /// Places of it at which the correction is to be evaluated before anything is decided.
+    pub fn lacks(
+        &self,
+        path: &Path,
+        options: &WriteOptions,
+    ) -> impl Iterator<Item = Place> + use<> {
+        use Place::{FirstQuarter, Irregular, LastQuarter, Middle};
         let cubic = self.course == Course::Cubic && !self.fitted;
-        let follows_no_pattern = || self.irregular.is_none().then(|| self.irregular_part(path));
-        let [low, high] = QUARTERS;
-        let parts = match self.middle {
+        let irregular = || {
+            let unknown = self.irregular.is_none();
+            unknown.then(|| Irregular(self.irregular_part(path)))
+        };
+        let places = match self.middle {
             None if self.ends_suffice(path, options) => [None; 3],
-            None => [Some(MIDDLE), None, None],
+            None => [Some(Middle), None, None],
             Some(_) => match self.decide(path, options) {
-                Decision::Confirm => [follows_no_pattern(), None, None],
-                Decision::Refine if cubic => [Some(low), Some(high), None],
-                Decision::Refine => [Some(low), Some(high), follows_no_pattern()],
+                Decision::Confirm => [irregular(), None, None],
+                Decision::Refine if cubic => [Some(FirstQuarter), Some(LastQuarter), None],
+                Decision::Refine => [Some(FirstQuarter), Some(LastQuarter), irregular()],
                 Decision::Accept | Decision::Halve | Decision::Jump => [None; 3],
             },
         };
-        parts.into_iter().flatten()
+        places.into_iter().flatten()
     }
 
-    /// Takes the correction at one of these parts.
-    pub fn learn(&mut self, part: f64, value: Vector6<f64>) {
-        let [low, high] = QUARTERS;
-        if part == MIDDLE {
-            self.middle = Some(value);
-        } else if part == low {
-            self.quarters = Some([value; 2]);
-        } else if let (true, Some(quarters)) = (part == high, &mut self.quarters) {
-            quarters[1] = value;
-        } else {
-            self.irregular = Some((part, value));
+    /// Takes the correction at one of these places; that of the first quarter comes before that of the last.
+    pub fn learn(&mut self, place: Place, value: Vector6<f64>) {
+        match place {
+            Place::Middle => self.middle = Some(value),
+            Place::FirstQuarter => self.quarters = Some([value; 2]),
+            Place::LastQuarter => {
+                if let Some(quarters) = &mut self.quarters {
+                    quarters[1] = value;
+                }
+            }
+            Place::Irregular(part) => self.irregular = Some((part, value)),
         }
     }
 
