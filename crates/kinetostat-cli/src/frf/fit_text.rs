@@ -2,7 +2,8 @@
 
 use kinetostat::number::larger;
 
-use crate::frf::fit::{FitAnswer, ScaledAnswer};
+use crate::frf::fit::FitAnswer;
+use crate::frf::scaling::ScaledAnswer;
 use crate::ui::layout::{columns, wrapped};
 use crate::ui::numbers::number;
 

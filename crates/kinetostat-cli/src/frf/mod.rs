@@ -4,12 +4,15 @@
 
 mod answer;
 pub(crate) mod arguments;
+mod doubts;
 mod fit;
 mod fit_text;
 mod measured;
+mod question;
+mod scaling;
 mod text;
 
-use kinetostat::number::larger;
+use kinetostat_analysis::vibration::VibratingMachine;
 use kinetostat_dynamics::{Damping, Quantity, Receptance};
 use kinetostat_machining::{Warning, WarningCode};
 
@@ -18,30 +21,14 @@ use crate::files::input_files::InputFiles;
 use crate::frf::answer::{FrfAnswer, curves};
 use crate::frf::arguments::{FrfArgs, QuantityWord};
 use crate::ui::failure::{Answer, Failure};
-use crate::ui::numbers::number;
 use crate::vibration::damping::words;
 use crate::vibration::pair::{frequency_hz, growth_per_s};
 use crate::vibration::subject;
 
-/// Most frequencies of a response.
-const MOST: f64 = 200_000.0;
-
 pub(crate) fn run(args: &FrfArgs) -> Answer<()> {
-    let frequencies = frequencies(&args.frequencies)?;
+    let frequencies = question::frequencies(&args.frequencies)?;
     let entries = args.entries();
-    if let ([one], true) = (
-        frequencies.as_slice(),
-        args.outputs.plot.is_some() || args.fit.is_some(),
-    ) {
-        return Err(Failure::input(format!(
-            "--frequencies names one frequency, {one} Hz; --plot and --fit need a band"
-        )));
-    }
-    if args.outputs.plot.is_some() && !entries.iter().any(|(to, from)| *to < 3 && *from < 3) {
-        return Err(Failure::input(
-            "--plot draws motions along axes by forces along axes; there is none among --to and --from",
-        ));
-    }
+    question::makes_sense(args, &frequencies, &entries)?;
     let query = subject::query(&args.machine)?;
     let damping = args.damping.law(&query.damping)?;
     let held = subject::held(args.hold.as_deref())?;
@@ -65,29 +52,7 @@ pub(crate) fn run(args: &FrfArgs) -> Answer<()> {
     let mut warnings = query.warnings.clone();
     warnings.extend(subject::limits(&machine, &posture));
     warnings.extend(measured::warnings(&measured));
-    if args.modes.is_some() && machine.dynamics.modes_are_coupled_by(&damping) {
-        warnings.push(Warning::new(
-            WarningCode::Model,
-            "with --modes each mode has its own damping alone, and what couples modes is left out; without --modes the response is solved directly".to_owned(),
-        ));
-    }
-    if damping == Damping::Undamped {
-        warnings.push(Warning::new(
-            WarningCode::Model,
-            "without damping (--damping 0.03, for one) resonances have no height: peaks are as high as a frequency happens to lie near".to_owned(),
-        ));
-    }
-    let highest_hz = frequencies.iter().copied().fold(0.0, larger);
-    if let Some(fastest_hz) = subject::far_below(&machine, highest_hz) {
-        warnings.push(Warning::new(
-            WarningCode::Model,
-            format!(
-                "frequencies go up to {} Hz, and the fastest mode of the model has {} Hz: what is said far beyond it says nothing of a real machine; check --frequencies",
-                number(highest_hz, 4),
-                number(fastest_hz, 4)
-            ),
-        ));
-    }
+    warnings.extend(doubts::of(args, (&machine, &damping), &frequencies));
     let receptance = response.over(&frequencies).map_err(subject::refused)?;
     let finite = |m: &Receptance| m.iter().all(|v| v.re.is_finite() && v.im.is_finite());
     if let Some(at) = receptance.iter().position(|m| !finite(m)) {
@@ -115,23 +80,9 @@ pub(crate) fn run(args: &FrfArgs) -> Answer<()> {
     };
     let doubts = fit.iter().flat_map(|fit| fit.doubts.iter().cloned());
     warnings.extend(doubts.map(|words| Warning::new(WarningCode::Model, words)));
-    let complex = machine
-        .complex_modes(&Damping::Undamped, usize::MAX)
-        .map_err(subject::refused)?;
-    let (natural_frequencies_hz, natural_growth_per_s) = match &complex {
-        None => (machine.modes.frequencies_hz(), None),
-        Some(found) => {
-            let (hz, growth) = (found.modes.iter())
-                .map(|pair| (frequency_hz(pair), growth_per_s(pair)))
-                .unzip();
-            (hz, Some(growth))
-        }
-    };
-    if args.fit.is_some() && complex.is_some() {
-        warnings.push(Warning::new(
-            WarningCode::NoPotential,
-            "measured modes are compared with modes of the symmetric part of the stiffness: the loads have no potential, and real modes are none of this machine".to_owned(),
-        ));
+    let (natural_frequencies_hz, natural_growth_per_s) = natural(&machine)?;
+    if args.fit.is_some() && natural_growth_per_s.is_some() {
+        warnings.push(doubts::no_real_modes());
     }
     let answer = FrfAnswer {
         schema: 1,
@@ -175,25 +126,15 @@ pub(crate) fn run(args: &FrfArgs) -> Answer<()> {
     files.finish(&shown, &answer)
 }
 
-/// Evenly spaced frequencies, Hz.
-fn frequencies(of: &[f64]) -> Answer<Vec<f64>> {
-    let &[low, high, count] = of else {
-        return Err(Failure::input("--frequencies needs LO HI N"));
+/// Frequencies of the machine without damping, Hz, and where its loads have no potential how fast these vibrations grow, 1/s.
+fn natural(machine: &VibratingMachine) -> Answer<(Vec<f64>, Option<Vec<f64>>)> {
+    let complex = machine
+        .complex_modes(&Damping::Undamped, usize::MAX)
+        .map_err(subject::refused)?;
+    let Some(found) = complex else {
+        return Ok((machine.modes.frequencies_hz(), None));
     };
-    if count == 1.0 && low == high && low >= 0.0 && low.is_finite() {
-        return Ok(vec![low]);
-    }
-    if !(low >= 0.0 && high > low && high.is_finite()) {
-        return Err(Failure::input(format!(
-            "--frequencies {low} {high}: frequencies in Hz are needed, the first not below 0 and the second above the first"
-        )));
-    }
-    if !(2.0..=MOST).contains(&count) || count.fract() != 0.0 {
-        return Err(Failure::input(format!(
-            "--frequencies: N is {count}; a whole number from 2 to {MOST} is needed, or 1 with the same frequency twice"
-        )));
-    }
-    let count = count as usize;
-    let step = (high - low) / (count - 1) as f64;
-    Ok((0..count).map(|i| low + step * i as f64).collect())
+    let of_pair = |pair| (frequency_hz(pair), growth_per_s(pair));
+    let (hz, growth) = found.modes.iter().map(of_pair).unzip();
+    Ok((hz, Some(growth)))
 }
