@@ -2,9 +2,9 @@
 
 use crate::cut::{checked_depth, checked_speed};
 use crate::error::{ChatterError, ChatterErrorKind, Result};
-use crate::stability::cutting::resolved_hz;
+use crate::stability::limits::SpeedStability;
 use crate::stability::regeneration::{Regeneration, Selected};
-use crate::stability::scan::SpeedStability;
+use crate::stability::resolution::resolved_hz;
 use crate::stability::swinging::Known;
 
 impl Regeneration {

@@ -4,20 +4,13 @@
 //! unit circle, fine where it is near, so that islands (a stable stretch above an unstable one) are found. Every crossing is
 //! then closed in on.
 
-use std::cell::RefCell;
-
-use nalgebra::DVector;
-use serde::{Deserialize, Serialize};
-
 use crate::error::{ChatterError, ChatterErrorKind, Result};
 use crate::number::larger;
 use crate::response::Mode;
+use crate::stability::along::Along;
 use crate::stability::krylov;
-use crate::stability::multiplier::{Instability, Multiplier};
-use crate::stability::operator::Operator;
-use crate::stability::period::Period;
+use crate::stability::limits::{Crossing, SpeedStability};
 use crate::stability::regeneration::Regeneration;
-use crate::stability::swinging::LeftOut;
 
 /// First steps of the scan, as the logarithm of a ratio of depths.
 const COARSE: f64 = 0.22;
@@ -37,134 +30,6 @@ const RESOLVED: f64 = 1e-6;
 const SCANNED: f64 = 0.75;
 /// Most times the usual points.
 const FINEST: f64 = 3.5;
-
-/// A depth at which the cut becomes unstable or stable.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Crossing {
-    /// Depth of cut, m.
-    pub depth: f64,
-    /// Whether the cut is unstable above it.
-    pub unstable_above: bool,
-    /// How it becomes so.
-    pub kind: Instability,
-    /// Strongest frequency of the vibration there, Hz.
-    pub frequency_hz: f64,
-    /// The multiplier there, real and imaginary part.
-    pub multiplier: (f64, f64),
-    /// By how much the depth changed with the last third more points of collocation, share of it.
-    pub resolved: f64,
-}
-
-/// Stability of a cut at one spindle speed, from depth 0 to a largest depth.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct SpeedStability {
-    /// Spindle speed, rpm.
-    pub speed_rpm: f64,
-    /// Largest depth that was looked at, m.
-    pub up_to: f64,
-    /// Where stability changes, from the smallest depth upwards; the first is the limit.
-    pub crossings: Vec<Crossing>,
-    /// Frequency of the fastest mode that swings in the calculation, Hz; those above are springs.
-    pub modes_up_to_hz: f64,
-    /// Of the modes that are springs although they count, the one with the largest share ([`crate::Swinging`]).
-    pub left_out: Option<LeftOut>,
-}
-
-impl SpeedStability {
-    /// The smallest depth at which the cut becomes unstable; `None` where it is stable up to the largest depth.
-    #[must_use]
-    pub fn limit(&self) -> Option<&Crossing> {
-        self.crossings.first()
-    }
-
-    /// All stretches of depth in which the cut is stable, m: those above the first are islands.
-    #[must_use]
-    pub fn stable(&self) -> Vec<(f64, f64)> {
-        let mut all = Vec::new();
-        let mut from = Some(0.0);
-        for crossing in &self.crossings {
-            match (from, crossing.unstable_above) {
-                (Some(low), true) => {
-                    all.push((low, crossing.depth));
-                    from = None;
-                }
-                (None, false) => from = Some(crossing.depth),
-                _ => {}
-            }
-        }
-        all.extend(from.map(|low| (low, self.up_to)));
-        all
-    }
-
-    /// Whether a depth, m, is stable; `None` beyond what was looked at.
-    #[must_use]
-    pub fn is_stable(&self, depth: f64) -> Option<bool> {
-        let within = (0.0..=self.up_to).contains(&depth);
-        let inside = |(low, high): &(f64, f64)| *low <= depth && depth < *high;
-        within.then(|| self.stable().iter().any(inside))
-    }
-}
-
-/// The logarithm of the largest multiplier's size over that of the depth, at one speed.
-struct Along<'a> {
-    regeneration: &'a Regeneration,
-    speed_rpm: f64,
-    fineness: f64,
-    /// The period, where it does not depend on the depth.
-    period: Option<Period>,
-    /// Where the search for the largest multiplier began at the depth before.
-    last: RefCell<Option<DVector<f64>>>,
-}
-
-impl<'a> Along<'a> {
-    fn new(regeneration: &'a Regeneration, speed_rpm: f64, fineness: f64) -> Result<Self> {
-        let period = match regeneration.cut().pieces_depend_on_depth() {
-            true => None,
-            false => Some(regeneration.period(speed_rpm, 0.0, fineness)?),
-        };
-        Ok(Self {
-            regeneration,
-            speed_rpm,
-            fineness,
-            period,
-            last: RefCell::new(None),
-        })
-    }
-
-    fn with<T>(&self, depth: f64, of: impl FnOnce(&Operator<'_>) -> Result<T>) -> Result<T> {
-        match &self.period {
-            Some(period) => of(&Operator::new(period, depth)),
-            None => {
-                let period = self
-                    .regeneration
-                    .period(self.speed_rpm, depth, self.fineness)?;
-                of(&Operator::new(&period, depth))
-            }
-        }
-    }
-
-    fn logarithm(&self, depth: f64, accuracy: f64) -> Result<f64> {
-        self.with(depth, |operator| {
-            let value = operator.largest(accuracy, &mut self.last.borrow_mut())?.0;
-            Ok(value.norm().ln())
-        })
-    }
-
-    fn multiplier(&self, depth: f64) -> Result<Multiplier> {
-        self.with(depth, |operator| {
-            let (value, vector) =
-                operator.largest(krylov::ACCURATE, &mut self.last.borrow_mut())?;
-            let receptance = |w| self.regeneration.at(w);
-            Ok(Multiplier::new(
-                value,
-                &vector,
-                operator,
-                depth,
-                &receptance,
-            ))
-        })
-    }
-}
 
 /// A place of the scan: logarithms of depth and multiplier.
 #[derive(Clone, Copy)]

@@ -1,11 +1,12 @@
 //! Modes of measured responses beside those of the model.
 
 use kinetostat_analysis::vibration::{MeasuredModes, VibratingMachine};
-use kinetostat_chatter::{ChatterError, MeasuredResponse};
+use kinetostat_chatter::MeasuredResponse;
 use kinetostat_dynamics::Damping;
 use serde::Serialize;
 
 use crate::frf::arguments::FrfArgs;
+use crate::frf::measured::of_measurement;
 use crate::frf::scaling::{ScaledAnswer, scaled};
 use crate::place::query::PlaceQuery;
 use crate::ui::failure::{Answer, Failure};
@@ -152,9 +153,4 @@ fn odd_amplitude(modes: &[MeasuredMode], signs_are_right: bool) -> Option<String
     (middle < 0.0 && signs_are_right).then(|| {
         "measured modes move against those of the model: the sign of a sensor, of the hammer or of an axis is wrong".to_owned()
     })
-}
-
-/// What is wrong with a measurement.
-pub(crate) fn of_measurement(error: ChatterError) -> Failure {
-    Failure::input(format!("measured responses: {error}"))
 }

@@ -2,7 +2,9 @@
 
 use std::path::Path;
 
-use kinetostat_chatter::{MeasuredResponse, read_columns, read_universal, turning_columns};
+use kinetostat_chatter::{
+    ChatterError, MeasuredResponse, read_columns, read_universal, turning_columns,
+};
 use kinetostat_machining::{Warning, WarningCode};
 
 use crate::files::input_files::InputFiles;
@@ -73,4 +75,9 @@ pub(crate) fn warnings(file: &Measured) -> Vec<Warning> {
         ));
     }
     all
+}
+
+/// What is wrong with a measurement.
+pub(crate) fn of_measurement(error: ChatterError) -> Failure {
+    Failure::input(format!("measured responses: {error}"))
 }

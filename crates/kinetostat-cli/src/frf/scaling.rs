@@ -12,7 +12,7 @@ use serde::Serialize;
 
 use crate::files::input_files::InputFiles;
 use crate::frf::arguments::FrfArgs;
-use crate::frf::fit::of_measurement;
+use crate::frf::measured::of_measurement;
 use crate::place::query::PlaceQuery;
 use crate::ui::failure::{Answer, Failure};
 use crate::vibration::damping_numbers::{DampingNumber, is_of_damping, named, with};

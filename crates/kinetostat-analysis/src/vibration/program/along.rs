@@ -6,7 +6,7 @@ use kinetostat_chatter::LeftOut;
 use kinetostat_machining::{LoadAlongPath, Watch};
 use rayon::prelude::*;
 
-use crate::vibration::program::judge::{JudgedSite, Verdict};
+use crate::vibration::program::judged::{JudgedSite, Verdict};
 use crate::vibration::program::question::{ChatterQuestion, ProgramChatterError};
 use crate::vibration::program::site::{SiteGroup, groups, sites};
 use crate::vibration::program::stretches::{ChatterStretch, stretches};

@@ -1,9 +1,7 @@
 //! Whether the cut at one place chatters.
 
 use kinetostat::Wrench;
-use kinetostat_chatter::{
-    Arc, Coefficients, FeedFrame, Instability, LeftOut, MillingCut, Regeneration, SpeedStability,
-};
+use kinetostat_chatter::{Arc, Coefficients, FeedFrame, MillingCut, Regeneration, SpeedStability};
 use kinetostat_dynamics::Held;
 use kinetostat_machining::{LoadAlongPath, posture_at};
 use nalgebra::Vector3;
@@ -11,6 +9,7 @@ use nalgebra::Vector3;
 use crate::vibration::cut::{MachineCut, MachineCutError};
 use crate::vibration::machine::VibratingMachine;
 use crate::vibration::program::forced::ForcedVibration;
+use crate::vibration::program::judged::{JudgedSite, Verdict};
 use crate::vibration::program::question::{ChatterQuestion, ProgramChatterError};
 use crate::vibration::program::site::{CutSite, SiteGroup};
 
@@ -20,105 +19,6 @@ const FIRST_DEPTH: f64 = 0.125;
 /// And then, one after the other until there is a limit, up to so many times: far beyond their limits cuts grow by so much in one
 /// period that nothing can be said in numbers.
 const DEPTHS: [f64; 3] = [0.5, 1.0, 3.0];
-
-/// What is said of the cut at a place.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Verdict {
-    /// Vibrations die away.
-    Stable,
-    /// They grow.
-    Chatters,
-    /// Why nothing is said.
-    NotJudged(String),
-}
-
-/// A place of a program with its limit.
-#[derive(Clone, Debug, PartialEq)]
-pub struct JudgedSite {
-    /// The place.
-    pub site: CutSite,
-    /// What is said of it.
-    pub verdict: Verdict,
-    /// Depth at which the cut becomes unstable at the speed of the program, mm; `None` where it does not up to `looked_up_to_mm`.
-    pub limit_mm: Option<f64>,
-    /// Largest depth that was looked at, mm.
-    pub looked_up_to_mm: f64,
-    /// Strongest frequency of the vibration at the limit, Hz.
-    pub chatter_hz: Option<f64>,
-    /// How the cut becomes unstable there.
-    pub kind: Option<Instability>,
-    /// Lowest frequency of the machine there, Hz.
-    pub first_hz: Option<f64>,
-    /// How the teeth shake the tool; `None` where it chatters or nothing is said.
-    pub forced: Option<ForcedVibration>,
-    /// Frequency of the fastest mode that swings in the calculation, Hz; those above are springs.
-    pub modes_up_to_hz: Option<f64>,
-    /// Of the modes that are springs although they count, the one with the largest share.
-    pub left_out: Option<LeftOut>,
-    /// By how much the force of the cut may be more or less than its law says, share of it.
-    pub force_spread: f64,
-    /// By how much the response by modes with their own damping alone is off at the frequencies of the modes, share of it; 0
-    /// where no damper couples modes.
-    pub lost_coupling: f64,
-    /// Nothing is said because its limit was not found: it may chatter.
-    pub(crate) is_open: bool,
-    /// Places of the program that this one stands for.
-    pub places: usize,
-    /// From where to where along the path these lie, mm.
-    pub path_mm: [f64; 2],
-}
-
-impl JudgedSite {
-    /// Whether something is said of it.
-    #[must_use]
-    pub fn is_judged(&self) -> bool {
-        !matches!(self.verdict, Verdict::NotJudged(_))
-    }
-
-    /// Whether it is stable, and not so with a force larger by its spread: the force is the product of depth and law.
-    #[must_use]
-    pub fn is_within_spread(&self) -> bool {
-        let reached =
-            |limit_mm: f64| limit_mm <= self.site.station.depth_mm * (1.0 + self.force_spread);
-        self.verdict == Verdict::Stable && self.limit_mm.is_some_and(reached)
-    }
-
-    /// Whether it is worse than another one of the same group: it chatters, or its limit was not found, or is nearer to its
-    /// depth; of places with neither the first stands.
-    fn is_worse_than(&self, other: &Self) -> bool {
-        let rank = |judged: &Self| match judged.verdict {
-            Verdict::Chatters => 3,
-            Verdict::NotJudged(_) if judged.is_open => 2,
-            Verdict::Stable => 1,
-            Verdict::NotJudged(_) => 0,
-        };
-        let share = |judged: &Self| match judged.limit_mm {
-            Some(limit_mm) => limit_mm / judged.site.station.depth_mm,
-            None => f64::INFINITY,
-        };
-        rank(self) > rank(other) || (rank(self) == rank(other) && share(self) < share(other))
-    }
-
-    fn not_judged(site: &CutSite, group: &SiteGroup<'_>, why: impl Into<String>) -> Self {
-        Self {
-            site: *site,
-            verdict: Verdict::NotJudged(why.into()),
-            limit_mm: None,
-            looked_up_to_mm: 0.0,
-            chatter_hz: None,
-            kind: None,
-            first_hz: None,
-            forced: None,
-            modes_up_to_hz: None,
-            left_out: None,
-            force_spread: 0.0,
-            lost_coupling: 0.0,
-            is_open: false,
-            places: group.count(),
-            path_mm: group.path_mm(),
-        }
-    }
-}
 
 /// The cut at a place with the machine in its posture.
 pub(crate) struct SiteCut {

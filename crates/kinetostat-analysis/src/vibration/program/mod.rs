@@ -7,6 +7,7 @@
 mod along;
 mod forced;
 mod judge;
+mod judged;
 mod question;
 mod result;
 mod site;
@@ -15,7 +16,7 @@ mod stretches;
 
 pub use along::ProgramChatter;
 pub use forced::ForcedVibration;
-pub use judge::{JudgedSite, Verdict};
+pub use judged::{JudgedSite, Verdict};
 pub use question::{ChatterQuestion, ProgramChatterError};
 pub use site::CutSite;
 pub use speeds::StableSpeed;

@@ -3,7 +3,7 @@
 use kinetostat_machining::{ChatterLines, ChatterPlace, ChatterResult};
 
 use crate::vibration::program::along::ProgramChatter;
-use crate::vibration::program::judge::{JudgedSite, Verdict};
+use crate::vibration::program::judged::{JudgedSite, Verdict};
 use crate::vibration::program::stretches::ChatterStretch;
 
 impl ProgramChatter {

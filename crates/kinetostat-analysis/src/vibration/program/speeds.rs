@@ -4,7 +4,8 @@ use kinetostat_chatter::Regeneration;
 use kinetostat_machining::LoadAlongPath;
 use rayon::prelude::*;
 
-use crate::vibration::program::judge::{JudgedSite, SiteCut, limit_at};
+use crate::vibration::program::judge::{SiteCut, limit_at};
+use crate::vibration::program::judged::JudgedSite;
 use crate::vibration::program::question::{ChatterQuestion, ProgramChatterError};
 
 /// Spindle speeds that are tried, by that of the program: from, to, and how many. The first and the last are tried for those

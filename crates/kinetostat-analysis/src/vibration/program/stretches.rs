@@ -3,7 +3,7 @@
 use kinetostat_chatter::Instability;
 use kinetostat_machining::{LoadAlongPath, Watch};
 
-use crate::vibration::program::judge::{JudgedSite, Verdict};
+use crate::vibration::program::judged::{JudgedSite, Verdict};
 use crate::vibration::program::question::{ChatterQuestion, ProgramChatterError};
 use crate::vibration::program::speeds::{StableSpeed, stable_speed};
 
