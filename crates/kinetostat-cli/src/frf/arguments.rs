@@ -122,7 +122,7 @@ const HELP: &str = "\
 Examples:
   kinetostat frf heavy_6r --damping 0.03 --plot response.svg
   kinetostat frf heavy_6r --from x --to x,y,z --frequencies 1 100 2000 \\
-      --damping 0.03,0.02 --quantity accelerance --csv response.csv
+      --damping 0.03 0.02 --quantity accelerance --csv response.csv
   kinetostat frf cell.toml --at 1600 0 900 --measured tap_test.uff --fit 3 \\
       --frequencies 5 80 1000 --scale \"chain.arm.joint 2.stiffness_n_m_per_rad\"
 

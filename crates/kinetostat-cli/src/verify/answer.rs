@@ -8,7 +8,8 @@ use kinetostat_report::{Language, Paper, VerifiedProgram};
 use serde::Serialize;
 
 use crate::verify::conditions;
-use crate::verify::frames::OtherWord;
+use crate::verify::other_word::OtherWord;
+use crate::verify::tilted::Tilted;
 
 /// The answer of `verify`: lengths in mm, lines of the original and of the program.
 #[derive(Debug, Serialize)]
@@ -40,6 +41,8 @@ pub(crate) struct VerifyAnswer {
     pub(crate) forces_from_cut: bool,
     /// Words that one of both programs has and the other does not, by which the control moves its places.
     pub(crate) other_words: Vec<OtherWord>,
+    /// Where the tool stands otherwise than it should, if its orientation is corrected.
+    pub(crate) tilted: Option<Tilted>,
     pub(crate) features: Vec<FeatureResult>,
     /// Places where the program is farthest off, worst first; at most ten.
     pub(crate) worst_points: Vec<PointResult>,
@@ -53,6 +56,7 @@ impl VerifyAnswer {
         files: Vec<FileRead>,
         allowed_mm: f64,
         (forces_from_cut, other_words): (bool, Vec<OtherWord>),
+        tilted: Option<Tilted>,
     ) -> Self {
         let result = &verified.run.result;
         let s = &result.summary;
@@ -65,7 +69,7 @@ impl VerifyAnswer {
             matched.uncut.is_empty() && matched.rapids.is_empty() && matched.extra_cuts.is_empty();
         let mut conditions = matched.conditions.iter();
         let is_same = !conditions.any(|other| conditions::is_fault(other, forces_from_cut))
-            && !other_words.iter().any(|word| word.is_frame);
+            && other_words.iter().all(|word| word.fault.is_none());
         let mut warnings = result.warnings.clone();
         warnings.extend(conditions::warnings(
             &matched.conditions,
@@ -84,6 +88,7 @@ impl VerifyAnswer {
             held: within
                 && whole
                 && is_same
+                && tilted.is_none()
                 && s.stable
                 && result.features.iter().all(|f| f.held != Some(false)),
             missed: worst_points
@@ -100,6 +105,7 @@ impl VerifyAnswer {
             matched: verified.matched.clone(),
             forces_from_cut,
             other_words,
+            tilted,
             features: result.features.clone(),
             worst_points,
             warnings,
@@ -151,8 +157,9 @@ impl VerifyAnswer {
         let conditions = conditions
             .filter(|other| conditions::is_fault(other, self.forces_from_cut))
             .map(|other| other.lines[0]);
-        let frames = self.other_words.iter().filter(|word| word.is_frame);
-        let frames = frames.map(|word| word.line.unwrap_or(1));
-        conditions.chain(frames).collect()
+        let words = self.other_words.iter().filter(|word| word.fault.is_some());
+        let words = words.map(|word| word.line.unwrap_or(1));
+        let tilted = self.tilted.iter().map(|tilted| tilted.line);
+        conditions.chain(words).chain(tilted).collect()
     }
 }

@@ -2,7 +2,7 @@
 
 use kinetostat_machining::{Condition, OtherCondition, Warning, WarningCode};
 
-use crate::verify::frames::OtherWord;
+use crate::verify::other_word::OtherWord;
 
 /// Whether the program must not run so: forces from the cut are others with another feed or spindle, and another tool that both
 /// name is of another length.
@@ -51,7 +51,7 @@ pub(crate) fn warnings(
             let text = said(other, forces_from_cut);
             Warning::new(WarningCode::OtherThanOriginal, text.trim_end_matches('.'))
         });
-    let words = words.iter().filter(|word| !word.is_frame);
-    let words = words.map(|word| Warning::new(WarningCode::OtherThanOriginal, word.said()));
+    let words = words.iter().filter(|word| word.fault.is_none());
+    let words = words.map(|word| Warning::new(WarningCode::OtherThanOriginal, word.text.clone()));
     conditions.chain(words).collect()
 }

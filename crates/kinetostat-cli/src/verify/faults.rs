@@ -4,6 +4,8 @@ use kinetostat_machining::FeatureResult;
 
 use crate::verify::answer::VerifyAnswer;
 use crate::verify::conditions;
+use crate::verify::other_word::OtherWord;
+use crate::verify::tilted::Tilted;
 
 impl VerifyAnswer {
     /// Everything that keeps the program from being as it should be, a sentence each.
@@ -47,8 +49,8 @@ impl VerifyAnswer {
                 .filter(|other| conditions::is_fault(other, self.forces_from_cut))
                 .map(|other| conditions::said(other, true)),
         );
-        let frames = self.other_words.iter().filter(|word| word.is_frame);
-        faults.extend(frames.map(|word| format!("ANOTHER FRAME: {}.", word.said())));
+        faults.extend(self.other_words.iter().filter_map(OtherWord::fault_text));
+        faults.extend(self.tilted.iter().map(Tilted::text));
         if let Some(m) = &self.missed {
             let (error, allowed) =
                 kinetostat_machining::number::against(m.error_mm, self.allowed_mm);

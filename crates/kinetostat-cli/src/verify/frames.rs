@@ -1,7 +1,8 @@
 //! Words of a program that move its places as the control has it set up, and not as the program says.
 
-use kinetostat_program::{Program, ReadOptions};
-use serde::Serialize;
+use kinetostat_program::{Path, Program, ReadOptions};
+
+use crate::verify::other_word::{FaultKind, OtherWord};
 
 /// Frames of G-code, in the order of their origins under `[reading]`.
 const FRAMES: [&str; 9] = [
@@ -11,57 +12,30 @@ const FRAMES: [&str; 9] = [
 /// Lengths and radii of the tool that the control adds.
 const OFFSETS: [&str; 6] = ["G43", "G43.1", "G43.2", "G44", "G41", "G42"];
 
+/// Before the first place is known it says where the machine stands, in a frame that it moves.
+const SHIFT: &str = "G92";
+
 /// Modes in which the control follows the path: from exact stops to rounded corners.
 const PATH_MODES: [&str; 3] = ["G61", "G61.1", "G64"];
-
-/// A word that one of both programs has and the other does not.
-#[derive(Clone, Debug, Serialize)]
-pub(crate) struct OtherWord {
-    pub(crate) word: String,
-    /// Line of the program; none where only the original has it.
-    pub(crate) line: Option<usize>,
-    /// Line of the original; none where only the program has it.
-    pub(crate) line_of_original: Option<usize>,
-    /// Whether it names a frame, and does not add a length of the tool.
-    pub(crate) is_frame: bool,
-}
-
-impl OtherWord {
-    /// What is wrong with it.
-    pub(crate) fn said(&self) -> String {
-        let what = match (self.line, self.line_of_original) {
-            (Some(line), _) => format!("{} at line {line} is not in the original", self.word),
-            (None, line) => format!(
-                "{} at line {} of the original is not in this program",
-                self.word,
-                line.unwrap_or(0)
-            ),
-        };
-        if is_path_mode(&self.word) {
-            return format!(
-                "{what}: the control follows the path otherwise, and leaves its corners by what that allows; nothing here has that in it"
-            );
-        }
-        match self.is_frame {
-            true => format!(
-                "{what}: it is not known where the control has this frame (state its origin with --work-offset if it is the one that the program is made for)"
-            ),
-            false => format!("{what}: the control moves the tool by what its table has there"),
-        }
-    }
-}
 
 /// The words that only one of both programs has. Frames whose origins are stated are where the programs are read, and the first of
 /// them is in force without a word.
 pub(crate) fn other_words(
-    original: &Program,
-    verified: &Program,
+    original: (&Program, &Path),
+    verified: (&Program, &Path),
     reading: &ReadOptions,
 ) -> Vec<OtherWord> {
-    let (of_original, of_verified) = (words(original), words(verified));
+    let known = |(program, path): (&Program, &Path)| {
+        let first = path.moves.first().map_or(usize::MAX, |first| first.line);
+        let mut found = words(program);
+        // Behind a place that is known a shift is in the path that was read.
+        found.retain(|(word, line)| word != SHIFT || *line < first);
+        found
+    };
+    let (of_original, of_verified) = (known(original), known(verified));
     let is_unknown = |word: &str| match FRAMES.iter().position(|frame| *frame == word) {
         Some(index) => reading.work_offsets_mm[index].is_none(),
-        None => OFFSETS.contains(&word) || is_path_mode(word),
+        None => OFFSETS.contains(&word) || word == SHIFT || is_path_mode(word),
     };
     let has_frame = |words: &[(String, usize)]| {
         let mut words = words.iter();
@@ -75,24 +49,49 @@ pub(crate) fn other_words(
         });
         missing.cloned().collect()
     };
-    let is_frame = |word: &String| FRAMES.contains(&word.as_str());
     let mut added = only(&of_verified, &of_original);
     // Whoever stops at corners follows the path no worse.
     added.retain(|(word, _)| !word.starts_with("G61"));
     let left_out = only(&of_original, &of_verified);
-    let added = added.into_iter().map(|(word, line)| OtherWord {
-        is_frame: is_frame(&word),
-        word,
-        line: Some(line),
-        line_of_original: None,
-    });
-    let left_out = left_out.into_iter().map(|(word, line)| OtherWord {
-        is_frame: is_frame(&word),
-        word,
-        line: None,
-        line_of_original: Some(line),
-    });
+    let added = added
+        .into_iter()
+        .map(|(word, line)| only_in_one(word, (Some(line), None)));
+    let left_out = left_out
+        .into_iter()
+        .map(|(word, line)| only_in_one(word, (None, Some(line))));
     added.chain(left_out).collect()
+}
+
+/// A word that only one of both has, on a line of the program or of the original.
+fn only_in_one(
+    word: String,
+    (line, line_of_original): (Option<usize>, Option<usize>),
+) -> OtherWord {
+    let what = match (line, line_of_original) {
+        (Some(line), _) => format!("{word} at line {line} is not in the original"),
+        (None, of) => format!(
+            "{word} at line {} of the original is not in this program",
+            of.unwrap_or(0)
+        ),
+    };
+    let is_frame = FRAMES.contains(&word.as_str()) || word == SHIFT;
+    let follows = if is_path_mode(&word) {
+        "the control follows the path otherwise, and leaves its corners by what that allows; nothing here has that in it"
+    } else if word == SHIFT {
+        "before the program has said where the tool is, it shifts the frame by what the control knows"
+    } else if is_frame {
+        "it is not known where the control has this frame (state its origin with --work-offset if it is the one that the program is made for)"
+    } else {
+        "the control moves the tool by what its table has there"
+    };
+    OtherWord {
+        text: format!("{what}: {follows}"),
+        fault: is_frame.then_some(FaultKind::Frame),
+        is_frame,
+        word,
+        line,
+        line_of_original,
+    }
 }
 
 fn is_path_mode(word: &str) -> bool {

@@ -4,13 +4,18 @@
 
 mod answer;
 pub(crate) mod arguments;
+mod called_tools;
 mod conditions;
 mod faults;
 mod frames;
+mod other_word;
+mod robot_words;
 mod text;
+mod tilted;
 
 use std::path::{Path, PathBuf};
 
+use kinetostat::Directions;
 use kinetostat_machining::{RunError, Verified, verify_program};
 use kinetostat_program::Move;
 
@@ -39,7 +44,10 @@ use crate::ui::progress::Progress;
 use crate::ui::threads::in_threads;
 use crate::verify::answer::VerifyAnswer;
 use crate::verify::arguments::VerifyArgs;
-use crate::verify::frames::{OtherWord, other_words};
+use crate::verify::frames::other_words;
+use crate::verify::other_word::OtherWord;
+use crate::verify::robot_words::robot_words;
+use crate::verify::tilted::Tilted;
 
 pub(crate) fn run(args: &VerifyArgs) -> Answer<()> {
     let files = InputFiles::default();
@@ -90,6 +98,7 @@ pub(crate) fn run(args: &VerifyArgs) -> Answer<()> {
         mut found,
         uncut,
         other_words,
+        corrected,
         forces_from_cut,
     } = solved(&machine, (&original, &verified), args.original.threads)?;
     let own_bound = found.run.result.allowed_mm() + original.rounding_mm();
@@ -112,6 +121,11 @@ pub(crate) fn run(args: &VerifyArgs) -> Answer<()> {
         read,
         allowed_mm,
         (forces_from_cut, other_words),
+        Tilted::of(
+            &found.run.points,
+            corrected,
+            (allowed_mm, original.writing.turn_lever_mm),
+        ),
     );
     if let Some(index) = json_out {
         claimed.fill(index, json::json(&answer)?.as_bytes())?;
@@ -183,6 +197,7 @@ struct Solved {
     /// Lines of cuts of the original that it leaves out.
     uncut: Vec<usize>,
     other_words: Vec<OtherWord>,
+    corrected: Directions,
     forces_from_cut: bool,
 }
 
@@ -222,9 +237,12 @@ fn solved(
         all.any(|uncut| (uncut.lines[0]..=uncut.lines[1]).contains(line))
     };
     let uncut = cuts.map(|m| m.line).filter(left_out).collect();
-    let other_words = match (read.gcode(), other.gcode()) {
-        (Some((of_original, _)), Some((of_verified, _))) => {
+    let other_words = match ((read.gcode(), other.gcode()), (read.robot(), other.robot())) {
+        ((Some(of_original), Some(of_verified)), _) => {
             other_words(of_original, of_verified, &original.reading)
+        }
+        (_, (Some(of_original), Some(of_verified))) => {
+            robot_words(of_original, of_verified, forces.is_some())
         }
         _ => Vec::new(),
     };
@@ -232,6 +250,7 @@ fn solved(
         found,
         uncut,
         other_words,
+        corrected: read.corrected(),
         forces_from_cut: forces.is_some(),
     })
 }

@@ -85,6 +85,7 @@ mod uncertain;
 mod verify;
 mod verify_ends;
 mod verify_others;
+mod verify_robot;
 mod vibration;
 mod without_motion;
 mod words;

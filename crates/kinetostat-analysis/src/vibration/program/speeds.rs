@@ -39,8 +39,8 @@ struct Tried {
 /// The speed nearest to that of the program which is stable with its neighbours all along a stretch; else the one with the
 /// largest limit.
 ///
-/// All speeds are tried at some of the places. The one that would be offered is tried at all others, and where it chatters at one of
-/// them all speeds are tried there, too.
+/// All speeds are tried at some of the places. The one that would be offered is tried at all others, with its neighbours if it is to
+/// have room, and where one of these chatters all speeds are tried, too.
 pub(crate) fn stable_speed(
     question: &ChatterQuestion<'_>,
     load: &LoadAlongPath<'_>,
@@ -75,8 +75,11 @@ pub(crate) fn stable_speed(
         let Some((k, is_narrow)) = candidate(&speeds, &stable, rpm, &cuts) else {
             return Ok(None);
         };
+        let beside = usize::from(!is_narrow);
+        let with_neighbours = &speeds[k - beside..=k + beside];
+        let holds = |cut: &Tried| with_neighbours.iter().all(|rpm| cut.is_stable(*rpm));
         let chatters = |judged: &&JudgedSite| match cut_at(judged) {
-            Ok(Some(cut)) => (!cut.is_stable(speeds[k])).then_some(Ok(cut)),
+            Ok(Some(cut)) => (!holds(&cut)).then_some(Ok(cut)),
             Ok(None) => None,
             Err(error) => Some(Err(error)),
         };

@@ -1,0 +1,185 @@
+//! What a robot's or a control's program says beside its places: frames, tools, how near it comes to ends of motions, and how the arm
+//! stands there.
+
+use kinetostat_formats::{FrameUse, Motion, Target, Zone};
+use nalgebra::Vector3;
+
+use crate::job::robot::read_program::RobotRead;
+use crate::ui::numbers::{number, short, triple};
+use crate::verify::called_tools::called_tools;
+use crate::verify::other_word::{FaultKind, OtherWord};
+
+/// Frames nearer to each other than this are one: more digits than controllers write, mm and rad.
+const SAME_MM: f64 = 1e-3;
+const SAME_RAD: f64 = 5e-6;
+
+/// The radius of RAPID's z0, with which steps are passed, mm.
+const PASSED_MM: f64 = 0.3;
+
+/// What differs between both programs; speeds of the spindle are a fault where forces come from the cut.
+pub(crate) fn robot_words(
+    original: &RobotRead<'_>,
+    verified: &RobotRead<'_>,
+    forces_from_cut: bool,
+) -> Vec<OtherWord> {
+    let mut found = Vec::new();
+    found.extend(work_objects(original, verified));
+    found.extend(tools(original, verified));
+    found.extend(called_tools(original, verified, forces_from_cut));
+    found.extend(exact_stops(original, verified));
+    found.extend(radii(original, verified));
+    found.extend(configurations(original, verified));
+    found
+}
+
+fn first_line(read: &RobotRead<'_>) -> Option<usize> {
+    Some(read.program.motions.first()?.line)
+}
+
+fn other(
+    word: &str,
+    fault: Option<FaultKind>,
+    lines: [Option<usize>; 2],
+    text: String,
+) -> OtherWord {
+    OtherWord {
+        word: word.to_owned(),
+        line: lines[0],
+        line_of_original: lines[1],
+        is_frame: fault == Some(FaultKind::Frame),
+        fault,
+        text,
+    }
+}
+
+/// Why two frames are not one.
+fn apart(own: &FrameUse, of_original: &FrameUse) -> Option<String> {
+    match (own.known(), of_original.known()) {
+        (Some(a), Some(b)) => {
+            let mm = (a.translation.vector - b.translation.vector).norm();
+            let turn = a.rotation.angle_to(&b.rotation);
+            let shown =
+                |v: &Vector3<f64>| triple([v.x, v.y, v.z], |x| short((1e4 * x).round() / 1e4));
+            let place = (mm > SAME_MM).then(|| {
+                let [own, of] = [a, b].map(|frame| shown(&frame.translation.vector));
+                format!("is at {own} mm, in the original at {of} mm")
+            });
+            let turned = (turn > SAME_RAD).then(|| {
+                let deg = number(turn.to_degrees(), 4);
+                format!("is turned by {deg} deg from that of the original")
+            });
+            let found: Vec<String> = place.into_iter().chain(turned).collect();
+            (!found.is_empty()).then(|| found.join(", and "))
+        }
+        _ => (own.name != of_original.name).then(|| {
+            format!(
+                "is '{}' in the original, and it is not known where both are",
+                of_original.name
+            )
+        }),
+    }
+}
+
+/// The object in whose axes the path is.
+fn work_objects(original: &RobotRead<'_>, verified: &RobotRead<'_>) -> Option<OtherWord> {
+    let lines = [first_line(verified), first_line(original)];
+    let (Some(own), Some(of_original)) = (&verified.path.work_object, &original.path.work_object)
+    else {
+        let several = [verified, original].map(|read| read.path.work_object.is_none());
+        return (several[0] != several[1]).then(|| {
+            let text =
+                "one of both programs goes in one work object and the other in several".to_owned();
+            other("work object", Some(FaultKind::Frame), lines, text)
+        });
+    };
+    let why = apart(own, of_original)?;
+    let text = format!("work object '{}' {why}", own.name);
+    Some(other(&own.name, Some(FaultKind::Frame), lines, text))
+}
+
+/// Tools that stand otherwise in the flange.
+fn tools(original: &RobotRead<'_>, verified: &RobotRead<'_>) -> Vec<OtherWord> {
+    let of_original = &original.path.tools;
+    let line_with = |read: &RobotRead<'_>, tool: &FrameUse| {
+        let mut motions = read.program.motions.iter();
+        motions.find(|m| m.tool == *tool).map(|m| m.line)
+    };
+    let own = verified.path.tools.iter().enumerate();
+    own.filter_map(|(index, tool)| {
+        let mut named = of_original.iter().filter(|of| of.name == tool.name);
+        let beside = named.next().or_else(|| of_original.get(index))?;
+        let lines = [line_with(verified, tool), line_with(original, beside)];
+        if let Some(why) = apart(tool, beside) {
+            let text = format!("tool '{}' {why}", tool.name);
+            return Some(other(&tool.name, Some(FaultKind::Tool), lines, text));
+        }
+        (tool.name != beside.name).then(|| {
+            let text = format!(
+                "tool '{}' is '{}' in the original, at the same place",
+                tool.name, beside.name
+            );
+            other(&tool.name, None, lines, text)
+        })
+    })
+    .collect()
+}
+
+/// Ends of straight and circular motions at which the tool stopped.
+fn exact_stops(original: &RobotRead<'_>, verified: &RobotRead<'_>) -> Option<OtherWord> {
+    let count = |read: &RobotRead<'_>| {
+        let motions = read.program.motions.iter();
+        motions.filter(|m| m.zone == Zone::Exact).count()
+    };
+    let [own, of_original] = [verified, original].map(count);
+    (own < of_original).then(|| {
+        let text = format!(
+            "{of_original} motions of the original stop at their ends, and {own} of this program: corners are left by what the control allows, and no figure has that in it"
+        );
+        other("exact stop", None, [None, None], text)
+    })
+}
+
+/// Ends that are passed at a larger distance.
+fn radii(original: &RobotRead<'_>, verified: &RobotRead<'_>) -> Option<OtherWord> {
+    let largest = |read: &RobotRead<'_>| {
+        let motions = read.program.motions.iter();
+        let radii = motions.filter_map(|m| match m.zone {
+            Zone::Radius(mm) => Some((mm, m.line)),
+            Zone::Exact | Zone::Percent(_) | Zone::Unstated => None,
+        });
+        radii.max_by(|a, b| a.0.total_cmp(&b.0))
+    };
+    let (mm, line) = largest(verified)?;
+    let of_original = largest(original).map_or(0.0, |(mm, _)| mm);
+    (mm > PASSED_MM && mm > of_original).then(|| {
+        let text = format!(
+            "the end of the motion at line {line} is passed at up to {} mm, those of the original at {}: no figure has that in it",
+            short(mm),
+            short(of_original)
+        );
+        other("zone", None, [Some(line), None], text)
+    })
+}
+
+/// Ways for the arm to stand that no motion of the original asks for.
+fn configurations(original: &RobotRead<'_>, verified: &RobotRead<'_>) -> Option<OtherWord> {
+    let of = |motion: &Motion| match &motion.target {
+        Target::Pose(pose) => Some(pose.configuration.text.replace(char::is_whitespace, "")),
+        _ => None,
+    };
+    let known: Vec<String> = original.program.motions.iter().filter_map(of).collect();
+    let mut own = verified.program.motions.iter();
+    let is_new = |motion: &&Motion| of(motion).is_some_and(|text| !known.contains(&text));
+    let motion = own.find(is_new)?;
+    let text = format!(
+        "the arm is to stand as {} at line {}, which no motion of the original asks for: the model stands as in the original",
+        of(motion)?,
+        motion.line
+    );
+    Some(other(
+        "configuration",
+        None,
+        [Some(motion.line), None],
+        text,
+    ))
+}
