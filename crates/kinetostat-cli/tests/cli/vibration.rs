@@ -316,6 +316,29 @@ fn an_inertia_that_no_body_has_is_refused_by_file_line_and_name() {
     assert!(warned.out.contains("is that of no body"), "{}", warned.out);
 }
 
+/// All masses were deleted and the inertias kept: frequencies came out, and nothing was said.
+#[test]
+fn an_inertia_without_a_mass_is_named_by_file_and_line() {
+    let here = arm6();
+    let lines = ARM6
+        .lines()
+        .map(|line| match line.split_once("mass_kg = ") {
+            Some((before, after)) => {
+                let rest = after.trim_start_matches(|c: char| c.is_ascii_digit() || c == '.');
+                format!("{before}mass_kg = 0{rest}\n")
+            }
+            None => format!("{line}\n"),
+        });
+    let wrong: String = lines.collect();
+    std::fs::write(here.path().join("wrong.toml"), &wrong).expect("written");
+    let said = said(here.path(), "modes wrong.toml").answered();
+    let whole = said.out.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(
+        whole.contains("wrong.toml, line ") && whole.contains("has an inertia and no mass"),
+        "{whole}"
+    );
+}
+
 /// Beside `modes` of the same place, and refused where there is no mass.
 #[test]
 fn maps_have_the_first_frequencies() {

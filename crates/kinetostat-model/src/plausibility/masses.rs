@@ -29,6 +29,21 @@ pub(crate) fn no_body(place: &KeyPath, name: &str, inertia: &Matrix3<f64>) -> Op
     ))
 }
 
+/// An inertia without a mass: no body turns hard and weighs nothing.
+fn without_mass(
+    place: &KeyPath,
+    name: &str,
+    (mass, inertia): (f64, &Matrix3<f64>),
+) -> Option<Finding> {
+    (mass == 0.0 && inertia.amax() > 0.0).then(|| {
+        Finding::new(
+            place,
+            format!("the body '{name}' has an inertia and no mass"),
+            "write its mass_kg, or leave out its inertia_kg_m2; that of a drive's rotor is written with the drive",
+        )
+    })
+}
+
 /// Of inertias in files, as the dynamics allow it.
 const ROUNDING: f64 = 1e-6;
 
@@ -53,6 +68,8 @@ impl LimbCheck<'_> {
             let place = self.place(&body.name, &["inertia_kg_m2"]);
             warnings.extend(no_body(&place, &body.name, &body.inertia));
             let place = self.place(&body.name, &["mass_kg"]);
+            let both = (body.mass, &body.inertia);
+            warnings.extend(without_mass(&place, &body.name, both));
             let what = format!("the body '{}'", body.name);
             warnings.extend(next_to_nothing(&place, &what, body.mass));
         }
