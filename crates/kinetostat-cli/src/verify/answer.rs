@@ -159,7 +159,6 @@ impl VerifyAnswer {
             .map(|other| other.lines[0]);
         let words = self.other_words.iter().filter(|word| word.fault.is_some());
         let words = words.map(|word| word.line.unwrap_or(1));
-        let tilted = self.tilted.iter().map(|tilted| tilted.line);
-        conditions.chain(words).chain(tilted).collect()
+        conditions.chain(words).collect()
     }
 }

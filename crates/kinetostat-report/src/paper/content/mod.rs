@@ -72,12 +72,19 @@ pub(crate) fn contents(paper: &Paper<'_>, result: &Shown<'_>) -> Contents {
     }
 }
 
+/// Whether the tolerance is kept along the program and by every feature of it.
+fn keeps_tolerances(of: &Of<'_>) -> bool {
+    let features = &of.result.features;
+    of.result.tolerance.held == Some(true) && features.iter().all(|f| f.held != Some(false))
+}
+
 fn verdict(of: &Of<'_>) -> Block {
     let words = of.words;
     let assessment = assessment(of.result);
     let (level, word) = match (&of.paper.verified, assessment.level) {
         (_, Level::Stop) => (Level::Stop, words.stop),
         (Some(verified), _) if verified.held => (Level::Good, words.verified),
+        (Some(_), _) if keeps_tolerances(of) => (Level::Attention, words.not_verified),
         (Some(_), _) => (Level::Attention, words.missed),
         (None, Level::Good) => (Level::Good, words.good),
         (None, Level::Unchanged) => (Level::Unchanged, words.unchanged),

@@ -23,6 +23,8 @@ const NAMES: f32 = 128.0;
 const SIGNATURE: f32 = 50.0;
 /// A heading with the head of a table of two lines and two rows below it.
 const WITH_TABLE: f32 = 84.0;
+/// A heading with the room above and below it.
+const HEADED: f32 = 32.0;
 
 /// Something on a page.
 #[derive(Clone, Debug)]
@@ -91,6 +93,10 @@ impl<'a> Setter<'a> {
                 // A table's heading and what is said of it stand on its page.
                 let lines = setter.lines(note, RIGHT - LEFT, SMALL, Weight::Regular);
                 setter.room(WITH_TABLE + SIZE * LEADING * lines.len() as f32);
+            }
+            if let [Block::Heading(_), Block::Signatures(all), ..] = &blocks[at..] {
+                // Who signs sees what for.
+                setter.room(HEADED + SIGNATURE * all.len() as f32);
             }
             setter.block(block);
         }

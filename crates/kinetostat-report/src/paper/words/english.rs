@@ -25,6 +25,7 @@ pub(super) const WORDS: Words = Words {
     stop: "Do not run",
     verified: "Verified",
     missed: "Tolerance missed",
+    not_verified: "Not verified",
     model_only: "These figures are the model's: they are as true as its stiffnesses and masses. Measure one place on the machine before you trust absolute numbers.",
     read_back: "The figures after compensation are not a forecast of the compensator: the written file was read back and solved again.",
     head_results: "Before and after",

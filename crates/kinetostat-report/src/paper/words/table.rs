@@ -27,6 +27,8 @@ pub(crate) struct Words {
     pub(crate) stop: &'static str,
     pub(crate) verified: &'static str,
     pub(crate) missed: &'static str,
+    /// Of a verified program that keeps its tolerance and is wrong otherwise.
+    pub(crate) not_verified: &'static str,
     pub(crate) model_only: &'static str,
     pub(crate) read_back: &'static str,
     /// Heads of sections.

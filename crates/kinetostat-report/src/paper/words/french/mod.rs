@@ -28,6 +28,7 @@ pub(super) const WORDS: Words = Words {
     stop: "Ne pas exécuter",
     verified: "Vérifié",
     missed: "Tolérance non tenue",
+    not_verified: "Non vérifié",
     model_only: "Ces valeurs sont celles du modèle : elles sont aussi justes que ses raideurs et ses masses. Mesurez un endroit sur la machine avant de vous fier aux valeurs absolues.",
     read_back: "Les valeurs après compensation ne sont pas une prévision du compensateur : le fichier écrit a été relu et recalculé.",
     head_results: "Avant et après",

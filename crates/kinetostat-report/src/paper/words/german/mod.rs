@@ -28,6 +28,7 @@ pub(super) const WORDS: Words = Words {
     stop: "Nicht ausführen",
     verified: "Bestätigt",
     missed: "Toleranz verfehlt",
+    not_verified: "Nicht bestätigt",
     model_only: "Diese Zahlen sind die des Modells: sie stimmen so weit, wie dessen Steifigkeiten und Massen stimmen. Messen Sie eine Stelle an der Maschine nach, bevor Sie sich auf Beträge verlassen.",
     read_back: "Die Zahlen nach der Kompensation sind keine Vorhersage des Korrekturverfahrens: die geschriebene Datei wurde wieder eingelesen und neu durchgerechnet.",
     head_results: "Vorher und nachher",
