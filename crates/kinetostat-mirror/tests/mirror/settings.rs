@@ -35,8 +35,10 @@ fn a_smoothing_length_of_nothing_is_refused() {
         assert!(MirrorState::new(&nominal, "abc", settings).is_err());
         // What the message names is allowed, and half of the least or twice the most is not.
         let named = why.split("lengths from ").last().unwrap();
-        let (least, most) = named.trim_end_matches(" mm").split_once(" to ").unwrap();
-        let [least, most] = [least, most].map(|x| x.parse::<f64>().unwrap());
+        let named = named.trim_end_matches(" times its own");
+        let (least, times) = named.split_once(" mm to ").unwrap();
+        let [least, times] = [least, times].map(|x| x.parse::<f64>().unwrap());
+        let most = times * nominal.length_mm();
         assert!(Stations::of(&nominal, least).is_ok(), "{why}");
         assert!(Stations::of(&nominal, 0.5 * least).is_err(), "{why}");
         assert!(Stations::of(&nominal, most).is_ok(), "{why}");
