@@ -12,5 +12,4 @@ mod orthoglide;
 mod platforms;
 mod reduction;
 mod responses;
-mod speed;
 mod swept;
