@@ -3,7 +3,7 @@
 use kinetostat_formats::Language;
 
 use crate::job::robot::read_program::RobotRead;
-use crate::verify::other_word::{FaultKind, OtherWord};
+use crate::verify::other_word::{FaultKind, Lines, OtherWord};
 
 /// Something that is called for, and its line.
 #[derive(Clone, PartialEq)]
@@ -30,25 +30,20 @@ pub(crate) fn called_tools(
         }
         found
     };
-    let told = |call: Call, is_own: bool| OtherWord {
-        text: match is_own {
-            true => format!("{} at line {} is not in the original", call.word, call.line),
-            false => format!(
-                "{} at line {} of the original is not in this program",
-                call.word, call.line
-            ),
-        },
-        line: is_own.then_some(call.line),
-        line_of_original: (!is_own).then_some(call.line),
-        is_frame: false,
-        fault: Some(call.what).filter(|what| *what == FaultKind::Tool || forces_from_cut),
-        word: call.word,
+    let found = |call: Call, lines: Lines| {
+        let fault = Some(call.what).filter(|what| *what == FaultKind::Tool || forces_from_cut);
+        let text = OtherWord::only_in_one(&call.word, lines);
+        OtherWord::new(call.word, fault, lines, text)
     };
-    let added = only(&own, &of_original);
-    let left_out = only(&of_original, &own);
-    (added.into_iter().map(|call| told(call, true)))
-        .chain(left_out.into_iter().map(|call| told(call, false)))
-        .collect()
+    let added = only(&own, &of_original).into_iter().map(|call| {
+        let lines = [Some(call.line), None];
+        found(call, lines)
+    });
+    let left_out = only(&of_original, &own).into_iter().map(|call| {
+        let lines = [None, Some(call.line)];
+        found(call, lines)
+    });
+    added.chain(left_out).collect()
 }
 
 fn calls(read: &RobotRead<'_>) -> Vec<Call> {

@@ -2,7 +2,7 @@
 
 use kinetostat_machining::{Condition, OtherCondition, Warning, WarningCode};
 
-use crate::verify::other_word::OtherWord;
+use crate::verify::other_word::{FaultKind, OtherWord};
 
 /// Whether the program must not run so: forces from the cut are others with another feed or spindle, and another tool that both
 /// name is of another length.
@@ -17,8 +17,8 @@ pub(crate) fn is_fault(other: &OtherCondition, forces_from_cut: bool) -> bool {
 pub(crate) fn said(other: &OtherCondition, forces_from_cut: bool) -> String {
     let what = match other.condition {
         Condition::Feed => "ANOTHER FEED",
-        Condition::Spindle => "ANOTHER SPEED OR DIRECTION OF THE SPINDLE",
-        Condition::Tool => "ANOTHER TOOL",
+        Condition::Spindle => FaultKind::Spindle.words(),
+        Condition::Tool => FaultKind::Tool.words(),
     };
     let [first, last] = other.lines;
     let lines = match first == last {

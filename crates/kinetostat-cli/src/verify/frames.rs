@@ -2,7 +2,7 @@
 
 use kinetostat_program::{Path, Program, ReadOptions};
 
-use crate::verify::other_word::{FaultKind, OtherWord};
+use crate::verify::other_word::{FaultKind, Lines, OtherWord};
 
 /// Frames of G-code, in the order of their origins under `[reading]`.
 const FRAMES: [&str; 9] = [
@@ -53,29 +53,18 @@ pub(crate) fn other_words(
     // Whoever stops at corners follows the path no worse.
     added.retain(|(word, _)| !word.starts_with("G61"));
     let left_out = only(&of_original, &of_verified);
-    let added = added
-        .into_iter()
-        .map(|(word, line)| only_in_one(word, (Some(line), None)));
-    let left_out = left_out
-        .into_iter()
-        .map(|(word, line)| only_in_one(word, (None, Some(line))));
+    let added = added.into_iter();
+    let added = added.map(|(word, line)| only_in_one(&word, [Some(line), None]));
+    let left_out = left_out.into_iter();
+    let left_out = left_out.map(|(word, line)| only_in_one(&word, [None, Some(line)]));
     added.chain(left_out).collect()
 }
 
-/// A word that only one of both has, on a line of the program or of the original.
-fn only_in_one(
-    word: String,
-    (line, line_of_original): (Option<usize>, Option<usize>),
-) -> OtherWord {
-    let what = match (line, line_of_original) {
-        (Some(line), _) => format!("{word} at line {line} is not in the original"),
-        (None, of) => format!(
-            "{word} at line {} of the original is not in this program",
-            of.unwrap_or(0)
-        ),
-    };
-    let is_frame = FRAMES.contains(&word.as_str()) || word == SHIFT;
-    let follows = if is_path_mode(&word) {
+/// A word that only one of both has, and what follows from it.
+fn only_in_one(word: &str, lines: Lines) -> OtherWord {
+    let what = OtherWord::only_in_one(word, lines);
+    let is_frame = FRAMES.contains(&word) || word == SHIFT;
+    let follows = if is_path_mode(word) {
         "the control follows the path otherwise, and leaves its corners by what that allows; nothing here has that in it"
     } else if word == SHIFT {
         "before the program has said where the tool is, it shifts the frame by what the control knows"
@@ -84,14 +73,8 @@ fn only_in_one(
     } else {
         "the control moves the tool by what its table has there"
     };
-    OtherWord {
-        text: format!("{what}: {follows}"),
-        fault: is_frame.then_some(FaultKind::Frame),
-        is_frame,
-        word,
-        line,
-        line_of_original,
-    }
+    let fault = is_frame.then_some(FaultKind::Frame);
+    OtherWord::new(word, fault, lines, format!("{what}: {follows}"))
 }
 
 fn is_path_mode(word: &str) -> bool {

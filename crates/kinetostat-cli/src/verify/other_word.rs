@@ -12,7 +12,7 @@ pub(crate) struct OtherWord {
     pub(crate) line_of_original: Option<usize>,
     /// Whether it names a frame.
     pub(crate) is_frame: bool,
-    /// What it is a fault of; none where it is told and the program may be right.
+    /// What is wrong with the program by it; none where it is a warning, and the program may be right.
     pub(crate) fault: Option<FaultKind>,
     /// What is said of it.
     pub(crate) text: String,
@@ -38,7 +38,37 @@ impl FaultKind {
     }
 }
 
+/// Line of the program and of the original; none of the one that does not have the word.
+pub(crate) type Lines = [Option<usize>; 2];
+
 impl OtherWord {
+    pub(crate) fn new(
+        word: impl Into<String>,
+        fault: Option<FaultKind>,
+        [line, line_of_original]: Lines,
+        text: String,
+    ) -> Self {
+        Self {
+            word: word.into(),
+            line,
+            line_of_original,
+            is_frame: fault == Some(FaultKind::Frame),
+            fault,
+            text,
+        }
+    }
+
+    /// That only one of both programs has a word.
+    pub(crate) fn only_in_one(word: &str, lines: Lines) -> String {
+        match lines {
+            [Some(line), _] => format!("{word} at line {line} is not in the original"),
+            [None, of] => format!(
+                "{word} at line {} of the original is not in this program",
+                of.unwrap_or(0)
+            ),
+        }
+    }
+
     /// The fault as a sentence, if it is one.
     pub(crate) fn fault_text(&self) -> Option<String> {
         let fault = self.fault?;

@@ -1,9 +1,12 @@
 //! What a robot's or a control's program says beside its places: frames, tools, how near it comes to ends of motions, and how the arm
 //! stands there.
 
+use std::collections::BTreeSet;
+
 use kinetostat_formats::{FrameUse, Motion, Target, Zone};
 use nalgebra::Vector3;
 
+use crate::job::robot::frame_distance::distance;
 use crate::job::robot::read_program::RobotRead;
 use crate::ui::numbers::{number, short, triple};
 use crate::verify::called_tools::called_tools;
@@ -36,28 +39,11 @@ fn first_line(read: &RobotRead<'_>) -> Option<usize> {
     Some(read.program.motions.first()?.line)
 }
 
-fn other(
-    word: &str,
-    fault: Option<FaultKind>,
-    lines: [Option<usize>; 2],
-    text: String,
-) -> OtherWord {
-    OtherWord {
-        word: word.to_owned(),
-        line: lines[0],
-        line_of_original: lines[1],
-        is_frame: fault == Some(FaultKind::Frame),
-        fault,
-        text,
-    }
-}
-
 /// Why two frames are not one.
 fn apart(own: &FrameUse, of_original: &FrameUse) -> Option<String> {
     match (own.known(), of_original.known()) {
         (Some(a), Some(b)) => {
-            let mm = (a.translation.vector - b.translation.vector).norm();
-            let turn = a.rotation.angle_to(&b.rotation);
+            let [mm, turn] = distance(a, b);
             let shown =
                 |v: &Vector3<f64>| triple([v.x, v.y, v.z], |x| short((1e4 * x).round() / 1e4));
             let place = (mm > SAME_MM).then(|| {
@@ -89,12 +75,17 @@ fn work_objects(original: &RobotRead<'_>, verified: &RobotRead<'_>) -> Option<Ot
         return (several[0] != several[1]).then(|| {
             let text =
                 "one of both programs goes in one work object and the other in several".to_owned();
-            other("work object", Some(FaultKind::Frame), lines, text)
+            OtherWord::new("work object", Some(FaultKind::Frame), lines, text)
         });
     };
     let why = apart(own, of_original)?;
     let text = format!("work object '{}' {why}", own.name);
-    Some(other(&own.name, Some(FaultKind::Frame), lines, text))
+    Some(OtherWord::new(
+        own.name.as_str(),
+        Some(FaultKind::Frame),
+        lines,
+        text,
+    ))
 }
 
 /// Tools that stand otherwise in the flange.
@@ -111,14 +102,19 @@ fn tools(original: &RobotRead<'_>, verified: &RobotRead<'_>) -> Vec<OtherWord> {
         let lines = [line_with(verified, tool), line_with(original, beside)];
         if let Some(why) = apart(tool, beside) {
             let text = format!("tool '{}' {why}", tool.name);
-            return Some(other(&tool.name, Some(FaultKind::Tool), lines, text));
+            return Some(OtherWord::new(
+                tool.name.as_str(),
+                Some(FaultKind::Tool),
+                lines,
+                text,
+            ));
         }
         (tool.name != beside.name).then(|| {
             let text = format!(
                 "tool '{}' is '{}' in the original, at the same place",
                 tool.name, beside.name
             );
-            other(&tool.name, None, lines, text)
+            OtherWord::new(tool.name.as_str(), None, lines, text)
         })
     })
     .collect()
@@ -135,7 +131,7 @@ fn exact_stops(original: &RobotRead<'_>, verified: &RobotRead<'_>) -> Option<Oth
         let text = format!(
             "{of_original} motions of the original stop at their ends, and {own} of this program: corners are left by what the control allows, and no figure has that in it"
         );
-        other("exact stop", None, [None, None], text)
+        OtherWord::new("exact stop", None, [None, None], text)
     })
 }
 
@@ -157,7 +153,7 @@ fn radii(original: &RobotRead<'_>, verified: &RobotRead<'_>) -> Option<OtherWord
             short(mm),
             short(of_original)
         );
-        other("zone", None, [Some(line), None], text)
+        OtherWord::new("zone", None, [Some(line), None], text)
     })
 }
 
@@ -167,7 +163,7 @@ fn configurations(original: &RobotRead<'_>, verified: &RobotRead<'_>) -> Option<
         Target::Pose(pose) => Some(pose.configuration.text.replace(char::is_whitespace, "")),
         _ => None,
     };
-    let known: Vec<String> = original.program.motions.iter().filter_map(of).collect();
+    let known: BTreeSet<String> = original.program.motions.iter().filter_map(of).collect();
     let mut own = verified.program.motions.iter();
     let is_new = |motion: &&Motion| of(motion).is_some_and(|text| !known.contains(&text));
     let motion = own.find(is_new)?;
@@ -176,7 +172,7 @@ fn configurations(original: &RobotRead<'_>, verified: &RobotRead<'_>) -> Option<
         of(motion)?,
         motion.line
     );
-    Some(other(
+    Some(OtherWord::new(
         "configuration",
         None,
         [Some(motion.line), None],

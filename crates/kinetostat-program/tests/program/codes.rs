@@ -163,7 +163,7 @@ fn where_controllers_disagree_the_line_is_named() {
     }
 }
 
-/// What a control may leave the path by is told where it matters, in millimetres.
+/// A path tolerance of the control above a hundredth of a millimetre is a warning, in millimetres.
 #[test]
 fn a_path_tolerance_is_told() {
     let told = |mode: &str, units: &str| {

@@ -12,6 +12,7 @@ pub(crate) mod divided;
 pub(crate) mod first_place;
 pub(crate) mod flat;
 mod folder;
+pub(crate) mod frame_distance;
 pub(crate) mod frames;
 pub(crate) mod joint_arm;
 pub(crate) mod machine;

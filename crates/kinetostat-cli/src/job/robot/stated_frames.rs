@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use kinetostat_formats::{FrameUse, RobotProgram, read};
 use kinetostat_program::Warning;
 
+use crate::job::robot::frame_distance::distance;
 use crate::job::robot::source::RobotSource;
 use crate::ui::numbers::short;
 
@@ -103,9 +104,7 @@ fn otherwise(source: &RobotSource, used: &BTreeMap<String, (usize, &FrameUse)>) 
     let own = frames(&own);
     let differs = |(name, (line, frame)): (&String, &(usize, &FrameUse))| {
         let (job, (_, program)) = (frame.known()?, own.get(name)?);
-        let program = program.known()?;
-        let away = (job.translation.vector - program.translation.vector).norm();
-        let turned = job.rotation.angle_to(&program.rotation);
+        let [away, turned] = distance(job, program.known()?);
         (away > SAME || turned > SAME).then(|| Warning {
             line: *line,
             text: format!(

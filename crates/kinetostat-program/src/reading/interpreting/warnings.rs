@@ -7,7 +7,7 @@ use crate::reading::interpreting::interpreter::Interpreter;
 use crate::reading::options::{OtherAxes, Units};
 use crate::text::program::Program;
 
-/// Paths that controls leave by less are not told of, mm: what is written holds hundredths.
+/// Path tolerances up to this get no warning, mm: programs hold hundredths.
 const LEAVES_MM: f64 = 0.01;
 
 impl Interpreter<'_> {
