@@ -192,6 +192,7 @@ impl ModelField<'_> {
             })
             .collect()
         })
+        .collect()
     }
 }
 

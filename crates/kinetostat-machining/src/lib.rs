@@ -112,7 +112,8 @@ pub use run::summary::feed_arcs;
 pub use table::{FieldCorrection, correct_by_field, wide_table};
 pub use task::{NoMotion, RunError, Task};
 pub use verify::{
-    Condition, ExtraCut, Matched, OtherCondition, RapidElsewhere, Uncut, Verified, verify_program,
+    Condition, ExtraCut, Matched, OtherCondition, RapidElsewhere, Turned, Uncut, Verified,
+    verify_program,
 };
 pub use warning::{Warning, WarningCode};
 pub use watch::{Unwatched, Watch};

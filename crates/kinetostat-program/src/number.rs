@@ -2,11 +2,47 @@
 
 /// `value` with exactly `decimals` digits after the point, never an exponent, never `-0`.
 pub fn fixed(value: f64, decimals: usize) -> String {
+    if let Some(text) = of_units(value, decimals) {
+        return text;
+    }
     let text = format!("{value:.decimals$}");
     match text.strip_prefix('-') {
         Some(digits) if digits.bytes().all(|byte| matches!(byte, b'0' | b'.')) => digits.to_owned(),
         _ => text,
     }
+}
+
+/// The same by whole units of the last digit, where the product that says how many there are is not near enough to a half to be
+/// rounded to the wrong side: it is off by no more than 1e-7 units.
+fn of_units(value: f64, decimals: usize) -> Option<String> {
+    const MOST: f64 = 1e9;
+    const NEAREST_TO_HALF: f64 = 1e-6;
+    if decimals > 9 {
+        return None;
+    }
+    let units = value.abs() * 10_f64.powi(decimals as i32);
+    let whole = units.round();
+    // Also where it is no number.
+    let is_clear = units < MOST && (units - whole).abs() < 0.5 - NEAREST_TO_HALF;
+    if !is_clear {
+        return None;
+    }
+    let mut text = String::with_capacity(16);
+    if value < 0.0 && whole > 0.0 {
+        text.push('-');
+    }
+    let digits = (whole as u64).to_string();
+    let (before, zeros) = match digits.len().checked_sub(decimals) {
+        Some(0) | None => ("0", decimals - digits.len()),
+        Some(before) => (&digits[..before], 0),
+    };
+    text.push_str(before);
+    if decimals > 0 {
+        text.push('.');
+        text.extend(std::iter::repeat_n('0', zeros));
+        text.push_str(&digits[digits.len().saturating_sub(decimals)..]);
+    }
+    Some(text)
 }
 
 /// A largest value with three digits, as results show it, never stated too small; what is a round number but for its

@@ -153,6 +153,9 @@ fn rows_text(rows: &[usize], what: &str) -> String {
 fn why(why: WhyLeftOut) -> &'static str {
     match why {
         WhyLeftOut::BeyondWindow => "it is beyond the window (--window-mm)",
+        WhyLeftOut::NotOnItsLine => {
+            "the line that it names (column line) makes no cut there, if it is a cut of the program at all"
+        }
         WhyLeftOut::SeveralStretches => {
             "several passes of the tool come by; a column line, --align arc-length or a smaller --window-mm tells them apart"
         }

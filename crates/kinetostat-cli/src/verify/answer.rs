@@ -1,8 +1,8 @@
 //! What `verify` answers.
 
 use kinetostat_machining::{
-    FeatureResult, FileRead, MissedTolerance, PointResult, RunResult, Verified, Warning,
-    farthest_off,
+    FeatureResult, FileRead, FlatProgram, MissedTolerance, PointResult, RunResult, Verified,
+    Warning, farthest_off,
 };
 use kinetostat_report::{Language, Paper, VerifiedProgram};
 use serde::Serialize;
@@ -47,6 +47,9 @@ pub(crate) struct VerifyAnswer {
     /// Places where the program is farthest off, worst first; at most ten.
     pub(crate) worst_points: Vec<PointResult>,
     pub(crate) warnings: Vec<Warning>,
+    /// The original as it was run, where that is another text than its file.
+    #[serde(skip)]
+    pub(crate) flat_original: Option<FlatProgram>,
 }
 
 impl VerifyAnswer {
@@ -57,6 +60,7 @@ impl VerifyAnswer {
         allowed_mm: f64,
         (forces_from_cut, other_words): (bool, Vec<OtherWord>),
         tilted: Option<Tilted>,
+        flat_original: Option<FlatProgram>,
     ) -> Self {
         let result = &verified.run.result;
         let s = &result.summary;
@@ -75,6 +79,7 @@ impl VerifyAnswer {
             &matched.conditions,
             &other_words,
             forces_from_cut,
+            |line| source_of(flat_original.as_ref(), line),
         ));
         Self {
             schema: 1,
@@ -109,7 +114,13 @@ impl VerifyAnswer {
             features: result.features.clone(),
             worst_points,
             warnings,
+            flat_original,
         }
+    }
+
+    /// What stands behind a line of the original: nothing, or where it came from.
+    pub(crate) fn source(&self, line: usize) -> String {
+        source_of(self.flat_original.as_ref(), line)
     }
 
     /// The run as a paper has it: what was verified is its program, with what it says of its tolerance.
@@ -136,13 +147,23 @@ impl VerifyAnswer {
         let uncut = self.matched.uncut.iter();
         let rapids = self.matched.rapids.iter();
         let extra = self.matched.extra_cuts.iter();
+        let in_file = |line: usize| match &self.flat_original {
+            // Of files that are called the paper has the lines as they were run.
+            Some(flat) => match flat.source_of(line) {
+                Some((file, source)) if flat.files.first().is_some_and(|own| own == file) => source,
+                _ => line,
+            },
+            None => line,
+        };
         Paper::of(run)
             .in_language(language)
             .of_verified(VerifiedProgram {
                 original: self.against.clone(),
                 held: self.held,
                 allowed_mm: self.allowed_mm,
-                uncut: uncut.map(|uncut| (uncut.lines, uncut.length_mm)).collect(),
+                uncut: uncut
+                    .map(|uncut| (uncut.lines.map(in_file), uncut.length_mm))
+                    .collect(),
                 rapids: rapids
                     .map(|rapid| (rapid.line, rapid.distance_mm))
                     .collect(),
@@ -161,4 +182,12 @@ impl VerifyAnswer {
         let words = words.map(|word| word.line.unwrap_or(1));
         conditions.chain(words).collect()
     }
+}
+
+/// Where a line of a program that was run came from.
+fn source_of(flat: Option<&FlatProgram>, line: usize) -> String {
+    let source = flat.and_then(|flat| flat.source_of(line));
+    source.map_or_else(String::new, |(file, from)| {
+        format!(" (line {from} of {file})")
+    })
 }

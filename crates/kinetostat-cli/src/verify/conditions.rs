@@ -13,8 +13,8 @@ pub(crate) fn is_fault(other: &OtherCondition, forces_from_cut: bool) -> bool {
     }
 }
 
-/// What differs, as a sentence.
-pub(crate) fn said(other: &OtherCondition, forces_from_cut: bool) -> String {
+/// What differs, as a sentence; `source` says where the line of the original came from.
+pub(crate) fn said(other: &OtherCondition, forces_from_cut: bool, source: &str) -> String {
     let what = match other.condition {
         Condition::Feed => "ANOTHER FEED",
         Condition::Spindle => FaultKind::Spindle.words(),
@@ -33,7 +33,7 @@ pub(crate) fn said(other: &OtherCondition, forces_from_cut: bool) -> String {
         _ => "",
     };
     format!(
-        "{what} {lines}: {}, where the original has {} (line {} there){follows}.",
+        "{what} {lines}: {}, where the original has {} (line {}{source} there){follows}.",
         other.of_program, other.of_original, other.line_of_original
     )
 }
@@ -43,12 +43,13 @@ pub(crate) fn warnings(
     conditions: &[OtherCondition],
     words: &[OtherWord],
     forces_from_cut: bool,
+    source: impl Fn(usize) -> String,
 ) -> Vec<Warning> {
     let conditions = conditions
         .iter()
         .filter(|other| !is_fault(other, forces_from_cut))
         .map(|other| {
-            let text = said(other, forces_from_cut);
+            let text = said(other, forces_from_cut, &source(other.line_of_original));
             Warning::new(WarningCode::OtherThanOriginal, text.trim_end_matches('.'))
         });
     let words = words.iter().filter(|word| word.fault.is_none());

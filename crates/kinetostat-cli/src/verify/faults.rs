@@ -19,8 +19,15 @@ impl VerifyAnswer {
         for uncut in &self.matched.uncut {
             let [first, last] = uncut.lines;
             let lines = match first == last {
-                true => format!("LINE {first} OF THE ORIGINAL IS NOT CUT"),
-                false => format!("LINES {first} TO {last} OF THE ORIGINAL ARE NOT CUT"),
+                true => format!(
+                    "LINE {first}{} OF THE ORIGINAL IS NOT CUT",
+                    self.source(first)
+                ),
+                false => format!(
+                    "LINES {first}{} TO {last}{} OF THE ORIGINAL ARE NOT CUT",
+                    self.source(first),
+                    self.source(last)
+                ),
             };
             let length = kinetostat_machining::number::largest_length(uncut.length_mm);
             faults.push(format!("{lines} by this program: {length} of path."));
@@ -35,7 +42,10 @@ impl VerifyAnswer {
         for rapid in &self.matched.rapids {
             let off = kinetostat_machining::number::largest_length(rapid.distance_mm);
             let of_original = match rapid.line_of_original {
-                Some(line) => format!("from that of the original (line {line} there)"),
+                Some(line) => format!(
+                    "from that of the original (line {line}{} there)",
+                    self.source(line)
+                ),
                 None => "beside or along the cut, where the original has none".to_owned(),
             };
             faults.push(format!(
@@ -47,7 +57,7 @@ impl VerifyAnswer {
         faults.extend(
             conditions
                 .filter(|other| conditions::is_fault(other, self.forces_from_cut))
-                .map(|other| conditions::said(other, true)),
+                .map(|other| conditions::said(other, true, &self.source(other.line_of_original))),
         );
         faults.extend(self.other_words.iter().filter_map(OtherWord::fault_text));
         faults.extend(self.tilted.iter().map(Tilted::text));
@@ -55,8 +65,10 @@ impl VerifyAnswer {
             let (error, allowed) =
                 kinetostat_machining::number::against(m.error_mm, self.allowed_mm);
             faults.push(format!(
-                "THE TOLERANCE IS MISSED at line {} (line {} of the original): the tool is {error} off, more than the {allowed} that are allowed.",
-                m.output_line, m.line
+                "THE TOLERANCE IS MISSED at line {} (line {}{} of the original): the tool is {error} off, more than the {allowed} that are allowed.",
+                m.output_line,
+                m.line,
+                self.source(m.line)
             ));
         }
         faults.extend(self.features.iter().filter_map(FeatureResult::missed_text));

@@ -2,6 +2,7 @@
 
 use kinetostat_program::{Path, Program, ReadOptions};
 
+use crate::verify::in_force::InForce;
 use crate::verify::other_word::{FaultKind, Lines, OtherWord};
 
 /// Frames of G-code, in the order of their origins under `[reading]`.
@@ -18,16 +19,39 @@ const SHIFT: &str = "G92";
 /// Modes in which the control follows the path: from exact stops to rounded corners.
 const PATH_MODES: [&str; 3] = ["G61", "G61.1", "G64"];
 
-/// The words that only one of both programs has. Frames whose origins are stated are where the programs are read, and the first of
+/// The words that only one of both programs has, and those with which the lines of cuts (of the program verified, of the
+/// original) are not made in both. Frames whose origins are stated are where the programs are read, and the first of
 /// them is in force without a word.
 pub(crate) fn other_words(
     original: (&Program, &Path),
     verified: (&Program, &Path),
-    reading: &ReadOptions,
+    (reading, cut_lines): (&ReadOptions, &[[usize; 2]]),
 ) -> Vec<OtherWord> {
+    let all = [verified.0, original.0].map(all_words);
+    let is_stated = |word: &str| {
+        let frame = FRAMES.iter().position(|frame| *frame == word);
+        frame.is_some_and(|index| reading.work_offsets_mm[index].is_some())
+    };
+    let mut elsewhere = Vec::new();
+    for kind in KINDS {
+        let [own, of_original] = all.each_ref().map(|all| kind.in_force(all));
+        let same = |own: &str, of_original: &str| match kind {
+            // Places in frames with stated origins are compared as places.
+            Kind::Frame => is_stated(own) && is_stated(of_original),
+            // Whoever stops at corners follows the path no worse.
+            Kind::PathMode => own.starts_with("G61"),
+            Kind::Length | Kind::Radius => false,
+        };
+        let found = own.elsewhere(&of_original, cut_lines, same);
+        elsewhere.extend(found.into_iter().map(|found| (kind, found)));
+    }
+    let is_said = |word: &str| {
+        let mut said = elsewhere.iter();
+        said.any(|(_, found)| found.word == word || found.of_original == word)
+    };
     let known = |(program, path): (&Program, &Path)| {
         let first = path.moves.first().map_or(usize::MAX, |first| first.line);
-        let mut found = words(program);
+        let mut found = first_words(program);
         // Behind a place that is known a shift is in the path that was read.
         found.retain(|(word, line)| word != SHIFT || *line < first);
         found
@@ -35,7 +59,7 @@ pub(crate) fn other_words(
     let (of_original, of_verified) = (known(original), known(verified));
     let is_unknown = |word: &str| match FRAMES.iter().position(|frame| *frame == word) {
         Some(index) => reading.work_offsets_mm[index].is_none(),
-        None => OFFSETS.contains(&word) || word == SHIFT || is_path_mode(word),
+        None => OFFSETS.contains(&code(word)) || word == SHIFT || is_path_mode(word),
     };
     let has_frame = |words: &[(String, usize)]| {
         let mut words = words.iter();
@@ -45,7 +69,7 @@ pub(crate) fn other_words(
         let missing = own.iter().filter(|(word, _)| {
             let known = others.iter().any(|(other, _)| other == word);
             let usual = word == FRAMES[0] && !has_frame(others);
-            is_unknown(word) && !known && !usual
+            is_unknown(word) && !known && !usual && !is_said(word)
         });
         missing.cloned().collect()
     };
@@ -57,7 +81,77 @@ pub(crate) fn other_words(
     let added = added.map(|(word, line)| only_in_one(&word, [Some(line), None]));
     let left_out = left_out.into_iter();
     let left_out = left_out.map(|(word, line)| only_in_one(&word, [None, Some(line)]));
-    added.chain(left_out).collect()
+    let mut found: Vec<OtherWord> = added.chain(left_out).collect();
+    found.extend((elsewhere.into_iter()).map(|(kind, found)| found.other_word(kind.fault(), "")));
+    found.extend(optional_cut((original.0, verified.0), cut_lines));
+    found
+}
+
+/// The first cut that the control leaves out where a switch says so, and not in the original.
+fn optional_cut(
+    (original, verified): (&Program, &Program),
+    cut_lines: &[[usize; 2]],
+) -> Option<OtherWord> {
+    let is_optional = |program: &Program, line: usize| {
+        let text = program.line_bytes(line).unwrap_or_default();
+        text.trim_ascii_start().starts_with(b"/")
+    };
+    let differs =
+        |lines: &&[usize; 2]| is_optional(verified, lines[0]) && !is_optional(original, lines[1]);
+    let all = cut_lines.iter().filter(differs).count();
+    let [line, there] = *cut_lines.iter().find(differs)?;
+    let text = format!(
+        "/ begins line {line} (and {} more), line {there} of the original does not: where the control is switched to leave such blocks out, they are not made",
+        all - 1
+    );
+    Some(OtherWord::new("/", None, [Some(line), Some(there)], text))
+}
+
+/// Words of which the last one is in force.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Kind {
+    Frame,
+    Length,
+    Radius,
+    PathMode,
+}
+
+const KINDS: [Kind; 4] = [Kind::Frame, Kind::Length, Kind::Radius, Kind::PathMode];
+
+impl Kind {
+    fn of(word: &str) -> Option<Self> {
+        match code(word) {
+            frame if FRAMES.contains(&frame) => Some(Self::Frame),
+            "G43" | "G43.1" | "G43.2" | "G44" | "G49" => Some(Self::Length),
+            "G40" | "G41" | "G42" => Some(Self::Radius),
+            _ if is_path_mode(word) => Some(Self::PathMode),
+            _ => None,
+        }
+    }
+
+    /// What is in force without a word.
+    fn usual(self) -> &'static str {
+        match self {
+            Self::Frame => FRAMES[0],
+            Self::Length => "G49",
+            Self::Radius => "G40",
+            Self::PathMode => "what the control is set up for",
+        }
+    }
+
+    fn in_force(self, all: &[(usize, String)]) -> InForce {
+        let own = all.iter().filter(|(_, word)| Self::of(word) == Some(self));
+        InForce::new(self.usual(), own.cloned())
+    }
+
+    /// Both programs have such words, so that one of them is wrong.
+    fn fault(self) -> Option<FaultKind> {
+        match self {
+            Self::Frame => Some(FaultKind::Frame),
+            Self::Length | Self::Radius => Some(FaultKind::Tool),
+            Self::PathMode => None,
+        }
+    }
 }
 
 /// A word that only one of both has, and what follows from it.
@@ -78,25 +172,64 @@ fn only_in_one(word: &str, lines: Lines) -> OtherWord {
 }
 
 fn is_path_mode(word: &str) -> bool {
-    PATH_MODES.contains(&word.split(' ').next().unwrap_or_default())
+    PATH_MODES.contains(&code(word))
+}
+
+/// A word without what belongs to it.
+fn code(word: &str) -> &str {
+    word.split(' ').next().unwrap_or_default()
 }
 
 /// Words with G, each with the first line that has it.
-fn words(program: &Program) -> Vec<(String, usize)> {
+fn first_words(program: &Program) -> Vec<(String, usize)> {
     let mut found: Vec<(String, usize)> = Vec::new();
-    for line in 1..=program.line_count() {
-        let text = String::from_utf8_lossy(program.line_bytes(line).unwrap_or_default());
-        for word in words_of(&text) {
-            if !found.iter().any(|(known, _)| *known == word) {
-                found.push((word, line));
-            }
+    for (line, word) in all_words(program) {
+        if !found.iter().any(|(known, _)| *known == word) {
+            found.push((word, line));
         }
     }
     found
 }
 
-/// Words with G of a line, without blanks, leading zeros and zeros behind the point.
+/// Words with G that this looks at, with their lines.
+fn all_words(program: &Program) -> Vec<(usize, String)> {
+    let lines = 1..=program.line_count();
+    let words = lines.flat_map(|line| {
+        let text = String::from_utf8_lossy(program.line_bytes(line).unwrap_or_default());
+        let words = words_of(&text).into_iter();
+        words.map(move |word| (line, word))
+    });
+    let is_looked_at = |word: &str| word == SHIFT || Kind::of(word).is_some();
+    words.filter(|(_, word)| is_looked_at(word)).collect()
+}
+
+/// Words with G of a line, without blanks, leading zeros and zeros behind the point, each with the words that belong to it:
+/// `G64 P0.5 Q0.1`, `G43 H2`.
 fn words_of(line: &str) -> Vec<String> {
+    let letters = letters_of(line);
+    let codes = letters.iter().filter(|(letter, _)| *letter == 'G');
+    let with = |belong: &str| -> String {
+        let own = letters
+            .iter()
+            .filter(|(letter, _)| belong.contains(*letter));
+        own.map(|(letter, number)| format!(" {letter}{number}"))
+            .collect()
+    };
+    let word = |(_, number): &(char, String)| {
+        let belong = match number.as_str() {
+            "64" => "PQ",
+            "43" | "43.2" | "44" => "H",
+            "43.1" => "XYZ",
+            "41" | "42" => "D",
+            _ => "",
+        };
+        format!("G{number}{}", with(belong))
+    };
+    codes.map(word).collect()
+}
+
+/// Letters of a line with the numbers behind them; comments are none of it.
+fn letters_of(line: &str) -> Vec<(char, String)> {
     let mut rest = line.chars().filter(|c| !c.is_whitespace()).peekable();
     let mut found = Vec::new();
     let mut depth = 0_usize;
@@ -105,40 +238,17 @@ fn words_of(line: &str) -> Vec<String> {
             '(' => depth += 1,
             ')' => depth = depth.saturating_sub(1),
             ';' if depth == 0 => break,
-            'g' | 'G' if depth == 0 => {
+            letter if depth == 0 && letter.is_ascii_alphabetic() => {
                 let mut number = String::new();
-                while let Some(digit) = rest.next_if(|c| c.is_ascii_digit() || *c == '.') {
+                let is_digit = |c: &char| c.is_ascii_digit() || matches!(c, '.' | '-' | '+');
+                while let Some(digit) = rest.next_if(is_digit) {
                     number.push(digit);
                 }
                 if let Ok(value) = number.parse::<f64>() {
-                    let tolerances = match value == 64.0 {
-                        true => tolerances(rest.clone()),
-                        false => String::new(),
-                    };
-                    found.push(format!("G{value}{tolerances}"));
+                    found.push((letter.to_ascii_uppercase(), value.to_string()));
                 }
             }
             _ => {}
-        }
-    }
-    found
-}
-
-/// By how much the control may leave the path, as G64 has it behind itself on its line: ` P0.5 Q0.1`.
-fn tolerances(rest: impl Iterator<Item = char>) -> String {
-    let mut rest = rest
-        .take_while(|c| !matches!(c, '(' | ';'))
-        .map(|c| c.to_ascii_uppercase())
-        .peekable();
-    let mut found = String::new();
-    while let Some(c) = rest.next() {
-        if matches!(c, 'P' | 'Q') {
-            let mut number = String::new();
-            while let Some(digit) = rest.next_if(|c| c.is_ascii_digit() || matches!(c, '.' | '-')) {
-                number.push(digit);
-            }
-            let number = number.parse::<f64>().map_or(number, |x| x.to_string());
-            found.push_str(&format!(" {c}{number}"));
         }
     }
     found

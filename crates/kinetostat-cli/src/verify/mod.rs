@@ -8,15 +8,18 @@ mod called_tools;
 mod conditions;
 mod faults;
 mod frames;
+mod in_force;
 mod other_word;
 mod robot_words;
+mod siemens_words;
+mod statements;
 mod text;
 mod tilted;
 
 use std::path::{Path, PathBuf};
 
 use kinetostat::Directions;
-use kinetostat_machining::{RunError, Verified, verify_program};
+use kinetostat_machining::{Condition, RunError, Verified, verify_program};
 use kinetostat_program::Move;
 
 use crate::files::input_files::InputFiles;
@@ -123,9 +126,10 @@ pub(crate) fn run(args: &VerifyArgs) -> Answer<()> {
         (forces_from_cut, other_words),
         Tilted::of(
             &found.run.points,
-            corrected,
+            (corrected, found.matched.turned.as_ref()),
             (allowed_mm, original.writing.turn_lever_mm),
         ),
+        original.flat.clone().filter(|_| original.robot.is_none()),
     );
     if let Some(index) = json_out {
         claimed.fill(index, json::json(&answer)?.as_bytes())?;
@@ -159,7 +163,10 @@ pub(crate) fn run(args: &VerifyArgs) -> Answer<()> {
     json::print_answer(&text, &answer, to_screen)?;
     match answer.held {
         true => Ok(()),
-        false => Err(verified.within(Failure::tolerance_missed(answer.faults().join("\n")))),
+        false => {
+            let faults = answer.faults().join("\n");
+            Err(Failure::tolerance_missed(faults).within(&verified.program_name))
+        }
     }
 }
 
@@ -223,7 +230,7 @@ fn solved(
         in_threads(threads, || verify_program(task, program, &progress))
     })??;
     progress.finish();
-    let found = found.map_err(|error| {
+    let mut found = found.map_err(|error| {
         // Its line is one of the verified program; those of all others are the original's.
         let of = match error {
             RunError::Elsewhere { .. } => verified,
@@ -239,10 +246,15 @@ fn solved(
     let uncut = cuts.map(|m| m.line).filter(left_out).collect();
     let other_words = match ((read.gcode(), other.gcode()), (read.robot(), other.robot())) {
         ((Some(of_original), Some(of_verified)), _) => {
-            other_words(of_original, of_verified, &original.reading)
+            let cuts = found.matched.cut_lines.as_slice();
+            other_words(of_original, of_verified, (&original.reading, cuts))
         }
         (_, (Some(of_original), Some(of_verified))) => {
-            robot_words(of_original, of_verified, forces.is_some())
+            // Tools of robots have names, and are compared where they are.
+            let conditions = &mut found.matched.conditions;
+            conditions.retain(|other| other.condition != Condition::Tool);
+            let cuts = found.matched.cut_lines.as_slice();
+            robot_words(of_original, of_verified, (cuts, forces.is_some()))
         }
         _ => Vec::new(),
     };

@@ -25,6 +25,8 @@ pub(crate) enum FaultKind {
     Frame,
     Tool,
     Spindle,
+    /// Which motions are made.
+    Course,
 }
 
 impl FaultKind {
@@ -34,6 +36,7 @@ impl FaultKind {
             Self::Frame => "ANOTHER FRAME",
             Self::Tool => "ANOTHER TOOL",
             Self::Spindle => "ANOTHER SPEED OR DIRECTION OF THE SPINDLE",
+            Self::Course => "ANOTHER COURSE OF THE PROGRAM",
         }
     }
 }

@@ -1,7 +1,7 @@
 //! What a robot's or a control's program says beside its places: frames, tools, how near it comes to ends of motions, and how the arm
 //! stands there.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use kinetostat_formats::{FrameUse, Motion, Target, Zone};
 use nalgebra::Vector3;
@@ -11,6 +11,8 @@ use crate::job::robot::read_program::RobotRead;
 use crate::ui::numbers::{number, short, triple};
 use crate::verify::called_tools::called_tools;
 use crate::verify::other_word::{FaultKind, OtherWord};
+use crate::verify::siemens_words::siemens_words;
+use crate::verify::statements::statements;
 
 /// Frames nearer to each other than this are one: more digits than controllers write, mm and rad.
 const SAME_MM: f64 = 1e-3;
@@ -23,12 +25,20 @@ const PASSED_MM: f64 = 0.3;
 pub(crate) fn robot_words(
     original: &RobotRead<'_>,
     verified: &RobotRead<'_>,
-    forces_from_cut: bool,
+    (cut_lines, forces_from_cut): (&[[usize; 2]], bool),
 ) -> Vec<OtherWord> {
     let mut found = Vec::new();
     found.extend(work_objects(original, verified));
-    found.extend(tools(original, verified));
+    let of_tools = tools(original, verified);
+    // What is said of a tool as such holds at all its cuts.
+    if of_tools.iter().all(|tool| tool.fault.is_none()) {
+        found.extend(tool_at_cuts(original, verified, cut_lines));
+    }
+    found.extend(of_tools);
     found.extend(called_tools(original, verified, forces_from_cut));
+    let with = (cut_lines, forces_from_cut);
+    found.extend(siemens_words(original, verified, with));
+    found.extend(statements(original, verified));
     found.extend(exact_stops(original, verified));
     found.extend(radii(original, verified));
     found.extend(configurations(original, verified));
@@ -118,6 +128,34 @@ fn tools(original: &RobotRead<'_>, verified: &RobotRead<'_>) -> Vec<OtherWord> {
         })
     })
     .collect()
+}
+
+/// The first cut that is made with another tool than in the original.
+fn tool_at_cuts(
+    original: &RobotRead<'_>,
+    verified: &RobotRead<'_>,
+    cut_lines: &[[usize; 2]],
+) -> Option<OtherWord> {
+    let by_line = |read: &RobotRead<'_>| -> BTreeMap<usize, usize> {
+        let motions = read.program.motions.iter().enumerate();
+        let own = motions.filter(|(_, motion)| motion.file == read.path.file);
+        own.map(|(index, motion)| (motion.line, index)).collect()
+    };
+    let [own, of_original] = [verified, original].map(by_line);
+    let tools = |lines: &[usize; 2]| {
+        let own = &verified.program.motions[*own.get(&lines[0])?].tool;
+        let of_original = &original.program.motions[*of_original.get(&lines[1])?].tool;
+        Some((own, of_original, apart(own, of_original)?))
+    };
+    let mut all = cut_lines.iter();
+    let (lines, (own, of_original, why)) = all.find_map(|lines| Some((lines, tools(lines)?)))?;
+    let text = format!(
+        "line {} cuts with tool '{}', the original with '{}' (line {} there): it {why}",
+        lines[0], own.name, of_original.name, lines[1]
+    );
+    let lines = [Some(lines[0]), Some(lines[1])];
+    let fault = Some(FaultKind::Tool);
+    Some(OtherWord::new(own.name.as_str(), fault, lines, text))
 }
 
 /// Ends of straight and circular motions at which the tool stopped.

@@ -84,6 +84,7 @@ mod tolerances;
 mod uncertain;
 mod verify;
 mod verify_ends;
+mod verify_in_force;
 mod verify_others;
 mod verify_robot;
 mod vibration;

@@ -137,7 +137,7 @@ fn frames_that_the_original_does_not_state_are_faults() {
     };
     let said = warned("G43 H1");
     assert!(
-        said.contains("G43 at line 1 is not in the original"),
+        said.contains("G43 H1 at line 1 is not in the original"),
         "{said}"
     );
     // By half a millimetre the control may leave the path.

@@ -20,18 +20,18 @@ const RAPID: &str = "MODULE Part
   ENDPROC
 ENDMODULE
 ";
-const KRL: &str = "DEF part()\n $BASE={X 1300,Y 50,Z 900,A 0,B 0,C 0}\n $TOOL={X 0,Y 0,Z 150,A 0,B 0,C 0}\n $VEL.CP=0.2\n LIN {X 0,Y 0,Z 30,A 0,B 0,C 180}\n \
+pub(crate) const KRL: &str = "DEF part()\n $BASE={X 1300,Y 50,Z 900,A 0,B 0,C 0}\n $TOOL={X 0,Y 0,Z 150,A 0,B 0,C 0}\n $VEL.CP=0.2\n LIN {X 0,Y 0,Z 30,A 0,B 0,C 180}\n \
 $VEL.CP=0.02\n LIN {X 0,Y 0,Z 0,A 0,B 0,C 180}\n LIN {X 120,Y 0,Z 0,A 0,B 0,C 180}\n $VEL.CP=0.2\n LIN {X 120,Y 0,Z 30,A 0,B 0,C 180}\nEND\n";
 const HEIDENHAIN: &str = "BEGIN PGM h MM\nTOOL CALL 1 Z S5000\nL X+0 Y+0 Z+30 R0 FMAX M3\nL Z+0 F600\nL X+100\nL Y+60\nL Z+30 FMAX\nM30\nEND PGM h MM\n";
 const APT: &str = "PARTNO T\nUNITS/MM\nLOADTL/1\nSPINDL/5000,RPM,CLW\nRAPID\nGOTO/0,0,30\nFEDRAT/600,MMPM\nGOTO/0,0,0\nGOTO/100,0,0\nGOTO/100,60,0\nRAPID\nGOTO/100,60,30\nFINI\n";
 const SHIFTED: &str = "G21 G90 G17 G94\nT1 M6\nS5000 M3\nG92 X0 Y0 Z30\nG0 X0 Y0 Z30\nG1 Z0 F600\nX100\nY60\nG0 Z30\nM2\n";
 
-const LOADED: &str = "--model heavy_6r --force 200 -150 300";
-const POSE: &str = " --rapid-from-mm-per-s 150 --correct pose";
-const PLACED: &str = " --tool-length-mm 150 --part-origin-mm 1300 50 900";
+pub(crate) const LOADED: &str = "--model heavy_6r --force 200 -150 300";
+pub(crate) const POSE: &str = " --rapid-from-mm-per-s 150 --correct pose";
+pub(crate) const PLACED: &str = " --tool-length-mm 150 --part-origin-mm 1300 50 900";
 
 /// What is said of a compensated program that was changed, and the exit code.
-fn verified(
+pub(crate) fn verified(
     here: &Path,
     original: &str,
     with: &str,
@@ -64,7 +64,7 @@ fn verified(
 }
 
 /// Own programs pass, and each change gets its exit code and its words.
-fn changes(name: &str, program: &str, with: &str, all: &[(&str, &str, i32, &str)]) {
+pub(crate) fn changes(name: &str, program: &str, with: &str, all: &[(&str, &str, i32, &str)]) {
     let here = workplace();
     std::fs::write(here.path().join(name), program).unwrap();
     let (code, said) = verified(here.path(), name, with, str::to_owned);

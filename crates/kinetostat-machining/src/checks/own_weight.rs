@@ -49,6 +49,7 @@ fn shifts(
         };
         points.iter().map(shift).collect()
     })
+    .collect()
 }
 
 /// How far own weight and loads of the model put the tool off by themselves, mm, the largest of

@@ -2,6 +2,9 @@
 //! neighbour's state, in chunks of fixed size: the answer of a point does not depend on the number of
 //! threads.
 
+use std::iter::Flatten;
+use std::vec::IntoIter;
+
 use kinetostat::batch::AlongPath;
 use kinetostat::{
     Directions, Error, Mechanism, MechanismEquilibrium, Pose, Posture, Wrench,
@@ -141,9 +144,11 @@ impl Neighbour {
 pub(crate) fn in_chunks<T: Sync, R: Send>(
     items: &[T],
     work: impl Fn(&mut [Neighbour; 2], &[T]) -> Vec<R> + Sync,
-) -> Vec<R> {
+) -> Flatten<IntoIter<Vec<R>>> {
     let chunks = items.par_chunks(CHUNK);
-    chunks
-        .flat_map_iter(|items| work(&mut Default::default(), items))
-        .collect()
+    // Answers stay where they were made: they are large.
+    let answers: Vec<Vec<R>> = chunks
+        .map(|items| work(&mut Default::default(), items))
+        .collect();
+    answers.into_iter().flatten()
 }

@@ -42,8 +42,10 @@ pub(crate) fn solve(
     let mut worse = None;
     let machines = Machines::new(task);
     let figures = JointFigures::new(task.mechanism, &task.bounds.ratings);
+    let mut batch: Vec<Site> = Vec::new();
     loop {
-        let batch: Vec<Site> = sites.by_ref().take(BATCH).collect();
+        batch.clear();
+        batch.extend(sites.by_ref().take(BATCH));
         let Some(last) = batch.last() else { break };
         let done = (last.move_index + 1).saturating_sub(own.start);
         if watch.cancelled() {

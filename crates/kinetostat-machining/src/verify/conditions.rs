@@ -17,7 +17,7 @@ const ENDS_MM: f64 = 0.005;
 const MOST: usize = 100;
 
 /// A move of the other program with what of the original it goes along.
-struct Cut<'a> {
+pub(crate) struct Cut<'a> {
     own: &'a Move,
     original: &'a Move,
     own_mm: f64,
@@ -32,12 +32,12 @@ struct Cut<'a> {
 pub(crate) fn conditions(
     original: &Path,
     other: &Path,
-    pieces: &[Followed],
+    cuts: &[Cut<'_>],
     most_feed_factor: f64,
 ) -> Vec<OtherCondition> {
     let mut found: Vec<OtherCondition> = Vec::new();
     let mut last_move = None;
-    for cut in cuts(original, other, pieces) {
+    for cut in cuts {
         let spindles = [
             original.spindle_on(cut.original.line),
             other.spindle_on(cut.own.line),
@@ -47,7 +47,7 @@ pub(crate) fn conditions(
             other.tool_on(cut.own.line),
         ];
         let differences = [
-            other_feed(&cut, spindles, most_feed_factor),
+            other_feed(cut, spindles, most_feed_factor),
             other_spindle(spindles),
             other_tool(tools),
         ];
@@ -77,19 +77,23 @@ pub(crate) fn conditions(
     found
 }
 
-fn cuts<'a>(
-    original: &'a Path,
-    other: &'a Path,
-    pieces: &[Followed],
-) -> impl Iterator<Item = Cut<'a>> {
+/// Lines of the cuts that both make: of the other program, and of the original.
+pub(crate) fn cut_lines(cuts: &[Cut<'_>]) -> Vec<[usize; 2]> {
+    let lines = cuts.iter().map(|cut| [cut.own.line, cut.original.line]);
+    let mut lines: Vec<[usize; 2]> = lines.collect();
+    lines.dedup();
+    lines
+}
+
+/// The moves of the other program that cut what the original cuts.
+pub(crate) fn cuts<'a>(original: &'a Path, other: &'a Path, pieces: &[Followed]) -> Vec<Cut<'a>> {
     let cuts = |own: &&Followed| own.piece.corrected && own.piece.turn.is_none();
     let cutting: Vec<&Followed> = pieces.iter().filter(cuts).collect();
     let of_one_move = |a: &&Followed, b: &&Followed| a.other_end.0 == b.other_end.0;
-    let cuts: Vec<Cut<'a>> = cutting
+    cutting
         .chunk_by(of_one_move)
         .map(|parts| {
             let own = &other.moves[parts[0].other_end.0];
-            let first = &original.moves[parts[0].piece.move_index];
             let length = |part: &&Followed| {
                 let piece = &part.piece;
                 original.moves[piece.move_index].length_between_mm(piece.share_from, piece.share_to)
@@ -101,16 +105,20 @@ fn cuts<'a>(
                 let speed = speed(motion, original.spindle_on(motion.line));
                 speed.map(|speed| length(part) / speed)
             };
+            // What a move only touches at a corner is not what it belongs to.
+            let longest = parts
+                .iter()
+                .max_by(|a, b| length(a).total_cmp(&length(b)))
+                .unwrap_or(&parts[0]);
             Cut {
                 own,
-                original: first,
+                original: &original.moves[longest.piece.move_index],
                 own_mm: parts.iter().map(own_length).sum(),
                 original_mm: parts.iter().map(length).sum(),
                 original_min: parts.iter().map(minutes).sum(),
             }
         })
-        .collect();
-    cuts.into_iter()
+        .collect()
 }
 
 /// Speed of the tool, mm/min; without a speed of the spindle the way in one turn of it.
@@ -158,7 +166,20 @@ fn other_feed(cut: &Cut<'_>, spindles: [Spindle; 2], most_feed_factor: f64) -> D
     let is_held = as_written >= most_feed_factor * (1.0 - SAME) && along_part <= 1.0 + slack;
     let keeps = same(as_written) || same(along_part) || is_held;
     let same_kind = is_of_turn(modes[0]) == is_of_turn(modes[1]);
-    (!keeps || !same_kind).then_some(difference)
+    if keeps && same_kind {
+        return None;
+    }
+    let (condition, of_original, of_program) = difference;
+    if of_original != of_program {
+        return Some((condition, of_original, of_program));
+    }
+    // The same number for another way, which something moved that is no feed.
+    let along = |said: String, mm: f64| format!("{said} along {} mm", rounded(mm));
+    Some((
+        condition,
+        along(of_original, cut.original_mm),
+        along(of_program, cut.own_mm),
+    ))
 }
 
 fn other_spindle([of_original, own]: [Spindle; 2]) -> Difference {

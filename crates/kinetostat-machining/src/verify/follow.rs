@@ -68,7 +68,7 @@ pub(crate) fn follow(
         uncut: uncut(original, (&nominal, guide), (&along.covered, near_mm)),
         rapids,
         extra_cuts: along.extra_cuts,
-        conditions: Vec::new(),
+        ..Matched::default()
     };
     Ok((along.pieces, matched))
 }

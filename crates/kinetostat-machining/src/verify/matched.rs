@@ -21,6 +21,23 @@ pub struct Matched {
     /// Where cuts that both make have another feed, another speed of the spindle or another tool.
     #[serde(default)]
     pub conditions: Vec<OtherCondition>,
+    /// Lines of cuts that both make: of the program, and of the original.
+    #[serde(skip)]
+    pub cut_lines: Vec<[usize; 2]>,
+    /// Where the program states an orientation of the tool that is farthest from that of the original, if both state any.
+    #[serde(default)]
+    pub turned: Option<Turned>,
+}
+
+/// An orientation that the original does not state there.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Turned {
+    /// Line of the program.
+    pub line: usize,
+    /// Line of the original.
+    pub line_of_original: usize,
+    /// Angle between both, deg, beyond what they may differ by along a move that turns the tool.
+    pub angle_deg: f64,
 }
 
 /// What of a cut is otherwise than in the original.

@@ -23,6 +23,7 @@ mod pieces;
 mod places;
 mod rapids;
 mod stretches;
+mod turned;
 mod uncut;
 mod way;
 
@@ -38,13 +39,14 @@ use crate::run::preparation::Preparation;
 use crate::run::sites::of_written::sites_of_written;
 use crate::run::way_out::with_way_out;
 use crate::task::{RunError, Task};
-use crate::verify::conditions::conditions;
+use crate::verify::conditions::{conditions, cut_lines, cuts};
 use crate::verify::exact::exact;
 use crate::verify::follow::follow;
 use crate::verify::pieces::as_written;
+use crate::verify::turned::turned_most;
 use crate::watch::Watch;
 
-pub use matched::{Condition, ExtraCut, Matched, OtherCondition, RapidElsewhere, Uncut};
+pub use matched::{Condition, ExtraCut, Matched, OtherCondition, RapidElsewhere, Turned, Uncut};
 
 /// A program that was verified.
 #[derive(Clone, Debug)]
@@ -91,7 +93,10 @@ fn verified(
     drop(guide);
     let pieces = exact(task.path(), &field, pieces);
     let most_feed_factor = task.writing.max_feed_factor;
-    matched.conditions = conditions(task.path(), other, &pieces, most_feed_factor);
+    let both = cuts(task.path(), other, &pieces);
+    matched.conditions = conditions(task.path(), other, &both, most_feed_factor);
+    matched.cut_lines = cut_lines(&both);
+    matched.turned = turned_most(task.path(), other, &pieces);
     let written = as_written(task.path(), (other, bytes), pieces);
     let Preparation { load, course } = prepared;
     let Ramped {

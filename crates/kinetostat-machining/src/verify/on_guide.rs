@@ -90,6 +90,12 @@ impl Search<'_> {
         self.stretches.pass_of_piece(piece)
     }
 
+    /// How far from the ends of a turn of the load a program may step there.
+    fn step_slack_mm(&self, [from, to]: [f64; 2]) -> f64 {
+        let length = to - from;
+        self.near_mm.min(0.5 * length).max(STEPS_WITHIN * length)
+    }
+
     /// The turn of the load in which this end lies alone: the program makes no step there, and the load turns at one place of it.
     fn lone_turn(
         &self,
@@ -100,8 +106,7 @@ impl Search<'_> {
         let [from, to] = self
             .stretches
             .turn_at(own.arrives_mm, self.pass(own.piece))?;
-        let length = to - from;
-        let slack = self.near_mm.min(0.5 * length).max(STEPS_WITHIN * length);
+        let slack = self.step_slack_mm([from, to]);
         let of_pass = |index: usize, begins: usize| {
             let end = ends.get(begins).filter(|end| !end.begins_pass);
             end.and(found.get(index).copied().flatten())
@@ -153,10 +158,16 @@ impl Search<'_> {
             }
             let pass = self.pass(self.stretches.first_piece(index).unwrap_or(foot.piece));
             let turn_at = |at: f64| self.stretches.turn_at(at, pass);
+            // A block behind it that ends where the turn ends is the step.
+            let next = ends.get(last + 1).filter(|next| !next.begins_pass);
+            let next = next.and(places.get(last + 1).copied().flatten());
+            let steps_behind = |turn: [f64; 2]| {
+                next.is_some_and(|next| next.arrives_mm <= turn[1] + self.step_slack_mm(turn))
+            };
             if let Some(place) = places[last].as_mut() {
                 place.arrives_mm = ends_mm;
                 place.leaves_mm = turn_at(ends_mm)
-                    .filter(|turn| turn[0] >= ends_mm)
+                    .filter(|turn| turn[0] >= ends_mm && !steps_behind(*turn))
                     .map_or(ends_mm, |turn| turn[1]);
             }
             let before = first.checked_sub(1);

@@ -74,11 +74,19 @@ pub(crate) fn align(
                 let foot = on_the_better_side(nominal, moved, foot);
                 aligned.push(aligned_point(nominal, point, moved, &foot));
             }
-            Err(why) => left_out.push(LeftOut {
-                row: point.row,
-                distance_mm: nominal.nearest(moved).map(|foot| foot.distance_mm),
-                why,
-            }),
+            Err(why) => {
+                let distance_mm = nominal.nearest(moved).map(|foot| foot.distance_mm);
+                let is_beside = distance_mm.is_some_and(|off| off <= window_mm);
+                let why = match (why, point.program_line) {
+                    (WhyLeftOut::BeyondWindow, Some(_)) if is_beside => WhyLeftOut::NotOnItsLine,
+                    _ => why,
+                };
+                left_out.push(LeftOut {
+                    row: point.row,
+                    distance_mm,
+                    why,
+                });
+            }
         }
     }
     // By pieces, too: the end of one is the beginning of the next.

@@ -176,6 +176,13 @@ fn nothing_left(
     left_out: &[LeftOut],
     settings: &MeasureSettings,
 ) -> String {
+    let elsewhere = |point: &LeftOut| point.why == WhyLeftOut::NotOnItsLine;
+    if left_out.iter().all(elsewhere) && !left_out.is_empty() {
+        return format!(
+            "none of the {} measured points lies on the cut of the line that it names: check the column line, which has numbers of lines of the program that cut at feed",
+            measured.points().len()
+        );
+    }
     let nearest = left_out.iter().filter_map(|point| point.distance_mm);
     let nearest = nearest.min_by(f64::total_cmp).unwrap_or(f64::NAN);
     format!(

@@ -73,7 +73,7 @@ pub(crate) fn have_places(measured: &[(MeasuredFile, Measurement)]) -> Result<()
     Ok(())
 }
 
-const REASONS: [(WhyLeftOut, &str, &str); 3] = [
+const REASONS: [(WhyLeftOut, &str, &str); 4] = [
     (
         WhyLeftOut::OutOfOrder,
         "behind the points before them",
@@ -83,6 +83,11 @@ const REASONS: [(WhyLeftOut, &str, &str); 3] = [
         WhyLeftOut::BeyondWindow,
         "beyond the window",
         "Check units and frame, register the points, or widen the window",
+    ),
+    (
+        WhyLeftOut::NotOnItsLine,
+        "not on the cut of the line that they name",
+        "Check the column line: it has numbers of lines of the program that cut at feed",
     ),
     (
         WhyLeftOut::SeveralStretches,

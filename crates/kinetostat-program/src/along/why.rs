@@ -10,6 +10,8 @@ pub enum WhyLeftOut {
     BeyondWindow,
     /// Several stretches of it do.
     SeveralStretches,
+    /// It names a line, and only cuts of other lines come within the window.
+    NotOnItsLine,
     /// It would lie behind the points before it.
     OutOfOrder,
 }

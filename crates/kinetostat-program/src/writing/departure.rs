@@ -19,17 +19,29 @@ const STEPS: usize = 4;
 
 /// The polynomial through five values at a part of the stretch.
 pub fn polynomial(values: &Values, part: f64) -> Vector6<f64> {
-    // Newton's forward differences, x from 0 to 4.
-    let x = 4.0 * part;
+    newton(&differences(values), 4.0 * part)
+}
+
+/// Newton's forward differences: the first value, and the first of each order.
+fn differences(values: &Values) -> Values {
     let mut row = *values;
-    let mut sum = row[0];
-    let mut factor = 1.0;
+    let mut first = row;
     for order in 1..5 {
         for i in 0..5 - order {
             row[i] = row[i + 1] - row[i];
         }
+        first[order] = row[0];
+    }
+    first
+}
+
+/// Newton's polynomial with these differences, `x` from 0 to 4.
+fn newton(differences: &Values, x: f64) -> Vector6<f64> {
+    let mut sum = differences[0];
+    let mut factor = 1.0;
+    for (order, difference) in differences.iter().enumerate().skip(1) {
         factor *= (x - (order - 1) as f64) / order as f64;
-        sum += row[0] * factor;
+        sum += difference * factor;
     }
     sum
 }
@@ -57,8 +69,9 @@ pub fn departure(values: &Values, chord: [Vector6<f64>; 2]) -> f64 {
     let step = 1.0 / STEPS as f64;
     let between = bend * step * step / 8.0;
     let grid = 4 * STEPS;
+    let differences = differences(&off);
     let on_grid = (0..=grid)
-        .map(|i| polynomial(&off, i as f64 / grid as f64).norm())
+        .map(|i| newton(&differences, 4.0 * (i as f64 / grid as f64)).norm())
         .fold(0.0, larger);
     on_grid + between
 }

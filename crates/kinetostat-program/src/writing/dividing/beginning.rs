@@ -133,8 +133,8 @@ pub(crate) fn first_round(
     nodes: &mut Vec<Node>,
 ) -> Result<Vec<Stretch>, WriteError> {
     let path = queries.path;
-    let mut requests = Vec::new();
-    let mut first = Vec::new();
+    let mut requests = Vec::with_capacity(2 * path.moves.len());
+    let mut first = Vec::with_capacity(path.moves.len());
     for (move_index, motion) in path.moves.iter().enumerate() {
         if is_divided(motion) {
             let (list, course) = boundaries(
@@ -166,7 +166,8 @@ pub(crate) fn first_round(
     }
     let mut answers = queries.evaluate(&requests)?.into_iter();
     let mut answer = || answers.next().unwrap_or_default();
-    let mut open = Vec::new();
+    let mut open = Vec::with_capacity(first.len());
+    nodes.reserve(requests.len());
     // What holds before a move: the last answer of the one before it.
     let mut before: Option<(usize, Vector6<f64>)> = None;
     for (move_index, list, course, middles) in first {

@@ -119,8 +119,8 @@ impl Stretch {
         short || self.at(0.5) <= from || self.at(0.5) >= to
     }
 
-    /// Whether its ends say all: it is so short that the correction is what lies between them, as seen by three values it would be.
-    fn ends_suffice(&self, path: &Path, options: &WriteOptions) -> bool {
+    /// Whether it is so short that the correction is what lies between its ends, as far as the field is as smooth as it says.
+    fn is_straight(&self, path: &Path, options: &WriteOptions) -> bool {
         let (Course::Steady { radius_mm }, true) = (self.course, self.entire && !self.fitted)
         else {
             return false;
@@ -128,9 +128,23 @@ impl Stretch {
         let (tolerance, [first, last]) = (options.tolerance_mm, self.ends);
         let size = larger(tolerance, larger(first.norm(), last.norm()));
         let way = path.moves[self.move_index].length_mm();
-        let is_known = remainder(2, size, way, radius_mm) <= UNKNOWN * tolerance;
         let off = (self.begins - first).norm();
-        is_known && off <= 0.25 * tolerance && (last - first).norm() <= tolerance
+        remainder(2, size, way, radius_mm) <= UNKNOWN * tolerance && off <= 0.25 * tolerance
+    }
+
+    /// Whether a stretch that [is straight](Self::is_straight) needs no more values: it changes by less than the tolerance, or
+    /// the place that follows no pattern confirms it.
+    fn is_confirmed(&self, options: &WriteOptions) -> bool {
+        let (tolerance, [first, last]) = (options.tolerance_mm, self.ends);
+        match self.irregular {
+            None => (last - first).norm() <= tolerance,
+            Some((part, value)) => (value - first.lerp(&last, part)).norm() <= SURPRISE * tolerance,
+        }
+    }
+
+    /// Whether its ends say all.
+    fn ends_suffice(&self, path: &Path, options: &WriteOptions) -> bool {
+        self.is_straight(path, options) && self.is_confirmed(options)
     }
 
     /// Places of it at which the correction is to be evaluated before anything is decided.
@@ -146,8 +160,9 @@ impl Stretch {
             unknown.then(|| Irregular(self.irregular_part(path)))
         };
         let places = match self.middle {
-            None if self.ends_suffice(path, options) => [None; 3],
-            None => [Some(Middle), None, None],
+            None if !self.is_straight(path, options) => [Some(Middle), None, None],
+            None if self.is_confirmed(options) => [None; 3],
+            None => [Some(irregular().unwrap_or(Middle)), None, None],
             Some(_) => match self.decide(path, options) {
                 Decision::Confirm => [irregular(), None, None],
                 Decision::Refine if cubic => [Some(FirstQuarter), Some(LastQuarter), None],

@@ -8,7 +8,7 @@ use pulp::Simd;
 
 use crate::batch::numbers::apart::apart;
 use crate::batch::numbers::lanes::Lanes;
-use crate::batch::numbers::reflection::{reflect, reflection};
+use crate::batch::numbers::reflection::{reflect, reflect_apart, reflection};
 use crate::batch::numbers::wrenches::Mat6;
 use crate::batch::plan::steps::Plan;
 
@@ -18,7 +18,7 @@ type Mat12<S> = [[Lanes<S>; 12]; 12];
 #[inline(always)]
 pub(crate) fn freed<S: Simd>(simd: S, plan: &Plan, z: &mut Mat12<S>) -> (Mat6<S>, Lanes<S>) {
     apart!(simd, {
-        let (zero, one) = (Lanes::new(simd, 0.0), Lanes::new(simd, 1.0));
+        let zero = Lanes::new(simd, 0.0);
         let joints = plan.passive.len().min(6);
         let width = 6 + joints;
         // Rotations count as motions at the natural length.
@@ -33,29 +33,9 @@ pub(crate) fn freed<S: Simd>(simd: S, plan: &Plan, z: &mut Mat12<S>) -> (Mat6<S>
                 z[c][r] = z[c][r] * unit;
             }
         }
-        let (v, u, mut regular) = without_joints(simd, joints, width, z);
-        let mut m = [[zero; 12]; 12];
-        let mut x = [[zero; 6]; 12];
-        for p in 0..width {
-            // Rows: motions along the joints, their torques, the other motions.
-            let row = if p < joints {
-                p
-            } else if p < 2 * joints {
-                6 + p - joints
-            } else {
-                p - joints
-            };
-            for q in 0..width {
-                let column = if q < joints { 6 + q } else { q - joints };
-                m[p][q] = z[column][row];
-            }
-            if row < 6 {
-                x[p][row] = one;
-            }
-        }
-        regular = regular.least_of(solve(simd, joints, width, &mut m, &mut x));
+        let (v, u, regular) = without_joints(simd, joints, width, z);
         let mut k = [[zero; 6]; 6];
-        k.copy_from_slice(&x[joints..width]);
+        let regular = regular.least_of(solve(simd, joints, z, &mut k));
         reflect_back(joints, &v, &u, &mut k);
         for i in 0..6 {
             for j in 0..3 {
@@ -87,11 +67,7 @@ fn without_joints<S: Simd>(
             reflect(k..6, v, u, column);
         }
         for r in 0..width {
-            let mut row = [z[0][r], z[1][r], z[2][r], z[3][r], z[4][r], z[5][r]];
-            reflect(k..6, v, u, &mut row);
-            for i in k..6 {
-                z[i][r] = row[i];
-            }
+            reflect_apart(k..6, v, u, z.as_flattened_mut(), (r, 12));
         }
     }
     (v, u, regular)
@@ -102,11 +78,7 @@ fn without_joints<S: Simd>(
 fn reflect_back<S: Simd>(joints: usize, v: &Mat6<S>, u: &Mat6<S>, k: &mut Mat6<S>) {
     for j in (0..joints).rev() {
         for c in 0..6 {
-            let mut column = k.map(|row| row[c]);
-            reflect(j..6, &v[j], &u[j], &mut column);
-            for i in j..6 {
-                k[i][c] = column[i];
-            }
+            reflect_apart(j..6, &v[j], &u[j], k.as_flattened_mut(), (c, 6));
         }
         for row in k.iter_mut() {
             reflect(j..6, &v[j], &u[j], row);
@@ -114,48 +86,64 @@ fn reflect_back<S: Simd>(joints: usize, v: &Mat6<S>, u: &Mat6<S>, k: &mut Mat6<S
     }
 }
 
-/// `M X = B` in place without pivoting, `X` from row `joints` on; the smallest relative pivot: of the
-/// joints' torques compared with the joints' motions, of the rest with its diagonal entry.
+/// Solves for the wrenches that are passed on where the end moves by one in each direction, in place and without pivoting, `K` to
+/// be zero before; the smallest relative pivot: of the joints' torques compared with the joints' motions, of the rest with its
+/// diagonal entry.
+///
+/// Unknowns are motions of the joints, then wrenches along them, then the other wrenches; rows the motions along the
+/// joints, their torques, the other motions. `R` is triangular with zeros below it, so that motions of the joints are taken
+/// out of the torques alone, and are not found.
 #[inline(always)]
-fn solve<S: Simd>(
-    simd: S,
-    joints: usize,
-    width: usize,
-    m: &mut Mat12<S>,
-    x: &mut [[Lanes<S>; 6]; 12],
-) -> Lanes<S> {
-    let one = Lanes::new(simd, 1.0);
-    let mut regular = one;
-    let mut size = [one; 12];
-    for i in 0..width {
-        let like = if i < 2 * joints && i >= joints {
-            i - joints
+fn solve<S: Simd>(simd: S, joints: usize, z: &mut Mat12<S>, x: &mut Mat6<S>) -> Lanes<S> {
+    let (zero, one) = (Lanes::new(simd, 0.0), Lanes::new(simd, 1.0));
+    // Of wrench `i`: its row among those of torques and other motions.
+    let row = |i: usize| if i < joints { 6 + i } else { i };
+    let mut size = [one; 6];
+    for i in 0..6 {
+        size[i] = if i < joints {
+            z[6 + i][i].abs()
         } else {
-            i
+            z[i][i].abs()
         };
-        size[i] = m[like][like].abs();
+        if i >= joints {
+            x[i][i] = one;
+        }
     }
-    for k in 0..width {
-        regular = regular.least_of(m[k][k].abs() / size[k]);
-        let reciprocal = one / m[k][k];
-        for i in k + 1..width {
-            let l = m[i][k] * reciprocal;
-            for j in k + 1..width {
-                m[i][j] = l.times_from(m[k][j], m[i][j]);
+    for k in 0..joints {
+        let reciprocal = one / z[6 + k][k];
+        for i in 0..joints {
+            let l = z[6 + k][6 + i] * reciprocal;
+            for j in k + 1..joints {
+                z[6 + j][6 + i] = l.times_from(z[6 + j][k], z[6 + j][6 + i]);
+            }
+            for j in 0..6 {
+                z[j][6 + i] = l.times_from(z[j][k], z[j][6 + i]);
+            }
+            x[i][k] = zero - l;
+        }
+    }
+    let mut regular = one;
+    for k in 0..6 {
+        regular = regular.least_of(z[k][row(k)].abs() / size[k]);
+        let reciprocal = one / z[k][row(k)];
+        for i in k + 1..6 {
+            let l = z[k][row(i)] * reciprocal;
+            for j in k + 1..6 {
+                z[j][row(i)] = l.times_from(z[j][row(k)], z[j][row(i)]);
             }
             for c in 0..6 {
                 x[i][c] = l.times_from(x[k][c], x[i][c]);
             }
         }
-        m[k][k] = reciprocal;
+        z[k][row(k)] = reciprocal;
     }
-    for i in (joints..width).rev() {
+    for i in (0..6).rev() {
         for c in 0..6 {
             let mut y = x[i][c];
-            for k in i + 1..width {
-                y = m[i][k].times_from(x[k][c], y);
+            for k in i + 1..6 {
+                y = z[k][row(i)].times_from(x[k][c], y);
             }
-            x[i][c] = y * m[i][i];
+            x[i][c] = y * z[i][row(i)];
         }
     }
     regular

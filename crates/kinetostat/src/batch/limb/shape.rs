@@ -16,7 +16,7 @@ use crate::batch::limb::loaded::{LoadedLimb, deflection, twist, twists};
 use crate::batch::limb::own_weight::{couples, sum_along};
 use crate::batch::numbers::apart::apart;
 use crate::batch::numbers::lanes::Lanes;
-use crate::batch::numbers::reflection::{reflect, reflection};
+use crate::batch::numbers::reflection::{reflect, reflect_apart, reflection};
 use crate::batch::numbers::vectors::{Vec3, constant, cross, dot, minus};
 use crate::batch::numbers::wrenches::{Mat6, inner6, outer};
 use crate::batch::plan::steps::{Law, Plan, Spring, Step, Support};
@@ -31,7 +31,7 @@ struct Motion<S: Simd> {
 /// Buffers for the share to buckling of one limb.
 pub(crate) struct Shape<S: Simd> {
     motions: Vec<Motion<S>>,
-    /// Hessian of the loads, springs first, row by row.
+    /// Hessian of the loads, springs first, row by row: its lower triangle.
     h: Vec<Lanes<S>>,
     springs: usize,
     joints: usize,
@@ -228,8 +228,7 @@ impl<S: Simd> Shape<S> {
                     } = &self.motions[j];
                     let (other, turn) = (*other, [twist[3], twist[4], twist[5]]);
                     let value = dot(&turning, &turn);
-                    self.add(place, other, value);
-                    self.add(other, place, value);
+                    self.add_both(place, other, value);
                 }
             }
         });
@@ -253,13 +252,21 @@ impl<S: Simd> Shape<S> {
         for j in 0..count {
             let other = self.motions[j].place;
             let value = inner6(&row, &self.motions[j].twist);
-            // Both triangles; of one coordinate's own motions both are the same entry.
-            self.add(place, other, value);
-            self.add(other, place, value);
+            self.add_both(place, other, value);
         }
         own
     }
 
+    /// Adds a value and its mirror image, of which only the lower triangle is kept; on the diagonal both are the same entry.
+    #[inline(always)]
+    fn add_both(&mut self, i: usize, j: usize, value: Lanes<S>) {
+        match i == j {
+            true => self.add(i, i, value + value),
+            false => self.add(i.max(j), i.min(j), value),
+        }
+    }
+
+    /// Adds to an entry of the lower triangle.
     #[inline(always)]
     fn add(&mut self, i: usize, j: usize, value: Lanes<S>) {
         let n = self.springs + self.joints;
@@ -303,7 +310,8 @@ impl<S: Simd> Shape<S> {
             }
             let mut bm = [[zero; 6]; 6];
             for i in 0..6 {
-                for k in 0..6 {
+                // The others meet zeros of `M^T`.
+                for k in (0..6).filter(|k| i >= first_row(spring, *k)) {
                     for d in first_row(spring, k)..6 {
                         bm[i][k] = b[i][d].times_plus(root[d][k], bm[i][k]);
                     }
@@ -315,7 +323,7 @@ impl<S: Simd> Shape<S> {
                     continue;
                 }
                 let mut column = first;
-                for k in 0..6 {
+                for k in 0..=i {
                     if spring.coordinates[k].is_none() {
                         continue;
                     }
@@ -361,12 +369,7 @@ impl<S: Simd> Shape<S> {
                     reflect(k..6, &v, &u, other);
                 }
                 for c in 0..springs {
-                    let at = |i: usize| i * springs + c;
-                    let mut twist = [0, 1, 2, 3, 4, 5].map(|i| self.t[at(i)]);
-                    reflect(k..6, &v, &u, &mut twist);
-                    for i in k..6 {
-                        self.t[at(i)] = twist[i];
-                    }
+                    reflect_apart(k..6, &v, &u, &mut self.t, (c, springs));
                 }
             }
             if joints == 0 {
@@ -387,18 +390,17 @@ impl<S: Simd> Shape<S> {
                 for k in 0..joints {
                     let mut sum = zero;
                     for j in 0..joints {
-                        let h = self.h[(springs + j) * n + springs + k];
+                        let h = self.h[(springs + j.max(k)) * n + springs + j.min(k)];
                         sum = self.w[j * springs + c].times_plus(h, sum);
                     }
-                    z[k] = sum.times_plus(one * 0.5, self.h[c * n + springs + k]);
+                    z[k] = sum.times_plus(one * 0.5, self.h[(springs + k) * n + c]);
                 }
                 for j in 0..springs {
                     let mut sum = zero;
                     for k in 0..joints {
                         sum = z[k].times_plus(self.w[k * springs + j], sum);
                     }
-                    self.add(c, j, sum);
-                    self.add(j, c, sum);
+                    self.add_both(c, j, sum);
                 }
             }
         })
@@ -421,29 +423,34 @@ impl<S: Simd> Shape<S> {
         self.reflect(k);
     }
 
-    /// `H <- (1 - v u^T)^T H (1 - v u^T)` from row `k` on: `H - v w^T - w v^T` with `w = H u - v (u^T H u) / 2`.
+    /// `H <- (1 - v u^T)^T H (1 - v u^T)` from row `k` on, of which the lower triangle is kept: `H - v w^T - w v^T` with `w = H u - v (u^T H u) / 2`.
     #[inline(always)]
     fn reflect(&mut self, k: usize) {
         let zero = Lanes::new(self.simd, 0.0);
         let (springs, n) = (self.springs, self.springs + self.joints);
-        let mut along = zero;
+        self.w[k..springs].fill(zero);
         for i in k..springs {
-            let row = &self.h[i * n..i * n + springs];
-            let mut sum = zero;
-            for c in k..springs {
+            let row = &self.h[i * n..=i * n + i];
+            let u = self.u[i];
+            let mut sum = row[i] * u;
+            for c in k..i {
                 sum = row[c].times_plus(self.u[c], sum);
+                self.w[c] = row[c].times_plus(u, self.w[c]);
             }
             self.w[i] = sum;
-            along = sum.times_plus(self.u[i], along);
+        }
+        let mut along = zero;
+        for i in k..springs {
+            along = self.w[i].times_plus(self.u[i], along);
         }
         let half = along * 0.5;
         for i in k..springs {
             self.w[i] = half.times_from(self.v[i], self.w[i]);
         }
         for i in k..springs {
-            let row = &mut self.h[i * n..i * n + springs];
+            let row = &mut self.h[i * n..=i * n + i];
             let (v, w) = (self.v[i], self.w[i]);
-            for c in k..springs {
+            for c in k..=i {
                 row[c] = v.times_from(self.w[c], w.times_from(self.v[c], row[c]));
             }
         }

@@ -60,3 +60,23 @@ pub(crate) fn reflect<S: Simd>(
         x[i] = along.times_from(v[i], x[i]);
     }
 }
+
+/// The same of numbers that lie `stride` apart, from `first` on: a column of a matrix that is kept row by row. What is copied
+/// to be reflected, one register after the other, waits for what was written last.
+#[inline(always)]
+pub(crate) fn reflect_apart<S: Simd>(
+    places: Range<usize>,
+    v: &[Lanes<S>],
+    u: &[Lanes<S>],
+    x: &mut [Lanes<S>],
+    (first, stride): (usize, usize),
+) {
+    let mut along = v[0].same(0.0);
+    for i in places.clone() {
+        along = u[i].times_plus(x[first + i * stride], along);
+    }
+    for i in places {
+        let x = &mut x[first + i * stride];
+        *x = along.times_from(v[i], *x);
+    }
+}

@@ -1,0 +1,210 @@
+//! Tools, spindle speeds and path modes of SINUMERIK programs, and of Heidenhain's the path mode, by what is in force at each cut.
+
+use kinetostat_formats::Language;
+
+use crate::job::robot::read_program::RobotRead;
+use crate::verify::in_force::InForce;
+use crate::verify::other_word::{FaultKind, Lines, OtherWord};
+
+/// Words of which the last one is in force.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Kind {
+    Tool,
+    Edge,
+    Speed,
+    Rotation,
+    PathMode,
+}
+
+const KINDS: [Kind; 5] = [
+    Kind::Tool,
+    Kind::Edge,
+    Kind::Speed,
+    Kind::Rotation,
+    Kind::PathMode,
+];
+
+impl Kind {
+    fn fault(self, forces_from_cut: bool) -> Option<FaultKind> {
+        match self {
+            Self::Tool | Self::Edge => Some(FaultKind::Tool),
+            Self::Speed | Self::Rotation => forces_from_cut.then_some(FaultKind::Spindle),
+            Self::PathMode => None,
+        }
+    }
+
+    fn follows(self) -> &'static str {
+        match self {
+            Self::PathMode => {
+                ": the control follows the path otherwise, and leaves its corners by what that allows; nothing here has that in it"
+            }
+            _ => "",
+        }
+    }
+}
+
+/// Words that only one of both programs has, and cuts that are made with others; `cut_lines` are lines of the program verified and
+/// of the original.
+pub(crate) fn siemens_words(
+    original: &RobotRead<'_>,
+    verified: &RobotRead<'_>,
+    (cut_lines, forces_from_cut): (&[[usize; 2]], bool),
+) -> Vec<OtherWord> {
+    let [own, of_original] = [verified, original].map(all_words);
+    let mut found = Vec::new();
+    for kind in KINDS {
+        let fault = kind.fault(forces_from_cut);
+        let follows = kind.follows();
+        let of_kind = |all: &[(usize, Kind, String)]| -> Vec<(usize, String)> {
+            let own = all.iter().filter(|(_, of, _)| *of == kind);
+            own.map(|(line, _, word)| (*line, word.clone())).collect()
+        };
+        let [own, of_original] = [&own, &of_original].map(|all| of_kind(all));
+        let in_force = |all: &[(usize, String)]| InForce::new("none", all.iter().cloned());
+        let elsewhere = in_force(&own).elsewhere(&in_force(&of_original), cut_lines, |_, _| false);
+        let is_said = |word: &str| {
+            let mut said = elsewhere.iter();
+            said.any(|found| found.word == word || found.of_original == word)
+        };
+        let mut only =
+            |ours: &[(usize, String)], theirs: &[(usize, String)], lines: fn(usize) -> Lines| {
+                let mut seen: Vec<&str> = Vec::new();
+                for (line, word) in ours {
+                    let known = theirs.iter().any(|(_, other)| other == word);
+                    if known || is_said(word) || seen.contains(&word.as_str()) {
+                        continue;
+                    }
+                    seen.push(word);
+                    let text = format!("{}{follows}", OtherWord::only_in_one(word, lines(*line)));
+                    found.push(OtherWord::new(word.as_str(), fault, lines(*line), text));
+                }
+            };
+        only(&own, &of_original, |line| [Some(line), None]);
+        only(&of_original, &own, |line| [None, Some(line)]);
+        found.extend((elsewhere.into_iter()).map(|found| found.other_word(fault, follows)));
+    }
+    found
+}
+
+fn all_words(read: &RobotRead<'_>) -> Vec<(usize, Kind, String)> {
+    let of_line: fn(&str) -> Vec<(Kind, String)> = match read.program.language {
+        Language::Siemens => of_siemens,
+        Language::Heidenhain => of_heidenhain,
+        _ => return Vec::new(),
+    };
+    let file = &read.program.files[read.path.file];
+    let lines = (1..=file.line_count()).filter_map(|line| Some((line, file.line(line)?)));
+    let words = lines.flat_map(|(line, bytes)| {
+        let text = String::from_utf8_lossy(bytes).to_ascii_uppercase();
+        let found = of_line(&text).into_iter();
+        found.map(move |(kind, word)| (line, kind, word))
+    });
+    words.collect()
+}
+
+/// `CYCL DEF 32.1 T0.5`: by how much corners may be left.
+fn of_heidenhain(line: &str) -> Vec<(Kind, String)> {
+    let text = line.split(';').next().unwrap_or_default();
+    let words: Vec<&str> = text.split_whitespace().collect();
+    let cycle = words.iter().position(|word| *word == "32.1");
+    let found = cycle.map(|at| {
+        (
+            Kind::PathMode,
+            format!("cycle 32 with {}", words[at + 1..].join(" ")),
+        )
+    });
+    found.into_iter().collect()
+}
+
+/// `T="MILL"`, `D1`, `S6000`, `M3`, `G642 ADIS=1`, `CYCLE832(0.5, 1)`.
+fn of_siemens(line: &str) -> Vec<(Kind, String)> {
+    let mut found = Vec::new();
+    for (name, value) in words_of(line) {
+        let word = match (name.as_str(), value.as_str()) {
+            ("T", value) => (Kind::Tool, format!("T{}", value.trim_start_matches('='))),
+            ("D", value) => (Kind::Edge, format!("D{}", value.trim_start_matches('='))),
+            ("S" | "S1", value) => (Kind::Speed, format!("S{}", value.trim_start_matches('='))),
+            ("M", "3" | "4" | "5") => (Kind::Rotation, format!("M{value}")),
+            ("G", "60" | "64" | "641" | "642" | "643" | "644" | "645") => {
+                (Kind::PathMode, format!("G{value}"))
+            }
+            ("ADIS" | "ADISPOS", value) => (Kind::PathMode, format!("{name}{value}")),
+            ("CYCLE832", value) => (Kind::PathMode, format!("CYCLE832{value}")),
+            _ => continue,
+        };
+        found.push(word);
+    }
+    found
+}
+
+/// Words of a line: an address with its number (`X10`, without leading zeros), a name with `=` and what is behind it, or a name with
+/// brackets.
+fn words_of(line: &str) -> Vec<(String, String)> {
+    let mut rest = line.chars().peekable();
+    let mut found = Vec::new();
+    while let Some(c) = rest.next() {
+        if c == ';' {
+            break;
+        }
+        if !c.is_ascii_alphabetic() {
+            continue;
+        }
+        let mut name = String::from(c);
+        let is_number = |c: &char| c.is_ascii_digit() || matches!(c, '.' | '+' | '-');
+        let mut value = String::new();
+        if rest.peek().is_some_and(is_number) {
+            while let Some(digit) = rest.next_if(is_number) {
+                value.push(digit);
+            }
+            if rest.peek() == Some(&'=') {
+                // Of a certain spindle: S1=3000.
+                name.push_str(&value);
+                value.clear();
+            } else if let Ok(number) = value.parse::<f64>() {
+                value = number.to_string();
+            }
+        } else {
+            while let Some(letter) = rest.next_if(|c| c.is_ascii_alphanumeric() || *c == '_') {
+                name.push(letter);
+            }
+        }
+        if rest.peek() == Some(&'=') {
+            let is_quote = |c: char| c == '"';
+            let mut quoted = false;
+            while let Some(next) = rest.next_if(|c| quoted || !c.is_whitespace() && *c != ';') {
+                quoted ^= is_quote(next);
+                value.push(next);
+            }
+        } else if value.is_empty() && rest.peek() == Some(&'(') {
+            for next in rest.by_ref() {
+                if !next.is_whitespace() {
+                    value.push(next);
+                }
+                if next == ')' {
+                    break;
+                }
+            }
+        }
+        found.push((name, value));
+    }
+    found
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn words_of_a_line_without_blanks() {
+        let said = |line: &str| -> Vec<String> {
+            of_siemens(line).into_iter().map(|(_, word)| word).collect()
+        };
+        assert_eq!(said("N10G0X10Y5S6000M03"), ["S6000", "M3"]);
+        assert_eq!(said("T=\"END MILL\" M6 D1"), ["T\"END MILL\"", "D1"]);
+        assert_eq!(
+            said("S1=3000 M1=3 G642 ADIS=0.5 ; S1"),
+            ["S3000", "G642", "ADIS=0.5"]
+        );
+        assert_eq!(said("CYCLE832(0.5, 1, 1)"), ["CYCLE832(0.5,1,1)"]);
+    }
+}

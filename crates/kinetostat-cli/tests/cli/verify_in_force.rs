@@ -1,0 +1,194 @@
+//! `verify`: words that both programs have, and that are in force at other cuts.
+
+// Helpers of tests, which clippy does not count as tests.
+#![allow(clippy::unwrap_used)]
+
+use crate::common::{run, workplace};
+use crate::verify_robot::{KRL, LOADED, PLACED, POSE, changes, verified};
+
+const FRAMES: &str = "G21 G90 G17 G40 G94 G61\nT1 M6\nG43 H1\nS6000 M3\nG54\nG0 X-20 Y-20 Z10\nG1 Z-1 F200\nG1 X20 F800\n\
+G0 Z10\nG64 P0.01\nG55\nG43 H2\nG0 X-8 Y-5 Z10\nG1 Z-2 F150\nG1 X8 F600\nG0 Z10\nG54\nG61\nG0 X-5 Y5 Z10\nG1 Z-3 F150\n\
+G1 X8 F600\nG0 Z10\nM2\n";
+const TWO_TOOLS: &str = "MODULE Part
+  PERS tooldata tMill:=[TRUE,[[0,0,200],[1,0,0,0]],[5,[0,0,50],[1,0,0,0],0,0,0]];
+  PERS tooldata tDrill:=[TRUE,[[0,0,150],[1,0,0,0]],[5,[0,0,50],[1,0,0,0],0,0,0]];
+  PERS wobjdata wPart:=[FALSE,TRUE,\"\",[[1300,50,900],[1,0,0,0]],[[0,0,0],[1,0,0,0]]];
+  PROC main()
+    MoveL [[0,0,30],[0,1,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v200,fine,tMill\\WObj:=wPart;
+    MoveL [[0,0,0],[0,1,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v20,fine,tMill\\WObj:=wPart;
+    MoveL [[120,0,0],[0,1,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v20,fine,tMill\\WObj:=wPart;
+    MoveL [[120,0,30],[0,1,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v200,fine,tMill\\WObj:=wPart;
+    MoveL [[0,60,30],[0,1,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v200,fine,tDrill\\WObj:=wPart;
+    MoveL [[0,60,0],[0,1,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v20,fine,tDrill\\WObj:=wPart;
+    MoveL [[80,60,0],[0,1,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v20,fine,tDrill\\WObj:=wPart;
+    MoveL [[80,60,30],[0,1,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v200,fine,tDrill\\WObj:=wPart;
+  ENDPROC
+ENDMODULE
+";
+const SIEMENS: &str = "G17 G90 G94 G710 G60\nT=\"MILL\" M6\nG54 D1 S6000 M3\nG0 X-20 Y-20\nZ10\nG1 Z-1 F200\nX20 F800\nG0 Z50\n\
+T=\"DRILL\" M6\nD1 S2000 M3\nG0 X5 Y5\nZ10\nG1 Z-2 F150\nX9\nG0 Z50\nM30\n";
+
+#[test]
+fn frames_and_lengths_are_compared_at_every_cut() {
+    let with = format!("{LOADED}{PLACED}");
+    changes(
+        "part.ngc",
+        FRAMES,
+        &with,
+        &[
+            (
+                "G54\nG61",
+                "G61",
+                3,
+                "with G55, the original with G54 (line 20 there)",
+            ),
+            (
+                "G43 H2",
+                "G43 H1",
+                3,
+                "with G43 H1, the original with G43 H2 (line 14 there)",
+            ),
+            ("G43 H2", "G49", 3, "with G49, the original with G43 H2"),
+            // The written program stops at the corners of its last cut, as long as it says so.
+            (
+                "G54\nG61\n",
+                "G54\n",
+                0,
+                "with G64 P0.01, the original with G61",
+            ),
+            ("\nG1 ", "\n/G1 ", 0, "/ begins line"),
+        ],
+    );
+}
+
+#[test]
+fn tools_of_robots_are_compared_at_every_cut() {
+    let with = format!("{LOADED}{POSE}");
+    let exchanged = |text: &str| {
+        let text = text.replace(",tMill\\", ",tOther\\");
+        let text = text.replace(",tDrill\\", ",tMill\\");
+        text.replace(",tOther\\", ",tDrill\\")
+    };
+    let here = workplace();
+    std::fs::write(here.path().join("part.mod"), TWO_TOOLS).unwrap();
+    let (code, said) = verified(here.path(), "part.mod", &with, exchanged);
+    assert_eq!(code, 3, "{said}");
+    let words = "cuts with tool 'tDrill', the original with 'tMill'";
+    assert!(said.contains(words), "{said}");
+    let exit =
+        |text: &str| text.replacen("    MoveL [[0,60,30]", "    EXIT;\n    MoveL [[0,60,30]", 1);
+    let (code, said) = verified(here.path(), "part.mod", &with, exit);
+    assert_eq!(code, 3, "{said}");
+    assert!(
+        said.contains("ANOTHER COURSE OF THE PROGRAM: EXIT at line"),
+        "{said}"
+    );
+    changes(
+        "part.src",
+        KRL,
+        &with,
+        &[
+            (
+                " $VEL.CP=0.02\n",
+                " $VEL.CP=0.02\n HALT\n",
+                3,
+                "HALT at line",
+            ),
+            (
+                " $VEL.CP=0.02\n",
+                " $VEL.CP=0.02\n $OV_PRO=30\n",
+                0,
+                "$OV_PRO=30 at line",
+            ),
+        ],
+    );
+}
+
+#[test]
+fn words_of_a_sinumerik_are_compared_at_every_cut() {
+    let with = format!("{LOADED}{PLACED}");
+    changes(
+        "part.mpf",
+        SIEMENS,
+        &with,
+        &[
+            (
+                "T=\"DRILL\"",
+                "T=\"MILL\"",
+                3,
+                "with T\"MILL\", the original with T\"DRILL\"",
+            ),
+            ("\nD1", "\nD2", 3, "D2 at line"),
+            ("S2000", "S6000", 0, "with S6000, the original with S2000"),
+            ("S2000 M3", "S2000 M4", 0, "M4 at line"),
+            (
+                "G17 G90",
+                "G642 ADIS=1 G17 G90",
+                0,
+                "the control follows the path otherwise",
+            ),
+        ],
+    );
+}
+
+/// Where the orientation is not corrected it is that of the original.
+#[test]
+fn another_orientation_is_a_fault_where_only_the_position_is_corrected() {
+    let here = workplace();
+    std::fs::write(here.path().join("part.mod"), TWO_TOOLS).unwrap();
+    let with = format!("{LOADED} --rapid-from-mm-per-s 150 --correct position");
+    let turned = |text: &str| {
+        let lines = text
+            .lines()
+            .map(|line| match line.contains("MoveL [[120.") {
+                true => line.replace("[0,1,0,0]", "[0,0.9990482,0.0436194,0]"),
+                false => line.to_owned(),
+            });
+        lines.collect::<Vec<_>>().join("\n")
+    };
+    let (code, said) = verified(here.path(), "part.mod", &with, str::to_owned);
+    assert_eq!(code, 0, "{said}");
+    let (code, said) = verified(here.path(), "part.mod", &with, turned);
+    assert_eq!(code, 3, "{said}");
+    assert!(
+        said.contains("ANOTHER ORIENTATION OF THE TOOL at line"),
+        "{said}"
+    );
+}
+
+/// Behind a plunge without a load, which is written as it is, the step is a block of its own.
+#[test]
+fn a_step_behind_a_block_that_stays_is_a_step() {
+    let here = workplace();
+    let program =
+        "G21 G90 G17\nS6000 M3\nG0 X-20 Y-20 Z10\nG0 Z0.5\nG1 Z-1 F200\nG1 X20 F800\nG0 Z0.5\nM2\n";
+    std::fs::write(here.path().join("part.ngc"), program).unwrap();
+    let job = "schema = 1\nmodel = \"orthoglide\"\nprogram = \"part.ngc\"\n[placement]\npart_origin_mm = [0, 0, 100]\n[tool]\n\
+length_mm = 100\ncutter = { shape = \"flat\", diameter_mm = 6, teeth = 2, helix_deg = 30 }\n[material]\nname = \"AlMg4.5Mn\"\n\
+[engagement]\nwidth_mm = 2\ndepth_mm = 1\npart = \"left\"\n";
+    std::fs::write(here.path().join("job.toml"), job).unwrap();
+    let done = run(here.path(), &["compensate", "job.toml", "--out", "out.ngc"]);
+    assert_eq!(done.code, 0, "{done:?}");
+    let said = run(here.path(), &["verify", "out.ngc", "--job", "job.toml"]);
+    assert_eq!(said.code, 0, "{said:?}");
+}
+
+/// Lines of an expanded original are named as they are run and as they are written.
+#[test]
+fn lines_of_an_expanded_original_are_those_of_its_file() {
+    let here = workplace();
+    let program = "G21 G90 G17\nG0 X0 Y0 Z5\n#1 = 0\no100 repeat [3]\nG0 X[#1] Y0\nG1 Z-2 F200\nG0 Z5\n#1 = [#1 + 10]\no100 endrepeat\nM2\n";
+    std::fs::write(here.path().join("part.ngc"), program).unwrap();
+    let with = format!("{LOADED}{PLACED} --expand --dialect linuxcnc");
+    let (code, said) = verified(here.path(), "part.ngc", &with, |text| {
+        let lines: Vec<&str> = text.lines().collect();
+        let last = lines
+            .iter()
+            .rposition(|line| line.starts_with("G1"))
+            .unwrap();
+        let left = lines.iter().enumerate().filter(|(index, _)| *index != last);
+        left.map(|(_, line)| *line).collect::<Vec<_>>().join("\n")
+    });
+    assert_eq!(code, 3, "{said}");
+    assert!(said.contains("(line 6 of part.ngc)"), "{said}");
+}
