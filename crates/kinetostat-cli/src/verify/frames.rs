@@ -1,5 +1,7 @@
 //! Words of a program that move its places as the control has it set up, and not as the program says.
 
+use std::collections::BTreeSet;
+
 use kinetostat_program::{Path, Program, ReadOptions};
 
 use crate::verify::in_force::InForce;
@@ -52,8 +54,12 @@ pub(crate) fn other_words(
     let known = |(program, path): (&Program, &Path)| {
         let first = path.moves.first().map_or(usize::MAX, |first| first.line);
         let mut found = first_words(program);
-        // Behind a place that is known a shift is in the path that was read.
-        found.retain(|(word, line)| word != SHIFT || *line < first);
+        let used = in_force_on_moves(&all_words(program), path);
+        // Behind a place that is known a shift is in the path that was read; a word that another one follows before any move says nothing.
+        found.retain(|(word, line)| match word == SHIFT {
+            true => *line < first,
+            false => used.contains(word),
+        });
         found
     };
     let (of_original, of_verified) = (known(original), known(verified));
@@ -100,9 +106,12 @@ fn optional_cut(
         |lines: &&[usize; 2]| is_optional(verified, lines[0]) && !is_optional(original, lines[1]);
     let all = cut_lines.iter().filter(differs).count();
     let [line, there] = *cut_lines.iter().find(differs)?;
+    let more = match all {
+        1 => String::new(),
+        _ => format!(" and {} more", all - 1),
+    };
     let text = format!(
-        "/ begins line {line} (and {} more), line {there} of the original does not: where the control is switched to leave such blocks out, they are not made",
-        all - 1
+        "/ begins line {line}{more}, line {there} of the original does not: where the control is switched to leave such blocks out, they are not made"
     );
     Some(OtherWord::new("/", None, [Some(line), Some(there)], text))
 }
@@ -152,6 +161,21 @@ impl Kind {
             Self::PathMode => None,
         }
     }
+}
+
+/// Words that are in force on moves.
+fn in_force_on_moves(all: &[(usize, String)], path: &Path) -> BTreeSet<String> {
+    let mut used = BTreeSet::new();
+    for kind in KINDS {
+        let in_force = kind.in_force(all);
+        for motion in &path.moves {
+            let word = in_force.on(motion.line);
+            if !used.contains(word) {
+                used.insert(word.to_owned());
+            }
+        }
+    }
+    used
 }
 
 /// A word that only one of both has, and what follows from it.
@@ -209,9 +233,9 @@ fn words_of(line: &str) -> Vec<String> {
     let letters = letters_of(line);
     let codes = letters.iter().filter(|(letter, _)| *letter == 'G');
     let with = |belong: &str| -> String {
-        let own = letters
-            .iter()
-            .filter(|(letter, _)| belong.contains(*letter));
+        // In one order, whichever they have.
+        let of = |belongs: char| letters.iter().filter(move |(letter, _)| *letter == belongs);
+        let own = belong.chars().flat_map(of);
         own.map(|(letter, number)| format!(" {letter}{number}"))
             .collect()
     };

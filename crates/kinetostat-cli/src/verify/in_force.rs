@@ -36,7 +36,7 @@ impl InForce {
     }
 
     /// The word that is in force behind what a line says.
-    fn on(&self, line: usize) -> &str {
+    pub(crate) fn on(&self, line: usize) -> &str {
         let behind = self.changes.partition_point(|(at, _)| *at <= line);
         let last = behind.checked_sub(1).map(|last| &self.changes[last].1);
         last.map_or(self.usual, String::as_str)

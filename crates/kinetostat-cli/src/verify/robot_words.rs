@@ -10,8 +10,8 @@ use crate::job::robot::frame_distance::distance;
 use crate::job::robot::read_program::RobotRead;
 use crate::ui::numbers::{number, short, triple};
 use crate::verify::called_tools::called_tools;
+use crate::verify::control_words::control_words;
 use crate::verify::other_word::{FaultKind, OtherWord};
-use crate::verify::siemens_words::siemens_words;
 use crate::verify::statements::statements;
 
 /// Frames nearer to each other than this are one: more digits than controllers write, mm and rad.
@@ -35,10 +35,10 @@ pub(crate) fn robot_words(
         found.extend(tool_at_cuts(original, verified, cut_lines));
     }
     found.extend(of_tools);
-    found.extend(called_tools(original, verified, forces_from_cut));
+    found.extend(called_tools(original, verified));
     let with = (cut_lines, forces_from_cut);
-    found.extend(siemens_words(original, verified, with));
-    found.extend(statements(original, verified));
+    found.extend(control_words(original, verified, with));
+    found.extend(statements(original, verified, cut_lines));
     found.extend(exact_stops(original, verified));
     found.extend(radii(original, verified));
     found.extend(configurations(original, verified));
@@ -47,6 +47,12 @@ pub(crate) fn robot_words(
 
 fn first_line(read: &RobotRead<'_>) -> Option<usize> {
     Some(read.program.motions.first()?.line)
+}
+
+/// Whether two names are one: robots and controls do not tell `tMill` from `TMILL`, nor tool 01 from tool 1.
+fn is_same_name(a: &str, b: &str) -> bool {
+    let numbers = [a, b].map(str::parse::<u64>);
+    a.eq_ignore_ascii_case(b) || matches!(numbers, [Ok(a), Ok(b)] if a == b)
 }
 
 /// Why two frames are not one.
@@ -67,7 +73,7 @@ fn apart(own: &FrameUse, of_original: &FrameUse) -> Option<String> {
             let found: Vec<String> = place.into_iter().chain(turned).collect();
             (!found.is_empty()).then(|| found.join(", and "))
         }
-        _ => (own.name != of_original.name).then(|| {
+        _ => (!is_same_name(&own.name, &of_original.name)).then(|| {
             format!(
                 "is '{}' in the original, and it is not known where both are",
                 of_original.name
@@ -107,7 +113,9 @@ fn tools(original: &RobotRead<'_>, verified: &RobotRead<'_>) -> Vec<OtherWord> {
     };
     let own = verified.path.tools.iter().enumerate();
     own.filter_map(|(index, tool)| {
-        let mut named = of_original.iter().filter(|of| of.name == tool.name);
+        let mut named = of_original
+            .iter()
+            .filter(|of| is_same_name(&of.name, &tool.name));
         let beside = named.next().or_else(|| of_original.get(index))?;
         let lines = [line_with(verified, tool), line_with(original, beside)];
         if let Some(why) = apart(tool, beside) {
@@ -119,7 +127,7 @@ fn tools(original: &RobotRead<'_>, verified: &RobotRead<'_>) -> Vec<OtherWord> {
                 text,
             ));
         }
-        (tool.name != beside.name).then(|| {
+        (!is_same_name(&tool.name, &beside.name)).then(|| {
             let text = format!(
                 "tool '{}' is '{}' in the original, at the same place",
                 tool.name, beside.name

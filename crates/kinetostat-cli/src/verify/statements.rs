@@ -1,5 +1,7 @@
 //! Statements of robots' programs that end them, leave parts of them out or change how fast they run.
 
+use std::collections::{BTreeMap, BTreeSet};
+
 use kinetostat_formats::Language;
 
 use crate::job::robot::read_program::RobotRead;
@@ -8,10 +10,18 @@ use crate::verify::other_word::{FaultKind, OtherWord};
 /// Statements behind which the motions that follow may not be made.
 fn ends(language: Language) -> &'static [&'static str] {
     match language {
-        Language::Rapid => &["EXIT", "EXITCYCLE", "RETURN", "GOTO", "BREAK"],
+        Language::Rapid => &[
+            "EXIT",
+            "EXITCYCLE",
+            "RETURN",
+            "GOTO",
+            "BREAK",
+            "STOP",
+            "RAISE",
+        ],
         Language::Krl => &["EXIT", "RETURN", "HALT", "GOTO"],
-        Language::FanucLs => &["END", "ABORT", "JMP"],
-        Language::Apt => &["FINI", "END", "JUMPTO"],
+        Language::FanucLs => &["END", "ABORT", "JMP", "PAUSE"],
+        Language::Apt => &["FINI", "END", "JUMPTO", "STOP"],
         Language::Siemens => &[
             "M2", "M02", "M30", "M17", "RET", "GOTO", "GOTOF", "GOTOB", "GOTOS",
         ],
@@ -30,32 +40,63 @@ fn others(language: Language) -> &'static [&'static str] {
     }
 }
 
-/// Statements of these kinds that the original does not have so often.
-pub(crate) fn statements(original: &RobotRead<'_>, verified: &RobotRead<'_>) -> Vec<OtherWord> {
+/// A statement: where it stands, what it says, and behind which cut, as a line of the original (zero before all cuts).
+struct Statement {
+    line: usize,
+    text: String,
+    behind: usize,
+}
+
+/// Statements of these kinds that the original does not have behind the same cut; `cut_lines` are lines of the program verified and of the
+/// original.
+pub(crate) fn statements(
+    original: &RobotRead<'_>,
+    verified: &RobotRead<'_>,
+    cut_lines: &[[usize; 2]],
+) -> Vec<OtherWord> {
     let language = verified.program.language;
-    let [own, of_original] = [verified, original].map(all_statements);
+    let mut pairs = cut_lines.to_vec();
+    pairs.sort_unstable();
+    let own = all_statements(verified, |line| {
+        let before = pairs.partition_point(|[own, _]| *own < line);
+        before.checked_sub(1).map_or(0, |last| pairs[last][1])
+    });
+    pairs.sort_unstable_by_key(|[_, there]| *there);
+    let of_original = all_statements(original, |line| {
+        let before = pairs.partition_point(|[_, there]| *there < line);
+        before.checked_sub(1).map_or(0, |last| pairs[last][1])
+    });
+    let mut known: BTreeMap<(&str, usize), usize> = BTreeMap::new();
+    for statement in &of_original {
+        *known
+            .entry((&statement.text, statement.behind))
+            .or_default() += 1;
+    }
     let last_motion = verified.program.motions.iter().map(|m| m.line).max();
-    let count = |all: &[(usize, String)], text: &str| {
-        let same = all.iter().filter(|(_, other)| other == text);
-        same.count()
-    };
     let mut found = Vec::new();
-    let mut seen: Vec<&str> = Vec::new();
-    for (line, text) in &own {
-        let is_new = count(&own, text) > count(&of_original, text);
-        if !is_new || seen.contains(&text.as_str()) {
+    let mut seen: BTreeSet<&str> = BTreeSet::new();
+    for Statement { line, text, behind } in &own {
+        if let Some(left) = known
+            .get_mut(&(text.as_str(), *behind))
+            .filter(|left| **left > 0)
+        {
+            *left -= 1;
             continue;
         }
-        seen.push(text);
+        if !seen.insert(text) {
+            continue;
+        }
         let lines = [Some(*line), None];
-        // Of several like it the last may be the one that the original has too.
+        let is_elsewhere = of_original.iter().any(|other| other.text == *text);
+        let what = match is_elsewhere {
+            true => format!("{text} at line {line} stands elsewhere in the original"),
+            false => OtherWord::only_in_one(text, lines),
+        };
         let lies_before = last_motion.is_some_and(|last| *line < last);
-        if begins_with(text, ends(language)) && lies_before {
-            let what = OtherWord::only_in_one(text, lines);
+        if is_end(text, language) && lies_before {
             let text = format!("{what}: motions behind it may not be made");
             found.push(OtherWord::new("end", Some(FaultKind::Course), lines, text));
         } else if begins_with(text, others(language)) {
-            let what = OtherWord::only_in_one(text, lines);
             let text =
                 format!("{what}, and what it does to speeds or motions is not in these figures");
             found.push(OtherWord::new("statement", None, lines, text));
@@ -64,20 +105,39 @@ pub(crate) fn statements(original: &RobotRead<'_>, verified: &RobotRead<'_>) -> 
     found
 }
 
-/// Statements that this looks at, with their lines.
-fn all_statements(read: &RobotRead<'_>) -> Vec<(usize, String)> {
+/// Statements that this looks at.
+fn all_statements(read: &RobotRead<'_>, behind: impl Fn(usize) -> usize) -> Vec<Statement> {
     let language = read.program.language;
     let file = &read.program.files[read.path.file];
     let lines = (1..=file.line_count()).filter_map(|line| Some((line, file.line(line)?)));
     let mut found = Vec::new();
     for (line, bytes) in lines {
         let text = String::from_utf8_lossy(bytes).to_ascii_uppercase();
-        let text = code(&text, language);
-        if begins_with(text, ends(language)) || begins_with(text, others(language)) {
-            found.push((line, text.split_whitespace().collect::<Vec<_>>().join(" ")));
+        let parts = code(&text, language).split(match language {
+            Language::Rapid => ';',
+            // There is one on a line.
+            _ => '\n',
+        });
+        for part in parts.map(str::trim) {
+            if is_end(part, language) || begins_with(part, others(language)) {
+                found.push(Statement {
+                    line,
+                    text: part.split_whitespace().collect::<Vec<_>>().join(" "),
+                    behind: behind(line),
+                });
+            }
         }
     }
     found
+}
+
+/// Whether motions behind a statement may not be made; `IF` has its statement behind itself in RAPID.
+fn is_end(text: &str, language: Language) -> bool {
+    let behind_if = || {
+        let last = text.rsplit(char::is_whitespace).next().unwrap_or_default();
+        language == Language::Rapid && begins_with(text, &["IF"]) && ends(language).contains(&last)
+    };
+    begins_with(text, ends(language)) || behind_if()
 }
 
 /// A line without its number and its comment.

@@ -136,6 +136,68 @@ fn words_of_a_sinumerik_are_compared_at_every_cut() {
     );
 }
 
+/// What another post writes for the same is the same, and a statement that the original has is one where it has it.
+#[test]
+fn other_ways_to_write_the_same_are_the_same() {
+    let same = |name: &str, program: &str, with: &str, change: &dyn Fn(&str) -> String| {
+        let here = workplace();
+        std::fs::write(here.path().join(name), program).unwrap();
+        let (code, said) = verified(here.path(), name, with, |text| {
+            let changed = change(text);
+            assert_ne!(changed, text);
+            changed
+        });
+        assert_eq!(code, 0, "{said}");
+        for words in ["cut with", "cuts with", "ANOTHER", "not in the original"] {
+            assert!(!said.contains(words), "{said}");
+        }
+    };
+    let placed = format!("{LOADED}{PLACED}");
+    let first_g55 = FRAMES.replacen("G54\n", "G55\n", 1);
+    same("part.ngc", &first_g55, &placed, &|text| {
+        format!("G54\n{text}")
+    });
+    let corners = FRAMES.replace("G64 P0.01", "G64 P0.01 Q0.005");
+    same("part.ngc", &corners, &placed, &|text| {
+        text.replace("G64 P0.01 Q0.005", "G64 Q0.005 P0.010")
+    });
+    same("part.mpf", SIEMENS, &placed, &|text| {
+        text.replace("T=\"MILL\" M6", "t = \"mill\"M6")
+            .replace("S6000 M3", "M03 S6000")
+    });
+    let heidenhain = "BEGIN PGM h MM\nTOOL CALL 1 Z S5000 DL-0.1\nL X+0 Y+0 Z+30 R0 FMAX M3\nL Z+0 F600\nL X+100\nL Z+30 FMAX\nM30\nEND PGM h MM\n";
+    same("part.h", heidenhain, &placed, &|text| {
+        text.replace(
+            "TOOL CALL 1 Z S5000 DL-0.1",
+            "TOOL CALL 01 Z DL-0.100 S5000",
+        )
+    });
+    let returns = TWO_TOOLS.replacen(
+        "    MoveL [[0,60,30]",
+        "    IF FALSE RETURN;\n    MoveL [[0,60,30]",
+        1,
+    );
+    same("part.mod", &returns, &format!("{LOADED}{POSE}"), &|text| {
+        text.replace("tMill", "TMILL")
+    });
+}
+
+#[test]
+fn a_statement_that_ends_the_program_is_one_where_the_original_has_it() {
+    let here = workplace();
+    let program = "PARTNO T\nUNITS/MM\nLOADTL/1\nRAPID\nGOTO/0,0,30\nFEDRAT/600,MMPM\nGOTO/0,0,0\nGOTO/100,0,0\nRAPID\n\
+GOTO/100,0,30\nLOADTL/2\nRAPID\nGOTO/0,60,30\nFEDRAT/600,MMPM\nGOTO/0,60,0\nGOTO/100,60,0\nRAPID\nGOTO/100,60,30\nFINI\n";
+    std::fs::write(here.path().join("part.apt"), program).unwrap();
+    let with = format!("{LOADED}{PLACED}");
+    let (code, said) = verified(here.path(), "part.apt", &with, |text| {
+        text.replace("FINI\n", "")
+            .replace("LOADTL/2", "FINI\nLOADTL/2")
+    });
+    assert_eq!(code, 3, "{said}");
+    assert!(said.contains("FINI at line"), "{said}");
+    assert!(said.contains("stands elsewhere in the original"), "{said}");
+}
+
 /// Where the orientation is not corrected it is that of the original.
 #[test]
 fn another_orientation_is_a_fault_where_only_the_position_is_corrected() {

@@ -190,10 +190,10 @@ fn calls_for_tools_and_shifts_are_compared() {
                 "TOOL CALL 1 Z S5000",
                 "TOOL CALL 1 Z S5000 DL+1",
                 3,
-                "ANOTHER TOOL: DL+1 at line",
+                "cut with DL+1, the original with no DL and DR",
             ),
-            ("S5000", "S500", 0, "S500 at line"),
-            ("FMAX M3", "FMAX M4", 0, "M4 at line"),
+            ("S5000", "S500", 0, "cut with S500, the original with S5000"),
+            ("FMAX M3", "FMAX M4", 0, "cut with M4, the original with M3"),
         ],
     );
     changes(

@@ -1,4 +1,7 @@
-//! Tools, spindle speeds and path modes of SINUMERIK programs, and of Heidenhain's the path mode, by what is in force at each cut.
+//! Tools, spindle speeds and path modes of SINUMERIK programs, and of Heidenhain's what a call adds to a tool, by what is in force at
+//! each cut.
+
+use std::collections::BTreeSet;
 
 use kinetostat_formats::Language;
 
@@ -45,7 +48,7 @@ impl Kind {
 
 /// Words that only one of both programs has, and cuts that are made with others; `cut_lines` are lines of the program verified and
 /// of the original.
-pub(crate) fn siemens_words(
+pub(crate) fn control_words(
     original: &RobotRead<'_>,
     verified: &RobotRead<'_>,
     (cut_lines, forces_from_cut): (&[[usize; 2]], bool),
@@ -68,13 +71,12 @@ pub(crate) fn siemens_words(
         };
         let mut only =
             |ours: &[(usize, String)], theirs: &[(usize, String)], lines: fn(usize) -> Lines| {
-                let mut seen: Vec<&str> = Vec::new();
+                let known: BTreeSet<&str> = theirs.iter().map(|(_, word)| word.as_str()).collect();
+                let mut seen: BTreeSet<&str> = BTreeSet::new();
                 for (line, word) in ours {
-                    let known = theirs.iter().any(|(_, other)| other == word);
-                    if known || is_said(word) || seen.contains(&word.as_str()) {
+                    if known.contains(word.as_str()) || is_said(word) || !seen.insert(word) {
                         continue;
                     }
-                    seen.push(word);
                     let text = format!("{}{follows}", OtherWord::only_in_one(word, lines(*line)));
                     found.push(OtherWord::new(word.as_str(), fault, lines(*line), text));
                 }
@@ -96,24 +98,65 @@ fn all_words(read: &RobotRead<'_>) -> Vec<(usize, Kind, String)> {
     let lines = (1..=file.line_count()).filter_map(|line| Some((line, file.line(line)?)));
     let words = lines.flat_map(|(line, bytes)| {
         let text = String::from_utf8_lossy(bytes).to_ascii_uppercase();
-        let found = of_line(&text).into_iter();
+        let found = with_one_path_mode(of_line(&text)).into_iter();
         found.map(move |(kind, word)| (line, kind, word))
     });
     words.collect()
 }
 
-/// `CYCL DEF 32.1 T0.5`: by how much corners may be left.
+/// What a line says of the path mode is one word, in whatever order it says it.
+fn with_one_path_mode(words: Vec<(Kind, String)>) -> Vec<(Kind, String)> {
+    let (mut modes, mut found): (Vec<_>, Vec<_>) = words
+        .into_iter()
+        .partition(|(kind, _)| *kind == Kind::PathMode);
+    modes.sort_by(|a, b| b.1.cmp(&a.1));
+    let modes: Vec<String> = modes.into_iter().map(|(_, word)| word).collect();
+    if !modes.is_empty() {
+        found.push((Kind::PathMode, modes.join(" ")));
+    }
+    found
+}
+
+/// `TOOL CALL 1 Z S5000 DL+0.1`: what it adds to the tool, and its speed; M3 to M5 anywhere; `CYCL DEF 32.1 T0.5`: by how much corners may
+/// be left.
 fn of_heidenhain(line: &str) -> Vec<(Kind, String)> {
     let text = line.split(';').next().unwrap_or_default();
     let words: Vec<&str> = text.split_whitespace().collect();
-    let cycle = words.iter().position(|word| *word == "32.1");
-    let found = cycle.map(|at| {
-        (
-            Kind::PathMode,
-            format!("cycle 32 with {}", words[at + 1..].join(" ")),
-        )
-    });
-    found.into_iter().collect()
+    let mut found = Vec::new();
+    if let Some(cycle) = words.iter().position(|word| *word == "32.1") {
+        let with = words[cycle + 1..].join(" ");
+        found.push((Kind::PathMode, format!("cycle 32 with {with}")));
+    }
+    for word in &words {
+        let rotation = match *word {
+            "M3" | "M03" | "M13" => "M3",
+            "M4" | "M04" | "M14" => "M4",
+            "M5" | "M05" => "M5",
+            _ => continue,
+        };
+        found.push((Kind::Rotation, rotation.to_owned()));
+    }
+    let calls = words.windows(2).any(|pair| pair == ["TOOL", "CALL"]);
+    if calls {
+        let mut added: Vec<String> = Vec::new();
+        for word in &words {
+            for name in ["DL", "DR", "S"] {
+                let value = word.strip_prefix(name).map(str::parse::<f64>);
+                match (value, name) {
+                    (Some(Ok(value)), "S") => found.push((Kind::Speed, format!("S{value}"))),
+                    (Some(Ok(value)), _) if value != 0.0 => added.push(format!("{name}{value:+}")),
+                    _ => {}
+                }
+            }
+        }
+        added.sort();
+        let added = match added.is_empty() {
+            true => "no DL and DR".to_owned(),
+            false => added.join(" "),
+        };
+        found.push((Kind::Edge, added));
+    }
+    found
 }
 
 /// `T="MILL"`, `D1`, `S6000`, `M3`, `G642 ADIS=1`, `CYCLE832(0.5, 1)`.
@@ -168,12 +211,24 @@ fn words_of(line: &str) -> Vec<(String, String)> {
                 name.push(letter);
             }
         }
-        if rest.peek() == Some(&'=') {
-            let is_quote = |c: char| c == '"';
-            let mut quoted = false;
-            while let Some(next) = rest.next_if(|c| quoted || !c.is_whitespace() && *c != ';') {
-                quoted ^= is_quote(next);
-                value.push(next);
+        let mut ahead = rest.clone();
+        while ahead.next_if(|c| c.is_whitespace()).is_some() {}
+        if value.is_empty() && ahead.next_if_eq(&'=').is_some() {
+            while ahead.next_if(|c| c.is_whitespace()).is_some() {}
+            rest = ahead;
+            value.push('=');
+            if let Some(quote) = rest.next_if_eq(&'"') {
+                value.push(quote);
+                for next in rest.by_ref() {
+                    value.push(next);
+                    if next == quote {
+                        break;
+                    }
+                }
+            } else {
+                while let Some(next) = rest.next_if(|c| !c.is_whitespace() && *c != ';') {
+                    value.push(next);
+                }
             }
         } else if value.is_empty() && rest.peek() == Some(&'(') {
             for next in rest.by_ref() {
@@ -201,6 +256,7 @@ mod tests {
         };
         assert_eq!(said("N10G0X10Y5S6000M03"), ["S6000", "M3"]);
         assert_eq!(said("T=\"END MILL\" M6 D1"), ["T\"END MILL\"", "D1"]);
+        assert_eq!(said("T = \"MILL\"M6"), ["T\"MILL\""]);
         assert_eq!(
             said("S1=3000 M1=3 G642 ADIS=0.5 ; S1"),
             ["S3000", "G642", "ADIS=0.5"]
