@@ -182,6 +182,19 @@ fn other_ways_to_write_the_same_are_the_same() {
     });
 }
 
+/// The writer reads blocks behind a slash as the program was read.
+#[test]
+fn blocks_behind_a_slash_run_or_are_left_out() {
+    let here = workplace();
+    let program = SIEMENS.replace("\nX20 F800", "\n/X20 F800\n/Y9");
+    std::fs::write(here.path().join("part.mpf"), program).unwrap();
+    for way in ["run", "skip"] {
+        let with = format!("{LOADED}{PLACED} --block-delete {way}");
+        let (code, said) = verified(here.path(), "part.mpf", &with, str::to_owned);
+        assert_eq!(code, 0, "{said}");
+    }
+}
+
 #[test]
 fn a_statement_that_ends_the_program_is_one_where_the_original_has_it() {
     let here = workplace();

@@ -27,6 +27,8 @@ pub struct RobotProgram {
     pub(crate) outside_calls: Vec<OutsideCall>,
     /// What it says of the rotary axes of a machine.
     pub(crate) rotary: StatedAxes,
+    /// How blocks behind a slash were read.
+    pub(crate) slash_blocks: crate::options::SlashBlocks,
 }
 
 impl RobotProgram {

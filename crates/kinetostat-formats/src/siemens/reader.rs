@@ -61,6 +61,7 @@ pub(crate) fn parse_siemens(files: Vec<SourceFile>, options: &ReadOptions) -> Pa
         findings,
         declarations: Vec::new(),
         outside_calls: Vec::new(),
+        slash_blocks: options.slash_blocks,
         rotary,
     };
     Parsed { program, faults }

@@ -50,6 +50,7 @@ pub(crate) fn write_siemens(
     if !pieces.is_empty() {
         let reading = ReadOptions {
             rotary_axes: program.rotary.letters.clone(),
+            slash_blocks: program.slash_blocks,
             ..ReadOptions::default().as_written()
         };
         let found = scan(&program.files, &reading);
