@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use nalgebra::Isometry3;
 
 use crate::model::joint_arm::TableArm;
+use crate::model::slash_blocks::SlashBlocks;
 
 /// What becomes of a motion whose end is not known from the text.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -35,18 +36,6 @@ pub enum CutterCompensation {
     Refused,
     /// The places are those of the tool's centre: the controller's radius is zero, or only the wear.
     CentrePath,
-}
-
-/// What becomes of blocks behind a slash (SINUMERIK: `/N50`, `/0` to `/9`), which a switch at the machine skips.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum SlashBlocks {
-    /// They are refused with their lines, but for those that change neither places nor what follows.
-    #[default]
-    Refused,
-    /// They run, with a finding.
-    Run,
-    /// They are carried as they are written, and do nothing, with a finding.
-    Skipped,
 }
 
 /// What lengths of a list of poses are.

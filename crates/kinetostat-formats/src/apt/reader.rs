@@ -108,7 +108,7 @@ pub(crate) fn parse_apt(files: Vec<SourceFile>, options: &ReadOptions) -> Parsed
         findings,
         declarations: Vec::new(),
         outside_calls: Vec::new(),
-        slash_blocks: crate::options::SlashBlocks::default(),
+        slash_blocks: crate::model::slash_blocks::SlashBlocks::default(),
         rotary: crate::model::stated_axes::StatedAxes::default(),
     };
     Parsed { program, faults }

@@ -14,6 +14,7 @@ pub(crate) mod outside_call;
 pub(crate) mod parsed;
 pub(crate) mod program;
 pub(crate) mod site;
+pub(crate) mod slash_blocks;
 pub(crate) mod stated_arm;
 pub(crate) mod stated_axes;
 pub(crate) mod target;

@@ -51,7 +51,7 @@ impl Parsed {
                 findings: Vec::new(),
                 declarations: Vec::new(),
                 outside_calls: Vec::new(),
-                slash_blocks: crate::options::SlashBlocks::default(),
+                slash_blocks: crate::model::slash_blocks::SlashBlocks::default(),
                 rotary: StatedAxes::default(),
             },
             faults,
@@ -85,7 +85,7 @@ impl Parsed {
             findings,
             declarations,
             outside_calls,
-            slash_blocks: crate::options::SlashBlocks::default(),
+            slash_blocks: crate::model::slash_blocks::SlashBlocks::default(),
             rotary: StatedAxes::default(),
         };
         Self { program, faults }

@@ -28,7 +28,7 @@ pub struct RobotProgram {
     /// What it says of the rotary axes of a machine.
     pub(crate) rotary: StatedAxes,
     /// How blocks behind a slash were read.
-    pub(crate) slash_blocks: crate::options::SlashBlocks,
+    pub(crate) slash_blocks: crate::model::slash_blocks::SlashBlocks,
 }
 
 impl RobotProgram {

@@ -113,7 +113,7 @@ pub(crate) fn parse_poses(files: Vec<SourceFile>, options: &ReadOptions) -> Pars
         findings,
         declarations: Vec::new(),
         outside_calls: Vec::new(),
-        slash_blocks: crate::options::SlashBlocks::default(),
+        slash_blocks: crate::model::slash_blocks::SlashBlocks::default(),
         rotary: crate::model::stated_axes::StatedAxes::default(),
     };
     Parsed { program, faults }

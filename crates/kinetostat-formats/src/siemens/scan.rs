@@ -6,7 +6,8 @@ use std::ops::Range;
 use nalgebra::Isometry3;
 
 use crate::axis_count::{CountShown, shown_by_both};
-use crate::options::{ReadOptions, SlashBlocks};
+use crate::model::slash_blocks::SlashBlocks;
+use crate::options::ReadOptions;
 use crate::siemens::block::{Block, What};
 use crate::siemens::declarations::define;
 use crate::siemens::files::whole_file;

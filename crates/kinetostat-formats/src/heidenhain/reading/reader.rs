@@ -68,7 +68,7 @@ pub(crate) fn parse_heidenhain(files: Vec<SourceFile>, options: &ReadOptions) ->
         findings,
         declarations: Vec::new(),
         outside_calls: Vec::new(),
-        slash_blocks: crate::options::SlashBlocks::default(),
+        slash_blocks: crate::model::slash_blocks::SlashBlocks::default(),
         rotary: StatedAxes {
             letters: options.rotary_axes.clone(),
             motions: found.axes,

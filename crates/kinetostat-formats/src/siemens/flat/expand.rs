@@ -3,7 +3,8 @@
 use std::collections::BTreeMap;
 
 use crate::error::ProgramError;
-use crate::options::{ReadOptions, SlashBlocks};
+use crate::model::slash_blocks::SlashBlocks;
+use crate::options::ReadOptions;
 use crate::refused_run::{RefusedRun, with_corners};
 use crate::siemens::block::{Block, What};
 use crate::siemens::files::whole_file;

@@ -1,6 +1,6 @@
 //! The blocks of a program as they run: numbers in place of expressions, without labels and assignments.
 
-use crate::options::SlashBlocks;
+use crate::model::slash_blocks::SlashBlocks;
 use crate::siemens::block::{Block, Item, What};
 use crate::siemens::expression::Expression;
 use crate::siemens::flat::frames::is_frame;

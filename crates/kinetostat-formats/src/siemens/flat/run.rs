@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use crate::error::ProgramError;
-use crate::options::SlashBlocks;
+use crate::model::slash_blocks::SlashBlocks;
 use crate::refused_run::Behind;
 use crate::siemens::declarations::define;
 use crate::siemens::expression::Expression;

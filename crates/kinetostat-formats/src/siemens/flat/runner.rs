@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 
 use crate::error::ProgramError;
-use crate::options::SlashBlocks;
+use crate::model::slash_blocks::SlashBlocks;
 use crate::refused_run::FaultsOfRun;
 use crate::siemens::block::What;
 use crate::siemens::expression::Expression;

@@ -1,0 +1,13 @@
+//! Blocks that a switch at the machine leaves out.
+
+/// What becomes of blocks behind a slash (SINUMERIK: `/N50`, `/0` to `/9`), which a switch at the machine skips.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum SlashBlocks {
+    /// They are refused with their lines, but for those that change neither places nor what follows.
+    #[default]
+    Refused,
+    /// They run, with a finding.
+    Run,
+    /// They are carried as they are written, and do nothing, with a finding.
+    Skipped,
+}
