@@ -41,18 +41,14 @@ pub(crate) fn called_tools(original: &RobotRead<'_>, verified: &RobotRead<'_>) -
 }
 
 fn calls(read: &RobotRead<'_>) -> Vec<Call> {
-    let file = &read.program.files[read.path.file];
     let of_line: fn(&str) -> Option<String> = match read.program.language {
         Language::Heidenhain => of_heidenhain,
         Language::Apt => of_apt,
         _ => return Vec::new(),
     };
-    let lines = (1..=file.line_count()).filter_map(|line| Some((line, file.line(line)?)));
-    lines
-        .filter_map(|(line, bytes)| {
-            let text = String::from_utf8_lossy(bytes).to_ascii_uppercase();
-            of_line(&text).map(|word| Call { word, line })
-        })
+    let calls = read.lines_in_capitals();
+    calls
+        .filter_map(|(line, text)| of_line(&text).map(|word| Call { word, line }))
         .collect()
 }
 

@@ -7,7 +7,7 @@ use kinetostat_formats::Language;
 
 use crate::job::robot::read_program::RobotRead;
 use crate::verify::in_force::InForce;
-use crate::verify::other_word::{FaultKind, Lines, OtherWord};
+use crate::verify::other_word::{FaultKind, Lines, OTHER_PATH_MODE, OtherWord};
 
 /// Words of which the last one is in force.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -36,12 +36,10 @@ impl Kind {
         }
     }
 
-    fn follows(self) -> &'static str {
+    fn follows(self) -> String {
         match self {
-            Self::PathMode => {
-                ": the control follows the path otherwise, and leaves its corners by what that allows; nothing here has that in it"
-            }
-            _ => "",
+            Self::PathMode => format!(": {OTHER_PATH_MODE}"),
+            _ => String::new(),
         }
     }
 }
@@ -83,7 +81,7 @@ pub(crate) fn control_words(
             };
         only(&own, &of_original, |line| [Some(line), None]);
         only(&of_original, &own, |line| [None, Some(line)]);
-        found.extend((elsewhere.into_iter()).map(|found| found.other_word(fault, follows)));
+        found.extend((elsewhere.into_iter()).map(|found| found.other_word(fault, &follows)));
     }
     found
 }
@@ -94,10 +92,7 @@ fn all_words(read: &RobotRead<'_>) -> Vec<(usize, Kind, String)> {
         Language::Heidenhain => of_heidenhain,
         _ => return Vec::new(),
     };
-    let file = &read.program.files[read.path.file];
-    let lines = (1..=file.line_count()).filter_map(|line| Some((line, file.line(line)?)));
-    let words = lines.flat_map(|(line, bytes)| {
-        let text = String::from_utf8_lossy(bytes).to_ascii_uppercase();
+    let words = read.lines_in_capitals().flat_map(|(line, text)| {
         let found = with_one_path_mode(of_line(&text)).into_iter();
         found.map(move |(kind, word)| (line, kind, word))
     });

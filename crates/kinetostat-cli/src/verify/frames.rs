@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use kinetostat_program::{Path, Program, ReadOptions};
 
 use crate::verify::in_force::InForce;
-use crate::verify::other_word::{FaultKind, Lines, OtherWord};
+use crate::verify::other_word::{FaultKind, Lines, OTHER_PATH_MODE, OtherWord};
 
 /// Frames of G-code, in the order of their origins under `[reading]`.
 const FRAMES: [&str; 9] = [
@@ -29,14 +29,14 @@ pub(crate) fn other_words(
     verified: (&Program, &Path),
     (reading, cut_lines): (&ReadOptions, &[[usize; 2]]),
 ) -> Vec<OtherWord> {
-    let all = [verified.0, original.0].map(all_words);
+    let [own, of_original] = [verified.0, original.0].map(all_words);
     let is_stated = |word: &str| {
         let frame = FRAMES.iter().position(|frame| *frame == word);
         frame.is_some_and(|index| reading.work_offsets_mm[index].is_some())
     };
     let mut elsewhere = Vec::new();
     for kind in KINDS {
-        let [own, of_original] = all.each_ref().map(|all| kind.in_force(all));
+        let [own, of_original] = [&own, &of_original].map(|all| kind.in_force(all));
         let same = |own: &str, of_original: &str| match kind {
             // Places in frames with stated origins are compared as places.
             Kind::Frame => is_stated(own) && is_stated(of_original),
@@ -51,10 +51,10 @@ pub(crate) fn other_words(
         let mut said = elsewhere.iter();
         said.any(|(_, found)| found.word == word || found.of_original == word)
     };
-    let known = |(program, path): (&Program, &Path)| {
+    let known = |all: &[(usize, String)], path: &Path| {
         let first = path.moves.first().map_or(usize::MAX, |first| first.line);
-        let mut found = first_words(program);
-        let used = in_force_on_moves(&all_words(program), path);
+        let mut found = first_words(all);
+        let used = in_force_on_moves(all, path);
         // Behind a place that is known a shift is in the path that was read; a word that another one follows before any move says nothing.
         found.retain(|(word, line)| match word == SHIFT {
             true => *line < first,
@@ -62,7 +62,7 @@ pub(crate) fn other_words(
         });
         found
     };
-    let (of_original, of_verified) = (known(original), known(verified));
+    let (of_original, of_verified) = (known(&of_original, original.1), known(&own, verified.1));
     let is_unknown = |word: &str| match FRAMES.iter().position(|frame| *frame == word) {
         Some(index) => reading.work_offsets_mm[index].is_none(),
         None => OFFSETS.contains(&code(word)) || word == SHIFT || is_path_mode(word),
@@ -183,7 +183,7 @@ fn only_in_one(word: &str, lines: Lines) -> OtherWord {
     let what = OtherWord::only_in_one(word, lines);
     let is_frame = FRAMES.contains(&word) || word == SHIFT;
     let follows = if is_path_mode(word) {
-        "the control follows the path otherwise, and leaves its corners by what that allows; nothing here has that in it"
+        OTHER_PATH_MODE
     } else if word == SHIFT {
         "before the program has said where the tool is, it shifts the frame by what the control knows"
     } else if is_frame {
@@ -204,12 +204,12 @@ fn code(word: &str) -> &str {
     word.split(' ').next().unwrap_or_default()
 }
 
-/// Words with G, each with the first line that has it.
-fn first_words(program: &Program) -> Vec<(String, usize)> {
+/// Each word with the first line that has it.
+fn first_words(all: &[(usize, String)]) -> Vec<(String, usize)> {
     let mut found: Vec<(String, usize)> = Vec::new();
-    for (line, word) in all_words(program) {
-        if !found.iter().any(|(known, _)| *known == word) {
-            found.push((word, line));
+    for (line, word) in all {
+        if !found.iter().any(|(known, _)| known == word) {
+            found.push((word.clone(), *line));
         }
     }
     found

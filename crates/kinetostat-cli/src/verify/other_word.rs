@@ -41,6 +41,9 @@ impl FaultKind {
     }
 }
 
+/// What follows from another path mode.
+pub(crate) const OTHER_PATH_MODE: &str = "the control follows the path otherwise, and leaves its corners by what that allows; nothing here has that in it";
+
 /// Line of the program and of the original; none of the one that does not have the word.
 pub(crate) type Lines = [Option<usize>; 2];
 

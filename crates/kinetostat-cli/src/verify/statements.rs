@@ -108,11 +108,8 @@ pub(crate) fn statements(
 /// Statements that this looks at.
 fn all_statements(read: &RobotRead<'_>, behind: impl Fn(usize) -> usize) -> Vec<Statement> {
     let language = read.program.language;
-    let file = &read.program.files[read.path.file];
-    let lines = (1..=file.line_count()).filter_map(|line| Some((line, file.line(line)?)));
     let mut found = Vec::new();
-    for (line, bytes) in lines {
-        let text = String::from_utf8_lossy(bytes).to_ascii_uppercase();
+    for (line, text) in read.lines_in_capitals() {
         let parts = code(&text, language).split(match language {
             Language::Rapid => ';',
             // There is one on a line.

@@ -37,6 +37,13 @@ impl RobotRead<'_> {
         self.program.language == Language::Krl && !self.settings.axis_is_stated
     }
 
+    /// Lines of the file with the motions, from 1, in capitals.
+    pub(crate) fn lines_in_capitals(&self) -> impl Iterator<Item = (usize, String)> {
+        let file = &self.program.files[self.path.file];
+        let lines = (1..=file.line_count()).filter_map(|line| Some((line, file.line(line)?)));
+        lines.map(|(line, bytes)| (line, String::from_utf8_lossy(bytes).to_ascii_uppercase()))
+    }
+
     /// The program as a run takes it.
     pub(crate) fn correctable(&self) -> Correctable<'_> {
         Correctable {
