@@ -59,6 +59,27 @@ fn a_hole_is_cut_though_a_slot_nearby_was_cut_before() {
     assert_eq!(uncut(&found), &json!([]), "{said}");
 }
 
+/// What the second visit cuts first, the first visit has cut before; a lift back to near its ground lies there too.
+#[test]
+fn a_hole_that_is_pecked_twice_is_cut_twice() {
+    let here = compensated_cuts(&format!("{HOLE}{SLOT}{HOLE}"));
+    let (code, found, said) = verified(here.path(), "out.ngc", &[]);
+    assert_eq!(code, 0, "{said}");
+    assert_eq!(uncut(&found), &json!([]), "{said}");
+    // Without the second visit: its blocks are those behind the last rapid to X29.
+    let (code, found, said) = changed(here.path(), |text| {
+        let lines: Vec<&str> = text.lines().collect();
+        let again = lines
+            .iter()
+            .rposition(|l| l.starts_with("G0 X29 "))
+            .unwrap();
+        let kept = lines[..again].iter().chain(lines.last());
+        kept.map(|line| format!("{line}\n")).collect()
+    });
+    assert_eq!(code, 3, "{said}");
+    assert!(!uncut(&found).as_array().unwrap().is_empty(), "{said}");
+}
+
 #[test]
 fn a_peck_that_is_left_short_is_all_that_is_wrong() {
     let here = compensated_cuts(HOLE);

@@ -4,6 +4,7 @@ use std::borrow::Cow;
 
 use kinetostat::number::{larger, smaller};
 use kinetostat_program::{Curve, Knowledge, Move, MoveKind, NominalPath, Path};
+use nalgebra::Vector3;
 
 use crate::verify::rapids::NEAR_MM;
 use crate::verify::way::{ON_WAY_MM, Way};
@@ -16,9 +17,9 @@ pub(crate) fn without_air<'a>(
     (other, shift_mm): (&'a Path, f64),
 ) -> Cow<'a, Path> {
     let near_mm = NEAR_MM + shift_mm;
-    let is_rapid = |m: &&Move| m.kind == MoveKind::Rapid && m.known == Knowledge::Whole;
-    let mut rapids: Vec<&Move> = original.path().moves.iter().filter(is_rapid).collect();
-    rapids.sort_by(|a, b| a.start.x.total_cmp(&b.start.x));
+    let rapids = Starts::of(original.path(), MoveKind::Rapid);
+    let [guide_rapids, guide_feeds] =
+        [MoveKind::Rapid, MoveKind::Feed].map(|kind| Starts::of(nominal.path(), kind));
     // How far cuts before may be from a way along them: a lift may go where the cut is not shifted to. A way that is where the cuts are
     // is compensated as those are, and another cut nearby is none along it.
     let beside_cuts = |own: &Move| {
@@ -29,24 +30,35 @@ pub(crate) fn without_air<'a>(
             feet.map(|foot| foot.distance_mm).fold(0.0, larger),
         )
     };
+    // A way that was cut before is cut again where a cut of the guide is more like it than any rapid is.
+    let is_cut_again = |index: usize| {
+        let own = &other.moves[index];
+        let least = |starts: &Starts<'_>| {
+            let near = starts.near(&own.start, near_mm);
+            let near = near.filter(|k| starts.way(*k).distance(&own.end) <= near_mm);
+            near.map(|k| starts.apart_mm(k, other, index))
+                .fold(f64::INFINITY, smaller)
+        };
+        least(&guide_feeds) < least(&guide_rapids)
+    };
     let is_air = |index: usize| {
         let own = &other.moves[index];
         if own.kind != MoveKind::Feed || own.curve != Curve::Line || !own.is_known_feed() {
             return false;
         }
-        let from = rapids.partition_point(|m| m.start.x < own.start.x - near_mm);
-        let candidates = rapids[from..].iter();
-        let mut candidates = candidates.take_while(|m| m.start.x <= own.start.x + near_mm);
         let middle = own.point(0.5);
+        let mut candidates = rapids
+            .near(&own.start, near_mm)
+            .map(|rapid| &rapids.moves[rapid]);
         candidates.any(|m| {
             let beside = (m.point(0.5) - middle).norm();
-            (m.start - own.start).norm() <= near_mm
-                && (m.end - own.end).norm() <= near_mm
+            (m.end - own.end).norm() <= near_mm
                 && goes_the_same_way(own, m)
                 // Not where a cut goes nearer by, as it is or compensated, unless it has been made.
                 && ([original, nominal].into_iter().all(|cuts| {
                     cuts.nearest(&middle).is_none_or(|foot| foot.distance_mm > beside)
-                }) || is_cut_before(other, index, ON_WAY_MM + beside_cuts(own)))
+                }) || (is_cut_before(other, index, ON_WAY_MM + beside_cuts(own))
+                    && !is_cut_again(index)))
         })
     };
     let air: Vec<usize> = (0..other.moves.len())
@@ -60,6 +72,71 @@ pub(crate) fn without_air<'a>(
         changed.moves[index].kind = MoveKind::Rapid;
     }
     Cow::Owned(changed)
+}
+
+/// Moves of a path by where they start.
+struct Starts<'p> {
+    moves: &'p [Move],
+    by_x: Vec<usize>,
+}
+
+impl<'p> Starts<'p> {
+    fn of(path: &'p Path, kind: MoveKind) -> Self {
+        let moves = &path.moves[..];
+        let is_meant = |index: &usize| {
+            let m = &moves[*index];
+            m.kind == kind && m.known == Knowledge::Whole
+        };
+        let mut by_x: Vec<usize> = (0..moves.len()).filter(is_meant).collect();
+        by_x.sort_by(|a, b| moves[*a].start.x.total_cmp(&moves[*b].start.x));
+        Self { moves, by_x }
+    }
+
+    fn way(&self, index: usize) -> Way {
+        Way {
+            line: self.moves[index].line,
+            ends: [self.moves[index].start, self.moves[index].end],
+        }
+    }
+
+    /// Those that start near a place.
+    fn near<'s>(
+        &'s self,
+        place: &'s Vector3<f64>,
+        within_mm: f64,
+    ) -> impl Iterator<Item = usize> + 's {
+        let from = self
+            .by_x
+            .partition_point(|index| self.moves[*index].start.x < place.x - within_mm);
+        let indices = self.by_x[from..].iter().copied();
+        let indices = indices.take_while(move |i| self.moves[*i].start.x <= place.x + within_mm);
+        indices.filter(move |index| (self.moves[*index].start - place).norm() <= within_mm)
+    }
+
+    /// How far apart two ways and the moves before them start, mm: a hole is pecked again behind the way to it, and the way back to its
+    /// ground follows the lift out of it.
+    fn apart_mm(&self, index: usize, other: &Path, own: usize) -> f64 {
+        let starts = |moves: &[Move], index: usize| {
+            let first = first_of_way(moves, index);
+            [first, first.saturating_sub(1)].map(|index| moves[index].start)
+        };
+        let (there, here) = (starts(self.moves, index), starts(&other.moves, own));
+        there.iter().zip(&here).map(|(a, b)| (a - b).norm()).sum()
+    }
+}
+
+/// Moves of one kind in this direction, as the cosine of the angle between them, are parts of one way.
+const ONE_DIRECTION: f64 = 0.9;
+
+/// The first of the moves that lead on to one in its direction.
+fn first_of_way(moves: &[Move], index: usize) -> usize {
+    let leads_on = |before: &usize| {
+        let [from, to] = [&moves[*before], &moves[before + 1]];
+        let tangents = from.tangent(1.0).zip(to.tangent(0.0));
+        from.kind == to.kind && tangents.is_some_and(|(a, b)| a.dot(&b) >= ONE_DIRECTION)
+    };
+    let before = index.saturating_sub(LOOKED_BACK)..index;
+    before.rev().take_while(leads_on).last().unwrap_or(index)
 }
 
 /// Corrections change a rapid by at most this share of it, or a move is not taken for it.
