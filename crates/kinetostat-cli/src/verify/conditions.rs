@@ -4,11 +4,12 @@ use kinetostat_machining::{Condition, OtherCondition, Warning, WarningCode};
 
 use crate::verify::other_word::{FaultKind, OtherWord};
 
-/// Whether the program must not run so: forces from the cut are others with another feed or spindle, and another tool that both
-/// name is of another length.
+/// Whether the program must not run so: no cut is made with a spindle that stands still or turns the other way round, forces from the cut
+/// are others with another feed or speed, and another tool that both name is of another length.
 pub(crate) fn is_fault(other: &OtherCondition, forces_from_cut: bool) -> bool {
     match other.condition {
         Condition::Feed | Condition::Spindle => forces_from_cut,
+        Condition::Rotation => true,
         Condition::Tool => other.tools_named,
     }
 }
@@ -18,6 +19,7 @@ pub(crate) fn said(other: &OtherCondition, forces_from_cut: bool, source: &str) 
     let what = match other.condition {
         Condition::Feed => "ANOTHER FEED",
         Condition::Spindle => FaultKind::Spindle.words(),
+        Condition::Rotation => FaultKind::Rotation.words(),
         Condition::Tool => FaultKind::Tool.words(),
     };
     let [first, last] = other.lines;

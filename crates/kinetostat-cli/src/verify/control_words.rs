@@ -27,13 +27,22 @@ const KINDS: [Kind; 5] = [
     Kind::PathMode,
 ];
 
+/// At the start, and behind a change of tools, which stops the spindle.
+const STANDS: &str = "no M3 or M4 since the change of tools";
+
 impl Kind {
     fn fault(self, forces_from_cut: bool) -> Option<FaultKind> {
         match self {
             Self::Tool | Self::Edge => Some(FaultKind::Tool),
-            Self::Speed | Self::Rotation => forces_from_cut.then_some(FaultKind::Spindle),
+            Self::Speed => forces_from_cut.then_some(FaultKind::Spindle),
+            Self::Rotation => Some(FaultKind::Rotation),
             Self::PathMode => None,
         }
+    }
+
+    /// Whether a cut may be made with one word for another: with a spindle of which the original says nothing.
+    fn may_be(self, of_original: &str) -> bool {
+        self == Self::Rotation && !matches!(of_original, "M3" | "M4")
     }
 
     fn follows(self) -> String {
@@ -55,6 +64,8 @@ pub(crate) fn control_words(
     let mut found = Vec::new();
     for kind in KINDS {
         let fault = kind.fault(forces_from_cut);
+        // What the spindle does where nothing is cut is no fault.
+        let fault_of_word = fault.filter(|_| kind != Kind::Rotation);
         let follows = kind.follows();
         let of_kind = |all: &[(usize, Kind, String)]| -> Vec<(usize, String)> {
             let own = all.iter().filter(|(_, of, _)| *of == kind);
@@ -62,7 +73,8 @@ pub(crate) fn control_words(
         };
         let [own, of_original] = [&own, &of_original].map(|all| of_kind(all));
         let in_force = |all: &[(usize, String)]| InForce::new("none", all.iter().cloned());
-        let elsewhere = in_force(&own).elsewhere(&in_force(&of_original), cut_lines, |_, _| false);
+        let may_be = |_: &str, wanted: &str| kind.may_be(wanted);
+        let elsewhere = in_force(&own).elsewhere(&in_force(&of_original), cut_lines, may_be);
         let is_said = |word: &str| {
             let mut said = elsewhere.iter();
             said.any(|found| found.word == word || found.of_original == word)
@@ -76,7 +88,12 @@ pub(crate) fn control_words(
                         continue;
                     }
                     let text = format!("{}{follows}", OtherWord::only_in_one(word, lines(*line)));
-                    found.push(OtherWord::new(word.as_str(), fault, lines(*line), text));
+                    found.push(OtherWord::new(
+                        word.as_str(),
+                        fault_of_word,
+                        lines(*line),
+                        text,
+                    ));
                 }
             };
         only(&own, &of_original, |line| [Some(line), None]);
@@ -96,7 +113,8 @@ fn all_words(read: &RobotRead<'_>) -> Vec<(usize, Kind, String)> {
         let found = with_one_path_mode(of_line(&text)).into_iter();
         found.map(move |(kind, word)| (line, kind, word))
     });
-    words.collect()
+    let at_start = (0, Kind::Rotation, STANDS.to_owned());
+    std::iter::once(at_start).chain(words).collect()
 }
 
 /// What a line says of the path mode is one word, in whatever order it says it.
@@ -122,6 +140,11 @@ fn of_heidenhain(line: &str) -> Vec<(Kind, String)> {
         let with = words[cycle + 1..].join(" ");
         found.push((Kind::PathMode, format!("cycle 32 with {with}")));
     }
+    let call = words.windows(2).position(|pair| pair == ["TOOL", "CALL"]);
+    let called = call.and_then(|call| words.get(call + 2));
+    if called.is_some_and(|word| !matches!(*word, "X" | "Y" | "Z") && !word.starts_with('S')) {
+        found.push((Kind::Rotation, STANDS.to_owned()));
+    }
     for word in &words {
         let rotation = match *word {
             "M3" | "M03" | "M13" => "M3",
@@ -131,8 +154,7 @@ fn of_heidenhain(line: &str) -> Vec<(Kind, String)> {
         };
         found.push((Kind::Rotation, rotation.to_owned()));
     }
-    let calls = words.windows(2).any(|pair| pair == ["TOOL", "CALL"]);
-    if calls {
+    if call.is_some() {
         let mut added: Vec<String> = Vec::new();
         for word in &words {
             for name in ["DL", "DR", "S"] {
@@ -163,6 +185,7 @@ fn of_siemens(line: &str) -> Vec<(Kind, String)> {
             ("D", value) => (Kind::Edge, format!("D{}", value.trim_start_matches('='))),
             ("S" | "S1", value) => (Kind::Speed, format!("S{}", value.trim_start_matches('='))),
             ("M", "3" | "4" | "5") => (Kind::Rotation, format!("M{value}")),
+            ("M", "6") => (Kind::Rotation, STANDS.to_owned()),
             ("G", "60" | "64" | "641" | "642" | "643" | "644" | "645") => {
                 (Kind::PathMode, format!("G{value}"))
             }
@@ -250,8 +273,11 @@ mod tests {
             of_siemens(line).into_iter().map(|(_, word)| word).collect()
         };
         assert_eq!(said("N10G0X10Y5S6000M03"), ["S6000", "M3"]);
-        assert_eq!(said("T=\"END MILL\" M6 D1"), ["T\"END MILL\"", "D1"]);
-        assert_eq!(said("T = \"MILL\"M6"), ["T\"MILL\""]);
+        assert_eq!(
+            said("T=\"END MILL\" M6 D1"),
+            ["T\"END MILL\"", STANDS, "D1"]
+        );
+        assert_eq!(said("T = \"MILL\"M6"), ["T\"MILL\"", STANDS]);
         assert_eq!(
             said("S1=3000 M1=3 G642 ADIS=0.5 ; S1"),
             ["S3000", "G642", "ADIS=0.5"]

@@ -25,6 +25,7 @@ pub(crate) enum FaultKind {
     Frame,
     Tool,
     Spindle,
+    Rotation,
     /// Which motions are made.
     Course,
 }
@@ -35,7 +36,8 @@ impl FaultKind {
         match self {
             Self::Frame => "ANOTHER FRAME",
             Self::Tool => "ANOTHER TOOL",
-            Self::Spindle => "ANOTHER SPEED OR DIRECTION OF THE SPINDLE",
+            Self::Spindle => "ANOTHER SPEED OF THE SPINDLE",
+            Self::Rotation => "THE SPINDLE DOES NOT TURN AS IN THE ORIGINAL",
             Self::Course => "ANOTHER COURSE OF THE PROGRAM",
         }
     }

@@ -29,6 +29,20 @@ fn ends(language: Language) -> &'static [&'static str] {
     }
 }
 
+/// Statements that make motions behind them under a condition, or again.
+fn branches(language: Language) -> &'static [&'static str] {
+    match language {
+        Language::Rapid => &["IF", "ELSEIF", "ELSE", "TEST", "CASE", "FOR", "WHILE"],
+        Language::Krl => &[
+            "IF", "ELSE", "SWITCH", "CASE", "FOR", "WHILE", "LOOP", "REPEAT",
+        ],
+        Language::FanucLs => &["IF", "ELSE", "SELECT", "FOR"],
+        Language::Apt => &["IF", "LOOPST"],
+        Language::Siemens => &["IF", "ELSE", "CASE", "FOR", "WHILE", "LOOP", "REPEAT"],
+        _ => &[],
+    }
+}
+
 /// Statements that say how fast all motions run, or that call what is not read here.
 fn others(language: Language) -> &'static [&'static str] {
     match language {
@@ -93,8 +107,12 @@ pub(crate) fn statements(
             false => OtherWord::only_in_one(text, lines),
         };
         let lies_before = last_motion.is_some_and(|last| *line < last);
-        if is_end(text, language) && lies_before {
-            let text = format!("{what}: motions behind it may not be made");
+        let leads_on = begins_with(text, branches(language));
+        if (is_end(text, language) || leads_on) && lies_before {
+            let text = match leads_on {
+                true => format!("{what}: motions behind it may not be made, or more than once"),
+                false => format!("{what}: motions behind it may not be made"),
+            };
             found.push(OtherWord::new("end", Some(FaultKind::Course), lines, text));
         } else if begins_with(text, others(language)) {
             let text =
@@ -116,7 +134,8 @@ fn all_statements(read: &RobotRead<'_>, behind: impl Fn(usize) -> usize) -> Vec<
             _ => '\n',
         });
         for part in parts.map(str::trim) {
-            if is_end(part, language) || begins_with(part, others(language)) {
+            let words = [others(language), branches(language)];
+            if is_end(part, language) || words.iter().any(|words| begins_with(part, words)) {
                 found.push(Statement {
                     line,
                     text: part.split_whitespace().collect::<Vec<_>>().join(" "),

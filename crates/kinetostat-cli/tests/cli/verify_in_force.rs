@@ -125,7 +125,7 @@ fn words_of_a_sinumerik_are_compared_at_every_cut() {
             ),
             ("\nD1", "\nD2", 3, "with D2, the original with D1"),
             ("S2000", "S6000", 0, "with S6000, the original with S2000"),
-            ("S2000 M3", "S2000 M4", 0, "with M4, the original with M3"),
+            ("S2000 M3", "S2000 M4", 3, "with M4, the original with M3"),
             (
                 "G17 G90",
                 "G642 ADIS=1 G17 G90",
@@ -137,6 +137,58 @@ fn words_of_a_sinumerik_are_compared_at_every_cut() {
 }
 
 /// What another post writes for the same is the same, and a statement that the original has is one where it has it.
+/// A change of tools stops the spindle, and no cut is made with one that stands still, whatever the forces are.
+#[test]
+fn a_spindle_that_stands_still_is_a_fault() {
+    let with = format!("{LOADED}{PLACED}");
+    let what = "THE SPINDLE DOES NOT TURN AS IN THE ORIGINAL";
+    let two = "G21 G90\nT1 M6\nS6000 M3\nG0 X-14 Y-14 Z10\nG1 Z-1 F200\nX0\nG0 Z10\nT2 M6\nS5000 M3\nG0 X0 Y0\nG1 Z-1\nX8\nG0 Z10\nM2\n";
+    let changed = [
+        ("S5000 M3", "S5000", 3, what),
+        ("S5000 M3", "S5000 M4", 3, what),
+        ("S5000 M3", "S4000 M3", 0, "ANOTHER SPEED OF THE SPINDLE"),
+    ];
+    changes("part.ngc", two, &with, &changed);
+    let stands = "with no M3 or M4 since the change of tools, the original with M3 (line 13 there)";
+    changes(
+        "part.mpf",
+        SIEMENS,
+        &with,
+        &[
+            ("S2000 M3", "S2000", 3, stands),
+            ("M30", "M5\nM30", 0, "M5"),
+        ],
+    );
+    let heidenhain = "0 BEGIN PGM P MM\n1 TOOL CALL 5 Z S6000\n2 L X-20 Y-20 R0 FMAX M3\n3 L Z+10 R0 FMAX\n4 L Z-1 F200\n5 L X+20 F800\n6 L Z+50 R0 FMAX\n7 TOOL CALL 7 Z S2000\n8 L X+5 Y+5 R0 FMAX M3\n9 L Z+10 R0 FMAX\n10 L Z-2 F150\n11 L X+9\n12 L Z+50 R0 FMAX M30\n13 END PGM P MM\n";
+    let (code, said) = {
+        let here = workplace();
+        std::fs::write(here.path().join("part.h"), heidenhain).unwrap();
+        verified(here.path(), "part.h", &with, |text| {
+            let last = text.rfind(" M3\n").unwrap();
+            format!("{}{}", &text[..last], &text[last + 3..])
+        })
+    };
+    assert_eq!(code, 3, "{said}");
+    assert!(said.contains("no M3 or M4 since the change"), "{said}");
+}
+
+/// Motions under a condition may not be made.
+#[test]
+fn a_condition_around_cuts_is_a_fault() {
+    let with = format!("{LOADED}{POSE}");
+    let here = workplace();
+    std::fs::write(here.path().join("part.mod"), TWO_TOOLS).unwrap();
+    let around = |text: &str| {
+        let from = text.find("    MoveL [[").unwrap();
+        let text = format!("{}    IF FALSE THEN\n{}", &text[..from], &text[from..]);
+        text.replace("  ENDPROC", "    ENDIF\n  ENDPROC")
+    };
+    let (code, said) = verified(here.path(), "part.mod", &with, around);
+    assert_eq!(code, 3, "{said}");
+    let words = "ANOTHER COURSE OF THE PROGRAM: IF FALSE THEN at line";
+    assert!(said.contains(words), "{said}");
+}
+
 #[test]
 fn other_ways_to_write_the_same_are_the_same() {
     let same = |name: &str, program: &str, with: &str, change: &dyn Fn(&str) -> String| {

@@ -193,7 +193,7 @@ fn calls_for_tools_and_shifts_are_compared() {
                 "cut with DL+1, the original with no DL and DR",
             ),
             ("S5000", "S500", 0, "cut with S500, the original with S5000"),
-            ("FMAX M3", "FMAX M4", 0, "cut with M4, the original with M3"),
+            ("FMAX M3", "FMAX M4", 3, "cut with M4, the original with M3"),
         ],
     );
     changes(

@@ -207,7 +207,12 @@ fn other_spindle([of_original, own]: [Spindle; 2]) -> Difference {
         }
         said
     };
-    (!same).then(|| (Condition::Spindle, said(of_original), said(own)))
+    let turns_otherwise = of_original.rotation != own.rotation && !stands(of_original);
+    let condition = match turns_otherwise {
+        true => Condition::Rotation,
+        false => Condition::Spindle,
+    };
+    (!same).then(|| (condition, said(of_original), said(own)))
 }
 
 fn other_tool([of_original, own]: [Option<u32>; 2]) -> Difference {

@@ -46,8 +46,10 @@ pub struct Turned {
 pub enum Condition {
     /// F, or how it counts.
     Feed,
-    /// Speed of the spindle, or its direction.
+    /// Speed of the spindle, or that it turns where the original does not say so.
     Spindle,
+    /// The spindle stands still or turns the other way round.
+    Rotation,
     /// The tool.
     Tool,
 }
