@@ -4,9 +4,12 @@ use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use kinetostat::number::larger;
 use kinetostat_formats::FileForm;
 use kinetostat_machining::{Feature, FileRead, FlatProgram, ForceAlongPath, Limits, WarningCode};
-use kinetostat_program::{Arcs, Corrected, ReadOptions, RotaryAxes, Warning, WriteOptions};
+use kinetostat_program::{
+    Arcs, Corrected, Path as ToolPath, ReadOptions, RotaryAxes, Warning, WriteOptions,
+};
 
 use crate::files::input_files::InputFiles;
 use crate::files::origin;
@@ -106,10 +109,11 @@ impl Setting {
         failure
     }
 
-    /// Half a digit along three axes, mm: what rounding alone leaves.
-    pub(crate) fn rounding_mm(&self) -> f64 {
-        let decimals = i32::from(self.writing.decimals.unwrap_or(4));
-        3.0_f64.sqrt() * 0.5 * 10.0_f64.powi(-decimals)
+    /// Half a digit along three axes, mm: what rounding alone leaves, in the coarsest units of the program.
+    pub(crate) fn rounding_mm(&self, path: &ToolPath) -> f64 {
+        let units = path.moves.iter().map(|m| m.words.mm_per_unit);
+        let digits = units.map(|unit| self.writing.last_digit_mm(unit));
+        0.5 * 3.0_f64.sqrt() * digits.fold(self.writing.last_digit_mm(1.0), larger)
     }
 
     /// What the program's file holds.

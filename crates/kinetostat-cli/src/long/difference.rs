@@ -43,7 +43,9 @@ fn word(line: &str) -> (Option<&str>, &str) {
 fn word_at<'t>(lines: &[&'t str], at: usize) -> (Option<&'t str>, &'t str) {
     let (name, value) = word(lines[at]);
     let value = match (value, lines.get(at + 1..at + 3)) {
-        ("None", _) => "none",
+        ("None" | "[]", _) => "none",
+        ("true", _) => "yes",
+        ("false", _) => "no",
         ("Some(", Some([inside, end])) if word(end).1 == ")" => word(inside).1,
         _ => value,
     };
@@ -118,6 +120,9 @@ mod tests {
             other,
             "how it is written (steps.largest_mm: none there, 2.5 now)"
         );
+        let list = |value: &str| format!("Outer {{\n    header: {value},\n    whole: false,\n}}");
+        let found = between(list("None"), list("true"));
+        assert_eq!(found, "how it is written (header: none there, yes now)");
         let plain = between("0.1.0".to_owned(), "0.2.0".to_owned());
         assert_eq!(plain, "how it is written (0.1.0 there, 0.2.0 now)");
     }

@@ -149,7 +149,7 @@ pub(crate) fn with_task<R>(
             writing.chord_tolerance_mm = larger(writing.chord_tolerance_mm, in_proportion);
         }
         if let Some(asked_mm) = setting.asked_mm {
-            share_out(&mut writing, (asked_mm, setting.rounding_mm()), path);
+            share_out(&mut writing, (asked_mm, setting.rounding_mm(path)), path);
             run_inputs.asked_mm = Some(asked_mm);
             run_inputs.tolerance_from = format!(
                 "what {} in all leaves beside chords and rounding",

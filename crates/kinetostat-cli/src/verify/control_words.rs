@@ -186,7 +186,7 @@ fn of_siemens(line: &str) -> Vec<(Kind, String)> {
             ("S" | "S1", value) => (Kind::Speed, format!("S{}", value.trim_start_matches('='))),
             ("M", "3" | "4" | "5") => (Kind::Rotation, format!("M{value}")),
             ("M", "6") => (Kind::Rotation, STANDS.to_owned()),
-            ("G", "60" | "64" | "641" | "642" | "643" | "644" | "645") => {
+            ("G", "60" | "64" | "601" | "602" | "603" | "641" | "642" | "643" | "644" | "645") => {
                 (Kind::PathMode, format!("G{value}"))
             }
             ("ADIS" | "ADISPOS", value) => (Kind::PathMode, format!("{name}{value}")),

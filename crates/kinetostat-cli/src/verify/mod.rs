@@ -102,9 +102,10 @@ pub(crate) fn run(args: &VerifyArgs) -> Answer<()> {
         uncut,
         other_words,
         corrected,
+        rounding_mm,
         forces_from_cut,
     } = solved(&machine, (&original, &verified), args.original.threads)?;
-    let own_bound = found.run.result.allowed_mm() + original.rounding_mm();
+    let own_bound = found.run.result.allowed_mm() + rounding_mm;
     let allowed_mm = args.tolerance_um.map_or(own_bound, |um| 1e-3 * um);
     put_features(&mut found.run, &original, allowed_mm, &uncut);
     found
@@ -205,6 +206,8 @@ struct Solved {
     uncut: Vec<usize>,
     other_words: Vec<OtherWord>,
     corrected: Directions,
+    /// By how much the digits of a program written from the original may be off.
+    rounding_mm: f64,
     forces_from_cut: bool,
 }
 
@@ -263,6 +266,7 @@ fn solved(
         uncut,
         other_words,
         corrected: read.corrected(),
+        rounding_mm: original.rounding_mm(read.path()),
         forces_from_cut: forces.is_some(),
     })
 }

@@ -193,7 +193,10 @@ impl FeatureResult {
         };
         [
             self.name.clone(),
-            format!("{first} to {last}"),
+            match first == last {
+                true => first.to_string(),
+                false => format!("{first} to {last}"),
+            },
             length(self.error_before_mm),
             length(self.error_after_mm),
             allowed,

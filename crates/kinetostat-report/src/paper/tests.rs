@@ -178,7 +178,7 @@ fn a_verified_program_has_its_own_verdict() {
             original: "vorlage.ngc".to_owned(),
             held: false,
             allowed_mm: 0.001,
-            uncut: vec![([4, 6], 12.5)],
+            uncut: vec![([4, 6], 12.5), ([8, 8], 2.5)],
             rapids: vec![(9, 6.0)],
             extra_cuts: vec![(12, 40.0)],
             other_words: vec![14],
@@ -186,6 +186,7 @@ fn a_verified_program_has_its_own_verdict() {
     let text = said(&paper);
     assert!(text.contains("Toleranz verfehlt"), "{text}");
     assert!(text.contains("Die Zeilen 4 bis 6 des Originals"), "{text}");
+    assert!(text.contains("Die Zeile 8 des Originals"), "{text}");
     assert!(text.contains("vorlage.ngc"), "{text}");
     assert!(text.contains("Der Eilgang in Zeile 9"), "{text}");
     assert!(text.contains("Zeile 12 dieses Programms"), "{text}");

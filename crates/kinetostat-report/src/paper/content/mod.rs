@@ -100,10 +100,11 @@ fn verdict(of: &Of<'_>) -> Block {
         .map(|sentence| clean(&sentence))
         .collect();
     for (lines, length_mm) in of.paper.verified.iter().flat_map(|v| &v.uncut) {
+        let several = usize::from(lines[1] != lines[0]);
         let [first, last] = lines.map(number::count);
         let length = of.length(*length_mm);
         sentences.push(fill(
-            words.uncut,
+            words.uncut[several],
             &[
                 ("first", first.as_str()),
                 ("last", &last),

@@ -42,10 +42,13 @@ fn feature(of: &Of<'_>, feature: &FeatureResult) -> Vec<Cell> {
         false => of.figure(&number::typeset(&cell)),
     };
     let [first, last] = feature.lines.map(number::count);
-    let lines = fill(
-        words.lines_to,
-        &[("first", first.as_str()), ("last", &last)],
-    );
+    let lines = match first == last {
+        true => first,
+        false => fill(
+            words.lines_to,
+            &[("first", first.as_str()), ("last", &last)],
+        ),
+    };
     let mut cells: Vec<Cell> = vec![clean(&name).into(), lines.into(), length(before).into()];
     if of.has_after() {
         cells.push(length(after).into());

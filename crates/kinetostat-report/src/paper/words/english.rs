@@ -154,7 +154,10 @@ pub(super) const WORDS: Words = Words {
     signed_by: ["Calculated", "Checked", "Released"],
     name_and_date: "name, date",
     signature: "signature",
-    uncut: "Lines {first} to {last} of the original are not cut by this program: {length} of path.",
+    uncut: [
+        "Line {first} of the original is not cut by this program: {length} of path.",
+        "Lines {first} to {last} of the original are not cut by this program: {length} of path.",
+    ],
     rapid_elsewhere: "The rapid at line {line} of this program goes elsewhere than that of the original, by up to {length}.",
     extra_cut: "Line {line} of this program is a move at feed that the original does not make: {length} long.",
     other_word: "Line {line} of this program has another feed, spindle, tool or frame than the original.",

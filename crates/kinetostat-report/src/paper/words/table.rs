@@ -165,8 +165,8 @@ pub(crate) struct Words {
     pub(crate) signed_by: [&'static str; 3],
     pub(crate) name_and_date: &'static str,
     pub(crate) signature: &'static str,
-    /// Of `verify`: what of the original is not cut.
-    pub(crate) uncut: &'static str,
+    /// Of `verify`: what of the original is not cut, of one line and of several.
+    pub(crate) uncut: [&'static str; 2],
     /// A rapid that goes elsewhere: `{line}`, `{length}`.
     pub(crate) rapid_elsewhere: &'static str,
     /// A move at feed that the original does not make: `{line}`, `{length}`.

@@ -157,7 +157,10 @@ pub(super) const WORDS: Words = Words {
     signed_by: ["Calculé", "Contrôlé", "Libéré"],
     name_and_date: "nom, date",
     signature: "signature",
-    uncut: "Les lignes {first} à {last} de l’original ne sont pas coupées par ce programme : {length} de trajectoire.",
+    uncut: [
+        "La ligne {first} de l’original n’est pas coupée par ce programme : {length} de trajectoire.",
+        "Les lignes {first} à {last} de l’original ne sont pas coupées par ce programme : {length} de trajectoire.",
+    ],
     rapid_elsewhere: "Le déplacement rapide de la ligne {line} de ce programme passe ailleurs que celui de l’original, jusqu’à {length} plus loin.",
     extra_cut: "La ligne {line} de ce programme est un déplacement en avance travail que l’original ne fait pas : {length} de long.",
     other_word: "À la ligne {line}, ce programme a une autre avance, une autre broche, un autre outil ou un autre repère que l’original.",

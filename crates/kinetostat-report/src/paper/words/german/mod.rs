@@ -157,7 +157,10 @@ pub(super) const WORDS: Words = Words {
     signed_by: ["Gerechnet", "Geprüft", "Freigegeben"],
     name_and_date: "Name, Datum",
     signature: "Unterschrift",
-    uncut: "Die Zeilen {first} bis {last} des Originals schneidet dieses Programm nicht: {length} Bahn.",
+    uncut: [
+        "Die Zeile {first} des Originals schneidet dieses Programm nicht: {length} Bahn.",
+        "Die Zeilen {first} bis {last} des Originals schneidet dieses Programm nicht: {length} Bahn.",
+    ],
     rapid_elsewhere: "Der Eilgang in Zeile {line} dieses Programms geht anderswo als der des Originals, um bis zu {length}.",
     extra_cut: "Zeile {line} dieses Programms ist eine Vorschubbewegung, die das Original nicht macht: {length} lang.",
     other_word: "In Zeile {line} hat dieses Programm einen anderen Vorschub, eine andere Drehzahl oder Drehrichtung, ein anderes Werkzeug oder einen anderen Nullpunkt als das Original.",

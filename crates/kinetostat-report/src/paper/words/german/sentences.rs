@@ -70,8 +70,8 @@ pub(crate) fn statement(statement: &Statement, result: &Shown<'_>) -> Option<Str
                 Some(CornerLoad::FollowsFeed) => format!("ist angenommen, dass die Last sofort dem Vorschub folgt; dreht sie sich gleichmäßig während des Schritts, {}", off(c.if_turns)),
                 None => format!("ist die Last je nach Werkzeug verschieden gelesen; dreht sie sich bei allen gleichmäßig, {}; folgt sie bei allen dem Vorschub, {}", off(c.if_turns), off(c.if_follows)),
             };
-            let counted = |what: &str, step: Option<(usize, f64)>| step.map(|(count, mm)| format!("{} {what}, bis {} lang", number::count(count), up_to(mm)));
-            let steps: Vec<String> = [counted("Schritte an Ecken", c.corner), counted("Schritte am Ende von Eilgängen", c.entry)].into_iter().flatten().collect();
+            let counted = |what: &str, step: Option<(usize, f64)>| step.map(|(count, mm)| format!("{} {} {what}, bis {} lang", number::count(count), if count == 1 { "Schritt" } else { "Schritte" }, up_to(mm)));
+            let steps: Vec<String> = [counted("an Ecken", c.corner), counted("am Ende von Eilgängen", c.entry)].into_iter().flatten().collect();
             format!("{places} {assumed}. Das betrifft {}, {} der Punkte.", steps.join(" und "), zahl(&c.percent))
         }
         Statement::Ramp => {
