@@ -151,8 +151,14 @@ pub enum RunError {
     Cancelled,
 }
 
+/// Nearer than this a program is where the original is, mm.
+const ON_WAY_MM: f64 = 0.001;
+
 fn elsewhere(distance_mm: Option<f64>) -> String {
     match distance_mm {
+        Some(mm) if mm < ON_WAY_MM => {
+            "the program comes by once more, or in another order than the original".to_owned()
+        }
         Some(mm) => format!(
             "the program is {} away from where the original, compensated, would be",
             number::largest_length(mm)

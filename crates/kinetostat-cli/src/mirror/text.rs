@@ -81,7 +81,11 @@ fn outcome(a: &MirrorAnswer) -> &'static str {
             "stop: what is left is within the repeatability, and the correction stays as it was"
         }
         Outcome::NothingToCorrect => {
-            "nothing to correct: the points that were measured lie on the path, and the program stays as it was"
+            if a.measurements.iter().any(|m| m.registration.is_some()) {
+                "nothing to correct: the points that were measured lie on the path where the registration (below) puts them, and the program stays as it was"
+            } else {
+                "nothing to correct: the points that were measured lie on the path, and the program stays as it was"
+            }
         }
         Outcome::Risen => {
             "THE ERROR HAS RISEN since the trial before: take a smaller --relaxation, or look whether machine, clamping or measurement have changed"

@@ -80,6 +80,17 @@ fn a_hole_that_is_pecked_twice_is_cut_twice() {
     assert!(!uncut(&found).as_array().unwrap().is_empty(), "{said}");
 }
 
+/// Drilled with a rapid out of the hole, then reamed with a retract at feed.
+#[test]
+fn a_hole_that_is_left_at_feed_the_second_time_is_cut() {
+    let here = compensated_cuts(
+        "G0 X12.3 Y-7.4 Z10\nG0 Z2\nG1 Z-6 F200\nG0 Z2\nG1 Z-6 F150\nG1 Z2\nG0 Z10\n",
+    );
+    let (code, found, said) = verified(here.path(), "out.ngc", &[]);
+    assert_eq!(code, 0, "{said}");
+    assert_eq!(uncut(&found), &json!([]), "{said}");
+}
+
 #[test]
 fn a_peck_that_is_left_short_is_all_that_is_wrong() {
     let here = compensated_cuts(HOLE);

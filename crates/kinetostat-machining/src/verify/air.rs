@@ -30,9 +30,16 @@ pub(crate) fn without_air<'a>(
             feet.map(|foot| foot.distance_mm).fold(0.0, larger),
         )
     };
-    // A way that was cut before is cut again where a cut of the guide is more like it than any rapid is.
+    let ways = [nominal.path(), other].map(Starts::of_ways);
+    // A way that was cut before is cut again where the guide, coming by as often, cuts that time; where it comes by more or less often,
+    // if a cut of the guide is more like it than any rapid is.
     let is_cut_again = |index: usize| {
         let own = &other.moves[index];
+        let [of_guide, of_other] = [&ways[0], &ways[1]].map(|ways| ways.along(own, near_mm));
+        let time = of_other.iter().position(|k| *k == index);
+        if let Some(time) = time.filter(|_| of_guide.len() == of_other.len()) {
+            return nominal.path().moves[of_guide[time]].kind == MoveKind::Feed;
+        }
         let least = |starts: &Starts<'_>| {
             let near = starts.near(&own.start, near_mm);
             let near = near.filter(|k| starts.way(*k).distance(&own.end) <= near_mm);
@@ -82,10 +89,19 @@ struct Starts<'p> {
 
 impl<'p> Starts<'p> {
     fn of(path: &'p Path, kind: MoveKind) -> Self {
+        Self::that(path, |m| m.kind == kind)
+    }
+
+    /// Of rapids and cuts.
+    fn of_ways(path: &'p Path) -> Self {
+        Self::that(path, Move::has_length)
+    }
+
+    fn that(path: &'p Path, is_meant: impl Fn(&Move) -> bool) -> Self {
         let moves = &path.moves[..];
         let is_meant = |index: &usize| {
             let m = &moves[*index];
-            m.kind == kind && m.known == Knowledge::Whole
+            m.known == Knowledge::Whole && is_meant(m)
         };
         let mut by_x: Vec<usize> = (0..moves.len()).filter(is_meant).collect();
         by_x.sort_by(|a, b| moves[*a].start.x.total_cmp(&moves[*b].start.x));
@@ -111,6 +127,17 @@ impl<'p> Starts<'p> {
         let indices = self.by_x[from..].iter().copied();
         let indices = indices.take_while(move |i| self.moves[*i].start.x <= place.x + within_mm);
         indices.filter(move |index| (self.moves[*index].start - place).norm() <= within_mm)
+    }
+
+    /// Those that go a way, in their order.
+    fn along(&self, own: &Move, within_mm: f64) -> Vec<usize> {
+        let goes = |k: &usize| {
+            let tangents = self.moves[*k].tangent(0.0).zip(own.tangent(0.0));
+            tangents.is_some_and(|(a, b)| a.dot(&b) >= ONE_DIRECTION)
+        };
+        let mut all: Vec<usize> = self.near(&own.start, within_mm).filter(goes).collect();
+        all.sort_unstable();
+        all
     }
 
     /// How far apart two ways and the moves before them start, mm: a hole is pecked again behind the way to it, and the way back to its

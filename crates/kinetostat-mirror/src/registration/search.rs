@@ -32,7 +32,7 @@ const FINE: [usize; 2] = [20, 100];
 const AT_REST: f64 = 1e-13;
 
 /// The fewest places from which a motion can be told.
-const FEWEST: usize = 3;
+const FEWEST: usize = 4;
 
 /// Two places are one where they are no farther apart than this, mm.
 const SAME_MM: f64 = 1e-6;
@@ -103,7 +103,7 @@ pub struct Registration {
 /// ```
 ///
 /// # Errors
-/// Points at one or two places only; numbers are lost on the way; points of another frame that fit the path in several places,
+/// Points at three places or fewer; numbers are lost on the way; points of another frame that fit the path in several places,
 /// and not in the order of the whole path.
 pub fn register(
     nominal: &NominalPath<'_>,
@@ -188,11 +188,12 @@ fn are_different(points: &[MeasuredPoint]) -> Result<(), MirrorError> {
         }
     }
     Err(MirrorError::new(format!(
-        "the {} measured points are at {} only, from which no motion onto the path can be told; expected {FEWEST} different ones at least: measure along the path, or do not register the points",
+        "the {} measured points are at {} only, which some motion brings onto every path, whatever the machine does; expected {FEWEST} different ones at least: measure along the path, or do not register the points",
         points.len(),
         match places.len() {
             1 => "one place",
-            _ => "two places",
+            2 => "two places",
+            _ => "three places",
         }
     )))
 }

@@ -159,11 +159,20 @@ fn what_is_said_of_a_line_in_another_frame_are_numbers() {
 }
 
 #[test]
-fn one_or_two_places_are_no_measurement_to_register() {
+fn three_places_or_fewer_are_no_measurement_to_register() {
     let (_, path) = read("G21 G90\nG0 X0 Y0 Z0\nF600\nG1 X60\nG1 Y40\n");
     let nominal = NominalPath::new(&path).unwrap();
-    let places = [Vector3::new(10.0, 0.1, 0.0), Vector3::new(50.0, 0.1, 0.0)];
-    for (count, says) in [(1, "at one place only"), (2, "at two places only")] {
+    // Three points each of which is off by half a millimetre were moved onto the path: nothing was left to correct.
+    let places = [
+        Vector3::new(10.0, 0.1, 0.0),
+        Vector3::new(50.0, 0.1, 0.0),
+        Vector3::new(59.5, 30.0, 0.4),
+    ];
+    for (count, says) in [
+        (1, "at one place only"),
+        (2, "at two places only"),
+        (3, "at three places only"),
+    ] {
         let points: Vec<_> = (0..600).map(|k| places[k % count]).collect();
         let measured = MeasuredPoints::at(&points).unwrap();
         for with_scale in [false, true] {
