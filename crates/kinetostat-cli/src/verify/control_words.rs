@@ -98,7 +98,11 @@ pub(crate) fn control_words(
             };
         only(&own, &of_original, |line| [Some(line), None]);
         only(&of_original, &own, |line| [None, Some(line)]);
-        found.extend((elsewhere.into_iter()).map(|found| found.other_word(fault, &follows)));
+        found.extend(elsewhere.into_iter().map(|found| {
+            let stands = found.word == "S0";
+            let fault = fault.or_else(|| stands.then_some(FaultKind::Rotation));
+            found.other_word(fault, &follows)
+        }));
     }
     found
 }
@@ -150,6 +154,8 @@ fn of_heidenhain(line: &str) -> Vec<(Kind, String)> {
             "M3" | "M03" | "M13" => "M3",
             "M4" | "M04" | "M14" => "M4",
             "M5" | "M05" => "M5",
+            "M19" => "M19",
+            "M6" | "M06" => STANDS,
             _ => continue,
         };
         found.push((Kind::Rotation, rotation.to_owned()));
@@ -186,6 +192,8 @@ fn of_siemens(line: &str) -> Vec<(Kind, String)> {
             ("S" | "S1", value) => (Kind::Speed, format!("S{}", value.trim_start_matches('='))),
             ("M", "3" | "4" | "5") => (Kind::Rotation, format!("M{value}")),
             ("M", "6") => (Kind::Rotation, STANDS.to_owned()),
+            ("M", "19" | "70") => (Kind::Rotation, format!("M{value}")),
+            ("SPOS" | "SPOSA", _) => (Kind::Rotation, name.clone()),
             ("G", "60" | "64" | "601" | "602" | "603" | "641" | "642" | "643" | "644" | "645") => {
                 (Kind::PathMode, format!("G{value}"))
             }

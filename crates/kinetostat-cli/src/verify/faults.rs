@@ -53,13 +53,7 @@ impl VerifyAnswer {
                 rapid.line
             ));
         }
-        let conditions = self.matched.conditions.iter();
-        faults.extend(
-            conditions
-                .filter(|other| conditions::is_fault(other, self.forces_from_cut))
-                .map(|other| conditions::said(other, true, &self.source(other.line_of_original))),
-        );
-        faults.extend(self.other_words.iter().filter_map(OtherWord::fault_text));
+        faults.extend(self.faults_of_words());
         faults.extend(self.tilted.iter().map(Tilted::text));
         if let Some(m) = &self.missed {
             let (error, allowed) =
@@ -73,5 +67,15 @@ impl VerifyAnswer {
         }
         faults.extend(self.features.iter().filter_map(FeatureResult::missed_text));
         faults
+    }
+
+    /// Feeds, spindles, tools, frames and statements of the program that are faults, a sentence each.
+    pub(crate) fn faults_of_words(&self) -> Vec<String> {
+        let conditions = self.matched.conditions.iter();
+        let conditions = conditions
+            .filter(|other| conditions::is_fault(other, self.forces_from_cut))
+            .map(|other| conditions::said(other, true, &self.source(other.line_of_original)));
+        let words = self.other_words.iter().filter_map(OtherWord::fault_text);
+        conditions.chain(words).collect()
     }
 }

@@ -10,6 +10,7 @@ mod control_words;
 mod faults;
 mod frames;
 mod in_force;
+mod on_paper;
 mod other_word;
 mod robot_words;
 mod statements;

@@ -122,6 +122,36 @@ fn lines_of_pdf(file: &std::path::Path) -> Option<Vec<String>> {
     Some(text.lines().map(dense).collect())
 }
 
+/// Whoever signs reads what is wrong and what is warned of, as who reads the text.
+#[test]
+fn the_paper_of_a_verification_says_what_is_otherwise_than_in_the_original() {
+    let here = workplace();
+    let with: Vec<&str> =
+        "--model heavy_6r --force 200 -150 300 --tool-length-mm 150 --part-origin-mm 1300 50 900"
+            .split(' ')
+            .collect();
+    std::fs::write(here.path().join("pass.ngc"), CUT).unwrap();
+    let mut words = vec!["compensate", "--program", "pass.ngc", "--out", "out.ngc"];
+    words.extend(&with);
+    assert_eq!(run(here.path(), &words).code, 0);
+    let text = std::fs::read_to_string(here.path().join("out.ngc")).unwrap();
+    for (from, to, code, says) in [
+        ("S12000", "S9000", 0, "ANOTHERSPEEDOFTHESPINDLE"),
+        ("M3", "M4", 3, "THESPINDLEDOESNOTTURNASINTHEORIGINAL"),
+    ] {
+        std::fs::write(here.path().join("other.ngc"), text.replace(from, to)).unwrap();
+        let mut words = vec!["verify", "other.ngc", "--against", "pass.ngc"];
+        words.extend(["--pdf", "paper.pdf", "--force-overwrite"]);
+        words.extend(&with);
+        let said = run(here.path(), &words);
+        assert_eq!(said.code, code, "{said:?}");
+        let Some(lines) = lines_of_pdf(&here.path().join("paper.pdf")) else {
+            return;
+        };
+        assert!(lines.concat().contains(says), "{lines:?}");
+    }
+}
+
 /// What a reader of PDF gets out of the paper is what the JSON holds, in all three languages; output and language are the job's.
 #[test]
 fn the_numbers_in_the_pdf_are_those_of_the_json() {

@@ -146,6 +146,7 @@ fn a_spindle_that_stands_still_is_a_fault() {
     let changed = [
         ("S5000 M3", "S5000", 3, what),
         ("S5000 M3", "S5000 M4", 3, what),
+        ("S5000 M3", "S0 M3", 3, what),
         ("S5000 M3", "S4000 M3", 0, "ANOTHER SPEED OF THE SPINDLE"),
     ];
     changes("part.ngc", two, &with, &changed);
@@ -157,6 +158,13 @@ fn a_spindle_that_stands_still_is_a_fault() {
         &[
             ("S2000 M3", "S2000", 3, stands),
             ("M30", "M5\nM30", 0, "M5"),
+            ("S2000 M3", "S0 M3", 3, what),
+            (
+                "S2000 M3",
+                "S2000 M3\nSPOS=0",
+                3,
+                "with SPOS, the original with M3",
+            ),
         ],
     );
     let heidenhain = "0 BEGIN PGM P MM\n1 TOOL CALL 5 Z S6000\n2 L X-20 Y-20 R0 FMAX M3\n3 L Z+10 R0 FMAX\n4 L Z-1 F200\n5 L X+20 F800\n6 L Z+50 R0 FMAX\n7 TOOL CALL 7 Z S2000\n8 L X+5 Y+5 R0 FMAX M3\n9 L Z+10 R0 FMAX\n10 L Z-2 F150\n11 L X+9\n12 L Z+50 R0 FMAX M30\n13 END PGM P MM\n";

@@ -184,7 +184,9 @@ fn other_feed(cut: &Cut<'_>, spindles: [Spindle; 2], most_feed_factor: f64) -> D
 
 fn other_spindle([of_original, own]: [Spindle; 2]) -> Difference {
     let modes = [of_original, own].map(|spindle| matches!(spindle.mode, SpeedMode::Constant));
-    let stands = |spindle: Spindle| spindle.rotation == SpindleRotation::Stopped;
+    let stands = |spindle: Spindle| {
+        spindle.rotation == SpindleRotation::Stopped || spindle.speed == Some(0.0)
+    };
     let same_speed = match (of_original.speed, own.speed) {
         _ if stands(of_original) && stands(own) => true,
         (Some(a), Some(b)) => (a - b).abs() <= SAME * a.abs(),
@@ -207,7 +209,8 @@ fn other_spindle([of_original, own]: [Spindle; 2]) -> Difference {
         }
         said
     };
-    let turns_otherwise = of_original.rotation != own.rotation && !stands(of_original);
+    let turns_otherwise =
+        !stands(of_original) && (stands(own) || of_original.rotation != own.rotation);
     let condition = match turns_otherwise {
         true => Condition::Rotation,
         false => Condition::Spindle,
