@@ -91,6 +91,25 @@ fn a_hole_that_is_left_at_feed_the_second_time_is_cut() {
     assert_eq!(uncut(&found), &json!([]), "{said}");
 }
 
+/// Inches are rounded to other digits than millimetres, and both commands allow for them alike.
+#[test]
+fn a_program_in_inches_has_the_rounding_of_inches() {
+    let here = crate::common::workplace();
+    std::fs::write(here.path().join("job.toml"), JOB).unwrap();
+    let text = "G20 G90 G17\nG0 X0.3 Y-0.2 Z0.4\nG1 Z-0.0394 F7.9\nG1 X0.9498 Y-0.0849 F47.2\nG1 X1.0113 Y0.2317\nG1 X0.4411 Y0.3093\nG0 Z0.4\nM2\n";
+    std::fs::write(here.path().join("part.ngc"), text).unwrap();
+    compensated(here.path(), &["--no-header", "--decimals", "3"]);
+    let (code, found, said) = verified(here.path(), "out.ngc", &["--decimals", "3"]);
+    assert_eq!(code, 0, "{said}");
+    // Half of a ten thousandth of an inch along three axes, beside what corrections may be off.
+    let rounding_mm = 0.5 * 3.0_f64.sqrt() * 25.4e-4;
+    let allowed = number(&found, "allowed_mm");
+    assert!(
+        (rounding_mm..2.0 * rounding_mm).contains(&allowed),
+        "{allowed}"
+    );
+}
+
 #[test]
 fn a_peck_that_is_left_short_is_all_that_is_wrong() {
     let here = compensated_cuts(HOLE);
