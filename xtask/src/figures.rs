@@ -10,7 +10,7 @@ use anyhow::{Context, Result, bail};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-use crate::{bench, builds, cargo, counts, cutting, programs, python, root, step};
+use crate::{bench, builds, cargo, counts, cutting, long, programs, python, root, step};
 
 /// One number.
 #[derive(Debug, Serialize, Deserialize)]
@@ -33,7 +33,7 @@ impl Figure {
         }
     }
 
-    fn at_least(name: impl Into<String>, measured: f64, least: f64, unit: &str) -> Self {
+    pub fn at_least(name: impl Into<String>, measured: f64, least: f64, unit: &str) -> Self {
         Self {
             name: name.into(),
             measured: measured.into(),
@@ -148,17 +148,19 @@ pub fn run(options: &[&str]) -> Result<()> {
             "--json" => json = true,
             "--quick" => quick = true,
             "--builds" => only = Some(builds::measured as Measure),
+            "--long" => only = Some(long::measured as Measure),
             "--cutting" => only = Some(cutting::measured as Measure),
             "--python" => only = Some(python::measured as Measure),
             "--programs" => only = Some(programs::measured as Measure),
             other => bail!(
-                "figures: unknown option {other}; there are --json, --quick, --builds, --cutting, --programs and --python"
+                "figures: unknown option {other}; there are --json, --quick, --builds, --cutting, --long, --programs and --python"
             ),
         }
     }
-    let all: [Measure; 11] = [
+    let all: [Measure; 12] = [
         demo,
         pocket,
+        long::measured,
         maps,
         real_programs,
         |figures| golden(figures, &GOLDEN),
@@ -499,13 +501,15 @@ fn real_programs(figures: &mut Vec<Figure>) -> Result<()> {
 }
 
 /// Crates whose tests print figures, but for that of the cut, which has figures of its own.
-const GOLDEN: [&str; 6] = [
+const GOLDEN: [&str; 8] = [
     "kinetostat",
     "kinetostat-cli",
     "kinetostat-model",
     "kinetostat-reproduce",
     "kinetostat-import",
     "kinetostat-links",
+    "kinetostat-mirror",
+    "kinetostat-placing",
 ];
 
 /// Golden and property tests print `figure {json}` for every number that they reached.

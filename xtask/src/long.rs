@@ -1,4 +1,5 @@
 //! `cargo xtask long`: programs of millions of blocks, their memory and growth, killed and gone on with. A soak, not for CI.
+//! `cargo xtask figures --long` measures rates and files of shorter ones.
 
 use std::fs;
 use std::io::{BufWriter, Write};
@@ -8,6 +9,7 @@ use std::time::{Duration, Instant};
 
 use anyhow::{Context, Result, bail};
 
+use crate::figures::{Figure, data};
 use crate::{cargo, root, step};
 
 /// `--blocks N` (5 000 000) and `--kills K` (20).
@@ -33,7 +35,8 @@ pub fn run(options: &[&str]) -> Result<()> {
         let count = blocks / share;
         surface(&here.join(format!("{count}.ngc")), count)?;
         eprintln!("== long: {count} blocks");
-        let (seconds, memory_mb) = measured(&here, count)?;
+        let used = run_once(&here, &question(&here, count, "whole.ngc", MACHINE))?;
+        let (seconds, memory_mb) = (used.user_s, used.memory_mb);
         println!(
             r#"figure {{"name": "long program: memory with {count} blocks", "measured": {memory_mb:.0}, "asked": 300, "unit": "MB", "holds": {}}}"#,
             memory_mb < 300.0
@@ -49,9 +52,76 @@ pub fn run(options: &[&str]) -> Result<()> {
     rate("orthoglide", b / last, 1e5);
     killed(&here, blocks, kills, times[2].1)?;
     let count = blocks / 10;
-    let (seconds, _) = run_once(&here, count, ARM)?;
-    rate("heavy_6r", count as f64 / seconds, 3e4);
+    let used = run_once(&here, &question(&here, count, "whole.ngc", ARM))?;
+    rate("heavy_6r", count as f64 / used.user_s, 3e4);
     Ok(())
+}
+
+/// Blocks of the programs whose rates are measured without the soak.
+const BLOCKS: usize = 200_000;
+
+/// Runs of which the median counts.
+const RUNS: usize = 5;
+
+/// A value of the table of points takes at most this, bytes.
+const CELL: f64 = 25.0;
+
+/// Rates, memory and the table of points of a surface, and the processor time of a pocket.
+///
+/// # Errors
+/// A run that fails.
+pub fn measured(figures: &mut Vec<Figure>) -> Result<()> {
+    let here = root().join("target/long");
+    fs::create_dir_all(&here)?;
+    surface(&here.join(format!("{BLOCKS}.ngc")), BLOCKS)?;
+    for (model, machine, asked) in [("orthoglide", MACHINE, 1e5), ("heavy_6r", ARM, 3e4)] {
+        let used = run_once(&here, &question(&here, BLOCKS, "whole.ngc", machine))?;
+        let name = format!("surface of {BLOCKS} blocks on {model}, one core");
+        let rate = BLOCKS as f64 / used.seconds();
+        let blocks = format!("{name}: blocks a second");
+        figures.push(Figure::at_least(blocks, rate, asked, "1/s"));
+        let memory = format!("{name}: peak memory");
+        figures.push(Figure::at_most(memory, used.memory_mb, 300.0, "MB"));
+        let table = fs::read_to_string(here.join("whole.csv"))?;
+        let cells = table.bytes().filter(|b| matches!(b, b',' | b'\n')).count();
+        let cell = table.len() as f64 / cells as f64;
+        let value = format!("{name}: a value of the table of points");
+        figures.push(Figure::at_most(value, cell, CELL, "bytes"));
+    }
+    let Some(data) = data() else {
+        eprintln!(
+            "skipped: no ../shared/data, so the processor time of tball-pocket is not measured"
+        );
+        return Ok(());
+    };
+    let words = "compensate --model orthoglide --tool-length-mm 100 --part-origin-mm -60 70 100 --milling 215 -10 -25 --force-overwrite";
+    let mut all: Vec<String> = words.split(' ').map(str::to_owned).collect();
+    for (option, path) in [
+        ("--program", data.join("tball-pocket.gcode")),
+        ("--out", here.join("pocket.ngc")),
+    ] {
+        all.extend([option.to_owned(), path.display().to_string()]);
+    }
+    let runs = (0..RUNS).map(|_| run_once(&here, &all));
+    let runs: Result<Vec<Processor>> = runs.collect();
+    let mut times: Vec<f64> = runs?.iter().map(Processor::seconds).collect();
+    times.sort_by(f64::total_cmp);
+    let name = format!("tball-pocket with milling load: processor time, median of {RUNS}");
+    figures.push(Figure::at_most(name, times[RUNS / 2], 1.5, "s"));
+    Ok(())
+}
+
+/// What a run used.
+struct Processor {
+    user_s: f64,
+    system_s: f64,
+    memory_mb: f64,
+}
+
+impl Processor {
+    fn seconds(&self) -> f64 {
+        self.user_s + self.system_s
+    }
 }
 
 /// Blocks read, corrected, solved again and written in a second of one core.
@@ -113,20 +183,15 @@ fn binary() -> std::path::PathBuf {
     root().join("target/release/kinetostat")
 }
 
-/// Processor time in seconds and peak memory in MB of an uninterrupted run.
-fn measured(here: &Path, blocks: usize) -> Result<(f64, f64)> {
-    run_once(here, blocks, MACHINE)
-}
-
-/// The same on any machine.
-fn run_once(here: &Path, blocks: usize, machine: &str) -> Result<(f64, f64)> {
+/// The processor time and the peak memory of a run that is not interrupted.
+fn run_once(here: &Path, words: &[String]) -> Result<Processor> {
     for end in ["ngc", "csv"] {
         let _ = fs::remove_file(here.join(format!("whole.{end}")));
     }
     let done = Command::new("/usr/bin/time")
-        .args(["-f", "figures %U %M"])
+        .args(["-f", "figures %U %S %M"])
         .arg(binary())
-        .args(question(here, blocks, "whole.ngc", machine))
+        .args(words)
         .stdout(Stdio::null())
         .output()
         .context("/usr/bin/time")?;
@@ -138,9 +203,11 @@ fn run_once(here: &Path, blocks: usize, machine: &str) -> Result<(f64, f64)> {
             .collect::<Result<Vec<_>, _>>()
     });
     match numbers {
-        Some(Ok(found)) if done.status.success() && found.len() == 2 => {
-            Ok((found[0], found[1] / 1024.0))
-        }
+        Some(Ok(found)) if done.status.success() && found.len() == 3 => Ok(Processor {
+            user_s: found[0],
+            system_s: found[1],
+            memory_mb: found[2] / 1024.0,
+        }),
         _ => bail!("{said}"),
     }
 }

@@ -30,6 +30,7 @@ Tasks of the project
   cargo xtask figures --json    the same as a list of {name, measured, asked, unit, holds}
   cargo xtask figures --quick   without the ones that build from an empty registry cache
   cargo xtask figures --cutting those of cutting forces and of the stock alone
+  cargo xtask figures --long    those of long programs alone: rates, memory, the table of points
   cargo xtask figures --programs those of programs of robots and machines alone
   cargo xtask figures --python  those of the Python package alone
   cargo xtask figures --builds  those of builds and tests from a clean clone alone: about half an hour

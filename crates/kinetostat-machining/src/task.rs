@@ -152,11 +152,11 @@ pub enum RunError {
 }
 
 /// Nearer than this a program is where the original is, mm.
-const ON_WAY_MM: f64 = 0.001;
+const SAME_PLACE_MM: f64 = 0.001;
 
 fn elsewhere(distance_mm: Option<f64>) -> String {
     match distance_mm {
-        Some(mm) if mm < ON_WAY_MM => {
+        Some(mm) if mm < SAME_PLACE_MM => {
             "the program comes by once more, or in another order than the original".to_owned()
         }
         Some(mm) => format!(

@@ -74,21 +74,25 @@ fn round_down(bound: f64) -> String {
     format!("{:.2}", (100.0 * bound).floor() / 100.0)
 }
 
-fn outcome(a: &MirrorAnswer) -> &'static str {
-    match a.outcome {
+fn outcome(a: &MirrorAnswer) -> String {
+    let words = match a.outcome {
         Outcome::GoOn => "the deviation is mirrored; measure the new program",
         Outcome::WithinRepeatability => {
             "stop: what is left is within the repeatability, and the correction stays as it was"
         }
         Outcome::NothingToCorrect => {
-            if a.measurements.iter().any(|m| m.registration.is_some()) {
-                "nothing to correct: the points that were measured lie on the path where the registration (below) puts them, and the program stays as it was"
-            } else {
-                "nothing to correct: the points that were measured lie on the path, and the program stays as it was"
-            }
+            let is_registered = a.measurements.iter().any(|m| m.registration.is_some());
+            let by = match is_registered {
+                true => " where the registration (below) puts them",
+                false => "",
+            };
+            return format!(
+                "nothing to correct: the points that were measured lie on the path{by}, and the program stays as it was"
+            );
         }
         Outcome::Risen => {
             "THE ERROR HAS RISEN since the trial before: take a smaller --relaxation, or look whether machine, clamping or measurement have changed"
         }
-    }
+    };
+    words.to_owned()
 }

@@ -18,7 +18,11 @@ use crate::options::{EXIT_CODES, number, whole};
 #[command(after_help = EXIT_CODES, after_long_help = HELP)]
 // What other commands along a program take is refused here in words, and not offered.
 #[command(mut_arg("report", |arg| arg.hide(true)))]
+#[command(mut_arg("pdf", |arg| arg.hide(true)))]
+#[command(mut_arg("language", |arg| arg.hide(true)))]
 #[command(mut_arg("points", |arg| arg.hide(true)))]
+#[command(mut_arg("all_points", |arg| arg.hide(true)))]
+#[command(mut_arg("restart", |arg| arg.hide(true)))]
 #[command(mut_arg("vtk", |arg| arg.hide(true)))]
 #[command(mut_arg("free_turn", |arg| arg.hide(true)))]
 #[command(mut_arg("stiff_turn", |arg| arg.hide(true)))]

@@ -154,6 +154,8 @@ fn refuse_what_says_nothing(given: &ProgramArgs) -> Answer<()> {
     let writes = [&given.report, &given.pdf, &given.points, &given.vtk];
     let what = if writes.iter().any(|path| path.is_some()) {
         "--report, --pdf, --points and --vtk: give them to `kinetostat deflect` with the best placement"
+    } else if given.language.is_some() || given.all_points || given.restart {
+        "--language, --all-points and --restart: it writes no report and no table of points, and begins anew each time"
     } else if turn.free_turn || turn.stiff_turn || turn.turn_plot.is_some() {
         "--free-turn, --stiff-turn and --turn-plot: it turns the tool by --turn-tool-deg, the same along the whole program"
     } else if given.uncertain.uncertain.is_some() || given.uncertain.machines.is_some() {

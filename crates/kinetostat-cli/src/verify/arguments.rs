@@ -22,6 +22,7 @@ use crate::options::{EXIT_CODES, number, small};
     .long_help(None)))]
 // What other commands along a program take is refused here in words, and not offered.
 #[command(mut_arg("report", |arg| arg.hide(true)))]
+#[command(mut_arg("restart", |arg| arg.hide(true)))]
 #[command(mut_arg("free_turn", |arg| arg.hide(true)))]
 #[command(mut_arg("stiff_turn", |arg| arg.hide(true)))]
 #[command(mut_arg("turn_plot", |arg| arg.hide(true)))]

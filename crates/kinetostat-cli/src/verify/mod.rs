@@ -16,31 +16,28 @@ mod robot_words;
 mod statements;
 mod text;
 mod tilted;
+mod written;
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use kinetostat::Directions;
 use kinetostat_machining::{Condition, RunError, Verified, verify_program};
 use kinetostat_program::Move;
 
 use crate::files::input_files::InputFiles;
-use crate::files::outputs::{self, Existing, Outputs};
+use crate::files::outputs;
 use crate::job::arguments::{ProgramArgs, WritingFlags};
 use crate::job::feature_lines::refuse_lines_beyond;
 use crate::job::job_file::JobFile;
 use crate::job::machine::{MachineSetup, machine_setup};
 use crate::job::of_model::give_of_model;
-use crate::job::output_paths::{PATH_VTK, PDF};
 use crate::job::program::read_program;
 use crate::job::run_warnings;
 use crate::job::setting::{Setting, setting};
 use crate::long::which::say_as_a_whole;
 use crate::program::aim::Aim;
 use crate::program::features::put_features;
-use crate::program::paper;
-use crate::program::points_table::{self, Listing};
 use crate::program::solve::{forces_of, with_task};
-use crate::program::{path_vtk, points_parquet};
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::json;
 use crate::ui::language::LanguageWord;
@@ -52,6 +49,7 @@ use crate::verify::frames::other_words;
 use crate::verify::other_word::OtherWord;
 use crate::verify::robot_words::robot_words;
 use crate::verify::tilted::Tilted;
+use crate::verify::written::ClaimedFiles;
 
 pub(crate) fn run(args: &VerifyArgs) -> Answer<()> {
     let files = InputFiles::default();
@@ -79,24 +77,8 @@ pub(crate) fn run(args: &VerifyArgs) -> Answer<()> {
     original.turned_by(machine.rotary.clone());
     verified.turned_by(machine.rotary.clone());
 
-    let to_screen = args.json.as_deref() == Some(Path::new("-"));
     let inputs = original.inputs.iter().chain(&verified.inputs);
-    let mut claimed = Outputs::new(
-        Existing::forced(args.original.force_overwrite),
-        inputs.cloned().collect(),
-    );
-    let mut claim = |what, path: &Option<PathBuf>| {
-        let path = path.as_ref();
-        path.map(|path| claimed.claim(what, path)).transpose()
-    };
-    let json_out = claim("result", &args.json.clone().filter(|_| !to_screen))?;
-    let pdf_out = claim(PDF, &args.original.pdf)?;
-    if pdf_out.is_some() {
-        paper::refuse_without_pdf()?;
-    }
-    points_parquet::refuse_without_parquet(args.original.points.as_deref())?;
-    let points_out = claim("table of points", &args.original.points)?;
-    let vtk_out = claim(PATH_VTK, &args.original.vtk)?;
+    let claimed = ClaimedFiles::of(args, inputs.cloned().collect())?;
 
     let Solved {
         mut found,
@@ -133,34 +115,10 @@ pub(crate) fn run(args: &VerifyArgs) -> Answer<()> {
         ),
         original.flat.clone().filter(|_| original.robot.is_none()),
     );
-    if let Some(index) = json_out {
-        claimed.fill(index, json::json(&answer)?.as_bytes())?;
-    }
-    if let Some(index) = pdf_out {
-        let language = LanguageWord::language(original.targets.language);
-        let of_run = answer.as_run(&found);
-        let of = answer.paper(&of_run, language);
-        claimed.fill(index, &paper::pdf(&of)?)?;
-    }
-    if let Some(index) = points_out {
-        let listing = Listing {
-            all: args.original.all_points,
-            controller: model.controller.clone(),
-        };
-        let of_run = (&found.run.result.run_inputs, &found.run.points);
-        let put = |bytes: &[u8]| claimed.append(index, bytes);
-        let named = args.original.points.as_deref();
-        match named.is_some_and(points_parquet::is_named) {
-            true => points_parquet::table(of_run.0, of_run.1, &listing, put)?,
-            false => points_table::table(of_run.0, of_run.1, &listing, put)?,
-        }
-        claimed.complete(index)?;
-    }
-    if let Some(index) = vtk_out {
-        let bytes = path_vtk::vtk(&found.run);
-        claimed.fill(index, &bytes)?;
-    }
-    let paths = claimed.commit()?;
+    let controller = model.controller.clone();
+    let language = LanguageWord::language(original.targets.language);
+    let paths = claimed.write(args, (&found, &answer), (controller, language))?;
+    let to_screen = args.json.as_deref() == Some(Path::new("-"));
     let text = format!("{}{}", text::answer_text(&answer), outputs::written(&paths));
     json::print_answer(&text, &answer, to_screen)?;
     match answer.held {
@@ -181,6 +139,8 @@ fn refuse_what_says_nothing(given: &ProgramArgs) -> Answer<()> {
         "--free-turn, --stiff-turn and --turn-plot: the tool is turned as the program says"
     } else if given.uncertain.uncertain.is_some() || given.uncertain.machines.is_some() {
         "--uncertain and --machines: one machine is solved, as the model says"
+    } else if given.restart {
+        "--restart: it begins anew each time"
     } else {
         return Ok(());
     };

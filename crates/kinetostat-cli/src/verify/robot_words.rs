@@ -39,6 +39,7 @@ pub(crate) fn robot_words(
     let with = (cut_lines, forces_from_cut);
     found.extend(control_words(original, verified, with));
     found.extend(statements(original, verified, cut_lines));
+    found.extend(called_outside(original, verified));
     found.extend(exact_stops(original, verified));
     found.extend(radii(original, verified));
     found.extend(configurations(original, verified));
@@ -164,6 +165,30 @@ fn tool_at_cuts(
     let lines = [Some(lines[0]), Some(lines[1])];
     let fault = Some(FaultKind::Tool);
     Some(OtherWord::new(own.name.as_str(), fault, lines, text))
+}
+
+/// What only the program verified calls and none of its files holds: the motion behind it begins nobody knows where.
+fn called_outside(original: &RobotRead<'_>, verified: &RobotRead<'_>) -> Vec<OtherWord> {
+    let calls = |read: &RobotRead<'_>| -> Vec<(usize, String)> {
+        let mut found = Vec::new();
+        for finding in &read.program.findings {
+            let what = finding.message.split_once(" is in none of these files");
+            found.extend(what.map(|(name, _)| (finding.line, name.to_owned())));
+        }
+        found
+    };
+    let known: BTreeSet<String> = calls(original).into_iter().map(|(_, name)| name).collect();
+    let own = calls(verified).into_iter();
+    let own = own.filter(|(_, name)| !known.contains(name));
+    own.map(|(line, name)| {
+        let lines = [Some(line), None];
+        let what = OtherWord::only_in_one(&name, lines);
+        let text = format!(
+            "{what} and in none of these files: if it moves the tool, that is not seen, and a motion behind it is taken for no cut"
+        );
+        OtherWord::new(name, None, lines, text)
+    })
+    .collect()
 }
 
 /// Ends of straight and circular motions at which the tool stopped.

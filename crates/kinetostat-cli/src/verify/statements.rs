@@ -7,50 +7,62 @@ use kinetostat_formats::Language;
 use crate::job::robot::read_program::RobotRead;
 use crate::verify::other_word::{FaultKind, OtherWord};
 
-/// Statements behind which the motions that follow may not be made.
-fn ends(language: Language) -> &'static [&'static str] {
-    match language {
-        Language::Rapid => &[
-            "EXIT",
-            "EXITCYCLE",
-            "RETURN",
-            "GOTO",
-            "BREAK",
-            "STOP",
-            "RAISE",
-        ],
-        Language::Krl => &["EXIT", "RETURN", "HALT", "GOTO"],
-        Language::FanucLs => &["END", "ABORT", "JMP", "PAUSE"],
-        Language::Apt => &["FINI", "END", "JUMPTO", "STOP"],
-        Language::Siemens => &[
-            "M2", "M02", "M30", "M17", "RET", "GOTO", "GOTOF", "GOTOB", "GOTOS",
-        ],
-        _ => &[],
-    }
+/// Statements of a language that this looks at.
+struct Words {
+    /// Those behind which the motions that follow may not be made.
+    ends: &'static [&'static str],
+    /// Those that make motions behind them under a condition, or again.
+    branches: &'static [&'static str],
+    /// Those that say how fast all motions run, or that call what is not read here.
+    others: &'static [&'static str],
 }
 
-/// Statements that make motions behind them under a condition, or again.
-fn branches(language: Language) -> &'static [&'static str] {
-    match language {
-        Language::Rapid => &["IF", "ELSEIF", "ELSE", "TEST", "CASE", "FOR", "WHILE"],
-        Language::Krl => &[
-            "IF", "ELSE", "SWITCH", "CASE", "FOR", "WHILE", "LOOP", "REPEAT",
-        ],
-        Language::FanucLs => &["IF", "ELSE", "SELECT", "FOR"],
-        Language::Apt => &["IF", "LOOPST"],
-        Language::Siemens => &["IF", "ELSE", "CASE", "FOR", "WHILE", "LOOP", "REPEAT"],
-        _ => &[],
-    }
-}
-
-/// Statements that say how fast all motions run, or that call what is not read here.
-fn others(language: Language) -> &'static [&'static str] {
-    match language {
-        Language::Rapid => &["VELSET", "ACCSET", "SPEEDREFRESH"],
-        Language::Krl => &["$OV_PRO", "$OV_ROB"],
-        Language::FanucLs => &["OVERRIDE", "CALL", "RUN"],
-        Language::Siemens => &["OVR", "OVRRAP"],
-        _ => &[],
+impl Words {
+    fn of(language: Language) -> Self {
+        match language {
+            Language::Rapid => Self {
+                ends: &[
+                    "EXIT",
+                    "EXITCYCLE",
+                    "RETURN",
+                    "GOTO",
+                    "BREAK",
+                    "STOP",
+                    "RAISE",
+                ],
+                branches: &["IF", "ELSEIF", "ELSE", "TEST", "CASE", "FOR", "WHILE"],
+                others: &["VELSET", "ACCSET", "SPEEDREFRESH"],
+            },
+            Language::Krl => Self {
+                ends: &["EXIT", "RETURN", "HALT", "GOTO"],
+                branches: &[
+                    "IF", "ELSE", "SWITCH", "CASE", "FOR", "WHILE", "LOOP", "REPEAT",
+                ],
+                others: &["$OV_PRO", "$OV_ROB"],
+            },
+            Language::FanucLs => Self {
+                ends: &["END", "ABORT", "JMP", "PAUSE"],
+                branches: &["IF", "ELSE", "SELECT", "FOR"],
+                others: &["OVERRIDE", "CALL", "RUN"],
+            },
+            Language::Apt => Self {
+                ends: &["FINI", "END", "JUMPTO", "STOP"],
+                branches: &["IF", "LOOPST"],
+                others: &[],
+            },
+            Language::Siemens => Self {
+                ends: &[
+                    "M2", "M02", "M30", "M17", "RET", "GOTO", "GOTOF", "GOTOB", "GOTOS",
+                ],
+                branches: &["IF", "ELSE", "CASE", "FOR", "WHILE", "LOOP", "REPEAT"],
+                others: &["OVR", "OVRRAP"],
+            },
+            _ => Self {
+                ends: &[],
+                branches: &[],
+                others: &[],
+            },
+        }
     }
 }
 
@@ -69,6 +81,7 @@ pub(crate) fn statements(
     cut_lines: &[[usize; 2]],
 ) -> Vec<OtherWord> {
     let language = verified.program.language;
+    let words = Words::of(language);
     let mut pairs = cut_lines.to_vec();
     pairs.sort_unstable();
     let own = all_statements(verified, |line| {
@@ -107,14 +120,14 @@ pub(crate) fn statements(
             false => OtherWord::only_in_one(text, lines),
         };
         let lies_before = last_motion.is_some_and(|last| *line < last);
-        let leads_on = begins_with(text, branches(language));
+        let leads_on = begins_with(text, words.branches);
         if (is_end(text, language) || leads_on) && lies_before {
             let text = match leads_on {
                 true => format!("{what}: motions behind it may not be made, or more than once"),
                 false => format!("{what}: motions behind it may not be made"),
             };
             found.push(OtherWord::new("end", Some(FaultKind::Course), lines, text));
-        } else if begins_with(text, others(language)) {
+        } else if begins_with(text, words.others) {
             let text =
                 format!("{what}, and what it does to speeds or motions is not in these figures");
             found.push(OtherWord::new("statement", None, lines, text));
@@ -126,6 +139,7 @@ pub(crate) fn statements(
 /// Statements that this looks at.
 fn all_statements(read: &RobotRead<'_>, behind: impl Fn(usize) -> usize) -> Vec<Statement> {
     let language = read.program.language;
+    let words = Words::of(language);
     let mut found = Vec::new();
     for (line, text) in read.lines_in_capitals() {
         let parts = code(&text, language).split(match language {
@@ -134,8 +148,10 @@ fn all_statements(read: &RobotRead<'_>, behind: impl Fn(usize) -> usize) -> Vec<
             _ => '\n',
         });
         for part in parts.map(str::trim) {
-            let words = [others(language), branches(language)];
-            if is_end(part, language) || words.iter().any(|words| begins_with(part, words)) {
+            let is_word = [words.others, words.branches]
+                .iter()
+                .any(|words| begins_with(part, words));
+            if is_word || is_end(part, language) {
                 found.push(Statement {
                     line,
                     text: part.split_whitespace().collect::<Vec<_>>().join(" "),
@@ -149,11 +165,12 @@ fn all_statements(read: &RobotRead<'_>, behind: impl Fn(usize) -> usize) -> Vec<
 
 /// Whether motions behind a statement may not be made; `IF` has its statement behind itself in RAPID.
 fn is_end(text: &str, language: Language) -> bool {
+    let ends = Words::of(language).ends;
     let behind_if = || {
         let last = text.rsplit(char::is_whitespace).next().unwrap_or_default();
-        language == Language::Rapid && begins_with(text, &["IF"]) && ends(language).contains(&last)
+        language == Language::Rapid && begins_with(text, &["IF"]) && ends.contains(&last)
     };
-    begins_with(text, ends(language)) || behind_if()
+    begins_with(text, ends) || behind_if()
 }
 
 /// A line without its number and its comment.

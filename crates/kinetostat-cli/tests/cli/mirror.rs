@@ -5,7 +5,7 @@
 
 use std::path::Path;
 
-use kinetostat_testing::Worst;
+use kinetostat_testing::{Worst, figure};
 use serde_json::Value;
 
 use crate::common::{Said, run, workplace};
@@ -195,13 +195,18 @@ pub(crate) fn three_trials(
 }
 
 #[test]
-fn a_model_thirty_percent_off_and_the_mirror_end_below_two_micrometres() {
+fn figure_a_model_thirty_percent_off_and_the_mirror_end_below_two_micrometres() {
     let job = |model: &str| job("circle.ngc", model);
     let part = of_orthoglide(("circle.ngc", CIRCLE), &job);
     let errors_um = three_trials(&part, simulated, |_, _, _| ()).map(|worst| worst.value());
     // The model alone leaves a third of what it should correct.
     assert!(errors_um[0] > 200.0, "{errors_um:?}");
-    assert!(errors_um[1] < 10.0 && errors_um[2] < 2.0, "{errors_um:?}");
+    assert!(errors_um[1] < 10.0, "{errors_um:?}");
+    let name = "mirror on a model 30 % off: error in the third trial, circle on orthoglide";
+    assert!(
+        figure::at_most(name, errors_um[2], 2.0, "um"),
+        "{errors_um:?}"
+    );
 }
 
 /// Points on the circle's ways, raised by so much, with one far off.
@@ -415,7 +420,7 @@ fn soft_arm(preset: &str) -> String {
 
 /// A robot's own program and an arm of 70 % of its model's stiffness: model and mirror end below 2 um in three trials.
 #[test]
-fn a_robots_program_with_a_model_thirty_percent_off_ends_below_two_micrometres() {
+fn figure_a_robots_program_with_a_model_thirty_percent_off_ends_below_two_micrometres() {
     let job = |model: &str| {
         format!(
             "schema = 1\nmodel = \"{model}\"\nprogram = \"circle.mod\"\n[load]\nmilling = {{ radial_n = 215, tangential_n = -10, axial_n = -25 }}\n[robot]\nrapid_from_mm_per_s = 100\n[[features]]\nname = \"ring\"\nlines = [8, 9]\ntolerance_um = 5\n[[features]]\nname = \"way back\"\nlines = [11, 11]\n"
@@ -444,7 +449,11 @@ fn a_robots_program_with_a_model_thirty_percent_off_ends_below_two_micrometres()
     let errors_um = three_trials(&part, simulated, look).map(|worst| worst.value());
     eprintln!("um off the circle, trial by trial: {errors_um:?}");
     assert!(errors_um[0] > 50.0, "{errors_um:?}");
-    assert!(errors_um[2] < 2.0, "{errors_um:?}");
+    let name = "mirror on a model 30 % off: error in the third trial, RAPID ring on an arm";
+    assert!(
+        figure::at_most(name, errors_um[2], 2.0, "um"),
+        "{errors_um:?}"
+    );
     assert_eq!((held[0], held[2]), (false, true));
 }
 

@@ -110,6 +110,43 @@ fn a_program_in_inches_has_the_rounding_of_inches() {
     );
 }
 
+/// Where a rectangle closes, the plunge at its beginning is nearer to the end as it is programmed than the compensated end is.
+#[test]
+fn an_original_in_place_of_a_compensated_program_misses_the_tolerance_only() {
+    let here = crate::common::workplace();
+    std::fs::write(here.path().join("job.toml"), JOB).unwrap();
+    let text = "G21 G90 G17\nG0 X-30 Y-20 Z5\nG0 Z1\nG1 Z-2 F300\nG1 X30 F600\nG1 Y20\nG1 X-30\nG1 Y-20\nG0 Z5\nM2\n";
+    std::fs::write(here.path().join("part.ngc"), text).unwrap();
+    let (code, found, said) = verified(here.path(), "part.ngc", &[]);
+    assert_eq!(code, 3, "{said}");
+    assert_eq!(uncut(&found), &json!([]), "{said}");
+    assert_eq!(found["matched"]["extra_cuts"], json!([]), "{said}");
+    assert_eq!(found["matched"]["rapids"], json!([]), "{said}");
+    let before = number(&found, "max_position_error_of_original_mm");
+    let after = number(&found, "max_position_error_mm");
+    assert!((after / before - 1.0).abs() < 1e-6, "{before} {after}");
+}
+
+/// On a step at a corner the load turns while the tool stands: how far it has turned is known no worse than places elsewhere are.
+#[test]
+fn steps_at_corners_are_no_farther_off_than_the_program_claims() {
+    let here = crate::common::workplace();
+    std::fs::write(here.path().join("job.toml"), JOB).unwrap();
+    let text = "G20 G90 G17\nG0 X-0.9707 Y0.5333 Z0.0394\nG1 Z-0.1323 F15.748\nG1 X-1.1691 Y1.0446\nG1 X-1.0714 Y1.0268\nG1 X-1.1349 Y1.0269\nG1 X-0.6508 Y0.8626\nG0 Z0.1969\nM2\n";
+    std::fs::write(here.path().join("part.ngc"), text).unwrap();
+    let more = ["--tolerance-um", "0.3"];
+    let written = compensated(here.path(), &[&more[..], &["--arcs", "lines"]].concat());
+    let (code, found, said) = verified(here.path(), "out.ngc", &more);
+    assert_eq!(code, 0, "{said}");
+    let claimed = number(&written["summary"], "max_position_error_after_mm");
+    let after = number(&found, "max_position_error_mm");
+    // What is along a step is not in the distance from it.
+    assert!(
+        after > 0.5 * claimed && after < 1.01 * claimed,
+        "{after} {claimed}"
+    );
+}
+
 #[test]
 fn a_peck_that_is_left_short_is_all_that_is_wrong() {
     let here = compensated_cuts(HOLE);

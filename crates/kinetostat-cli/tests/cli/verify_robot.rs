@@ -122,6 +122,12 @@ fn frames_and_tools_of_a_robot_are_those_of_the_original() {
                 0,
                 "tool 'tOther' is 'tSpindle' in the original, at the same place",
             ),
+            (
+                "  ENDPROC",
+                "    Elsewhere;\n  ENDPROC",
+                0,
+                "`Elsewhere` at line",
+            ),
             ("v20,fine", "v20,z50", 0, "stop at their ends"),
             ("v20,fine", "v20,z50", 0, "is passed at up to 50 mm"),
             (

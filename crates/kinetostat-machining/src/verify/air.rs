@@ -1,6 +1,7 @@
 //! Which moves at feed of another program are rapids of the original: they cut nothing.
 
 use std::borrow::Cow;
+use std::cell::LazyCell;
 
 use kinetostat::number::{larger, smaller};
 use kinetostat_program::{Curve, Knowledge, Move, MoveKind, NominalPath, Path};
@@ -17,9 +18,9 @@ pub(crate) fn without_air<'a>(
     (other, shift_mm): (&'a Path, f64),
 ) -> Cow<'a, Path> {
     let near_mm = NEAR_MM + shift_mm;
-    let rapids = Starts::of(original.path(), MoveKind::Rapid);
-    let [guide_rapids, guide_feeds] =
-        [MoveKind::Rapid, MoveKind::Feed].map(|kind| Starts::of(nominal.path(), kind));
+    let rapids = Starts::of(original.path(), |m| m.kind == MoveKind::Rapid);
+    let ways =
+        LazyCell::new(|| [nominal.path(), other].map(|path| Starts::of(path, Move::has_length)));
     // How far cuts before may be from a way along them: a lift may go where the cut is not shifted to. A way that is where the cuts are
     // is compensated as those are, and another cut nearby is none along it.
     let beside_cuts = |own: &Move| {
@@ -30,23 +31,24 @@ pub(crate) fn without_air<'a>(
             feet.map(|foot| foot.distance_mm).fold(0.0, larger),
         )
     };
-    let ways = [nominal.path(), other].map(Starts::of_ways);
     // A way that was cut before is cut again where the guide, coming by as often, cuts that time; where it comes by more or less often,
     // if a cut of the guide is more like it than any rapid is.
     let is_cut_again = |index: usize| {
         let own = &other.moves[index];
-        let [of_guide, of_other] = [&ways[0], &ways[1]].map(|ways| ways.along(own, near_mm));
+        let [guide, of_other] = &*ways;
+        let [of_guide, of_other] = [guide, of_other].map(|ways| ways.along(own, near_mm));
         let time = of_other.iter().position(|k| *k == index);
         if let Some(time) = time.filter(|_| of_guide.len() == of_other.len()) {
-            return nominal.path().moves[of_guide[time]].kind == MoveKind::Feed;
+            return guide.moves[of_guide[time]].kind == MoveKind::Feed;
         }
-        let least = |starts: &Starts<'_>| {
-            let near = starts.near(&own.start, near_mm);
-            let near = near.filter(|k| starts.way(*k).distance(&own.end) <= near_mm);
-            near.map(|k| starts.apart_mm(k, other, index))
+        let least = |kind: MoveKind| {
+            let near = guide.near(&own.start, near_mm);
+            let near = near.filter(|k| guide.moves[*k].kind == kind);
+            let near = near.filter(|k| guide.way(*k).distance(&own.end) <= near_mm);
+            near.map(|k| guide.apart_mm(k, other, index))
                 .fold(f64::INFINITY, smaller)
         };
-        least(&guide_feeds) < least(&guide_rapids)
+        least(MoveKind::Feed) < least(MoveKind::Rapid)
     };
     let is_air = |index: usize| {
         let own = &other.moves[index];
@@ -88,16 +90,7 @@ struct Starts<'p> {
 }
 
 impl<'p> Starts<'p> {
-    fn of(path: &'p Path, kind: MoveKind) -> Self {
-        Self::that(path, |m| m.kind == kind)
-    }
-
-    /// Of rapids and cuts.
-    fn of_ways(path: &'p Path) -> Self {
-        Self::that(path, Move::has_length)
-    }
-
-    fn that(path: &'p Path, is_meant: impl Fn(&Move) -> bool) -> Self {
+    fn of(path: &'p Path, is_meant: impl Fn(&Move) -> bool) -> Self {
         let moves = &path.moves[..];
         let is_meant = |index: &usize| {
             let m = &moves[*index];

@@ -4,32 +4,16 @@
 //! along the path by as much, and where the load comes over the program the force that belongs to it is another. Newton's method
 //! takes it to the foot on the compensated path itself: there the error is what no other choice of the place would make smaller.
 
-use kinetostat_program::{Arc, CorrectionField, Path, Piece, Request, WrittenCircle};
-use nalgebra::Vector3;
+use kinetostat_program::{Arc, CorrectionField, Path, Piece, Turn, WrittenCircle};
 
+use crate::verify::abreast::{Abreast, find};
 use crate::verify::followed::Followed;
-
-/// Steps of Newton's method; the guide is near enough that the second one has nothing left to do but where the program is far from it.
-const STEPS: usize = 2;
-
-/// Way along the original over which the direction of the compensated path is taken, mm.
-const DIRECTION_MM: f64 = 0.01;
-
-/// No step is longer than this, mm: the guide is nearer.
-const LONGEST_MM: f64 = 0.05;
 
 /// Equal ways on a part of an arc belong to equal ways on the original within this, mm, or the part is halved.
 const EVEN_MM: f64 = 2e-5;
 
 /// How often a part of an arc is halved.
 const HALVINGS: usize = 6;
-
-/// A place of the other program, and the one of the original that it belongs to.
-struct Abreast {
-    move_index: usize,
-    share: f64,
-    point: Vector3<f64>,
-}
 
 /// The pieces with the places that the field of corrections gives; parts of arcs are divided where their ways are not even.
 pub(crate) fn exact(
@@ -40,17 +24,14 @@ pub(crate) fn exact(
     let free: Vec<usize> = (0..pieces.len())
         .filter(|index| is_free(original, &pieces, *index))
         .collect();
-    let of_end = |index: &usize| {
-        let piece = &pieces[*index].piece;
-        Abreast {
-            move_index: piece.move_index,
-            share: piece.share_to,
-            point: piece.commanded_to,
-        }
-    };
+    let of_end = |index: &usize| Abreast::of_end(&pieces[*index].piece);
     let mut places: Vec<Abreast> = free.iter().map(of_end).collect();
     find(original, field, &mut places);
     for (index, place) in free.into_iter().zip(places) {
+        if let Some(turning) = place.turning {
+            put_part(&mut pieces[index..=index + 1], turning.part);
+            continue;
+        }
         let [least, most] = [
             pieces[index].piece.share_from,
             pieces[index + 1].piece.share_to,
@@ -67,7 +48,20 @@ pub(crate) fn exact(
     divided(original, field, pieces)
 }
 
-/// Whether the end of a piece lies inside a move of the original, and nothing holds it where it is.
+/// Two parts of one turn of the load meet where so much of it is done.
+fn put_part(both: &mut [Followed], part: f64) {
+    let [own, next] = both else {
+        return;
+    };
+    let turns = own.piece.turn.as_mut().zip(next.piece.turn.as_mut());
+    if let Some((own, next)) = turns {
+        let part = part.min(next.part_to).max(own.part_from);
+        own.part_to = part;
+        next.part_from = part;
+    }
+}
+
+/// Whether the end of a piece lies inside a move of the original or inside a turn of the load, and nothing holds it where it is.
 fn is_free(original: &Path, pieces: &[Followed], index: usize) -> bool {
     let Some(next) = pieces.get(index + 1) else {
         return false;
@@ -75,10 +69,18 @@ fn is_free(original: &Path, pieces: &[Followed], index: usize) -> bool {
     let own = &pieces[index];
     let (piece, next) = (&own.piece, &next.piece);
     let goes_on = next.move_index == piece.move_index && next.share_from == piece.share_to;
-    goes_on
-        && !own.is_held
-        && next.corrected
-        && piece.turn.is_none()
+    if !goes_on || own.is_held || !next.corrected {
+        return false;
+    }
+    if let (Some(turn), Some(behind)) = (piece.turn, next.turn) {
+        let goes_on = Turn {
+            part_from: turn.part_to,
+            part_to: behind.part_to,
+            ..turn
+        };
+        return behind == goes_on && turn.part_to > 0.0 && turn.part_to < 1.0;
+    }
+    piece.turn.is_none()
         && next.turn.is_none()
         && piece.share_to > 0.0
         && piece.share_to < 1.0
@@ -104,6 +106,7 @@ fn divided(original: &Path, field: &dyn CorrectionField, pieces: Vec<Followed>) 
         let middle = |piece: &&Piece| Abreast {
             move_index: piece.move_index,
             share: 0.5 * (piece.share_from + piece.share_to),
+            turning: None,
             point: piece.commanded(&original.moves[piece.move_index], 0.5),
         };
         let mut middles: Vec<Abreast> = looked.iter().map(middle).collect();
@@ -170,58 +173,4 @@ fn halves(own: Followed, place: &Abreast) -> [Followed; 2] {
             ..own
         },
     ]
-}
-
-/// Takes places to their feet on the compensated path; one that has no correction, or is not found nearby, stays.
-fn find(original: &Path, field: &dyn CorrectionField, places: &mut [Abreast]) {
-    for _ in 0..STEPS {
-        let requests: Vec<Request> = places
-            .iter()
-            .flat_map(|place| {
-                let share = place.share;
-                [share, beside(original, place)]
-                    .map(|share| request(original, place.move_index, share))
-            })
-            .collect();
-        let answers = field.corrections(&requests);
-        let commanded: Vec<Option<Vector3<f64>>> = requests
-            .iter()
-            .zip(&answers)
-            .map(|(request, answer)| {
-                let shift = answer.as_ref().ok()?.shift_mm;
-                Some(request.position_mm + shift)
-            })
-            .collect();
-        for (place, both) in places.iter_mut().zip(commanded.chunks_exact(2)) {
-            let &[Some(here), Some(there)] = both else {
-                continue;
-            };
-            let along = (there - here) / (beside(original, place) - place.share);
-            let step = (place.point - here).dot(&along) / along.norm_squared();
-            if step.abs() * original.moves[place.move_index].length_mm() <= LONGEST_MM {
-                place.share = (place.share + step).clamp(0.0, 1.0);
-            }
-        }
-    }
-}
-
-/// A share of the same move a little before a place, or behind it.
-fn beside(original: &Path, place: &Abreast) -> f64 {
-    let width = (DIRECTION_MM / original.moves[place.move_index].length_mm()).min(0.5);
-    match place.share >= width {
-        true => place.share - width,
-        false => place.share + width,
-    }
-}
-
-fn request(original: &Path, move_index: usize, share: f64) -> Request {
-    let motion = &original.moves[move_index];
-    Request {
-        move_index,
-        share,
-        position_mm: motion.point(share),
-        tangent: motion.tangent(share),
-        orientation: motion.orientation(share),
-        turning: None,
-    }
 }

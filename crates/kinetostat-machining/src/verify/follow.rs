@@ -34,7 +34,7 @@ pub(crate) fn follow(
     let other = &*without_air(&as_it_is, &nominal, (other, shift_mm));
     let of_other = NominalPath::new(other).map_err(nothing)?;
     let ends = ends(&of_other);
-    let feet = feet(&nominal, other, &ends)?;
+    let feet = feet(&nominal, (other, shift_mm), &ends)?;
     let far = |index: usize| feet[index].map_or(0.0, |foot| foot.distance_mm);
     let farthest = (0..ends.len()).max_by(|a, b| far(*a).total_cmp(&far(*b)));
     let farthest = farthest.unwrap_or(0);

@@ -11,6 +11,7 @@
 //! that are solved for it, and the pieces are solved as those of any written program. Inside a move of the original the error is so the
 //! distance from the compensated path: along that, where an error moves no material, there is none but at ends.
 
+mod abreast;
 mod air;
 mod along;
 mod conditions;

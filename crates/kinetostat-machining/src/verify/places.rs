@@ -58,13 +58,14 @@ const MOST_AWAY: f64 = 0.25;
 /// How often an end that leaps ahead is left out, and the order looked for anew.
 const LEAPS: usize = 8;
 
-/// The place of the guide for each end; none for the few that are nowhere near it, or only in another order.
+/// The place of the guide for each end; none for the few that are nowhere near it, or only in another order. A program may be as far
+/// from the guide as corrections are large, `shift_mm`: it is that where it is not compensated.
 ///
 /// # Errors
 /// More than a few are.
 pub(crate) fn feet(
     guide: &NominalPath<'_>,
-    other: &Path,
+    (other, shift_mm): (&Path, f64),
     ends: &[End],
 ) -> Result<Vec<Option<Foot>>, RunError> {
     let points: Vec<Vector3<f64>> = ends.iter().map(|end| end.position).collect();
@@ -77,7 +78,9 @@ pub(crate) fn feet(
         let found = match widened(guide, &points, (&mut near, window_mm)) {
             // Nobody is asked for an order of points many of which are nowhere.
             Err(lost) => Err((lost, WhyLeftOut::BeyondWindow)),
-            Ok(()) => ordered(ends, near, window_mm),
+            Ok(()) => ordered(ends, near, window_mm, |k| {
+                guide.nearest_within(&points[k], window_mm + shift_mm)
+            }),
         };
         match found {
             Ok(feet) => return Ok(feet),
@@ -102,7 +105,8 @@ fn is_few(lost: usize, all: usize) -> bool {
 }
 
 /// The feet in their order. One end that leaps ahead, to a part of the original that comes later, leaves those behind it without any:
-/// it is left out where that leaves more of the others.
+/// it is left out where that leaves more of the others. For those that are left, feet farther away are asked for, where a program that
+/// is not compensated comes nearer to another part of the path than to their own.
 ///
 /// # Errors
 /// The first end without a foot and why, where there are many.
@@ -110,6 +114,7 @@ fn ordered(
     ends: &[End],
     mut near: Vec<Vec<Foot>>,
     window_mm: f64,
+    farther: impl Fn(usize) -> Vec<Foot>,
 ) -> Result<Vec<Option<Foot>>, (usize, WhyLeftOut)> {
     let lost = |feet: &[Result<Foot, WhyLeftOut>]| feet.iter().filter(|foot| foot.is_err()).count();
     let way_mm = |from: usize, to: usize| ends[to].cut_mm - ends[from].cut_mm;
@@ -130,6 +135,16 @@ fn ordered(
             break;
         }
         best = without;
+    }
+    let left_out: Vec<usize> = (0..best.len()).filter(|k| best[*k].is_err()).collect();
+    if !left_out.is_empty() && is_few(left_out.len(), ends.len()) {
+        for k in left_out {
+            near[k] = farther(k);
+        }
+        let with = in_order_by(&near, window_mm, way_mm);
+        if lost(&with) < lost(&best) {
+            best = with;
+        }
     }
     let first = best.iter().position(Result::is_err);
     match first.zip(first.and_then(|first| best[first].err())) {

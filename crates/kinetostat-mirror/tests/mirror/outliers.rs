@@ -6,6 +6,7 @@ use kinetostat_mirror::{
     MeasureSettings, MeasuredFile, MeasuredPoints, MirrorField, MirrorState, NominalPath, Outcome,
     measure,
 };
+use kinetostat_testing::figure;
 use nalgebra::{UnitQuaternion, Vector3};
 
 use crate::machine::{Noise, SHAPE, commanded_within, read, sampled};
@@ -18,7 +19,8 @@ fn off(p: &Vector3<f64>) -> Vector3<f64> {
 }
 
 #[test]
-fn twenty_of_a_thousand_are_found_and_no_other() {
+fn figure_twenty_of_a_thousand_are_found_and_no_other() {
+    let mut worst = 0;
     let (_, path) = read(SHAPE);
     let nominal = NominalPath::new(&path).unwrap();
     for (seed, deviation) in [
@@ -52,11 +54,13 @@ fn twenty_of_a_thousand_are_found_and_no_other() {
         assert!(measured.left_out.is_empty(), "{:?}", measured.left_out);
         let [missed, wrong] = [planted.difference(&rows), rows.difference(&planted)]
             .map(|set| set.copied().collect::<Vec<_>>());
-        assert!(
-            missed.is_empty() && wrong.is_empty(),
-            "scatter {deviation}: missed {missed:?}, wrong {wrong:?}"
-        );
+        if !missed.is_empty() || !wrong.is_empty() {
+            eprintln!("scatter {deviation}: missed {missed:?}, wrong {wrong:?}");
+        }
+        worst = worst.max(missed.len() + wrong.len());
     }
+    let name = "mirror: of 20 outliers planted among 1000 points, missed or named wrongly, worst of seven scatters";
+    assert!(figure::at_most(name, worst as f64, 0.0, "points"));
 }
 
 #[test]

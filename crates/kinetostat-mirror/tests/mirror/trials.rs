@@ -4,7 +4,7 @@ use kinetostat_mirror::{
     MeasureSettings, MeasuredFile, MeasuredPoints, MirrorField, MirrorState, NominalPath, Outcome,
     Repeatability, expected_factor, measure,
 };
-use kinetostat_testing::Worst;
+use kinetostat_testing::{Worst, figure};
 use nalgebra::Vector3;
 
 use crate::machine::{Noise, commanded, read, sampled};
@@ -78,7 +78,8 @@ fn trials(
 /// The constant part and the wave, each by its own factor: the kernel lets `exp(-2 pi^2 h^2 / l^2)` of a wave through, and of
 /// a constant all but the share of its fading.
 #[test]
-fn every_component_falls_by_its_own_factor() {
+fn figure_every_component_falls_by_its_own_factor() {
+    let mut off = Worst::new();
     for (d, relaxation) in [(0.3, 1.0), (-0.3, 1.0), (0.0, 1.0), (0.2, 0.6), (-0.5, 1.5)] {
         let points_per_mm = 2.0;
         let sum = points_per_mm * 5.0 * std::f64::consts::TAU.sqrt();
@@ -115,14 +116,17 @@ fn every_component_falls_by_its_own_factor() {
                 }
             },
         );
-        // The writer's tolerance, and cubic curves between stations.
-        assert!(worst.value() < 5e-4, "{worst}");
+        off.add_at(worst.value(), || worst.to_string());
     }
+    // The writer's tolerance, and cubic curves between stations.
+    let name = "mirror: error after each trial less that of theory (0.3 mm at first, five departures and relaxations)";
+    assert!(figure::at_most(name, off.value(), 5e-4, "mm"), "{off}");
 }
 
 /// A departure that changes along the path, 0.4 at most: below 2 / 1.4 the error never rises, whatever the trial.
 #[test]
-fn the_error_never_rises_within_the_bound() {
+fn figure_the_error_never_rises_within_the_bound() {
+    let mut factor = Worst::new();
     let departure = |x: f64| 0.4 * (x / 23.0).sin();
     for relaxation in [0.3, 1.0, 1.42] {
         let mut before = f64::INFINITY;
@@ -135,10 +139,10 @@ fn the_error_never_rises_within_the_bound() {
             &mut |trial, _, state, _| {
                 let now = state.trials[trial].figures.passing_rms_mm;
                 // What the writer rounds to is left.
-                assert!(
-                    now <= before * (1.0 + 1e-6) + 2e-5,
-                    "trial {trial}: {now} after {before}"
-                );
+                if trial > 0 {
+                    let left = (now - 2e-5).max(0.0);
+                    factor.add_at(left / before, || format!("trial {trial}: {now} mm"));
+                }
                 falls += usize::from(now < before);
                 before = now;
             },
@@ -148,6 +152,11 @@ fn the_error_never_rises_within_the_bound() {
             "{relaxation}: {falls} falls to {before}"
         );
     }
+    let name = "mirror: error by that of the trial before, largest of 27 within the proven bound";
+    assert!(
+        figure::at_most(name, factor.of(27), 1.0 + 1e-6, "1"),
+        "{factor}"
+    );
 }
 
 #[test]
@@ -211,7 +220,7 @@ fn the_relaxation_that_is_named_is_within_the_proven_bound() {
 }
 
 #[test]
-fn the_noise_floor_is_reached_and_told() {
+fn figure_the_noise_floor_is_reached_and_told() {
     let sigma = 0.01;
     let mut noise = Noise(11);
     let (mut left, mut told, mut floors) = (Vec::new(), Vec::new(), Vec::new());
@@ -237,7 +246,9 @@ fn the_noise_floor_is_reached_and_told() {
     assert_eq!(told[0], Outcome::GoOn);
     let reached = told.iter().position(|o| *o == Outcome::WithinRepeatability);
     let reached = reached.unwrap_or_else(|| panic!("{told:?} {left:?} {floor}"));
-    assert!(left[reached] < 1.2 * floor && left[0] > 100.0 * floor);
+    let name = "mirror: what is left where it stops, by the floor of the noise";
+    assert!(figure::at_most(name, left[reached] / floor, 1.2, "1"));
+    assert!(left[0] > 100.0 * floor);
     // From there on nothing is corrected, and what is left stays within what further trials would only stir.
     assert!(reached <= 4, "{told:?} {left:?}");
 }

@@ -2,7 +2,7 @@
 
 use kinetostat_machining::{Unwatched, analyse};
 use kinetostat_placing::{Effort, Placed, Question, Range, Space, Variable, place};
-use kinetostat_testing::Worst;
+use kinetostat_testing::{Worst, figure};
 
 use crate::machine::{SOFT, along_x, rails, swing, to_the_right, with_task};
 
@@ -35,12 +35,13 @@ fn expected_mm([x, y]: [f64; 2]) -> f64 {
 
 /// Both ends of the program are equally far off: a kink, at which no slope is zero.
 #[test]
-fn a_kink_is_found() {
+fn figure_a_kink_is_found() {
     let placed = swung(&[range(Variable::Y, -300.0, 200.0)]);
     let best = placed.best.expect("a best placement");
     let mut far = Worst::new();
     far.add(best.values["y_mm"] + 10.0);
-    assert!(far.holds(0.02), "{far}");
+    let name = "place: distance from the planted optimum, in a range of 500 mm";
+    assert!(figure::at_most(name, far.value(), 0.02, "mm"), "{far}");
     let mut relative = Worst::new();
     relative.add(best.figure.expect("a figure") / expected_mm([600.0, -10.0]) - 1.0);
     assert!(relative.holds(1e-3), "{relative}");
@@ -88,7 +89,7 @@ fn an_optimum_at_the_end_of_a_range_is_said() {
 
 /// No place of a dense grid, each of them solved as `deflect` solves it, is better.
 #[test]
-fn no_place_of_a_dense_grid_is_better() {
+fn figure_no_place_of_a_dense_grid_is_better() {
     let ranges = [
         range(Variable::X, 300.0, 900.0),
         range(Variable::Y, -200.0, 200.0),
@@ -122,7 +123,9 @@ fn no_place_of_a_dense_grid_is_better() {
             assert!(there.is_finite());
             grid = grid.min(there);
         }
-        assert!(own <= grid, "{own} above {grid} of the grid");
+        let name =
+            "place: largest error at the best by that of the best of a dense grid, soft swing";
+        assert!(figure::at_most(name, own / grid, 1.0, "1"));
         // Its nearest place is 10 mm off, where 40 mm are the least that a path of 80 mm needs.
         assert!(own >= 0.75 * grid, "{own} far below {grid}");
     });
