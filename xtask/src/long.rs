@@ -35,7 +35,7 @@ pub fn run(options: &[&str]) -> Result<()> {
         let count = blocks / share;
         surface(&here.join(format!("{count}.ngc")), count)?;
         eprintln!("== long: {count} blocks");
-        let used = run_once(&here, &question(&here, count, "whole.ngc", MACHINE))?;
+        let used = run_once(&here, &question(&here, count, "whole.ngc", (MACHINE, 1)))?;
         let (seconds, memory_mb) = (used.user_s, used.memory_mb);
         println!(
             r#"figure {{"name": "long program: memory with {count} blocks", "measured": {memory_mb:.0}, "asked": 300, "unit": "MB", "holds": {}}}"#,
@@ -52,7 +52,7 @@ pub fn run(options: &[&str]) -> Result<()> {
     rate("orthoglide", b / last, 1e5);
     killed(&here, blocks, kills, times[2].1)?;
     let count = blocks / 10;
-    let used = run_once(&here, &question(&here, count, "whole.ngc", ARM))?;
+    let used = run_once(&here, &question(&here, count, "whole.ngc", (ARM, 1)))?;
     rate("heavy_6r", count as f64 / used.user_s, 3e4);
     Ok(())
 }
@@ -62,6 +62,9 @@ const BLOCKS: usize = 200_000;
 
 /// Runs of which the median counts.
 const RUNS: usize = 5;
+
+/// Two threads are to be so many times as fast as one: nearly twice.
+const TWO_THREADS: f64 = 1.8;
 
 /// A value of the table of points takes at most this, bytes.
 const CELL: f64 = 25.0;
@@ -75,11 +78,23 @@ pub fn measured(figures: &mut Vec<Figure>) -> Result<()> {
     fs::create_dir_all(&here)?;
     surface(&here.join(format!("{BLOCKS}.ngc")), BLOCKS)?;
     for (model, machine, asked) in [("orthoglide", MACHINE, 1e5), ("heavy_6r", ARM, 3e4)] {
-        let used = run_once(&here, &question(&here, BLOCKS, "whole.ngc", machine))?;
+        let run = |threads: usize| {
+            let words = question(&here, BLOCKS, "whole.ngc", (machine, threads));
+            run_once(&here, &words)
+        };
+        let (two, used) = (run(2)?, run(1)?);
         let name = format!("surface of {BLOCKS} blocks on {model}, one core");
-        let rate = BLOCKS as f64 / used.seconds();
+        let rate = BLOCKS as f64 / used.processor_s();
         let blocks = format!("{name}: blocks a second");
         figures.push(Figure::at_least(blocks, rate, asked, "1/s"));
+        let name_of_two = format!("surface of {BLOCKS} blocks on {model}: two threads");
+        let times = used.wall_s / two.wall_s;
+        figures.push(Figure::at_least(
+            name_of_two,
+            times,
+            TWO_THREADS,
+            "times one thread",
+        ));
         let memory = format!("{name}: peak memory");
         figures.push(Figure::at_most(memory, used.memory_mb, 300.0, "MB"));
         let table = fs::read_to_string(here.join("whole.csv"))?;
@@ -103,8 +118,8 @@ pub fn measured(figures: &mut Vec<Figure>) -> Result<()> {
         all.extend([option.to_owned(), path.display().to_string()]);
     }
     let runs = (0..RUNS).map(|_| run_once(&here, &all));
-    let runs: Result<Vec<Processor>> = runs.collect();
-    let mut times: Vec<f64> = runs?.iter().map(Processor::seconds).collect();
+    let runs: Result<Vec<Used>> = runs.collect();
+    let mut times: Vec<f64> = runs?.iter().map(Used::processor_s).collect();
     times.sort_by(f64::total_cmp);
     let name = format!("tball-pocket with milling load: processor time, median of {RUNS}");
     figures.push(Figure::at_most(name, times[RUNS / 2], 1.5, "s"));
@@ -112,14 +127,15 @@ pub fn measured(figures: &mut Vec<Figure>) -> Result<()> {
 }
 
 /// What a run used.
-struct Processor {
+struct Used {
     user_s: f64,
     system_s: f64,
     memory_mb: f64,
+    wall_s: f64,
 }
 
-impl Processor {
-    fn seconds(&self) -> f64 {
+impl Used {
+    fn processor_s(&self) -> f64 {
         self.user_s + self.system_s
     }
 }
@@ -164,10 +180,16 @@ const MACHINE: &str =
 const ARM: &str =
     "--model heavy_6r --tool-length-mm 200 --part-origin-mm 1450 70 500 --tolerance-um 20";
 
-fn question(here: &Path, blocks: usize, out: &str, machine: &str) -> Vec<String> {
+fn question(
+    here: &Path,
+    blocks: usize,
+    out: &str,
+    (machine, threads): (&str, usize),
+) -> Vec<String> {
     let program = here.join(format!("{blocks}.ngc"));
     let out = here.join(out);
-    let words = format!("compensate {machine} --milling 100 -10 -25 --threads 1 --force-overwrite");
+    let words =
+        format!("compensate {machine} --milling 100 -10 -25 --threads {threads} --force-overwrite");
     let mut all: Vec<String> = words.split(' ').map(str::to_owned).collect();
     for (option, path) in [
         ("--program", &program),
@@ -184,12 +206,12 @@ fn binary() -> std::path::PathBuf {
 }
 
 /// The processor time and the peak memory of a run that is not interrupted.
-fn run_once(here: &Path, words: &[String]) -> Result<Processor> {
+fn run_once(here: &Path, words: &[String]) -> Result<Used> {
     for end in ["ngc", "csv"] {
         let _ = fs::remove_file(here.join(format!("whole.{end}")));
     }
     let done = Command::new("/usr/bin/time")
-        .args(["-f", "figures %U %S %M"])
+        .args(["-f", "figures %U %S %M %e"])
         .arg(binary())
         .args(words)
         .stdout(Stdio::null())
@@ -203,10 +225,11 @@ fn run_once(here: &Path, words: &[String]) -> Result<Processor> {
             .collect::<Result<Vec<_>, _>>()
     });
     match numbers {
-        Some(Ok(found)) if done.status.success() && found.len() == 3 => Ok(Processor {
+        Some(Ok(found)) if done.status.success() && found.len() == 4 => Ok(Used {
             user_s: found[0],
             system_s: found[1],
             memory_mb: found[2] / 1024.0,
+            wall_s: found[3],
         }),
         _ => bail!("{said}"),
     }
@@ -223,7 +246,7 @@ fn killed(here: &Path, blocks: usize, kills: u64, seconds: f64) -> Result<()> {
     let mut done = 0;
     for kill in 0..=kills {
         let mut child = Command::new(binary())
-            .args(question(here, blocks, "killed.ngc", MACHINE))
+            .args(question(here, blocks, "killed.ngc", (MACHINE, 1)))
             .stdout(Stdio::null())
             .spawn()?;
         if kill < kills {
