@@ -7,6 +7,7 @@ pub(crate) mod arguments;
 mod called_tools;
 mod conditions;
 mod control_words;
+mod ending;
 mod faults;
 mod frames;
 mod in_force;
@@ -45,6 +46,7 @@ use crate::ui::progress::Progress;
 use crate::ui::threads::in_threads;
 use crate::verify::answer::VerifyAnswer;
 use crate::verify::arguments::VerifyArgs;
+use crate::verify::ending::ends_in_cut;
 use crate::verify::frames::other_words;
 use crate::verify::other_word::OtherWord;
 use crate::verify::robot_words::robot_words;
@@ -208,7 +210,7 @@ fn solved(
         all.any(|uncut| (uncut.lines[0]..=uncut.lines[1]).contains(line))
     };
     let uncut = cuts.map(|m| m.line).filter(left_out).collect();
-    let other_words = match ((read.gcode(), other.gcode()), (read.robot(), other.robot())) {
+    let mut other_words = match ((read.gcode(), other.gcode()), (read.robot(), other.robot())) {
         ((Some(of_original), Some(of_verified)), _) => {
             let cuts = found.matched.cut_lines.as_slice();
             other_words(of_original, of_verified, (&original.reading, cuts))
@@ -222,6 +224,8 @@ fn solved(
         }
         _ => Vec::new(),
     };
+    let shift_mm = found.run.result.summary.max_position_error_before_mm;
+    other_words.extend(ends_in_cut(read.path(), other.path(), shift_mm));
     Ok(Solved {
         found,
         uncut,

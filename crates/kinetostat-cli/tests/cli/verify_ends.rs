@@ -127,6 +127,29 @@ fn an_original_in_place_of_a_compensated_program_misses_the_tolerance_only() {
     assert!((after / before - 1.0).abs() < 1e-6, "{before} {after}");
 }
 
+/// The rapid that leaves the last cut was compared with nothing where it is left out.
+#[test]
+fn a_tool_that_is_left_in_the_last_cut_is_a_fault() {
+    let here = compensated_cuts(SLOT);
+    let (code, _, said) = changed(here.path(), |text| {
+        let lines: Vec<&str> = text.lines().collect();
+        let last = lines
+            .iter()
+            .rposition(|line| line.starts_with("G0"))
+            .unwrap();
+        let kept = lines.iter().enumerate().filter(|(index, _)| *index != last);
+        kept.map(|(_, line)| format!("{line}\n")).collect()
+    });
+    assert_eq!(code, 3, "{said}");
+    assert!(said.contains("leaves the tool where it cuts"), "{said}");
+    // Left at feed, the tool is as far away.
+    let (code, _, said) = changed(here.path(), |text| {
+        let last = text.rfind("G0 ").unwrap();
+        format!("{}G1 {}", &text[..last], &text[last + 3..])
+    });
+    assert_eq!(code, 0, "{said}");
+}
+
 /// On a step at a corner the load turns while the tool stands: how far it has turned is known no worse than places elsewhere are.
 #[test]
 fn steps_at_corners_are_no_farther_off_than_the_program_claims() {

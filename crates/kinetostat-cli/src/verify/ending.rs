@@ -1,0 +1,27 @@
+//! Where the tool is left behind the last cut.
+
+use kinetostat_program::{Move, MoveKind, Path};
+
+use crate::verify::other_word::{FaultKind, OtherWord};
+
+/// Nearer than this to the end of the last cut a tool has not left it, mm, beside what corrections shift that by.
+const NEAR_MM: f64 = 1.0;
+
+/// A program that leaves the tool where the last cut ends, where the original leaves it by a rapid; `shift_mm` is how far corrections
+/// may shift that end.
+pub(crate) fn ends_in_cut(original: &Path, verified: &Path, shift_mm: f64) -> Option<OtherWord> {
+    let is_cut = |m: &Move| m.is_known_feed() && m.has_length();
+    let last = original.moves.iter().rposition(is_cut)?;
+    let mut behind = original.moves[last + 1..].iter();
+    let rapid = behind.find(|m| m.kind == MoveKind::Rapid)?;
+    let own = verified.moves.last().filter(|m| is_cut(m))?;
+    let off_mm = (own.end - original.moves[last].end).norm();
+    (off_mm <= NEAR_MM + shift_mm).then(|| {
+        let text = format!(
+            "the last move, at line {}, leaves the tool where it cuts, and the original leaves that place by a rapid (line {} there)",
+            own.line, rapid.line
+        );
+        let lines = [Some(own.line), Some(rapid.line)];
+        OtherWord::new("retract", Some(FaultKind::Course), lines, text)
+    })
+}
