@@ -66,7 +66,8 @@ use crate::verify::arguments::VerifyArgs;
         "  0    answered\n",
         "  1    wrong input: a file, a number or an option; the message says which\n",
         "  2    no answer: not converged, or a point that cannot be reached\n",
-        "  3    compensated and written, but the tolerance is missed; the line is said\n",
+        "  3    compensated and written, but the tolerance is missed; the line is said. Of\n",
+        "       verify: missed, or the program cuts otherwise than the original\n",
         "  130  stopped with Ctrl-C; nothing was written",
     )
 )]

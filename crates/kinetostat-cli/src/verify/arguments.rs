@@ -68,5 +68,6 @@ Exit codes:
   0    verified: every tolerance is kept
   1    wrong input: a file, a number or an option; the message says which
   2    no answer: not converged, or a point that cannot be reached
-  3    a tolerance is missed; the line is said
+  3    a tolerance is missed, or something is cut otherwise than in the original; the
+       line is said
   130  stopped with Ctrl-C; nothing was written"#;

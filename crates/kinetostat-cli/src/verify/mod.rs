@@ -7,6 +7,7 @@ pub(crate) mod arguments;
 mod called_tools;
 mod conditions;
 mod control_words;
+mod cut_lines;
 mod ending;
 mod faults;
 mod frames;
@@ -17,6 +18,7 @@ mod robot_words;
 mod statements;
 mod text;
 mod tilted;
+mod unseen_motions;
 mod written;
 
 use std::path::Path;

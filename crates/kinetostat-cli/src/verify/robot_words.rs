@@ -13,6 +13,7 @@ use crate::verify::called_tools::called_tools;
 use crate::verify::control_words::control_words;
 use crate::verify::other_word::{FaultKind, OtherWord};
 use crate::verify::statements::statements;
+use crate::verify::unseen_motions::unseen_motions;
 
 /// Frames nearer to each other than this are one: more digits than controllers write, mm and rad.
 const SAME_MM: f64 = 1e-3;
@@ -39,6 +40,7 @@ pub(crate) fn robot_words(
     let with = (cut_lines, forces_from_cut);
     found.extend(control_words(original, verified, with));
     found.extend(statements(original, verified, cut_lines));
+    found.extend(unseen_motions(original, verified, cut_lines));
     found.extend(called_outside(original, verified));
     found.extend(exact_stops(original, verified));
     found.extend(radii(original, verified));
@@ -170,12 +172,16 @@ fn tool_at_cuts(
 /// What only the program verified calls and none of its files holds: the motion behind it begins nobody knows where.
 fn called_outside(original: &RobotRead<'_>, verified: &RobotRead<'_>) -> Vec<OtherWord> {
     let calls = |read: &RobotRead<'_>| -> Vec<(usize, String)> {
-        let mut found = Vec::new();
-        for finding in &read.program.findings {
-            let what = finding.message.split_once(" is in none of these files");
-            found.extend(what.map(|(name, _)| (finding.line, name.to_owned())));
-        }
-        found
+        let findings = read.program.findings.iter();
+        let calls = findings.filter_map(|finding| {
+            let (what, _) = finding.message.split_once(": it is carried")?;
+            let name = what.split_once(" is in none").map(|(name, _)| name);
+            Some((
+                finding.line,
+                name.unwrap_or("a call that is computed").to_owned(),
+            ))
+        });
+        calls.collect()
     };
     let known: BTreeSet<String> = calls(original).into_iter().map(|(_, name)| name).collect();
     let own = calls(verified).into_iter();
@@ -184,7 +190,7 @@ fn called_outside(original: &RobotRead<'_>, verified: &RobotRead<'_>) -> Vec<Oth
         let lines = [Some(line), None];
         let what = OtherWord::only_in_one(&name, lines);
         let text = format!(
-            "{what} and in none of these files: if it moves the tool, that is not seen, and a motion behind it is taken for no cut"
+            "{what}, and none of these files says what it does: if it moves the tool, that is not seen, and a motion behind it is taken for no cut"
         );
         OtherWord::new(name, None, lines, text)
     })

@@ -5,6 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use kinetostat_formats::Language;
 
 use crate::job::robot::read_program::RobotRead;
+use crate::verify::cut_lines::CutLines;
 use crate::verify::other_word::{FaultKind, OtherWord};
 
 /// Statements of a language that this looks at.
@@ -82,17 +83,9 @@ pub(crate) fn statements(
 ) -> Vec<OtherWord> {
     let language = verified.program.language;
     let words = Words::of(language);
-    let mut pairs = cut_lines.to_vec();
-    pairs.sort_unstable();
-    let own = all_statements(verified, |line| {
-        let before = pairs.partition_point(|[own, _]| *own < line);
-        before.checked_sub(1).map_or(0, |last| pairs[last][1])
-    });
-    pairs.sort_unstable_by_key(|[_, there]| *there);
-    let of_original = all_statements(original, |line| {
-        let before = pairs.partition_point(|[_, there]| *there < line);
-        before.checked_sub(1).map_or(0, |last| pairs[last][1])
-    });
+    let cuts = CutLines::of(cut_lines);
+    let own = all_statements(verified, |line| cuts.before_own(line));
+    let of_original = all_statements(original, |line| cuts.before(line));
     let mut known: BTreeMap<(&str, usize), usize> = BTreeMap::new();
     for statement in &of_original {
         *known

@@ -127,6 +127,28 @@ fn an_original_in_place_of_a_compensated_program_misses_the_tolerance_only() {
     assert!((after / before - 1.0).abs() < 1e-6, "{before} {after}");
 }
 
+/// Passes lie nearer to each other than corrections are large: places of the original are nearer to another pass than to their own.
+#[test]
+fn a_narrow_raster_that_is_verified_against_itself_cuts_all_of_itself() {
+    let here = crate::common::workplace();
+    std::fs::write(here.path().join("job.toml"), JOB).unwrap();
+    let pass = |k: u8| {
+        let y = 0.5 * f64::from(k);
+        format!("G0 X-15 Y{y}\nG0 Z1\nG1 Z-1 F300\nG1 X15 F600\nG0 Z5\n")
+    };
+    let passes: String = (0..3).map(pass).collect();
+    let text = format!("G21 G90 G17\nG0 Z5\n{passes}M2\n");
+    std::fs::write(here.path().join("part.ngc"), text).unwrap();
+    let (code, found, said) = verified(here.path(), "part.ngc", &[]);
+    assert_eq!(code, 3, "{said}");
+    assert_eq!(uncut(&found), &json!([]), "{said}");
+    assert_eq!(found["matched"]["extra_cuts"], json!([]), "{said}");
+    let before = number(&found, "rms_position_error_of_original_mm");
+    let after = number(&found, "rms_position_error_mm");
+    assert!((after / before - 1.0).abs() < 1e-3, "{before} {after}");
+    assert!(!said.contains("nothing to correct"), "{said}");
+}
+
 /// The rapid that leaves the last cut was compared with nothing where it is left out.
 #[test]
 fn a_tool_that_is_left_in_the_last_cut_is_a_fault() {

@@ -128,6 +128,18 @@ fn frames_and_tools_of_a_robot_are_those_of_the_original() {
                 0,
                 "`Elsewhere` at line",
             ),
+            (
+                "  ENDPROC",
+                "    %\"Elsewhere\"%;\n  ENDPROC",
+                0,
+                "a call that is computed at line",
+            ),
+            (
+                "  ENDPROC",
+                "    MoveAbsJ [[0,0,0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v200,fine,tSpindle;\n  ENDPROC",
+                3,
+                "goes by joint values",
+            ),
             ("v20,fine", "v20,z50", 0, "stop at their ends"),
             ("v20,fine", "v20,z50", 0, "is passed at up to 50 mm"),
             (

@@ -7,8 +7,8 @@ use crate::verify::air::without_air;
 use crate::verify::along::{Along, beside_mm};
 use crate::verify::followed::Followed;
 use crate::verify::matched::Matched;
-use crate::verify::on_guide::Search;
-use crate::verify::places::{ends, feet};
+use crate::verify::on_guide::{Search, are_same};
+use crate::verify::places::{End, ends, feet};
 use crate::verify::rapids::{elsewhere, largest_shift_mm};
 use crate::verify::stretches::Stretches;
 use crate::verify::uncut::uncut;
@@ -34,11 +34,18 @@ pub(crate) fn follow(
     let other = &*without_air(&as_it_is, &nominal, (other, shift_mm));
     let of_other = NominalPath::new(other).map_err(nothing)?;
     let ends = ends(&of_other);
-    let feet = feet(&nominal, (other, shift_mm), &ends)?;
+    let stretches = Stretches::of(guide, &nominal);
+    let feet = match are_same(original, other) {
+        // Where passes lie nearer to each other than corrections are large, a place of this may be nearer to another pass than to its own.
+        true => {
+            let foot = |end: &End| stretches.foot(end.move_index, end.shares[1], &end.position);
+            ends.iter().map(foot).collect()
+        }
+        false => feet(&nominal, (other, shift_mm), &ends)?,
+    };
     let far = |index: usize| feet[index].map_or(0.0, |foot| foot.distance_mm);
     let farthest = (0..ends.len()).max_by(|a, b| far(*a).total_cmp(&far(*b)));
     let farthest = farthest.unwrap_or(0);
-    let stretches = Stretches::of(guide, &nominal);
     let near_mm = usual_distance_mm(&feet).max(AT_CORNER_MM);
     let search = Search {
         stretches: &stretches,

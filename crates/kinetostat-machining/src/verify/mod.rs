@@ -45,6 +45,7 @@ use crate::verify::exact::exact;
 use crate::verify::follow::follow;
 use crate::verify::pieces::as_written;
 use crate::verify::turned::turned_most;
+use crate::warning::WarningCode;
 use crate::watch::Watch;
 
 pub use matched::{Condition, ExtraCut, Matched, OtherCondition, RapidElsewhere, Turned, Uncut};
@@ -113,10 +114,13 @@ fn verified(
         ramps,
         ..Checked::default()
     };
-    Ok(Verified {
-        run: conclude(task, &load, points, Some(written), &checked),
-        matched,
-    })
+    let mut run = conclude(task, &load, points, Some(written), &checked);
+    // A program without corrections is one that leaves something to correct, unless the original does not.
+    if run.result.summary.max_position_error_before_mm > task.writing.tolerance_mm {
+        let warnings = &mut run.result.warnings;
+        warnings.retain(|warning| warning.code != WarningCode::SmallCorrection);
+    }
+    Ok(Verified { run, matched })
 }
 
 /// How far the guide may leave the compensated path, mm.

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use kinetostat_program::{Curve, Foot, Move, Path};
+use kinetostat_program::{Curve, Foot, Knowledge, Move, Path};
 use nalgebra::Vector3;
 
 use crate::verify::places::End;
@@ -191,6 +191,19 @@ fn key(motion: &Move) -> [i64; 6] {
         [step(p.x), step(p.y), step(p.z)]
     });
     [from[0], from[1], from[2], to[0], to[1], to[2]]
+}
+
+/// Whether both programs make the same moves: the original itself, or one that nobody has compensated.
+pub(crate) fn are_same(original: &Path, other: &Path) -> bool {
+    let same = |(a, b): (&Move, &Move)| {
+        let there = || match a.known {
+            Knowledge::Whole => is_same(a, b),
+            Knowledge::End => (a.end - b.end).norm() <= SAME_MM,
+            Knowledge::Nothing => true,
+        };
+        a.kind == b.kind && a.known == b.known && there()
+    };
+    original.moves.len() == other.moves.len() && original.moves.iter().zip(&other.moves).all(same)
 }
 
 /// Whether two moves between the same places are one.

@@ -2,7 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use kinetostat_program::{Corrected, Foot, NominalPath, Path, Turn};
+use kinetostat_program::{Corrected, FeedPiece, Foot, NominalPath, Path, Turn};
+use nalgebra::Vector3;
 
 use crate::verify::uncut::LEAST_MM;
 
@@ -69,6 +70,33 @@ impl<'a> Stretches<'a> {
             all,
             of_move,
         }
+    }
+
+    /// Where the guide is at a share of a move of the original, and how far a point is from there; none of a move that the guide does
+    /// not make.
+    pub(crate) fn foot(&self, move_index: usize, share: f64, point: &Vector3<f64>) -> Option<Foot> {
+        let [first, last] = *self.of_move.get(&move_index)?;
+        let [begins, ends] = [self.all[first].along_mm[0], self.all[last].along_mm[1]];
+        let along_mm = begins + share * (ends - begins);
+        let range = self.all[first].pieces.start..self.all[last].pieces.end;
+        let ends_before = |piece: &FeedPiece| piece.from_mm + piece.length_mm < along_mm;
+        let behind = self.nominal.pieces()[range.clone()].partition_point(ends_before);
+        let piece = (range.start + behind).min(range.end - 1);
+        let own = &self.nominal.pieces()[piece];
+        let share = match own.length_mm > 0.0 {
+            true => ((along_mm - own.from_mm) / own.length_mm).clamp(0.0, 1.0),
+            false => 1.0,
+        };
+        let motion = self.nominal.motion(own);
+        let place_mm = motion.point(share);
+        Some(Foot {
+            piece,
+            share,
+            along_mm,
+            place_mm,
+            tangent: motion.tangent(share).unwrap_or_else(Vector3::zeros),
+            distance_mm: (point - place_mm).norm(),
+        })
     }
 
     /// The first piece of the guide along a move of the original.
