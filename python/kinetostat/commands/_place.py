@@ -60,11 +60,7 @@ def place(
     flat_program: _Path | None = None,
     chord_tolerance_um: float | None = None,
     limit: str | float | Sequence[str | float] | None = None,
-    pdf: _Path | None = None,
-    language: Literal["en", "fr", "de"] | None = None,
-    all_points: bool = False,
     force_overwrite: bool = False,
-    restart: bool = False,
     threads: int | None = None,
     csv: _Path | None = None,
     plot: _Path | None = None,
@@ -187,17 +183,8 @@ def place(
         Move a limit, as in correction_mm=5 (repeat for more): correction_mm, own_weight_mm,
         tilt_deg, force_n, moment_n_m, share_of_rating, share_of_buckling, blocks_per_second,
         shortest_tool_mm, longest_tool_mm. A program that leaves a limit is refused
-    pdf : path
-        The report without pictures as PDF, to be signed and filed
-    language : Literal["en", "fr", "de"]
-        Language of the reports [default: en]. In French and German the HTML report has no pictures
-        either
-    all_points : bool
-        Every point in the table, however large it becomes
     force_overwrite : bool
         Overwrite outputs that exist (never an input)
-    restart : bool
-        Begin a long program anew, though a run of it was interrupted and could go on
     threads : int
         Number of threads; all cores without it. The result is the same
     csv : path
@@ -272,11 +259,7 @@ def place(
         ("--flat-program", flat_program),
         ("--chord-tolerance-um", chord_tolerance_um),
         ("--limit", limit),
-        ("--pdf", pdf),
-        ("--language", language),
-        ("--all-points", all_points),
         ("--force-overwrite", force_overwrite),
-        ("--restart", restart),
         ("--threads", threads),
         ("--csv", csv),
         ("--plot", plot),

@@ -57,7 +57,6 @@ def verify(
     vtk: _Path | None = None,
     all_points: bool = False,
     force_overwrite: bool = False,
-    restart: bool = False,
     threads: int | None = None,
     tolerance_um: float | None = None,
     decimals: str | float | None = None,
@@ -174,8 +173,6 @@ def verify(
         Every point in the table, however large it becomes
     force_overwrite : bool
         Overwrite outputs that exist (never an input)
-    restart : bool
-        Begin a long program anew, though a run of it was interrupted and could go on
     threads : int
         Number of threads; all cores without it. The result is the same
     tolerance_um : float
@@ -252,7 +249,6 @@ def verify(
         ("--vtk", vtk),
         ("--all-points", all_points),
         ("--force-overwrite", force_overwrite),
-        ("--restart", restart),
         ("--threads", threads),
         ("--tolerance-um", tolerance_um),
         ("--decimals", decimals),
