@@ -7,10 +7,14 @@ use crate::verify::other_word::{FaultKind, OtherWord};
 /// Nearer than this to the end of the last cut a tool has not left it, mm, beside what corrections shift that by.
 const NEAR_MM: f64 = 1.0;
 
+/// A move at feed from a place that the program states to another one.
+pub(crate) fn is_cut(m: &Move) -> bool {
+    m.is_known_feed() && m.has_length()
+}
+
 /// A program that leaves the tool where the last cut ends, where the original leaves it by a rapid; `shift_mm` is how far corrections
 /// may shift that end.
 pub(crate) fn ends_in_cut(original: &Path, verified: &Path, shift_mm: f64) -> Option<OtherWord> {
-    let is_cut = |m: &Move| m.is_known_feed() && m.has_length();
     let last = original.moves.iter().rposition(is_cut)?;
     let mut behind = original.moves[last + 1..].iter();
     let rapid = behind.find(|m| m.kind == MoveKind::Rapid)?;

@@ -25,7 +25,6 @@ use std::path::Path;
 
 use kinetostat::Directions;
 use kinetostat_machining::{Condition, RunError, Verified, verify_program};
-use kinetostat_program::Move;
 
 use crate::files::input_files::InputFiles;
 use crate::files::outputs;
@@ -48,7 +47,7 @@ use crate::ui::progress::Progress;
 use crate::ui::threads::in_threads;
 use crate::verify::answer::VerifyAnswer;
 use crate::verify::arguments::VerifyArgs;
-use crate::verify::ending::ends_in_cut;
+use crate::verify::ending::{ends_in_cut, is_cut};
 use crate::verify::frames::other_words;
 use crate::verify::other_word::OtherWord;
 use crate::verify::robot_words::robot_words;
@@ -184,8 +183,7 @@ fn solved(
 ) -> Answer<Solved> {
     let read = read_program(original)?;
     let other = read_program(verified)?;
-    let cuts = |m: &Move| m.is_known_feed() && m.has_length();
-    if !other.path().moves.iter().any(cuts) {
+    if !other.path().moves.iter().any(is_cut) {
         return Err(verified.within(Failure::input(
             "the program has no move at feed that begins at a place it states, so that there is nothing to verify: name the program that was compensated, and the original as --against",
         )));

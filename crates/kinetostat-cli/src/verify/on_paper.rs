@@ -4,7 +4,6 @@ use kinetostat_machining::{RunResult, Verified, Warning, WarningCode};
 use kinetostat_report::{Language, Paper, VerifiedProgram};
 
 use crate::verify::answer::VerifyAnswer;
-use crate::verify::conditions;
 
 impl VerifyAnswer {
     /// The run as a paper has it: what was verified is its program, with what it says of its tolerance.
@@ -62,10 +61,7 @@ impl VerifyAnswer {
 
     /// Lines of the program with another feed, spindle, tool or frame, where that is a fault.
     fn lines_of_other_words(&self) -> Vec<usize> {
-        let conditions = self.matched.conditions.iter();
-        let conditions = conditions
-            .filter(|other| conditions::is_fault(other, self.forces_from_cut))
-            .map(|other| other.lines[0]);
+        let conditions = self.faulty_conditions().map(|other| other.lines[0]);
         let words = self.other_words.iter().filter(|word| word.fault.is_some());
         let words = words.map(|word| word.line.unwrap_or(1));
         conditions.chain(words).collect()

@@ -1,11 +1,11 @@
 //! Statements of robots' programs that end them, leave parts of them out or change how fast they run.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 
 use kinetostat_formats::Language;
 
 use crate::job::robot::read_program::RobotRead;
-use crate::verify::cut_lines::CutLines;
+use crate::verify::cut_lines::{CutLines, Left};
 use crate::verify::other_word::{FaultKind, OtherWord};
 
 /// Statements of a language that this looks at.
@@ -86,24 +86,14 @@ pub(crate) fn statements(
     let cuts = CutLines::of(cut_lines);
     let own = all_statements(verified, |line| cuts.before_own(line));
     let of_original = all_statements(original, |line| cuts.before(line));
-    let mut known: BTreeMap<(&str, usize), usize> = BTreeMap::new();
-    for statement in &of_original {
-        *known
-            .entry((&statement.text, statement.behind))
-            .or_default() += 1;
-    }
+    let of_statement = |statement: &Statement| (statement.text.clone(), statement.behind);
+    let mut left = Left::of(of_original.iter().map(of_statement));
     let last_motion = verified.program.motions.iter().map(|m| m.line).max();
     let mut found = Vec::new();
     let mut seen: BTreeSet<&str> = BTreeSet::new();
-    for Statement { line, text, behind } in &own {
-        if let Some(left) = known
-            .get_mut(&(text.as_str(), *behind))
-            .filter(|left| **left > 0)
-        {
-            *left -= 1;
-            continue;
-        }
-        if !seen.insert(text) {
+    for statement in &own {
+        let Statement { line, text, .. } = statement;
+        if left.take(&of_statement(statement)) || !seen.insert(text) {
             continue;
         }
         let lines = [Some(*line), None];
@@ -114,7 +104,7 @@ pub(crate) fn statements(
         };
         let lies_before = last_motion.is_some_and(|last| *line < last);
         let leads_on = begins_with(text, words.branches);
-        if (is_end(text, language) || leads_on) && lies_before {
+        if (is_end(text, (language, &words)) || leads_on) && lies_before {
             let text = match leads_on {
                 true => format!("{what}: motions behind it may not be made, or more than once"),
                 false => format!("{what}: motions behind it may not be made"),
@@ -144,7 +134,7 @@ fn all_statements(read: &RobotRead<'_>, behind: impl Fn(usize) -> usize) -> Vec<
             let is_word = [words.others, words.branches]
                 .iter()
                 .any(|words| begins_with(part, words));
-            if is_word || is_end(part, language) {
+            if is_word || is_end(part, (language, &words)) {
                 found.push(Statement {
                     line,
                     text: part.split_whitespace().collect::<Vec<_>>().join(" "),
@@ -157,8 +147,8 @@ fn all_statements(read: &RobotRead<'_>, behind: impl Fn(usize) -> usize) -> Vec<
 }
 
 /// Whether motions behind a statement may not be made; `IF` has its statement behind itself in RAPID.
-fn is_end(text: &str, language: Language) -> bool {
-    let ends = Words::of(language).ends;
+fn is_end(text: &str, (language, words): (Language, &Words)) -> bool {
+    let ends = words.ends;
     let behind_if = || {
         let last = text.rsplit(char::is_whitespace).next().unwrap_or_default();
         language == Language::Rapid && begins_with(text, &["IF"]) && ends.contains(&last)

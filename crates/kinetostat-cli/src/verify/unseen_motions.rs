@@ -1,11 +1,9 @@
 //! Motions of robots' programs of which it is not known where the tool is: by joint values, or to places that are computed.
 
-use std::collections::BTreeMap;
-
 use kinetostat_formats::{Motion, Target};
 
 use crate::job::robot::read_program::RobotRead;
-use crate::verify::cut_lines::CutLines;
+use crate::verify::cut_lines::{CutLines, Left};
 use crate::verify::other_word::{FaultKind, OtherWord};
 
 /// Where the program makes more of these than the original, the first one that the original does not make behind the same cut;
@@ -20,17 +18,8 @@ pub(crate) fn unseen_motions(
         return None;
     }
     let cuts = CutLines::of(cut_lines);
-    let mut left: BTreeMap<usize, usize> = BTreeMap::new();
-    for line in lines(original) {
-        *left.entry(cuts.before(line)).or_default() += 1;
-    }
-    let more = lines(verified).find(|line| {
-        let left = left.entry(cuts.before_own(*line)).or_default();
-        let is_known = *left > 0;
-        *left = left.saturating_sub(1);
-        !is_known
-    });
-    let line = more?;
+    let mut left = Left::of(lines(original).map(|line| cuts.before(line)));
+    let line = lines(verified).find(|line| !left.take(&cuts.before_own(*line)))?;
     let text = format!(
         "the motion at line {line} goes by joint values or to a place that is not known, and the original makes none there"
     );

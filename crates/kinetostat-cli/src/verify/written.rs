@@ -35,12 +35,10 @@ impl ClaimedFiles {
         let mut claim =
             |what, path: Option<&PathBuf>| path.map(|path| all.claim(what, path)).transpose();
         let json = args.json.as_ref().filter(|path| *path != Path::new("-"));
-        let [json, pdf, points, vtk] = [
-            claim("result", json)?,
-            claim(PDF, given.pdf.as_ref())?,
-            claim("table of points", given.points.as_ref())?,
-            claim(PATH_VTK, given.vtk.as_ref())?,
-        ];
+        let json = claim("result", json)?;
+        let pdf = claim(PDF, given.pdf.as_ref())?;
+        let points = claim("table of points", given.points.as_ref())?;
+        let vtk = claim(PATH_VTK, given.vtk.as_ref())?;
         Ok(Self {
             all,
             json,

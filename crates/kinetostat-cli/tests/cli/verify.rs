@@ -312,6 +312,13 @@ pub(crate) fn changed(here: &Path, change: impl Fn(&str) -> String) -> (i32, Val
     )
 }
 
+/// The text without one of its lines, which count from one.
+pub(crate) fn without_line(text: &str, line: usize) -> String {
+    let lines = text.lines().enumerate();
+    let kept = lines.filter(|(index, _)| index + 1 != line);
+    kept.map(|(_, line)| format!("{line}\n")).collect()
+}
+
 pub(crate) fn line_of(text: &str, is: impl Fn(&str) -> bool) -> usize {
     1 + text.lines().position(is).unwrap()
 }
@@ -366,13 +373,7 @@ fn rapids_are_those_of_the_original() {
     compensated(here.path(), &["--no-header"]);
     // The tool is not lifted before the second cut: the rapid goes through the part.
     let (code, found, said) = changed(here.path(), |text| {
-        let kept: Vec<&str> = text.lines().collect();
-        let lift = kept
-            .iter()
-            .position(|line| line.starts_with("G0 Z5"))
-            .unwrap();
-        let kept = kept.iter().enumerate().filter(|(index, _)| *index != lift);
-        kept.map(|(_, line)| format!("{line}\n")).collect()
+        without_line(text, line_of(text, |line| line.starts_with("G0 Z5")))
     });
     assert_eq!(code, 3, "{said}");
     assert!(said.contains("THE RAPID AT LINE"), "{said}");

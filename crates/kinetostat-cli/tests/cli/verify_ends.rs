@@ -7,18 +7,23 @@ use std::path::Path;
 
 use serde_json::{Value, json};
 
-use crate::verify::{JOB, changed, compensated, line_of, number, verified};
+use crate::verify::{JOB, changed, compensated, line_of, number, verified, without_line};
 
 /// A slot and beside it a pecked hole, nearer than corrections are large; what follows it is the hole alone.
 const SLOT: &str = "G0 X9.5 Y-8.6 Z10\nG0 Z1\nG1 Z-1 F900\nG1 X29.7 Y-8.2\nG0 Z10\n";
 const HOLE: &str = "G0 X29 Y-7.9 Z10\nG0 Z1\nG1 Z-0.85 F900\nG0 Z1\nG0 Z-0.65\nG1 Z-2.6\nG0 Z10\n";
 
-/// The compensated program of cuts, in `out.ngc`.
-fn compensated_cuts(cuts: &str) -> tempfile::TempDir {
+/// The job with a program.
+fn with_part(text: &str) -> tempfile::TempDir {
     let here = crate::common::workplace();
     std::fs::write(here.path().join("job.toml"), JOB).unwrap();
-    let text = format!("G21 G90\n{cuts}M2\n");
     std::fs::write(here.path().join("part.ngc"), text).unwrap();
+    here
+}
+
+/// The compensated program of cuts, in `out.ngc`.
+fn compensated_cuts(cuts: &str) -> tempfile::TempDir {
+    let here = with_part(&format!("G21 G90\n{cuts}M2\n"));
     compensated(here.path(), &["--no-header"]);
     here
 }
@@ -94,10 +99,8 @@ fn a_hole_that_is_left_at_feed_the_second_time_is_cut() {
 /// Inches are rounded to other digits than millimetres, and both commands allow for them alike.
 #[test]
 fn a_program_in_inches_has_the_rounding_of_inches() {
-    let here = crate::common::workplace();
-    std::fs::write(here.path().join("job.toml"), JOB).unwrap();
     let text = "G20 G90 G17\nG0 X0.3 Y-0.2 Z0.4\nG1 Z-0.0394 F7.9\nG1 X0.9498 Y-0.0849 F47.2\nG1 X1.0113 Y0.2317\nG1 X0.4411 Y0.3093\nG0 Z0.4\nM2\n";
-    std::fs::write(here.path().join("part.ngc"), text).unwrap();
+    let here = with_part(text);
     compensated(here.path(), &["--no-header", "--decimals", "3"]);
     let (code, found, said) = verified(here.path(), "out.ngc", &["--decimals", "3"]);
     assert_eq!(code, 0, "{said}");
@@ -113,10 +116,8 @@ fn a_program_in_inches_has_the_rounding_of_inches() {
 /// Where a rectangle closes, the plunge at its beginning is nearer to the end as it is programmed than the compensated end is.
 #[test]
 fn an_original_in_place_of_a_compensated_program_misses_the_tolerance_only() {
-    let here = crate::common::workplace();
-    std::fs::write(here.path().join("job.toml"), JOB).unwrap();
     let text = "G21 G90 G17\nG0 X-30 Y-20 Z5\nG0 Z1\nG1 Z-2 F300\nG1 X30 F600\nG1 Y20\nG1 X-30\nG1 Y-20\nG0 Z5\nM2\n";
-    std::fs::write(here.path().join("part.ngc"), text).unwrap();
+    let here = with_part(text);
     let (code, found, said) = verified(here.path(), "part.ngc", &[]);
     assert_eq!(code, 3, "{said}");
     assert_eq!(uncut(&found), &json!([]), "{said}");
@@ -130,15 +131,12 @@ fn an_original_in_place_of_a_compensated_program_misses_the_tolerance_only() {
 /// Passes lie nearer to each other than corrections are large: places of the original are nearer to another pass than to their own.
 #[test]
 fn a_narrow_raster_that_is_verified_against_itself_cuts_all_of_itself() {
-    let here = crate::common::workplace();
-    std::fs::write(here.path().join("job.toml"), JOB).unwrap();
     let pass = |k: u8| {
         let y = 0.5 * f64::from(k);
         format!("G0 X-15 Y{y}\nG0 Z1\nG1 Z-1 F300\nG1 X15 F600\nG0 Z5\n")
     };
     let passes: String = (0..3).map(pass).collect();
-    let text = format!("G21 G90 G17\nG0 Z5\n{passes}M2\n");
-    std::fs::write(here.path().join("part.ngc"), text).unwrap();
+    let here = with_part(&format!("G21 G90 G17\nG0 Z5\n{passes}M2\n"));
     let (code, found, said) = verified(here.path(), "part.ngc", &[]);
     assert_eq!(code, 3, "{said}");
     assert_eq!(uncut(&found), &json!([]), "{said}");
@@ -154,13 +152,9 @@ fn a_narrow_raster_that_is_verified_against_itself_cuts_all_of_itself() {
 fn a_tool_that_is_left_in_the_last_cut_is_a_fault() {
     let here = compensated_cuts(SLOT);
     let (code, _, said) = changed(here.path(), |text| {
-        let lines: Vec<&str> = text.lines().collect();
-        let last = lines
-            .iter()
-            .rposition(|line| line.starts_with("G0"))
-            .unwrap();
-        let kept = lines.iter().enumerate().filter(|(index, _)| *index != last);
-        kept.map(|(_, line)| format!("{line}\n")).collect()
+        let last = text.lines().collect::<Vec<_>>();
+        let last = last.iter().rposition(|line| line.starts_with("G0"));
+        without_line(text, last.unwrap() + 1)
     });
     assert_eq!(code, 3, "{said}");
     assert!(said.contains("leaves the tool where it cuts"), "{said}");
@@ -175,10 +169,8 @@ fn a_tool_that_is_left_in_the_last_cut_is_a_fault() {
 /// On a step at a corner the load turns while the tool stands: how far it has turned is known no worse than places elsewhere are.
 #[test]
 fn steps_at_corners_are_no_farther_off_than_the_program_claims() {
-    let here = crate::common::workplace();
-    std::fs::write(here.path().join("job.toml"), JOB).unwrap();
     let text = "G20 G90 G17\nG0 X-0.9707 Y0.5333 Z0.0394\nG1 Z-0.1323 F15.748\nG1 X-1.1691 Y1.0446\nG1 X-1.0714 Y1.0268\nG1 X-1.1349 Y1.0269\nG1 X-0.6508 Y0.8626\nG0 Z0.1969\nM2\n";
-    std::fs::write(here.path().join("part.ngc"), text).unwrap();
+    let here = with_part(text);
     let more = ["--tolerance-um", "0.3"];
     let written = compensated(here.path(), &[&more[..], &["--arcs", "lines"]].concat());
     let (code, found, said) = verified(here.path(), "out.ngc", &more);
@@ -205,11 +197,7 @@ fn a_peck_that_is_left_short_is_all_that_is_wrong() {
         let z = block.split(' ').find_map(|word| word.strip_prefix('Z'));
         z.unwrap().parse::<f64>().unwrap()
     };
-    let (code, found, said) = changed(here.path(), |text| {
-        let lines = text.lines().enumerate();
-        let kept = lines.filter(|(index, _)| index + 1 != short);
-        kept.map(|(_, line)| format!("{line}\n")).collect()
-    });
+    let (code, found, said) = changed(here.path(), |text| without_line(text, short));
     assert_eq!(code, 3, "{said}");
     assert_eq!(uncut(&found).as_array().map(Vec::len), Some(1), "{said}");
     assert_eq!(uncut(&found)[0]["lines"], json!([4, 4]), "{said}");

@@ -4,6 +4,7 @@
 #![allow(clippy::unwrap_used)]
 
 use crate::common::{run, workplace};
+use crate::verify::without_line;
 use crate::verify_robot::{KRL, LOADED, PLACED, POSE, changes, verified};
 
 const FRAMES: &str = "G21 G90 G17 G40 G94 G61\nT1 M6\nG43 H1\nS6000 M3\nG54\nG0 X-20 Y-20 Z10\nG1 Z-1 F200\nG1 X20 F800\n\
@@ -322,12 +323,8 @@ fn lines_of_an_expanded_original_are_those_of_its_file() {
     let with = format!("{LOADED}{PLACED} --expand --dialect linuxcnc");
     let (code, said) = verified(here.path(), "part.ngc", &with, |text| {
         let lines: Vec<&str> = text.lines().collect();
-        let last = lines
-            .iter()
-            .rposition(|line| line.starts_with("G1"))
-            .unwrap();
-        let left = lines.iter().enumerate().filter(|(index, _)| *index != last);
-        left.map(|(_, line)| *line).collect::<Vec<_>>().join("\n")
+        let last = lines.iter().rposition(|line| line.starts_with("G1"));
+        without_line(text, last.unwrap() + 1)
     });
     assert_eq!(code, 3, "{said}");
     assert!(said.contains("(line 6 of part.ngc)"), "{said}");
