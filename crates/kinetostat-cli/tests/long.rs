@@ -111,6 +111,19 @@ fn uninterrupted(rows: usize) -> BTreeMap<&'static str, Vec<u8>> {
     outputs(whole.path())
 }
 
+/// Parts are worked on side by side, and written one behind the other.
+#[test]
+fn any_number_of_threads_writes_the_same_bytes() {
+    let here = place(20);
+    let mut wanted = None;
+    for threads in ["1", "2", "3", "16"] {
+        let (code, said) = ended(here.path(), &["--threads", threads]);
+        assert_eq!(code, Some(0), "{said}");
+        let found = outputs(here.path());
+        assert_same(wanted.get_or_insert(found.clone()), &found, threads);
+    }
+}
+
 #[test]
 fn a_killed_run_goes_on_and_ends_with_the_same_bytes() {
     let wanted = uninterrupted(20);

@@ -77,6 +77,7 @@ pub use field::request::{
 };
 pub use irregular::irregular;
 pub use machine_program::{Gcode, MachineProgram};
+pub use parts::in_order::{PartsInOrder, PlaceInOrder, Standing};
 pub use parts::lines::PartError;
 pub use parts::survey::Survey;
 pub use parts::windows::{Part, PartLength, Parts};

@@ -2,8 +2,7 @@
 
 use kinetostat::Directions;
 use kinetostat_program::{
-    Gcode, GcodePart, MachineProgram, Part, Path as ToolPath, Program, ProgramError, WrittenSoFar,
-    faults, interpret,
+    Gcode, MachineProgram, Part, Path as ToolPath, Program, ProgramError, faults, interpret,
 };
 
 use crate::job::expansion::advice::advice;
@@ -24,7 +23,8 @@ pub(crate) enum ReadProgram<'s> {
 #[derive(Clone, Copy)]
 pub(crate) struct PartRead<'s> {
     pub(crate) part: &'s Part,
-    pub(crate) so_far: &'s WrittenSoFar<'s>,
+    /// As it is written.
+    pub(crate) program: &'s dyn MachineProgram,
     pub(crate) setting: &'s Setting,
 }
 
@@ -98,10 +98,7 @@ impl ReadProgram<'_> {
                 reading: &read.setting.reading,
             }),
             Self::Robot(read) => work(&read.correctable()),
-            Self::Part(read) => work(&GcodePart {
-                part: read.part,
-                so_far: read.so_far,
-            }),
+            Self::Part(read) => work(read.program),
         }
     }
 }

@@ -9,5 +9,7 @@ pub(crate) mod difference;
 mod partial;
 pub(crate) mod put_in_place;
 pub(crate) mod run;
+mod side_by_side;
 mod source;
 pub(crate) mod which;
+mod work;

@@ -1,15 +1,18 @@
 //! A program that is run in parts: surveyed, looked at, run, and put in place.
 
-use std::fs::File;
 use std::io::{BufReader, Read};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
 use kinetostat_machining::{
-    Envelope, FeatureResult, FileRead, OfWhole, Run, RunError, Warning, WarningCode, Watch,
-    add_to_features, analyse_part, compensate_part, judge_features, look_at_part,
+    Envelope, FileRead, OfWhole, Run, RunError, Warning, WarningCode, Watch, analyse_part,
+    compensate_part, judge_features, look_at_part,
 };
 use kinetostat_model::Model;
-use kinetostat_program::{Part, PartError, PartLength, Parts, Survey, WrittenSoFar};
+use kinetostat_program::{
+    GcodePart, Part, PartError, PartLength, Parts, PartsInOrder, PlaceInOrder, Standing, Survey,
+    WrittenSoFar,
+};
 
 use crate::files::origin;
 use crate::job::arguments::ProgramArgs;
@@ -17,11 +20,12 @@ use crate::job::machine::MachineSetup;
 use crate::job::output_paths::OutputPaths;
 use crate::job::program::{PartRead, ReadProgram};
 use crate::job::setting::Setting;
-use crate::long::checkpoint::{Checkpoint, Manifest, State};
-use crate::long::partial::Partial;
+use crate::long::checkpoint::{Checkpoint, Manifest};
 use crate::long::put_in_place::{LongFiles, checkpoint};
+use crate::long::side_by_side::side_by_side;
 use crate::long::source::{Hashed, Surveyed, open};
 use crate::long::which::part_length;
+use crate::long::work::Work;
 use crate::program::aim::Aim;
 use crate::program::features::put_found;
 use crate::program::outputs::RunOutputs;
@@ -29,7 +33,6 @@ use crate::program::points_table;
 use crate::program::solve::{failure_of, too_many_blocks, with_task};
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::progress::Progress;
-use crate::ui::threads::in_threads;
 
 /// How often what is done is kept.
 const EVERY: Duration = Duration::from_secs(5);
@@ -84,13 +87,13 @@ impl<'a> LongRun<'a> {
         unread(self.setting, error)
     }
 
-    fn parts(&self, length: PartLength) -> Answer<Parts<'a, BufReader<File>>> {
-        Ok(self.parts_of(open(self.setting)?, length))
+    fn parts<R: Read>(&self, from: BufReader<R>, length: PartLength) -> Parts<'a, BufReader<R>> {
+        Parts::new(from, (self.survey, &self.setting.reading), length)
     }
 
-    fn parts_of<R: Read>(&self, from: R, length: PartLength) -> Parts<'a, BufReader<R>> {
-        let from = BufReader::with_capacity(1 << 16, from);
-        Parts::new(from, (self.survey, &self.setting.reading), length)
+    /// How many parts there are.
+    fn count(&self, length: PartLength) -> usize {
+        self.survey.lines.div_ceil(length.own.max(1)).max(1)
     }
 
     /// What the run is: whatever its bytes depend on.
@@ -153,13 +156,13 @@ impl<'a> LongRun<'a> {
     fn with_part<R>(
         &self,
         part: &Part,
-        so_far: &WrittenSoFar<'_>,
+        place: &PlaceInOrder<'_, '_>,
         as_it_is: bool,
         work: impl FnOnce(&kinetostat_machining::Task<'_>) -> R,
     ) -> Answer<R> {
         let read = ReadProgram::Part(PartRead {
             part,
-            so_far,
+            program: &GcodePart { part, place },
             setting: self.setting,
         });
         with_task(self.aim, self.machine, self.setting, &read, None, |task| {
@@ -186,24 +189,40 @@ impl<'a> LongRun<'a> {
     }
 
     /// A first look at every part: what takes hours to be solved everywhere is refused in seconds.
-    fn look(&self, length: PartLength, watch: &Progress) -> Answer<OfWhole> {
-        let mut whole = OfWhole {
+    fn look(&self, length: PartLength, progress: &Progress) -> Answer<OfWhole> {
+        let whole = OfWhole {
             moves: self.survey.moves,
             ..OfWhole::default()
         };
+        let found = Mutex::new(whole);
+        let compensate = self.aim == Aim::Compensate;
+        progress.stage("first look", self.survey.lines);
+        let from = BufReader::with_capacity(1 << 16, open(self.setting)?);
+        let parts = self.parts(from, length).map(|part| {
+            self.refuse_if_cancelled(progress)?;
+            part.map_err(|error| self.failed(error))
+        });
         let nothing = WrittenSoFar::nothing(self.survey, &self.setting.reading);
-        watch.stage("first look", self.survey.lines);
-        for part in self.parts(length)? {
-            let part = part.map_err(|error| self.failed(error))?;
-            self.refuse_if_cancelled(watch)?;
-            let compensate = self.aim == Aim::Compensate;
-            let looked = self.with_part(&part, &nothing, false, |task| {
-                look_at_part(whole, task, compensate, watch)
-            })?;
-            whole = self.answered(looked, &part)?;
-            watch.advance(part.next_line() - 1);
-        }
-        Ok(whole)
+        let order = PartsInOrder::from(0, nothing);
+        let threads = self.flags.threads;
+        side_by_side(
+            parts,
+            (&order, self.count(length), threads),
+            progress,
+            |part, place, watch| {
+                let looked = self.with_part(part, place, false, |task| {
+                    look_at_part(whole, task, compensate, watch)
+                })?;
+                let looked = self.answered(looked, part)?;
+                if place.wait_for_turn() != Standing::Next {
+                    return Ok(false);
+                }
+                locked(&found).add(&looked);
+                progress.advance(part.next_line() - 1);
+                Ok(true)
+            },
+        )?;
+        Ok(found.into_inner().unwrap_or_else(PoisonError::into_inner))
     }
 
     /// The run, from its outputs claimed to its result.
@@ -287,7 +306,7 @@ impl<'a> LongRun<'a> {
         let whole = match work.state.of_whole() {
             Some(whole) => whole,
             None => {
-                let whole = in_threads(self.flags.threads, || self.look(length, progress))??;
+                let whole = self.look(length, progress)?;
                 work.state.note(&whole);
                 whole
             }
@@ -312,58 +331,57 @@ impl<'a> LongRun<'a> {
         whole: OfWhole,
         (outputs, progress): (&RunOutputs, &Progress),
     ) -> Answer<()> {
-        let count = self.survey.lines.div_ceil(length.own.max(1)).max(1);
         let every = match self.flags.part_lines {
             Some(_) => Duration::ZERO,
             None => EVERY,
         };
-        let mut last = Instant::now();
-        let surveyed = Surveyed::new(self.setting);
+        let (count, done) = (self.count(length), work.state.parts);
+        let mut surveyed = Surveyed::new(self.setting);
         let mut hashed = Hashed::new(open(self.setting)?);
-        for (index, part) in self.parts_of(&mut hashed, length).enumerate() {
+        let from = BufReader::with_capacity(1 << 16, &mut hashed);
+        let parts = self.parts(from, length).map(|part| {
             // A part of a file that was changed meanwhile is never taken: what is kept is of one program.
             surveyed.refuse_if_touched()?;
-            let part = part.map_err(|error| self.failed(error))?;
             self.refuse_if_cancelled(progress)?;
-            if index < work.state.parts {
-                continue;
-            }
-            let run = self.with_part(&part, &work.so_far, whole.as_it_is, |task| {
-                let run = in_threads(self.flags.threads, || match self.aim {
-                    Aim::Analyse => analyse_part(task, Some(&whole), progress),
-                    Aim::Compensate => compensate_part(task, Some(&whole), progress),
-                })?;
-                let run = self.answered(run, &part)?;
-                work.is_whole = false;
-                work.state.merged.add(task, &run);
-                let features = &mut work.state.features;
-                let written = run.written.is_some();
-                add_to_features(features, &run.points, |point| Some(point.line), written);
-                Ok::<_, Failure>(run)
-            })??;
-            if let Some(written) = &run.written {
-                work.program.append(&written.bytes)?;
-                work.so_far
-                    .advance(written)
-                    .map_err(|error| self.failed(error))?;
-            }
-            if outputs.points.is_some() {
-                let points = &mut work.points;
-                let inputs = &run.result.run_inputs;
-                points_table::part(
-                    inputs,
-                    &run.points,
-                    (&outputs.listing, count, index == 0),
-                    |bytes| points.append(bytes),
-                )?;
-            }
-            work.state.parts = index + 1;
-            work.is_whole = true;
-            if last.elapsed() >= every || part.is_last {
-                work.keep(kept)?;
-                last = Instant::now();
-            }
-        }
+            part.map_err(|error| self.failed(error))
+        });
+        progress.stage(
+            match self.aim {
+                Aim::Analyse => "lines solved",
+                Aim::Compensate => "lines corrected and solved again",
+            },
+            self.survey.lines,
+        );
+        let nothing = WrittenSoFar::nothing(self.survey, &self.setting.reading);
+        let order = PartsInOrder::from(done, std::mem::replace(&mut work.so_far, nothing));
+        let taking = Mutex::new((&mut *work, Instant::now()));
+        let threads = self.flags.threads;
+        side_by_side(
+            parts,
+            (&order, count, threads),
+            progress,
+            |part, place, watch| {
+                self.with_part(part, place, whole.as_it_is, |task| {
+                    let run = match self.aim {
+                        Aim::Analyse => analyse_part(task, Some(&whole), watch),
+                        Aim::Compensate => compensate_part(task, Some(&whole), watch),
+                    };
+                    let run = self.answered(run, part)?;
+                    let rows = self.rows(&run, (outputs, count, part.first_line() == 1))?;
+                    if place.wait_for_turn() != Standing::Next {
+                        return Ok(false);
+                    }
+                    let (work, last) = &mut *locked(&taking);
+                    work.take(task, run, &rows)?;
+                    progress.advance(part.next_line() - 1);
+                    if last.elapsed() >= every || part.is_last {
+                        work.keep(kept)?;
+                        *last = Instant::now();
+                    }
+                    Ok(true)
+                })?
+            },
+        )?;
         let same = surveyed.refuse_if_other(&hashed.sha256());
         if same.is_err() {
             // Changed without a trace, before the first look at its time: nobody knows what was done of which program.
@@ -372,77 +390,29 @@ impl<'a> LongRun<'a> {
         }
         same
     }
-}
 
-/// What is done of a run.
-struct Work<'s> {
-    state: State,
-    /// Result and files are those of the same parts: not while a part is being taken into them, which a full disk may end.
-    is_whole: bool,
-    so_far: WrittenSoFar<'s>,
-    program: Partial,
-    points: Partial,
-}
-
-impl<'s> Work<'s> {
-    /// From the last state that is whole with its files, or from nothing.
-    fn go_on(kept: &Checkpoint, survey: &'s Survey, setting: &'s Setting) -> Answer<Self> {
-        for state in kept.states() {
-            let program = Partial::reopen(kept.path("program"), state.program);
-            let points = Partial::reopen(kept.path("points"), state.points);
-            let (Some(program), Some(points)) = (program, points) else {
-                continue;
-            };
-            let mut so_far = WrittenSoFar::nothing(survey, &setting.reading);
-            if let Some(writer) = &state.writer
-                && so_far.go_on(program.reader()?, writer.clone()).is_err()
-            {
-                continue;
-            }
-            return Ok(Self {
-                state,
-                is_whole: true,
-                so_far,
-                program,
-                points,
-            });
+    /// The rows of a part in the table of points, if there is to be one.
+    fn rows(
+        &self,
+        run: &Run,
+        (outputs, count, begins): (&RunOutputs, usize, bool),
+    ) -> Answer<Vec<u8>> {
+        let mut rows = Vec::new();
+        if outputs.points.is_some() {
+            points_table::part(
+                &run.result.run_inputs,
+                &run.points,
+                (&outputs.listing, count, begins),
+                |bytes| {
+                    rows.extend_from_slice(bytes);
+                    Ok(())
+                },
+            )?;
         }
-        Self::nothing(kept, survey, setting)
+        Ok(rows)
     }
+}
 
-    fn nothing(kept: &Checkpoint, survey: &'s Survey, setting: &'s Setting) -> Answer<Self> {
-        Ok(Self {
-            state: State {
-                features: FeatureResult::without_points(&setting.features),
-                ..State::default()
-            },
-            is_whole: true,
-            so_far: WrittenSoFar::nothing(survey, &setting.reading),
-            program: Partial::create(kept.path("program"))?,
-            points: Partial::create(kept.path("points"))?,
-        })
-    }
-
-    /// Once more, with the program left as it is.
-    fn begin_anew(
-        &mut self,
-        kept: &Checkpoint,
-        (survey, setting): (&'s Survey, &'s Setting),
-        whole: &OfWhole,
-    ) -> Answer<()> {
-        *self = Self::nothing(kept, survey, setting)?;
-        self.state.as_it_is = true;
-        self.state.note(whole);
-        self.keep(kept)
-    }
-
-    /// Keeps how far it is, the files before the state that names their lengths.
-    fn keep(&mut self, kept: &Checkpoint) -> Answer<()> {
-        self.program.sync()?;
-        self.points.sync()?;
-        self.state.writer = self.so_far.writer().cloned();
-        self.state.program = self.program.contents();
-        self.state.points = self.points.contents();
-        kept.keep(&self.state)
-    }
+fn locked<T>(state: &Mutex<T>) -> MutexGuard<'_, T> {
+    state.lock().unwrap_or_else(PoisonError::into_inner)
 }

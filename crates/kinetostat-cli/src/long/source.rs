@@ -1,6 +1,5 @@
 //! The file of a long program while it is read again and again: it must stay the one that was surveyed.
 
-use std::cell::Cell;
 use std::fs::File;
 use std::io::Read;
 use std::path::Path;
@@ -55,28 +54,28 @@ pub(crate) fn open(setting: &Setting) -> Answer<File> {
 pub(crate) struct Surveyed<'a> {
     setting: &'a Setting,
     /// Length and time of it when its contents were last known to be those.
-    stamp: Cell<Option<(u64, SystemTime)>>,
+    stamp: Option<(u64, SystemTime)>,
 }
 
 impl<'a> Surveyed<'a> {
     pub(crate) fn new(setting: &'a Setting) -> Self {
         Self {
             setting,
-            stamp: Cell::new(stamp(&setting.program_path)),
+            stamp: stamp(&setting.program_path),
         }
     }
 
     /// Refuses a file that has other contents now. They are read only where its length or its time is another one.
-    pub(crate) fn refuse_if_touched(&self) -> Answer<()> {
+    pub(crate) fn refuse_if_touched(&mut self) -> Answer<()> {
         let now = stamp(&self.setting.program_path);
-        if now.is_some() && now == self.stamp.get() {
+        if now.is_some() && now == self.stamp {
             return Ok(());
         }
         let mut hashed = Hashed::new(open(self.setting)?);
         let read = std::io::copy(&mut hashed, &mut std::io::sink());
         read.map_err(|error| Failure::input(format!("the program cannot be read: {error}")))?;
         self.refuse_if_other(&hashed.sha256())?;
-        self.stamp.set(now);
+        self.stamp = now;
         Ok(())
     }
 

@@ -6,6 +6,7 @@
 pub(crate) mod correction;
 pub(crate) mod displacement;
 pub(crate) mod exceeded;
+pub(crate) mod few_places;
 pub(crate) mod load;
 pub(crate) mod motion;
 pub(crate) mod own_weight;

@@ -8,10 +8,10 @@
 use kinetostat::{Mechanism, Wrench};
 use nalgebra::Vector3;
 
+use crate::checks::few_places::every;
 use crate::postures::neighbour::in_chunks;
 use crate::postures::orientation::Orientation;
 use crate::result::point::PointResult;
-use crate::result::run_result::RunResult;
 use crate::task::Task;
 
 /// Displacement of the tool at points by what acts without a load on it, program axes, mm: the difference
@@ -53,14 +53,14 @@ fn shifts(
 }
 
 /// How far own weight and loads of the model put the tool off by themselves, mm, the largest of
-/// [`RunResult::MAX_POSTURES`] points.
+/// [`RunResult::MAX_POSTURES`](crate::RunResult::MAX_POSTURES) places.
 pub(crate) fn largest_by_own_weight(task: &Task<'_>, points: &[&PointResult]) -> Option<f64> {
     let mut machines = points.iter().map(|p| task.mechanism_on(p.line));
     if !machines.any(Mechanism::has_own_loads) {
         return None;
     }
-    let stride = points.len().div_ceil(RunResult::MAX_POSTURES).max(1);
-    let some: Vec<&PointResult> = points.iter().step_by(stride).copied().collect();
+    let some = points.iter().step_by(every(task, points.len()));
+    let some: Vec<&PointResult> = some.copied().collect();
     let own = by_own_loads(task, &some);
     let sizes = own.into_iter().flatten().map(|shift| shift.norm());
     sizes.max_by(f64::total_cmp)

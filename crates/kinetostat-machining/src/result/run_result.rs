@@ -60,7 +60,7 @@ pub struct RunResult {
     /// Everything a person should know and did not ask for.
     pub warnings: Vec<Warning>,
     /// Where the program comes nearest to a singular posture, of at most
-    /// [`Self::MAX_POSTURES`] places along it (of every part of a long program 16 at least); none if no singular posture is near.
+    /// [`Self::MAX_POSTURES`] places along it (of every part of a long program two at least); none if no singular posture is near.
     #[serde(default)]
     pub near_singularity: Option<NearSingularPlace>,
     /// Limits, ratings and configuration along the program.

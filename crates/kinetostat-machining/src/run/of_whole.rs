@@ -1,5 +1,7 @@
 //! What is known of a whole program where a part of it is run.
 
+use kinetostat::number::smaller;
+
 /// What is known of a whole program where a part of it is run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OfWhole {
@@ -9,6 +11,13 @@ pub struct OfWhole {
     pub stiffness_n_per_mm: f64,
     /// The program is left as it is: it keeps its tolerance so, or nothing can be written.
     pub as_it_is: bool,
+}
+
+impl OfWhole {
+    /// With what was found in another part.
+    pub fn add(&mut self, found: &Self) {
+        self.stiffness_n_per_mm = smaller(self.stiffness_n_per_mm, found.stiffness_n_per_mm);
+    }
 }
 
 impl Default for OfWhole {

@@ -8,8 +8,8 @@ use kinetostat_machining::{
 };
 use kinetostat_model::Model;
 use kinetostat_program::{
-    Gcode, GcodePart, MachineProgram, PartLength, Parts, Program, ReadOptions, Survey,
-    WriteOptions, WrittenSoFar, interpret,
+    Gcode, GcodePart, MachineProgram, PartLength, Parts, PartsInOrder, Program, ReadOptions,
+    Survey, WriteOptions, WrittenSoFar, interpret,
 };
 use nalgebra::{Vector3, vector};
 
@@ -95,27 +95,30 @@ fn in_parts(
         beside: 40,
     };
     let parts = || Parts::new(text.as_bytes(), (&survey, &reading), length);
-    let mut so_far = WrittenSoFar::nothing(&survey, &reading);
+    let order = || PartsInOrder::from(0, WrittenSoFar::nothing(&survey, &reading));
     let mut of_whole = OfWhole {
         moves: survey.moves,
         ..OfWhole::default()
     };
+    let none_written = order();
     for part in parts() {
         let part = part.expect("part");
         let program = GcodePart {
             part: &part,
-            so_far: &so_far,
+            place: &none_written.place(0),
         };
         of_whole = with_task(machine, &program, |task| {
             look_at_part(of_whole, task, compensate, &Unwatched).expect("look")
         });
     }
     let (mut merged, mut bytes, mut points) = (MergedRun::default(), Vec::new(), Vec::new());
-    for part in parts() {
+    let order = order();
+    for (index, part) in parts().enumerate() {
         let part = part.expect("part");
+        let place = order.place(index);
         let program = GcodePart {
             part: &part,
-            so_far: &so_far,
+            place: &place,
         };
         let run = with_task(machine, &program, |task| {
             let run = match compensate {
@@ -128,8 +131,8 @@ fn in_parts(
         });
         if let Some(written) = &run.written {
             bytes.extend_from_slice(&written.bytes);
-            so_far.advance(written).expect("advance");
         }
+        place.taken();
         points.extend(run.points);
     }
     (merged, bytes, points)

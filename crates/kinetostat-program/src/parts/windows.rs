@@ -20,11 +20,11 @@ pub struct PartLength {
 }
 
 impl Default for PartLength {
-    /// 20 000 lines, and 256 on either side. It is the same everywhere: which bytes are written must not depend on a machine's
+    /// 5 000 lines, and 256 on either side. It is the same everywhere: which bytes are written must not depend on a machine's
     /// memory.
     fn default() -> Self {
         Self {
-            own: 20_000,
+            own: 5_000,
             beside: 256,
         }
     }

@@ -7,6 +7,7 @@ use crate::checking::verify::against_input;
 use crate::error::{ProgramError, WriteError};
 use crate::field::request::{CorrectionField, Monitor};
 use crate::machine_program::MachineProgram;
+use crate::parts::in_order::PlaceInOrder;
 use crate::parts::lines::{Lines, PartError};
 use crate::parts::survey::Survey;
 use crate::parts::windows::Part;
@@ -16,7 +17,7 @@ use crate::reading::options::ReadOptions;
 use crate::text::line::first_line;
 use crate::text::program::{PartOfText, Program, Reader, ReaderState};
 use crate::writing::options::WriteOptions;
-use crate::writing::write::write_behind;
+use crate::writing::write::Divided;
 use crate::writing::writer_state::WriterState;
 use crate::writing::written::Corrected;
 
@@ -69,17 +70,6 @@ impl<'o> WrittenSoFar<'o> {
         Ok(())
     }
 
-    /// A part was written, and is in its place.
-    ///
-    /// # Errors
-    /// It cannot be read.
-    pub fn advance(&mut self, written: &Corrected) -> Result<(), PartError> {
-        match &written.writer {
-            Some(writer) => self.go_on(written.bytes.as_slice(), (**writer).clone()),
-            None => Ok(()),
-        }
-    }
-
     /// Where the writer stands; `None` before the first part.
     #[must_use]
     pub fn writer(&self) -> Option<&WriterState> {
@@ -92,8 +82,9 @@ impl<'o> WrittenSoFar<'o> {
         self.reader.lines
     }
 
-    /// What was written of a part, read again behind all that was written before.
-    fn read_again(&self, bytes: &[u8]) -> Result<(Program, Path), ProgramError> {
+    /// What was written of a part, read again behind all that was written before, and where the written program stands behind it.
+    fn read_again(&self, written: &Corrected) -> Result<(Program, Path, Self), ProgramError> {
+        let bytes = written.bytes.as_slice();
         let mut reader = Reader::following(&self.reader);
         let mut interpreter = self.interpreter.following();
         let (mut start, mut index) = (0, 0);
@@ -104,6 +95,12 @@ impl<'o> WrittenSoFar<'o> {
             interpreter.run_line(reader.program(), index)?;
             (start, index) = (next, index + 1);
         }
+        let behind = Self {
+            survey: self.survey,
+            reader: reader.state(),
+            interpreter: interpreter.following(),
+            writer: written.writer.as_deref().cloned(),
+        };
         let mut program = reader.into_program();
         let before = self.reader.lines;
         program.set_part(PartOfText {
@@ -112,19 +109,19 @@ impl<'o> WrittenSoFar<'o> {
             repeats_motion: false,
         });
         let path = interpreter.finish_part(&program, self.survey.stated)?;
-        Ok((program, path))
+        Ok((program, path, behind))
     }
 }
 
 /// A part of a program in G-code, to be written behind the parts before it.
-pub struct GcodePart<'a> {
+pub struct GcodePart<'a, 'o> {
     /// The part.
     pub part: &'a Part,
-    /// What is written of those before it.
-    pub so_far: &'a WrittenSoFar<'a>,
+    /// Its place among the others.
+    pub place: &'a PlaceInOrder<'a, 'o>,
 }
 
-impl MachineProgram for GcodePart<'_> {
+impl MachineProgram for GcodePart<'_, '_> {
     fn bytes(&self) -> &[u8] {
         self.part.program.own_bytes()
     }
@@ -144,13 +141,9 @@ impl MachineProgram for GcodePart<'_> {
         monitor: &dyn Monitor,
     ) -> Result<Corrected, WriteError> {
         let (program, path) = (&self.part.program, &self.part.path);
-        write_behind(
-            program,
-            path,
-            (field, options),
-            monitor,
-            self.so_far.writer(),
-        )
+        let divided = Divided::of((program, path), (field, options), monitor)?;
+        let before = self.place.before().ok_or(WriteError::Cancelled)?;
+        divided.emit(before.writer())
     }
 
     fn verify(
@@ -158,12 +151,14 @@ impl MachineProgram for GcodePart<'_> {
         written: &Corrected,
         options: &WriteOptions,
     ) -> Result<Verification, WriteError> {
-        let again = self.so_far.read_again(&written.bytes);
-        let (output, output_path) = again.map_err(|error| WriteError::Verification {
+        let before = self.place.before().ok_or(WriteError::Cancelled)?;
+        let again = before.read_again(written);
+        let (output, output_path, behind) = again.map_err(|error| WriteError::Verification {
             line: 0,
             output_line: error.line,
             what: format!("it cannot be read again: {error}"),
         })?;
+        self.place.put_behind(behind);
         let input = (&self.part.program, &self.part.path);
         against_input(input, (&output, &output_path), written, options)
     }

@@ -5,7 +5,7 @@ use crate::field::request::{CorrectionField, Monitor};
 use crate::path::moves::Path;
 use crate::text::program::Program;
 use crate::writing::dividing::beginning::Fitted;
-use crate::writing::dividing::divide::divide;
+use crate::writing::dividing::divide::{Division, divide};
 use crate::writing::emit::Emitter;
 use crate::writing::options::{Arcs, WriteOptions};
 use crate::writing::writer_state::WriterState;
@@ -36,41 +36,66 @@ pub fn write_corrected(
     options: &WriteOptions,
     monitor: &dyn Monitor,
 ) -> Result<Corrected, WriteError> {
-    write_behind(program, path, (field, options), monitor, None)
+    Divided::of((program, path), (field, options), monitor)?.emit(None)
 }
 
-/// The same of a part of a longer program, from where the writer stands before it.
-///
-/// # Errors
-/// As [`write_corrected`].
-pub(crate) fn write_behind(
-    program: &Program,
-    path: &Path,
-    (field, options): (&dyn CorrectionField, &WriteOptions),
-    monitor: &dyn Monitor,
-    before: Option<&WriterState>,
-) -> Result<Corrected, WriteError> {
-    options.check()?;
-    if let Some(line) = program.mark_line()
-        && !options.again
-    {
-        return Err(WriteError::AlreadyCompensated { line });
-    }
-    let mut last = 0;
-    for motion in &path.moves {
-        let has_words = motion.line > last
-            && program
-                .line(motion.line)
-                .is_some_and(|line| !program.words(line).is_empty());
-        if !has_words {
-            return Err(WriteError::ForeignPath { line: motion.line });
+/// A program, or a part of one, whose blocks are divided: all that takes long, and does not depend on what is written before.
+pub(crate) struct Divided<'a> {
+    program: &'a Program,
+    path: &'a Path,
+    options: &'a WriteOptions,
+    division: Division,
+}
+
+impl<'a> Divided<'a> {
+    /// # Errors
+    /// As [`write_corrected`].
+    pub fn of(
+        (program, path): (&'a Program, &'a Path),
+        (field, options): (&dyn CorrectionField, &'a WriteOptions),
+        monitor: &dyn Monitor,
+    ) -> Result<Self, WriteError> {
+        options.check()?;
+        if let Some(line) = program.mark_line()
+            && !options.again
+        {
+            return Err(WriteError::AlreadyCompensated { line });
         }
-        last = motion.line;
+        let mut last = 0;
+        for motion in &path.moves {
+            let has_words = motion.line > last
+                && program
+                    .line(motion.line)
+                    .is_some_and(|line| !program.words(line).is_empty());
+            if !has_words {
+                return Err(WriteError::ForeignPath { line: motion.line });
+            }
+            last = motion.line;
+        }
+        let fitted = |_| match options.arcs {
+            Arcs::Fit if !field.turns_tool() => Fitted::Arcs,
+            Arcs::Fit | Arcs::Lines => Fitted::Nothing,
+        };
+        let division = divide(path, field, (options, &fitted), monitor)?;
+        Ok(Self {
+            program,
+            path,
+            options,
+            division,
+        })
     }
-    let fitted = |_| match options.arcs {
-        Arcs::Fit if !field.turns_tool() => Fitted::Arcs,
-        Arcs::Fit | Arcs::Lines => Fitted::Nothing,
-    };
-    let division = divide(path, field, (options, &fitted), monitor)?;
-    Emitter::new(program, path, options, division, before).emit()
+
+    /// The program as it is written; of a part of a longer program from where the writer stands before it.
+    ///
+    /// # Errors
+    /// As [`write_corrected`].
+    pub fn emit(self, before: Option<&WriterState>) -> Result<Corrected, WriteError> {
+        let Self {
+            program,
+            path,
+            options,
+            division,
+        } = self;
+        Emitter::new(program, path, options, division, before).emit()
+    }
 }

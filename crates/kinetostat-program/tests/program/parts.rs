@@ -2,6 +2,8 @@
 
 use std::io::Write;
 use std::path::PathBuf;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use kinetostat_program::*;
 use nalgebra::Vector3;
@@ -141,14 +143,15 @@ fn in_parts(
     length: PartLength,
 ) -> (Vec<u8>, usize) {
     let survey = Survey::of(text, reading).unwrap();
-    let mut so_far = WrittenSoFar::nothing(&survey, reading);
+    let order = PartsInOrder::from(0, WrittenSoFar::nothing(&survey, reading));
     let mut bytes = Vec::new();
     let mut pieces = 0;
-    for part in Parts::new(text, (&survey, reading), length) {
+    for (index, part) in Parts::new(text, (&survey, reading), length).enumerate() {
         let part = part.unwrap();
+        let place = order.place(index);
         let program = GcodePart {
             part: &part,
-            so_far: &so_far,
+            place: &place,
         };
         let written = program.write(field, writing, &Unwatched).unwrap();
         let found = program.verify(&written, writing);
@@ -161,8 +164,9 @@ fn in_parts(
         assert_eq!(found.moves, written.pieces.len());
         assert_eq!(written.pieces_before(), pieces);
         pieces += written.pieces.len();
+        assert_eq!(place.wait_for_turn(), Standing::Next);
         bytes.extend_from_slice(&written.bytes);
-        so_far.advance(&written).unwrap();
+        place.taken();
     }
     (bytes, pieces)
 }
@@ -244,27 +248,143 @@ fn an_interrupted_program_is_written_on_from_the_state_that_was_kept() {
         length(50, 8),
     );
     for stop in [1, 4, 7] {
-        let mut so_far = WrittenSoFar::nothing(&survey, &reading);
+        let mut order = PartsInOrder::from(0, WrittenSoFar::nothing(&survey, &reading));
         let mut bytes = Vec::new();
+        let mut kept = None;
         for (index, part) in
             Parts::new(text.as_slice(), (&survey, &reading), length(50, 8)).enumerate()
         {
             let part = part.unwrap();
             if index == stop {
                 // All that is left are the bytes and the state of the writer.
-                let writer = so_far.writer().unwrap().clone();
-                so_far = WrittenSoFar::nothing(&survey, &reading);
-                so_far.go_on(bytes.as_slice(), writer).unwrap();
+                let mut so_far = WrittenSoFar::nothing(&survey, &reading);
+                so_far
+                    .go_on(bytes.as_slice(), kept.take().unwrap())
+                    .unwrap();
+                order = PartsInOrder::from(stop, so_far);
             }
+            let place = order.place(index);
             let program = GcodePart {
                 part: &part,
-                so_far: &so_far,
+                place: &place,
             };
             let written = program.write(&smooth, &writing, &Unwatched).unwrap();
             program.verify(&written, &writing).unwrap();
             bytes.extend_from_slice(&written.bytes);
-            so_far.advance(&written).unwrap();
+            kept = written.writer.map(|writer| *writer);
+            place.taken();
         }
         assert!(bytes == whole);
     }
+}
+
+/// One of several threads: every so often it writes its part with other corrections first, as a run does whose check finds that a
+/// part is to be divided again.
+fn one_of_several<'a>(
+    order: &PartsInOrder<'a>,
+    parts: &Mutex<impl Iterator<Item = (usize, Part)>>,
+    writing: &WriteOptions,
+    (bytes, agains): (&Mutex<Vec<u8>>, &AtomicUsize),
+    (seed, every): (usize, usize),
+) {
+    let strong = |request: &Request| smooth(request).map(|correction| 3.0 * correction);
+    let mut random = seed;
+    loop {
+        let next = parts.lock().unwrap().next();
+        let Some((index, part)) = next else { return };
+        loop {
+            let place = order.place(index);
+            let program = GcodePart {
+                part: &part,
+                place: &place,
+            };
+            random = random
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(1_442_695_040_888_963_407);
+            std::thread::sleep(std::time::Duration::from_micros((random >> 54) as u64));
+            let write = |field: &dyn CorrectionField| {
+                let written = program.write(field, writing, &Unwatched)?;
+                program.verify(&written, writing)?;
+                Ok::<_, WriteError>(written)
+            };
+            if index % every == 0 && write(&strong).is_ok() {
+                std::thread::sleep(std::time::Duration::from_micros((random >> 54) as u64));
+            }
+            // Behind what is written anew it may be wrong, which nobody hears of.
+            let written = write(&smooth);
+            match place.wait_for_turn() {
+                Standing::Next => {
+                    let written = written.unwrap();
+                    bytes.lock().unwrap().extend_from_slice(&written.bytes);
+                    place.taken();
+                    break;
+                }
+                Standing::Again => _ = agains.fetch_add(1, Ordering::Relaxed),
+                Standing::Ended => panic!("nobody ended it"),
+            }
+        }
+    }
+}
+
+#[test]
+fn parts_that_are_worked_on_side_by_side_are_written_one_behind_the_other() {
+    let reading = readings();
+    let writing = WriteOptions::default();
+    let (mut agains, mut written) = (0, 0);
+    for (name, text) in programs() {
+        let Some((program, path, _)) = whole(&name, &text, &reading) else {
+            continue;
+        };
+        let all = write_corrected(&program, &path, &smooth, &writing, &Unwatched);
+        if text.len() > 200_000 || all.is_err() {
+            continue;
+        }
+        written += 1;
+        let length = length(30, 8);
+        let (wanted, _) = in_parts((&name, &text), &smooth, (&reading, &writing), length);
+        let survey = Survey::of(text.as_slice(), &reading).unwrap();
+        // One that writes every third part anew, and one that never does.
+        for (threads, every) in [(4, 3), (3, usize::MAX)] {
+            let order = PartsInOrder::from(0, WrittenSoFar::nothing(&survey, &reading));
+            let parts = Parts::new(text.as_slice(), (&survey, &reading), length);
+            let parts = Mutex::new(parts.map(Result::unwrap).enumerate());
+            let (bytes, again) = (Mutex::default(), AtomicUsize::new(0));
+            std::thread::scope(|scope| {
+                for seed in 0..threads {
+                    let (order, parts, writing, to) = (&order, &parts, &writing, (&bytes, &again));
+                    scope.spawn(move || one_of_several(order, parts, writing, to, (seed, every)));
+                }
+            });
+            assert!(bytes.into_inner().unwrap() == wanted, "{name}");
+            agains += again.into_inner();
+        }
+    }
+    assert!(agains > 0, "no part was done again");
+    assert!(written >= 2, "{written} programs");
+}
+
+#[test]
+fn nobody_waits_for_a_part_that_failed() {
+    let reading = readings();
+    let (_, text) = programs().pop().unwrap();
+    let survey = Survey::of(text.as_slice(), &reading).unwrap();
+    let order = PartsInOrder::from(0, WrittenSoFar::nothing(&survey, &reading));
+    let parts = Parts::new(text.as_slice(), (&survey, &reading), length(30, 8));
+    let third = parts.map(Result::unwrap).nth(2).unwrap();
+    std::thread::scope(|scope| {
+        let waiting = scope.spawn(|| {
+            let place = order.place(2);
+            let program = GcodePart {
+                part: &third,
+                place: &place,
+            };
+            let written = program.write(&smooth, &WriteOptions::default(), &Unwatched);
+            (written.unwrap_err(), place.wait_for_turn())
+        });
+        order.end();
+        let (error, standing) = waiting.join().unwrap();
+        assert!(matches!(error, WriteError::Cancelled), "{error}");
+        assert_eq!(standing, Standing::Ended);
+    });
+    assert!(order.has_ended() && order.taken() == 0);
 }

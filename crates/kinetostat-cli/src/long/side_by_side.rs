@@ -1,0 +1,135 @@
+//! Parts of a long program side by side, on all threads.
+
+use std::sync::{Mutex, PoisonError};
+
+use kinetostat_machining::Watch;
+use kinetostat_program::{Part, PartsInOrder, PlaceInOrder, Standing};
+
+use crate::ui::failure::Answer;
+use crate::ui::host;
+use crate::ui::progress::Progress;
+use crate::ui::threads::in_threads;
+
+/// Parts that are in memory at a time, at most: each takes some ten megabytes. Where there are more threads, several solve the points
+/// of one part.
+const MOST: usize = 8;
+
+/// What work on a part tells of itself: nothing, for others go on beside it. It is stopped with them.
+struct Beside<'a, 'o> {
+    progress: &'a Progress,
+    order: &'a PartsInOrder<'o>,
+}
+
+impl Watch for Beside<'_, '_> {
+    fn stage(&self, _: &str, _: usize) {}
+    fn advance(&self, _: usize) {}
+    fn cancelled(&self) -> bool {
+        self.progress.cancelled() || self.order.has_ended()
+    }
+}
+
+/// Has nobody wait for a thread that panics.
+struct EndsInPanic<'a, 'o>(&'a PartsInOrder<'o>);
+
+impl Drop for EndsInPanic<'_, '_> {
+    fn drop(&mut self) {
+        if std::thread::panicking() {
+            self.0.end();
+        }
+    }
+}
+
+/// Does the work on every part that is not taken yet, of so many, on a number of threads (all, where none is stated). `work` waits for
+/// the turn of its part, takes it, and says whether it did: what it takes comes in the order of the parts, however many threads
+/// there are. The failure of the first part that fails is that of all.
+pub(crate) fn side_by_side<'o>(
+    parts: impl Iterator<Item = Answer<Part>> + Send,
+    (order, count, threads): (&PartsInOrder<'o>, usize, Option<usize>),
+    progress: &Progress,
+    work: impl Fn(&Part, &PlaceInOrder<'_, 'o>, &dyn Watch) -> Answer<bool> + Sync,
+) -> Answer<()> {
+    let threads = match threads {
+        // The number is a sensible one.
+        Some(count) => in_threads(Some(count), || count)?,
+        None => rayon::current_num_threads(),
+    };
+    let at_once = threads.min(count.saturating_sub(order.taken()).clamp(1, MOST));
+    let source = Mutex::new(parts.enumerate());
+    let side = SideBySide {
+        source: &source,
+        order,
+        watch: &Beside { progress, order },
+        work: &work,
+    };
+    let host = host::current();
+    std::thread::scope(|scope| {
+        let begun: Vec<_> = (0..at_once)
+            .map(|index| {
+                let own = threads / at_once + usize::from(index < threads % at_once);
+                let (side, host) = (&side, host.clone());
+                scope.spawn(move || {
+                    host::working_for(host, || in_threads(Some(own), || side.go_through()))
+                })
+            })
+            .collect();
+        let mut all = Ok(());
+        for thread in begun {
+            let done = thread
+                .join()
+                .unwrap_or_else(|panic| std::panic::resume_unwind(panic));
+            all = all.and(done.and_then(|done| done));
+        }
+        all
+    })
+}
+
+/// What all threads share.
+struct SideBySide<'a, 'o, I, W> {
+    source: &'a Mutex<std::iter::Enumerate<I>>,
+    order: &'a PartsInOrder<'o>,
+    watch: &'a Beside<'a, 'o>,
+    work: &'a W,
+}
+
+impl<'o, I, W> SideBySide<'_, 'o, I, W>
+where
+    I: Iterator<Item = Answer<Part>>,
+    W: Fn(&Part, &PlaceInOrder<'_, 'o>, &dyn Watch) -> Answer<bool>,
+{
+    /// One part after the other, as long as there are some.
+    fn go_through(&self) -> Answer<()> {
+        let _guard = EndsInPanic(self.order);
+        while let Some((index, part)) = self.next() {
+            let part = part.as_ref();
+            loop {
+                let place = self.order.place(index);
+                let done = match part {
+                    Ok(part) => (self.work)(part, &place, self.watch),
+                    Err(failure) => Err(failure.clone()),
+                };
+                match (done, place.wait_for_turn()) {
+                    (_, Standing::Ended) => return Ok(()),
+                    (_, Standing::Again) => {}
+                    (Ok(true), Standing::Next) => {
+                        place.taken();
+                        break;
+                    }
+                    // What it waited for changed while it did.
+                    (Ok(false), Standing::Next) => {}
+                    (Err(failure), Standing::Next) => {
+                        self.order.end();
+                        return Err(failure);
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// The next part that is not taken; of those before it only a failure is of interest.
+    fn next(&self) -> Option<(usize, Answer<Part>)> {
+        let mut source = self.source.lock().unwrap_or_else(PoisonError::into_inner);
+        let done = self.order.taken();
+        source.find(|(index, part)| *index >= done || part.is_err())
+    }
+}

@@ -1,0 +1,211 @@
+//! Parts that are worked on side by side and written one behind the other.
+
+use std::collections::VecDeque;
+use std::sync::{Arc, Condvar, Mutex, MutexGuard, OnceLock, PoisonError};
+
+use crate::parts::written_so_far::WrittenSoFar;
+
+/// Parts that are worked on side by side and written one behind the other. What is written of a part depends on those before it, if
+/// little: on the modes in which they leave the controller, the feed rate in force and the last position. A part goes on as soon as
+/// the one before it was written once. Should that be written again, with other pieces, the part is to be done anew: its bytes are
+/// those of parts that are done one after the other.
+///
+/// ```
+/// use kinetostat_program::*;
+/// use nalgebra::Vector3;
+///
+/// let text = "G21 G90\nG0 X0 Y0 Z5\nG1 Z0 F300\nX10\nX20\nX30 Y5\nM2\n";
+/// let (reading, writing) = (ReadOptions::default(), WriteOptions::default());
+/// let raised = |_: &Request| Ok(Vector3::new(0.0, 0.0, 0.25));
+/// let survey = Survey::of(text.as_bytes(), &reading)?;
+/// let length = PartLength { own: 3, beside: 1 };
+/// let order = PartsInOrder::from(0, WrittenSoFar::nothing(&survey, &reading));
+/// let mut bytes = Vec::new();
+/// for (index, part) in Parts::new(text.as_bytes(), (&survey, &reading), length).enumerate() {
+///     let (part, place) = (part?, order.place(index));
+///     let program = GcodePart { part: &part, place: &place };
+///     let written = program.write(&raised, &writing, &Unwatched)?;
+///     program.verify(&written, &writing)?;
+///     assert_eq!(place.wait_for_turn(), Standing::Next);
+///     bytes.extend_from_slice(&written.bytes);
+///     place.taken();
+/// }
+/// let path = interpret(&Program::read(bytes)?, &reading)?;
+/// assert_eq!(path.moves.last().unwrap().end, Vector3::new(30.0, 5.0, 0.25));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub struct PartsInOrder<'o> {
+    state: Mutex<State<'o>>,
+    changed: Condvar,
+}
+
+/// Where the written program stands before a part, in one of the versions that there were of it.
+#[derive(Clone)]
+struct Before<'o> {
+    version: u64,
+    written: Arc<WrittenSoFar<'o>>,
+}
+
+struct State<'o> {
+    /// Parts that are taken.
+    taken: usize,
+    /// What is written before the next part to be taken, and before those behind it as far as is known. The first is there always,
+    /// and stays.
+    before: VecDeque<Before<'o>>,
+    versions: u64,
+    /// A part was written again: from then on a part waits until those before it are taken.
+    waits: bool,
+    ended: bool,
+}
+
+impl<'o> State<'o> {
+    /// What is written before a part, if that is known and may be used.
+    fn before(&self, part: usize) -> Option<&Before<'o>> {
+        let ahead = part.checked_sub(self.taken)?;
+        let may_be = ahead == 0 || !self.waits;
+        self.before.get(ahead).filter(|_| may_be)
+    }
+}
+
+/// How a part stands that waited for its turn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Standing {
+    /// It is the next to be taken, as it was written.
+    Next,
+    /// It would be, but what is written before it has changed: it is to be done again.
+    Again,
+    /// No part is taken any more.
+    Ended,
+}
+
+impl<'o> PartsInOrder<'o> {
+    /// So many parts are taken already, and this is what is written of them.
+    #[must_use]
+    pub fn from(taken: usize, written: WrittenSoFar<'o>) -> Self {
+        let first = Before {
+            version: 0,
+            written: Arc::new(written),
+        };
+        Self {
+            state: Mutex::new(State {
+                taken,
+                before: VecDeque::from([first]),
+                versions: 0,
+                waits: false,
+                ended: false,
+            }),
+            changed: Condvar::new(),
+        }
+    }
+
+    /// The place of a part, for one way through it. Every part has its turn once those before it are taken: work on one that is
+    /// not the next may not keep that from being done.
+    #[must_use]
+    pub fn place(&self, part: usize) -> PlaceInOrder<'_, 'o> {
+        PlaceInOrder {
+            order: self,
+            part,
+            used: OnceLock::new(),
+        }
+    }
+
+    /// Parts that are taken.
+    #[must_use]
+    pub fn taken(&self) -> usize {
+        self.lock().taken
+    }
+
+    /// No part is taken any more, and whoever waits need wait no longer.
+    pub fn end(&self) {
+        self.lock().ended = true;
+        self.changed.notify_all();
+    }
+
+    /// Whether no part is taken any more.
+    #[must_use]
+    pub fn has_ended(&self) -> bool {
+        self.lock().ended
+    }
+
+    fn lock(&self) -> MutexGuard<'_, State<'o>> {
+        self.state.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Waits for what `found` looks for; `None` once no part is taken any more.
+    fn wait<R>(&self, found: impl Fn(&State<'o>) -> Option<R>) -> Option<R> {
+        let mut state = self.lock();
+        loop {
+            if state.ended {
+                return None;
+            }
+            if let Some(found) = found(&state) {
+                return Some(found);
+            }
+            let waited = self.changed.wait(state);
+            state = waited.unwrap_or_else(PoisonError::into_inner);
+        }
+    }
+}
+
+/// The place of a part among the others, for one way through it.
+pub struct PlaceInOrder<'p, 'o> {
+    order: &'p PartsInOrder<'o>,
+    part: usize,
+    /// What it is written behind: the same however often it is written on this way.
+    used: OnceLock<Before<'o>>,
+}
+
+impl<'o> PlaceInOrder<'_, 'o> {
+    /// Where the written program stands before the part, which may be waited for; `None` once no part is taken any more.
+    pub(crate) fn before(&self) -> Option<Arc<WrittenSoFar<'o>>> {
+        if let Some(used) = self.used.get() {
+            return Some(used.written.clone());
+        }
+        let found = self.order.wait(|state| state.before(self.part).cloned())?;
+        Some(self.used.get_or_init(|| found).written.clone())
+    }
+
+    /// So it stands behind the part, as it was just written and read again.
+    pub(crate) fn put_behind(&self, written: WrittenSoFar<'o>) {
+        let mut state = self.order.lock();
+        let ahead = self.part.wrapping_sub(state.taken);
+        let current = state.before.get(ahead).map(|before| before.version);
+        if current.is_none() || current != self.used.get().map(|used| used.version) {
+            return;
+        }
+        state.waits |= state.before.len() > ahead + 1;
+        state.before.truncate(ahead + 1);
+        state.versions += 1;
+        let version = state.versions;
+        state.before.push_back(Before {
+            version,
+            written: Arc::new(written),
+        });
+        self.order.changed.notify_all();
+    }
+
+    /// Waits until all parts before this one are taken, and says whether it is to be taken as it is.
+    #[must_use]
+    pub fn wait_for_turn(&self) -> Standing {
+        let version = self.order.wait(|state| {
+            let comes = state.taken == self.part;
+            comes.then(|| state.before.front().map(|before| before.version))
+        });
+        match (version, self.used.get()) {
+            (None, _) => Standing::Ended,
+            (Some(version), Some(used)) if version != Some(used.version) => Standing::Again,
+            (Some(_), _) => Standing::Next,
+        }
+    }
+
+    /// The part, whose turn it was, is in the result.
+    pub fn taken(self) {
+        let mut state = self.order.lock();
+        state.taken += 1;
+        // Nothing is written of a part that is only solved.
+        if state.before.len() > 1 {
+            state.before.pop_front();
+        }
+        self.order.changed.notify_all();
+    }
+}
