@@ -58,7 +58,7 @@ pub fn run(options: &[&str]) -> Result<()> {
 }
 
 /// Blocks of the programs whose rates are measured without the soak.
-const BLOCKS: usize = 200_000;
+const BLOCKS: usize = 1_000_000;
 
 /// Runs of which the median counts.
 const RUNS: usize = 5;

@@ -14,7 +14,9 @@ use crate::job::run_warnings;
 use crate::job::setting::{program_path, setting};
 use crate::long::put_in_place::claim;
 use crate::long::run::{LongRun, survey};
-use crate::long::which::{only_as_a_whole, say_as_a_whole, whole_by_setting, with_first_lines};
+use crate::long::which::{
+    only_as_a_whole, part_length, say_as_a_whole, whole_by_setting, with_first_lines,
+};
 use crate::program::aim::Aim;
 use crate::program::features::refuse_missed_features;
 use crate::program::{report, summary};
@@ -56,7 +58,8 @@ pub(crate) fn compensate(
     let mut outputs = claim(Aim::Compensate, &targets, existing, &setting.inputs)?;
     outputs.list(flags.all_points, &model);
     let to_screen = args.run.json.as_deref() == Some(Path::new("-"));
-    let Some(found) = survey(&mut setting, Aim::Compensate)? else {
+    let length = part_length(flags, &model);
+    let Some(found) = survey(&mut setting, Aim::Compensate, length)? else {
         return Ok(false);
     };
     refuse_lines_beyond(job, &setting)?;

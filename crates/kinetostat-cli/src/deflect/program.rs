@@ -19,7 +19,9 @@ use crate::job::turn_arguments::FreeTurnWord;
 use crate::job::{program, run_warnings};
 use crate::long::put_in_place::claim;
 use crate::long::run::{LongRun, survey};
-use crate::long::which::{only_as_a_whole, say_as_a_whole, whole_by_setting, with_first_lines};
+use crate::long::which::{
+    only_as_a_whole, part_length, say_as_a_whole, whole_by_setting, with_first_lines,
+};
 use crate::program::aim::Aim;
 use crate::program::outputs::RunOutputs;
 use crate::program::{report, solve, summary};
@@ -134,7 +136,8 @@ fn part_by_part(
 ) -> Answer<bool> {
     let mut outputs = claim(Aim::Analyse, &targets, existing, &setting.inputs)?;
     outputs.list(args.program.all_points, model);
-    let Some(whole) = survey(&mut setting, Aim::Analyse)? else {
+    let length = part_length(&args.program, model);
+    let Some(whole) = survey(&mut setting, Aim::Analyse, length)? else {
         return Ok(false);
     };
     refuse_lines_beyond(job, &setting)?;

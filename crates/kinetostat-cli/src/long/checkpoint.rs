@@ -201,13 +201,6 @@ impl Checkpoint {
         failure
     }
 
-    /// What is done counts no more: the next run begins anew.
-    pub(crate) fn forget(&self) {
-        for name in [STATE, STATE_BEFORE] {
-            let _ = fs::remove_file(self.folder.join(name));
-        }
-    }
-
     /// States that were kept, the last first.
     pub(crate) fn states(&self) -> impl Iterator<Item = State> + '_ {
         [STATE, STATE_BEFORE]

@@ -1,6 +1,6 @@
 //! A program that is run in parts: surveyed, looked at, run, and put in place.
 
-use std::io::{BufReader, Read};
+use std::io::BufReader;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
@@ -23,8 +23,7 @@ use crate::job::setting::Setting;
 use crate::long::checkpoint::{Checkpoint, Manifest};
 use crate::long::put_in_place::{LongFiles, checkpoint};
 use crate::long::side_by_side::side_by_side;
-use crate::long::source::{Hashed, Surveyed, open};
-use crate::long::which::part_length;
+use crate::long::source::{Hashed, open};
 use crate::long::work::Work;
 use crate::program::aim::Aim;
 use crate::program::features::put_found;
@@ -52,12 +51,16 @@ pub(crate) struct LongRun<'a> {
 
 /// What only the whole of a program tells; its hash takes the place of that of its first lines. `None` where it cannot be read,
 /// or moves nothing: all that is wrong with it is said of the whole.
-pub(crate) fn survey(setting: &mut Setting, aim: Aim) -> Answer<Option<Survey>> {
+pub(crate) fn survey(
+    setting: &mut Setting,
+    aim: Aim,
+    length: PartLength,
+) -> Answer<Option<Survey>> {
     let progress = Progress::new();
     progress.stage("reading", 0);
     let mut hashed = Hashed::new(open(setting)?);
     let from = BufReader::with_capacity(1 << 16, &mut hashed);
-    let survey = match Survey::of(from, &setting.reading) {
+    let survey = match Survey::of(from, &setting.reading, length) {
         Err(PartError::Program(_)) => return Ok(None),
         found => found.map_err(|error| unread(setting, error))?,
     };
@@ -79,25 +82,26 @@ pub(crate) fn survey(setting: &mut Setting, aim: Aim) -> Answer<Option<Survey>> 
 }
 
 fn unread(setting: &Setting, error: PartError) -> Failure {
-    setting.within(Failure::input(error)).of_program()
+    let failure = match error {
+        PartError::Changed => Failure::input(
+            "the program is another one than when the run began: its file was changed meanwhile, and nothing is written; give --restart to begin anew with the new program",
+        ),
+        error => Failure::input(error).of_program(),
+    };
+    setting.within(failure)
 }
 
 impl<'a> LongRun<'a> {
-    fn failed(&self, error: PartError) -> Failure {
-        unread(self.setting, error)
-    }
-
-    fn parts<R: Read>(&self, from: BufReader<R>, length: PartLength) -> Parts<'a, BufReader<R>> {
-        Parts::new(from, (self.survey, &self.setting.reading), length)
-    }
-
-    /// How many parts there are.
-    fn count(&self, length: PartLength) -> usize {
-        self.survey.lines.div_ceil(length.own.max(1)).max(1)
+    /// A part. Of a file that was changed meanwhile none is taken: what is kept is of one program.
+    fn part(&self, index: usize, watch: &Progress) -> Answer<Part> {
+        self.refuse_if_cancelled(watch)?;
+        let from = BufReader::with_capacity(1 << 16, open(self.setting)?);
+        let part = Parts::of(self.survey, &self.setting.reading).read(index, from);
+        part.map_err(|error| unread(self.setting, error))
     }
 
     /// What the run is: whatever its bytes depend on.
-    fn manifest(&self, length: PartLength) -> Manifest {
+    fn manifest(&self) -> Manifest {
         let s = self.setting;
         let hashes = |files: &[FileRead]| {
             let all = files
@@ -143,7 +147,10 @@ impl<'a> LongRun<'a> {
                 format!("{:#?}", self.targets.program),
             ),
             ("the features", format!("{:#?}", s.features)),
-            ("the length of the parts", format!("{length:?}")),
+            (
+                "the length of the parts",
+                format!("{:?}", self.survey.length),
+            ),
         ];
         Manifest(
             fields
@@ -189,7 +196,7 @@ impl<'a> LongRun<'a> {
     }
 
     /// A first look at every part: what takes hours to be solved everywhere is refused in seconds.
-    fn look(&self, length: PartLength, progress: &Progress) -> Answer<OfWhole> {
+    fn look(&self, progress: &Progress) -> Answer<OfWhole> {
         let whole = OfWhole {
             moves: self.survey.moves,
             ..OfWhole::default()
@@ -197,17 +204,12 @@ impl<'a> LongRun<'a> {
         let found = Mutex::new(whole);
         let compensate = self.aim == Aim::Compensate;
         progress.stage("first look", self.survey.lines);
-        let from = BufReader::with_capacity(1 << 16, open(self.setting)?);
-        let parts = self.parts(from, length).map(|part| {
-            self.refuse_if_cancelled(progress)?;
-            part.map_err(|error| self.failed(error))
-        });
         let nothing = WrittenSoFar::nothing(self.survey, &self.setting.reading);
         let order = PartsInOrder::from(0, nothing);
         let threads = self.flags.threads;
         side_by_side(
-            parts,
-            (&order, self.count(length), threads),
+            |index| self.part(index, progress),
+            (&order, self.survey.part_count(), threads),
             progress,
             |part, place, watch| {
                 let looked = self.with_part(part, place, false, |task| {
@@ -228,15 +230,14 @@ impl<'a> LongRun<'a> {
     /// The run, from its outputs claimed to its result.
     pub(crate) fn run(self, outputs: &mut RunOutputs) -> Answer<(Run, LongFiles)> {
         let progress = Progress::new();
-        let length = part_length(self.flags, self.model);
         let mut kept = checkpoint(self.targets);
-        let opened = kept.open(&self.manifest(length), self.flags.restart);
+        let opened = kept.open(&self.manifest(), self.flags.restart);
         let begun = opened.and_then(|_| Work::go_on(&kept, self.survey, self.setting));
         let mut work = match begun {
             Ok(work) => work,
             Err(failure) => return Err(kept.left(failure)),
         };
-        let done = self.work(&mut work, (&kept, length), outputs, &progress);
+        let done = self.work(&mut work, &kept, outputs, &progress);
         if done.is_err() && work.state.parts > 0 && work.is_whole {
             // What can be kept is kept; why it ended is said.
             let _ = work.keep(&kept);
@@ -299,26 +300,26 @@ impl<'a> LongRun<'a> {
     fn work(
         &self,
         work: &mut Work<'a>,
-        (kept, length): (&Checkpoint, PartLength),
+        kept: &Checkpoint,
         outputs: &RunOutputs,
         progress: &Progress,
     ) -> Answer<()> {
         let whole = match work.state.of_whole() {
             Some(whole) => whole,
             None => {
-                let whole = self.look(length, progress)?;
+                let whole = self.look(progress)?;
                 work.state.note(&whole);
                 whole
             }
         };
-        self.pass(work, (kept, length), whole, (outputs, progress))?;
+        self.pass(work, kept, whole, (outputs, progress))?;
         if !work.state.as_it_is && work.state.merged.leaves_as_it_is() {
             work.begin_anew(kept, (self.survey, self.setting), &whole)?;
             let whole = OfWhole {
                 as_it_is: true,
                 ..whole
             };
-            self.pass(work, (kept, length), whole, (outputs, progress))?;
+            self.pass(work, kept, whole, (outputs, progress))?;
         }
         Ok(())
     }
@@ -327,7 +328,7 @@ impl<'a> LongRun<'a> {
     fn pass(
         &self,
         work: &mut Work<'a>,
-        (kept, length): (&Checkpoint, PartLength),
+        kept: &Checkpoint,
         whole: OfWhole,
         (outputs, progress): (&RunOutputs, &Progress),
     ) -> Answer<()> {
@@ -335,16 +336,7 @@ impl<'a> LongRun<'a> {
             Some(_) => Duration::ZERO,
             None => EVERY,
         };
-        let (count, done) = (self.count(length), work.state.parts);
-        let mut surveyed = Surveyed::new(self.setting);
-        let mut hashed = Hashed::new(open(self.setting)?);
-        let from = BufReader::with_capacity(1 << 16, &mut hashed);
-        let parts = self.parts(from, length).map(|part| {
-            // A part of a file that was changed meanwhile is never taken: what is kept is of one program.
-            surveyed.refuse_if_touched()?;
-            self.refuse_if_cancelled(progress)?;
-            part.map_err(|error| self.failed(error))
-        });
+        let (count, done) = (self.survey.part_count(), work.state.parts);
         progress.stage(
             match self.aim {
                 Aim::Analyse => "lines solved",
@@ -357,7 +349,7 @@ impl<'a> LongRun<'a> {
         let taking = Mutex::new((&mut *work, Instant::now()));
         let threads = self.flags.threads;
         side_by_side(
-            parts,
+            |index| self.part(index, progress),
             (&order, count, threads),
             progress,
             |part, place, watch| {
@@ -381,14 +373,7 @@ impl<'a> LongRun<'a> {
                     Ok(true)
                 })?
             },
-        )?;
-        let same = surveyed.refuse_if_other(&hashed.sha256());
-        if same.is_err() {
-            // Changed without a trace, before the first look at its time: nobody knows what was done of which program.
-            *work = Work::nothing(kept, self.survey, self.setting)?;
-            kept.forget();
-        }
-        same
+        )
     }
 
     /// The rows of a part in the table of points, if there is to be one.

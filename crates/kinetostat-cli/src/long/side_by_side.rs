@@ -1,6 +1,6 @@
 //! Parts of a long program side by side, on all threads.
 
-use std::sync::{Mutex, PoisonError};
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use kinetostat_machining::Watch;
 use kinetostat_program::{Part, PartsInOrder, PlaceInOrder, Standing};
@@ -39,11 +39,11 @@ impl Drop for EndsInPanic<'_, '_> {
     }
 }
 
-/// Does the work on every part that is not taken yet, of so many, on a number of threads (all, where none is stated). `work` waits for
+/// Reads every part that is not taken yet, of so many, and does the work on it, on a number of threads (all, where none is stated). `work` waits for
 /// the turn of its part, takes it, and says whether it did: what it takes comes in the order of the parts, however many threads
 /// there are. The failure of the first part that fails is that of all.
 pub(crate) fn side_by_side<'o>(
-    parts: impl Iterator<Item = Answer<Part>> + Send,
+    read: impl Fn(usize) -> Answer<Part> + Sync,
     (order, count, threads): (&PartsInOrder<'o>, usize, Option<usize>),
     progress: &Progress,
     work: impl Fn(&Part, &PlaceInOrder<'_, 'o>, &dyn Watch) -> Answer<bool> + Sync,
@@ -54,10 +54,11 @@ pub(crate) fn side_by_side<'o>(
         None => rayon::current_num_threads(),
     };
     let at_once = threads.min(count.saturating_sub(order.taken()).clamp(1, MOST));
-    let source = Mutex::new(parts.enumerate());
     let side = SideBySide {
-        source: &source,
+        next: AtomicUsize::new(order.taken()),
+        count,
         order,
+        read: &read,
         watch: &Beside { progress, order },
         work: &work,
     };
@@ -84,52 +85,55 @@ pub(crate) fn side_by_side<'o>(
 }
 
 /// What all threads share.
-struct SideBySide<'a, 'o, I, W> {
-    source: &'a Mutex<std::iter::Enumerate<I>>,
+struct SideBySide<'a, 'o, R, W> {
+    /// The next part that nobody has.
+    next: AtomicUsize,
+    count: usize,
     order: &'a PartsInOrder<'o>,
     watch: &'a Beside<'a, 'o>,
+    read: &'a R,
     work: &'a W,
 }
 
-impl<'o, I, W> SideBySide<'_, 'o, I, W>
+impl<'o, R, W> SideBySide<'_, 'o, R, W>
 where
-    I: Iterator<Item = Answer<Part>>,
+    R: Fn(usize) -> Answer<Part>,
     W: Fn(&Part, &PlaceInOrder<'_, 'o>, &dyn Watch) -> Answer<bool>,
 {
     /// One part after the other, as long as there are some.
     fn go_through(&self) -> Answer<()> {
         let _guard = EndsInPanic(self.order);
-        while let Some((index, part)) = self.next() {
-            let part = part.as_ref();
-            loop {
-                let place = self.order.place(index);
-                let done = match part {
-                    Ok(part) => (self.work)(part, &place, self.watch),
-                    Err(failure) => Err(failure.clone()),
-                };
-                match (done, place.wait_for_turn()) {
-                    (_, Standing::Ended) => return Ok(()),
-                    (_, Standing::Again) => {}
-                    (Ok(true), Standing::Next) => {
-                        place.taken();
-                        break;
-                    }
-                    // What it waited for changed while it did.
-                    (Ok(false), Standing::Next) => {}
-                    (Err(failure), Standing::Next) => {
-                        self.order.end();
-                        return Err(failure);
-                    }
+        loop {
+            let index = self.next.fetch_add(1, Ordering::Relaxed);
+            if index >= self.count || !self.take(index)? {
+                return Ok(());
+            }
+        }
+    }
+
+    /// Has a part taken; whether there is reason to go on.
+    fn take(&self, index: usize) -> Answer<bool> {
+        let part = (self.read)(index);
+        loop {
+            let place = self.order.place(index);
+            let done = match &part {
+                Ok(part) => (self.work)(part, &place, self.watch),
+                Err(failure) => Err(failure.clone()),
+            };
+            match (done, place.wait_for_turn()) {
+                (_, Standing::Ended) => return Ok(false),
+                (_, Standing::Again) => {}
+                (Ok(true), Standing::Next) => {
+                    place.taken();
+                    return Ok(true);
+                }
+                // What it waited for changed while it did.
+                (Ok(false), Standing::Next) => {}
+                (Err(failure), Standing::Next) => {
+                    self.order.end();
+                    return Err(failure);
                 }
             }
         }
-        Ok(())
-    }
-
-    /// The next part that is not taken; of those before it only a failure is of interest.
-    fn next(&self) -> Option<(usize, Answer<Part>)> {
-        let mut source = self.source.lock().unwrap_or_else(PoisonError::into_inner);
-        let done = self.order.taken();
-        source.find(|(index, part)| *index >= done || part.is_err())
     }
 }

@@ -89,12 +89,12 @@ fn in_parts(
     compensate: bool,
 ) -> (MergedRun, Vec<u8>, Vec<kinetostat_machining::PointResult>) {
     let reading = ReadOptions::default();
-    let survey = Survey::of(text.as_bytes(), &reading).expect("survey");
     let length = PartLength {
         own: 77,
         beside: 40,
     };
-    let parts = || Parts::new(text.as_bytes(), (&survey, &reading), length);
+    let survey = Survey::of(text.as_bytes(), &reading, length).expect("survey");
+    let parts = || Parts::of(&survey, &reading).in_order(std::io::Cursor::new(text));
     let order = || PartsInOrder::from(0, WrittenSoFar::nothing(&survey, &reading));
     let mut of_whole = OfWhole {
         moves: survey.moves,

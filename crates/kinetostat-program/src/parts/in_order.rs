@@ -13,15 +13,16 @@ use crate::parts::written_so_far::WrittenSoFar;
 /// ```
 /// use kinetostat_program::*;
 /// use nalgebra::Vector3;
+/// use std::io::Cursor;
 ///
 /// let text = "G21 G90\nG0 X0 Y0 Z5\nG1 Z0 F300\nX10\nX20\nX30 Y5\nM2\n";
 /// let (reading, writing) = (ReadOptions::default(), WriteOptions::default());
 /// let raised = |_: &Request| Ok(Vector3::new(0.0, 0.0, 0.25));
-/// let survey = Survey::of(text.as_bytes(), &reading)?;
-/// let length = PartLength { own: 3, beside: 1 };
+/// let survey = Survey::of(text.as_bytes(), &reading, PartLength { own: 3, beside: 1 })?;
+/// let parts = Parts::of(&survey, &reading);
 /// let order = PartsInOrder::from(0, WrittenSoFar::nothing(&survey, &reading));
 /// let mut bytes = Vec::new();
-/// for (index, part) in Parts::new(text.as_bytes(), (&survey, &reading), length).enumerate() {
+/// for (index, part) in parts.in_order(Cursor::new(text)).enumerate() {
 ///     let (part, place) = (part?, order.place(index));
 ///     let program = GcodePart { part: &part, place: &place };
 ///     let written = program.write(&raised, &writing, &Unwatched)?;

@@ -16,6 +16,9 @@ pub enum PartError {
     /// The program cannot be followed.
     #[error("{0}")]
     Program(#[from] ProgramError),
+    /// Its lines are not those that were surveyed.
+    #[error("the program was changed since it was surveyed")]
+    Changed,
 }
 
 /// Lines of a text, each with its line ending.

@@ -2,7 +2,9 @@
 
 use std::io::BufRead;
 
+use crate::parts::beginnings::{Beginning, Beginnings};
 use crate::parts::lines::{Lines, PartError};
+use crate::parts::windows::PartLength;
 use crate::path::curve::Curve;
 use crate::path::moves::{Move, MoveKind, Warning};
 use crate::reading::interpreting::interpreter::Interpreter;
@@ -15,8 +17,10 @@ use crate::writing::blocks::block_text::motion_word;
 const BLOCK: usize = 4096;
 
 /// What only the whole of a program tells.
-#[derive(Debug, Clone, Default, PartialEq)]
+#[derive(Default)]
 pub struct Survey {
+    /// How long its parts are.
+    pub length: PartLength,
     /// Lines of the program.
     pub lines: usize,
     /// Lines with words.
@@ -41,12 +45,24 @@ pub struct Survey {
     pub(crate) usual_ending: Vec<u8>,
     /// Every motion has its own motion word.
     pub(crate) repeats_motion: bool,
+    /// Where its parts begin.
+    pub(crate) parts: Vec<Beginning>,
 }
 
-/// Feed moves by the axes that are known before them: which of them count is clear only when all axes are that are stated.
+/// Lengths by the axes that are known before the moves: which of them count is clear only when all axes are that are stated.
 #[derive(Debug, Clone, Copy, Default)]
-struct ByKnown {
-    feed_mm: f64,
+pub(crate) struct ByKnown([f64; 8]);
+
+impl ByKnown {
+    fn add(&mut self, known: [bool; 3], length_mm: f64) {
+        self.0[index_of(known)] += length_mm;
+    }
+
+    /// Of the moves from known places, in a program that states these axes.
+    pub fn whole_mm(&self, stated: [bool; 3]) -> f64 {
+        let counts = (0..8).filter(|index| covers(*index, stated));
+        counts.map(|index| self.0[index]).sum()
+    }
 }
 
 /// Blocks by the axes that are known behind them.
@@ -67,51 +83,67 @@ fn covers(index: usize, stated: [bool; 3]) -> bool {
 /// A survey that is being made.
 struct Surveyor {
     found: Survey,
-    before: [ByKnown; 8],
+    feed: ByKnown,
+    /// Of all moves.
+    all: ByKnown,
+    beginnings: Beginnings,
     behind: [Behind; 8],
     first_feed: Option<Move>,
 }
 
 impl Survey {
-    /// Reads a program once.
+    /// Reads a program once, to be taken in parts of such a length.
     ///
     /// ```
-    /// use kinetostat_program::{ReadOptions, Survey};
+    /// use kinetostat_program::{PartLength, ReadOptions, Survey};
     ///
     /// let text = "G21 G90\nG0 X0 Y0 Z5\nG1 Z0 F300\nG1 X100\nM2\n";
-    /// let found = Survey::of(text.as_bytes(), &ReadOptions::default())?;
+    /// let found = Survey::of(text.as_bytes(), &ReadOptions::default(), PartLength::default())?;
     /// assert_eq!((found.lines, found.blocks, found.moves), (5, 5, 3));
-    /// assert_eq!((found.feed_mm, found.stated), (105.0, [true; 3]));
+    /// assert_eq!((found.feed_mm, found.stated, found.part_count()), (105.0, [true; 3], 1));
     /// # Ok::<(), kinetostat_program::PartError>(())
     /// ```
     ///
     /// # Errors
     /// The file cannot be read; the first line that cannot be followed.
-    pub fn of(text: impl BufRead, options: &ReadOptions) -> Result<Self, PartError> {
+    pub fn of(
+        text: impl BufRead,
+        options: &ReadOptions,
+        length: PartLength,
+    ) -> Result<Self, PartError> {
         let mut lines = Lines::new(text);
         let mut interpreter = Interpreter::new(options);
-        let mut state = ReaderState::default();
+        let mut reader = Reader::following(&ReaderState::default());
         let mut surveyor = Surveyor {
             found: Survey {
                 usual_ending: b"\n".to_vec(),
                 repeats_motion: true,
+                length,
                 ..Survey::default()
             },
-            before: Default::default(),
+            feed: ByKnown::default(),
+            all: ByKnown::default(),
+            beginnings: Beginnings::new(length),
             behind: Default::default(),
             first_feed: None,
         };
         let mut line = Vec::new();
         loop {
-            let mut reader = Reader::following(&state);
-            reader.reserve(BLOCK, 0);
-            interpreter.reserve(BLOCK);
+            let room = BLOCK.min(length.own);
+            reader.reserve(room, 0);
+            interpreter.reserve(room);
             let mut count = 0;
+            let mut is_last = false;
             while count < BLOCK {
                 line.clear();
                 if !lines.next(&mut line)? {
+                    is_last = true;
                     break;
                 }
+                let number = surveyor.found.lines + 1;
+                let at = surveyor.found.bytes;
+                let states = || (reader.state(), interpreter.state());
+                surveyor.beginnings.look(number, at, states, &line);
                 if surveyor.found.lines == 0 {
                     surveyor.note_ending(&line);
                 }
@@ -120,13 +152,24 @@ impl Survey {
                 reader.next_line(&line)?;
                 interpreter.run_line(reader.program(), count)?;
                 count += 1;
+                if surveyor.beginnings.is_first_own(surveyor.found.lines + 1) {
+                    break;
+                }
             }
             surveyor.note(&reader, &mut interpreter);
-            state = reader.state();
-            if count < BLOCK {
+            if is_last {
                 return surveyor.finish(interpreter, &reader);
             }
+            reader.keep_nothing();
+            let so_far = (surveyor.found.moves, surveyor.all);
+            surveyor.beginnings.note(surveyor.found.lines + 1, so_far);
         }
+    }
+
+    /// How many parts it has.
+    #[must_use]
+    pub fn part_count(&self) -> usize {
+        self.parts.len()
     }
 
     /// Why a program that is read with these options cannot be taken in parts; `None` where it can.
@@ -155,26 +198,27 @@ impl Surveyor {
         self.found.blocks += program.block_count();
         self.found.semicolons |= program.uses_semicolons();
         self.found.mark_line = self.found.mark_line.or(program.mark_line());
-        for (motion, [before, after]) in interpreter.take_moves() {
+        interpreter.pass_moves(|motion, [before, after]| {
             self.found.moves += 1;
             let line = program.line(motion.line);
             let named = line.is_some_and(|line| motion_word(program.words(line)).is_some());
             self.found.repeats_motion &= named;
             if motion.words.is_to_machine() {
-                continue;
+                return;
             }
+            self.all.add(before, motion.length_mm());
             let behind = &mut self.behind[index_of(after)];
             if behind.moves == 0 {
                 behind.first_line = motion.line;
             }
             behind.moves += 1;
             if motion.kind != MoveKind::Feed {
-                continue;
+                return;
             }
             self.found.feed_arcs += usize::from(matches!(motion.curve, Curve::Arc(_)));
-            self.before[index_of(before)].feed_mm += motion.length_mm();
-            self.first_feed.get_or_insert(motion);
-        }
+            self.feed.add(before, motion.length_mm());
+            self.first_feed.get_or_insert_with(|| motion.clone());
+        });
     }
 
     fn finish(
@@ -191,8 +235,8 @@ impl Surveyor {
             });
         }
         let path = interpreter.finish(reader.program())?;
-        let counts = (0..8).filter(|index| covers(*index, stated));
-        self.found.feed_mm = counts.map(|index| self.before[index].feed_mm).sum();
+        self.found.feed_mm = self.feed.whole_mm(stated);
+        self.found.parts = self.beginnings.finish(self.found.lines, stated);
         let unknown = (0..8).filter(|index| !covers(*index, stated));
         let unknown: Vec<Behind> = unknown.map(|index| self.behind[index]).collect();
         let count: usize = unknown.iter().map(|behind| behind.moves).sum();

@@ -1,14 +1,15 @@
-//! A program in windows, each read as a program of its own.
+//! Parts of a program, each read as a program of its own.
 
-use std::io::BufRead;
+use std::io::{BufRead, Seek, SeekFrom};
 
+use crate::parts::beginnings::Check;
 use crate::parts::lines::{Lines, PartError};
 use crate::parts::survey::Survey;
 use crate::path::moves::Path;
 use crate::path::part::PathPart;
 use crate::reading::interpreting::interpreter::Interpreter;
 use crate::reading::options::ReadOptions;
-use crate::text::program::{PartOfText, Program, Reader, ReaderState};
+use crate::text::program::{PartOfText, Program, Reader};
 
 /// How long the parts are.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -17,6 +18,13 @@ pub struct PartLength {
     pub own: usize,
     /// Lines on either side that say how these begin and end.
     pub beside: usize,
+}
+
+impl PartLength {
+    /// One line behind tells that there are more.
+    pub(crate) fn looked_beside(self) -> usize {
+        self.beside.max(1)
+    }
 }
 
 impl Default for PartLength {
@@ -55,149 +63,108 @@ impl Part {
     }
 }
 
-/// Reads a program part by part.
-pub struct Parts<'o, R> {
-    lines: Lines<R>,
+/// Reads parts of a program that was surveyed, each by itself.
+#[derive(Clone, Copy)]
+pub struct Parts<'o> {
     survey: &'o Survey,
-    length: PartLength,
-    /// Lines that were read and are still needed, and where each ends.
-    held: Vec<u8>,
-    ends: Vec<usize>,
-    /// The state before the first of them.
-    reader: ReaderState,
-    interpreter: Interpreter<'o>,
-    /// Number of the first own line of the next part.
-    next: usize,
-    before_mm: f64,
-    /// Moves of all parts before it.
-    moves_before: usize,
-    is_done: bool,
+    reading: &'o ReadOptions,
 }
 
-impl<'o, R: BufRead> Parts<'o, R> {
+impl<'o> Parts<'o> {
     /// Of a program of which a survey was made, with the same options.
     ///
     /// ```
     /// use kinetostat_program::{PartLength, Parts, ReadOptions, Survey, Program, interpret};
+    /// use std::io::Cursor;
     ///
     /// let text = "G21 G90\nG0 X0 Y0 Z5\nG1 Z0 F300\nX10\nX20\nG91 X5\nX5\nM2\n";
     /// let reading = ReadOptions::default();
     /// let whole = interpret(&Program::read(text)?, &reading)?;
-    /// let survey = Survey::of(text.as_bytes(), &reading)?;
-    /// let length = PartLength { own: 3, beside: 1 };
+    /// let survey = Survey::of(text.as_bytes(), &reading, PartLength { own: 3, beside: 1 })?;
+    /// let parts = Parts::of(&survey, &reading);
     /// let mut moves = Vec::new();
-    /// for part in Parts::new(text.as_bytes(), (&survey, &reading), length) {
+    /// for part in parts.in_order(Cursor::new(text)) {
     ///     let path = part?.path;
     ///     moves.extend_from_slice(&path.moves[path.own_moves()]);
     /// }
     /// assert_eq!(moves, whole.moves);
+    /// // The last one, `X5` and `M2`, by itself.
+    /// let last = parts.read(2, Cursor::new(text))?;
+    /// assert_eq!((last.first_line(), last.is_last), (7, true));
+    /// assert_eq!(last.path.moves[last.path.own_moves()], whole.moves[5..]);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     #[must_use]
-    pub fn new(
-        text: R,
-        (survey, reading): (&'o Survey, &'o ReadOptions),
-        length: PartLength,
-    ) -> Self {
-        Self {
-            lines: Lines::new(text),
-            survey,
-            length,
-            held: Vec::new(),
-            ends: Vec::new(),
-            reader: ReaderState::default(),
-            interpreter: Interpreter::new(reading),
-            next: 1,
-            before_mm: 0.0,
-            moves_before: 0,
-            is_done: false,
-        }
+    pub fn of(survey: &'o Survey, reading: &'o ReadOptions) -> Self {
+        Self { survey, reading }
     }
 
-    fn hold(&mut self, most: usize) -> Result<(), PartError> {
-        while self.ends.len() < most && self.lines.next(&mut self.held)? {
-            self.ends.push(self.held.len());
-        }
-        Ok(())
+    /// One after the other.
+    pub fn in_order<R: BufRead + Seek>(
+        self,
+        mut text: R,
+    ) -> impl Iterator<Item = Result<Part, PartError>> + use<'o, R> {
+        (0..self.survey.part_count()).map(move |index| self.read(index, &mut text))
     }
 
-    fn read(&mut self) -> Result<Part, PartError> {
-        let before = self.reader.lines;
-        let behind = self.next + self.length.own.max(1);
-        // Lines from the first held to the last that is looked at.
-        // One line behind tells that there are more.
-        let beside = self.length.beside.max(1);
-        self.hold(behind - 1 + beside - before)?;
-        let end = behind.min(before + self.ends.len() + 1);
-        let is_last = end == before + self.ends.len() + 1;
-        // The first line that the next part looks at.
-        let next_first = end.saturating_sub(beside).max(before + 1);
-        let mut reader = Reader::following(&self.reader);
-        let mut interpreter = self.interpreter.following();
-        reader.reserve(self.ends.len(), self.held.len());
-        interpreter.reserve(self.ends.len());
-        let mut kept = None;
+    /// The part of an index.
+    ///
+    /// # Errors
+    /// The text cannot be read; its lines are not those that were surveyed, or there is no such part.
+    pub fn read(&self, index: usize, mut text: impl BufRead + Seek) -> Result<Part, PartError> {
+        let survey = self.survey;
+        let beginning = survey.parts.get(index).ok_or(PartError::Changed)?;
+        let next = survey.parts.get(index + 1);
+        let end = next.map_or(survey.lines + 1, |next| next.own);
+        let beside = survey.length.looked_beside();
+        // Behind the last there is nothing.
+        let most = end - 1 + beside - beginning.reader.lines;
+        text.seek(SeekFrom::Start(beginning.offset))?;
+        let mut lines = Lines::new(text);
+        let (mut held, mut ends) = (Vec::new(), Vec::new());
+        while ends.len() < most && lines.next(&mut held)? {
+            ends.push(held.len());
+        }
+        let mut check = Check::default();
+        for (start, stop) in std::iter::once(0).chain(ends.iter().copied()).zip(&ends) {
+            check.add(&held[start..*stop]);
+        }
+        if check.number() != beginning.check {
+            return Err(PartError::Changed);
+        }
+        let mut reader = Reader::following(&beginning.reader);
+        let mut interpreter = Interpreter::behind(self.reading, &beginning.interpreter);
+        reader.reserve(ends.len(), held.len());
+        interpreter.reserve(ends.len());
         let mut start = 0;
-        for (index, stop) in self.ends.iter().enumerate() {
-            if before + index + 1 == next_first {
-                kept = Some((reader.state(), interpreter.following(), index, start));
-            }
-            reader.next_line(&self.held[start..*stop])?;
-            interpreter.run_line(reader.program(), index)?;
+        for (line, stop) in ends.iter().enumerate() {
+            reader.next_line(&held[start..*stop])?;
+            interpreter.run_line(reader.program(), line)?;
             start = *stop;
         }
         let mut program = reader.into_program();
-        let own = self.next..end;
-        program.set_semicolons(self.survey.semicolons);
+        let own = beginning.own..end;
+        program.set_semicolons(survey.semicolons);
         program.set_part(PartOfText {
             core: own.clone(),
-            usual_ending: self.survey.usual_ending.clone(),
-            repeats_motion: self.survey.repeats_motion,
+            usual_ending: survey.usual_ending.clone(),
+            repeats_motion: survey.repeats_motion,
         });
-        let mut path = interpreter.finish_part(&program, self.survey.stated)?;
+        let mut path = interpreter.finish_part(&program, survey.stated)?;
         let at = |line: usize| path.moves.partition_point(|motion| motion.line < line);
         let moves = at(own.start)..at(own.end);
-        let before_mm = self.before_mm;
-        for motion in &path.moves[moves.clone()] {
-            self.before_mm += motion.known_length_mm();
-        }
-        let moves_before = self.moves_before - moves.start;
-        self.moves_before += moves.len();
         path.part = Some(PathPart {
+            moves_before: beginning.moves_before - moves.start,
             moves,
-            moves_before,
             begins: own.start == 1,
-            before_mm,
-            whole_feed_mm: self.survey.feed_mm,
-            whole_feed_arcs: self.survey.feed_arcs,
+            before_mm: beginning.before_mm,
+            whole_feed_mm: survey.feed_mm,
+            whole_feed_arcs: survey.feed_arcs,
         });
-        if let Some((state, following, lines, bytes)) = kept {
-            (self.reader, self.interpreter) = (state, following);
-            self.held.drain(..bytes);
-            self.ends.drain(..lines);
-            for end in &mut self.ends {
-                *end -= bytes;
-            }
-        }
-        self.next = end;
-        self.is_done = is_last;
         Ok(Part {
             program,
             path,
-            is_last,
+            is_last: next.is_none(),
         })
-    }
-}
-
-impl<R: BufRead> Iterator for Parts<'_, R> {
-    type Item = Result<Part, PartError>;
-
-    fn next(&mut self) -> Option<Self::Item> {
-        if self.is_done {
-            return None;
-        }
-        let part = self.read();
-        self.is_done |= part.is_err();
-        Some(part)
     }
 }

@@ -302,6 +302,16 @@ impl Reader {
         reader
     }
 
+    /// Goes on behind the lines that were read, and keeps none of them.
+    pub(crate) fn keep_nothing(&mut self) {
+        let program = &mut self.program;
+        program.first_number += program.lines.len();
+        program.bytes.clear();
+        program.lines.clear();
+        program.words.clear();
+        program.mark_line = None;
+    }
+
     /// Makes room for so many lines of so many bytes in all, so that nothing is moved as they are read.
     pub(crate) fn reserve(&mut self, lines: usize, bytes: usize) {
         self.program.bytes.reserve(bytes);

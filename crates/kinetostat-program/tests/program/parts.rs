@@ -1,6 +1,6 @@
 //! Programs that are read and written part by part: what comes is what comes of the whole.
 
-use std::io::Write;
+use std::io::{Cursor, Write};
 use std::path::PathBuf;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -55,7 +55,7 @@ fn length(own: usize, beside: usize) -> PartLength {
 
 /// The whole path and what a survey says, of programs that can be read; the others are refused on the same line.
 fn whole(name: &str, text: &[u8], reading: &ReadOptions) -> Option<(Program, Path, Survey)> {
-    let survey = Survey::of(text, reading);
+    let survey = Survey::of(text, reading, PartLength::default());
     let read = Program::read(text);
     let read = read.and_then(|program| interpret(&program, reading).map(|path| (program, path)));
     match (read, survey) {
@@ -98,7 +98,7 @@ fn a_survey_tells_what_the_whole_does() {
 fn moves_of_parts_are_those_of_the_whole_bit_by_bit() {
     let reading = readings();
     for (name, text) in programs() {
-        let Some((_, path, survey)) = whole(&name, &text, &reading) else {
+        let Some((_, path, _)) = whole(&name, &text, &reading) else {
             continue;
         };
         for (own, beside) in [(1, 0), (2, 3), (7, 7), (50, 1), (1000, 64)] {
@@ -106,7 +106,8 @@ fn moves_of_parts_are_those_of_the_whole_bit_by_bit() {
                 continue;
             }
             let (mut moves, mut next, mut pauses) = (Vec::new(), 1, 0);
-            for part in Parts::new(text.as_slice(), (&survey, &reading), length(own, beside)) {
+            let survey = Survey::of(text.as_slice(), &reading, length(own, beside)).unwrap();
+            for part in Parts::of(&survey, &reading).in_order(Cursor::new(&text)) {
                 let part = part.unwrap_or_else(|error| panic!("{name}: {error}"));
                 assert_eq!(part.first_line(), next, "{name}");
                 next = part.next_line();
@@ -142,11 +143,12 @@ fn in_parts(
     (reading, writing): (&ReadOptions, &WriteOptions),
     length: PartLength,
 ) -> (Vec<u8>, usize) {
-    let survey = Survey::of(text, reading).unwrap();
+    let survey = Survey::of(text, reading, length).unwrap();
     let order = PartsInOrder::from(0, WrittenSoFar::nothing(&survey, reading));
     let mut bytes = Vec::new();
     let mut pieces = 0;
-    for (index, part) in Parts::new(text, (&survey, reading), length).enumerate() {
+    let parts = Parts::of(&survey, reading).in_order(Cursor::new(text));
+    for (index, part) in parts.enumerate() {
         let part = part.unwrap();
         let place = order.place(index);
         let program = GcodePart {
@@ -240,7 +242,7 @@ fn an_interrupted_program_is_written_on_from_the_state_that_was_kept() {
     let reading = readings();
     let writing = WriteOptions::default();
     let (_, text) = programs().pop().unwrap();
-    let survey = Survey::of(text.as_slice(), &reading).unwrap();
+    let survey = Survey::of(text.as_slice(), &reading, length(50, 8)).unwrap();
     let (whole, _) = in_parts(
         ("zigzag", &text),
         &smooth,
@@ -251,9 +253,8 @@ fn an_interrupted_program_is_written_on_from_the_state_that_was_kept() {
         let mut order = PartsInOrder::from(0, WrittenSoFar::nothing(&survey, &reading));
         let mut bytes = Vec::new();
         let mut kept = None;
-        for (index, part) in
-            Parts::new(text.as_slice(), (&survey, &reading), length(50, 8)).enumerate()
-        {
+        let parts = Parts::of(&survey, &reading).in_order(Cursor::new(&text));
+        for (index, part) in parts.enumerate() {
             let part = part.unwrap();
             if index == stop {
                 // All that is left are the bytes and the state of the writer.
@@ -342,11 +343,11 @@ fn parts_that_are_worked_on_side_by_side_are_written_one_behind_the_other() {
         written += 1;
         let length = length(30, 8);
         let (wanted, _) = in_parts((&name, &text), &smooth, (&reading, &writing), length);
-        let survey = Survey::of(text.as_slice(), &reading).unwrap();
+        let survey = Survey::of(text.as_slice(), &reading, length).unwrap();
         // One that writes every third part anew, and one that never does.
         for (threads, every) in [(4, 3), (3, usize::MAX)] {
             let order = PartsInOrder::from(0, WrittenSoFar::nothing(&survey, &reading));
-            let parts = Parts::new(text.as_slice(), (&survey, &reading), length);
+            let parts = Parts::of(&survey, &reading).in_order(Cursor::new(&text));
             let parts = Mutex::new(parts.map(Result::unwrap).enumerate());
             let (bytes, again) = (Mutex::default(), AtomicUsize::new(0));
             std::thread::scope(|scope| {
@@ -367,10 +368,10 @@ fn parts_that_are_worked_on_side_by_side_are_written_one_behind_the_other() {
 fn nobody_waits_for_a_part_that_failed() {
     let reading = readings();
     let (_, text) = programs().pop().unwrap();
-    let survey = Survey::of(text.as_slice(), &reading).unwrap();
+    let survey = Survey::of(text.as_slice(), &reading, length(30, 8)).unwrap();
     let order = PartsInOrder::from(0, WrittenSoFar::nothing(&survey, &reading));
-    let parts = Parts::new(text.as_slice(), (&survey, &reading), length(30, 8));
-    let third = parts.map(Result::unwrap).nth(2).unwrap();
+    let parts = Parts::of(&survey, &reading);
+    let third = parts.read(2, Cursor::new(&text)).unwrap();
     std::thread::scope(|scope| {
         let waiting = scope.spawn(|| {
             let place = order.place(2);
@@ -387,4 +388,41 @@ fn nobody_waits_for_a_part_that_failed() {
         assert_eq!(standing, Standing::Ended);
     });
     assert!(order.has_ended() && order.taken() == 0);
+}
+
+/// A part is looked for where it was, and known by its bytes.
+#[test]
+fn a_text_that_was_changed_is_not_read_in_parts() {
+    let reading = readings();
+    let (_, text) = programs().pop().unwrap();
+    let survey = Survey::of(text.as_slice(), &reading, length(30, 8)).unwrap();
+    let parts = Parts::of(&survey, &reading);
+    let count = survey.part_count();
+    let changed = |text: &[u8]| -> Vec<usize> {
+        let is_changed = |index: &usize| {
+            let part = parts.read(*index, Cursor::new(text));
+            matches!(part, Err(PartError::Changed))
+        };
+        (0..count).filter(is_changed).collect()
+    };
+    assert_eq!(count, 14);
+    assert!(changed(&text).is_empty());
+    assert!(matches!(
+        parts.read(count, Cursor::new(&text)),
+        Err(PartError::Changed)
+    ));
+    // Line 66 is the sixth of the third part, and beside the second.
+    let line = |number: usize| {
+        let ends = text.iter().enumerate().filter(|(_, byte)| **byte == b'\n');
+        ends.map(|(at, _)| at + 1).nth(number - 2).unwrap()
+    };
+    let mut other = text.clone();
+    other[line(66) + 4] = b'9';
+    assert_ne!(other, text);
+    assert_eq!(changed(&other), [1, 2]);
+    other.clone_from(&text);
+    other.extend_from_slice(b"(more)\n");
+    assert_eq!(changed(&other), [count - 1]);
+    other.truncate(line(300));
+    assert_eq!(changed(&other), (9..count).collect::<Vec<_>>());
 }

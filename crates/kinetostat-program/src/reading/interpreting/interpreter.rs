@@ -43,6 +43,20 @@ pub(crate) struct Interpreter<'o> {
     pub(super) warnings: Vec<Warning>,
 }
 
+/// What blocks tell of those behind them.
+pub(crate) struct InterpreterState {
+    modes: Modes,
+    offset: PositionOffset,
+    shifts: Shifts,
+    origins_mm: [Option<Vector3<f64>>; 9],
+    rotary_origins: RotaryOrigins,
+    places: Places,
+    ended: Option<usize>,
+    no_feed_warned: bool,
+    first_system: Option<usize>,
+    spindle: SpindleWords,
+}
+
 impl<'o> Interpreter<'o> {
     pub(crate) fn new(options: &'o ReadOptions) -> Self {
         Self {
@@ -72,9 +86,9 @@ impl<'o> Interpreter<'o> {
         }
     }
 
-    /// An interpreter of other blocks from where this one is, in its modes; it has no moves yet.
-    pub(crate) fn following(&self) -> Self {
-        Self {
+    /// All of what was read so far that the blocks behind it depend on.
+    pub(crate) fn state(&self) -> InterpreterState {
+        InterpreterState {
             modes: self.modes.clone(),
             offset: self.offset,
             shifts: self.shifts,
@@ -85,8 +99,29 @@ impl<'o> Interpreter<'o> {
             first_system: self.first_system,
             no_feed_warned: self.no_feed_warned,
             spindle: self.spindle.following(),
-            ..Self::new(self.options)
         }
+    }
+
+    /// An interpreter of the blocks behind others; it has no moves yet.
+    pub(crate) fn behind(options: &'o ReadOptions, state: &InterpreterState) -> Self {
+        Self {
+            modes: state.modes.clone(),
+            offset: state.offset,
+            shifts: state.shifts,
+            origins_mm: state.origins_mm,
+            rotary_origins: state.rotary_origins,
+            places: state.places.clone(),
+            ended: state.ended,
+            first_system: state.first_system,
+            no_feed_warned: state.no_feed_warned,
+            spindle: state.spindle.following(),
+            ..Self::new(options)
+        }
+    }
+
+    /// An interpreter of other blocks from where this one is, in its modes; it has no moves yet.
+    pub(crate) fn following(&self) -> Self {
+        Self::behind(self.options, &self.state())
     }
 
     /// Makes room for so many motions.
@@ -95,13 +130,15 @@ impl<'o> Interpreter<'o> {
         self.knowledge.reserve(motions);
     }
 
-    /// The motions that were read since the last call, each with the axes that are known before and after it.
-    pub(crate) fn take_moves(&mut self) -> impl Iterator<Item = (Move, [[bool; 3]; 2])> + use<> {
+    /// Looks at the motions that were read since the last call, each with the axes that are known before and after it, and keeps none.
+    pub(crate) fn pass_moves(&mut self, mut look: impl FnMut(&Move, [[bool; 3]; 2])) {
         self.events.clear();
         self.pauses.clear();
-        let known = std::mem::take(&mut self.knowledge).into_iter();
-        let known = known.map(|(before, after, _)| [before, after]);
-        std::mem::take(&mut self.moves).into_iter().zip(known)
+        for (motion, (before, after, _)) in self.moves.iter().zip(&self.knowledge) {
+            look(motion, [*before, *after]);
+        }
+        self.moves.clear();
+        self.knowledge.clear();
     }
 
     /// Puts a motion in the place of all that were taken.
