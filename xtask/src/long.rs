@@ -235,6 +235,9 @@ fn run_once(here: &Path, words: &[String]) -> Result<Used> {
     }
 }
 
+/// A run that is killed works on parts side by side; the one that it is compared with does not.
+const KILLED_THREADS: usize = 2;
+
 /// Killed at moments over the length of a run, and gone on with.
 #[allow(clippy::print_stdout)] // figures are the output that was requested
 fn killed(here: &Path, blocks: usize, kills: u64, seconds: f64) -> Result<()> {
@@ -246,7 +249,12 @@ fn killed(here: &Path, blocks: usize, kills: u64, seconds: f64) -> Result<()> {
     let mut done = 0;
     for kill in 0..=kills {
         let mut child = Command::new(binary())
-            .args(question(here, blocks, "killed.ngc", (MACHINE, 1)))
+            .args(question(
+                here,
+                blocks,
+                "killed.ngc",
+                (MACHINE, KILLED_THREADS),
+            ))
             .stdout(Stdio::null())
             .spawn()?;
         if kill < kills {

@@ -182,7 +182,7 @@ impl<'a> LongRun<'a> {
         })
     }
 
-    /// Ctrl-C between two parts, and where parts that are done are read over.
+    /// Ctrl-C between two parts.
     fn refuse_if_cancelled(&self, watch: &Progress) -> Answer<()> {
         match watch.cancelled() {
             true => Err(self.setting.within(Failure::from(RunError::Cancelled))),

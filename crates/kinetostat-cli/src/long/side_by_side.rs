@@ -8,7 +8,7 @@ use kinetostat_program::{Part, PartsInOrder, PlaceInOrder, Standing};
 use crate::ui::failure::Answer;
 use crate::ui::host;
 use crate::ui::progress::Progress;
-use crate::ui::threads::in_threads;
+use crate::ui::threads::{in_threads, not_started};
 
 /// Parts that are in memory at a time, at most: each takes some ten megabytes. Where there are more threads, several solve the points
 /// of one part.
@@ -39,9 +39,9 @@ impl Drop for EndsInPanic<'_, '_> {
     }
 }
 
-/// Reads every part that is not taken yet, of so many, and does the work on it, on a number of threads (all, where none is stated). `work` waits for
-/// the turn of its part, takes it, and says whether it did: what it takes comes in the order of the parts, however many threads
-/// there are. The failure of the first part that fails is that of all.
+/// Reads every part that is not taken yet, of so many, and does the work on it, on a number of threads (all, where none is stated).
+/// `work` waits for the turn of its part, takes it, and says whether it did: what it takes comes in the order of the parts,
+/// however many threads there are. The failure of the first part that fails is that of all.
 pub(crate) fn side_by_side<'o>(
     read: impl Fn(usize) -> Answer<Part> + Sync,
     (order, count, threads): (&PartsInOrder<'o>, usize, Option<usize>),
@@ -68,16 +68,24 @@ pub(crate) fn side_by_side<'o>(
             .map(|index| {
                 let own = threads / at_once + usize::from(index < threads % at_once);
                 let (side, host) = (&side, host.clone());
-                scope.spawn(move || {
-                    host::working_for(host, || in_threads(Some(own), || side.go_through()))
+                let work = move || {
+                    let done =
+                        host::working_for(host, || in_threads(Some(own), || side.go_through()));
+                    done.and_then(|done| done).inspect_err(|_| side.order.end())
+                };
+                let begun = std::thread::Builder::new().spawn_scoped(scope, work);
+                begun.map_err(|error| {
+                    side.order.end();
+                    not_started(threads, &error)
                 })
             })
             .collect();
         let mut all = Ok(());
         for thread in begun {
-            let done = thread
-                .join()
-                .unwrap_or_else(|panic| std::panic::resume_unwind(panic));
+            let done = thread.map(|thread| {
+                let joined = thread.join();
+                joined.unwrap_or_else(|panic| std::panic::resume_unwind(panic))
+            });
             all = all.and(done.and_then(|done| done));
         }
         all
@@ -129,10 +137,7 @@ where
                 }
                 // What it waited for changed while it did.
                 (Ok(false), Standing::Next) => {}
-                (Err(failure), Standing::Next) => {
-                    self.order.end();
-                    return Err(failure);
-                }
+                (Err(failure), Standing::Next) => return Err(failure),
             }
         }
     }

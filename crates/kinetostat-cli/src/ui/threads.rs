@@ -1,5 +1,7 @@
 //! Work on a stated number of threads.
 
+use std::error::Error;
+
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::host;
 
@@ -19,7 +21,12 @@ pub(crate) fn in_threads<R: Send>(
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(count)
         .build()
-        .map_err(|error| Failure::input(format!("{count} threads cannot be started: {error}")))?;
+        .map_err(|error| not_started(count, &error))?;
     let host = host::current();
     Ok(pool.install(|| host::working_for(host, work)))
+}
+
+/// Threads that the system does not give.
+pub(crate) fn not_started(count: usize, error: &dyn Error) -> Failure {
+    Failure::input(format!("{count} threads cannot be started: {error}"))
 }

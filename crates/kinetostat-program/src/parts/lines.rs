@@ -40,8 +40,7 @@ impl<R: BufRead> Lines<R> {
             if found.is_empty() {
                 return Ok(to.len() > start);
             }
-            let end = found.iter().position(|byte| matches!(byte, b'\n' | b'\r'));
-            let Some(end) = end else {
+            let Some(end) = memchr::memchr2(b'\n', b'\r', found) else {
                 let count = found.len();
                 to.extend_from_slice(found);
                 self.from.consume(count);

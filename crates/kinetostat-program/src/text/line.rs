@@ -60,7 +60,7 @@ pub(crate) fn tenths(value: f64) -> u32 {
 
 /// Bytes of the first line without its line ending, and that ending: empty at the end of a file that has none there.
 pub(crate) fn first_line(rest: &[u8]) -> (usize, &[u8]) {
-    let length = rest.iter().position(|byte| matches!(byte, b'\n' | b'\r'));
+    let length = memchr::memchr2(b'\n', b'\r', rest);
     let length = length.unwrap_or(rest.len());
     let ending = match &rest[length..] {
         [b'\r', b'\n', ..] => &rest[length..length + 2],
