@@ -77,11 +77,13 @@ pub use field::request::{
 };
 pub use irregular::irregular;
 pub use machine_program::{Gcode, MachineProgram};
+pub use parts::gcode_part::GcodePart;
 pub use parts::in_order::{PartsInOrder, PlaceInOrder, Standing};
+pub use parts::length::PartLength;
 pub use parts::lines::PartError;
 pub use parts::survey::Survey;
-pub use parts::windows::{Part, PartLength, Parts};
-pub use parts::written_so_far::{GcodePart, WrittenSoFar};
+pub use parts::windows::{Part, Parts};
+pub use parts::written_so_far::WrittenSoFar;
 pub use path::closed_circle::{NearlyClosed, angle_about, last_digit_mm};
 pub use path::curve::{Arc, Curve};
 pub use path::great_circle::{GreatCircle, OffCircle};

@@ -147,10 +147,10 @@ impl<'a> LongRun<'a> {
                 format!("{:#?}", self.targets.program),
             ),
             ("the features", format!("{:#?}", s.features)),
-            (
-                "the length of the parts",
-                format!("{:?}", self.survey.length),
-            ),
+            ("the length of the parts", {
+                let PartLength { own, beside } = self.survey.length;
+                format!("{own} lines and {beside} beside them")
+            }),
         ];
         Manifest(
             fields

@@ -10,9 +10,9 @@ use crate::ui::host;
 use crate::ui::progress::Progress;
 use crate::ui::threads::{in_threads, not_started};
 
-/// Parts that are in memory at a time, at most: each takes some ten megabytes. Where there are more threads, several solve the points
-/// of one part.
-const MOST: usize = 8;
+/// Parts that are in memory at a time, at most: each takes 20 to 60 MB. Where there are more threads, several solve the points of
+/// one part.
+const MOST: usize = 4;
 
 /// What work on a part tells of itself: nothing, for others go on beside it. It is stopped with them.
 struct Beside<'a, 'o> {
@@ -48,11 +48,8 @@ pub(crate) fn side_by_side<'o>(
     progress: &Progress,
     work: impl Fn(&Part, &PlaceInOrder<'_, 'o>, &dyn Watch) -> Answer<bool> + Sync,
 ) -> Answer<()> {
-    let threads = match threads {
-        // The number is a sensible one.
-        Some(count) => in_threads(Some(count), || count)?,
-        None => rayon::current_num_threads(),
-    };
+    // The number is a sensible one, and there are so many.
+    let threads = in_threads(threads, rayon::current_num_threads)?;
     let at_once = threads.min(count.saturating_sub(order.taken()).clamp(1, MOST));
     let side = SideBySide {
         next: AtomicUsize::new(order.taken()),

@@ -11,7 +11,15 @@ pub(crate) fn in_threads<R: Send>(
     work: impl FnOnce() -> R + Send,
 ) -> Answer<R> {
     let Some(count) = threads else {
-        return Ok(work());
+        // Threads of all cores are started with the first work for them, which panics where they cannot be. That they are there
+        // already is no error.
+        let started = rayon::ThreadPoolBuilder::new().build_global();
+        return match started.as_ref().map_err(|error| (error, error.source())) {
+            Err((_, Some(cause))) => Err(Failure::input(format!(
+                "threads for all cores cannot be started: {cause}; --threads 1 needs one"
+            ))),
+            _ => Ok(work()),
+        };
     };
     if !(1..=1024).contains(&count) {
         return Err(Failure::input(format!(

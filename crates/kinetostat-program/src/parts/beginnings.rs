@@ -2,20 +2,25 @@
 
 use std::collections::VecDeque;
 use std::hash::{DefaultHasher, Hasher};
+use std::sync::Arc;
 
-use crate::parts::survey::ByKnown;
-use crate::parts::windows::PartLength;
+use crate::parts::by_known::ByKnown;
+use crate::parts::length::PartLength;
 use crate::reading::interpreting::interpreter::InterpreterState;
 use crate::text::program::ReaderState;
+
+/// What the lines before one tell of those that follow.
+pub(crate) type States = (ReaderState, InterpreterState);
 
 /// Where a part begins: the first line that is looked at for it.
 pub(crate) struct Beginning {
     /// Number of its first own line.
     pub own: usize,
+    /// Number of the first line behind those that are looked at.
+    pub behind: usize,
     /// Bytes before the first line that is looked at.
     pub offset: u64,
-    pub reader: ReaderState,
-    pub interpreter: InterpreterState,
+    pub states: Arc<States>,
     /// Moves before its own.
     pub moves_before: usize,
     /// Their length, from known places.
@@ -25,7 +30,7 @@ pub(crate) struct Beginning {
 }
 
 /// Check number of lines, within one run.
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub(crate) struct Check(DefaultHasher);
 
 impl Check {
@@ -38,19 +43,52 @@ impl Check {
     }
 }
 
+/// A line from which a part may be looked at.
+struct Candidate {
+    line: usize,
+    offset: u64,
+    states: Arc<States>,
+    /// Moves before it.
+    moves: usize,
+    /// Of the lines from it on.
+    check: Check,
+}
+
+/// A part of which lines still come.
+struct Open {
+    part: usize,
+    check: Check,
+    /// Moves before the first line behind its own, once that is reached.
+    moves_to_end: Option<usize>,
+}
+
 /// The same while the survey goes on.
 pub(crate) struct Beginnings {
     length: PartLength,
     found: Vec<(Beginning, ByKnown)>,
-    /// Parts of which lines still come, with the first line behind them.
-    open: VecDeque<(usize, usize, Check)>,
+    candidates: VecDeque<Candidate>,
+    open: VecDeque<Open>,
 }
+
+/// A line that is looked at before it is read.
+pub(crate) struct NextLine<'a> {
+    pub line: usize,
+    /// Bytes before it.
+    pub offset: u64,
+    /// Moves before it, and their lengths as far as a part may begin here.
+    pub before: (usize, ByKnown),
+    pub bytes: &'a [u8],
+}
+
+/// So many lines without a motion beside those of a part are looked at, at least; of more the motions on the other side are not known.
+const FAR: usize = 1000;
 
 impl Beginnings {
     pub fn new(length: PartLength) -> Self {
         Self {
             length,
             found: Vec::new(),
+            candidates: VecDeque::new(),
             open: VecDeque::new(),
         }
     }
@@ -59,69 +97,93 @@ impl Beginnings {
         self.length.own.max(1)
     }
 
+    fn beside(&self) -> usize {
+        self.length.beside.max(1)
+    }
+
+    /// Lines beside a part that are looked at, at most: whatever a program is, its parts are read in proportion to its length.
+    fn far(&self) -> usize {
+        (self.own() + self.beside()).max(FAR)
+    }
+
     /// Whether a part begins with this line.
     pub fn is_first_own(&self, line: usize) -> bool {
         (line - 1).is_multiple_of(self.own())
     }
 
     /// Looks at a line before it is read; `states` are those behind the lines before it.
-    pub fn look(
-        &mut self,
-        line: usize,
-        offset: u64,
-        states: impl Fn() -> (ReaderState, InterpreterState),
-        bytes: &[u8],
-    ) {
-        // Several begin with the first line, where parts are shorter than what is looked at beside them.
-        loop {
-            let own = 1 + self.found.len() * self.own();
-            if line < own.saturating_sub(self.length.looked_beside()).max(1) {
-                break;
-            }
-            let (reader, interpreter) = states();
+    pub fn look(&mut self, next: &NextLine<'_>, states: impl FnOnce() -> States) {
+        let (line, (moves, lengths)) = (next.line, next.before);
+        let (beside, far) = (self.beside(), self.far());
+        let is_candidate = self.candidates.back().is_none_or(|last| {
+            moves >= last.moves + beside.div_ceil(2) || line >= last.line + far.div_ceil(2)
+        });
+        if is_candidate {
+            self.candidates.push_back(Candidate {
+                line,
+                offset: next.offset,
+                states: Arc::new(states()),
+                moves,
+                check: Check::default(),
+            });
+        }
+        let does = |second: &Candidate| moves >= second.moves + beside || line >= second.line + far;
+        while self.candidates.get(1).is_some_and(does) {
+            self.candidates.pop_front();
+        }
+        if self.is_first_own(line)
+            && let Some(first) = self.candidates.front()
+        {
             let beginning = Beginning {
-                own,
-                offset,
-                reader,
-                interpreter,
-                moves_before: 0,
+                own: line,
+                behind: 0,
+                offset: first.offset,
+                states: first.states.clone(),
+                moves_before: moves,
                 before_mm: 0.0,
                 check: 0,
             };
-            let behind = own + self.own() + self.length.looked_beside();
-            self.open
-                .push_back((self.found.len(), behind, Check::default()));
-            self.found.push((beginning, ByKnown::default()));
+            self.open.push_back(Open {
+                part: self.found.len(),
+                check: first.check.clone(),
+                moves_to_end: None,
+            });
+            self.found.push((beginning, lengths));
         }
-        let is_over = |(_, behind, _): &(usize, usize, Check)| *behind <= line;
-        while self.open.front().is_some_and(is_over) {
-            let over = self.open.pop_front();
-            if let Some((part, _, check)) = over {
-                self.found[part].0.check = check.number();
-            }
-        }
-        for (_, _, check) in &mut self.open {
-            check.add(bytes);
-        }
+        self.close(line, moves);
+        let candidates = self.candidates.iter_mut().map(|c| &mut c.check);
+        let open = self.open.iter_mut().map(|open| &mut open.check);
+        candidates
+            .chain(open)
+            .for_each(|check| check.add(next.bytes));
     }
 
-    /// Notes what comes before a line, if a part begins there.
-    pub fn note(&mut self, line: usize, (moves, lengths): (usize, ByKnown)) {
-        let part = (line - 1) / self.own();
-        if self.is_first_own(line)
-            && let Some((beginning, before)) = self.found.get_mut(part)
-        {
-            (beginning.moves_before, *before) = (moves, lengths);
-        }
+    /// Ends parts of which enough is seen before a line.
+    fn close(&mut self, line: usize, moves: usize) {
+        let (own, beside, far) = (self.own(), self.beside(), self.far());
+        let found = &mut self.found;
+        self.open.retain_mut(|open| {
+            let beginning = &mut found[open.part].0;
+            let end = beginning.own + own;
+            if line < end {
+                return true;
+            }
+            let to_end = *open.moves_to_end.get_or_insert(moves);
+            let is_seen = line > end && (moves >= to_end + beside || line >= end + far);
+            if is_seen {
+                (beginning.behind, beginning.check) = (line, open.check.number());
+            }
+            !is_seen
+        });
     }
 
     /// The parts of a program of so many lines, which states these axes.
     pub fn finish(mut self, lines: usize, stated: [bool; 3]) -> Vec<Beginning> {
-        for (part, _, check) in self.open {
-            self.found[part].0.check = check.number();
+        for open in self.open {
+            let beginning = &mut self.found[open.part].0;
+            (beginning.behind, beginning.check) = (lines + 1, open.check.number());
         }
-        let count = lines.div_ceil(self.length.own.max(1));
-        let found = self.found.into_iter().take(count);
+        let found = self.found.into_iter();
         let found = found.map(|(beginning, before)| Beginning {
             before_mm: before.whole_mm(stated),
             ..beginning

@@ -2,9 +2,10 @@
 
 use std::io::BufRead;
 
-use crate::parts::beginnings::{Beginning, Beginnings};
+use crate::parts::beginnings::{Beginning, Beginnings, NextLine};
+use crate::parts::by_known::{ByKnown, covers, index_of};
+use crate::parts::length::PartLength;
 use crate::parts::lines::{Lines, PartError};
-use crate::parts::windows::PartLength;
 use crate::path::curve::Curve;
 use crate::path::moves::{Move, MoveKind, Warning};
 use crate::reading::interpreting::interpreter::Interpreter;
@@ -49,35 +50,11 @@ pub struct Survey {
     pub(crate) parts: Vec<Beginning>,
 }
 
-/// Lengths by the axes that are known before the moves: which of them count is clear only when all axes are that are stated.
-#[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct ByKnown([f64; 8]);
-
-impl ByKnown {
-    fn add(&mut self, known: [bool; 3], length_mm: f64) {
-        self.0[index_of(known)] += length_mm;
-    }
-
-    /// Of the moves from known places, in a program that states these axes.
-    pub fn whole_mm(&self, stated: [bool; 3]) -> f64 {
-        let counts = (0..8).filter(|index| covers(*index, stated));
-        counts.map(|index| self.0[index]).sum()
-    }
-}
-
 /// Blocks by the axes that are known behind them.
 #[derive(Debug, Clone, Copy, Default)]
 struct Behind {
     moves: usize,
     first_line: usize,
-}
-
-fn index_of(known: [bool; 3]) -> usize {
-    (0..3).map(|axis| usize::from(known[axis]) << axis).sum()
-}
-
-fn covers(index: usize, stated: [bool; 3]) -> bool {
-    (0..3).all(|axis| index >> axis & 1 == 1 || !stated[axis])
 }
 
 /// A survey that is being made.
@@ -140,10 +117,15 @@ impl Survey {
                     is_last = true;
                     break;
                 }
-                let number = surveyor.found.lines + 1;
-                let at = surveyor.found.bytes;
+                let moves = surveyor.found.moves + interpreter.move_count();
+                let next = NextLine {
+                    line: surveyor.found.lines + 1,
+                    offset: surveyor.found.bytes,
+                    before: (moves, surveyor.all),
+                    bytes: &line,
+                };
                 let states = || (reader.state(), interpreter.state());
-                surveyor.beginnings.look(number, at, states, &line);
+                surveyor.beginnings.look(&next, states);
                 if surveyor.found.lines == 0 {
                     surveyor.note_ending(&line);
                 }
@@ -161,8 +143,6 @@ impl Survey {
                 return surveyor.finish(interpreter, &reader);
             }
             reader.keep_nothing();
-            let so_far = (surveyor.found.moves, surveyor.all);
-            surveyor.beginnings.note(surveyor.found.lines + 1, so_far);
         }
     }
 

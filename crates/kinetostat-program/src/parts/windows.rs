@@ -11,33 +11,6 @@ use crate::reading::interpreting::interpreter::Interpreter;
 use crate::reading::options::ReadOptions;
 use crate::text::program::{PartOfText, Program, Reader};
 
-/// How long the parts are.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct PartLength {
-    /// Lines that are a part's own.
-    pub own: usize,
-    /// Lines on either side that say how these begin and end.
-    pub beside: usize,
-}
-
-impl PartLength {
-    /// One line behind tells that there are more.
-    pub(crate) fn looked_beside(self) -> usize {
-        self.beside.max(1)
-    }
-}
-
-impl Default for PartLength {
-    /// 5 000 lines, and 256 on either side. It is the same everywhere: which bytes are written must not depend on a machine's
-    /// memory.
-    fn default() -> Self {
-        Self {
-            own: 5_000,
-            beside: 256,
-        }
-    }
-}
-
 /// A part of a program.
 #[derive(Debug, Clone)]
 pub struct Part {
@@ -116,9 +89,9 @@ impl<'o> Parts<'o> {
         let beginning = survey.parts.get(index).ok_or(PartError::Changed)?;
         let next = survey.parts.get(index + 1);
         let end = next.map_or(survey.lines + 1, |next| next.own);
-        let beside = survey.length.looked_beside();
-        // Behind the last there is nothing.
-        let most = end - 1 + beside - beginning.reader.lines;
+        // Behind the last line there is none.
+        let more = usize::from(beginning.behind > survey.lines);
+        let most = beginning.behind - 1 - beginning.states.0.lines + more;
         text.seek(SeekFrom::Start(beginning.offset))?;
         let mut lines = Lines::new(text);
         let (mut held, mut ends) = (Vec::new(), Vec::new());
@@ -132,8 +105,8 @@ impl<'o> Parts<'o> {
         if check.number() != beginning.check {
             return Err(PartError::Changed);
         }
-        let mut reader = Reader::following(&beginning.reader);
-        let mut interpreter = Interpreter::behind(self.reading, &beginning.interpreter);
+        let mut reader = Reader::following(&beginning.states.0);
+        let mut interpreter = Interpreter::behind(self.reading, &beginning.states.1);
         reader.reserve(ends.len(), held.len());
         interpreter.reserve(ends.len());
         let mut start = 0;

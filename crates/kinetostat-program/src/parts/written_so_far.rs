@@ -2,22 +2,14 @@
 
 use std::io::BufRead;
 
-use crate::checking::verifier::Verification;
-use crate::checking::verify::against_input;
-use crate::error::{ProgramError, WriteError};
-use crate::field::request::{CorrectionField, Monitor};
-use crate::machine_program::MachineProgram;
-use crate::parts::in_order::PlaceInOrder;
+use crate::error::ProgramError;
 use crate::parts::lines::{Lines, PartError};
 use crate::parts::survey::Survey;
-use crate::parts::windows::Part;
 use crate::path::moves::Path;
 use crate::reading::interpreting::interpreter::Interpreter;
 use crate::reading::options::ReadOptions;
 use crate::text::line::first_line;
 use crate::text::program::{PartOfText, Program, Reader, ReaderState};
-use crate::writing::options::WriteOptions;
-use crate::writing::write::Divided;
 use crate::writing::writer_state::WriterState;
 use crate::writing::written::Corrected;
 
@@ -83,7 +75,10 @@ impl<'o> WrittenSoFar<'o> {
     }
 
     /// What was written of a part, read again behind all that was written before, and where the written program stands behind it.
-    fn read_again(&self, written: &Corrected) -> Result<(Program, Path, Self), ProgramError> {
+    pub(crate) fn read_again(
+        &self,
+        written: &Corrected,
+    ) -> Result<(Program, Path, Self), ProgramError> {
         let bytes = written.bytes.as_slice();
         let mut reader = Reader::following(&self.reader);
         let mut interpreter = self.interpreter.following();
@@ -110,56 +105,5 @@ impl<'o> WrittenSoFar<'o> {
         });
         let path = interpreter.finish_part(&program, self.survey.stated)?;
         Ok((program, path, behind))
-    }
-}
-
-/// A part of a program in G-code, to be written behind the parts before it.
-pub struct GcodePart<'a, 'o> {
-    /// The part.
-    pub part: &'a Part,
-    /// Its place among the others.
-    pub place: &'a PlaceInOrder<'a, 'o>,
-}
-
-impl MachineProgram for GcodePart<'_, '_> {
-    fn bytes(&self) -> &[u8] {
-        self.part.program.own_bytes()
-    }
-
-    fn statement_count(&self) -> usize {
-        self.part.program.block_count()
-    }
-
-    fn path(&self) -> &Path {
-        &self.part.path
-    }
-
-    fn write(
-        &self,
-        field: &dyn CorrectionField,
-        options: &WriteOptions,
-        monitor: &dyn Monitor,
-    ) -> Result<Corrected, WriteError> {
-        let (program, path) = (&self.part.program, &self.part.path);
-        let divided = Divided::of((program, path), (field, options), monitor)?;
-        let before = self.place.before().ok_or(WriteError::Cancelled)?;
-        divided.emit(before.writer())
-    }
-
-    fn verify(
-        &self,
-        written: &Corrected,
-        options: &WriteOptions,
-    ) -> Result<Verification, WriteError> {
-        let before = self.place.before().ok_or(WriteError::Cancelled)?;
-        let again = before.read_again(written);
-        let (output, output_path, behind) = again.map_err(|error| WriteError::Verification {
-            line: 0,
-            output_line: error.line,
-            what: format!("it cannot be read again: {error}"),
-        })?;
-        self.place.put_behind(behind);
-        let input = (&self.part.program, &self.part.path);
-        against_input(input, (&output, &output_path), written, options)
     }
 }

@@ -147,6 +147,11 @@ impl<'o> Interpreter<'o> {
         self.knowledge.push(([true; 3], [true; 3], false));
     }
 
+    /// How many motions were read since they were last looked at.
+    pub(crate) fn move_count(&self) -> usize {
+        self.moves.len()
+    }
+
     /// The last motion that was read.
     pub(crate) fn last_move(&self) -> Option<&Move> {
         self.moves.last()
