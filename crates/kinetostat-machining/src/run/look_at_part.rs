@@ -1,7 +1,5 @@
 //! The first look at a long program, part by part.
 
-use kinetostat::number::smaller;
-
 use crate::load::along_path::LoadAlongPath;
 use crate::run::first_look::FirstLook;
 use crate::run::of_whole::OfWhole;
@@ -9,14 +7,14 @@ use crate::run::preparation::{load, refuse};
 use crate::task::{RunError, Task};
 use crate::watch::Watch;
 
-/// A first look at a part, with what was found in those before it; `compensate`: it is to be corrected. What takes hours to be solved
-/// everywhere is refused here, at some places of every part; the smallest stiffness is that of the places which a first look at
-/// the whole program takes, so that it does not depend on how long the parts are.
+/// A first look at a part of a whole program, to be added to what is found in the others; `compensate`: it is to be corrected. What
+/// takes hours to be solved everywhere is refused here, at some places of every part; the smallest stiffness is that of the places
+/// which a first look at the whole program takes, so that it does not depend on how long the parts are.
 ///
 /// # Errors
 /// A load under which the machine folds over, or corrections that are beyond their limits by far.
 pub fn look_at_part(
-    before: OfWhole,
+    whole: OfWhole,
     task: &Task<'_>,
     compensate: bool,
     watch: &dyn Watch,
@@ -27,9 +25,9 @@ pub fn look_at_part(
         true => looked.gross(task),
         false => looked.folding_load(task),
     })?;
-    let of_whole = FirstLook::of_whole(task, &load, before.moves, watch)?;
+    let of_whole = FirstLook::of_whole(task, &load, whole.moves, watch)?;
     Ok(OfWhole {
-        stiffness_n_per_mm: smaller(before.stiffness_n_per_mm, of_whole.stiffness()),
-        ..before
+        stiffness_n_per_mm: of_whole.stiffness(),
+        ..whole
     })
 }

@@ -107,9 +107,10 @@ fn in_parts(
             part: &part,
             place: &none_written.place(0),
         };
-        of_whole = with_task(machine, &program, |task| {
+        let looked = with_task(machine, &program, |task| {
             look_at_part(of_whole, task, compensate, &Unwatched).expect("look")
         });
+        of_whole.add(&looked);
     }
     let (mut merged, mut bytes, mut points) = (MergedRun::default(), Vec::new(), Vec::new());
     let order = order();
