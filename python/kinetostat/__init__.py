@@ -24,7 +24,7 @@ from kinetostat.errors import (
 )
 from kinetostat.force_models import ForceModel, ModelEquilibria, equilibrium_under
 from kinetostat.machine import Actuator, Machine, preset_names
-from kinetostat.posture import Direction, Equilibrium, LimitViolation, Posture, Stiffness
+from kinetostat.posture import Direction, Equilibrium, LimbStiffness, LimitViolation, Posture, Stiffness
 from kinetostat.problem import EquilibriumProblem
 from kinetostat.program import Corrected, correct_program
 from kinetostat.progress import bar
@@ -67,6 +67,7 @@ __all__ = [
     "FoundBy",
     "KinetostatError",
     "LimbBuilder",
+    "LimbStiffness",
     "LimitViolation",
     "Machine",
     "MachineBuilder",

@@ -80,16 +80,20 @@ class ModelEquilibria:
 
 
 def _stable(
-    machine: Machine, postures: Callable[[int], Posture], known: Equilibria, tangents: Floats, done: NDArray[np.bool_]
+    machine: Machine,
+    postures: Callable[[int], Posture],
+    known: Equilibria,
+    stiffness: Floats,
+    tangents: Floats,
+    done: NDArray[np.bool_],
 ) -> NDArray[np.bool_]:
     """Whether machine and model together are stable, where there is an answer."""
-    assert known.stiffness is not None
     assert known.share_to_buckling is not None
     out = done & ~(known.share_to_buckling >= 1)
     # Rotations at the machine's natural length: there, rigid directions are at right angles to the others.
     length = np.repeat([1.0, machine._native.natural_length()], 3)
     for at in np.flatnonzero(out):
-        both, alone = ((k + k.T) / 2 / length[:, None] / length for k in (tangents[at], known.stiffness[at]))
+        both, alone = ((k + k.T) / 2 / length[:, None] / length for k in (tangents[at], stiffness[at]))
         zero = _ROUNDING * max(np.abs(both).max(), np.abs(alone).max())
         if (np.abs(np.linalg.eigvalsh(alone)) <= zero).any():
             # Free or rigid: a model moves nothing where the machine is rigid.
@@ -201,13 +205,18 @@ def equilibrium_under(
     flat, leading = poses_of(machine._native, commanded)
     loads = _called("model", model, flat, (6,))
     answer, slope = None, np.zeros((len(flat), 6, 6))
+    moving = slope
+
+    def posture_at(at: int) -> Posture:
+        return where if isinstance(where, Posture) else machine.posture(pose=flat[at])
+
     unbalanced = np.full((len(flat), 6), np.nan)
     done = np.zeros(len(flat), dtype=bool)
     iterations = 0
     while iterations < most:
         iterations += 1
         answer = _solved(where, machine, flat, loads, threads)
-        assert answer.stiffness is not None
+        moving = _of_what_moves(machine, posture_at, answer, loads)
         good = np.flatnonzero(answer.solved)
         unbalanced[:] = np.nan
         if len(good) == 0:
@@ -220,7 +229,7 @@ def equilibrium_under(
         open_ = good[~done[good]]
         if len(open_) == 0:
             break
-        k = answer.stiffness[open_]
+        k = moving[open_]
         moved = _stepped(k - slope[open_], unbalanced[open_])
         loads[open_] += np.einsum("nij,nj->ni", k, moved)
     assert answer is not None
@@ -237,12 +246,24 @@ def equilibrium_under(
         equilibria=Equilibria(**shaped),
         stable=_stable(
             machine,
-            lambda at: where if isinstance(where, Posture) else machine.posture(pose=flat[at]),
+            posture_at,
             answer,
-            answer.stiffness - slope,
+            moving,
+            moving - slope,
             done,
         ).reshape(leading),
     )
+
+
+def _of_what_moves(machine: Machine, postures: Callable[[int], Posture], known: Equilibria, loads: Floats) -> Floats:
+    """Stiffness of the motions that the machine can make, zero along rigid directions."""
+    assert known.stiffness is not None
+    out = known.stiffness.copy()
+    length = np.repeat([1.0, machine._native.natural_length()], 3)
+    for at in np.flatnonzero(known.solved & np.isnan(out).any(axis=(1, 2))):
+        compliance = postures(int(at)).deflected_by(loads[at]).compliance
+        out[at] = np.linalg.pinv(compliance * length[:, None] * length, rcond=1e-12) * length[:, None] * length
+    return out
 
 
 def _stepped(matrices: Floats, wrenches: Floats) -> Floats:

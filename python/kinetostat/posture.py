@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from kinetostat.shares import Shares
     from kinetostat.vibration import Vibration
 
-__all__ = ["Direction", "Equilibrium", "LimitViolation", "Posture", "Stiffness"]
+__all__ = ["Direction", "Equilibrium", "LimbStiffness", "LimitViolation", "Posture", "Stiffness"]
 
 
 class Direction(NamedTuple):
@@ -48,6 +48,52 @@ class Direction(NamedTuple):
     """(6,): the motion, m and rad, base axes, about the tool's reference point; its longest part is 1 m."""
     behind: list[dict[str, Any]]
     """Joints and springs that move in it, of free and negative directions."""
+
+
+class LimbStiffness(NamedTuple):
+    """Tangent stiffness of a limb at its end, with the motions of its joints and springs [R 4.25, 6.5, 6.8]; base axes.
+
+    A motion ``dt`` of the platform (m, rad, about its reference point) is ``T dt`` at the limb's end, with ``T`` of :attr:`to_end`. The
+    limb's share in the stiffness of the platform is ``T.T @ matrix @ T``, and ``lever`` more in the rotations.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import kinetostat as ks
+    >>> loaded = ks.Machine.preset("stewart_gough_b").posture().deflected_by([0, 0, -1000, 0, 0, 0])
+    >>> total = np.zeros((6, 6))
+    >>> for limb in loaded.limbs:
+    ...     total += limb.to_end.T @ limb.matrix @ limb.to_end
+    ...     total[3:, 3:] += limb.lever
+    >>> bool(np.allclose(total, loaded.stiffness, rtol=1e-6, atol=1e-3))
+    True
+    """
+
+    name: str
+    platform: str
+    """Platform at the limb's end."""
+    arm: Floats
+    """(3,): from the platform's reference point to the limb's end, m."""
+    matrix: Floats
+    """(6, 6): ``K_C`` at the limb's end, N/m, N/rad; N m/m, N m/rad; NaN along axes that the limb cannot move along."""
+    passive_joints: tuple[str, ...]
+    """Names of the rows of ``passive``."""
+    passive: Floats
+    """(passive joints, 6): ``K_Cq``, m or rad per m and rad of the limb's end."""
+    spring_names: tuple[str, ...]
+    """Names of the rows of ``springs``."""
+    springs: Floats
+    """(springs, 6): ``K_Ctheta``, m or rad per m and rad of the limb's end."""
+    lever: Floats
+    """(3, 3): stiffness of rotations of the platform by the limb's force at its arm, N m/rad; zero without a load."""
+
+    @property
+    def to_end(self) -> Floats:
+        """(6, 6): ``T``, from the motion of the platform to that of the limb's end."""
+        x, y, z = self.arm
+        out = np.eye(6)
+        out[:3, 3:] = [[0, z, -y], [-z, 0, x], [y, -x, 0]]
+        return out
 
 
 class LimitViolation(NamedTuple):
@@ -80,6 +126,24 @@ def _directions(text: str) -> tuple[Direction, ...]:
     return tuple(of(found) for found in json.loads(text))
 
 
+def _limbs(text: str) -> tuple[LimbStiffness, ...]:
+    def rows(own: list[dict[str, Any]]) -> tuple[tuple[str, ...], Floats]:
+        return tuple(r["name"] for r in own), np.array([r["per_motion_of_end"] for r in own], dtype=float).reshape(-1, 6)
+
+    return tuple(
+        LimbStiffness(
+            limb["name"],
+            limb["platform"],
+            np.array(limb["arm_m"], dtype=float),
+            np.array(limb["stiffness_n_m_rad"], dtype=float),
+            *rows(limb["passive_joints"]),
+            *rows(limb["springs"]),
+            np.array(limb["lever_n_m_per_rad"], dtype=float),
+        )
+        for limb in json.loads(text)
+    )
+
+
 @final
 class Stiffness:
     """Cartesian stiffness of an unloaded posture of the machine as drawn [R 3.37-3.43].
@@ -103,7 +167,10 @@ class Stiffness:
 
     @property
     def matrix(self) -> Floats:
-        """(6, 6): N/m, N/rad; N m/m, N m/rad; base axes, about the tool's reference point."""
+        """(6, 6): N/m, N/rad; N m/m, N m/rad; base axes, about the tool's reference point.
+
+        NaN in the rows and columns of axes that a rigid direction has a part in: there it is infinite, and :attr:`compliance` holds.
+        """
         return self._native.matrix
 
     @property
@@ -125,6 +192,11 @@ class Stiffness:
     def directions(self) -> tuple[Direction, ...]:
         """Principal directions."""
         return _directions(self._native.directions_json())
+
+    @property
+    def limbs(self) -> tuple[LimbStiffness, ...]:
+        """Stiffness of every limb at its end, in the order of the machine."""
+        return _limbs(self.posture._native.limbs_of_stiffness(self._native))
 
     def __reduce__(self) -> tuple[Any, ...]:
         return Posture.stiffness, (self.posture,)
@@ -173,7 +245,10 @@ class Equilibrium:
 
     @property
     def stiffness(self) -> Floats:
-        """(6, 6): tangent stiffness; N/m, N/rad; N m/m, N m/rad; base axes, about the tool's reference point."""
+        """(6, 6): tangent stiffness; N/m, N/rad; N m/m, N m/rad; base axes, about the tool's reference point.
+
+        NaN in the rows and columns of axes that a rigid direction has a part in: there it is infinite, and :attr:`compliance` holds.
+        """
         return self._native.stiffness
 
     @property
@@ -228,6 +303,11 @@ class Equilibrium:
     def directions(self) -> tuple[Direction, ...]:
         """Principal directions of the tangent stiffness."""
         return _directions(self._native.directions_json())
+
+    @property
+    def limbs(self) -> tuple[LimbStiffness, ...]:
+        """Stiffness of every limb at its end, in the order of the machine."""
+        return _limbs(self.posture._native.limbs_of_equilibrium(self._native))
 
     def __reduce__(self) -> tuple[Any, ...]:
         kind, value = self._question

@@ -49,7 +49,8 @@ class Stiffnesses(_OfMany):
     """
 
     matrix: Floats
-    """(..., 6, 6): N/m, N/rad; N m/m, N m/rad; base axes, about the tool's reference point. NaN where unsolved."""
+    """(..., 6, 6): N/m, N/rad; N m/m, N m/rad; base axes, about the tool's reference point. NaN where unsolved, and along axes that
+    a rigid direction has a part in."""
     commands: Floats
     """(..., actuators): m or rad."""
 
@@ -89,7 +90,7 @@ class Equilibria(_OfMany):
     actuator_forces: Floats
     """(..., actuators): N or N m, of the loads on the actuators."""
     stiffness: Floats | None = None
-    """(..., 6, 6): tangent stiffness; none with ``details="rest"``."""
+    """(..., 6, 6): tangent stiffness, NaN along axes that a rigid direction has a part in; none with ``details="rest"``."""
     stable: NDArray[np.bool_] | None = None
     """(...,): every limb keeps its shape and the platform its place; False where unsolved. None unless
     ``details="stability"``."""

@@ -10,7 +10,7 @@ use crate::arrays::{Numbers, array, matrix_of, one_pose, one_wrench};
 use crate::equilibrium::Equilibrium;
 use crate::errors::of_core;
 use crate::plausibility::of_load;
-use crate::stiffness::Stiffness;
+use crate::stiffness::{Stiffness, json_of};
 
 /// A machine whose actuators are commanded.
 #[pyclass(frozen, module = "kinetostat._core")]
@@ -60,6 +60,16 @@ impl Posture {
     /// Cartesian stiffness of the unloaded machine as drawn.
     fn stiffness(&self) -> PyResult<Stiffness> {
         Stiffness::of(&self.0)
+    }
+
+    /// Stiffness of every limb as JSON, of a stiffness of this posture.
+    fn limbs_of_stiffness(&self, found: &Stiffness) -> PyResult<String> {
+        json_of(&found.0.limb_stiffnesses(&self.0))
+    }
+
+    /// Stiffness of every limb as JSON, of an equilibrium of this posture.
+    fn limbs_of_equilibrium(&self, found: &Equilibrium) -> PyResult<String> {
+        json_of(&found.0.limb_stiffnesses(self.0.mechanism()))
     }
 
     /// Equilibrium under a wrench (6,) on the tool: force (N), moment (N m), base axes, about its reference point. What is beyond

@@ -71,6 +71,7 @@ mod poses;
 mod programs;
 mod refusals;
 mod reproduce;
+mod rigid_directions;
 mod robot_oracle;
 mod robot_programs;
 mod robots_converted;

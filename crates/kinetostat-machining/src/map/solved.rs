@@ -233,8 +233,9 @@ impl Solved {
             }
             self.softest = stability.stiffness_against_force;
             let matrix = Matrix6::from_fn(|r, c| found.stiffness.get(i, 6 * r + c));
-            // Zero: a direction is free, which the general engine names.
-            let inverse = match stability.stiffness_against_force == 0.0 {
+            // A direction is free (zero) or rigid (NaN), which the general engine names.
+            let rigid = matrix.iter().any(|x| x.is_nan());
+            let inverse = match rigid || stability.stiffness_against_force == 0.0 {
                 true => None,
                 false => matrix.try_inverse(),
             };

@@ -7,6 +7,7 @@
 use crate::chain::directions::{Direction, DirectionKind, Share, largest};
 use crate::chain::stiffness::ChainStiffness;
 use crate::model::mechanism::Mechanism;
+use crate::number::smaller;
 use crate::spatial::{Pose, Twist};
 
 /// Names what takes part at the directions where that is of interest: nothing holds them, or loads drive them away.
@@ -20,6 +21,38 @@ pub(crate) fn name_participation(
             DirectionKind::Free | DirectionKind::Negative
         ) {
             direction.participation = participation(&direction.twist);
+        }
+    }
+}
+
+/// Joints that move this many times as far as the tool make the direction rigid under a load: its tangent stiffness would be
+/// that of a motion below 1 um per metre of the machine.
+const NEARLY_RIGID: f64 = 1e3;
+
+/// Such a direction is at least this many times as stiff as the softest.
+pub(crate) const NEARLY_RIGID_SPREAD: f64 = NEARLY_RIGID * NEARLY_RIGID;
+
+/// Declares rigid what only the deflection under the load lets move (a wrist that is stretched in the commanded posture).
+pub(crate) fn lock_nearly_rigid(
+    directions: &mut [Direction],
+    length: f64,
+    participation: impl Fn(&Twist) -> Vec<Share>,
+) {
+    let finite = |d: &&Direction| d.kind == DirectionKind::Finite;
+    let softest = directions
+        .iter()
+        .filter(finite)
+        .map(|d| d.stiffness_n_per_m);
+    let stiff = NEARLY_RIGID_SPREAD * softest.fold(f64::INFINITY, smaller);
+    for direction in directions {
+        if direction.kind != DirectionKind::Finite || direction.stiffness_n_per_m < stiff {
+            continue;
+        }
+        let motion = participation(&direction.twist);
+        let square: f64 = motion.iter().map(|s| s.size(length).powi(2)).sum();
+        if square > NEARLY_RIGID_SPREAD {
+            direction.kind = DirectionKind::Rigid;
+            direction.stiffness_n_per_m = f64::INFINITY;
         }
     }
 }
