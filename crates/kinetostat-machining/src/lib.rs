@@ -17,17 +17,20 @@ mod joints;
 mod limits;
 mod load;
 mod map;
+mod measured_frame;
 mod near;
 mod placement;
 mod postures;
 mod profile;
 mod result;
+mod rigid_motion;
 mod run;
 mod table;
 mod task;
 mod verify;
 mod warning;
 mod watch;
+mod weight_correction;
 
 pub use arm_joints::ArmJoints;
 pub use bounds::{Bounds, ToolGiven};
@@ -99,6 +102,7 @@ pub use result::tolerance::{
     MissedTolerance, ToleranceResult, keeps_as_it_is, of_table, unchanged_text,
 };
 pub use result::uncertainty_band::{BandPlace, ScatteredError, UncertainNumber, UncertaintyBand};
+pub use rigid_motion::{nearest_rotation, rigid_motion};
 pub use run::compensate::{analyse, analyse_part, compensate_part, compensate_program};
 pub use run::conclude::{Run, load_description, of_program};
 pub use run::cutting::{cut_places, cutting_result};
@@ -117,3 +121,4 @@ pub use verify::{
 };
 pub use warning::{Warning, WarningCode};
 pub use watch::{Unwatched, Watch};
+pub use weight_correction::{TouchOff, TouchOffError, WeightCorrection};

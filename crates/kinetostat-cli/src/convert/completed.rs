@@ -58,6 +58,10 @@ pub(crate) fn complete(
             &of_job,
         )?;
         template.tool.frame.pose = Some(tool);
+        if let (None, Some(own)) = (template.tool.mass_kg, machine.tool_mass) {
+            template.tool.mass_kg = Some(own.mass_kg);
+            template.tool.centre_of_mass_mm = Some(own.centre_mm);
+        }
     }
     let stated = flags.tool_orientation.is_some()
         || job.is_some_and(|j| j.job.placement.tool_orientation.is_some());

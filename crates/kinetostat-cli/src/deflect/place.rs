@@ -76,6 +76,8 @@ fn refuse_program_flags(args: &DeflectArgs) -> Answer<()> {
         ("--part-orientation", p.part_orientation.is_some()),
         ("--tool-orientation", p.tool_orientation.is_some()),
         ("--below-z-mm", p.below_z_mm.is_some()),
+        ("--weight", p.weight.is_some()),
+        ("--touch-off", p.touch_off.is_some()),
         ("--load-axes", p.load_axes.is_some()),
         ("--load-at-corners", p.load_at_corners.is_some()),
         ("--scale", p.scale.is_some()),

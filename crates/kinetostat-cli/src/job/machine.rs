@@ -4,7 +4,9 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use kinetostat::Mechanism;
-use kinetostat_machining::{Bounds, FileRead, Placement, ProgramLoad, RunInputs, ToolGiven};
+use kinetostat_machining::{
+    Bounds, FileRead, Placement, ProgramLoad, RunInputs, ToolGiven, WeightCorrection,
+};
 use kinetostat_model::Model;
 use kinetostat_program::{RotaryAxes, WriteOptions};
 
@@ -22,7 +24,9 @@ use crate::job::robot::machine::{
     placement_of_robot, tool_of_robot, tools_of_converted, tools_of_robot,
 };
 use crate::job::rotary::rotary;
+use crate::job::tool_mass::{ToolMass, carrying, tool_mass};
 use crate::job::tools::{numbered_tools, tool};
+use crate::job::weight::weight;
 use crate::machine::model_warnings::deviation_descriptions;
 use crate::machine::stiffness_list;
 use crate::place::orientation;
@@ -34,6 +38,8 @@ pub(crate) struct MachineSetup {
     pub(crate) mechanism: Mechanism,
     pub(crate) placement: Placement,
     pub(crate) load: ProgramLoad,
+    pub(crate) weight: WeightCorrection,
+    pub(crate) tool_mass: Option<ToolMass>,
     /// The cuts that the load is computed from, where the job names a material.
     pub(crate) cut: Option<CutSetup>,
     /// Forces that were measured, where the job has them.
@@ -111,19 +117,25 @@ pub(crate) fn machine_setup(
 ) -> Answer<(MachineSetup, Model)> {
     let named = read_model(files, job, flag_model)?;
     inputs.extend(named.path);
-    let model = with_deviations(named.model, job)?;
-    refuse_rigid(&model)?;
-    let fingerprint = fingerprint(&model);
     let (mut tool, mut tool_words) = tool(job, flags)?;
     if let Some(frames) = frames {
         (tool, tool_words) = tool_of_robot(frames, job, flags, (tool, tool_words))?;
     }
+    let tool_mass = tool_mass(job, &tool)?;
+    let mut model = with_deviations(named.model, job)?;
+    refuse_rigid(&model)?;
+    if let Some(mass) = tool_mass {
+        model = carrying(&model, mass)?;
+        tool_words.push_str(&format!(", {} kg", short(mass.mass_kg)));
+    }
+    let fingerprint = fingerprint(&model);
     let mechanism = model.mechanism.with_tool(&tool);
     let mut placement = placement(job, flags, &mechanism)?;
     if let Some(frames) = frames {
         placement = placement_of_robot(frames, job, flags, placement)?;
     }
     let load = load(job, job.map(|j| &j.job.load), flags)?;
+    let weight = weight(job, flags)?;
     if frames.is_some_and(|f| f.axis_is_open && f.states_orientation) && load.turns() {
         return Err(Failure::input(
             "this load turns with feed and tool, and the program does not say along which axis of its frame the tool lies: at KUKA that is x in some cells and z in others. State it, from the tip to the holder: --tool-axis -x or -z, or tool_axis under [robot]",
@@ -176,6 +188,8 @@ pub(crate) fn machine_setup(
             mechanism,
             placement,
             load,
+            weight,
+            tool_mass,
             cut,
             measured,
             tools,

@@ -183,6 +183,7 @@ pub(crate) fn with_task<R>(
             placement: machine.placement,
             load,
             tools: &tools,
+            weight: machine.weight.clone(),
             cut: forces,
             writing,
             run_inputs,

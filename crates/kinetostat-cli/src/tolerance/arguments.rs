@@ -13,7 +13,7 @@ pub(crate) enum Asked {
     /// Where the unloaded tool is, from where it is commanded
     Error,
     /// How far the load moves it
-    Deflection,
+    DeflectionByLoad,
     /// Where the loaded tool is, from where it is commanded
     Deviation,
     /// What compensation with the numbers of the drawing leaves of it
@@ -26,7 +26,7 @@ impl Asked {
     pub(crate) fn quantity(self) -> Quantity {
         match self {
             Self::Error => Quantity::Error,
-            Self::Deflection => Quantity::Deflection,
+            Self::DeflectionByLoad => Quantity::DeflectionByLoad,
             Self::Deviation => Quantity::Deviation,
             Self::Compensated => Quantity::Compensated,
             Self::Stiffness => Quantity::Stiffness,

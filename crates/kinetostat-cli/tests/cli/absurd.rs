@@ -20,6 +20,7 @@ part_origin_mm = [1050, 0, 1000]
 length_mm = 180
 
 [load]
+weight = "all"
 milling = { radial_n = 215.0, tangential_n = -10.0, axial_n = 25.0 }
 below_z_mm = 1.0
 

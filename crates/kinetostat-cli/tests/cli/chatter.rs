@@ -17,6 +17,8 @@ model = "heavy_6r"
 program = "slots.ngc"
 [placement]
 part_origin_mm = [1450, 70, 500]
+[load]
+weight = "all"
 [tool]
 length_mm = 200
 cutter = { shape = "flat", diameter_mm = 12, teeth = 2, helix_deg = 30 }

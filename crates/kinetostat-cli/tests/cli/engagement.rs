@@ -349,7 +349,7 @@ fn the_band_is_what_a_larger_force_gives() {
     let job = |factor: f64| {
         JOB.replace(
             "[tool]\n",
-            "model = \"heavy_6r\"\n[placement]\npart_origin_mm = [1100, 0, 900]\n[tool]\nlength_mm = 100\n",
+            "model = \"heavy_6r\"\n[placement]\npart_origin_mm = [1100, 0, 900]\n[load]\nweight = \"all\"\n[tool]\nlength_mm = 100\n",
         )
         .replace("[stock]", &format!("wear_factor = {factor:?}\n[stock]"))
     };

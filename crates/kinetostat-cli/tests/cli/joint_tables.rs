@@ -34,7 +34,7 @@ fn table(unit: &str) -> String {
     text
 }
 
-const RUN: &str = "compensate --model heavy_6r --program q.csv --tool-length-mm 180 --force 300 -200 500 --correct pose";
+const RUN: &str = "compensate --model heavy_6r --weight all --program q.csv --tool-length-mm 180 --force 300 -200 500 --correct pose";
 
 fn words(line: &str) -> Vec<&str> {
     line.split_whitespace().collect()

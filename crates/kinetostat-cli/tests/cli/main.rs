@@ -88,5 +88,6 @@ mod verify_in_force;
 mod verify_others;
 mod verify_robot;
 mod vibration;
+mod weight;
 mod without_motion;
 mod words;

@@ -20,6 +20,8 @@ tool_orientation = { a_b_c_kuka_deg = [160, 0, 180] }
 [tool]
 pose = { position_mm = [200, 0, 100], a_b_c_kuka_deg = [0, 90, 0] }
 [load]
+weight = "all"
+weight = "all"
 force_n = [60, 20, 100]
 "#;
 

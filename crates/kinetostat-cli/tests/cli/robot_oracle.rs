@@ -238,7 +238,7 @@ fn figure_tables_of_joint_values_of_heavy_6r_agree_with_pinocchio() {
     let here = tempfile::tempdir().unwrap();
     let here = here.path();
     std::fs::write(here.join("q.csv"), joint_table()).unwrap();
-    let line = "compensate --model heavy_6r --program q.csv --tool-length-mm 180 --force 300 -200 500 --moment 20 -15 8 --correct pose --joint-rows joint --tolerance-um 10";
+    let line = "compensate --model heavy_6r --weight all --program q.csv --tool-length-mm 180 --force 300 -200 500 --moment 20 -15 8 --correct pose --joint-rows joint --tolerance-um 10";
     run(here, &line.split(' ').collect::<Vec<_>>()).answered();
     let [force, moment] = LOAD;
     let found = asked(&json!({

@@ -23,7 +23,7 @@ const SLOT: &str = r#"MODULE Slot
 ENDMODULE
 "#;
 
-const RUN: &str = "compensate --model heavy_6r --program slot.mod --milling 300 -100 -50 --rapid-from-mm-per-s 100 --tolerance-um 10";
+const RUN: &str = "compensate --model heavy_6r --weight all --program slot.mod --milling 300 -100 -50 --rapid-from-mm-per-s 100 --tolerance-um 10";
 
 fn place(text: &str) -> tempfile::TempDir {
     let here = tempfile::tempdir().unwrap();
@@ -86,7 +86,8 @@ fn a_program_in_rapid_is_compensated_and_is_one_again() {
     let quaternion = &out["points"][0]["tool_orientation"];
     assert_eq!(quaternion.as_array().map(Vec::len), Some(4));
     // It can be looked at again, and is not compensated a second time.
-    let again = "compensate --model heavy_6r --program slot-compensated.mod --milling 1 1 1";
+    let again =
+        "compensate --model heavy_6r --weight all --program slot-compensated.mod --milling 1 1 1";
     let refused = run(here, &words(again));
     assert_eq!(refused.code, 1);
     assert!(refused.err.contains("compensated already"), "{refused:?}");
@@ -101,8 +102,7 @@ fn the_job_states_what_the_program_does_not() {
         .join("\n");
     let here = place(&text);
     let here = here.path();
-    let job =
-        "schema = 1\nmodel = \"heavy_6r\"\nprogram = \"slot.mod\"\n[load]\nforce_n = [0, 0, 100]\n";
+    let job = "schema = 1\nmodel = \"heavy_6r\"\nprogram = \"slot.mod\"\n[load]\nweight = \"all\"\nweight = \"all\"\nforce_n = [0, 0, 100]\n";
     let put = |more: &str| std::fs::write(here.join("job.toml"), format!("{job}{more}")).unwrap();
     put("");
     let refused = run(here, &["check", "job.toml"]);
@@ -211,7 +211,7 @@ fn another_configuration_than_the_model_s_is_warned_of() {
 fn frames_of_the_job_that_fit_no_motion_or_contradict_the_program_are_warned_of() {
     let here = place(SLOT);
     let here = here.path();
-    let job = "schema = 1\nmodel = \"heavy_6r\"\nprogram = \"slot.mod\"\n[load]\nforce_n = [0, 0, 100]\n[robot.frames]\ntMil = { position_mm = [0, 0, 180] }\nwPart = { position_mm = [1800, 0, 910] }\n";
+    let job = "schema = 1\nmodel = \"heavy_6r\"\nprogram = \"slot.mod\"\n[load]\nweight = \"all\"\nweight = \"all\"\nforce_n = [0, 0, 100]\n[robot.frames]\ntMil = { position_mm = [0, 0, 180] }\nwPart = { position_mm = [1800, 0, 910] }\n";
     std::fs::write(here.join("job.toml"), job).unwrap();
     let said = run(here, &["compensate", "job.toml"]).answered();
     let flat = said.out.split_whitespace().collect::<Vec<_>>().join(" ");
@@ -327,7 +327,7 @@ fn a_data_list_is_written_beside_its_program_and_an_axis_along_the_cut_is_warned
             pose(0.0, -1.0)
         ),
     );
-    let line = "compensate --model heavy_6r --program slot.src --milling 300 -100 -50";
+    let line = "compensate --model heavy_6r --weight all --program slot.src --milling 300 -100 -50";
     let open = run(here, &words(line));
     assert_eq!(open.code, 1);
     assert!(open.err.contains("--tool-axis"), "{open:?}");
@@ -340,7 +340,7 @@ fn a_data_list_is_written_beside_its_program_and_an_axis_along_the_cut_is_warned
     assert!(!data.contains(&pose(0.0, -1.0)), "{data}");
     put(
         "job.toml",
-        "schema = 1\nmodel = \"heavy_6r\"\nprogram = \"slot.src\"\n[load]\nmilling = { radial_n = 300, tangential_n = -100, axial_n = -50 }\n[robot]\ntool_axis = \"-z\"\n[output]\nprogram = \"z.src\"\n",
+        "schema = 1\nmodel = \"heavy_6r\"\nprogram = \"slot.src\"\n[load]\nweight = \"all\"\nweight = \"all\"\nmilling = { radial_n = 300, tangential_n = -100, axial_n = -50 }\n[robot]\ntool_axis = \"-z\"\n[output]\nprogram = \"z.src\"\n",
     );
     let said = run(here, &["compensate", "job.toml"]).answered();
     assert!(!said.out.contains("along its own axis"), "{said:?}");
@@ -368,7 +368,7 @@ fn programs_of_controls_with_loops_are_run_once_and_compensated_flat() {
         let here = here.path();
         std::fs::write(here.join(name), text).unwrap();
         let line = format!(
-            "compensate --model heavy_6r --program {name} --force 100 50 -80 --part-origin-mm 1800 0 900 --tool-length-mm 150 --points points.csv"
+            "compensate --model heavy_6r --weight all --program {name} --force 100 50 -80 --part-origin-mm 1800 0 900 --tool-length-mm 150 --points points.csv"
         );
         let refused = run(here, &words(&line));
         assert_eq!(refused.code, 1, "{refused:?}");

@@ -222,7 +222,7 @@ fn limits_are_millimetres_of_the_machine() {
     .expect("a program");
     for (scale, shown) in [("1", "3.6"), ("10", "4.1")] {
         let line = format!(
-            "compensate --model kuka_kr270_like --program s.ngc --force 2500 -1200 150 --tool-length-mm 150 --part-origin-mm 1500 200 1000 --scale {scale} --out o.ngc --force-overwrite"
+            "compensate --model kuka_kr270_like --weight all --program s.ngc --force 2500 -1200 150 --tool-length-mm 150 --part-origin-mm 1500 200 1000 --scale {scale} --out o.ngc --force-overwrite"
         );
         let said = run(here, &line.split(' ').collect::<Vec<_>>());
         assert_eq!(said.code, 1, "{line}: {said:?}");
@@ -231,7 +231,7 @@ fn limits_are_millimetres_of_the_machine() {
             "{line}: {said:?}"
         );
     }
-    let line = "compensate --model kuka_kr270_like --program s.ngc --force 250 -120 15 --tool-length-mm 150 --part-origin-mm 1500 200 1000 --out o.ngc --force-overwrite --json -";
+    let line = "compensate --model kuka_kr270_like --weight all --program s.ngc --force 250 -120 15 --tool-length-mm 150 --part-origin-mm 1500 200 1000 --out o.ngc --force-overwrite --json -";
     let [one, ten] = ["1", "10"].map(|scale| {
         let answer = json(here, &format!("{line} --scale {scale}"));
         answer["question"]["tolerance_mm"]

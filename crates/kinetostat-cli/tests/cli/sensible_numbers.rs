@@ -103,7 +103,7 @@ fn messages_have_numbers_that_people_read() {
         put(
             name,
             &format!(
-                "schema = 1\nmodel = \"prs3\"\nprogram = \"part.ngc\"\n[placement]\npart_origin_mm = {placement}\norientation = \"held\"\n[load]\nforce_n = [10, 0, 0]\n"
+                "schema = 1\nmodel = \"prs3\"\nprogram = \"part.ngc\"\n[placement]\npart_origin_mm = {placement}\norientation = \"held\"\n[load]\nweight = \"all\"\nweight = \"all\"\nforce_n = [10, 0, 0]\n"
             ),
         );
     }

@@ -488,7 +488,7 @@ fn an_end_beside_the_end_of_a_cut_belongs_to_that_cut() {
     std::fs::write(here.path().join("part.ngc"), text).unwrap();
     std::fs::write(
         here.path().join("job.toml"),
-        "schema = 1\nmodel = \"heavy_6r\"\nprogram = \"part.ngc\"\n[placement]\npart_origin_mm = [1400, 70, 500]\n[tool]\nlength_mm = 200\n[load]\nmilling = { radial_n = 415, tangential_n = -100, axial_n = -125 }\n",
+        "schema = 1\nmodel = \"heavy_6r\"\nprogram = \"part.ngc\"\n[placement]\npart_origin_mm = [1400, 70, 500]\n[tool]\nlength_mm = 200\n[load]\nweight = \"all\"\nweight = \"all\"\nmilling = { radial_n = 415, tangential_n = -100, axial_n = -125 }\n",
     )
     .unwrap();
     let (code, found, said) = verified(here.path(), "part.ngc", &["--tolerance-um", "6000"]);
@@ -545,7 +545,7 @@ fn a_robots_program_is_verified_with_its_orientation() {
     std::fs::write(here.path().join("part.csv"), format!("{head}{rows}")).unwrap();
     std::fs::write(
         here.path().join("job.toml"),
-        "schema = 1\nmodel = \"heavy_6r\"\nprogram = \"part.csv\"\n[load]\nmilling = { radial_n = 0, tangential_n = -20, axial_n = -100 }\n[robot]\ncorrect = \"pose\"\ntool_axis = \"z\"\n[robot.frames]\ntool = { position_mm = [0, 0, 180], roll_pitch_yaw_urdf_deg = [180, 0, 0] }\npart = { position_mm = [2000, 0, 1300], roll_pitch_yaw_urdf_deg = [0, 0, 180] }\n",
+        "schema = 1\nmodel = \"heavy_6r\"\nprogram = \"part.csv\"\n[load]\nweight = \"all\"\nweight = \"all\"\nmilling = { radial_n = 0, tangential_n = -20, axial_n = -100 }\n[robot]\ncorrect = \"pose\"\ntool_axis = \"z\"\n[robot.frames]\ntool = { position_mm = [0, 0, 180], roll_pitch_yaw_urdf_deg = [180, 0, 0] }\npart = { position_mm = [2000, 0, 1300], roll_pitch_yaw_urdf_deg = [0, 0, 180] }\n",
     )
     .unwrap();
     let compensate = [

@@ -562,7 +562,7 @@ fn one_is_not_written_in_the_plural() {
         format!("compensate {job} --milling 2 0 0 --program corner.ngc --report r.html"),
         format!("compensate {job} --milling 215 -10 -25 --program one.ngc --report r.html"),
         format!("compensate {job} --milling 215 -10 -25 --program unstated.ngc --report r.html"),
-        "compensate --model heavy_6r --part-origin-mm 1050 0 1000 --tool-length-mm 150 --milling 215 -10 -25 --program one.ngc --out o.ngc --report r.html --force-overwrite".to_owned(),
+        "compensate --model heavy_6r --weight all --part-origin-mm 1050 0 1000 --tool-length-mm 150 --milling 215 -10 -25 --program one.ngc --out o.ngc --report r.html --force-overwrite".to_owned(),
         "compensate --no-compensation --program line.ngc --out o.ngc --force-overwrite".to_owned(),
         "compensate --map one.csv --program one.ngc --out o.ngc --force-overwrite".to_owned(),
         "deflect orthoglide --program one.ngc --force 0 0 200 --part-origin-mm 0 0 100 --tool-length-mm 100 --report r.html --force-overwrite".to_owned(),

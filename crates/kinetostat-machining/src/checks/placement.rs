@@ -4,6 +4,7 @@ use kinetostat::number::short;
 use kinetostat::{Mechanism, Pose};
 use kinetostat_program::Knowledge;
 
+use crate::measured_frame::PartPlace;
 use crate::placement::Placement;
 use crate::result::point::{PointKind, PointResult, place};
 use crate::task::Task;
@@ -63,7 +64,9 @@ pub(crate) fn outside_workspace(task: &Task<'_>, points: &[PointResult]) -> Opti
     };
     let slack = 1e-3;
     let outside = |p: &&PointResult| {
-        let at = (p.wanted_pose(&task.placement) * flange).translation.vector;
+        let at = (PartPlace::of_point(task, p).pose() * flange)
+            .translation
+            .vector;
         (0..3).any(|k| at[k] < low[k] - slack || at[k] > high[k] + slack)
     };
     let first = points

@@ -129,6 +129,7 @@ fn run_inputs_of(
     let tools = task.tools.iter();
     RunInputs {
         load: load_description(task.mechanism, load),
+        weight: task.weight.clone(),
         tolerance_mm: task.writing.tolerance_mm,
         chord_tolerance_mm: task.writing.chord_tolerance_mm,
         decimals: task.writing.decimals.unwrap_or(4),

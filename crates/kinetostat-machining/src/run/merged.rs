@@ -313,6 +313,10 @@ fn largest_figures(own: &mut Summary, next: &Summary) {
     }
     for (own, next) in [
         (
+            &mut own.max_displacement_by_weight_mm,
+            next.max_displacement_by_weight_mm,
+        ),
+        (
             &mut own.max_error_by_own_weight_mm,
             next.max_error_by_own_weight_mm,
         ),

@@ -3,7 +3,7 @@
 use kinetostat::{Directions, Mechanism, PostureRequest, Wrench};
 use kinetostat_machining::{
     Bounds, CuttingLoad, LoadAxes, Placement, ProgramLoad, Run, RunInputs, Task, Unwatched,
-    Warning, WarningCode, analyse,
+    Warning, WarningCode, WeightCorrection, analyse,
 };
 use kinetostat_model::Model;
 use kinetostat_program::{Gcode, Path, Program, ReadOptions, ToolTurn, WriteOptions, interpret};
@@ -43,6 +43,7 @@ fn run(mechanism: &Mechanism, text: &str, placement: Placement, turns_deg: &[f64
             wrench: Wrench::new(vector![0.0, 0.0, 50.0], Vector3::zeros()),
         }),
         tools: &[],
+        weight: WeightCorrection::All,
         cut: None,
         writing: WriteOptions::default(),
         run_inputs: RunInputs::default(),

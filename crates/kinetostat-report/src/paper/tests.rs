@@ -23,6 +23,7 @@ fn run() -> RunResult {
     (s.entry_steps, s.largest_entry_step_mm) = (2, 0.577);
     (s.feed_limited_pieces, s.max_feed_factor) = (4, 1.5);
     s.largest_backward_step_mm = 0.0333;
+    s.max_displacement_by_weight_mm = Some(0.0912);
     s.max_error_by_own_weight_mm = Some(0.0912);
     let q = &mut result.run_inputs;
     q.compensated = true;

@@ -1,6 +1,6 @@
 //! Ce qu'il y a à dire d'un calcul.
 
-use kinetostat_machining::{CornerLoad, LoadBegins};
+use kinetostat_machining::{CornerLoad, LoadBegins, WeightCorrection};
 
 use crate::number;
 use crate::paper::language::Language;
@@ -47,12 +47,18 @@ pub(crate) fn statement(statement: &Statement, result: &Shown<'_>) -> Option<Str
         Statement::Corrected => format!("Sans compensation, l’outil s’écarte jusqu’à {before} ; avec le programme compensé, d’au plus {after}."),
         Statement::FeaturesMissed => format!("La tolérance n’est pas tenue pour : {}.", missed_features(result).join(", ")),
         Statement::OwnWeight => {
-            let own = up_to(summary.max_error_by_own_weight_mm?);
-            let put = format!("À eux seuls, le poids propre de la machine et ce qui agit encore dans son modèle (ressorts, contrepoids) écartent l’outil jusqu’à {own}");
-            match result.run_inputs.compensated {
-                true => format!("{put} ; le programme le compense aussi. Si la pièce a été palpée avec cette machine, ou si sa commande corrige le poids, ce serait fait deux fois : laissez alors poids et ressorts hors du modèle."),
-                false => format!("{put}."),
-            }
+            let whole = up_to(summary.max_displacement_by_weight_mm?);
+            let error = up_to(summary.max_error_by_own_weight_mm?);
+            let becomes = match result.run_inputs.compensated && !summary.unchanged {
+                true => "est corrigé",
+                false => "compte comme erreur",
+            };
+            let part = match &result.run_inputs.weight {
+                WeightCorrection::None => format!("rien n’en {becomes} (la commande corrige le poids)"),
+                WeightCorrection::TouchOff(_) => format!("seul le changement, jusqu’à {error} depuis l’endroit où la pièce a été palpée, {becomes}"),
+                WeightCorrection::All | WeightCorrection::NotStated => format!("tout en {becomes} (la pièce a été mesurée sans cette machine)"),
+            };
+            format!("À eux seuls, le poids propre de la machine et ce qui agit encore dans son modèle (ressorts, contrepoids) déplacent l’outil jusqu’à {whole} ; {part}.")
         }
         Statement::Corners => {
             let c = corners(result)?;

@@ -1,6 +1,6 @@
 //! Was über einen Lauf zu sagen ist.
 
-use kinetostat_machining::{CornerLoad, LoadBegins};
+use kinetostat_machining::{CornerLoad, LoadBegins, WeightCorrection};
 
 use crate::number;
 use crate::paper::language::Language;
@@ -47,12 +47,18 @@ pub(crate) fn statement(statement: &Statement, result: &Shown<'_>) -> Option<Str
         Statement::Corrected => format!("Ohne Kompensation liegt das Werkzeug bis zu {before} ab, mit dem kompensierten Programm höchstens {after}."),
         Statement::FeaturesMissed => format!("Die Toleranz ist verfehlt bei: {}.", missed_features(result).join(", ")),
         Statement::OwnWeight => {
-            let own = up_to(summary.max_error_by_own_weight_mm?);
-            let put = format!("Das Eigengewicht der Maschine und was sonst in ihrem Modell wirkt (Federn, Gegengewichte) verschieben das Werkzeug für sich allein um bis zu {own}");
-            match result.run_inputs.compensated {
-                true => format!("{put}; auch das gleicht das Programm aus. Wo das Werkstück mit dieser Maschine angetastet wurde oder die Steuerung das Gewicht korrigiert, geschähe das doppelt: lassen Sie dann Gewicht und Federn aus dem Modell weg."),
-                false => format!("{put}."),
-            }
+            let whole = up_to(summary.max_displacement_by_weight_mm?);
+            let error = up_to(summary.max_error_by_own_weight_mm?);
+            let becomes = match result.run_inputs.compensated && !summary.unchanged {
+                true => "wird korrigiert",
+                false => "zählt als Fehler",
+            };
+            let part = match &result.run_inputs.weight {
+                WeightCorrection::None => format!("nichts davon {becomes} (die Steuerung korrigiert das Gewicht)"),
+                WeightCorrection::TouchOff(_) => format!("nur die Änderung von bis zu {error} gegenüber dem Ort, an dem das Werkstück angetastet wurde, {becomes}"),
+                WeightCorrection::All | WeightCorrection::NotStated => format!("alles davon {becomes} (das Werkstück wurde ohne diese Maschine vermessen)"),
+            };
+            format!("Das Eigengewicht der Maschine und was sonst in ihrem Modell wirkt (Federn, Gegengewichte) verschieben das Werkzeug für sich allein um bis zu {whole}; {part}.")
         }
         Statement::Corners => {
             let c = corners(result)?;
