@@ -1,5 +1,6 @@
 //! `cargo xtask fuzz`: random chains under random loads through every query, struts, stiffness ratios and
-//! stiff links with known answers, and random programs under ridged tables of corrections, for a stated time.
+//! stiff links with known answers, random programs under ridged tables of corrections, and random options and jobs over all
+//! commands, for a stated time.
 
 use anyhow::{Context, Result, bail};
 
@@ -83,7 +84,25 @@ pub fn run(options: &[&str]) -> Result<()> {
     let time: f64 = minutes.parse()?;
     maps(&[&(time / 6.0).to_string(), seed])?;
     chains(&[&(time * 5.0 / 6.0).to_string(), seed])?;
-    absurd_units()
+    absurd_units()?;
+    // Whole commands are slow: a twelfth of the time each.
+    for (what, test) in [
+        ("fuzz of options", "every_option::random"),
+        ("fuzz of jobs over commands", "jobs_over_commands::"),
+    ] {
+        commands(what, test, (time / 12.0, seed))?;
+    }
+    Ok(())
+}
+
+/// Random command lines and jobs, in the tests of the command line. One run is repeated with its seed.
+fn commands(what: &str, test: &str, (minutes, seed): (f64, &str)) -> Result<()> {
+    let mut command = cargo();
+    command.args(["test", "--quiet", "--profile", "fuzz"]);
+    command.args(["--package", "kinetostat-cli", "--test", "cli", test]);
+    command.env("KINETOSTAT_FUZZ_SECONDS", format!("{:.0}", 60.0 * minutes));
+    command.env("KINETOSTAT_FUZZ_SEED", seed);
+    step(what, &mut command)
 }
 
 /// Chains under loads, through every query.

@@ -72,6 +72,8 @@ pub enum WarningCode {
     OtherThanOriginal,
     /// A load that acts nowhere along the program.
     LoadNeverActs,
+    /// A program of a robot that does not start the spindle as its source does.
+    SpindleNotStarted,
     /// The question says nothing of a tool.
     NoTool,
     /// A tool that is very short, or long beside the machine.

@@ -210,7 +210,8 @@ def compensate(
     threads : int
         Number of threads; all cores without it. The result is the same
     out : path
-        The compensated program; without it, PROGRAM-compensated beside the job or the program
+        The compensated program; without it, PROGRAM-compensated beside the job or the program, or
+        compensated/PROGRAM of one that its controller loads by name
     to : Literal["krl", "rapid", "ls"]
         Convert the program for a robot first, and compensate that (other languages: `kinetostat
         convert`)

@@ -20,7 +20,8 @@ use crate::options::{EXIT_CODES, number, small};
 pub(crate) struct CompensateArgs {
     #[command(flatten)]
     pub(crate) run: RunArgs,
-    /// The compensated program; without it, PROGRAM-compensated beside the job or the program
+    /// The compensated program; without it, PROGRAM-compensated beside the job or the program, or compensated/PROGRAM of one that its
+    /// controller loads by name
     #[arg(long, short, value_name = "FILE", help_heading = "Outputs")]
     pub(crate) out: Option<PathBuf>,
     /// Convert the program for a robot first, and compensate that (other languages: `kinetostat convert`)

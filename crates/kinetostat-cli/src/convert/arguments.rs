@@ -125,6 +125,10 @@ positions need:
   # [[tools]]                      # of a program with several: T1 M6, T2 M6
   # in_program = 2                 # and number, name, pose, mass_kg as above
 
+  # [spindle]                      # for S, M3, M4, M5; without it, notes
+  # clockwise = ["$ANOUT[1]={rpm}/24000.0", "$OUT[12]=TRUE"]
+  # counter_clockwise = [...], stop = ["$OUT[12]=FALSE"]
+
   [zones]                          # 0 stops at each end
   feeds_mm = 0.3                   # KRL and RAPID
   rapids_mm = 1

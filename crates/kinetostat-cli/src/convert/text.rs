@@ -5,11 +5,12 @@ use std::path::Path;
 use kinetostat_formats::{Kept, Made};
 use kinetostat_machining::number::counted;
 
-use crate::convert::file_names::{file_name, stem};
-use crate::convert::template_file::TemplateFile;
+use crate::convert::made::spindle_text;
+use crate::files::file_names::{file_name, stem};
 use crate::job::program::ReadProgram;
 use crate::job::setting::Setting;
 use crate::job::target_word::TargetWord;
+use crate::job::template_file::TemplateFile;
 use crate::ui::layout::{item, wrapped};
 
 /// The answer in words.
@@ -35,6 +36,9 @@ pub(crate) fn answer(
         ),
         0,
     );
+    if let Some(not_started) = spindle_text(made) {
+        text.push_str(&wrapped(&format!("{not_started}."), 0));
+    }
     let mut found: Vec<String> = Vec::new();
     let own = &template.template.program_name;
     let by_name = matches!(to, TargetWord::Krl | TargetWord::Ls);

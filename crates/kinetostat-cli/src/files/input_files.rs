@@ -8,6 +8,7 @@ use std::path::{Path, PathBuf};
 
 use kinetostat_model::{Model, preset_text, read_model};
 
+use crate::files::file_kind::{FileKind, beginning, refuse_other_kind};
 use crate::ui::failure::{Answer, Failure};
 
 /// Largest program or map that is read, bytes.
@@ -30,10 +31,14 @@ impl InputFiles {
 
     /// The bytes of a file; `what` names its part in the question.
     pub(crate) fn bytes(&self, what: &str, path: &Path) -> Answer<Vec<u8>> {
-        match self.memory.get(path) {
-            Some(bytes) => Ok(bytes.clone()),
-            None => read(what, path, MOST_BYTES),
+        let bytes = match self.memory.get(path) {
+            Some(bytes) => bytes.clone(),
+            None => read(what, path, MOST_BYTES)?,
+        };
+        if what == "program" && is_toml(path) {
+            refuse_other_kind(path, &bytes, FileKind::Program)?;
         }
+        Ok(bytes)
     }
 
     /// A file of text; `what` names its part in the question.
@@ -47,6 +52,7 @@ impl InputFiles {
             Some(bytes) => bytes.clone(),
             None => read("job file", path, MOST_JOB_BYTES)?,
         };
+        refuse_other_kind(path, &bytes, FileKind::Job)?;
         let text = text_in("job file", path, bytes)?;
         if text.trim().is_empty() {
             return Err(Failure::input(format!(
@@ -70,10 +76,17 @@ impl InputFiles {
         }
         let like_a_path = named.contains(['/', '\\', '.']) || path.exists();
         if like_a_path {
+            let first = beginning(&path).unwrap_or_default();
+            refuse_other_kind(&path, &first, FileKind::Model)?;
             return Ok((read_model(&path)?, Some(path)));
         }
         Ok((Model::preset(named)?, None))
     }
+}
+
+fn is_toml(path: &Path) -> bool {
+    let ending = path.extension();
+    ending.is_some_and(|ending| ending.eq_ignore_ascii_case("toml"))
 }
 
 /// Bytes that are text.

@@ -292,11 +292,3 @@ impl Job {
         ))
     }
 }
-
-/// Whether a TOML text looks like a job file rather than a model file.
-pub(crate) fn looks_like_a_job(text: &str) -> bool {
-    toml::de::DeTable::parse(text).is_ok_and(|tree| {
-        let has = |key: &str| tree.get_ref().iter().any(|(k, _)| k.get_ref() == key);
-        !has("mechanism") && !has("platform") && (has("program") || has("model"))
-    })
-}

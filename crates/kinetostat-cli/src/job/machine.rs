@@ -12,6 +12,7 @@ use crate::files::hash::{FNV1A, fnv1a};
 use crate::files::input_files::InputFiles;
 use crate::files::origin;
 use crate::job::arguments::ProgramArgs;
+use crate::job::cell::Cell;
 use crate::job::cut::{CutSetup, FilesOfCut, MeasuredSetup, cut_setup, measured_setup};
 use crate::job::job_file::JobFile;
 use crate::job::load::load;
@@ -115,11 +116,27 @@ pub(crate) fn machine_setup(
     refuse_rigid(&model)?;
     let fingerprint = fingerprint(&model);
     let (mut tool, mut tool_words) = tool(job, flags)?;
+    // A program that states how its tool stands brings tool and work object with it; one that was converted has them of the cell.
+    let is_own = |frames: &RobotFrames| frames.states_orientation && !frames.converted;
+    let cell = match frames.is_some_and(is_own) {
+        true => None,
+        false => Cell::of(files, job, flags)?,
+    };
+    let of_cell = cell
+        .as_ref()
+        .map(|cell| cell.tool(&tool))
+        .transpose()?
+        .flatten();
+    let tool_is_of_cell = of_cell.is_some();
+    (tool, tool_words) = of_cell.unwrap_or((tool, tool_words));
     if let Some(frames) = frames {
         (tool, tool_words) = tool_of_robot(frames, job, flags, (tool, tool_words))?;
     }
     let mechanism = model.mechanism.with_tool(&tool);
     let mut placement = placement(job, flags, &mechanism)?;
+    if let Some(cell) = &cell {
+        cell.place(&mut placement)?;
+    }
     if let Some(frames) = frames {
         placement = placement_of_robot(frames, job, flags, placement)?;
     }
@@ -142,9 +159,14 @@ pub(crate) fn machine_setup(
         pose: tool,
         stated: frames.is_some_and(|frames| frames.tools.iter().any(|(_, _, pose)| pose.is_some()))
             || flags.tool_length_mm.is_some()
+            || tool_is_of_cell
             || job.is_some_and(|j| j.job.tool.length_mm.is_some() || j.job.tool.pose.is_some()),
     }];
     let mut tools = numbered_tools(job, flags, &model.mechanism, &mut tool_words, &mut given)?;
+    if let Some(cell) = &cell {
+        let described = (&mut tool_words, &mut given);
+        cell.add_tools(&mut tools, (&model.mechanism, load), described)?;
+    }
     if let Some(frames) = frames.filter(|frames| frames.converted && !tools.is_empty()) {
         tools = tools_of_converted(frames, &model.mechanism, load, (&tools, &mut given))?;
     }

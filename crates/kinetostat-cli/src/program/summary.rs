@@ -3,7 +3,7 @@
 use kinetostat_machining::number::{
     MISSING, Rounding, against, largest, largest_length, significant, with_unit,
 };
-use kinetostat_machining::{Figures, PointResult, RunResult, Summary};
+use kinetostat_machining::{Figures, PointResult, RunResult, Summary, WarningCode};
 
 use crate::program::features::features_text;
 use crate::program::flat_lines::listed_under;
@@ -35,6 +35,9 @@ pub(crate) fn of_run(result: &RunResult) -> String {
     out.push_str(&listed_under(&out, q.flat.as_ref()));
     out
 }
+
+/// The beginning of what is said of a made program whose source starts the spindle.
+pub(crate) const SPINDLE_NOT_STARTED: &str = "SPINDLE NOT STARTED by this program";
 
 /// One or two sentences that answer the question.
 pub(crate) fn result_text(result: &RunResult) -> String {
@@ -92,6 +95,10 @@ pub(crate) fn result_text(result: &RunResult) -> String {
         for more in [chatter.nearest_text(), chatter.vibration_text()] {
             text.extend(more.map(|more| format!(" {more}")));
         }
+    }
+    let mut warnings = result.warnings.iter();
+    if warnings.any(|warning| warning.code == WarningCode::SpindleNotStarted) {
+        text = format!("{SPINDLE_NOT_STARTED}. {text}");
     }
     if !result.summary.stable {
         text.push_str(" THE MACHINE IS NOT STABLE under this load: do not run this program.");

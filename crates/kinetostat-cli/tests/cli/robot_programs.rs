@@ -46,7 +46,7 @@ fn a_program_in_rapid_is_compensated_and_is_one_again() {
     let line = format!("{RUN} --correct pose --json out.json --points points.csv --report r.html");
     let said = run(here, &words(&line)).answered();
     assert!(!said.out.contains("no tool is given"), "{said:?}");
-    let output = read(here, "slot-compensated.mod");
+    let output = read(here, "compensated/slot.mod");
     // What is no motion is there as it was; what is new says where it is from.
     assert!(
         output.starts_with("MODULE Slot\n  ! kinetostat: compensated program")
@@ -86,7 +86,7 @@ fn a_program_in_rapid_is_compensated_and_is_one_again() {
     let quaternion = &out["points"][0]["tool_orientation"];
     assert_eq!(quaternion.as_array().map(Vec::len), Some(4));
     // It can be looked at again, and is not compensated a second time.
-    let again = "compensate --model heavy_6r --program slot-compensated.mod --milling 1 1 1";
+    let again = "compensate --model heavy_6r --program compensated/slot.mod --milling 1 1 1";
     let refused = run(here, &words(again));
     assert_eq!(refused.code, 1);
     assert!(refused.err.contains("compensated already"), "{refused:?}");
@@ -117,12 +117,12 @@ fn the_job_states_what_the_program_does_not() {
         "[robot]\ncorrect = \"pose\"\nrapid_from_mm_per_s = 100\n[robot.frames]\ntMill = { position_mm = [0, 0, 180] }\nwPart = { position_mm = [1800, 0, 900] }\n",
     );
     let stated = run(here, &["compensate", "job.toml"]).answered();
-    let output = read(here, "slot-compensated.mod");
+    let output = read(here, "compensated/slot.mod");
     std::fs::write(here.join("slot.mod"), SLOT).unwrap();
-    std::fs::remove_file(here.join("slot-compensated.mod")).unwrap();
+    std::fs::remove_file(here.join("compensated/slot.mod")).unwrap();
     put("[robot]\ncorrect = \"pose\"\nrapid_from_mm_per_s = 100\n");
     run(here, &["compensate", "job.toml"]).answered();
-    let own = read(here, "slot-compensated.mod");
+    let own = read(here, "compensated/slot.mod");
     let moves = |text: &str| -> Vec<String> {
         let moves = text.lines().filter(|line| line.contains("Move"));
         moves.map(str::to_owned).collect()
@@ -156,7 +156,7 @@ fn contradictions_and_what_belongs_to_g_code_are_refused_with_what_to_do() {
             said.err.replace('\n', " ").contains(expected),
             "{more}: {said:?}"
         );
-        assert!(!here.join("slot-compensated.mod").exists());
+        assert!(!here.join("compensated/slot.mod").exists());
     }
     std::fs::write(here.join("part.ngc"), "G21 G90\nG0 X0 Y0 Z1\nG1 X9 F100\n").unwrap();
     let said = run(
@@ -335,7 +335,7 @@ fn a_data_list_is_written_beside_its_program_and_an_axis_along_the_cut_is_warned
     // x of the tool lies along this cut.
     let flat = said.out.split_whitespace().collect::<Vec<_>>().join(" ");
     assert!(flat.contains("the tool goes along its own axis"), "{flat}");
-    let data = read(here, "slot-compensated.dat");
+    let data = read(here, "compensated/slot.dat");
     assert!(data.starts_with("DEFDAT SLOT\nDECL E6POS XIN={X "));
     assert!(!data.contains(&pose(0.0, -1.0)), "{data}");
     put(
