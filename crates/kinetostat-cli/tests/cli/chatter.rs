@@ -137,7 +137,7 @@ fn limits_of_slots_are_those_of_lobes_at_their_places() {
         let at = place_in_base(place);
         let words = format!(
             "lobes heavy_6r --at {at} --tool-length-mm 200 --damping 0.03 --teeth 2 --helix-deg 30 --diameter-mm 12 \
-             --coefficients-n-per-mm2 796 168 -222 --immersion 1 --tool-axis 0 0 1 --feed-direction {feed} --rpm 3000 3001 2 --depth-mm 12 --json"
+             --coefficients-n-per-mm2 796 168 222 --immersion 1 --tool-axis 0 0 1 --feed-direction {feed} --rpm 3000 3001 2 --depth-mm 12 --json"
         );
         let other = said(here.path(), &words).answered();
         let other: Value = serde_json::from_str(&other.out).expect("JSON");
@@ -203,6 +203,20 @@ fn a_spindle_that_turns_to_the_left_is_not_judged() {
         w["message"]
             .as_str()
             .is_some_and(|text| text.contains("are not judged"))
+    });
+    assert!(said, "{found}");
+}
+
+/// A plunge is a force without a side in the cut: the places are counted, with the largest force.
+#[test]
+fn a_plunge_is_said_not_to_be_judged() {
+    let here = here("G21 G90 G17\nT1 M6\nS3000 M3\nG0 X20 Y20 Z5\nG1 Z-4 F300\nG0 Z5\nM30\n");
+    let found = answer(here.path());
+    assert_eq!(found["places_in_cut"], 0);
+    let said = list(&found, "warnings").iter().any(|w| {
+        w["message"].as_str().is_some_and(|text| {
+            text.contains("the side of the tool is not in the cut") && text.contains("on line 5")
+        })
     });
     assert!(said, "{found}");
 }
