@@ -37,6 +37,18 @@ fn macros(minutes: &str, seed: &str) -> Result<()> {
     )
 }
 
+/// Errors of manufacture in pairs, for a twelfth of the time. One case is repeated with
+/// `cargo run --package kinetostat-model --example fuzz_errors -- case SEED`.
+fn errors_in_pairs(minutes: &str, seed: &str) -> Result<()> {
+    let minutes = (minutes.parse::<f64>()? / 12.0).to_string();
+    example(
+        "fuzz of errors in pairs",
+        "kinetostat-model",
+        "fuzz_errors",
+        &[&minutes, seed],
+    )
+}
+
 /// Robot programs, whole and broken, for a twelfth of the time. One case is repeated with
 /// `cargo run --package kinetostat-formats --example fuzz_rapid -- case SEED` (or `fuzz_krl`).
 fn robot_programs(minutes: &str, seed: &str) -> Result<()> {
@@ -78,6 +90,7 @@ pub fn run(options: &[&str]) -> Result<()> {
     }
     codes(minutes, seed)?;
     macros(minutes, seed)?;
+    errors_in_pairs(minutes, seed)?;
     robot_programs(minutes, seed)?;
     // Programs are many more cases in a minute: a sixth of the time does.
     let time: f64 = minutes.parse()?;

@@ -76,6 +76,8 @@ pub enum WarningCode {
     NoTool,
     /// A tool that is very short, or long beside the machine.
     OddTool,
+    /// An uncertain number that several limbs share, so that it scatters in all of them together.
+    SharedNumber,
     /// A place of the part, or an angle of the job, that looks like one in another unit.
     OddPlacement,
     /// The tool's axis that is stated, or usual, lies along the cut.

@@ -238,10 +238,10 @@ impl Model {
 
     /// The same machine with one more error of manufacture or assembly: the actual geometry of
     /// `limb` is moved by `motion` (m, in the frame reached behind the element) at the rigid element
-    /// or link `at`, or at its `start` or `end`. Replaces a deviation at the same place.
+    /// or link `at`, or at its `start` or `end`.
     ///
     /// # Errors
-    /// [`ModelError`] if there is no such limb or element, or if the motion is not finite.
+    /// [`ModelError`] if there is no such limb or element, if it has a deviation already, or if the motion is not finite.
     pub fn with_deviation(&self, limb: &str, at: &str, motion: &Pose) -> Result<Self, ModelError> {
         self.deviating(Deviation {
             limb: limb.to_owned(),
@@ -251,15 +251,13 @@ impl Model {
         })
     }
 
-    /// The same machine with one more error of manufacture or assembly, as a file says it. Replaces a
-    /// deviation at the same place.
+    /// The same machine with one more error of manufacture or assembly, as a file says it.
     ///
     /// # Errors
-    /// [`ModelError`] as for a file with this deviation.
+    /// [`ModelError`] as for a file with this deviation, also where the element has one already: the order of both motions is
+    /// not stated.
     pub fn deviating(&self, deviation: Deviation) -> Result<Self, ModelError> {
         let mut document = self.document.clone();
-        let same = |d: &Deviation| d.limb == deviation.limb && d.at == deviation.at;
-        document.deviation.retain(|d| !same(d));
         document.deviation.push(deviation);
         Self::from_document(&document, &self.changed())
     }

@@ -182,7 +182,8 @@ def place(
     limit : str | float | Sequence[str | float]
         Move a limit, as in correction_mm=5 (repeat for more): correction_mm, own_weight_mm,
         tilt_deg, force_n, moment_n_m, share_of_rating, share_of_buckling, blocks_per_second,
-        shortest_tool_mm, longest_tool_mm. A program that leaves a limit is refused
+        shortest_tool_mm, longest_tool_mm, nearest_base_mm, below_base_mm, speed_mm_per_s, zone_mm.
+        A program that leaves a limit is refused
     force_overwrite : bool
         Overwrite outputs that exist (never an input)
     threads : int

@@ -10,6 +10,7 @@ use nalgebra::Isometry3;
 use crate::convert::completed::{complete, refuse_leaning_tool, up};
 use crate::convert::free_turn::{base_of_source, free_turn};
 use crate::convert::made::made;
+use crate::convert::plausible::refuse_implausible;
 use crate::convert::template_file::TemplateFile;
 use crate::job::arguments::ProgramArgs;
 use crate::job::cut::along::{refuse_what_breaks_the_tool, warnings_of_moves};
@@ -61,6 +62,7 @@ pub(crate) fn for_run(
             "the program says itself which tools it takes and where their tips are: leave out [[tools]] in the job file (a load for all of them stands under [load])",
         ));
     }
+    refuse_implausible(&setting, &template, &read)?;
     if !states_orientation {
         complete(&mut template.template, job, flags, machine)?;
     }

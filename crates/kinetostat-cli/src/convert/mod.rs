@@ -10,6 +10,7 @@ pub(crate) mod for_run;
 mod free_turn;
 mod joints;
 pub(crate) mod made;
+mod plausible;
 pub(crate) mod targets;
 pub(crate) mod template_file;
 mod template_format;
@@ -24,6 +25,7 @@ use crate::convert::arguments::ConvertArgs;
 use crate::convert::free_turn::free_turn;
 use crate::convert::joints::{Asked, as_joints, with_all_digits};
 use crate::convert::made::made;
+use crate::convert::plausible::refuse_implausible;
 use crate::convert::template_file::{TemplateAsked, TemplateFile};
 use crate::files::input_files::InputFiles;
 use crate::files::outputs::{self, Existing, Outputs};
@@ -94,6 +96,7 @@ pub(crate) fn run(args: &ConvertArgs) -> Answer<()> {
         &template.template,
     )?;
     let read = read_program(&setting)?;
+    refuse_implausible(&setting, &template, &read)?;
     let turned = match &args.free_turn {
         Some(named) => {
             let (model, _) = files.model(named, Path::new(""))?;
@@ -191,6 +194,7 @@ fn flags(args: &ConvertArgs) -> ProgramArgs {
             converted: false,
         },
         expansion,
+        limits: args.limits.clone(),
         ..ProgramArgs::default()
     }
 }

@@ -56,7 +56,7 @@ impl TemplateFile {
     }
 
     fn of_file(files: &InputFiles, path: &Path) -> Answer<Self> {
-        let text = files.text("template", path)?;
+        let text = files.settings("template", path)?;
         let name = path.display().to_string();
         let source = Source {
             file: &name,
@@ -69,6 +69,9 @@ impl TemplateFile {
                 &format!("schema {} is not known", table.schema.get_ref()),
                 "write  schema = 1",
             ));
+        }
+        if let Some((span, message)) = kinetostat_model::odd_angles(&text).into_iter().next() {
+            return Err(source.error(span, &message, "correct the value, or the unit in its name"));
         }
         Ok(Self {
             template: template(source, table)?,

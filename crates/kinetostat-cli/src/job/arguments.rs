@@ -87,7 +87,7 @@ pub(crate) struct ProgramArgs {
     pub(crate) uncertain: UncertainFlags,
     /// Move a limit, as in correction_mm=5 (repeat for more): correction_mm, own_weight_mm,
     /// tilt_deg, force_n, moment_n_m, share_of_rating, share_of_buckling, blocks_per_second, shortest_tool_mm,
-    /// longest_tool_mm. A program that leaves a limit is refused
+    /// longest_tool_mm, nearest_base_mm, below_base_mm, speed_mm_per_s, zone_mm. A program that leaves a limit is refused
     #[arg(long = "limit", value_name = "NAME=VALUE", action = ArgAction::Append, allow_hyphen_values = true, help_heading = "Limits")]
     pub(crate) limits: Vec<String>,
     /// The report, one HTML file

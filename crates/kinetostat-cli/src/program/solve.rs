@@ -275,6 +275,9 @@ pub(crate) fn turned(
         in_threads(threads, || {
             put_band(&mut run, (machine, model), with, parts, &progress)
         })??;
+        let shared = file.shared.iter();
+        let shared = shared.map(|s| Warning::new(WarningCode::SharedNumber, s.description()));
+        run.result.warnings.extend(shared);
     }
     progress.finish();
     if let Some((judging, found)) = judging.as_ref().zip(found.as_ref()) {

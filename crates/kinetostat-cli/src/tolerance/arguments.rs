@@ -107,6 +107,8 @@ What is uncertain, one table for each number; spreads are in its own unit:
   parameter = \"chain.leg.q2.length_mm\"   # a number of the model, by its path
   normal = 0.02                          # standard deviation; or uniform,
                                          # triangular: half width
+  each = true                            # limbs that share it scatter by
+                                         # themselves; all together without it
   [[uncertain]]
   load = \"force_n.x\"                     # or moment_n_m.z, or factor: the
   uniform_percent = 10                   # whole load, as all cutting

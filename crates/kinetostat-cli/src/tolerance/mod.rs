@@ -11,7 +11,7 @@ mod text;
 use std::path::{Path, PathBuf};
 
 use kinetostat::{Pose, Wrench};
-use kinetostat_machining::straight_tool;
+use kinetostat_machining::{Warning, WarningCode, straight_tool};
 use kinetostat_model::Model;
 use kinetostat_report::Plot;
 use kinetostat_tolerance::{
@@ -131,7 +131,7 @@ impl Study {
         wrench: &Wrench,
     ) -> Answer<Self> {
         let name = args.uncertain.display().to_string();
-        let text = InputFiles::default().text("uncertainties", &args.uncertain)?;
+        let text = InputFiles::default().settings("uncertainties", &args.uncertain)?;
         let file = UncertaintyFile::read(&text, &name, model, wrench)?;
         let quantities = quantities(args);
         let tool = straight_tool(1e-3 * args.tool_length_mm.unwrap_or(0.0));
@@ -256,6 +256,9 @@ fn answer_of(
 ) -> ToleranceAnswer {
     let wrench: Wrench = query.wrench;
     let numbers = &study.file.uncertainties;
+    let shared = study.file.shared.iter();
+    let shared = shared.map(|s| Warning::new(WarningCode::SharedNumber, s.description()));
+    let warnings = shared.chain(query.warnings.iter().cloned()).collect();
     ToleranceAnswer {
         schema: 1,
         kinetostat_version: env!("CARGO_PKG_VERSION"),
@@ -271,7 +274,7 @@ fn answer_of(
         failures: drawn.samples.failures.clone(),
         sobol_failures: drawn.sobol.as_ref().map(|(_, failed)| failed.clone()),
         places,
-        warnings: query.warnings.clone(),
+        warnings,
     }
 }
 

@@ -27,6 +27,12 @@ pub(crate) fn catch_interrupts(remove_temporary: fn()) {
         screen::complain(&Failure::new(Code::Stopped, STOPPED));
         std::process::exit(Code::Stopped as i32);
     };
+    // A file that outgrows its limit (`ulimit -f`) is then an error of writing, and temporary files are removed.
+    #[cfg(unix)]
+    let _ = signal_hook::flag::register(
+        signal_hook::consts::SIGXFSZ,
+        Arc::new(AtomicBool::new(false)),
+    );
     // Without a handler Ctrl-C ends the program at once: worse, but no reason to refuse.
     let _ = ctrlc::set_handler(handler);
 }

@@ -6,6 +6,7 @@
 mod common;
 
 mod absurd;
+mod absurd_questions;
 mod assemble;
 mod axes_alone;
 mod book;

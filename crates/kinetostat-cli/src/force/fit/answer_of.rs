@@ -12,7 +12,7 @@ use crate::force::answer_of::{milling_word, part_word, tool_answer};
 use crate::force::arguments::ForceArgs;
 use crate::force::cut::{Straight, straight};
 use crate::force::fit::answer::{AtFeed, CoefficientAnswer, Component, FitAnswer, FitCut, FitRow};
-use crate::force::fit::findings::findings;
+use crate::force::fit::findings::{exchanged_axes, findings};
 use crate::force::fit::material_file::material_file;
 use crate::force::fit_arguments::ActsOnWord;
 use crate::force::refusal::{refused, within};
@@ -96,7 +96,11 @@ pub(super) fn answer_of(
         warnings: Vec::new(),
     };
     answer.warnings = findings(&answer, tool.tool.diameter_mm());
-    match material_file(&answer, &fitted.fit, args) {
+    let material = match exchanged_axes(&answer.coefficients) {
+        Some(reason) => Err(reason),
+        None => material_file(&answer, &fitted.fit, args),
+    };
+    match material {
         Ok(text) => answer.material_toml = Some(text),
         Err(reason) => answer.no_material = Some(reason),
     }

@@ -44,6 +44,19 @@ pub(super) fn findings(a: &FitAnswer, diameter_mm: f64) -> Vec<Warning> {
     list
 }
 
+/// States that the part pushes a tooth away more than along its way, which exchanged axes give.
+pub(super) fn exchanged_axes(all: &[CoefficientAnswer]) -> Option<String> {
+    let value = |symbol: &str| all.iter().find(|c| c.symbol == symbol).map(|c| c.value);
+    let (along, across) = (value("K_tc")?, value("K_rc")?);
+    (along > 0.0 && across > along).then(|| {
+        format!(
+            "K_rc = {} N/mm2 is more than K_tc = {} N/mm2, of which materials have 0.1 to 0.8: look whether axes of the file are exchanged (x along the feed of the tool over the part, y to its left)",
+            number(across, 3),
+            number(along, 3)
+        )
+    })
+}
+
 /// Coefficients that hardly any material has.
 fn of_coefficients(all: &[CoefficientAnswer], acts_on: &str) -> Vec<String> {
     let mut list = Vec::new();
@@ -59,6 +72,7 @@ fn of_coefficients(all: &[CoefficientAnswer], acts_on: &str) -> Vec<String> {
             c.unit
         )];
     }
+    list.extend(exchanged_axes(all));
     for c in all {
         let value = format!("{} = {} {}", c.symbol, number(c.value, 3), c.unit);
         // The interval tells a sign from what scatter may make.
