@@ -28,7 +28,7 @@ from kinetostat.posture import Direction, Equilibrium, LimitViolation, Posture, 
 from kinetostat.problem import EquilibriumProblem
 from kinetostat.program import Corrected, correct_program
 from kinetostat.progress import bar
-from kinetostat.results import Equilibria, Stiffnesses, Targets
+from kinetostat.results import Equilibria, Frames, Gradients, Stiffnesses, Targets
 from kinetostat.spatial import pose, rotation_from_vector, rotation_vector, wrench
 from kinetostat.status import DirectionKind, FoundBy, ModeKind, Status
 
@@ -65,6 +65,8 @@ __all__ = [
     "EquilibriumProblem",
     "ForceModel",
     "FoundBy",
+    "Frames",
+    "Gradients",
     "KinetostatError",
     "LimbBuilder",
     "LimitViolation",
@@ -136,7 +138,11 @@ _WHEN_ASKED = (
 
 def __getattr__(name: str) -> _Any:
     if name in _WHEN_ASKED:
-        return _importlib.import_module(f"{__name__}.{name}")
+        try:
+            return _importlib.import_module(f"{__name__}.{name}")
+        except ImportError as absent:
+            # An AttributeError is what hasattr, inspect and pydoc expect of a module that cannot be imported.
+            raise AttributeError(str(absent)) from absent
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
 
 

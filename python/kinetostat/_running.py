@@ -24,6 +24,8 @@ from kinetostat._arrays import masked, thread_count
 from kinetostat.errors import ArgumentError, ToleranceMissedWarning, UnansweredError
 from kinetostat.machine import Machine
 
+_MISSED = "the program was written, but misses the tolerance; the answer and the detail of this warning say where"
+
 _WRONG_INPUT, _UNANSWERED, _TOLERANCE_MISSED = 1, 2, 3
 
 
@@ -186,7 +188,7 @@ def _done(
         # What the command line says of its own use is no help here.
         raise ArgumentError(in_words_of_python(reason.split("\n\nUsage: ")[0].rstrip()))
     if done.code == _TOLERANCE_MISSED:
-        warnings.warn(reason, ToleranceMissedWarning, stacklevel=4)
+        warnings.warn(ToleranceMissedWarning(_MISSED, reason), stacklevel=4)
     elif done.code != 0 and not (done.code == _UNANSWERED and done.out.startswith(b"{")):
         raise UnansweredError(reason)
     return done

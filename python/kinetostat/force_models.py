@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import warnings
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
@@ -13,7 +14,8 @@ from kinetostat._arguments import function as callable_given
 from kinetostat._arguments import of_kind, or_none
 from kinetostat._arrays import Floats, numbers, positive, thread_count, whole_number
 from kinetostat._places import poses_of
-from kinetostat.errors import ArgumentError
+from kinetostat._plausibility import issue, of_many, sentences
+from kinetostat.errors import ArgumentError, PlausibilityWarning
 from kinetostat.results import Equilibria
 from kinetostat.spatial import rotation_from_vector
 from kinetostat.status import DirectionKind
@@ -206,7 +208,10 @@ def equilibrium_under(
     iterations = 0
     while iterations < most:
         iterations += 1
-        answer = _solved(where, machine, flat, loads, threads)
+        with warnings.catch_warnings():
+            # Loads on the way to the answer are nobody's.
+            warnings.simplefilter("ignore", PlausibilityWarning)
+            answer = _solved(where, machine, flat, loads, threads)
         assert answer.stiffness is not None
         good = np.flatnonzero(answer.solved)
         unbalanced[:] = np.nan
@@ -225,6 +230,8 @@ def equilibrium_under(
         loads[open_] += np.einsum("nij,nj->ni", k, moved)
     assert answer is not None
     assert answer.stiffness is not None
+    said = of_many(machine._native, loads[done], answer.displacement[done, :3], answer.status[done])
+    issue(said)
     shaped: dict[str, Any] = {
         name: None if value is None else value.reshape(leading + value.shape[1:]) for name, value in answer.to_dict().items()
     }
@@ -234,7 +241,7 @@ def equilibrium_under(
         unbalanced=unbalanced.reshape(*leading, 6),
         tangent=(answer.stiffness - slope).reshape(*leading, 6, 6),
         iterations=iterations,
-        equilibria=Equilibria(**shaped),
+        equilibria=Equilibria(**shaped, warnings=sentences(said)),
         stable=_stable(
             machine,
             lambda at: where if isinstance(where, Posture) else machine.posture(pose=flat[at]),

@@ -11,10 +11,12 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from kinetostat import _core
-from kinetostat._arrays import Floats, one
+from kinetostat._arguments import one_of, or_none, text, texts
+from kinetostat._arrays import Floats, one, thread_count
 from kinetostat._plausibility import counted, sentences
 from kinetostat.display import equilibrium_html, posture_html, stiffness_html
 from kinetostat.errors import KinetostatError
+from kinetostat.results import Gradients
 from kinetostat.status import DirectionKind, FoundBy, Status
 
 if TYPE_CHECKING:
@@ -65,6 +67,8 @@ class LimitViolation(NamedTuple):
     lower: float
     upper: float
 
+
+_Of = Literal["theta", "passive", "actuated", "all"]
 
 _DEFLECTED = ("deflected_by", None)
 """What an equilibrium under a wrench was asked, which it knows itself."""
@@ -356,6 +360,153 @@ class Posture:
         """
         # Issues the warnings, too: each way from Python into the core and back takes half a microsecond.
         return Equilibrium(self, self._native.deflected_by(wrench), _DEFLECTED)
+
+    def frames(self) -> dict[tuple[str, str], Floats]:
+        """(4, 4) by limb and node: poses of all nodes of the unloaded machine as drawn, base from node, m.
+
+        Examples
+        --------
+        >>> import kinetostat as ks
+        >>> list(ks.Machine.preset("two_link").posture().frames())[-1]
+        ('arm', 'tip')
+        """
+        return dict(zip(_core.frame_names(self.machine._native), _core.frames_of(self._native), strict=True))
+
+    def jacobian(self, of: _Of = "theta", *, at: str | None = None, limb: str | None = None) -> Floats:
+        """Jacobian of a node of a limb [R 3.2-3.6], for the unloaded machine as drawn.
+
+        Parameters
+        ----------
+        of : {"theta", "passive", "actuated", "all"}
+            Columns: coordinates of springs, passive joints, commands of actuators, or all in the order of :meth:`coordinates`.
+        at : str, optional
+            Name of a node; the reference point of the platform at which the limb ends, that of the tool as a rule, without it.
+        limb : str, optional
+            Name of the limb; needed where there are several.
+
+        Returns
+        -------
+        ndarray, shape (6, n)
+            Motion of the node's origin, m and rad, base axes, by each coordinate, m or rad.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> import kinetostat as ks
+        >>> posture = ks.Machine.preset("heavy_6r").posture()
+        >>> j, k = posture.jacobian("theta"), posture.joint_stiffness()
+        >>> bool(np.allclose(j @ np.linalg.inv(k) @ j.T, posture.stiffness().compliance, rtol=1e-9, atol=1e-15))
+        True
+        """
+        number, columns = self._columns(of, limb)
+        found: Floats = _core.limb_jacobian(self._native, number, or_none(text, "at", at))[:, columns]
+        return found
+
+    def joint_stiffness(self, *, limb: str | None = None) -> Floats:
+        """(n, n): stiffness matrix ``K_theta`` of the springs of a limb [R 3.7], in the order of ``jacobian("theta")``; N/m, N, N m/rad.
+
+        Examples
+        --------
+        >>> import kinetostat as ks
+        >>> ks.Machine.preset("scara").posture().joint_stiffness().shape
+        (28, 28)
+        """
+        return _core.limb_springs(self._native, self._limb(limb))
+
+    def load_hessian(self, wrench: ArrayLike, of: _Of = "theta", *, at: str | None = None, limb: str | None = None) -> Floats:
+        """Hessian of a wrench on a node of a limb [R 4.21]: the derivative of ``J.T @ wrench`` by the coordinates.
+
+        Parameters
+        ----------
+        wrench : array_like, shape (6,)
+            Force and moment (N, N m), base axes, about the node's origin; it keeps its direction.
+        of, at, limb
+            As for :meth:`jacobian`.
+
+        Returns
+        -------
+        ndarray, shape (n, n)
+            N/m, N, N m/rad; symmetric where no moment acts.
+
+        Examples
+        --------
+        >>> import kinetostat as ks
+        >>> h = ks.Machine.preset("heavy_6r").posture().load_hessian([0, 0, -500, 0, 0, 0], "actuated")
+        >>> h.shape, bool(abs(h - h.T).max() < 1e-9)
+        ((6, 6), True)
+        """
+        number, columns = self._columns(of, limb)
+        found = _core.limb_hessian(self._native, number, one("wrench", wrench, (6,))[None], or_none(text, "at", at))
+        return found[np.ix_(columns, columns)]
+
+    def coordinates(self, of: _Of = "all", *, limb: str | None = None) -> tuple[str, ...]:
+        """Names of the columns of :meth:`jacobian`.
+
+        Examples
+        --------
+        >>> import kinetostat as ks
+        >>> ks.Machine.preset("orthoglide").posture().coordinates("passive", limb="leg x")
+        ('q1', 'q2', 'q3')
+        """
+        number, columns = self._columns(of, limb)
+        names = _core.limb_coordinates(self._native, number)
+        return tuple(names[column][0] for column in columns)
+
+    def _limb(self, name: str | None) -> int:
+        limbs = self.machine.limbs
+        if name is None and len(limbs) == 1:
+            return 0
+        return limbs.index(one_of("limb", name, limbs))
+
+    def _columns(self, of: str, limb: str | None) -> tuple[int, list[int]]:
+        number = self._limb(limb)
+        one_of("of", of, ("theta", "passive", "actuated", "all"))
+        return number, [k for k, (_, role) in enumerate(_core.limb_coordinates(self._native, number)) if of in (role, "all")]
+
+    def gradients(self, paths: Sequence[str] | None = None, wrench: ArrayLike | None = None, *, threads: int | None = None) -> Gradients:
+        """Derivatives of the tool's pose and of the stiffness matrix by numbers of the model file, the commands being held.
+
+        Parameters
+        ----------
+        paths : sequence of str, optional
+            Numbers as :func:`kinetostat.shares.sensitivities` names them; all of the file without it.
+        wrench : array_like, shape (6,), optional
+            Load on the tool (N, N m): derivatives of the loaded pose and the tangent stiffness of the machine as it is. Of the unloaded
+            machine as drawn without it.
+        threads : int, optional
+            As for :meth:`kinetostat.Machine.stiffness`.
+
+        Returns
+        -------
+        Gradients
+
+        Raises
+        ------
+        UnansweredError
+            No equilibrium, or the commands alone do not lead to this posture.
+
+        Notes
+        -----
+        By central differences of three steps, extrapolated to sixth order, with the difference to fourth order as the error.
+
+        Examples
+        --------
+        >>> import kinetostat as ks
+        >>> found = ks.Machine.preset("heavy_6r").posture().gradients(["chain.arm.joint 2.stiffness_n_m_per_rad"])
+        >>> bool(abs(found.pose).max() < 1e-9), bool(found.stiffness[0, 2, 2] > 0)
+        (True, True)
+        """
+        names = [] if paths is None else texts("paths", paths, "a list of paths of numbers")
+        load = None if wrench is None else one("wrench", wrench, (6,))[None]
+        found = _core.gradients_of(self.machine._native, self._native, names, load, thread_count(threads))
+        about = found.pop("about")
+        return Gradients(
+            paths=tuple(row[0] for row in about),
+            values=np.array([row[1] for row in about], dtype=float),
+            units=tuple(row[2] for row in about),
+            unanswered={row[0]: row[3] for row in about if row[3] is not None},
+            **found,
+        )
 
     def held_at(self, pose: ArrayLike) -> Equilibrium:
         """Equilibrium with the tool held at a pose: the wrench that holds it is part of the answer.

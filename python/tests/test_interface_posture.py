@@ -73,13 +73,14 @@ def test_pickles_of_joints_and_poses_are_equal_to_themselves() -> None:
 def test_pickles_of_random_arms_are_equal_to_themselves(seed: int) -> None:
     rng = np.random.default_rng(seed)
     builder = ks.MachineBuilder("arm")
-    builder.platform("tool", [0, 0, 1])
-    limb = builder.limb("arm", to="tool")
     count = int(rng.integers(1, 9))
+    offsets = rng.uniform(-0.3, 0.3, (count, 3))
+    builder.platform("tool", offsets.sum(axis=0))
+    limb = builder.limb("arm", to="tool")
     for index in range(count):
         axis = rng.normal(size=3)
         kind = "prismatic" if rng.uniform() < 0.3 else "revolute"
-        limb.actuator(f"j{index}", kind, (axis / np.linalg.norm(axis)).tolist(), 1e5).rigid(rng.uniform(-0.3, 0.3, 3).tolist())
+        limb.actuator(f"j{index}", kind, (axis / np.linalg.norm(axis)).tolist(), 1e5).rigid(offsets[index].tolist())
     ways = [{"joints": rng.uniform(-1, 1, count)} for _ in range(10)]
     assert come_back(builder.machine(), ways) == 10
 

@@ -126,8 +126,8 @@ pub fn evaluate_many<'py>(
     let widths = evaluator.widths();
     let own = widths.clone();
     let manner = Manner { threads, progress };
+    let mut columns = Columns::new(count, &own)?;
     let columns = done(py, count, &manner, move |course| {
-        let mut columns = Columns::new(count, &own);
         columns.fill(course, |room: &mut Room, first, out, status| {
             let end = first + status.len();
             let loads: Option<&[Wrench]> = wrenches.as_deref().map(|all| &all[first..end]);

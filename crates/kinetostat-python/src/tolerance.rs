@@ -12,7 +12,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use rayon::prelude::*;
 
-use crate::arrays::{Numbers, array, poses, wrenches};
+use crate::arrays::{Numbers, array, poses, reserve, wrenches};
 use crate::errors::{Class, error, of_core, of_model};
 use crate::machine::Machine;
 use crate::work::{Manner, away};
@@ -192,6 +192,8 @@ pub fn drawn_numbers<'py>(
     let width = each.len();
     let (numbers, draws) = (uncertainties(each, &pairs)?, Draws::new(draws, seed));
     kept(draws.len(), width, "draws of all numbers", "take fewer")?;
+    // In parts first, then in one.
+    reserve(draws.len(), 2 * size_of::<f64>() * width)?;
     let all = rows(py, draws.len(), move |i| numbers.drawn(&draws, i))?;
     array(py, all, [draws.len(), width])
 }
@@ -213,6 +215,7 @@ pub fn sobol_design<'py>(
         "rows for which the function is asked",
         "take a smaller n, or fewer numbers",
     )?;
+    reserve(count, 2 * size_of::<f64>() * width)?;
     let all = rows(py, count, move |row| design_row(&numbers, &draws, row))?;
     array(py, all, [draws.len(), width + 2, width])
 }
