@@ -32,8 +32,8 @@ def model_text(
     passive: Sequence[str],
     home: Mapping[str, tuple[Literal["revolute", "prismatic"], float]] | None,
     stiffness: float | Mapping[str, tuple[float, str]] | None,
-) -> tuple[str, str, str, Floats | None]:
-    """Text of a model file made of a robot, a name for messages, the text of its URDF, and gravity (3,) in m/s^2 where it is stated.
+) -> tuple[str, str, str, Floats | None, list[str]]:
+    """Model file of a robot, name for messages, text of its URDF, gravity (3,) in m/s^2 where it is stated, notices of the import.
 
     Arguments as given to ``Machine.from_urdf``; they are checked here.
     """
@@ -43,11 +43,11 @@ def model_text(
     single = None if table is not None else or_none(real, "stiffness", stiffness)
     urdf, file, gravity = text_of(robot)
     try:
-        toml, _ = _core.urdf_to_toml(urdf, file, base, tip, idle, stands, single, table)
+        toml, notices = _core.urdf_to_toml(urdf, file, base, tip, idle, stands, single, table)
     except ModelError as wrong:
         raise ModelError(in_words_of_python(str(wrong))) from None
     # Lines in messages are those of the model, which is its text, not those of the URDF.
-    return toml, f"model made of {file}", urdf, gravity
+    return toml, f"model made of {file}", urdf, gravity, notices
 
 
 def text_of(robot: object) -> tuple[str, str, Floats | None]:

@@ -73,18 +73,20 @@ class Machine:
     True
     """
 
-    __slots__ = ("__weakref__", "_fingerprint", "_native")
+    __slots__ = ("__weakref__", "_fingerprint", "_native", "_notices")
 
     _native: _core.Machine
     _fingerprint: str | None
+    _notices: tuple[str, ...]
 
     def __init__(self) -> None:
         raise TypeError("use Machine.preset, Machine.open, Machine.from_toml, Machine.from_dict or Machine.from_urdf")
 
     @classmethod
-    def _of(cls, native: _core.Machine) -> Machine:
+    def _of(cls, native: _core.Machine, notices: Sequence[str] = ()) -> Machine:
         made = object.__new__(cls)
         made._native = native
+        made._notices = tuple(notices)
         made._fingerprint = None
         return made
 
@@ -202,14 +204,14 @@ class Machine:
         -0.0005
         """
         ratings = flag("efforts_are_ratings", efforts_are_ratings)
-        toml, file, text, gravity = model_text(robot, base, tip, passive, home, stiffness)
-        made = cls._of(_core.Machine.from_toml(toml, file))
+        toml, file, text, gravity, notices = model_text(robot, base, tip, passive, home, stiffness)
+        made = cls._of(_core.Machine.from_toml(toml, file), notices)
         document = made.to_dict()
         if ratings:
             document = with_ratings(document, text)
         if gravity is not None:
             document["mechanism"]["gravity_m_per_s2"] = gravity.tolist()
-        return made if document == made.to_dict() else cls.from_dict(document, file)
+        return made if document == made.to_dict() else cls._of(cls.from_dict(document, file)._native, notices)
 
     # What it is ----------------------------------------------------------------------------------------------------
 
@@ -230,8 +232,8 @@ class Machine:
 
     @property
     def warnings(self) -> list[str]:
-        """What looks wrong in the model and its tool although it can be computed."""
-        return [*self._native.warnings, *sentences(self._tool_warnings())]
+        """What looks wrong in the model, in the URDF that it was made from, and in its tool, although it can be computed."""
+        return [*self._native.warnings, *self._notices, *sentences(self._tool_warnings())]
 
     def _tool_warnings(self) -> list[tuple[bool, str]]:
         bare = np.array_equal(self._native.tool(), np.eye(4))
@@ -365,7 +367,7 @@ class Machine:
             pose[2, 3] = real("length", length)
         else:
             pose = one("tool", cast(ArrayLike, tool), (4, 4))
-        made = self._of(self._native.with_tool(pose[None]))
+        made = self._of(self._native.with_tool(pose[None]), self._notices)
         issue(made._tool_warnings())
         return made
 
@@ -733,7 +735,7 @@ class Machine:
         return self.fingerprint == other.fingerprint
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return _restored, (self.text, self.file, self.tool)
+        return _restored, (self.text, self.file, self.tool, self._notices)
 
     def __copy__(self) -> Machine:
         return self
@@ -747,7 +749,7 @@ class Machine:
         return f"<Machine '{self.name}' ({self.file}): {counts}{counted(self._tool_warnings())}>"
 
 
-def _restored(text: str, file: str, tool: Floats) -> Machine:
+def _restored(text: str, file: str, tool: Floats, notices: Sequence[str] = ()) -> Machine:
     """A machine that was pickled."""
     native = _core.Machine.from_toml(text, file)
-    return Machine._of(native if np.array_equal(tool, np.eye(4)) else native.with_tool(tool[None]))
+    return Machine._of(native if np.array_equal(tool, np.eye(4)) else native.with_tool(tool[None]), notices)

@@ -74,6 +74,7 @@ pub use map::{
 pub use near::{NEAR_SINGULAR, NearKind, NearSingular, natural_length, near_singular};
 pub use placement::Placement;
 pub use postures::configurations::{Configurations, posture_at};
+pub use result::assessment::{Assessment, Assumption, AssumptionKind, Level};
 pub use result::chatter::{ChatterLines, ChatterPlace, ChatterResult};
 pub use result::cutting::{CutPlace, CuttingResult};
 pub use result::envelope::{Envelope, Quantity, StretchRange};
@@ -115,5 +116,5 @@ pub use verify::{
     Condition, ExtraCut, Matched, OtherCondition, RapidElsewhere, Turned, Uncut, Verified,
     verify_program,
 };
-pub use warning::{Warning, WarningCode};
+pub use warning::{Warning, WarningCode, merged};
 pub use watch::{Unwatched, Watch};

@@ -17,7 +17,7 @@ use crate::elsewhere::{
     Target, equilibrium_at, in_other_configurations, stiffness_at, target_elsewhere,
     target_following,
 };
-use crate::errors::{Class, error, of_core};
+use crate::errors::{Class, error, of_core, require_stiffness};
 use crate::machine::Machine;
 use crate::work::Manner;
 
@@ -230,6 +230,7 @@ pub fn stiffness_of_many<'py>(
     progress: Option<Bound<'py, PyAny>>,
 ) -> PyResult<Bound<'py, PyDict>> {
     let places = Places::of(machine, poses.as_ref(), joints.as_ref(), threads)?;
+    require_stiffness(&machine.mechanism)?;
     let (batch, limits) = (machine.batch(), Limits::of(&machine.mechanism));
     let configurations = machine.configurations();
     let (count, actuators) = (places.len(), machine.mechanism.actuator_count());
@@ -283,6 +284,7 @@ pub fn equilibrium_of_many<'py>(
     progress: Option<Bound<'py, PyAny>>,
 ) -> PyResult<Bound<'py, PyDict>> {
     let places = Places::of(machine, poses.as_ref(), joints.as_ref(), threads)?;
+    require_stiffness(&machine.mechanism)?;
     let (batch, limits) = (machine.batch(), Limits::of(&machine.mechanism));
     let configurations = machine.configurations();
     let (count, actuators) = (places.len(), machine.mechanism.actuator_count());

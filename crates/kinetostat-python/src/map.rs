@@ -12,7 +12,7 @@ use pyo3::types::PyDict;
 use crate::arrays::{Numbers, array, poses as read_poses};
 use crate::batch::each_wrench;
 use crate::columns::{Columns, done};
-use crate::errors::{Class, error};
+use crate::errors::{Class, error, require_stiffness};
 use crate::machine::Machine;
 use crate::vibration::of_dynamics;
 use crate::work::Manner;
@@ -114,6 +114,9 @@ pub fn evaluate_many<'py>(
         wrenches.is_some(),
         machine.mechanism.actuator_count(),
     )?;
+    if chosen.iter().any(|v| v.needs_stiffness()) {
+        require_stiffness(&machine.mechanism)?;
+    }
     if chosen.iter().any(|v| v.needs_mass()) {
         check_masses(&machine.mechanism).map_err(of_dynamics)?;
     }

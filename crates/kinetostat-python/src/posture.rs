@@ -8,7 +8,7 @@ use pyo3::prelude::*;
 
 use crate::arrays::{Numbers, array, matrix_of, one_pose, one_wrench};
 use crate::equilibrium::Equilibrium;
-use crate::errors::of_core;
+use crate::errors::{of_core, require_stiffness};
 use crate::plausibility::of_load;
 use crate::stiffness::Stiffness;
 
@@ -59,6 +59,7 @@ impl Posture {
 
     /// Cartesian stiffness of the unloaded machine as drawn.
     fn stiffness(&self) -> PyResult<Stiffness> {
+        require_stiffness(self.0.mechanism())?;
         Stiffness::of(&self.0)
     }
 
@@ -67,6 +68,7 @@ impl Posture {
     fn deflected_by(&self, wrench: &Bound<'_, PyAny>) -> PyResult<Equilibrium> {
         let py = wrench.py();
         let wrench = one_wrench("wrench", wrench)?;
+        require_stiffness(self.0.mechanism())?;
         let found = py.detach(|| self.0.deflected_by(&wrench));
         let found = found.map_err(|e| of_core(&e))?;
         let warnings = of_load(&self.0, &found);
@@ -80,6 +82,7 @@ impl Posture {
     /// Equilibrium with the tool held at a pose (4, 4): the wrench that holds it is part of the answer.
     fn held_at(&self, py: Python<'_>, target: Numbers<'_>) -> PyResult<Equilibrium> {
         let held = one_pose("pose", &target)?;
+        require_stiffness(self.0.mechanism())?;
         let found = py.detach(|| self.0.wrench_at(&held));
         Ok(Equilibrium(found.map_err(|e| of_core(&e))?))
     }

@@ -13,7 +13,7 @@ use pyo3::types::PyDict;
 use rayon::prelude::*;
 
 use crate::arrays::{Numbers, array, poses, wrenches};
-use crate::errors::{Class, error, of_core, of_model};
+use crate::errors::{Class, error, of_core, of_model, require_stiffness};
 use crate::machine::Machine;
 use crate::work::{Manner, away};
 
@@ -51,6 +51,7 @@ pub fn tolerance_of_machine<'py>(
     threads: Option<usize>,
     progress: Option<Bound<'py, PyAny>>,
 ) -> PyResult<Bound<'py, PyDict>> {
+    require_stiffness(&machine.mechanism)?;
     let places: Vec<Pose> = poses("poses", &places, threads)?;
     let wrench: Wrench = wrenches("wrench", &wrench)?
         .first()

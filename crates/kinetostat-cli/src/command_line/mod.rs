@@ -68,6 +68,7 @@ use crate::verify::arguments::VerifyArgs;
         "  2    no answer: not converged, or a point that cannot be reached\n",
         "  3    compensated and written, but the tolerance is missed; the line is said. Of\n",
         "       verify: missed, or the program cuts otherwise than the original\n",
+        "  4    compensated and written; the tolerance is kept only if the assumptions hold\n",
         "  130  stopped with Ctrl-C; nothing was written",
     )
 )]

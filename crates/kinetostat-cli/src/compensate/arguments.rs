@@ -165,4 +165,5 @@ Exit codes:
   1    wrong input: a file, a number or an option; the message says which
   2    no answer: not converged, or a point that cannot be reached
   3    compensated and written, but the tolerance is missed; the line is said
+  4    compensated and written; the tolerance is kept only if the assumptions hold
   130  stopped with Ctrl-C; nothing was written"#;

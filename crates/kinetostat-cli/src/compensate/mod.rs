@@ -13,6 +13,7 @@ mod long;
 use std::path::{Path, PathBuf};
 
 use kinetostat_formats::Language;
+use kinetostat_machining::merged;
 use kinetostat_model::Model;
 
 use crate::compensate::arguments::CompensateArgs;
@@ -156,6 +157,7 @@ fn compensate_whole(files: &InputFiles, args: &CompensateArgs) -> Answer<()> {
     run.result
         .warnings
         .extend(run_warnings::of_run(&model, job));
+    run.result.warnings = merged(run.result.warnings);
     outputs.list(flags.all_points, &model);
     if let Some(turn) = &turn {
         turn.put_into(&mut run.result.run_inputs);
@@ -171,7 +173,8 @@ fn compensate_whole(files: &InputFiles, args: &CompensateArgs) -> Answer<()> {
     );
     report::print_run(&text, to_screen.then_some(&run.result))?;
     report::refuse_missed_tolerance(&run.result.tolerance, &setting)?;
-    refuse_missed_features(&run.result.features, &setting)
+    refuse_missed_features(&run.result.features, &setting)?;
+    report::refuse_doubtful(&run.result, &setting)
 }
 
 /// Where a program of positions is written for a robot and the arm cannot follow it, the turn of the tool may help.

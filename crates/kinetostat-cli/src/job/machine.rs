@@ -89,18 +89,6 @@ fn read_model(
     })
 }
 
-/// A machine without a spring has no deflection, and an answer about it would be no answer.
-fn refuse_rigid(model: &Model) -> Answer<()> {
-    let mut limbs = model.mechanism.limbs().iter();
-    match limbs.all(|limb| limb.actual.springs().is_empty()) {
-        true => Err(Failure::input(format!(
-            "the model '{}' has no spring: nothing in it gives way, so that there is nothing to say of its tool. Give its drives and links a stiffness; in a model that was imported, where it says FILL IN, or import it once more with --joint-stiffness",
-            model.name()
-        ))),
-        false => Ok(()),
-    }
-}
-
 /// The machine, its tool, the placement and the load.
 pub(crate) fn machine_setup(
     files: &InputFiles,
@@ -112,7 +100,7 @@ pub(crate) fn machine_setup(
     let named = read_model(files, job, flag_model)?;
     inputs.extend(named.path);
     let model = with_deviations(named.model, job)?;
-    refuse_rigid(&model)?;
+    model.require_stiffness()?;
     let fingerprint = fingerprint(&model);
     let (mut tool, mut tool_words) = tool(job, flags)?;
     if let Some(frames) = frames {

@@ -65,6 +65,7 @@ pub(crate) fn place_query(
     moment: Option<&[f64]>,
 ) -> Answer<PlaceQuery> {
     let (read, path) = files.model(model, Path::new(""))?;
+    read.require_stiffness()?;
     place_query_of(&read, path, model, place, tool_length_mm, force, moment)
 }
 

@@ -21,6 +21,7 @@ pub(crate) fn of_run(result: &RunResult) -> String {
     ));
     out.push('\n');
     out.push_str(&wrapped(&result_text(result), 2));
+    out.push_str(&assumptions(result));
     out.push('\n');
     out.push_str(&figures(result));
     for sentence in result.summary.solving.sentences("point") {
@@ -66,37 +67,34 @@ pub(crate) fn result_text(result: &RunResult) -> String {
             figures.error_before
         )
     };
-    if let Some(own) = result.own_weight_text() {
+    if let Some(doubt) = result.at_worst_text() {
         text.push(' ');
-        text.push_str(&own);
-    }
-    if let Some(corners) = result.corners_text() {
-        text.push(' ');
-        text.push_str(&corners);
-    }
-    if let Some(ramp) = result.ramp_text() {
-        text.push(' ');
-        text.push_str(&ramp);
-    }
-    if let Some(band) = result.force_band_text() {
-        text.push(' ');
-        text.push_str(&band);
-    }
-    if let Some(band) = result.uncertainty_text() {
-        text.push(' ');
-        text.push_str(&band);
-    }
-    if let Some(chatter) = &result.chatter {
-        text.push(' ');
-        text.push_str(&chatter.verdict_text());
-        for more in [chatter.nearest_text(), chatter.vibration_text()] {
-            text.extend(more.map(|more| format!(" {more}")));
-        }
+        text.push_str(&doubt);
     }
     if !result.summary.stable {
         text.push_str(" THE MACHINE IS NOT STABLE under this load: do not run this program.");
     }
     text
+}
+
+/// Assumptions of the run, the costliest first.
+fn assumptions(result: &RunResult) -> String {
+    let all = &result.assessment.assumptions;
+    if all.is_empty() {
+        return String::new();
+    }
+    let items = all.iter().map(|assumption| match assumption.up_to_um {
+        Some(um) => item(&format!(
+            "{}: {}",
+            largest_length(1e-3 * um),
+            assumption.text
+        )),
+        None => item(&assumption.text),
+    });
+    format!(
+        "\nAssumptions, by the error of the tool if they fail\n{}",
+        items.collect::<String>()
+    )
 }
 
 /// Rows of figures: a name, and what it is before and after.

@@ -43,6 +43,7 @@ impl From<TaskError> for Failure {
 
 pub(crate) fn run(args: &ToleranceArgs) -> Answer<()> {
     let (model, path) = InputFiles::default().model(&args.model, Path::new(""))?;
+    model.require_stiffness()?;
     let queries = queries(args, &model, path.as_ref())?;
     let Some(first) = queries.first() else {
         return Err(Failure::input("give a place with --at"));

@@ -506,9 +506,19 @@ fn a_machine_without_a_spring_is_refused() {
         "G21 G90\nG0 X0 Y0 Z5\nG1 X40 F600\nM30\n",
     )
     .unwrap();
-    for command in ["compensate --model arm.toml", "deflect arm.toml"] {
-        let line =
-            format!("{command} --program a.ngc --force 60 20 100 --part-origin-mm 1800 0 900");
+    let along = "--program a.ngc --force 60 20 100 --part-origin-mm 1800 0 900";
+    std::fs::write(here.join("k.toml"), "[[uncertain]]\n").unwrap();
+    for line in [
+        format!("compensate --model arm.toml {along}").as_str(),
+        format!("deflect arm.toml {along}").as_str(),
+        "deflect arm.toml --joints A1=0 --force 0 0 -100",
+        "stiffness arm.toml",
+        "map arm.toml --x 1500 1700 2",
+        "shares arm.toml --direction z",
+        "tolerance arm.toml --uncertain k.toml",
+        "modes arm.toml",
+        "equilibria arm.toml",
+    ] {
         let said = run(here, &line.split(' ').collect::<Vec<_>>());
         assert_eq!(said.code, 1, "{said:?}");
         let text = said.err.split_whitespace().collect::<Vec<_>>().join(" ");

@@ -7,6 +7,7 @@ mod common;
 
 mod absurd;
 mod assemble;
+mod assessment;
 mod axes_alone;
 mod book;
 mod chatter;

@@ -173,6 +173,12 @@ impl Variable {
         self.entry().needs
     }
 
+    /// It has an answer only where something gives way.
+    #[must_use]
+    pub fn needs_stiffness(self) -> bool {
+        self.needs() >= Needs::Stiffness
+    }
+
     /// It exists under a load only.
     #[must_use]
     pub fn needs_load(self) -> bool {

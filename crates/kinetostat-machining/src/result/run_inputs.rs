@@ -62,7 +62,7 @@ pub struct RunInputs {
     pub tolerance_from: String,
     /// Tolerance of arcs divided into chords, mm.
     pub chord_tolerance_mm: f64,
-    /// Decimals written.
+    /// Least decimals written; numbers of the program that had more keep them.
     pub decimals: u8,
     /// Lower and upper corner of the feed path in program coordinates, mm.
     pub box_min_mm: [f64; 3],

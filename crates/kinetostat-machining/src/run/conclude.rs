@@ -9,6 +9,7 @@ use crate::checks::unusual::unusual;
 use crate::joints::figures::JointFigures;
 use crate::load::along_path::LoadAlongPath;
 use crate::load::ramp_findings::TooFast;
+use crate::result::assessment::Assessment;
 use crate::result::envelope::Envelope;
 use crate::result::kept_points::KeptPoints;
 use crate::result::point::{PointKind, PointResult};
@@ -84,6 +85,7 @@ pub(crate) fn conclude(
         schema: RESULT_SCHEMA,
         kinetostat_version: env!("CARGO_PKG_VERSION").into(),
         tolerance: ToleranceResult::default(),
+        assessment: Assessment::default(),
         summary,
         chatter: None,
         cutting: task.cut.map(|forces| cutting_result(forces, task.path())),
@@ -109,6 +111,7 @@ pub(crate) fn conclude(
         task.path(),
     );
     result.points = kept.points();
+    result.assess();
     Run {
         result,
         points,

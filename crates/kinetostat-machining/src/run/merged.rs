@@ -181,6 +181,7 @@ impl MergedRun {
         result.points = kept.iter().map(|i| self.points[*i].clone()).collect();
         result.warnings = reading;
         result.warnings.extend(self.warnings.finish());
+        result.assess();
         Some(result)
     }
 }

@@ -65,6 +65,9 @@ pub(crate) fn solve(
         });
         for (site, point) in batch.iter().zip(solved) {
             let mut point = point?;
+            if let Some(before) = points.last() {
+                figures.unwind(before, &mut point);
+            }
             figures.fill(&mut point);
             worse = worse.or_else(|| worse_than_before(task, site, &point));
             points.push(point);
