@@ -7,12 +7,20 @@ pub(crate) const BLOCK: usize = 8;
 
 /// A row of numbers for each of many postures, as a structure of arrays in blocks of eight: the
 /// numbers of eight postures lie side by side, so that a vector register is stored at once.
+///
+/// The numbers begin at a cache line, because a store of a register of eight numbers (AVX-512) touches two lines
+/// anywhere else.
 #[derive(Clone, Debug, Default)]
 pub struct Table {
     width: usize,
     count: usize,
-    data: Vec<f64>,
+    /// The numbers, after those that fill up a cache line.
+    padded: Vec<f64>,
+    start: usize,
 }
+
+/// Bytes of a cache line, and of the widest register.
+const LINE: usize = 64;
 
 /// So many numbers of each posture, as in a [`Table`].
 #[derive(Clone, Copy)]
@@ -42,7 +50,14 @@ impl Table {
     /// Makes room for `count` rows of `width` numbers; old numbers stay until they are written over.
     pub(crate) fn reset(&mut self, width: usize, count: usize) {
         (self.width, self.count) = (width, count);
-        self.data.resize(count.div_ceil(BLOCK) * width * BLOCK, 0.0);
+        let numbers = count.div_ceil(BLOCK) * width * BLOCK;
+        if self.padded.len() == self.start + numbers {
+            return;
+        }
+        let most = LINE / size_of::<f64>() - 1;
+        self.padded.resize(numbers + most, 0.0);
+        self.start = self.padded.as_ptr().align_offset(LINE).min(most);
+        self.padded.truncate(self.start + numbers);
     }
 
     /// Of so many rows without numbers.
@@ -78,7 +93,7 @@ impl Table {
     #[must_use]
     pub fn get(&self, posture: usize, number: usize) -> f64 {
         assert!(posture < self.count && number < self.width, "out of range");
-        self.data[self.place(posture, number)]
+        self.data()[self.place(posture, number)]
     }
 
     /// The numbers of one posture.
@@ -93,12 +108,16 @@ impl Table {
     /// block is filled up with numbers that mean nothing.
     #[must_use]
     pub fn data(&self) -> &[f64] {
-        &self.data
+        &self.padded[self.start..]
+    }
+
+    fn data_mut(&mut self) -> &mut [f64] {
+        &mut self.padded[self.start..]
     }
 
     pub(crate) fn columns(&self) -> Columns<'_> {
         Columns {
-            numbers: &self.data,
+            numbers: self.data(),
             width: self.width,
         }
     }
@@ -123,15 +142,16 @@ impl Table {
     pub(crate) fn set_row(&mut self, posture: usize, number: impl Fn(usize) -> f64) {
         for k in 0..self.width {
             let at = self.place(posture, k);
-            self.data[at] = number(k);
+            self.data_mut()[at] = number(k);
         }
     }
 
     /// The numbers in parts of so many blocks each; a table without columns has as many, all empty.
     pub(crate) fn parts(&mut self, blocks: usize) -> impl Iterator<Item = &mut [f64]> {
         let each = self.width * BLOCK * blocks;
-        let mut rest = self.data.as_mut_slice();
-        (0..self.count.div_ceil(BLOCK * blocks)).map(move |_| {
+        let parts = self.count.div_ceil(BLOCK * blocks);
+        let mut rest = self.data_mut();
+        (0..parts).map(move |_| {
             let end = each.min(rest.len());
             let (part, after) = std::mem::take(&mut rest).split_at_mut(end);
             rest = after;
