@@ -3,12 +3,12 @@
 use kinetostat::{
     DirectionKind,
     continuation::CurveEquilibrium,
-    equilibrium::{Equilibria, FoundEquilibrium},
+    equilibrium::{Equilibria, FoundEquilibrium, LimbShapes},
 };
 use kinetostat_machining::{Warning, large_load};
 
 use crate::end_condition::subject::Subject;
-use crate::equilibria::answer::{Coverage, EquilibriaAnswer, ShapeAnswer};
+use crate::equilibria::answer::{Coverage, EquilibriaAnswer, LimbCoverage, ShapeAnswer};
 use crate::equilibria::query::EquilibriaQuery;
 use crate::place::query::PlaceAnswer;
 
@@ -43,10 +43,26 @@ pub(crate) fn answer_of<S: Subject>(
             chance_of_more: all.chance_of_more,
             chance_of_more_at_most: all.chance_of_more_at_most,
             exhausted: all.exhausted,
+            incomplete: all.incomplete,
+            known: all.count(),
+            known_stable: all.stable_count(),
+            limbs: all.limbs.iter().map(limb_coverage).collect(),
         },
         conservative: found().all(CurveEquilibrium::conservative),
         warnings,
         outlines: found().map(|e| subject.outline(e)).collect(),
+    }
+}
+
+fn limb_coverage(own: &LimbShapes) -> LimbCoverage {
+    LimbCoverage {
+        name: own.name.clone(),
+        shapes: own.shapes,
+        stable: own.stable,
+        starts: own.starts,
+        fruitless: own.fruitless,
+        chance_of_more_at_most: own.chance_of_more_at_most,
+        exhausted: own.exhausted,
     }
 }
 
