@@ -24,11 +24,11 @@ from kinetostat.errors import (
 )
 from kinetostat.force_models import ForceModel, ModelEquilibria, equilibrium_under
 from kinetostat.machine import Actuator, Machine, preset_names
-from kinetostat.posture import Direction, Equilibrium, LimitViolation, Posture, Stiffness
+from kinetostat.posture import Direction, Equilibrium, LimbStiffness, LimitViolation, Posture, Stiffness
 from kinetostat.problem import EquilibriumProblem
 from kinetostat.program import Corrected, correct_program
 from kinetostat.progress import bar
-from kinetostat.results import Equilibria, Stiffnesses, Targets
+from kinetostat.results import Equilibria, Frames, Gradients, Stiffnesses, Targets
 from kinetostat.spatial import pose, rotation_from_vector, rotation_vector, wrench
 from kinetostat.status import DirectionKind, FoundBy, ModeKind, Status
 
@@ -65,8 +65,11 @@ __all__ = [
     "EquilibriumProblem",
     "ForceModel",
     "FoundBy",
+    "Frames",
+    "Gradients",
     "KinetostatError",
     "LimbBuilder",
+    "LimbStiffness",
     "LimitViolation",
     "Machine",
     "MachineBuilder",
@@ -136,7 +139,11 @@ _WHEN_ASKED = (
 
 def __getattr__(name: str) -> _Any:
     if name in _WHEN_ASKED:
-        return _importlib.import_module(f"{__name__}.{name}")
+        try:
+            return _importlib.import_module(f"{__name__}.{name}")
+        except ImportError as absent:
+            # An AttributeError is what hasattr, inspect and pydoc expect of a module that cannot be imported.
+            raise AttributeError(str(absent)) from absent
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
 
 

@@ -24,4 +24,4 @@ def trial() -> MirroredProgram:
         program = os.path.join(folder, "groove.ngc")
         with open(program, "w", encoding="utf-8") as file:
             file.write("G21 G90\nG0 X0 Y0 Z0\nG1 X40 F600\nM30\n")
-        return mirror(program, points, os.path.join(folder, "trial2.ngc"), register=False)
+        return mirror(program, points, os.path.join(folder, "trial2.ngc"), register="none")

@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from kinetostat import _core
 from kinetostat._arrays import Floats, fitting, numbers, one, rows
+from kinetostat._plausibility import issue, of_commands
 from kinetostat.errors import ArgumentError
 
 __all__ = ["places_of", "poses_of", "posture_at", "shaped", "wrenches_of"]
@@ -29,7 +30,9 @@ def posture_at(
     if joints is not None:
         if pose is not None or position is not None or rotation is not None:
             raise ArgumentError("give joints or a place, not both")
-        return native.posture_at_joints(one("joints", joints, (len(native.actuators()),)).tolist())
+        commands = one("joints", joints, (len(native.actuators()),))
+        issue(of_commands(native, commands))
+        return native.posture_at_joints(commands.tolist())
     if pose is not None:
         if position is not None or rotation is not None:
             raise ArgumentError("give a pose, or a position and a rotation, not both")
@@ -78,6 +81,7 @@ def places_of(
         places, leading = poses_of(native, poses, threads)
         return places, None, leading
     commands, leading = rows("joints", cast(ArrayLike, joints), (len(native.actuators()),))
+    issue(of_commands(native, commands))
     return None, commands, leading
 
 

@@ -24,7 +24,9 @@ from kinetostat._arrays import masked, thread_count
 from kinetostat.errors import ArgumentError, ToleranceMissedWarning, UnansweredError
 from kinetostat.machine import Machine
 
-_WRONG_INPUT, _UNANSWERED, _TOLERANCE_MISSED = 1, 2, 3
+_MISSED = "the program was written, but misses the tolerance; the answer and the detail of this warning say where"
+
+_WRONG_INPUT, _UNANSWERED, _TOLERANCE_MISSED, _DOUBTFUL = 1, 2, 3, 4
 
 
 @dataclasses.dataclass(frozen=True)
@@ -39,7 +41,7 @@ class Completed:
     """
 
     code: int
-    """Exit code: 0 answered, 1 wrong input, 2 no answer, 3 tolerance missed, 130 stopped."""
+    """Exit code: 0 answered, 1 wrong input, 2 no answer, 3 tolerance missed, 4 tolerance kept only if assumptions hold, 130 stopped."""
     out: bytes
     """What it prints to the standard output."""
     err: str
@@ -186,8 +188,8 @@ def _done(
         # What the command line says of its own use is no help here.
         raise ArgumentError(in_words_of_python(reason.split("\n\nUsage: ")[0].rstrip()))
     if done.code == _TOLERANCE_MISSED:
-        warnings.warn(reason, ToleranceMissedWarning, stacklevel=4)
-    elif done.code != 0 and not (done.code == _UNANSWERED and done.out.startswith(b"{")):
+        warnings.warn(ToleranceMissedWarning(_MISSED, reason), stacklevel=4)
+    elif done.code not in (0, _DOUBTFUL) and not (done.code == _UNANSWERED and done.out.startswith(b"{")):
         raise UnansweredError(reason)
     return done
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import math
 import os
 import re
@@ -13,7 +14,7 @@ import numpy as np
 
 from kinetostat import _core
 from kinetostat._arguments import mapping, one_of, or_none, path, refused, shown, text, text_or_none, texts
-from kinetostat._arrays import Floats, real
+from kinetostat._arrays import Floats, one, real
 from kinetostat.errors import ArgumentError, ModelError
 
 __all__ = ["model_text", "with_ratings"]
@@ -31,23 +32,32 @@ def model_text(
     tip: str | None,
     passive: Sequence[str],
     home: Mapping[str, tuple[Literal["revolute", "prismatic"], float]] | None,
-    stiffness: float | Mapping[str, tuple[float, str]] | None,
-) -> tuple[str, str, str, Floats | None]:
-    """Text of a model file made of a robot, a name for messages, the text of its URDF, and gravity (3,) in m/s^2 where it is stated.
+    stiffness: float | Sequence[float] | Mapping[str, float | tuple[float, str]] | None,
+) -> tuple[str, str, str, Floats | None, list[str]]:
+    """Model file of a robot, name for messages, text of its URDF, gravity (3,) in m/s^2 where it is stated, notices of the import.
 
     Arguments as given to ``Machine.from_urdf``; they are checked here.
     """
     base, tip, idle = text_or_none("base", base), text_or_none("tip", tip), texts("passive", passive, "a list of names of joints")
     stands = {} if home is None else stands_at(home)
-    table = stiffness_table(stiffness) if isinstance(stiffness, Mapping) else None
-    single = None if table is not None else or_none(real, "stiffness", stiffness)
+    listed = isinstance(stiffness, (Sequence, np.ndarray)) and not isinstance(stiffness, str)
+    single = None if listed or isinstance(stiffness, Mapping) else or_none(real, "stiffness", stiffness)
     urdf, file, gravity = text_of(robot)
     try:
-        toml, _ = _core.urdf_to_toml(urdf, file, base, tip, idle, stands, single, table)
+        table = None
+        if listed or isinstance(stiffness, Mapping):
+            rigid, _ = _core.urdf_to_toml(urdf, file, base, tip, idle, stands, None, None)
+            chains = json.loads(_core.Machine.from_toml(rigid, file).to_json())["chain"].values()
+            drives = {each["name"]: each["actuator"] for chain in chains for each in chain["elements"] if each.get("actuator")}
+            if listed:
+                values = one("stiffness", stiffness, (len(drives),)).tolist()  # type: ignore[arg-type]
+                stiffness = dict(zip(drives, values, strict=True))
+            table = stiffness_table(stiffness, drives)  # type: ignore[arg-type]
+        toml, notices = _core.urdf_to_toml(urdf, file, base, tip, idle, stands, single, table)
     except ModelError as wrong:
         raise ModelError(in_words_of_python(str(wrong))) from None
     # Lines in messages are those of the model, which is its text, not those of the URDF.
-    return toml, f"model made of {file}", urdf, gravity
+    return toml, f"model made of {file}", urdf, gravity, notices
 
 
 def text_of(robot: object) -> tuple[str, str, Floats | None]:
@@ -173,11 +183,13 @@ def _roll_pitch_yaw(matrix: Floats) -> Floats:
     return np.array([math.atan2(matrix[2, 1], matrix[2, 2]), pitch, math.atan2(matrix[1, 0], matrix[0, 0])])
 
 
-def stiffness_table(stiffness: Mapping[str, tuple[float, str]]) -> str:
-    """Stiffness of joints by name as a table of text with units."""
+def stiffness_table(stiffness: Mapping[str, float | tuple[float, str]], drives: Mapping[str, str]) -> str:
+    """Stiffness of joints by name as a table of text with units; a plain number is in the SI unit of its drive."""
     lines = ["name,value,unit"]
     for name, given in stiffness.items():
         own = f"stiffness[{shown(name)}]"
+        if np.ndim(given) == 0 and not isinstance(given, str) and name in drives:
+            given = (given, "N/m" if drives[name] == "prismatic" else "N m/rad")  # type: ignore[assignment]
         value, unit = _pair(own, given, f"a value and its unit as (2e5, 'N m/rad'); units: {', '.join(_STIFFNESS_UNITS)}")
         if unit not in _STIFFNESS_UNITS:
             raise ArgumentError(f"{own} has the unit {shown(unit)}, expected one of the units: {', '.join(_STIFFNESS_UNITS)}")

@@ -6,6 +6,7 @@ N/m, N m/rad, kg). Every element is in the frame reached by those before it.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -14,7 +15,7 @@ from numpy.typing import ArrayLike
 
 from kinetostat._arguments import mapping, one_of, or_none, refused, text, text_or_none
 from kinetostat._arrays import finite, numbers, one, real, whole_number
-from kinetostat.errors import ArgumentError
+from kinetostat.errors import ArgumentError, ModelError, UnansweredError
 from kinetostat.machine import Machine
 from kinetostat.spatial import rotation_vector
 
@@ -343,6 +344,14 @@ class LimbBuilder:
         return self
 
 
+def _reaches_home(machine: Machine) -> bool:
+    try:
+        machine.posture()
+    except UnansweredError:
+        return False
+    return True
+
+
 class MachineBuilder:
     """A machine in the making.
 
@@ -495,7 +504,7 @@ class MachineBuilder:
         Raises
         ------
         ModelError
-            What is missing or contradicts itself, as of a model file.
+            What is missing or contradicts itself, as of a model file; a platform whose home is not where its limbs end at home.
 
         Examples
         --------
@@ -506,7 +515,16 @@ class MachineBuilder:
         >>> b.machine().name
         'rail'
         """
-        return Machine.from_dict(self.to_dict(), file=f"builder of '{self._mechanism['name']}'")
+        made = Machine.from_dict(self.to_dict(), file=f"builder of '{self._mechanism['name']}'")
+        for said in made._native.warnings:
+            limb = re.match(r"warning: at home the limb '(.*)' ends .* away from the platform", said)
+            if limb and (self._is_driven(limb[1]) or not _reaches_home(made)):
+                raise ModelError(said.removeprefix("warning: "))
+        return made
+
+    def _is_driven(self, limb: str) -> bool:
+        """True if the home of the actuators alone says where a limb ends."""
+        return not any("passive" in element for made, _ in self._limbs if made.name == limb for element in made.elements)
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Writes the model file (TOML), whole or not at all; see :meth:`Machine.save`.

@@ -23,6 +23,15 @@ __all__ = ["CoupledLimit", "Lobes", "MillingCut", "coupled_limit", "lobes", "mul
 
 _Progress = Callable[[int, int, str], object]
 
+_COEFFICIENTS = (5e6, 2e10)
+"""Tangential cutting coefficients from foam to hardened steel at thin chips, Pa."""
+
+_RATIO = 5e6
+"""Radial coefficients below this are ratios, Pa."""
+
+_DEEPEST = 1.0
+"""Deepest cut, m."""
+
 
 @dataclasses.dataclass(frozen=True)
 class MillingCut:
@@ -42,7 +51,7 @@ class MillingCut:
     up: bool
     """Up milling, else down (climb) milling."""
     coefficients: tuple[float, float, float]
-    """Tangential, radial and axial cutting coefficient, Pa (1 N/mm^2 is 1e6); the radial one is no ratio."""
+    """Tangential, radial and axial cutting coefficient, Pa (1 N/mm^2 is 1e6); the radial one is no ratio, and a positive axial one pushes the tool towards the spindle, as in the material library."""
     feed: tuple[float, float, float] = (1.0, 0.0, 0.0)
     """Direction of feed, axes of the modal data."""
     tool_axis: tuple[float, float, float] = (0.0, 0.0, 1.0)
@@ -56,11 +65,32 @@ class MillingCut:
             whole_number("teeth", self.teeth, 1, 1000),
             flag("up", self.up),
             real("immersion", self.immersion),
-            one("coefficients", self.coefficients, (3,)).tolist(),
+            _plausible(one("coefficients", self.coefficients, (3,))),
             None if helix is None else (float(helix[0]), float(helix[1])),
             one("feed", self.feed, (3,)).tolist(),
             one("tool_axis", self.tool_axis, (3,)).tolist(),
         )
+
+
+def _plausible(coefficients: Floats) -> list[float]:
+    """Coefficients within the limits that the command ``lobes`` has."""
+    low, high = _COEFFICIENTS
+    tangential, *others = coefficients.tolist()
+    if not low <= tangential <= high or any(abs(other) > high for other in others):
+        looks = f"; it looks like N/mm^2, in Pa it is {1e6 * tangential:g}" if low <= 1e6 * tangential <= high else ""
+        raise ArgumentError(f"coefficients is {coefficients.tolist()} Pa, expected a tangential one of {low:g} to {high:g} Pa{looks}")
+    if 0 < abs(others[0]) < _RATIO:
+        raise ArgumentError(
+            f"coefficients has a radial one of {others[0]:g} Pa, which looks like a ratio: in Pa it is {others[0] * tangential:g}"
+        )
+    return [tangential, *others]
+
+
+def _depths(name: str, depths: Floats) -> Floats:
+    deepest = float(np.max(depths, initial=0.0))
+    if deepest > _DEEPEST:
+        raise ArgumentError(f"{name} is up to {deepest:g} m, expected at most {_DEEPEST:g} m: it looks like mm")
+    return depths
 
 
 @dataclasses.dataclass(frozen=True)
@@ -267,6 +297,7 @@ def lobes(
     (0.409, False)
     """
     speeds, depth = _speeds("speeds_rpm", speeds_rpm), positive("up_to", up_to)
+    _depths("up_to", np.array(depth))
     found = _core.lobes_of(*_asked(tool, cut), speeds, depth, thread_count(threads), told(progress))
     return Lobes(speeds_rpm=speeds, up_to=depth, **found)
 
@@ -310,7 +341,7 @@ def multipliers(
     >>> (multipliers(tip, cut, 5000.0, [0.3e-3, 0.5e-3]) < 1).tolist()
     [True, False]
     """
-    given, deep = finite("speeds_rpm", speeds_rpm), finite("depths", depths)
+    given, deep = finite("speeds_rpm", speeds_rpm), _depths("depths", finite("depths", depths))
     try:
         given, deep = np.broadcast_arrays(given, deep)
     except ValueError:

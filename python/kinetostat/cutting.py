@@ -36,8 +36,8 @@ class MillingForce:
     """(3,): N."""
     torque: float
     """Mean about the spindle, N m."""
-    power: float
-    """Mean, W."""
+    power: float | None
+    """Mean, W; none without a spindle speed (``rpm``)."""
     assumed: tuple[str, ...]
     """What was assumed."""
     answer: dict[str, Any]

@@ -126,9 +126,9 @@ def posture_html(posture: Posture) -> str:
 
 def _without_rounding(matrix: np.ndarray[Any, Any]) -> np.ndarray[Any, Any]:
     """Zero where a number is nothing beside the stiffest translation and rotation: what is left of a sum by rounding."""
-    stiffest = np.abs(np.diag(matrix)).reshape(2, 3).max(axis=1)
+    stiffest = np.nan_to_num(np.abs(np.diag(matrix))).reshape(2, 3).max(axis=1)
     size = np.sqrt(np.repeat(stiffest, 3))
-    return np.where(np.abs(matrix) > 1e-12 * np.outer(size, size), matrix, 0.0)
+    return np.where(np.abs(matrix) <= 1e-12 * np.outer(size, size), 0.0, matrix)
 
 
 def stiffness_html(stiffness: Stiffness) -> str:

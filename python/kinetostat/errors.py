@@ -64,10 +64,20 @@ class UnansweredError(KinetostatError, RuntimeError):
     """
 
 
-class PlausibilityWarning(UserWarning):
+class _Detailed(UserWarning):
+    """A warning whose text is constant, so that filters merge repeated ones."""
+
+    def __init__(self, text: str, detail: str = "") -> None:
+        super().__init__(text)
+        self.detail = detail
+        """Message with figures and places."""
+
+
+class PlausibilityWarning(_Detailed):
     """A figure beyond what machines have: usually a unit is wrong. A command warns of it too, or refuses a program.
 
-    What is only unusual is not issued; with the others it stands in the ``warnings`` of the result.
+    The text is that of the kind, ``detail`` has the figures. What is only unusual is not issued; with the others it is in the ``warnings``
+    of the result.
 
     Examples
     --------
@@ -76,20 +86,20 @@ class PlausibilityWarning(UserWarning):
     >>> with warnings.catch_warnings(record=True) as found:
     ...     warnings.simplefilter("always")
     ...     machine = ks.Machine.preset("heavy_6r").with_tool(length=180)  # mm taken for m
-    >>> found[0].category.__name__, str(found[0].message) in machine.warnings
-    ('PlausibilityWarning', True)
+    >>> str(found[0].message), found[0].message.detail in machine.warnings
+    ('no tool has such a length; check its unit (m)', True)
     """
 
 
-class ToleranceMissedWarning(UserWarning):
-    """A program was written, but it misses the tolerance that was asked for; the answer says where.
+class ToleranceMissedWarning(_Detailed):
+    """A program was written, but it misses the tolerance that was asked for; ``detail`` and the answer say where.
 
     Examples
     --------
     >>> import warnings
     >>> with warnings.catch_warnings(record=True) as found:
     ...     warnings.simplefilter("always")
-    ...     warnings.warn("worst at line 3", ToleranceMissedWarning, stacklevel=1)
-    >>> str(found[0].message)
+    ...     warnings.warn(ToleranceMissedWarning("missed", "worst at line 3"), stacklevel=1)
+    >>> found[0].message.detail
     'worst at line 3'
     """

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import warnings
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
@@ -13,7 +14,8 @@ from kinetostat._arguments import function as callable_given
 from kinetostat._arguments import of_kind, or_none
 from kinetostat._arrays import Floats, numbers, positive, thread_count, whole_number
 from kinetostat._places import poses_of
-from kinetostat.errors import ArgumentError
+from kinetostat._plausibility import issue, of_many, sentences
+from kinetostat.errors import ArgumentError, PlausibilityWarning
 from kinetostat.results import Equilibria
 from kinetostat.spatial import rotation_from_vector
 from kinetostat.status import DirectionKind
@@ -80,16 +82,20 @@ class ModelEquilibria:
 
 
 def _stable(
-    machine: Machine, postures: Callable[[int], Posture], known: Equilibria, tangents: Floats, done: NDArray[np.bool_]
+    machine: Machine,
+    postures: Callable[[int], Posture],
+    known: Equilibria,
+    stiffness: Floats,
+    tangents: Floats,
+    done: NDArray[np.bool_],
 ) -> NDArray[np.bool_]:
     """Whether machine and model together are stable, where there is an answer."""
-    assert known.stiffness is not None
     assert known.share_to_buckling is not None
     out = done & ~(known.share_to_buckling >= 1)
     # Rotations at the machine's natural length: there, rigid directions are at right angles to the others.
     length = np.repeat([1.0, machine._native.natural_length()], 3)
     for at in np.flatnonzero(out):
-        both, alone = ((k + k.T) / 2 / length[:, None] / length for k in (tangents[at], known.stiffness[at]))
+        both, alone = ((k + k.T) / 2 / length[:, None] / length for k in (tangents[at], stiffness[at]))
         zero = _ROUNDING * max(np.abs(both).max(), np.abs(alone).max())
         if (np.abs(np.linalg.eigvalsh(alone)) <= zero).any():
             # Free or rigid: a model moves nothing where the machine is rigid.
@@ -201,13 +207,22 @@ def equilibrium_under(
     flat, leading = poses_of(machine._native, commanded)
     loads = _called("model", model, flat, (6,))
     answer, slope = None, np.zeros((len(flat), 6, 6))
+    moving = slope
+
+    def posture_at(at: int) -> Posture:
+        return where if isinstance(where, Posture) else machine.posture(pose=flat[at])
+
     unbalanced = np.full((len(flat), 6), np.nan)
     done = np.zeros(len(flat), dtype=bool)
     iterations = 0
     while iterations < most:
         iterations += 1
-        answer = _solved(where, machine, flat, loads, threads)
+        with warnings.catch_warnings():
+            # Loads on the way to the answer are not the caller's.
+            warnings.simplefilter("ignore", PlausibilityWarning)
+            answer = _solved(where, machine, flat, loads, threads)
         assert answer.stiffness is not None
+        moving = _of_what_moves(machine, posture_at, answer, loads)
         good = np.flatnonzero(answer.solved)
         unbalanced[:] = np.nan
         if len(good) == 0:
@@ -220,11 +235,13 @@ def equilibrium_under(
         open_ = good[~done[good]]
         if len(open_) == 0:
             break
-        k = answer.stiffness[open_]
+        k = moving[open_]
         moved = _stepped(k - slope[open_], unbalanced[open_])
         loads[open_] += np.einsum("nij,nj->ni", k, moved)
     assert answer is not None
     assert answer.stiffness is not None
+    said = of_many(machine._native, loads[done], answer.displacement[done, :3], answer.status[done])
+    issue(said)
     shaped: dict[str, Any] = {
         name: None if value is None else value.reshape(leading + value.shape[1:]) for name, value in answer.to_dict().items()
     }
@@ -234,15 +251,27 @@ def equilibrium_under(
         unbalanced=unbalanced.reshape(*leading, 6),
         tangent=(answer.stiffness - slope).reshape(*leading, 6, 6),
         iterations=iterations,
-        equilibria=Equilibria(**shaped),
+        equilibria=Equilibria(**shaped, warnings=sentences(said)),
         stable=_stable(
             machine,
-            lambda at: where if isinstance(where, Posture) else machine.posture(pose=flat[at]),
+            posture_at,
             answer,
-            answer.stiffness - slope,
+            moving,
+            moving - slope,
             done,
         ).reshape(leading),
     )
+
+
+def _of_what_moves(machine: Machine, postures: Callable[[int], Posture], known: Equilibria, loads: Floats) -> Floats:
+    """Stiffness of the motions that the machine can make, zero along rigid directions."""
+    assert known.stiffness is not None
+    out = known.stiffness.copy()
+    length = np.repeat([1.0, machine._native.natural_length()], 3)
+    for at in np.flatnonzero(known.solved & np.isnan(out).any(axis=(1, 2))):
+        compliance = postures(int(at)).deflected_by(loads[at]).compliance
+        out[at] = np.linalg.pinv(compliance * length[:, None] * length, rcond=1e-12) * length[:, None] * length
+    return out
 
 
 def _stepped(matrices: Floats, wrenches: Floats) -> Floats:

@@ -11,19 +11,19 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from kinetostat import _core
-from kinetostat._arguments import flag, mapping, of_kind, one_of, refused, told
+from kinetostat._arguments import flag, mapping, of_kind, one_of, refused, texts, told
 from kinetostat._arguments import path as file_path
 from kinetostat._arguments import text as checked_text
 from kinetostat._arrays import Floats, one, real, thread_count
 from kinetostat._document import plain, without_none
 from kinetostat._places import places_of, poses_of, posture_at, shaped, wrenches_of
-from kinetostat._plausibility import counted, issue, sentences
+from kinetostat._plausibility import Said, counted, issue, of_many, sentences
 from kinetostat._urdf import model_text, with_ratings
 from kinetostat.actuator import Actuator
 from kinetostat.display import machine_html
 from kinetostat.errors import ArgumentError
 from kinetostat.posture import Posture
-from kinetostat.results import Equilibria, Stiffnesses, Targets
+from kinetostat.results import Equilibria, Frames, Stiffnesses, Targets
 
 if TYPE_CHECKING:
     from concurrent.futures import Executor
@@ -40,6 +40,7 @@ Progress = Callable[[int, int, str], object]
 """Called with what is done, how much there is (0: nobody knows) and the name of the stage."""
 
 _DETAILS = ("rest", "stiffness", "stability")
+_FIELDS = ("tool", "displacement", "actuator_forces", "stiffness")
 _DIRECTIONS = ("x", "y", "z", "rx", "ry", "rz")
 
 
@@ -73,18 +74,20 @@ class Machine:
     True
     """
 
-    __slots__ = ("__weakref__", "_fingerprint", "_native")
+    __slots__ = ("__weakref__", "_fingerprint", "_native", "_notices")
 
     _native: _core.Machine
     _fingerprint: str | None
+    _notices: tuple[str, ...]
 
     def __init__(self) -> None:
         raise TypeError("use Machine.preset, Machine.open, Machine.from_toml, Machine.from_dict or Machine.from_urdf")
 
     @classmethod
-    def _of(cls, native: _core.Machine) -> Machine:
+    def _of(cls, native: _core.Machine, notices: Sequence[str] = ()) -> Machine:
         made = object.__new__(cls)
         made._native = native
+        made._notices = tuple(notices)
         made._fingerprint = None
         return made
 
@@ -154,7 +157,7 @@ class Machine:
         tip: str | None = None,
         passive: Sequence[str] = (),
         home: Mapping[str, tuple[Literal["revolute", "prismatic"], float]] | None = None,
-        stiffness: float | Mapping[str, tuple[float, str]] | None = None,
+        stiffness: float | Sequence[float] | Mapping[str, float | tuple[float, str]] | None = None,
         efforts_are_ratings: bool = False,
     ) -> Machine:
         """A machine from a URDF: geometry, masses and limits; what bends is given here or stays rigid.
@@ -173,9 +176,10 @@ class Machine:
             Joints that nothing drives.
         home : mapping, optional
             Where joints stand at home: ``{"joint": ("revolute", 0.5)}``, rad or m.
-        stiffness : float or mapping, optional
-            One stiffness for all drives that turn, N m/rad, or by joint with its unit: ``{"joint": (2e5, "N m/rad")}``; units are
-            N m/rad, N mm/rad, N m/deg, N/m, N/mm, N/um. Drives without one are rigid.
+        stiffness : float, sequence or mapping, optional
+            One stiffness for all drives that turn, N m/rad; one for each drive in the order of commands, N m/rad or N/m; or by joint,
+            ``{"joint": 2e5}``, or with a unit ``{"joint": (2e5, "N m/rad")}``; units are N m/rad, N mm/rad, N m/deg, N/m, N/mm, N/um.
+            Drives without one are rigid.
         efforts_are_ratings : bool
             The ``effort`` of a ``<limit>``, where it is above 0, is the rating of its drive, N m or N.
 
@@ -202,14 +206,14 @@ class Machine:
         -0.0005
         """
         ratings = flag("efforts_are_ratings", efforts_are_ratings)
-        toml, file, text, gravity = model_text(robot, base, tip, passive, home, stiffness)
-        made = cls._of(_core.Machine.from_toml(toml, file))
+        toml, file, text, gravity, notices = model_text(robot, base, tip, passive, home, stiffness)
+        made = cls._of(_core.Machine.from_toml(toml, file), notices)
         document = made.to_dict()
         if ratings:
             document = with_ratings(document, text)
         if gravity is not None:
             document["mechanism"]["gravity_m_per_s2"] = gravity.tolist()
-        return made if document == made.to_dict() else cls.from_dict(document, file)
+        return made if document == made.to_dict() else cls._of(cls.from_dict(document, file)._native, notices)
 
     # What it is ----------------------------------------------------------------------------------------------------
 
@@ -230,10 +234,10 @@ class Machine:
 
     @property
     def warnings(self) -> list[str]:
-        """What looks wrong in the model and its tool although it can be computed."""
-        return [*self._native.warnings, *sentences(self._tool_warnings())]
+        """What looks wrong in the model, in the URDF that it was made from, and in its tool, although it can be computed."""
+        return [*self._native.warnings, *self._notices, *sentences(self._tool_warnings())]
 
-    def _tool_warnings(self) -> list[tuple[bool, str]]:
+    def _tool_warnings(self) -> list[Said]:
         bare = np.array_equal(self._native.tool(), np.eye(4))
         return [] if bare else _core.tool_warnings(self._native)
 
@@ -365,7 +369,7 @@ class Machine:
             pose[2, 3] = real("length", length)
         else:
             pose = one("tool", cast(ArrayLike, tool), (4, 4))
-        made = self._of(self._native.with_tool(pose[None]))
+        made = self._of(self._native.with_tool(pose[None]), self._notices)
         issue(made._tool_warnings())
         return made
 
@@ -461,11 +465,72 @@ class Machine:
         threads = thread_count(threads)
         places, commands, leading = places_of(self._native, poses, joints, threads)
         found = _core.stiffness_of_many(self._native, places, commands, threads, told(progress))
-        return Stiffnesses(**{name: shaped(array, leading) for name, array in found.items()})
+        return Stiffnesses(**_arrays(found, leading), warnings=self._said(None, None, found))
+
+    def frames(self, joints: ArrayLike, *, threads: int | None = None, progress: Progress | None = None) -> Frames:
+        """Forward kinematics: poses of the tool and of all nodes for many commands, of the unloaded machine as drawn.
+
+        Parameters
+        ----------
+        joints : array_like, shape (..., actuators)
+            Commands, m or rad.
+        threads, progress
+            As for :meth:`stiffness`.
+
+        Returns
+        -------
+        Frames
+            With the leading axes of ``joints``; closed loops follow the commands from home.
+
+        Examples
+        --------
+        >>> machine = Machine.preset("heavy_6r")
+        >>> q = np.zeros((3, 6)) + machine.posture().commands
+        >>> bool(np.allclose(machine.frames(q).tool, machine.home, atol=1e-9))
+        True
+        """
+        threads = thread_count(threads)
+        _, commands, leading = places_of(self._native, None, joints, threads)
+        assert commands is not None
+        found = _core.frames_of_many(self._native, commands, threads, told(progress))
+        said = self._said(None, None, found)
+        return Frames(**_arrays(found, leading), nodes=tuple(_core.frame_names(self._native)), warnings=said)
+
+    def inverse_solutions(self, pose: ArrayLike) -> tuple[Posture, ...]:
+        """All postures of a serial arm without passive joints at a pose of its tool.
+
+        Parameters
+        ----------
+        pose : array_like, shape (4, 4) or (3,)
+            Base from tool, m; or a position with the orientation at home, m.
+
+        Returns
+        -------
+        tuple of Posture
+            Those within all limits first, then by their distance from home; empty where the pose is out of reach. In closed form for arms
+            with six axes and a spherical wrist, which have up to eight; of other arms those that Newton's iteration finds from 129
+            shapes over the ranges of the joints. Of an arm with more joints than freedoms they are examples.
+
+        Raises
+        ------
+        ArgumentError
+            The machine has several limbs, or passive joints.
+
+        Examples
+        --------
+        >>> machine = Machine.preset("scara")
+        >>> found = machine.inverse_solutions(machine.posture(joints=[0.4, 1.1, -0.05, 0.3]).target)
+        >>> sorted(round(float(posture.commands[1]), 9) for posture in found)
+        [-1.1, 1.1]
+        """
+        places, leading = poses_of(self._native, pose)
+        if leading:
+            raise ArgumentError(f"pose has shape {(*leading, 4, 4)}, expected (4, 4), or a position (3,)")
+        return tuple(Posture(self, found) for found in _core.inverse_solutions(self._native, places))
 
     def shares(
         self,
-        position: ArrayLike | None = None,
+        position: ArrayLike | Literal["x", "y", "z", "rx", "ry", "rz"] | None = None,
         *,
         joints: ArrayLike | None = None,
         direction: Literal["x", "y", "z", "rx", "ry", "rz"] | Sequence[float] = "z",
@@ -476,8 +541,10 @@ class Machine:
 
         Parameters
         ----------
-        position, joints, direction, wrench, progress
-            As for :func:`kinetostat.shares.shares`, m, rad, N, N m, base axes.
+        position : array_like, shape (3,), or {"x", "y", "z", "rx", "ry", "rz"}, optional
+            As for :func:`kinetostat.shares.shares`, m; or the direction, as :meth:`kinetostat.Posture.shares` takes it, at home.
+        joints, direction, wrench, progress
+            As for :func:`kinetostat.shares.shares`, rad, N, N m, base axes.
 
         Returns
         -------
@@ -485,11 +552,15 @@ class Machine:
 
         Examples
         --------
-        >>> Machine.preset("heavy_6r").shares(direction="z").parts[0].share > 0.1
+        >>> Machine.preset("heavy_6r").shares("z").parts[0].share > 0.1
         True
         """
         from kinetostat.shares import shares
 
+        if isinstance(position, str):
+            if direction != "z":
+                raise ArgumentError(f"direction is given twice, as {position!r} and {direction!r}: give it once")
+            position, direction = None, one_of("direction", position, _DIRECTIONS)  # type: ignore[assignment]
         return shares(self, position, joints=joints, direction=direction, wrench=wrench, progress=progress)
 
     def equilibrium(
@@ -499,6 +570,7 @@ class Machine:
         *,
         joints: ArrayLike | None = None,
         details: Literal["rest", "stiffness", "stability"] = "stability",
+        fields: Sequence[str] | None = None,
         threads: int | None = None,
         progress: Progress | None = None,
     ) -> Equilibria:
@@ -513,7 +585,11 @@ class Machine:
         joints : array_like, shape (..., actuators)
             Instead of poses, for a serial machine without passive joints: commands, m or rad.
         details : {"rest", "stiffness", "stability"}
-            How much is wanted; each includes those before it.
+            How much is computed; each includes those before it.
+        fields : sequence of str, optional
+            Names of ``tool``, ``displacement``, ``actuator_forces`` and ``stiffness`` that are kept, all without it; the others are None
+            and take no memory. States, commands and, by ``details``, stability are kept always. Without ``displacement`` nothing warns of
+            a machine that folds over.
         threads, progress
             As for :meth:`stiffness`.
 
@@ -533,14 +609,19 @@ class Machine:
         places, commands, leading = places_of(self._native, poses, joints, threads)
         loads = wrenches_of(wrenches, leading)
         level = _DETAILS.index(details)
-        found = _core.equilibrium_of_many(self._native, loads, level, places, commands, threads, told(progress))
+        names = _FIELDS if fields is None else texts("fields", fields, f"a list of {', '.join(_FIELDS)}")
+        for index, name in enumerate(names):
+            one_of(f"fields[{index}]", name, _FIELDS)
+        tool, moved, forces, stiff = (name in names for name in _FIELDS)
+        kept = (tool, moved, forces, stiff)
+        found = _core.equilibrium_of_many(self._native, loads, level, places, commands, kept, threads, told(progress))
         stability = found.pop("stability", None)
         arrays: dict[str, Any] = {name: shaped(array, leading) for name, array in found.items()}
         if stability is not None:
             arrays["stable"] = shaped(stability[:, 0] > 0, leading)
             arrays["against_force"] = shaped(stability[:, 1], leading)
             arrays["share_to_buckling"] = shaped(stability[:, 2], leading)
-        return Equilibria(**arrays)
+        return Equilibria(**arrays, warnings=self._said(loads, found["displacement"][:, :3] if moved else None, found))
 
     def targets(
         self,
@@ -586,7 +667,14 @@ class Machine:
         places, leading = poses_of(self._native, poses, threads, follow=wanted != [True] * 3 + [False] * 3)
         loads = wrenches_of(wrenches, leading)
         found = _core.targets_of_many(self._native, places, loads, wanted, threads, told(progress))
-        return Targets(**{name: shaped(array, leading) for name, array in found.items()})
+        moved = found["tool"][:, :3, 3] - found["targets"][:, :3, 3]
+        return Targets(**_arrays(found, leading), warnings=self._said(loads, moved, found))
+
+    def _said(self, loads: Floats | None, displacement: Floats | None, found: Mapping[str, Any]) -> tuple[str, ...]:
+        """The ``warnings`` of an answer for many postures; those beyond a limit are issued, of the line that asked."""
+        said = of_many(self._native, loads, displacement, found["status"])
+        issue(said)
+        return sentences(said)
 
     def map(
         self,
@@ -600,7 +688,7 @@ class Machine:
         variables: str | Sequence[str] | None = None,
         folder: str | os.PathLike[str] | None = None,
         executor: Executor | Callable[[], Executor] | None = None,
-        chunk: int = 16384,
+        chunk: int | None = None,
         threads: int | None = None,
         progress: Progress | None = None,
     ) -> xarray.Dataset:
@@ -733,7 +821,7 @@ class Machine:
         return self.fingerprint == other.fingerprint
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return _restored, (self.text, self.file, self.tool)
+        return _restored, (self.text, self.file, self.tool, self._notices)
 
     def __copy__(self) -> Machine:
         return self
@@ -747,7 +835,11 @@ class Machine:
         return f"<Machine '{self.name}' ({self.file}): {counts}{counted(self._tool_warnings())}>"
 
 
-def _restored(text: str, file: str, tool: Floats) -> Machine:
+def _arrays(found: Mapping[str, Any], leading: tuple[int, ...]) -> dict[str, Any]:
+    return {name: shaped(array, leading) for name, array in found.items()}
+
+
+def _restored(text: str, file: str, tool: Floats, notices: Sequence[str] = ()) -> Machine:
     """A machine that was pickled."""
     native = _core.Machine.from_toml(text, file)
-    return Machine._of(native if np.array_equal(tool, np.eye(4)) else native.with_tool(tool[None]))
+    return Machine._of(native if np.array_equal(tool, np.eye(4)) else native.with_tool(tool[None]), notices)

@@ -115,7 +115,7 @@ def mirror(
     window: float | None = None,
     repeatability: float | None = None,
     align: Literal["nearest", "arc-length"] | None = None,
-    register: bool = True,
+    register: Literal["none", "translation", "rigid"] | None = None,
     scale: bool = False,
     tolerance: float | None = None,
     progress: Progress | None = None,
@@ -149,9 +149,9 @@ def mirror(
         Standard deviation of one measured deviation in one direction, m; from several measurements of this trial without it.
     align : {"nearest", "arc-length"}, optional
         How points find their places on the path.
-    register : bool
-        Bring the points onto the path by a rigid motion first. What that takes away is not corrected: false for points in the frame of
-        the program.
+    register : {"none", "translation", "rigid"}, optional
+        Motion that brings the points onto the path first. What it takes away is not corrected: ``"none"`` for points in the frame of the
+        program. It must be chosen unless ``state`` has trials already.
     scale : bool
         Seek a scale besides the rigid motion.
     tolerance : float, optional
@@ -182,7 +182,7 @@ def mirror(
     ...     program = os.path.join(folder, "groove.ngc")
     ...     with open(program, "w") as file:
     ...         _ = file.write("G21 G90\nG0 X0 Y0 Z0\nG1 X40 F600\nM30\n")
-    ...     found = mirror(program, points, os.path.join(folder, "trial2.ngc"), register=False)
+    ...     found = mirror(program, points, os.path.join(folder, "trial2.ngc"), register="none")
     >>> found.outcome, round(1e6 * found.left), round(1e6 * found.largest_correction)
     ('go_on', 50, 50)
     """
@@ -205,7 +205,7 @@ def mirror(
                 "window_mm": scaled("window", window, 1e3),
                 "repeatability_um": scaled("repeatability", repeatability, 1e6),
                 "align": align,
-                "no_register": not flag("register", register),
+                "register": register,
                 "scale": flag("scale", scale),
                 "tolerance_um": scaled("tolerance", tolerance, 1e6),
                 "progress": told(progress),

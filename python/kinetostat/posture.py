@@ -11,10 +11,12 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from kinetostat import _core
-from kinetostat._arrays import Floats, one
+from kinetostat._arguments import one_of, or_none, text, texts
+from kinetostat._arrays import Floats, one, thread_count
 from kinetostat._plausibility import counted, sentences
 from kinetostat.display import equilibrium_html, posture_html, stiffness_html
 from kinetostat.errors import KinetostatError
+from kinetostat.results import Gradients
 from kinetostat.status import DirectionKind, FoundBy, Status
 
 if TYPE_CHECKING:
@@ -27,7 +29,7 @@ if TYPE_CHECKING:
     from kinetostat.shares import Shares
     from kinetostat.vibration import Vibration
 
-__all__ = ["Direction", "Equilibrium", "LimitViolation", "Posture", "Stiffness"]
+__all__ = ["Direction", "Equilibrium", "LimbStiffness", "LimitViolation", "Posture", "Stiffness"]
 
 
 class Direction(NamedTuple):
@@ -50,6 +52,52 @@ class Direction(NamedTuple):
     """Joints and springs that move in it, of free and negative directions."""
 
 
+class LimbStiffness(NamedTuple):
+    """Tangent stiffness of a limb at its end, with the motions of its joints and springs [R 4.25, 6.5, 6.8]; base axes.
+
+    A motion ``dt`` of the platform (m, rad, about its reference point) is ``T dt`` at the limb's end, with ``T`` of :attr:`to_end`. The
+    limb's share in the stiffness of the platform is ``T.T @ matrix @ T``, and ``lever`` more in the rotations.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import kinetostat as ks
+    >>> loaded = ks.Machine.preset("stewart_gough_b").posture().deflected_by([0, 0, -1000, 0, 0, 0])
+    >>> total = np.zeros((6, 6))
+    >>> for limb in loaded.limbs:
+    ...     total += limb.to_end.T @ limb.matrix @ limb.to_end
+    ...     total[3:, 3:] += limb.lever
+    >>> bool(np.allclose(total, loaded.stiffness, rtol=1e-6, atol=1e-3))
+    True
+    """
+
+    name: str
+    platform: str
+    """Platform at the limb's end."""
+    arm: Floats
+    """(3,): from the platform's reference point to the limb's end, m."""
+    matrix: Floats
+    """(6, 6): ``K_C`` at the limb's end, N/m, N/rad; N m/m, N m/rad; NaN along axes that the limb cannot move along."""
+    passive_joints: tuple[str, ...]
+    """Names of the rows of ``passive``."""
+    passive: Floats
+    """(passive joints, 6): ``K_Cq``, m or rad per m and rad of the limb's end."""
+    spring_names: tuple[str, ...]
+    """Names of the rows of ``springs``."""
+    springs: Floats
+    """(springs, 6): ``K_Ctheta``, m or rad per m and rad of the limb's end."""
+    lever: Floats
+    """(3, 3): stiffness of rotations of the platform by the limb's force at its arm, N m/rad; zero without a load."""
+
+    @property
+    def to_end(self) -> Floats:
+        """(6, 6): ``T``, from the motion of the platform to that of the limb's end."""
+        x, y, z = self.arm
+        out = np.eye(6)
+        out[:3, 3:] = [[0, z, -y], [-z, 0, x], [y, -x, 0]]
+        return out
+
+
 class LimitViolation(NamedTuple):
     """An actuator outside its limits.
 
@@ -66,6 +114,8 @@ class LimitViolation(NamedTuple):
     upper: float
 
 
+_Of = Literal["theta", "passive", "actuated", "all"]
+
 _DEFLECTED = ("deflected_by", None)
 """What an equilibrium under a wrench was asked, which it knows itself."""
 
@@ -78,6 +128,24 @@ def _directions(text: str) -> tuple[Direction, ...]:
         return Direction(DirectionKind(d["kind"]), number(d["stiffness_n_per_m"]), np.array(d["twist"], dtype=float), d["behind"])
 
     return tuple(of(found) for found in json.loads(text))
+
+
+def _limbs(text: str) -> tuple[LimbStiffness, ...]:
+    def rows(own: list[dict[str, Any]]) -> tuple[tuple[str, ...], Floats]:
+        return tuple(r["name"] for r in own), np.array([r["per_motion_of_end"] for r in own], dtype=float).reshape(-1, 6)
+
+    return tuple(
+        LimbStiffness(
+            limb["name"],
+            limb["platform"],
+            np.array(limb["arm_m"], dtype=float),
+            np.array(limb["stiffness_n_m_rad"], dtype=float),
+            *rows(limb["passive_joints"]),
+            *rows(limb["springs"]),
+            np.array(limb["lever_n_m_per_rad"], dtype=float),
+        )
+        for limb in json.loads(text)
+    )
 
 
 @final
@@ -103,7 +171,10 @@ class Stiffness:
 
     @property
     def matrix(self) -> Floats:
-        """(6, 6): N/m, N/rad; N m/m, N m/rad; base axes, about the tool's reference point."""
+        """(6, 6): N/m, N/rad; N m/m, N m/rad; base axes, about the tool's reference point.
+
+        NaN in the rows and columns of axes that a rigid direction has a part in: there it is infinite, and :attr:`compliance` holds.
+        """
         return self._native.matrix
 
     @property
@@ -125,6 +196,11 @@ class Stiffness:
     def directions(self) -> tuple[Direction, ...]:
         """Principal directions."""
         return _directions(self._native.directions_json())
+
+    @property
+    def limbs(self) -> tuple[LimbStiffness, ...]:
+        """Stiffness of every limb at its end, in the order of the machine."""
+        return _limbs(self.posture._native.limbs_of_stiffness(self._native))
 
     def __reduce__(self) -> tuple[Any, ...]:
         return Posture.stiffness, (self.posture,)
@@ -173,7 +249,10 @@ class Equilibrium:
 
     @property
     def stiffness(self) -> Floats:
-        """(6, 6): tangent stiffness; N/m, N/rad; N m/m, N m/rad; base axes, about the tool's reference point."""
+        """(6, 6): tangent stiffness; N/m, N/rad; N m/m, N m/rad; base axes, about the tool's reference point.
+
+        NaN in the rows and columns of axes that a rigid direction has a part in: there it is infinite, and :attr:`compliance` holds.
+        """
         return self._native.stiffness
 
     @property
@@ -228,6 +307,11 @@ class Equilibrium:
     def directions(self) -> tuple[Direction, ...]:
         """Principal directions of the tangent stiffness."""
         return _directions(self._native.directions_json())
+
+    @property
+    def limbs(self) -> tuple[LimbStiffness, ...]:
+        """Stiffness of every limb at its end, in the order of the machine."""
+        return _limbs(self.posture._native.limbs_of_equilibrium(self._native))
 
     def __reduce__(self) -> tuple[Any, ...]:
         kind, value = self._question
@@ -356,6 +440,153 @@ class Posture:
         """
         # Issues the warnings, too: each way from Python into the core and back takes half a microsecond.
         return Equilibrium(self, self._native.deflected_by(wrench), _DEFLECTED)
+
+    def frames(self) -> dict[tuple[str, str], Floats]:
+        """(4, 4) by limb and node: poses of all nodes of the unloaded machine as drawn, base from node, m.
+
+        Examples
+        --------
+        >>> import kinetostat as ks
+        >>> list(ks.Machine.preset("two_link").posture().frames())[-1]
+        ('arm', 'tip')
+        """
+        return dict(zip(_core.frame_names(self.machine._native), _core.frames_of(self._native), strict=True))
+
+    def jacobian(self, of: _Of = "theta", *, at: str | None = None, limb: str | None = None) -> Floats:
+        """Jacobian of a node of a limb [R 3.2-3.6], for the unloaded machine as drawn.
+
+        Parameters
+        ----------
+        of : {"theta", "passive", "actuated", "all"}
+            Columns: coordinates of springs, passive joints, commands of actuators, or all in the order of :meth:`coordinates`.
+        at : str, optional
+            Name of a node; the reference point of the platform at which the limb ends, that of the tool as a rule, without it.
+        limb : str, optional
+            Name of the limb; needed where there are several.
+
+        Returns
+        -------
+        ndarray, shape (6, n)
+            Motion of the node's origin, m and rad, base axes, by each coordinate, m or rad.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> import kinetostat as ks
+        >>> posture = ks.Machine.preset("heavy_6r").posture()
+        >>> j, k = posture.jacobian("theta"), posture.joint_stiffness()
+        >>> bool(np.allclose(j @ np.linalg.inv(k) @ j.T, posture.stiffness().compliance, rtol=1e-9, atol=1e-15))
+        True
+        """
+        number, columns = self._columns(of, limb)
+        found: Floats = _core.limb_jacobian(self._native, number, or_none(text, "at", at))[:, columns]
+        return found
+
+    def joint_stiffness(self, *, limb: str | None = None) -> Floats:
+        """(n, n): stiffness matrix ``K_theta`` of the springs of a limb [R 3.7], in the order of ``jacobian("theta")``; N/m, N, N m/rad.
+
+        Examples
+        --------
+        >>> import kinetostat as ks
+        >>> ks.Machine.preset("scara").posture().joint_stiffness().shape
+        (28, 28)
+        """
+        return _core.limb_springs(self._native, self._limb(limb))
+
+    def load_hessian(self, wrench: ArrayLike, of: _Of = "theta", *, at: str | None = None, limb: str | None = None) -> Floats:
+        """Hessian of a wrench on a node of a limb [R 4.21]: the derivative of ``J.T @ wrench`` by the coordinates.
+
+        Parameters
+        ----------
+        wrench : array_like, shape (6,)
+            Force and moment (N, N m), base axes, about the node's origin; it keeps its direction.
+        of, at, limb
+            As for :meth:`jacobian`.
+
+        Returns
+        -------
+        ndarray, shape (n, n)
+            N/m, N, N m/rad; symmetric where no moment acts.
+
+        Examples
+        --------
+        >>> import kinetostat as ks
+        >>> h = ks.Machine.preset("heavy_6r").posture().load_hessian([0, 0, -500, 0, 0, 0], "actuated")
+        >>> h.shape, bool(abs(h - h.T).max() < 1e-9)
+        ((6, 6), True)
+        """
+        number, columns = self._columns(of, limb)
+        found = _core.limb_hessian(self._native, number, one("wrench", wrench, (6,))[None], or_none(text, "at", at))
+        return found[np.ix_(columns, columns)]
+
+    def coordinates(self, of: _Of = "all", *, limb: str | None = None) -> tuple[str, ...]:
+        """Names of the columns of :meth:`jacobian`.
+
+        Examples
+        --------
+        >>> import kinetostat as ks
+        >>> ks.Machine.preset("orthoglide").posture().coordinates("passive", limb="leg x")
+        ('q1', 'q2', 'q3')
+        """
+        number, columns = self._columns(of, limb)
+        names = _core.limb_coordinates(self._native, number)
+        return tuple(names[column][0] for column in columns)
+
+    def _limb(self, name: str | None) -> int:
+        limbs = self.machine.limbs
+        if name is None and len(limbs) == 1:
+            return 0
+        return limbs.index(one_of("limb", name, limbs))
+
+    def _columns(self, of: str, limb: str | None) -> tuple[int, list[int]]:
+        number = self._limb(limb)
+        one_of("of", of, ("theta", "passive", "actuated", "all"))
+        return number, [k for k, (_, role) in enumerate(_core.limb_coordinates(self._native, number)) if of in (role, "all")]
+
+    def gradients(self, paths: Sequence[str] | None = None, wrench: ArrayLike | None = None, *, threads: int | None = None) -> Gradients:
+        """Derivatives of the tool's pose and of the stiffness matrix by numbers of the model file, the commands being held.
+
+        Parameters
+        ----------
+        paths : sequence of str, optional
+            Numbers as :func:`kinetostat.shares.sensitivities` names them; all of the file without it.
+        wrench : array_like, shape (6,), optional
+            Load on the tool (N, N m): derivatives of the loaded pose and the tangent stiffness of the machine as it is. Of the unloaded
+            machine as drawn without it.
+        threads : int, optional
+            As for :meth:`kinetostat.Machine.stiffness`.
+
+        Returns
+        -------
+        Gradients
+
+        Raises
+        ------
+        UnansweredError
+            No equilibrium, or the commands alone do not lead to this posture.
+
+        Notes
+        -----
+        By central differences of three steps, extrapolated to sixth order, with the difference to fourth order as the error.
+
+        Examples
+        --------
+        >>> import kinetostat as ks
+        >>> found = ks.Machine.preset("heavy_6r").posture().gradients(["chain.arm.joint 2.stiffness_n_m_per_rad"])
+        >>> bool(abs(found.pose).max() < 1e-9), bool(found.stiffness[0, 2, 2] > 0)
+        (True, True)
+        """
+        names = [] if paths is None else texts("paths", paths, "a list of paths of numbers")
+        load = None if wrench is None else one("wrench", wrench, (6,))[None]
+        found = _core.gradients_of(self.machine._native, self._native, names, load, thread_count(threads))
+        about = found.pop("about")
+        return Gradients(
+            paths=tuple(row[0] for row in about),
+            values=np.array([row[1] for row in about], dtype=float),
+            units=tuple(row[2] for row in about),
+            unanswered={row[0]: row[3] for row in about if row[3] is not None},
+            **found,
+        )
 
     def held_at(self, pose: ArrayLike) -> Equilibrium:
         """Equilibrium with the tool held at a pose: the wrench that holds it is part of the answer.

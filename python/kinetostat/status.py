@@ -48,6 +48,8 @@ class FoundBy(enum.Enum):
     """Newton's iteration from another start: it may lie on another branch."""
     CONTINUATION = "continuation"
     """A curve of equilibria was followed to it."""
+    RELAXATION = "relaxation"
+    """Damped steps from the commanded posture of an under-constrained machine: the nearest of its equilibria on the way."""
 
 
 class DirectionKind(enum.Enum):

@@ -23,7 +23,7 @@ from kinetostat.machine import Machine
 
 __all__ = ["Distribution", "MachineSamples", "SobolIndices", "draws", "machines", "normal", "sobol", "triangular", "uniform"]
 
-_QUANTITIES = ("error", "deflection", "deviation", "compensated", "stiffness")
+_QUANTITIES = ("error", "deflection_by_load", "deviation", "compensated", "stiffness")
 _WORDS = ("normal", "uniform", "triangular")
 _MOST_DRAWS = 2**20
 _LEAST_SOBOL = 128
@@ -212,7 +212,7 @@ def machines(
         Force and moment on the tool (N, N m), base axes.
     quantities : sequence of str
         Of ``error`` (from where the unloaded tool is commanded to where it is: manufacture, assembly and the machine's own weight),
-        ``deflection`` (from there to where the wrench moves it: own weight is not in it), ``deviation`` (both together),
+        ``deflection_by_load`` (from there to where the wrench moves it: own weight is not in it), ``deviation`` (both together),
         ``compensated`` (the deviation that stays when commands compensate the machine as drawn), ``stiffness``.
     correlations : mapping of pairs of names to float, optional
         Of the numbers' normal scores; not with the text of a file, which states its own.

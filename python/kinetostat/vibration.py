@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from kinetostat import _core
 from kinetostat._arguments import flag, of_kind, one_of, or_none, text, texts
 from kinetostat._arrays import Floats, finite, one, real, whole_number
+from kinetostat._plausibility import issue
 from kinetostat.errors import ArgumentError
 from kinetostat.posture import _DEFLECTED, Equilibrium, Posture
 from kinetostat.status import ModeKind
@@ -211,7 +212,7 @@ class ComplexModes:
     Examples
     --------
     >>> import kinetostat as ks
-    >>> wrench = [0, 0, 0, 900, 0, 0]  # a moment that does not turn with the tool
+    >>> wrench = [0, 0, 0, 90, 0, 0]  # a moment that does not turn with the tool
     >>> found = ks.Machine.preset("heavy_6r").posture().vibration(wrench).complex_modes()
     >>> found.eigenvalues.shape, found.verdict in ("stable", "not_judged")
     ((36,), True)
@@ -539,4 +540,5 @@ def vibration_of(posture: Posture, wrench: ArrayLike, held: Sequence[str]) -> Vi
         one_of(f"held[{index}]", name, _AXES)
     x, y, z, rx, ry, rz = (name in directions for name in _AXES)
     native = _core.vibration_of(posture._native, one("wrench", wrench, (6,)), (x, y, z, rx, ry, rz))
+    issue(_core.load_warnings(posture._native, native.equilibrium))
     return Vibration(posture, native, tuple(name for name in _AXES if name in directions))

@@ -12,6 +12,8 @@ from hypothesis.extra import numpy as arrays
 
 import kinetostat as ks
 
+pytestmark = pytest.mark.filterwarnings("ignore::kinetostat.PlausibilityWarning")
+
 MACHINE = ks.Machine.preset("orthoglide")
 ARM = ks.Machine.preset("heavy_6r")
 PLACES = np.random.default_rng(3).uniform(-0.05, 0.05, (6, 3))

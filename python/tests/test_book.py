@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+import importlib.util
+import inspect
 import re
 from pathlib import Path
 
 import pytest
+
+import kinetostat as ks
 
 BOOK = Path(__file__).resolve().parents[2] / "book" / "src"
 FENCE = re.compile(r"^(<!-- not run: [^\n]*-->\n)?```python\n(.*?)^```$", re.MULTILINE | re.DOTALL)
@@ -23,6 +27,17 @@ def test_python_of_the_book_runs(page, tmp_path, monkeypatch):
         code = compile(body, str(page), "exec")
         if not not_run:
             exec(code, names)
+
+
+def test_the_reference_is_what_the_docstrings_say():
+    tool = importlib.util.spec_from_file_location("make_reference", BOOK.parents[1] / "python" / "tools" / "make_reference.py")
+    made = importlib.util.module_from_spec(tool)
+    tool.loader.exec_module(made)
+    page = made.page()
+    assert (BOOK / "python_reference.md").read_text(encoding="utf-8") == page, "run python/tools/make_reference.py"
+    documented = [name for name in ks.__all__ if inspect.isclass(getattr(ks, name)) or inspect.isfunction(getattr(ks, name))]
+    absent = [name for name in documented if f"**`{name}" not in page]
+    assert not absent
 
 
 def test_the_book_has_python_that_runs():

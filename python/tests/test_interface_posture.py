@@ -73,13 +73,14 @@ def test_pickles_of_joints_and_poses_are_equal_to_themselves() -> None:
 def test_pickles_of_random_arms_are_equal_to_themselves(seed: int) -> None:
     rng = np.random.default_rng(seed)
     builder = ks.MachineBuilder("arm")
-    builder.platform("tool", [0, 0, 1])
-    limb = builder.limb("arm", to="tool")
     count = int(rng.integers(1, 9))
+    offsets = rng.uniform(-0.3, 0.3, (count, 3))
+    builder.platform("tool", offsets.sum(axis=0))
+    limb = builder.limb("arm", to="tool")
     for index in range(count):
         axis = rng.normal(size=3)
         kind = "prismatic" if rng.uniform() < 0.3 else "revolute"
-        limb.actuator(f"j{index}", kind, (axis / np.linalg.norm(axis)).tolist(), 1e5).rigid(rng.uniform(-0.3, 0.3, 3).tolist())
+        limb.actuator(f"j{index}", kind, (axis / np.linalg.norm(axis)).tolist(), 1e5).rigid(offsets[index].tolist())
     ways = [{"joints": rng.uniform(-1, 1, count)} for _ in range(10)]
     assert come_back(builder.machine(), ways) == 10
 
@@ -309,3 +310,35 @@ def test_urdf_from_an_object_that_writes_it() -> None:
     machine = ks.Machine.from_urdf(Robot(), tip="t", stiffness=1e5)
     compliance = machine.posture().stiffness().compliance
     assert compliance[1, 1] == pytest.approx(2.0**2 / 1e5, rel=1e-9)
+
+
+def test_what_is_rigid_is_nan_one_by_one_in_batches_and_loaded() -> None:
+    machine = ks.Machine.preset("kuka_kr270_like")
+    joints = np.deg2rad([0.0, -95.0, 105.0, 0.0, 0.0, 0.0])  # the wrist is stretched
+    posture = machine.posture(joints=joints)
+    moving, locked = [0, 2, 4], [1, 3, 5]
+    loaded = posture.deflected_by([100, 0, 0, 0, 0, 0])
+    for matrix, compliance in ((posture.stiffness().matrix, posture.stiffness().compliance), (loaded.stiffness, loaded.compliance)):
+        assert np.isnan(matrix[locked]).all()
+        assert np.isnan(matrix[:, locked]).all()
+        # Axes 2, 3 and 5 turn about y, the others across it.
+        of_moving = np.linalg.inv(compliance[np.ix_(moving, moving)])
+        np.testing.assert_allclose(matrix[np.ix_(moving, moving)], of_moving, rtol=2e-3, atol=1e-3 * np.abs(of_moving).max())
+        assert compliance[4, 4] == pytest.approx(1 / 3.31e6 + 1 / 2.46e6 + 1 / 3.03e5, rel=1e-3)
+    many = machine.stiffness(joints=[joints, joints]).matrix
+    np.testing.assert_array_equal(np.isnan(many[1]), np.isnan(posture.stiffness().matrix))
+    found = machine.equilibrium(joints=[joints, joints], wrenches=[[100, 0, 0, 0, 0, 0]] * 2, details="stiffness")
+    assert found.stiffness is not None
+    np.testing.assert_array_equal(np.isnan(found.stiffness[0]), np.isnan(loaded.stiffness))
+
+
+def test_limbs_add_up_to_the_stiffness_of_the_tool(posture: ks.Posture) -> None:
+    loaded = posture.deflected_by([100, -50, 20, 0, 0, 0])
+    total = np.zeros((6, 6))
+    for limb in loaded.limbs:
+        assert limb.passive.shape == (len(limb.passive_joints), 6)
+        assert limb.springs.shape == (len(limb.spring_names), 6)
+        assert np.isfinite(limb.passive).all() and np.isfinite(limb.springs).all()
+        total += limb.to_end.T @ limb.matrix @ limb.to_end
+        total[3:, 3:] += limb.lever
+    np.testing.assert_allclose(total, loaded.stiffness, rtol=1e-7, atol=1e-7 * np.abs(loaded.stiffness).max())

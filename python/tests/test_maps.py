@@ -316,6 +316,7 @@ def test_vtk_is_read_back_by_meshio_and_vtk(tmp_path: Path, ending: str, questio
             assert (volume > 0).all()
 
 
+@pytest.mark.filterwarnings("ignore::kinetostat.PlausibilityWarning")
 def test_best_and_worst_are_within_the_limits() -> None:
     found = MACHINE.map(x=np.linspace(-0.15, 0.15, 13), y=np.linspace(-0.15, 0.15, 13), variables="stiffness_softest")
     assert (found.status != ks.Status.SOLVED).any()

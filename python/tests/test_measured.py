@@ -75,7 +75,7 @@ def test_the_line_is_along_no_axis():
 def test_the_smoothed_deviation_is_mirrored(tmp_path: Path):
     at = np.linspace(0, LENGTH, 61)
     found = mirror(
-        drawn(tmp_path), points(at, wave(at)), tmp_path / "next.ngc", smoothing=1e-3 * SMOOTHING, register=False, tolerance=0.2e-6
+        drawn(tmp_path), points(at, wave(at)), tmp_path / "next.ngc", smoothing=1e-3 * SMOOTHING, register="none", tolerance=0.2e-6
     )
     s = np.linspace(0, LENGTH, 500)
     wanted = START + s[:, None] * ALONG - smoothed(s, at, wave(at))[:, None] * ACROSS
@@ -96,12 +96,12 @@ def test_answers_are_those_of_the_command(tmp_path: Path):
     rows = "".join(",".join(repr(float(x)) for x in row) + "\n" for row in points(at, wave(at)))
     table.write_text("x_m,y_m,z_m\n" + rows)
     program = drawn(tmp_path)
-    command = ks.commands.mirror(program, measured=table, out=tmp_path / "a.ngc", no_register=True, repeatability_um=2)
-    typed = mirror(program, points(at, wave(at)), tmp_path / "b.ngc", register=False, repeatability=2e-6)
+    command = ks.commands.mirror(program, measured=table, out=tmp_path / "a.ngc", register="none", repeatability_um=2)
+    typed = mirror(program, points(at, wave(at)), tmp_path / "b.ngc", register="none", repeatability=2e-6)
     assert typed.answer == command
     assert (tmp_path / "a.ngc").read_bytes() == (tmp_path / "b.ngc").read_bytes()
     assert typed.floor == 1e-3 * command["floor_mm"] > 0
-    of_file = mirror(program, table, tmp_path / "c.ngc", register=False, repeatability=2e-6)
+    of_file = mirror(program, table, tmp_path / "c.ngc", register="none", repeatability=2e-6)
     assert of_file.answer == command
 
 
@@ -109,10 +109,10 @@ def test_trials_follow_each_other_until_nothing_is_left(tmp_path: Path):
     """A machine that is always 70 um off across the line: the first trial mirrors it, the second finds it corrected."""
     program, state, at = drawn(tmp_path), tmp_path / "mirror.toml", np.linspace(0, LENGTH, 121)
     offset = np.full(len(at), 0.07)
-    first = mirror(program, points(at, offset), tmp_path / "2.ngc", state=state, register=False, repeatability=3e-6)
+    first = mirror(program, points(at, offset), tmp_path / "2.ngc", state=state, register="none", repeatability=3e-6)
     assert first.outcome == "go_on"
     commanded = between(corners(tmp_path / "2.ngc"), at)
-    second = mirror(program, 1e-3 * (commanded + 0.07 * ACROSS), tmp_path / "3.ngc", state=state, register=False, repeatability=3e-6)
+    second = mirror(program, 1e-3 * (commanded + 0.07 * ACROSS), tmp_path / "3.ngc", state=state, register="none", repeatability=3e-6)
     assert (second.trial, second.outcome) == (2, "within_repeatability")
     assert second.left_in_trials.shape == (2,)
     np.testing.assert_allclose(second.left_in_trials, [first.left, second.left], rtol=1e-12)
@@ -131,7 +131,7 @@ def test_points_in_another_frame_are_brought_onto_the_path(tmp_path: Path):
     on_path = 1e-3 * np.concatenate([a + share * (b - a) for a, b in itertools.pairwise(path)])
     motion = ks.pose([0.011, -0.023, 0.007], ks.rotation_from_vector([0.02, -0.03, 0.05]))
     measured = on_path @ motion[:3, :3].T + motion[:3, 3]
-    found = mirror(program, [measured, measured + np.array([0, 0, 1e-7])], tmp_path / "next.ngc")
+    found = mirror(program, [measured, measured + np.array([0, 0, 1e-7])], tmp_path / "next.ngc", register="rigid")
     assert len(found.measurements) == 2
     back = found.measurements[0].motion
     assert back is not None
@@ -139,7 +139,7 @@ def test_points_in_another_frame_are_brought_onto_the_path(tmp_path: Path):
     assert found.left < 1e-7
     assert [own.rejected_rows.tolist() for own in found.measurements] == [[], []]
     measured[17] += [0, 0, 7e-3]
-    own = mirror(program, measured, tmp_path / "other.ngc").measurements[0]
+    own = mirror(program, measured, tmp_path / "other.ngc", register="rigid").measurements[0]
     assert own.rejected_rows.tolist() == own.left_out.tolist() == [18]
 
 
@@ -151,7 +151,7 @@ def test_points_that_may_belong_to_the_other_leg_of_a_corner_are_named(tmp_path:
     inside = np.full(len(along), 60 - off)
     second = np.stack([inside, along, 0 * along], axis=-1)
     first = np.stack([60 - along, 60 - inside, 0 * along], axis=-1)[::-1]
-    found = mirror(program, 1e-3 * np.concatenate([first, second]), tmp_path / "next.ngc", register=False)
+    found = mirror(program, 1e-3 * np.concatenate([first, second]), tmp_path / "next.ngc", register="none")
     own = found.measurements[0]
     nearer = np.flatnonzero(np.abs(along) < off)
     rows = np.concatenate([261 - nearer, 262 + nearer])
@@ -174,5 +174,5 @@ def test_points_that_may_belong_to_the_other_leg_of_a_corner_are_named(tmp_path:
 def test_points_that_make_no_sense(tmp_path: Path, measured: object, message: str):
     program = drawn(tmp_path)
     with pytest.raises(ks.ArgumentError, match=message):
-        mirror(program, measured, tmp_path / "next.ngc", register=False)
+        mirror(program, measured, tmp_path / "next.ngc", register="none")
     assert sorted(path.name for path in tmp_path.iterdir()) == ["line.ngc"]

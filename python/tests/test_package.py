@@ -54,6 +54,43 @@ def test_symbolic_comes_when_it_is_asked_for():
     assert python("import kinetostat as ks; print(ks.symbolic.beam().rank)").strip() == "6"
 
 
+def test_the_package_is_looked_at_without_sympy():
+    found = python(
+        "import sys, inspect, pydoc\n"
+        "sys.modules['sympy'] = None\n"
+        "import kinetostat as ks\n"
+        "names = dict(inspect.getmembers(ks))\n"
+        "text = pydoc.render_doc(ks)\n"
+        "print(hasattr(ks, 'symbolic'), 'symbolic' in names, 'Machine' in names, 'class Machine' in pydoc.plain(text))\n"
+        "try: ks.symbolic\n"
+        "except AttributeError as absent: print(absent)\n"
+        "try: from kinetostat import symbolic\n"
+        "except ImportError as absent: print(absent)\n"
+    )
+    said = "kinetostat.symbolic needs SymPy: pip install 'kinetostat[sym]'"
+    assert found.splitlines() == ["False False True True", said, said]
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="limits of memory are set by RLIMIT_AS")
+def test_memory_that_is_not_there_is_an_error_of_python():
+    found = python(
+        "import resource\nimport numpy as np\nimport kinetostat as ks\n"
+        "arm = ks.Machine.preset('heavy_6r')\n"
+        "used = int(open('/proc/self/statm').read().split()[0]) * resource.getpagesize()\n"
+        "resource.setrlimit(resource.RLIMIT_AS, (used + (1 << 30),) * 2)\n"
+        "joints = np.zeros((4_000_000, 6))\n"
+        "places = np.broadcast_to([1.2, 0, 0.9], (4_000_000, 3))\n"
+        "ways = [lambda: arm.stiffness(joints=joints), lambda: arm.equilibrium(joints=joints), lambda: arm.targets(places, np.zeros(6))]\n"
+        "for ask in ways:\n    try: ask()\n"
+        "    except MemoryError as failed: print(failed)\n"
+        "print(arm.stiffness(joints=joints[:100]).solved.all())\n"
+    )
+    said = found.splitlines()
+    assert len(said) == 4, found
+    assert said[3] == "True"
+    assert all("allocate" in line for line in said[:3]), found
+
+
 def test_star_asks_for_numpy_only():
     found = python(f"import sys\nfrom kinetostat import *\nprint(tolerance.__name__, *(set({HEAVY!r}) & set(sys.modules)))")
     assert found.split() == ["kinetostat.tolerance"]

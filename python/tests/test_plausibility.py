@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import kinetostat as ks
-from kinetostat import commands
+from kinetostat import chatter, commands
 
 HEAVY = ks.Machine.preset("heavy_6r")
 PROGRAM = "G21 G90\nG0 X0 Y0 Z1\nG1 Z-1 F300\nG1 X100 Y-20\nM2\n"
@@ -39,9 +39,10 @@ def test_a_load_that_is_only_unusual_is_written_down() -> None:
 
 
 def test_a_tool_in_millimetres_is_heard() -> None:
-    with pytest.warns(ks.PlausibilityWarning, match="180000 mm"):
+    with pytest.warns(ks.PlausibilityWarning, match="no tool has such a length") as heard:
         long = HEAVY.with_tool(length=180)
-    assert any("180000 mm" in said for said in long.warnings)
+    assert "180000 mm" in heard[0].message.detail
+    assert heard[0].message.detail in long.warnings
     assert "warning" in repr(long)
     pose = np.eye(4)
     pose[:3, 3] = [100, -20, 180]
@@ -65,8 +66,9 @@ def test_corrections_of_a_metre_are_heard() -> None:
     def constant(size: float) -> ks.Corrected:
         return ks.correct_program(PROGRAM, lambda p, d: np.full_like(p, size) * [0.6, 0.0, -0.8])
 
-    with pytest.warns(ks.PlausibilityWarning, match="corrections of up to 1000 mm are large"):
+    with pytest.warns(ks.PlausibilityWarning, match="corrections are larger than programs have") as heard:
         found = constant(1.0)
+    assert "corrections of up to 1000 mm are large" in heard[0].message.detail
     assert len(found.warnings) == 1
     with warnings.catch_warnings():
         warnings.simplefilter("error")
@@ -98,3 +100,72 @@ def test_energy_of_a_spring_by_hand() -> None:
     work = np.concatenate([[0.0], np.cumsum(0.5 * (branch.force[1:] + branch.force[:-1]) * np.diff(branch.displacement))])
     kept = branch.spring_energy - branch.spring_energy[0]
     np.testing.assert_allclose(kept, work, atol=1e-3 * np.abs(work).max())
+
+
+FOLDING = [1e6, 0, 0, 0, 0, 0]
+
+
+def test_many_postures_say_what_one_says() -> None:
+    place = np.array([1.2, 0, 0.9])
+    with pytest.warns(ks.PlausibilityWarning) as one:
+        single = HEAVY.posture(place).deflected_by(FOLDING)
+    for ask in (
+        lambda: HEAVY.equilibrium([place], FOLDING),
+        lambda: HEAVY.equilibrium([place, place], [[0] * 6, FOLDING]),
+        lambda: HEAVY.map(x=[1.2], y=0.0, z=0.9, loads=FOLDING),
+        lambda: HEAVY.posture(place).vibration(FOLDING),
+    ):
+        with pytest.warns(ks.PlausibilityWarning) as many:
+            found = ask()
+        assert {str(w.message) for w in many} == {str(w.message) for w in one}
+        assert all(w.filename == __file__ for w in many)
+        if isinstance(found, ks.Equilibria):
+            assert found.warnings == single.warnings
+            assert f"; {len(found.warnings)} warnings>" in repr(found)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert HEAVY.equilibrium([place], [0, 300, 10, 0, 0, 0]).warnings == ()
+
+
+def test_places_and_commands_in_other_units_are_heard() -> None:
+    for ask in (
+        lambda: HEAVY.stiffness([[1200, 0, 900]] * 3),
+        lambda: HEAVY.equilibrium([[1200, 0, 900]] * 3),
+        lambda: HEAVY.map(x=[1200]),
+    ):
+        with pytest.warns(ks.PlausibilityWarning, match="none of the places can be reached"):
+            ask()
+    degrees = [0, -90, 90, 0, 45, 0]
+    for ask in (lambda: HEAVY.posture(joints=degrees), lambda: HEAVY.stiffness(joints=[degrees]), lambda: HEAVY.frames([degrees])):
+        with pytest.warns(ks.PlausibilityWarning, match="commands are beyond what actuators have") as heard:
+            ask()
+        assert "is commanded to 90 rad" in heard[0].message.detail  # type: ignore[union-attr]
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        HEAVY.stiffness([[1200, 0, 900], [1.2, 0, 0.9]])
+
+
+def test_repeated_warnings_are_one_line() -> None:
+    postures = [HEAVY.posture([1.2, 0.01 * k, 0.9]) for k in range(5)]
+    with warnings.catch_warnings(record=True) as heard:
+        warnings.simplefilter("default")
+        for k, posture in enumerate(postures):
+            posture.deflected_by([0, 0, 2e4 + 100 * k, 0, 0, 0])
+    assert len(heard) == len({str(w.message) for w in heard})
+
+
+@pytest.mark.parametrize(
+    ("coefficients", "words"),
+    [
+        ((800.0, 240.0, 0.0), "it looks like N/mm\\^2, in Pa it is 8e\\+08"),
+        ((8e8, 0.3, 0.0), "looks like a ratio: in Pa it is 2.4e\\+08"),
+        ((8e14, 0.0, 0.0), "expected a tangential one of 5e\\+06 to 2e\\+10 Pa"),
+        ((-8e8, 0.0, 0.0), "expected a tangential one"),
+    ],
+)
+def test_coefficients_of_cuts_in_other_units_are_refused(coefficients: tuple[float, float, float], words: str) -> None:
+    tip = chatter.tool_modes([[1, 0, 0]], stiffness=[1.34e6], frequencies_hz=[922], damping_ratios=[0.011])
+    with pytest.raises(ks.ArgumentError, match=words):
+        chatter.lobes(tip, chatter.MillingCut(2, 1.0, False, coefficients), [5000.0], up_to=1e-3)
+    with pytest.raises(ks.ArgumentError, match=r"up_to is up to 3 m, .* looks like mm"):
+        chatter.lobes(tip, chatter.MillingCut(2, 1.0, False, (6e8, 2e8, 0.0)), [5000.0], up_to=3)

@@ -156,6 +156,8 @@ def test_another_sweep_in_the_folder_is_an_error_that_names_the_field(tmp_path: 
     sweep.to_folder(out, functions.stiff, 20, part, chunk=10)
     with pytest.raises(ks.ArgumentError, match="count is 20 there and 19 here"):
         sweep.to_folder(out, functions.stiff, 19, part, chunk=10)
+    # A run without a size takes that of the folder.
+    assert sweep.to_folder(out, functions.stiff, 20, part) == sweep.Done(chunks=2, computed=0, damaged=0)
     with pytest.raises(ks.ArgumentError, match="chunk is 10 there and 5 here"):
         sweep.to_folder(out, functions.stiff, 20, part, chunk=5)
     with pytest.raises(ks.ArgumentError, match=r"settings\.places\.sha256"):

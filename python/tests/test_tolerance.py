@@ -60,7 +60,7 @@ def test_machines_linear_against_draws() -> None:
     assert found.samples.shape == (512, 2, 19)
     assert found.inputs.shape == (512, 3)
     assert found.no_machine == found.no_answer == found.unstable == 0
-    at = found.columns.index("deflection_mm")
+    at = found.columns.index("deflection_by_load_mm")
     np.testing.assert_allclose(found.samples[:, :, at].std(axis=0), found.deviation[:, at], rtol=0.05)
     assert (found.nonlinearity()[:, at] < 0.1).all()
     # One machine anew, as a model of its own whose load is the drawn one: the deflection is what the machine itself says.

@@ -156,7 +156,7 @@ def test_lines_of_limbs_run_from_joint_to_joint():
 @pytest.mark.parametrize(
     ("stiffness", "words"),
     [
-        ({"shoulder": 2e5}, r"stiffness\['shoulder'\] is 200000.0, expected a value and its unit as \(2e5, 'N m/rad'\)"),
+        ({"ankle": 2e5}, r"stiffness\['ankle'\] is 200000.0, expected a value and its unit as \(2e5, 'N m/rad'\)"),
         ({"shoulder": (2e5, "Nm")}, "units: N m/rad, N mm/rad"),
         ({"shoulder": ("stiff", "N m/rad")}, r"stiffness\['shoulder'\] has dtype"),
     ],

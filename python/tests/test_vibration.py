@@ -22,6 +22,7 @@ def arm() -> ks.Posture:
     return ks.Machine.open(ARM6).posture()
 
 
+@pytest.mark.filterwarnings("ignore::kinetostat.PlausibilityWarning")
 @pytest.mark.parametrize(
     ("force", "expected"),
     [
@@ -127,6 +128,7 @@ def test_a_dead_moment_has_no_potential(arm):
     np.testing.assert_allclose(still, pushed.equilibrium.compliance, rtol=1e-8, atol=1e-13)
 
 
+@pytest.mark.filterwarnings("ignore::kinetostat.PlausibilityWarning")
 def test_complex_modes_are_those_of_numpy_and_flutter_is_no_stable_state(arm):
     assert arm.vibration([300, 0, 0, 0, 0, 0]).complex_modes() is None
     verdicts = set()
@@ -152,6 +154,7 @@ def test_complex_modes_are_those_of_numpy_and_flutter_is_no_stable_state(arm):
     assert "flutter" in verdicts or "divergence" in verdicts, verdicts
 
 
+@pytest.mark.filterwarnings("ignore::kinetostat.PlausibilityWarning")
 def test_a_reduction_keeps_what_its_basis_holds_and_its_bounds_hold():
     posture = ks.Machine.preset("heavy_6r").posture()
     whole = posture.vibration([300, -200, -500, 0, 0, 0])

@@ -6,6 +6,7 @@ Times are printed and not asserted; `cargo xtask figures` measures them.
 from __future__ import annotations
 
 import importlib.util
+import inspect
 import statistics
 import subprocess
 import sys
@@ -31,6 +32,8 @@ def main() -> None:
 
     first = time.perf_counter() - start
     assert not set(OPTIONAL) & set(sys.modules)
+    assert not hasattr(ks, "symbolic")
+    assert len(inspect.getmembers(ks)) > 50
     machine = ks.Machine.preset("orthoglide")
     posture = machine.posture(position=[0.0, 0.0, 0.0])
     stiffness = posture.stiffness().matrix[0, 0]

@@ -208,7 +208,7 @@ True
         """
         ...     measured = Path(folder, "trial1.csv")
         ...     _ = measured.write_text("x_mm,y_mm,z_mm\\n" + "".join(f"{x},0.05,0\\n" for x in range(41)))
-        ...     found = ks.commands.mirror(file, measured=measured, no_register=True, out=Path(folder, "trial2.ngc"))
+        ...     found = ks.commands.mirror(file, measured=measured, register="none", out=Path(folder, "trial2.ngc"))
         >>> found["outcome"], round(found["left_mm"], 3), round(found["largest_correction_mm"], 3)
         ('go_on', 0.05, 0.05)
         """,

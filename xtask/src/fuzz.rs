@@ -1,5 +1,6 @@
 //! `cargo xtask fuzz`: random chains under random loads through every query, struts, stiffness ratios and
-//! stiff links with known answers, and random programs under ridged tables of corrections, for a stated time.
+//! stiff links with known answers, random programs under ridged tables of corrections, and random options and jobs over all
+//! commands, for a stated time.
 
 use anyhow::{Context, Result, bail};
 
@@ -33,6 +34,18 @@ fn macros(minutes: &str, seed: &str) -> Result<()> {
         "fuzz of programs with macros",
         "kinetostat-program",
         "fuzz_expand",
+        &[&minutes, seed],
+    )
+}
+
+/// Errors of manufacture in pairs, for a twelfth of the time. One case is repeated with
+/// `cargo run --package kinetostat-model --example fuzz_errors -- case SEED`.
+fn errors_in_pairs(minutes: &str, seed: &str) -> Result<()> {
+    let minutes = (minutes.parse::<f64>()? / 12.0).to_string();
+    example(
+        "fuzz of errors in pairs",
+        "kinetostat-model",
+        "fuzz_errors",
         &[&minutes, seed],
     )
 }
@@ -78,12 +91,31 @@ pub fn run(options: &[&str]) -> Result<()> {
     }
     codes(minutes, seed)?;
     macros(minutes, seed)?;
+    errors_in_pairs(minutes, seed)?;
     robot_programs(minutes, seed)?;
     // Programs are many more cases in a minute: a sixth of the time does.
     let time: f64 = minutes.parse()?;
     maps(&[&(time / 6.0).to_string(), seed])?;
     chains(&[&(time * 5.0 / 6.0).to_string(), seed])?;
-    absurd_units()
+    absurd_units()?;
+    // Whole commands are slow: a twelfth of the time each.
+    for (what, test) in [
+        ("fuzz of options", "every_option::random"),
+        ("fuzz of jobs over commands", "jobs_over_commands::"),
+    ] {
+        commands(what, test, (time / 12.0, seed))?;
+    }
+    Ok(())
+}
+
+/// Random command lines and jobs, in the tests of the command line. One run is repeated with its seed.
+fn commands(what: &str, test: &str, (minutes, seed): (f64, &str)) -> Result<()> {
+    let mut command = cargo();
+    command.args(["test", "--quiet", "--profile", "fuzz"]);
+    command.args(["--package", "kinetostat-cli", "--test", "cli", test]);
+    command.env("KINETOSTAT_FUZZ_SECONDS", format!("{:.0}", 60.0 * minutes));
+    command.env("KINETOSTAT_FUZZ_SEED", seed);
+    step(what, &mut command)
 }
 
 /// Chains under loads, through every query.

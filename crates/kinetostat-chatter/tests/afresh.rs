@@ -22,8 +22,8 @@ fn tool() -> ToolResponse {
 }
 
 fn cut(milled: Milled) -> MillingCut {
-    // The radial coefficient is Kr times Kt already.
-    let coefficients = Coefficients::new(7.1e8, 2.3e8, 0.6e8).unwrap();
+    // The radial coefficient is Kr times Kt already; (D 8), of which the numbers are, has the opposite axial sign.
+    let coefficients = Coefficients::new(7.1e8, 2.3e8, -0.6e8).unwrap();
     MillingCut::new(3, Arc::straight(milled, 0.35).unwrap(), coefficients).unwrap()
 }
 
@@ -63,7 +63,7 @@ fn what_is_easily_mixed_up_shows() {
     assert!(mixed(&fed(35.0, Milled::Up)) > 0.01);
     assert!(mixed(&fed(-35.0, Milled::Down)) > 0.01);
     assert!(mixed(&fed(35.0_f64.to_degrees(), Milled::Down)) > 0.01);
-    let ratio_again = Coefficients::with_ratios(7.1e8, 2.3 / 7.1 * 2.3 / 7.1, 0.6 / 7.1).unwrap();
+    let ratio_again = Coefficients::with_ratios(7.1e8, 2.3 / 7.1 * 2.3 / 7.1, -0.6 / 7.1).unwrap();
     let arc = Arc::straight(Milled::Down, 0.35).unwrap();
     let frame = FeedFrame::vertical(f64::to_radians(35.0)).unwrap();
     let wrong = MillingCut::new(3, arc, ratio_again).unwrap();

@@ -53,9 +53,10 @@ use std::process::ExitCode;
 use std::sync::Arc;
 
 use clap::error::ErrorKind;
-use clap::{CommandFactory, Parser};
+use clap::{CommandFactory, FromArgMatches};
 use kinetostat_machining::Watch;
 
+use crate::command_line::given::Given;
 use crate::command_line::negative_numbers::{no_number, plain_numbers};
 use crate::command_line::{Cli, Command};
 use crate::files::journal;
@@ -148,8 +149,8 @@ fn answer(words: impl Iterator<Item = OsString>, begin: impl FnOnce()) -> u8 {
         screen::complain(&failure::Failure::input(what));
         return Code::WrongInput as u8;
     }
-    let cli = match Cli::try_parse_from(words) {
-        Ok(cli) => cli,
+    let (cli, given) = match parsed(words) {
+        Ok(parsed) => parsed,
         Err(error) => {
             screen::complain_of_line(&error);
             // Help and version were requested; everything else is wrong input.
@@ -160,7 +161,7 @@ fn answer(words: impl Iterator<Item = OsString>, begin: impl FnOnce()) -> u8 {
         }
     };
     begin();
-    match run(cli.command) {
+    match run(cli.command, &given) {
         Ok(()) => 0,
         Err(failure) => {
             screen::complain(&failure);
@@ -169,27 +170,36 @@ fn answer(words: impl Iterator<Item = OsString>, begin: impl FnOnce()) -> u8 {
     }
 }
 
-fn run(command: Command) -> Answer<()> {
+/// The command of a line, and the options that it gives.
+fn parsed(words: Vec<OsString>) -> Result<(Cli, Given), clap::Error> {
+    let mut command = Cli::command();
+    let mut matches = command.try_get_matches_from_mut(words)?;
+    let given = Given::of(&command, &matches);
+    let cli = Cli::from_arg_matches_mut(&mut matches);
+    Ok((cli.map_err(|error| error.format(&mut command))?, given))
+}
+
+fn run(command: Command, given: &Given) -> Answer<()> {
     match command {
         Command::Demo(args) => demo::run(&args),
-        Command::Compensate(args) => compensate::run(*args),
-        Command::Deflect(args) => deflect::run(*args),
+        Command::Compensate(args) => compensate::run(*args, given),
+        Command::Deflect(args) => deflect::run(*args, given),
         Command::Stiffness(args) => stiffness::run(&args),
         Command::Shares(args) => shares::run(&args),
         Command::Modes(args) => modes::run(&args),
         Command::Frf(args) => frf::run(&args),
-        Command::Lobes(args) => lobes::run(&args),
+        Command::Lobes(args) => lobes::run(&args, given),
         Command::Chatter(args) => chatter::run(&args),
         Command::Compare(args) => compare::run(&args),
         Command::Map(args) => map::run(&args),
         Command::Mirror(args) => mirror::run(&args),
-        Command::Place(args) => placing::run(&args),
+        Command::Place(args) => placing::run(&args, given),
         Command::Verify(args) => verify::run(&args),
         Command::Tolerance(args) => tolerance::run(&args),
         Command::Assemble(args) => assemble::run(&args),
         Command::Curve(args) => curve::run(&args),
         Command::Equilibria(args) => equilibria::run(&args),
-        Command::Force(args) => force::run(&args),
+        Command::Force(args) => force::run(&args, given),
         Command::Engagement(args) => engagement::run(&args),
         Command::Expand(args) => expand::run(&args),
         Command::Convert(args) => convert::run(&args),

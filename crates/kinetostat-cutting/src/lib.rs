@@ -39,7 +39,8 @@ pub use measured::{
     LoggedBy, Outlier, OutlierTreatment, ShiftMatch, match_shift,
 };
 pub use milling::{
-    ChipThickness, CutForce, Feed, Harmonic, MeanTable, Milling, Revolution, Rotation, Wall,
+    ChipThickness, CutForce, Feed, Harmonic, MeanTable, Milling, Peak, Peaks, Revolution, Rotation,
+    Wall,
 };
 pub use spindle::{SpindleCurve, SpindleFinding, SpindleLimit, SpindlePoint};
 pub use stock::{Probe, Station, Stock, StockSettings};

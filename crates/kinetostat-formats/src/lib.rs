@@ -93,7 +93,9 @@ pub use making::limits::MakeLanguage;
 pub use making::make::{Made, make};
 pub use making::of_robot::{base_of_robot, make_of_flat_robot, make_of_robot};
 pub use making::robot_events::events_of_robot;
-pub use making::template::{PlacesUnknown, Rapids, StatedFrame, StatedTool, Template, Zones};
+pub use making::template::{
+    PlacesUnknown, Rapids, SpindleStatements, StatedFrame, StatedTool, Template, Zones,
+};
 pub use model::frame::{Frame, FrameUse};
 pub use model::joint_arm::{BetweenRows, JointArm, TableArm};
 pub use model::language::Language;

@@ -9,6 +9,7 @@ use kinetostat_program::{
 use nalgebra::Vector3;
 
 use crate::load::along_path::LoadAlongPath;
+use crate::measured_frame::{FrameMotion, MeasuredFrame, PartPlace};
 use crate::near::natural_length;
 use crate::placement::Placement;
 use crate::postures::arm_course::ArmCourse;
@@ -32,6 +33,8 @@ pub struct ModelField<'a> {
     radius_mm: f64,
     /// The way of an arm that is not the one from home.
     course: Option<&'a ArmCourse>,
+    /// Where the part lies as it was measured.
+    frame: &'a MeasuredFrame<'a>,
 }
 
 /// Share of the machine's natural length within which its deflection under a load that does not change
@@ -55,6 +58,7 @@ impl<'a> ModelField<'a> {
             turned_by_axes: false,
             radius_mm: SMOOTH * 1e3 * natural_length(mechanism) / placement.scale,
             course: None,
+            frame: &MeasuredFrame::AsStated,
         }
     }
 
@@ -71,6 +75,12 @@ impl<'a> ModelField<'a> {
     /// The same along the way of an arm, where it is not the one from home.
     pub(crate) fn on_course(mut self, course: Option<&'a ArmCourse>) -> Self {
         self.course = course;
+        self
+    }
+
+    /// The same for the part as it was measured.
+    pub(crate) fn in_frame(mut self, frame: &'a MeasuredFrame<'a>) -> Self {
+        self.frame = frame;
         self
     }
 
@@ -123,6 +133,16 @@ impl CorrectionField for ModelField<'_> {
 }
 
 impl ModelField<'_> {
+    /// The place of a request as the program states it.
+    fn programmed(&self, request: &Request) -> PartPlace {
+        let motion = &self.load.path().moves[request.move_index];
+        PartPlace {
+            place: self.placement.on(motion, request.share),
+            position_mm: request.position_mm,
+            orientation: request.orientation,
+        }
+    }
+
     /// Corrections of one tool.
     fn with(
         &self,
@@ -136,21 +156,23 @@ impl ModelField<'_> {
             false => AlongPath::new(mechanism),
         };
         in_chunks(requests, |memory, requests| {
-            let places: Vec<Placement> = requests
-                .iter()
-                .map(|r| {
-                    let motion = &self.load.path().moves[r.move_index];
-                    self.placement.on(motion, r.share)
-                })
-                .collect();
-            let poses: Vec<Pose> = requests
-                .iter()
-                .zip(&places)
-                .map(|(r, place)| place.pose(&r.position_mm, place.orientation_of(r.orientation)))
+            let places: Vec<PartPlace> = requests.iter().map(|r| self.programmed(r)).collect();
+            let standing = |i: usize| {
+                let course = self.course?;
+                course.standing_at(requests[i].move_index, requests[i].share)
+            };
+            let motions = self.frame.motions(mechanism, &places, standing);
+            // Where there is none, there is no correction either, and the check of the written program says why.
+            let motions = motions.into_iter().map(Result::unwrap_or_default);
+            let motions: Vec<FrameMotion> = motions.collect();
+            let wanted = places.iter().zip(&motions);
+            let poses: Vec<Pose> = wanted
+                .map(|(place, motion)| place.corrected(motion, self.corrected).pose())
                 .collect();
             let wrenches: Vec<Wrench> = requests.iter().map(|r| self.wrench(r)).collect();
             let turns = self.corrected == Directions::ALL;
-            let correction = |place: &Placement, pose: &Pose, target: &Pose| {
+            let correction = |programmed: &PartPlace, target: &Pose| {
+                let (place, pose) = (&programmed.place, programmed.pose());
                 let shift = target.translation.vector - pose.translation.vector;
                 let turn = (target.rotation * pose.rotation.inverse()).scaled_axis();
                 Correction {
@@ -162,9 +184,11 @@ impl ModelField<'_> {
                 }
             };
             if self.turned_by_axes {
-                let all = requests.iter().zip(&wrenches);
+                let all = requests.iter().zip(&wrenches).zip(&motions);
                 return all
-                    .map(|(r, wrench)| self.by_axes(&mut memory[0], mechanism, (r, wrench)))
+                    .map(|((r, wrench), motion)| {
+                        self.by_axes(&mut memory[0], mechanism, (r, wrench, motion))
+                    })
                     .collect();
             }
             let targets = match self.course {
@@ -172,22 +196,19 @@ impl ModelField<'_> {
                 None => targets(&machine, &poses, &wrenches, self.corrected),
             };
             if let Some(targets) = targets {
-                let all = places.iter().zip(&poses).zip(&targets);
+                let all = places.iter().zip(&targets);
                 return all
-                    .map(|((place, pose), target)| Ok(correction(place, pose, target)))
+                    .map(|(programmed, target)| Ok(correction(programmed, target)))
                     .collect();
             }
-            let all = requests.iter().zip(&places).zip(&poses).zip(&wrenches);
-            all.map(|(((request, place), pose), wrench)| {
-                let course = self.course;
-                let on_the_way =
-                    course.and_then(|c| c.standing_at(request.move_index, request.share));
-                if let Some(posture) = on_the_way {
+            let all = places.iter().zip(&poses).zip(&wrenches).enumerate();
+            all.map(|(i, ((programmed, pose), wrench))| {
+                if let Some(posture) = standing(i) {
                     memory[0].stand_at(posture);
                 }
                 memory[0]
                     .target(mechanism, pose, wrench, (orientation, self.corrected))
-                    .map(|posture| correction(place, pose, posture.target()))
+                    .map(|posture| correction(programmed, posture.target()))
                     .map_err(|error| FieldFailure::new(cause_and_advice(&error)))
             })
             .collect()
@@ -233,7 +254,7 @@ impl ModelField<'_> {
         &self,
         memory: &mut Neighbour,
         mechanism: &Mechanism,
-        (request, wrench): (&Request, &Wrench),
+        (request, wrench, measured): (&Request, &Wrench, &FrameMotion),
     ) -> Result<Correction, FieldFailure> {
         let failed = |error: Error| FieldFailure::new(cause_and_advice(&error));
         let path = self.load.path();
@@ -248,24 +269,26 @@ impl ModelField<'_> {
                 self.placement.orientation_on(motion, request.share),
             ),
         };
+        let wanted_mm = request.position_mm + measured.shift_mm;
         let Some(rotary) = rotary(motion) else {
             let (place, orientation) = placed(None);
-            let pose = place.pose(&request.position_mm, orientation);
+            let pose = place.pose(&wanted_mm, orientation);
             let (target, _) = memory
                 .target_and_tool(mechanism, &pose, wrench)
                 .map_err(failed)?;
             let shift = target.translation.vector - pose.translation.vector;
-            return Ok(Correction::from(place.to_program(&shift)));
+            let shift_mm = measured.shift_mm + place.to_program(&shift);
+            return Ok(Correction::from(shift_mm));
         };
         let programmed = rotary.angles_deg(request.share);
-        let wanted = path.tool_direction(request.move_index, request.share);
+        let wanted = measured.turn * path.tool_direction(request.move_index, request.share);
         let mut commanded = |angles: &[f64]| {
             let (place, orientation) = placed(Some(angles));
-            let pose = place.pose(&request.position_mm, orientation);
+            let pose = place.pose(&wanted_mm, orientation);
             let found = memory.target_and_tool(mechanism, &pose, wrench);
             let (target, tool) = found.map_err(failed)?;
             let shift = place.to_program(&(target.translation.vector - pose.translation.vector));
-            Ok((place, tool, shift))
+            Ok((place, tool, measured.shift_mm + shift))
         };
         let mut angles = programmed.clone();
         for _ in 0..STEPS {

@@ -17,17 +17,20 @@ mod joints;
 mod limits;
 mod load;
 mod map;
+mod measured_frame;
 mod near;
 mod placement;
 mod postures;
 mod profile;
 mod result;
+mod rigid_motion;
 mod run;
 mod table;
 mod task;
 mod verify;
 mod warning;
 mod watch;
+mod weight_correction;
 
 pub use arm_joints::ArmJoints;
 pub use bounds::{Bounds, ToolGiven};
@@ -35,8 +38,8 @@ pub use checks::correction::odd_correction;
 pub use checks::displacement::{folds, folds_at, is_large};
 pub use checks::load::{large_load, unusual_load};
 pub use checks::placement::origin_in_metres;
-pub use checks::refused::of_accounting;
-pub use checks::tool::odd_tool_length;
+pub use checks::refused::{fastest_feed, of_accounting};
+pub use checks::tool::{beyond_tool_length, odd_tool_length};
 pub use checks::unusual::{odd_tolerances, refused_question, unusual_question};
 pub use cut::choice::ForceChoice;
 pub use cut::clock::DwellUnit;
@@ -74,6 +77,7 @@ pub use map::{
 pub use near::{NEAR_SINGULAR, NearKind, NearSingular, natural_length, near_singular};
 pub use placement::Placement;
 pub use postures::configurations::{Configurations, posture_at};
+pub use result::assessment::{Assessment, Assumption, AssumptionKind, Level};
 pub use result::chatter::{ChatterLines, ChatterPlace, ChatterResult};
 pub use result::cutting::{CutPlace, CuttingResult};
 pub use result::envelope::{Envelope, Quantity, StretchRange};
@@ -99,6 +103,7 @@ pub use result::tolerance::{
     MissedTolerance, ToleranceResult, keeps_as_it_is, of_table, unchanged_text,
 };
 pub use result::uncertainty_band::{BandPlace, ScatteredError, UncertainNumber, UncertaintyBand};
+pub use rigid_motion::{nearest_rotation, rigid_motion};
 pub use run::compensate::{analyse, analyse_part, compensate_part, compensate_program};
 pub use run::conclude::{Run, load_description, of_program};
 pub use run::cutting::{cut_places, cutting_result};
@@ -115,5 +120,6 @@ pub use verify::{
     Condition, ExtraCut, Matched, OtherCondition, RapidElsewhere, Turned, Uncut, Verified,
     verify_program,
 };
-pub use warning::{Warning, WarningCode};
+pub use warning::{Warning, WarningCode, merged};
 pub use watch::{Unwatched, Watch};
+pub use weight_correction::{TouchOff, TouchOffError, WeightCorrection};

@@ -9,6 +9,7 @@ use serde::{Deserialize, Serialize};
 
 /// Limits of a run, by name; units in the names.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
 pub struct Limits {
     /// Largest correction of a place, mm, without the part that makes up for the machine's own weight.
     /// Default 2.
@@ -31,6 +32,14 @@ pub struct Limits {
     pub shortest_tool_mm: f64,
     /// Longest tool, mm. Default 1000.
     pub longest_tool_mm: f64,
+    /// Nearest place of a base to the zero of its robot, mm; a base at zero is none. Default 10.
+    pub nearest_base_mm: f64,
+    /// How far the program's zero may lie below the base of a machine that works above it, mm. Default 400.
+    pub below_base_mm: f64,
+    /// Fastest feed, mm/s. Default 7000.
+    pub speed_mm_per_s: f64,
+    /// Largest rounding of corners at feed, mm. Default 5.
+    pub zone_mm: f64,
 }
 
 impl Default for Limits {
@@ -46,6 +55,10 @@ impl Default for Limits {
             blocks_per_second: 2000.0,
             shortest_tool_mm: 1.0,
             longest_tool_mm: 1000.0,
+            nearest_base_mm: 10.0,
+            below_base_mm: 400.0,
+            speed_mm_per_s: 7000.0,
+            zone_mm: 5.0,
         }
     }
 }
@@ -81,7 +94,15 @@ impl Limit {
 
     /// Whether it bounds a figure of the question, not one of the answer.
     pub(crate) fn stated(&self) -> bool {
-        ["force_n", "moment_n_m"].contains(&self.name) || self.name.ends_with("tool_mm")
+        let of_question = ["force_n", "moment_n_m", "speed_mm_per_s", "zone_mm"];
+        of_question.contains(&self.name)
+            || self.name.ends_with("tool_mm")
+            || self.name.ends_with("base_mm")
+    }
+
+    /// True if it bounds its figure from below.
+    fn is_least(&self) -> bool {
+        self.name.starts_with("shortest") || self.name.starts_with("nearest")
     }
 
     /// A value with the limit's unit.
@@ -114,6 +135,9 @@ const LOADS: [f64; 2] = [1e-3, 1e9];
 /// Shares of a rating or of the way to buckling.
 const SHARES: [f64; 2] = [1e-3, 1e3];
 
+/// Places of parts, mm.
+const PLACES: [f64; 2] = [0.0, 1e6];
+
 /// Lengths of tools, mm; negative where the flange's z axis points into the machine.
 const TOOLS: [f64; 2] = [-2e5, 2e5];
 
@@ -132,7 +156,7 @@ macro_rules! limit {
 
 impl Limits {
     /// All limits, as messages list them.
-    pub const ALL: [Limit; 10] = [
+    pub const ALL: [Limit; 14] = [
         limit!(
             correction_mm,
             "mm",
@@ -203,6 +227,34 @@ impl Limits {
             "the tool's length",
             "tools with their holders are 20 to 400 mm long, with a spindle between up to 800 mm"
         ),
+        limit!(
+            nearest_base_mm,
+            "mm",
+            PLACES,
+            "the distance of the base from the robot's zero",
+            "parts lie 300 to 3000 mm from the zero of a robot; millimetres, not metres"
+        ),
+        limit!(
+            below_base_mm,
+            "mm",
+            PLACES,
+            "the depth of the program's zero below the machine's base",
+            "parts lie above the foot of an arm, or up to 300 mm below it where the arm stands on a pedestal; check the sign of part_origin_mm"
+        ),
+        limit!(
+            speed_mm_per_s,
+            "mm/s",
+            [1e-3, 1e6],
+            "the speed at feed",
+            "robots cut with 1 to 300 mm/s and move with up to 3000 mm/s; $VEL.CP of KRL is in m/s, F of G-code in mm/min"
+        ),
+        limit!(
+            zone_mm,
+            "mm",
+            [0.0, 200.0],
+            "the rounding of corners at feed (feeds_mm)",
+            "cuts are rounded within 0 to 1 mm; a corner is cut by about a third of the zone"
+        ),
     ];
 
     /// The entry of [`Self::ALL`] with this name; `None` if no limit is called so.
@@ -216,6 +268,30 @@ impl Limits {
     pub fn get(&self, limit: Limit) -> f64 {
         let mut own = *self;
         *(limit.value)(&mut own)
+    }
+
+    /// A figure beyond the limit of that name, or NaN; `None` within it.
+    #[must_use]
+    pub fn beyond(
+        &self,
+        name: &str,
+        found: f64,
+        line: Option<usize>,
+        place: &str,
+    ) -> Option<Beyond> {
+        let limit = Self::named(name)?;
+        let allowed = self.get(limit);
+        let is_within = match limit.is_least() {
+            true => found >= allowed,
+            false => found <= allowed,
+        };
+        (!is_within).then(|| Beyond {
+            limit,
+            found,
+            allowed,
+            line,
+            place: place.to_owned(),
+        })
     }
 
     /// Sets a limit to a value in its unit, which is not compared with its range.

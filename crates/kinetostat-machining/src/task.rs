@@ -10,6 +10,7 @@ use crate::load::law::ProgramLoad;
 use crate::load::tool::{Tool, tool_on};
 use crate::placement::Placement;
 use crate::result::run_inputs::RunInputs;
+use crate::weight_correction::WeightCorrection;
 
 /// Everything that decides a run.
 #[derive(Clone)]
@@ -27,6 +28,8 @@ pub struct Task<'a> {
     /// Tools that the program takes by number, each with its own machine and load; empty where there is
     /// one tool. `mechanism` and `load` are those of blocks without one of these.
     pub tools: &'a [Tool<'a>],
+    /// Share of the displacement by the machine's own weight that counts as an error.
+    pub weight: WeightCorrection,
     /// Forces of the cut, for loads that are [`crate::CuttingLoad::FromCut`].
     pub cut: Option<&'a ForceAlongPath>,
     /// How the compensated program is written.
@@ -109,6 +112,24 @@ pub enum RunError {
         /// Error with compensation, mm.
         after_mm: f64,
     },
+    /// Own weight moves the tool, and nobody stated whether that is an error.
+    #[error(
+        "the machine's own weight moves the tool by up to {} along this program, and nothing says how the part was measured, so that it is not known whether that is to be corrected; state weight under [load] in the job, or --weight: \"touch-off\" if this machine touched the part off (touch_off_mm, --touch-off X Y Z: where), so that only the change of the sag from there is corrected, \"all\" if the part was measured without this machine, \"none\" if the controller corrects the weight", number::largest_length(*displacement_mm)
+    )]
+    WeightNotStated {
+        /// Largest displacement found, mm.
+        displacement_mm: f64,
+    },
+    /// The machine has no answer where it touched the part off.
+    #[error(
+        "the place where the part was touched off, X{:.4} Y{:.4} Z{:.4} mm: {cause}; give it in coordinates of the program (touch_off_mm under [load], --touch-off X Y Z)", position_mm[0], position_mm[1], position_mm[2]
+    )]
+    TouchOff {
+        /// Program coordinates, mm.
+        position_mm: [f64; 3],
+        /// The core's error.
+        cause: Box<Error>,
+    },
     /// Figures that no sensible question has.
     #[error("{}; nothing was written", in_lines(.0))]
     BeyondLimits(Vec<Beyond>),
@@ -177,7 +198,7 @@ impl RunError {
     #[must_use]
     pub fn is_unanswered(&self) -> bool {
         match self {
-            Self::Point { cause, .. } => cause.is_unanswered(),
+            Self::Point { cause, .. } | Self::TouchOff { cause, .. } => cause.is_unanswered(),
             Self::Write(WriteError::Field { .. })
             | Self::Worse { .. }
             | Self::Unstable { .. }

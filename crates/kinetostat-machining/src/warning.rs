@@ -72,10 +72,14 @@ pub enum WarningCode {
     OtherThanOriginal,
     /// A load that acts nowhere along the program.
     LoadNeverActs,
+    /// A program of a robot that does not start the spindle as its source does.
+    SpindleNotStarted,
     /// The question says nothing of a tool.
     NoTool,
     /// A tool that is very short, or long beside the machine.
     OddTool,
+    /// An uncertain number that several limbs share, so that it scatters in all of them together.
+    SharedNumber,
     /// A place of the part, or an angle of the job, that looks like one in another unit.
     OddPlacement,
     /// The tool's axis that is stated, or usual, lies along the cut.
@@ -237,4 +241,91 @@ impl fmt::Display for Warning {
             (None, None) => f.write_str(&self.message),
         }
     }
+}
+
+/// Warnings with those of one kind put together: same code, file and words, whatever the numbers are. The one with the largest
+/// first number that differs counts as the worst; its message ends with the count, the first place and the worst one.
+///
+/// ```
+/// use kinetostat_machining::{Warning, WarningCode, merged};
+///
+/// let thick = |line, mm: f64| {
+///     Warning::at_line(WarningCode::ChipOverLimit, line, format!("a chip of {mm} mm"))
+/// };
+/// let one = merged(vec![thick(4, 0.2), thick(7, 0.5), thick(9, 0.3)]);
+/// assert_eq!(
+///     one[0].to_string(),
+///     "line 7: a chip of 0.5 mm (the worst of 3 of this kind; the first at line 4, the last at line 9)"
+/// );
+/// ```
+#[must_use]
+pub fn merged(all: Vec<Warning>) -> Vec<Warning> {
+    let mut kinds: Vec<(Vec<String>, Vec<Warning>)> = Vec::new();
+    for warning in all {
+        let (words, _) = words_and_numbers(&warning.message);
+        let same = |(own, list): &&mut (Vec<String>, Vec<Warning>)| {
+            let first = &list[0];
+            *own == words && first.code == warning.code && first.file == warning.file
+        };
+        match kinds.iter_mut().find(same) {
+            Some((_, list)) if !list.contains(&warning) => list.push(warning),
+            Some(_) => {}
+            None => kinds.push((words, vec![warning])),
+        }
+    }
+    kinds.into_iter().map(|(_, list)| worst(list)).collect()
+}
+
+/// The worst warning of one kind, with their count and places.
+fn worst(mut list: Vec<Warning>) -> Warning {
+    let numbers: Vec<Vec<f64>> = list
+        .iter()
+        .map(|warning| words_and_numbers(&warning.message).1)
+        .collect();
+    let differs = |k: &usize| numbers.iter().any(|own| own.get(*k) != numbers[0].get(*k));
+    let deciding = (0..numbers[0].len()).find(differs);
+    let size = |i: usize| {
+        deciding
+            .and_then(|k| numbers[i].get(k))
+            .copied()
+            .unwrap_or(0.0)
+    };
+    // Of equal ones the first.
+    let index = (0..list.len())
+        .rev()
+        .max_by(|a, b| size(*a).abs().total_cmp(&size(*b).abs()));
+    let count = list.len();
+    let lines = list.iter().filter_map(|warning| warning.line);
+    let ends = lines.clone().min().zip(lines.max());
+    let mut worst = list.swap_remove(index.unwrap_or(0));
+    if count > 1 {
+        let which = match deciding {
+            Some(_) => "the worst",
+            None => "the first",
+        };
+        let places = ends.map_or_else(String::new, |(first, last)| match deciding {
+            Some(_) => format!("; the first at line {first}, the last at line {last}"),
+            None => format!("; the last at line {last}"),
+        });
+        let more = format!(" ({which} of {count} of this kind{places})");
+        worst.message.push_str(&more);
+    }
+    worst
+}
+
+/// Words of a message, and its numbers; coordinates such as `X12.3` and counts of lines are neither.
+fn words_and_numbers(text: &str) -> (Vec<String>, Vec<f64>) {
+    let (mut words, mut numbers) = (Vec::new(), Vec::new());
+    let mut is_line = false;
+    for token in text.split_whitespace() {
+        let bare = token.trim_matches(|c: char| !c.is_alphanumeric() && c != '-');
+        let digits = bare.trim_start_matches(|c: char| "XYZ".contains(c));
+        match digits.parse::<f64>() {
+            Ok(value) if digits.len() == bare.len() && !is_line => numbers.push(value),
+            Ok(_) => {}
+            Err(_) => words.push(token.to_owned()),
+        }
+        is_line = bare == "line" || bare == "lines";
+    }
+    (words, numbers)
 }

@@ -18,7 +18,7 @@
 //! let program = Program::read("G21 G90\nG0 X0 Y0 Z0\nG1 X100 F300\nM2\n")?;
 //! let path = interpret(&program, &ReadOptions::default())?;
 //! let nominal = NominalPath::new(&path)?;
-//! let settings = MeasureSettings { register: false, ..MeasureSettings::default() };
+//! let settings = MeasureSettings { register: Register::None, ..MeasureSettings::default() };
 //! let mut state = MirrorState::new(&nominal, "the program's hash", settings)?;
 //!
 //! // A machine that goes 0.1 mm too far to the left, measured every mm.
@@ -47,8 +47,8 @@ mod trial;
 
 pub use alignment::{AlignedPoint, Alignment, LeftOut};
 pub use deviation::{
-    DeviationFigures, Kernel, MeasureSettings, Measurement, OnLines, Outlier, PieceMean, Smoothed,
-    Stations, Stretch, Unseen, measure, on_lines,
+    DeviationFigures, Kernel, MeasureSettings, Measurement, OnLines, Outlier, PieceMean, Register,
+    Smoothed, Stations, Stretch, Unseen, measure, on_lines,
 };
 pub use error::MirrorError;
 pub use kinetostat_program::{Foot, NominalPath, Pass, WhyLeftOut};

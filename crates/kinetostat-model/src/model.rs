@@ -14,6 +14,7 @@ use crate::elements::placement::{three_digits, written, written_pose};
 use crate::elements::rotary::{RotaryAxis, rotary_axes};
 use crate::elements::workspace::corners;
 use crate::findings::Findings;
+use crate::plausibility::home::{NOTHING_YIELDS, without_stiffness};
 use crate::presets::{preset_text, unknown_preset};
 use crate::problem::{Finding, KeyPath, ModelError, Problem, Severity};
 use crate::schema::{Deviation, Document, Element};
@@ -169,6 +170,19 @@ impl Model {
             .collect()
     }
 
+    /// Refuses a machine in which nothing gives way: an answer about its deflections or its stiffness would be none.
+    ///
+    /// # Errors
+    /// [`ModelError`] that says what is to be filled in.
+    ///
+    /// ```
+    /// assert!(kinetostat_model::Model::preset("heavy_6r")?.require_stiffness().is_ok());
+    /// # Ok::<(), kinetostat_model::ModelError>(())
+    /// ```
+    pub fn require_stiffness(&self) -> Result<(), ModelError> {
+        require_stiffness(&self.mechanism, &self.file)
+    }
+
     /// How the file says that vibrations are damped; [`Damping::Undamped`] where it says nothing.
     ///
     /// ```
@@ -238,10 +252,10 @@ impl Model {
 
     /// The same machine with one more error of manufacture or assembly: the actual geometry of
     /// `limb` is moved by `motion` (m, in the frame reached behind the element) at the rigid element
-    /// or link `at`, or at its `start` or `end`. Replaces a deviation at the same place.
+    /// or link `at`, or at its `start` or `end`.
     ///
     /// # Errors
-    /// [`ModelError`] if there is no such limb or element, or if the motion is not finite.
+    /// [`ModelError`] if there is no such limb or element, if it has a deviation already, or if the motion is not finite.
     pub fn with_deviation(&self, limb: &str, at: &str, motion: &Pose) -> Result<Self, ModelError> {
         self.deviating(Deviation {
             limb: limb.to_owned(),
@@ -251,15 +265,13 @@ impl Model {
         })
     }
 
-    /// The same machine with one more error of manufacture or assembly, as a file says it. Replaces a
-    /// deviation at the same place.
+    /// The same machine with one more error of manufacture or assembly, as a file says it.
     ///
     /// # Errors
-    /// [`ModelError`] as for a file with this deviation.
+    /// [`ModelError`] as for a file with this deviation, also where the element has one already: the order of both motions is
+    /// not stated.
     pub fn deviating(&self, deviation: Deviation) -> Result<Self, ModelError> {
         let mut document = self.document.clone();
-        let same = |d: &Deviation| d.limb == deviation.limb && d.at == deviation.at;
-        document.deviation.retain(|d| !same(d));
         document.deviation.push(deviation);
         Self::from_document(&document, &self.changed())
     }
@@ -290,6 +302,21 @@ impl Model {
     /// [`ModelError`] if a value cannot be written; cannot happen for a model that was read.
     pub fn to_toml(&self) -> Result<String, ModelError> {
         write(&self.document, &self.file)
+    }
+}
+
+/// As [`Model::require_stiffness`], of a machine whose file is named in the message.
+///
+/// # Errors
+/// [`ModelError`] that says what is to be filled in.
+pub fn require_stiffness(mechanism: &Mechanism, file: &str) -> Result<(), ModelError> {
+    match without_stiffness(mechanism) {
+        None => Ok(()),
+        Some(help) => Err(ModelError::new(vec![Problem::without_text(
+            file,
+            NOTHING_YIELDS.to_owned(),
+            help,
+        )])),
     }
 }
 

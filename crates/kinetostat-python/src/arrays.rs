@@ -6,6 +6,7 @@ use kinetostat::nalgebra::{
 use kinetostat::{Pose, Wrench};
 use numpy::ndarray::IntoDimension;
 use numpy::{IntoPyArray, PyArray, PyArray1, PyArrayMethods, PyReadonlyArrayDyn};
+use pyo3::exceptions::PyMemoryError;
 use pyo3::prelude::*;
 use pyo3::types::{PyList, PyTuple};
 use rayon::prelude::*;
@@ -15,6 +16,34 @@ use crate::work::pool;
 
 /// An array of float64, C-contiguous: what `numpy.ascontiguousarray(x, dtype=float)` gives.
 pub type Numbers<'py> = PyReadonlyArrayDyn<'py, f64>;
+
+/// Bytes that must stay free for the work itself.
+const MARGIN: usize = 64 << 20;
+
+/// Requests below this many bytes are not checked.
+const SMALL: usize = 1 << 20;
+
+/// Checks that `count` items of `size` bytes can be allocated, because Rust ends the process where an allocation fails.
+///
+/// # Errors
+/// `MemoryError`.
+pub fn reserve(count: usize, size: usize) -> PyResult<()> {
+    let bytes = count.saturating_mul(size);
+    let mut probe = Vec::<u8>::new();
+    if bytes < SMALL
+        || probe
+            .try_reserve_exact(bytes.saturating_add(MARGIN))
+            .is_ok()
+    {
+        // Without this the compiler may leave out an allocation that nobody uses.
+        std::hint::black_box(&probe);
+        return Ok(());
+    }
+    Err(PyMemoryError::new_err(format!(
+        "{} MB cannot be allocated: ask for fewer postures at a time",
+        bytes >> 20
+    )))
+}
 
 /// The numbers of an array whose rows have a given shape, with the number of rows; one row may come without the axis before it.
 ///
@@ -134,6 +163,7 @@ pub fn poses(name: &str, array: &Numbers<'_>, threads: Option<usize>) -> PyResul
     let py = array.py();
     let (count, numbers) = shaped(name, array, &[4, 4])?;
     let (each, _) = numbers.as_chunks::<16>();
+    reserve(count, size_of::<Pose>())?;
     let mut found = vec![Pose::identity(); count];
     let read = |first: usize, given: &[[f64; 16]], to: &mut [Pose]| -> Result<(), String> {
         let mut reader = PoseReader::default();
@@ -223,6 +253,7 @@ pub fn one_wrench(name: &str, given: &Bound<'_, PyAny>) -> PyResult<Wrench> {
 pub fn wrenches(name: &str, array: &Numbers<'_>) -> PyResult<Vec<Wrench>> {
     let (_, numbers) = rows(name, array, &[6])?;
     let (each, _) = numbers.as_chunks::<6>();
+    reserve(each.len(), size_of::<Wrench>())?;
     Ok(each
         .iter()
         .map(|w| Wrench(Vector6::from_column_slice(w)))

@@ -11,13 +11,13 @@ use numpy::PyArray1;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use crate::arrays::{Numbers, array, matrix_of, poses, rows, wrenches};
+use crate::arrays::{Numbers, array, matrix_of, poses, reserve, rows, wrenches};
 use crate::columns::{Columns, done};
 use crate::elsewhere::{
     Target, equilibrium_at, in_other_configurations, stiffness_at, target_elsewhere,
     target_following,
 };
-use crate::errors::{Class, error, of_core};
+use crate::errors::{Class, error, of_core, require_stiffness};
 use crate::machine::Machine;
 use crate::work::Manner;
 
@@ -66,10 +66,15 @@ fn put(table: &Table, to: &mut [f64]) {
 
 /// Puts one row of a table into a row of an array.
 fn put_row(table: &Table, row: usize, place: usize, to: &mut [f64]) {
-    let width = table.width();
-    let own = &mut to[width * place..width * (place + 1)];
-    for (number, found) in own.iter_mut().zip(table.row(row)) {
-        *number = found;
+    let numbers: Vec<f64> = table.row(row).collect();
+    put_numbers(&numbers, place, to);
+}
+
+/// Puts numbers into a row of an array that is kept.
+fn put_numbers(numbers: &[f64], place: usize, to: &mut [f64]) {
+    let width = numbers.len();
+    if let Some(own) = to.get_mut(width * place..width * (place + 1)) {
+        own.copy_from_slice(numbers);
     }
 }
 
@@ -130,6 +135,7 @@ impl Places {
                 // What cannot be commanded by joints says so before the work begins.
                 let none = machine.batch().targets_at_joints(&[]);
                 none.map_err(|e| of_core(&e))?;
+                reserve(numbers.len(), size_of::<f64>())?;
                 Ok(Self::Joints(numbers.to_vec(), each))
             }
             _ => Err(error(Class::Argument, "give poses or joints")),
@@ -207,7 +213,10 @@ impl Places {
 pub(crate) fn each_wrench(count: usize, numbers: &Numbers<'_>) -> PyResult<Vec<Wrench>> {
     let found = wrenches("wrenches", numbers)?;
     match found.len() {
-        1 => Ok(vec![found[0]; count]),
+        1 => {
+            reserve(count, size_of::<Wrench>())?;
+            Ok(vec![found[0]; count])
+        }
         n if n == count => Ok(found),
         n => Err(error(
             Class::Argument,
@@ -230,12 +239,13 @@ pub fn stiffness_of_many<'py>(
     progress: Option<Bound<'py, PyAny>>,
 ) -> PyResult<Bound<'py, PyDict>> {
     let places = Places::of(machine, poses.as_ref(), joints.as_ref(), threads)?;
+    require_stiffness(&machine.mechanism)?;
     let (batch, limits) = (machine.batch(), Limits::of(&machine.mechanism));
     let configurations = machine.configurations();
     let (count, actuators) = (places.len(), machine.mechanism.actuator_count());
     let manner = Manner { threads, progress };
+    let mut columns = Columns::new(count, &[36, actuators])?;
     let columns = done(py, count, &manner, move |course| {
-        let mut columns = Columns::new(count, &[36, actuators]);
         columns.fill(course, |found: &mut BatchStiffness, first, out, status| {
             let end = first + status.len();
             places.stiffness(&batch, first, end, found);
@@ -269,9 +279,10 @@ pub fn stiffness_of_many<'py>(
     Ok(answer)
 }
 
-/// Equilibria of many postures. `details`: 0 rest, 1 stiffness too, 2 stability too.
+/// Equilibria of many postures. `details`: 0 rest, 1 stiffness too, 2 stability too. `fields`: tool, displacement, forces of the
+/// actuators and stiffness are kept; all without it.
 #[pyfunction]
-#[pyo3(signature = (machine, wrenches, details, poses=None, joints=None, threads=None, progress=None))]
+#[pyo3(signature = (machine, wrenches, details, poses=None, joints=None, fields=None, threads=None, progress=None))]
 pub fn equilibrium_of_many<'py>(
     py: Python<'py>,
     machine: &Machine,
@@ -279,10 +290,12 @@ pub fn equilibrium_of_many<'py>(
     details: u8,
     poses: Option<Numbers<'py>>,
     joints: Option<Numbers<'py>>,
+    fields: Option<[bool; 4]>,
     threads: Option<usize>,
     progress: Option<Bound<'py, PyAny>>,
 ) -> PyResult<Bound<'py, PyDict>> {
     let places = Places::of(machine, poses.as_ref(), joints.as_ref(), threads)?;
+    require_stiffness(&machine.mechanism)?;
     let (batch, limits) = (machine.batch(), Limits::of(&machine.mechanism));
     let configurations = machine.configurations();
     let (count, actuators) = (places.len(), machine.mechanism.actuator_count());
@@ -293,17 +306,19 @@ pub fn equilibrium_of_many<'py>(
         _ => Details::Stability,
     };
     let wanted = |from: Details, width: usize| if details >= from { width } else { 0 };
+    let [tool, displacement, forces, stiffness] = fields.unwrap_or([true; 4]);
+    let kept = |kept: bool, width: usize| if kept { width } else { 0 };
     let widths = [
-        16,
-        6,
+        kept(tool, 16),
+        kept(displacement, 6),
         actuators,
-        actuators,
-        wanted(Details::Stiffness, 36),
+        kept(forces, actuators),
+        kept(stiffness, wanted(Details::Stiffness, 36)),
         wanted(Details::Stability, 3),
     ];
     let manner = Manner { threads, progress };
+    let mut columns = Columns::new(count, &widths)?;
     let columns = done(py, count, &manner, move |course| {
-        let mut columns = Columns::new(count, &widths);
         columns.fill(
             course,
             |found: &mut BatchEquilibrium, first, out, status| {
@@ -342,9 +357,9 @@ pub fn equilibrium_of_many<'py>(
                         continue;
                     }
                     let tool = again.tool_pose(row);
-                    out[0][16 * place..16 * (place + 1)].copy_from_slice(&matrix_of(&tool));
+                    put_numbers(&matrix_of(&tool), place, out[0]);
                     let moved = pose_residual(&tool, &targets[place]);
-                    out[1][6 * place..6 * (place + 1)].copy_from_slice(moved.0.as_slice());
+                    put_numbers(moved.0.as_slice(), place, out[1]);
                     put_row(&again.commands, row, place, out[2]);
                     put_row(&again.actuator_forces, row, place, out[3]);
                     put_row(&again.stiffness, row, place, out[4]);
@@ -358,15 +373,19 @@ pub fn equilibrium_of_many<'py>(
     let mut numbers = columns.numbers.into_iter();
     let mut next = || numbers.next().unwrap_or_default();
     let answer = PyDict::new(py);
-    answer.set_item("tool", array(py, next(), [count, 4, 4])?)?;
-    answer.set_item("displacement", array(py, next(), [count, 6])?)?;
-    answer.set_item("commands", array(py, next(), [count, actuators])?)?;
-    answer.set_item("actuator_forces", array(py, next(), [count, actuators])?)?;
-    if widths[4] > 0 {
-        answer.set_item("stiffness", array(py, next(), [count, 6, 6])?)?;
-    }
-    if widths[5] > 0 {
-        answer.set_item("stability", array(py, next(), [count, 3])?)?;
+    let each: [(&str, bool, &[usize]); 6] = [
+        ("tool", tool, &[count, 4, 4]),
+        ("displacement", displacement, &[count, 6]),
+        ("commands", true, &[count, actuators]),
+        ("actuator_forces", forces, &[count, actuators]),
+        ("stiffness", widths[4] > 0, &[count, 6, 6]),
+        ("stability", widths[5] > 0, &[count, 3]),
+    ];
+    for (name, kept, shape) in each {
+        let numbers = next();
+        if kept {
+            answer.set_item(name, array(py, numbers, shape)?)?;
+        }
     }
     answer.set_item("status", PyArray1::from_vec(py, columns.status))?;
     Ok(answer)
@@ -395,8 +414,8 @@ pub fn targets_of_many<'py>(
     let (mechanism, configurations) = (machine.mechanism.clone(), machine.configurations());
     let follows = directions == Directions::POSITION && machine.turns();
     let manner = Manner { threads, progress };
+    let mut columns = Columns::new(count, &[16, 16, actuators])?;
     let columns = done(py, count, &manner, move |course| {
-        let mut columns = Columns::new(count, &[16, 16, actuators]);
         columns.fill(course, |_: &mut (), first, out, status| {
             let end = first + status.len();
             if follows {

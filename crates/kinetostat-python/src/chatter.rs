@@ -10,7 +10,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use rayon::prelude::*;
 
-use crate::arrays::{Numbers, rows};
+use crate::arrays::{Numbers, reserve, rows};
 use crate::errors::{Class, error};
 use crate::work::{Manner, away};
 
@@ -184,6 +184,7 @@ pub fn multipliers_of<'py>(
             ),
         ));
     }
+    reserve(count, 3 * size_of::<f64>())?;
     let pairs: Vec<(f64, f64)> = speeds.iter().copied().zip(depths.iter().copied()).collect();
     let manner = Manner { threads, progress };
     let found = away(py, &manner, move |course| {

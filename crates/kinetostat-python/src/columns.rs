@@ -3,6 +3,7 @@
 use pyo3::prelude::*;
 use rayon::prelude::*;
 
+use crate::arrays::reserve;
 use crate::work::{Course, Manner, away};
 
 /// Postures that a thread takes at a time.
@@ -22,12 +23,17 @@ pub(crate) struct Columns {
 }
 
 impl Columns {
-    pub(crate) fn new(count: usize, widths: &[usize]) -> Self {
-        Self {
+    /// Zeros.
+    ///
+    /// # Errors
+    /// `MemoryError`.
+    pub(crate) fn new(count: usize, widths: &[usize]) -> PyResult<Self> {
+        reserve(count, size_of::<f64>() * widths.iter().sum::<usize>() + 1)?;
+        Ok(Self {
             widths: widths.to_vec(),
             numbers: widths.iter().map(|w| vec![0.0; count * w]).collect(),
             status: vec![0; count],
-        }
+        })
     }
 
     fn blocks(&mut self) -> Vec<Rows<'_>> {

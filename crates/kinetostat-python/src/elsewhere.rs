@@ -7,7 +7,7 @@ use kinetostat_machining::Configurations;
 use numpy::PyArray3;
 use pyo3::prelude::*;
 
-use crate::arrays::{Numbers, array, matrix_of, rows};
+use crate::arrays::{Numbers, array, matrix_of, reserve, rows};
 use crate::columns::{Columns, done};
 use crate::machine::Machine;
 use crate::work::Manner;
@@ -122,15 +122,16 @@ pub fn poses_following<'py>(
     threads: Option<usize>,
 ) -> PyResult<Bound<'py, PyArray3<f64>>> {
     let (count, numbers) = rows("poses", &positions, &[3])?;
+    reserve(count, size_of::<[f64; 3]>())?;
     let places: Vec<[f64; 3]> = numbers.as_chunks::<3>().0.to_vec();
     let mechanism = machine.mechanism.clone();
     let manner = Manner {
         threads,
         progress: None,
     };
+    let mut columns = Columns::new(count, &[16])?;
     let columns = done(py, count, &manner, move |course| {
         let home = mechanism.platforms()[mechanism.tool()].home;
-        let mut columns = Columns::new(count, &[16]);
         columns.fill(course, |_: &mut (), first, out, status| {
             let each = out[0].chunks_exact_mut(16);
             for (row, place) in each.zip(&places[first..first + status.len()]) {

@@ -32,10 +32,11 @@ impl Equilibrium {
         PyArray1::from_slice(py, self.0.wrench.0.as_slice())
     }
 
-    /// (6, 6): tangent stiffness.
+    /// (6, 6): tangent stiffness; NaN along what is rigid.
     #[getter]
     fn stiffness<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        array(py, rows_of(&self.0.stiffness.matrix), [6, 6])
+        let entries = self.0.stiffness.finite_entries(&self.0.directions);
+        array(py, rows_of(&entries), [6, 6])
     }
 
     /// (6, 6) within the directions that are neither free nor rigid.

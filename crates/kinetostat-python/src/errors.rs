@@ -57,3 +57,8 @@ pub fn of_model(found: &kinetostat_model::ModelError) -> PyErr {
         text.strip_prefix("error: ").unwrap_or(&text).trim_end(),
     )
 }
+
+/// A machine in which nothing gives way has no deflections and no stiffness.
+pub fn require_stiffness(mechanism: &kinetostat::Mechanism) -> PyResult<()> {
+    kinetostat_model::require_stiffness(mechanism, "the machine").map_err(|e| of_model(&e))
+}

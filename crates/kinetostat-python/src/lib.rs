@@ -16,6 +16,7 @@ mod command;
 mod elsewhere;
 mod equilibrium;
 mod errors;
+mod kinematics;
 mod machine;
 mod map;
 mod plausibility;
@@ -42,6 +43,11 @@ mod _core {
     #[pymodule_export]
     use crate::equilibrium::Equilibrium;
     #[pymodule_export]
+    use crate::kinematics::{
+        frame_names, frames_of, frames_of_many, gradients_of, inverse_solutions, limb_coordinates,
+        limb_hessian, limb_jacobian, limb_springs,
+    };
+    #[pymodule_export]
     use crate::machine::{Machine, preset_names, urdf_to_toml};
     #[pymodule_export]
     use crate::map::{evaluate_many, map_variables};
@@ -56,7 +62,7 @@ mod _core {
     #[pymodule_export]
     use crate::vibration::{Vibration, vibration_of};
     #[pymodule_export]
-    use crate::warnings::{load_warnings, tool_warnings};
+    use crate::warnings::{answer_warnings, load_warnings, tool_warnings};
     #[pymodule_export]
     use crate::work::forked;
 

@@ -12,7 +12,7 @@ use pyo3::types::PyDict;
 use crate::arrays::{Numbers, array, poses as read_poses};
 use crate::batch::each_wrench;
 use crate::columns::{Columns, done};
-use crate::errors::{Class, error};
+use crate::errors::{Class, error, require_stiffness};
 use crate::machine::Machine;
 use crate::vibration::of_dynamics;
 use crate::work::Manner;
@@ -114,6 +114,9 @@ pub fn evaluate_many<'py>(
         wrenches.is_some(),
         machine.mechanism.actuator_count(),
     )?;
+    if chosen.iter().any(|v| v.needs_stiffness()) {
+        require_stiffness(&machine.mechanism)?;
+    }
     if chosen.iter().any(|v| v.needs_mass()) {
         check_masses(&machine.mechanism).map_err(of_dynamics)?;
     }
@@ -126,8 +129,8 @@ pub fn evaluate_many<'py>(
     let widths = evaluator.widths();
     let own = widths.clone();
     let manner = Manner { threads, progress };
+    let mut columns = Columns::new(count, &own)?;
     let columns = done(py, count, &manner, move |course| {
-        let mut columns = Columns::new(count, &own);
         columns.fill(course, |room: &mut Room, first, out, status| {
             let end = first + status.len();
             let loads: Option<&[Wrench]> = wrenches.as_deref().map(|all| &all[first..end]);

@@ -1,38 +1,59 @@
 //! What looks wrong in a question although it can be answered: the checks of the commands, for typed calls.
 
-use kinetostat::{Mechanism, MechanismEquilibrium, Posture};
+use kinetostat::{Mechanism, MechanismEquilibrium, Posture, Wrench};
 use kinetostat_machining::{
     Limits, Warning, WarningCode, folds, odd_correction, odd_tool_length, unusual_load,
 };
 
-/// Whether somebody has to hear of it, and what was found.
-pub type Said = (bool, String);
+/// A warning: true if it is issued, its kind (a constant sentence, by which Python merges repeated ones), and its message.
+pub type Said = (bool, &'static str, String);
 
-/// What a program would be refused for is heard; what is unusual is written down.
-fn said(warning: Warning) -> Said {
-    let heard = [WarningCode::OverLimit, WarningCode::LargeDisplacement];
-    (heard.contains(&warning.code), warning.message)
+const LOAD: &str = "the load on the tool is beyond what machining has; check its unit (N, N m)";
+const FOLDED: &str = "the machine folds over under this load; check the force and the stiffnesses";
+const TOOL: &str = "no tool has such a length; check its unit (m)";
+const CORRECTIONS: &str = "the corrections are larger than programs have; check their unit (m)";
+
+/// Figures for which a program would be refused are issued; unusual ones are only part of the result.
+fn said(warning: Warning, kind: &'static str) -> Said {
+    match warning.code {
+        WarningCode::LargeDisplacement => (true, FOLDED, warning.message),
+        code => (code == WarningCode::OverLimit, kind, warning.message),
+    }
 }
 
-/// What looks wrong in the load on the tool and in the displacement from a posture.
+/// Warnings about the load on the tool and the displacement from a posture.
 pub fn of_load(posture: &Posture, loaded: &MechanismEquilibrium) -> Vec<Said> {
-    let far = loaded.displacement.linear().norm();
-    let folded = folds(far, posture.mechanism().size());
-    let all = unusual_load(&loaded.wrench).into_iter().chain(folded);
-    all.map(said).collect()
+    of_figures(
+        posture.mechanism(),
+        &loaded.wrench,
+        loaded.displacement.linear().norm(),
+    )
 }
 
-/// What looks wrong in the tool of a machine, by its length, m.
+/// Warnings about a wrench and a displacement of the tool, m.
+pub fn of_figures(mechanism: &Mechanism, wrench: &Wrench, displacement: f64) -> Vec<Said> {
+    let folded = folds(displacement, mechanism.size());
+    let all = unusual_load(wrench).into_iter().chain(folded);
+    all.map(|warning| said(warning, LOAD)).collect()
+}
+
+/// Warnings about the tool of a machine, by its length, m.
 pub fn of_tool(mechanism: &Mechanism, length: f64) -> Vec<Said> {
     let found = odd_tool_length(mechanism, 1e3 * length);
-    found.into_iter().map(said).collect()
+    found
+        .into_iter()
+        .map(|warning| said(warning, TOOL))
+        .collect()
 }
 
-/// What looks wrong in corrections of a program of up to so many m, with a tolerance, m.
+/// Warnings about corrections of a program of up to so many m, with a tolerance, m.
 pub fn of_corrections(largest: f64, tolerance: f64) -> Vec<Said> {
     let limits = Limits::default();
     let mm = 1e3 * largest;
     let found = odd_correction(&limits, mm, None, 1e3 * tolerance);
     let beyond = mm > limits.correction_mm;
-    found.map(|w| (beyond, w.message)).into_iter().collect()
+    found
+        .map(|w| (beyond, CORRECTIONS, w.message))
+        .into_iter()
+        .collect()
 }

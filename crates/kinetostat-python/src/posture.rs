@@ -8,9 +8,9 @@ use pyo3::prelude::*;
 
 use crate::arrays::{Numbers, array, matrix_of, one_pose, one_wrench};
 use crate::equilibrium::Equilibrium;
-use crate::errors::of_core;
+use crate::errors::{of_core, require_stiffness};
 use crate::plausibility::of_load;
-use crate::stiffness::Stiffness;
+use crate::stiffness::{Stiffness, json_of};
 
 /// A machine whose actuators are commanded.
 #[pyclass(frozen, module = "kinetostat._core")]
@@ -59,7 +59,18 @@ impl Posture {
 
     /// Cartesian stiffness of the unloaded machine as drawn.
     fn stiffness(&self) -> PyResult<Stiffness> {
+        require_stiffness(self.0.mechanism())?;
         Stiffness::of(&self.0)
+    }
+
+    /// Stiffness of every limb as JSON, of a stiffness of this posture.
+    fn limbs_of_stiffness(&self, found: &Stiffness) -> PyResult<String> {
+        json_of(&found.0.limb_stiffnesses(&self.0))
+    }
+
+    /// Stiffness of every limb as JSON, of an equilibrium of this posture.
+    fn limbs_of_equilibrium(&self, found: &Equilibrium) -> PyResult<String> {
+        json_of(&found.0.limb_stiffnesses(self.0.mechanism()))
     }
 
     /// Equilibrium under a wrench (6,) on the tool: force (N), moment (N m), base axes, about its reference point. What is beyond
@@ -67,6 +78,7 @@ impl Posture {
     fn deflected_by(&self, wrench: &Bound<'_, PyAny>) -> PyResult<Equilibrium> {
         let py = wrench.py();
         let wrench = one_wrench("wrench", wrench)?;
+        require_stiffness(self.0.mechanism())?;
         let found = py.detach(|| self.0.deflected_by(&wrench));
         let found = found.map_err(|e| of_core(&e))?;
         let warnings = of_load(&self.0, &found);
@@ -80,6 +92,7 @@ impl Posture {
     /// Equilibrium with the tool held at a pose (4, 4): the wrench that holds it is part of the answer.
     fn held_at(&self, py: Python<'_>, target: Numbers<'_>) -> PyResult<Equilibrium> {
         let held = one_pose("pose", &target)?;
+        require_stiffness(self.0.mechanism())?;
         let found = py.detach(|| self.0.wrench_at(&held));
         Ok(Equilibrium(found.map_err(|e| of_core(&e))?))
     }

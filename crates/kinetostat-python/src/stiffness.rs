@@ -9,7 +9,7 @@ use crate::errors::{Class, error, of_core};
 
 /// Stiffness of an unloaded posture.
 #[pyclass(frozen, module = "kinetostat._core")]
-pub struct Stiffness(UnloadedStiffness);
+pub struct Stiffness(pub(crate) UnloadedStiffness);
 
 impl Stiffness {
     pub(crate) fn of(posture: &kinetostat::Posture) -> PyResult<Self> {
@@ -24,10 +24,11 @@ pub fn json_of(value: &impl serde::Serialize) -> PyResult<String> {
 
 #[pymethods]
 impl Stiffness {
-    /// (6, 6): N/m, N/rad; N m/m, N m/rad; base axes, about the tool's reference point.
+    /// (6, 6): N/m, N/rad; N m/m, N m/rad; base axes, about the tool's reference point; NaN along what is rigid.
     #[getter]
     fn matrix<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        array(py, rows_of(&self.0.cartesian.matrix), [6, 6])
+        let entries = self.0.cartesian.finite_entries(&self.0.directions);
+        array(py, rows_of(&entries), [6, 6])
     }
 
     /// (6, 6) within the directions that are neither free nor rigid.

@@ -12,8 +12,8 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use rayon::prelude::*;
 
-use crate::arrays::{Numbers, array, poses, wrenches};
-use crate::errors::{Class, error, of_core, of_model};
+use crate::arrays::{Numbers, array, poses, reserve, wrenches};
+use crate::errors::{Class, error, of_core, of_model, require_stiffness};
 use crate::machine::Machine;
 use crate::work::{Manner, away};
 
@@ -51,6 +51,7 @@ pub fn tolerance_of_machine<'py>(
     threads: Option<usize>,
     progress: Option<Bound<'py, PyAny>>,
 ) -> PyResult<Bound<'py, PyDict>> {
+    require_stiffness(&machine.mechanism)?;
     let places: Vec<Pose> = poses("poses", &places, threads)?;
     let wrench: Wrench = wrenches("wrench", &wrench)?
         .first()
@@ -192,6 +193,8 @@ pub fn drawn_numbers<'py>(
     let width = each.len();
     let (numbers, draws) = (uncertainties(each, &pairs)?, Draws::new(draws, seed));
     kept(draws.len(), width, "draws of all numbers", "take fewer")?;
+    // In parts first, then in one.
+    reserve(draws.len(), 2 * size_of::<f64>() * width)?;
     let all = rows(py, draws.len(), move |i| numbers.drawn(&draws, i))?;
     array(py, all, [draws.len(), width])
 }
@@ -213,6 +216,7 @@ pub fn sobol_design<'py>(
         "rows for which the function is asked",
         "take a smaller n, or fewer numbers",
     )?;
+    reserve(count, 2 * size_of::<f64>() * width)?;
     let all = rows(py, count, move |row| design_row(&numbers, &draws, row))?;
     array(py, all, [draws.len(), width + 2, width])
 }

@@ -13,7 +13,7 @@ use pyo3::prelude::*;
 
 use crate::arrays::{Numbers, array, one_wrench, rows};
 use crate::equilibrium::Equilibrium;
-use crate::errors::{Class, error, of_core};
+use crate::errors::{Class, error, of_core, require_stiffness};
 use crate::posture::Posture;
 use crate::stiffness::json_of;
 
@@ -77,6 +77,7 @@ pub fn vibration_of(
 ) -> PyResult<Vibration> {
     let py = wrench.py();
     let wrench = one_wrench("wrench", wrench)?;
+    require_stiffness(posture.0.mechanism())?;
     let held = Held {
         directions: held,
         ..Held::directions(Directions::NONE)

@@ -1,10 +1,12 @@
 //! What looks wrong in machines, postures and loads that Python holds.
 
+use kinetostat::Wrench;
+use kinetostat::nalgebra::Vector3;
 use pyo3::prelude::*;
 
 use crate::equilibrium::Equilibrium;
 use crate::machine::Machine;
-use crate::plausibility::{Said, of_load, of_tool};
+use crate::plausibility::{Said, of_figures, of_load, of_tool};
 use crate::posture::Posture;
 
 /// What looks wrong in the tool of a machine.
@@ -17,6 +19,13 @@ pub fn tool_warnings(machine: &Machine) -> Vec<Said> {
         false => vector.norm(),
     };
     of_tool(&machine.mechanism, length)
+}
+
+/// Warnings about many answers, by the largest force (N), moment (N m) and displacement (m) among them.
+#[pyfunction]
+pub fn answer_warnings(machine: &Machine, force: f64, moment: f64, displacement: f64) -> Vec<Said> {
+    let wrench = Wrench::new(Vector3::x() * force, Vector3::x() * moment);
+    of_figures(&machine.mechanism, &wrench, displacement)
 }
 
 /// What looks wrong in the load on the tool and in the displacement from a posture.

@@ -38,7 +38,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let poses: Vec<Pose> = (0..places).map(at).collect();
     for (quantities, most) in [
         (&[Quantity::Compensated][..], 60.0),
-        (&[Quantity::Deflection], 120.0),
+        (&[Quantity::DeflectionByLoad], 120.0),
         (&Quantity::ALL, 150.0),
     ] {
         let tool = Pose::identity();

@@ -29,7 +29,7 @@ struct OfTool {
     batch: Batch,
     /// Their indices among all places.
     indices: Vec<usize>,
-    wanted: Commanded,
+    programmed: Commanded,
     commanded: Commanded,
     /// Natural length, m.
     length: f64,
@@ -53,7 +53,7 @@ impl OfTool {
             batch.commanded_under(&poses, &wrenches)
         };
         Ok(Self {
-            wanted: commanded(|place| place.wanted)?,
+            programmed: commanded(|place| place.programmed)?,
             commanded: commanded(|place| place.commanded)?,
             length: drawn.natural_length(),
             margins: None,
@@ -177,7 +177,7 @@ impl UncertainRun {
                 continue;
             }
             let [more, less] = [&more, &less].map(|(batch, loads)| (batch, &loads[..]));
-            own.wanted.go_along(more, less, 2.0 * step)?;
+            own.programmed.go_along(more, less, 2.0 * step)?;
             if self.compensated {
                 own.commanded.go_along(more, less, 2.0 * step)?;
             }
@@ -221,7 +221,7 @@ impl OfTool {
     fn last(&self, compensated: bool) -> &Commanded {
         match compensated {
             true => &self.commanded,
-            false => &self.wanted,
+            false => &self.programmed,
         }
     }
 }
@@ -253,7 +253,7 @@ impl DependsOnMachine for UncertainRun {
             let (loads, by, before) = (&room.wrenches, &room.deviations, &mut room.loaded);
             if self.compensated {
                 let details = Details::Rest;
-                batch.equilibrium_foretold_into(&own.wanted, by, loads, details, before)?;
+                batch.equilibrium_foretold_into(&own.programmed, by, loads, details, before)?;
             }
             let details = match own.margins.as_ref().is_some_and(|m| m.hold(by)) {
                 true => Details::Rest,

@@ -42,8 +42,8 @@ pub use along_program::{CuttingParts, UncertainRun};
 pub use band::band;
 pub use distribution::Distribution;
 pub use draws::{Draws, MOST_DRAWS, REPLICATES};
-pub use file::{CUTTING_PARTS, Source, UncertaintyFile};
-pub use linear::{ENOUGH, Linear, linear, linear_points, nonlinearity};
+pub use file::{CUTTING_PARTS, SharedNumber, Source, UncertaintyFile};
+pub use linear::{ENOUGH, Linear, NOTHING, linear, linear_points, nonlinearity};
 pub use machine::{DependsOnMachine, Quantity, Room, TaskError, UncertainMachine};
 pub use sensitivity::{MOST_MISSING, SobolIndex, design_row, design_rows, sobol_indices};
 pub use statistics::{

@@ -106,12 +106,15 @@ pub fn nonlinearity(exact: &[f64], by_line: impl Fn(usize) -> f64) -> f64 {
     let variance = known().map(|(_, x)| (x - mean).powi(2)).sum::<f64>() / n;
     let off = known().map(|(i, x)| (x - by_line(i)).powi(2)).sum::<f64>() / n;
     // Rounding of a number that does not scatter is no nonlinearity.
-    if off <= 1e-20 * mean * mean {
+    if off <= 1e-20 * mean * mean || off.sqrt() <= NOTHING {
         0.0
     } else {
         (off / variance).sqrt()
     }
 }
+
+/// Results up to this are rounding, mm and N/mm: a picometre.
+pub const NOTHING: f64 = 1e-9;
 
 /// What linear propagation may be off, in standard deviations, to be enough.
 pub const ENOUGH: f64 = 0.1;

@@ -13,7 +13,7 @@ use crate::uncertain::Uncertainties;
 
 /// What depends on how the machine stands under the load.
 const LOADED: [Quantity; 3] = [
-    Quantity::Deflection,
+    Quantity::DeflectionByLoad,
     Quantity::Deviation,
     Quantity::Stiffness,
 ];
@@ -26,7 +26,7 @@ pub enum Quantity {
     /// weight.
     Error,
     /// From where the unloaded tool is to where the load moves it (mm).
-    Deflection,
+    DeflectionByLoad,
     /// From where the tool is commanded to where it is under the load (mm): both together.
     Deviation,
     /// The same if the command is compensated with the numbers of the drawing (mm): what compensation leaves.
@@ -39,7 +39,7 @@ impl Quantity {
     /// All of them.
     pub const ALL: [Self; 5] = [
         Self::Error,
-        Self::Deflection,
+        Self::DeflectionByLoad,
         Self::Deviation,
         Self::Compensated,
         Self::Stiffness,
@@ -50,11 +50,11 @@ impl Quantity {
     pub fn columns(self) -> &'static [&'static str] {
         match self {
             Self::Error => &["error_mm", "error_x_mm", "error_y_mm", "error_z_mm"],
-            Self::Deflection => &[
-                "deflection_mm",
-                "deflection_x_mm",
-                "deflection_y_mm",
-                "deflection_z_mm",
+            Self::DeflectionByLoad => &[
+                "deflection_by_load_mm",
+                "deflection_by_load_x_mm",
+                "deflection_by_load_y_mm",
+                "deflection_by_load_z_mm",
             ],
             Self::Deviation => &[
                 "deviation_mm",
@@ -81,7 +81,7 @@ impl Quantity {
     pub fn word(self) -> &'static str {
         match self {
             Self::Error => "error",
-            Self::Deflection => "deflection",
+            Self::DeflectionByLoad => "deflection_by_load",
             Self::Deviation => "deviation",
             Self::Compensated => "compensated",
             Self::Stiffness => "stiffness",
@@ -323,7 +323,7 @@ impl UncertainMachine {
             for (places, quantities, both) in [
                 (
                     &mut self.places,
-                    &[Quantity::Error, Quantity::Deflection][..],
+                    &[Quantity::Error, Quantity::DeflectionByLoad][..],
                     unloaded,
                 ),
                 (&mut self.loaded, &LOADED, loaded),
@@ -347,7 +347,7 @@ impl UncertainMachine {
             rest = after;
             let moved = match quantity {
                 Quantity::Error => at(&room.unloaded, place) - target,
-                Quantity::Deflection => at(&room.loaded, place) - at(&room.unloaded, place),
+                Quantity::DeflectionByLoad => at(&room.loaded, place) - at(&room.unloaded, place),
                 Quantity::Deviation => at(&room.loaded, place) - target,
                 Quantity::Compensated => at(&room.compensated, place) - target,
                 Quantity::Stiffness => {
@@ -373,7 +373,7 @@ impl DependsOnMachine for UncertainMachine {
         let count = self.places();
         room.deviate(values, &self.nominal);
         let (wrenches, by) = (&mut room.wrenches, &room.deviations);
-        if self.asks(&[Quantity::Error, Quantity::Deflection]) {
+        if self.asks(&[Quantity::Error, Quantity::DeflectionByLoad]) {
             refill(wrenches, Wrench::zero(), count);
             let (places, out) = (&self.places, &mut room.unloaded);
             batch.equilibrium_foretold_into(places, by, wrenches, Details::Rest, out)?;

@@ -28,6 +28,8 @@ def compensate(
     milling: Sequence[float] | None = None,
     load_at_corners: Literal["turns", "follows-feed"] | None = None,
     below_z_mm: float | None = None,
+    weight: Literal["touch-off", "all", "none"] | None = None,
+    touch_off: Sequence[float] | None = None,
     units: Literal["mm", "inch"] | None = None,
     arc_tolerance: float | None = None,
     work_offset: str | float | Sequence[str | float] | None = None,
@@ -121,6 +123,12 @@ def compensate(
         or it follows the feed; the program is the same, the claim about it is not [default: turns]
     below_z_mm : float
         The load acts only below this height of the program, mm
+    weight : Literal["touch-off", "all", "none"]
+        How much of the displacement by the machine's own weight counts as an error of the program;
+        it must be stated where own weight moves the tool
+    touch_off : Sequence[float]
+        Place where this machine touched the part off, program coordinates, mm, for --weight touch-
+        off: one, or three and more (repeat it) that give the frame's orientation, too
     units : Literal["mm", "inch"]
         Units of a program that does not say G20 or G21
     arc_tolerance : float
@@ -188,7 +196,8 @@ def compensate(
     limit : str | float | Sequence[str | float]
         Move a limit, as in correction_mm=5 (repeat for more): correction_mm, own_weight_mm,
         tilt_deg, force_n, moment_n_m, share_of_rating, share_of_buckling, blocks_per_second,
-        shortest_tool_mm, longest_tool_mm. A program that leaves a limit is refused
+        shortest_tool_mm, longest_tool_mm, nearest_base_mm, below_base_mm, speed_mm_per_s, zone_mm.
+        A program that leaves a limit is refused
     report : path
         The report, one HTML file
     pdf : path
@@ -210,7 +219,8 @@ def compensate(
     threads : int
         Number of threads; all cores without it. The result is the same
     out : path
-        The compensated program; without it, PROGRAM-compensated beside the job or the program
+        The compensated program; without it, PROGRAM-compensated beside the job or the program, or
+        compensated/PROGRAM of one that its controller loads by name
     to : Literal["krl", "rapid", "ls"]
         Convert the program for a robot first, and compensate that (other languages: `kinetostat
         convert`)
@@ -283,6 +293,8 @@ def compensate(
         ("--milling", milling),
         ("--load-at-corners", load_at_corners),
         ("--below-z-mm", below_z_mm),
+        ("--weight", weight),
+        ("--touch-off", touch_off),
         ("--units", units),
         ("--arc-tolerance", arc_tolerance),
         ("--work-offset", work_offset),

@@ -26,6 +26,7 @@ def convert(
     tolerance_mm: float | None = None,
     model: str | float | None = None,
     joint_rows: Literal["joint", "linear"] | None = None,
+    limit: str | float | Sequence[str | float] | None = None,
     force_overwrite: bool = False,
     units: Literal["mm", "inch"] | None = None,
     arc_tolerance: float | None = None,
@@ -85,6 +86,10 @@ def convert(
         How the controller moves between the rows of a table of joint values: of one that is read,
         and of one that is written (linear: a row for each pose; joint: as many as the tolerance
         needs) [default: linear where it is written]
+    limit : str | float | Sequence[str | float]
+        Move a limit, as in speed_mm_per_s=9000 (repeat for more): shortest_tool_mm,
+        longest_tool_mm, nearest_base_mm, speed_mm_per_s, zone_mm. A program that leaves a limit is
+        refused
     force_overwrite : bool
         Overwrite the outputs if they exist (never an input)
     units : Literal["mm", "inch"]
@@ -165,6 +170,7 @@ def convert(
         ("--tolerance-mm", tolerance_mm),
         ("--model", model),
         ("--joint-rows", joint_rows),
+        ("--limit", limit),
         ("--force-overwrite", force_overwrite),
         ("--units", units),
         ("--arc-tolerance", arc_tolerance),

@@ -23,10 +23,10 @@ def mirror(
     window_mm: float | None = None,
     repeatability_um: float | None = None,
     align: Literal["nearest", "arc-length"] | None = None,
-    register: bool = False,
-    no_register: bool = False,
+    register: Literal["none", "translation", "rigid"] | None = None,
     scale: bool = False,
     was_run: bool = False,
+    limit: str | float | Sequence[str | float] | None = None,
     units: Literal["mm", "inch"] | None = None,
     arc_tolerance: float | None = None,
     work_offset: str | float | Sequence[str | float] | None = None,
@@ -79,16 +79,17 @@ def mirror(
         several measurements of this trial
     align : Literal["nearest", "arc-length"]
         How points find their places on the path [default: nearest]
-    register : bool
-        Bring the points onto the path by a rigid motion first; the default
-    no_register : bool
-        The points are in the frame of the program: no motion is sought, and a shift of the whole is
-        corrected too
+    register : Literal["none", "translation", "rigid"]
+        Motion that brings the points onto the path first; what it takes away is not corrected. A
+        state that exists knows it, and without one it must be chosen
     scale : bool
         Seek a scale besides the rigid motion
     was_run : bool
         The program that was measured is the last one written for certain: go on although its
         correction is not seen in the points
+    limit : str | float | Sequence[str | float]
+        Move a limit, as in correction_mm=5 (repeat for more; see `kinetostat compensate --help`):
+        correction_mm bounds the correction by measurement, blocks_per_second the program
     units : Literal["mm", "inch"]
         Units of a program that does not say G20 or G21
     arc_tolerance : float
@@ -151,7 +152,7 @@ def mirror(
     ...     _ = file.write_text('G21 G90\nG0 X0 Y0 Z0\nG1 X40 F600\nM30\n')
     ...     measured = Path(folder, "trial1.csv")
     ...     _ = measured.write_text("x_mm,y_mm,z_mm\n" + "".join(f"{x},0.05,0\n" for x in range(41)))
-    ...     found = ks.commands.mirror(file, measured=measured, no_register=True, out=Path(folder, "trial2.ngc"))
+    ...     found = ks.commands.mirror(file, measured=measured, register="none", out=Path(folder, "trial2.ngc"))
     >>> found["outcome"], round(found["left_mm"], 3), round(found["largest_correction_mm"], 3)
     ('go_on', 0.05, 0.05)
     """
@@ -166,9 +167,9 @@ def mirror(
         ("--repeatability-um", repeatability_um),
         ("--align", align),
         ("--register", register),
-        ("--no-register", no_register),
         ("--scale", scale),
         ("--was-run", was_run),
+        ("--limit", limit),
         ("--units", units),
         ("--arc-tolerance", arc_tolerance),
         ("--work-offset", work_offset),

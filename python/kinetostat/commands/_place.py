@@ -37,6 +37,8 @@ def place(
     milling: Sequence[float] | None = None,
     load_at_corners: Literal["turns", "follows-feed"] | None = None,
     below_z_mm: float | None = None,
+    weight: Literal["touch-off", "all", "none"] | None = None,
+    touch_off: Sequence[float] | None = None,
     units: Literal["mm", "inch"] | None = None,
     arc_tolerance: float | None = None,
     work_offset: str | float | Sequence[str | float] | None = None,
@@ -127,6 +129,12 @@ def place(
         or it follows the feed; the program is the same, the claim about it is not [default: turns]
     below_z_mm : float
         The load acts only below this height of the program, mm
+    weight : Literal["touch-off", "all", "none"]
+        How much of the displacement by the machine's own weight counts as an error of the program;
+        it must be stated where own weight moves the tool
+    touch_off : Sequence[float]
+        Place where this machine touched the part off, program coordinates, mm, for --weight touch-
+        off: one, or three and more (repeat it) that give the frame's orientation, too
     units : Literal["mm", "inch"]
         Units of a program that does not say G20 or G21
     arc_tolerance : float
@@ -182,7 +190,8 @@ def place(
     limit : str | float | Sequence[str | float]
         Move a limit, as in correction_mm=5 (repeat for more): correction_mm, own_weight_mm,
         tilt_deg, force_n, moment_n_m, share_of_rating, share_of_buckling, blocks_per_second,
-        shortest_tool_mm, longest_tool_mm. A program that leaves a limit is refused
+        shortest_tool_mm, longest_tool_mm, nearest_base_mm, below_base_mm, speed_mm_per_s, zone_mm.
+        A program that leaves a limit is refused
     force_overwrite : bool
         Overwrite outputs that exist (never an input)
     threads : int
@@ -236,6 +245,8 @@ def place(
         ("--milling", milling),
         ("--load-at-corners", load_at_corners),
         ("--below-z-mm", below_z_mm),
+        ("--weight", weight),
+        ("--touch-off", touch_off),
         ("--units", units),
         ("--arc-tolerance", arc_tolerance),
         ("--work-offset", work_offset),

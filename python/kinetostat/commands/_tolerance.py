@@ -24,7 +24,7 @@ def tolerance(
     tool_length_mm: float | None = None,
     force: Sequence[float] | None = None,
     moment: Sequence[float] | None = None,
-    only: Literal["error", "deflection", "deviation", "compensated", "stiffness"] | Sequence[Literal["error", "deflection", "deviation", "compensated", "stiffness"]] | None = None,
+    only: Literal["error", "deflection-by-load", "deviation", "compensated", "stiffness"] | Sequence[Literal["error", "deflection-by-load", "deviation", "compensated", "stiffness"]] | None = None,
     machines: int | None = None,
     seed: int | None = None,
     sobol: int | None = None,
@@ -56,7 +56,7 @@ def tolerance(
         Force on the tool's tip, N, base axes
     moment : Sequence[float]
         Moment on the tool about its tip, N m, base axes
-    only : Literal["error", "deflection", "deviation", "compensated", "stiffness"] | Sequence[Literal["error", "deflection", "deviation", "compensated", "stiffness"]]
+    only : Literal["error", "deflection-by-load", "deviation", "compensated", "stiffness"] | Sequence[Literal["error", "deflection-by-load", "deviation", "compensated", "stiffness"]]
         What is asked; without it, error and stiffness, and under a load everything
     machines : int
         Number of machines, rounded up to a multiple of 16 [default: 4096]

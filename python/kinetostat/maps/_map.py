@@ -11,12 +11,14 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from kinetostat import _core, sweep
+from kinetostat._plausibility import issue, of_many, sentences
 from kinetostat.errors import ArgumentError
 from kinetostat.machine import Machine, Progress
 from kinetostat.maps._question import Question, asked
 from kinetostat.maps._rows import rows
 from kinetostat.maps._variables import AXES, Variable
 from kinetostat.status import Status
+from kinetostat.sweep._folder import chunk_of
 
 if TYPE_CHECKING:
     import xarray
@@ -24,6 +26,8 @@ if TYPE_CHECKING:
 __all__ = ["evaluate"]
 
 _AXES = {"x": "x of the tool's reference point", "y": "y of the tool's reference point", "z": "z of the tool's reference point"}
+
+_CHUNK = 16384
 
 _MOST_NUMBERS = 2_000_000_000
 """Of a map, 16 GB."""
@@ -41,7 +45,7 @@ def evaluate(
     variables: str | Sequence[str] | None = None,
     folder: str | os.PathLike[str] | None = None,
     executor: Executor | Callable[[], Executor] | None = None,
-    chunk: int = 16384,
+    chunk: int | None = None,
     threads: int | None = None,
     progress: Progress | None = None,
 ) -> xarray.Dataset:
@@ -68,8 +72,8 @@ def evaluate(
         Keeps the map there as a Parquet dataset with a manifest (:mod:`kinetostat.sweep`), and goes on where an earlier call stopped.
     executor : concurrent.futures.Executor or callable, optional
         Where chunks are computed; see :func:`kinetostat.sweep.run`. In this process without one.
-    chunk : int
-        Places of a chunk.
+    chunk : int, optional
+        Places of a chunk; that of the folder without it, or 16384.
     threads : int, optional
         Threads of this process, all cores without it; workers of an executor use one each. The answer is the same, bit for bit.
     progress : callable, optional
@@ -105,6 +109,8 @@ def evaluate(
     # What makes no sense of one place is said here, not by a worker.
     rows(0, 1, threads=1, **question.settings(places=False))
     _fits(question)
+    size = chunk if chunk is not None or folder is None else chunk_of(folder)
+    chunk = _CHUNK if size is None else size
     if folder is None:
         how: dict[str, Any] = {"chunk": chunk, "executor": executor, "threads": threads, "progress": progress}
         found = sweep.run(rows, question.count, question.settings(places=False), **how)
@@ -113,7 +119,10 @@ def evaluate(
         how = {"chunk": chunk, "executor": executor, "threads": threads, "progress": progress, "units": units}
         sweep.to_folder(folder, rows, question.count, question.settings(places=True), **how)
         found = sweep.read(folder, ["status", *(variable.name for variable in question.variables)])
-    return _dataset(question, found)
+    made = _dataset(question, found)
+    said = of_many(machine._native, question.wrenches, found["deflection"][:, None] if "deflection" in found else None, found["status"])
+    issue(said)
+    return made.assign_attrs(warnings="; ".join(sentences(said))) if said else made
 
 
 def _fits(question: Question) -> None:

@@ -191,6 +191,12 @@ def read(folder: str | os.PathLike[str], names: Collection[str] | None = None) -
     return whole
 
 
+def chunk_of(folder: str | os.PathLike[str]) -> int | None:
+    """Rows of a chunk of the sweep that a folder holds; none where there is no sweep."""
+    path = Path(file_path("folder", folder))
+    return int(_manifest(path)["chunk"]) if (path / "manifest.json").is_file() else None
+
+
 class Store:
     """The folder while a run writes it; one run at a time."""
 

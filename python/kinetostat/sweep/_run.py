@@ -13,13 +13,15 @@ import numpy as np
 from kinetostat._arguments import mapping, or_none, text, told
 from kinetostat._arrays import thread_count, whole_number
 from kinetostat.errors import ArgumentError
-from kinetostat.sweep._folder import Store
+from kinetostat.sweep._folder import Store, chunk_of
 from kinetostat.sweep._identity import Columns, Function, Plan, schema
 from kinetostat.sweep._workers import compute
 
 __all__ = ["Done", "run", "to_folder"]
 
 Progress = Callable[[int, int, str], object]
+
+_CHUNK = 4096
 
 _MOST_UNDER_WAY = 1_000_000
 
@@ -126,7 +128,7 @@ def to_folder(
     count: int,
     settings: Mapping[str, Any] | None = None,
     *,
-    chunk: int = 4096,
+    chunk: int | None = None,
     executor: Executor | Callable[[], Executor] | None = None,
     under_way: int | None = None,
     threads: int | None = None,
@@ -146,7 +148,9 @@ def to_folder(
         Made if it is not there. One run at a time writes it.
     units : mapping, optional
         Units by column, noted in the Parquet files.
-    function, count, settings, chunk, executor, under_way, threads, progress
+    chunk : int, optional
+        Rows of a chunk; that of the folder without it, or 4096 in a new one.
+    function, count, settings, executor, under_way, threads, progress
         As for :func:`run`.
 
     Returns
@@ -171,7 +175,8 @@ def to_folder(
     >>> first.computed, again.computed
     (3, 0)
     """
-    plan, under_way, threads = _planned(function, count, settings, chunk, under_way, threads)
+    size = (chunk_of(folder) or _CHUNK) if chunk is None else chunk
+    plan, under_way, threads = _planned(function, count, settings, size, under_way, threads)
     told(progress)
     or_none(mapping, "units", units, "a dictionary of units by column, or None")
     store = Store(folder, plan, units)

@@ -1,7 +1,8 @@
 //! Frames that bring computed poses nearest to measured ones.
 
-use kinetostat::{Pose, linalg::SingularValues};
-use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
+use kinetostat::Pose;
+use kinetostat_machining::{nearest_rotation, rigid_motion};
+use nalgebra::{Matrix3, UnitQuaternion, Vector3};
 
 use crate::measured_poses::explanation::Frame;
 use crate::measured_poses::measurement::MeasuredPose;
@@ -31,20 +32,9 @@ pub(crate) fn base(rows: &[MeasuredPose], computed: &[Pose]) -> Option<Frame> {
     if rows.len() < 4 {
         return None;
     }
-    let n = rows.len() as f64;
-    let there = rows.iter().map(|r| r.position).sum::<Vector3<f64>>() / n;
-    let here = computed
-        .iter()
-        .map(|c| c.translation.vector)
-        .sum::<Vector3<f64>>()
-        / n;
-    let mut h = Matrix3::zeros();
-    for (r, c) in rows.iter().zip(computed) {
-        h += (r.position - there) * (c.translation.vector - here).transpose();
-    }
-    let rotation = nearest_rotation(&h)?;
-    let shift = there - rotation * here;
-    Some(Frame::Base(Pose::from_parts(shift.into(), rotation)))
+    let there: Vec<Vector3<f64>> = rows.iter().map(|r| r.position).collect();
+    let here = computed.iter().map(|c| c.translation.vector);
+    rigid_motion(&here.collect::<Vec<_>>(), &there).map(Frame::Base)
 }
 
 /// The frame behind the tool that brings the computed poses nearest to the measured ones.
@@ -77,18 +67,4 @@ fn mean(turns: impl Iterator<Item = UnitQuaternion<f64>>) -> UnitQuaternion<f64>
         s + q.to_rotation_matrix().into_inner()
     });
     nearest_rotation(&sum).unwrap_or_default()
-}
-
-fn nearest_rotation(m: &Matrix3<f64>) -> Option<UnitQuaternion<f64>> {
-    let own = SingularValues::of(m);
-    // Points on a line leave a turn about it open.
-    if own.rank(1e-9) < 2 {
-        return None;
-    }
-    let u = Matrix3::from_iterator(own.left.iter().copied());
-    let v_t = Matrix3::from_iterator(own.right.iter().copied()).transpose();
-    let mut sign = Matrix3::identity();
-    sign[(2, 2)] = (u * v_t).determinant().signum();
-    let rotation = Rotation3::from_matrix_unchecked(u * sign * v_t);
-    Some(UnitQuaternion::from_rotation_matrix(&rotation))
 }

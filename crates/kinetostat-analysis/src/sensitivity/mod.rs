@@ -7,6 +7,7 @@
 //! is commanded for the same place, as a controller that knows the machine does. The margin is that of the limb that is nearest to
 //! buckling, also where another one overtakes it within a step; figures that are the largest of equal ones are told ([`Sharp`]).
 
+mod gradients;
 mod place;
 mod sharp;
 mod values;
@@ -16,6 +17,7 @@ use kinetostat::{Error, Mechanism, MechanismEquilibrium, Pose, Posture, Wrench};
 use kinetostat_model::{Model, ModelError, Parameter, ParameterKind, ParametricModel};
 use rayon::prelude::*;
 
+pub use self::gradients::{Gradient, GradientTask, gradients};
 pub use self::place::CommandedPlace;
 pub use self::sharp::Sharp;
 use self::sharp::Sides;
@@ -139,6 +141,11 @@ pub enum SensitivityError {
     /// A path names nothing.
     #[error(transparent)]
     Model(#[from] ModelError),
+    /// Another posture has the same commands.
+    #[error(
+        "the commands of this posture lead to another pose of the tool; take a posture that its commands alone determine"
+    )]
+    Elsewhere,
 }
 
 struct Tangent<'a> {

@@ -7,10 +7,9 @@ use crate::error::{ChatterError, ChatterErrorKind, Result, above};
 
 /// Slope of the force over the thickness of the chip, per depth, N/m^2.
 ///
-/// The force **on the tool** is `-(Kt t + Kr n + Ka z) a h` with `t` along the tooth's way, `n` outward, `z` towards the
-/// spindle [D 8]. `Kr` and `Ka` are forces by area like `Kt`, not ratios to it; with a positive `Ka` the cut pushes the tool
-/// away from the spindle. `cutting.md` (and [`kinetostat_cutting::EdgeForce`]) has the opposite sign of the axial part:
-/// [`Coefficients::linearised`] turns it.
+/// The force **on the tool** is `-(Kt t + Kr n - Ka z) a h` with `t` along the tooth's way, `n` outward, `z` towards the
+/// spindle. `Kr` and `Ka` are forces by area like `Kt`, not ratios to it. A positive `Ka` pushes the tool towards the spindle,
+/// as in the material library ([`kinetostat_cutting::EdgeForce`], `cutting.md`); (D 8) is written with the opposite sign.
 ///
 /// ```
 /// use kinetostat_chatter::Coefficients;
@@ -115,7 +114,7 @@ impl Coefficients {
     /// let law = Linear::new([796.0, 168.0, 222.0], [27.7, 30.8, 1.4])?; // N/mm^2, N/mm
     /// let line = Coefficients::linearised(&law, 5e-5)?;
     /// assert!((line.coefficients.tangential() / 796e6 - 1.0).abs() < 1e-9);
-    /// assert!((line.coefficients.axial() / -222e6 - 1.0).abs() < 1e-9);
+    /// assert!((line.coefficients.axial() / 222e6 - 1.0).abs() < 1e-9);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     ///
@@ -141,7 +140,7 @@ impl Coefficients {
         let coefficients = Self::new(
             slope(low.tangential, high.tangential),
             slope(low.radial, high.radial),
-            -slope(low.axial, high.axial),
+            slope(low.axial, high.axial),
         )?;
         Ok(Linearised {
             coefficients,
@@ -164,7 +163,7 @@ impl Coefficients {
         self.radial
     }
 
-    /// Along the tool axis, N/m^2; positive pushes the tool away from the spindle.
+    /// Along the tool axis, N/m^2; positive pushes the tool towards the spindle.
     #[must_use]
     pub fn axial(&self) -> f64 {
         self.axial

@@ -4,12 +4,13 @@ use nalgebra::{Matrix3, Vector3};
 
 use crate::cut::coefficients::Coefficients;
 
-/// `D = -(Kt t + Kr n + Ka z) n^T` with `n = (sin, cos, 0)`, `t = (cos, -sin, 0)` [D 8], N/m^2.
+/// `D = -(Kt t + Kr n - Ka z) n^T` with `n = (sin, cos, 0)`, `t = (cos, -sin, 0)`, N/m^2: [D 8] with the axial sign of
+/// `cutting.md`.
 pub(crate) fn at(coefficients: &Coefficients, angle: f64) -> Matrix3<f64> {
     force_direction(coefficients, angle) * normal(angle).transpose()
 }
 
-/// Force on the tool for a chip of one metre, per depth: `-(Kt t + Kr n + Ka z)`, N/m^2.
+/// Force on the tool for a chip of one metre, per depth: `-(Kt t + Kr n - Ka z)`, N/m^2.
 pub(crate) fn force_direction(coefficients: &Coefficients, angle: f64) -> Vector3<f64> {
     let (s, c) = angle.sin_cos();
     let (kt, kr, ka) = (
@@ -17,7 +18,7 @@ pub(crate) fn force_direction(coefficients: &Coefficients, angle: f64) -> Vector
         coefficients.radial(),
         coefficients.axial(),
     );
-    Vector3::new(-kt * c - kr * s, kt * s - kr * c, -ka)
+    Vector3::new(-kt * c - kr * s, kt * s - kr * c, ka)
 }
 
 /// Outward normal at an angle.
@@ -45,8 +46,8 @@ pub(crate) fn integral(coefficients: &Coefficients, angle: f64) -> Matrix3<f64> 
         kt * ss - kr * sc,
         kt * sc - kr * cc,
         0.0,
-        -ka * int_s,
-        -ka * int_c,
+        ka * int_s,
+        ka * int_c,
         0.0,
     )
 }

@@ -2,10 +2,16 @@
 
 use crate::cut::{checked_depth, checked_speed};
 use crate::error::{ChatterError, ChatterErrorKind, Result};
+use crate::stability::along::Along;
+use crate::stability::krylov;
 use crate::stability::limits::SpeedStability;
 use crate::stability::regeneration::{Regeneration, Selected};
 use crate::stability::resolution::resolved_hz;
 use crate::stability::swinging::Known;
+
+/// Share of the usual points of collocation at one look, and the logarithm of a multiplier from which it is unstable for certain.
+const LOOK: f64 = 0.75;
+const CLEARLY: f64 = 1e-3;
 
 impl Regeneration {
     /// Stability at a spindle speed (rpm) for all depths up to a largest one (m).
@@ -39,6 +45,33 @@ impl Regeneration {
         up_to: f64,
     ) -> Result<SpeedStability> {
         self.stability_beyond(Some(known), known.speed_rpm, up_to)
+    }
+
+    /// True if the cut is unstable at a spindle speed (rpm) and a depth (m), by one look at its largest multiplier. False where it
+    /// is stable there, however it is at smaller depths, and where one look does not tell: near the limit, and where modes
+    /// count that do not vibrate in [`Self::stability_at`] at first.
+    ///
+    /// # Errors
+    /// As [`Self::stability_at`].
+    pub fn is_unstable_at(&self, speed_rpm: f64, depth: f64) -> Result<bool> {
+        checked_speed(speed_rpm)?;
+        checked_depth(depth)?;
+        let of = |regeneration: &Self| -> Result<bool> {
+            let along = Along::new(regeneration, speed_rpm, LOOK)?;
+            Ok(along.logarithm(depth, krylov::ROUGH)? > CLEARLY)
+        };
+        let Some(Selected { selection, usual }) = self.selected() else {
+            return of(self);
+        };
+        let resolved_hz = resolved_hz(self.cut(), speed_rpm, depth);
+        let is_known = |mode: &Known| mode.alone >= depth;
+        let others = &selection.modes[selection.count..];
+        match others.iter().all(is_known)
+            && (!selection.automatic || selection.up_to(resolved_hz) >= selection.count)
+        {
+            true => of(usual),
+            false => Ok(false),
+        }
     }
 
     fn stability_beyond(

@@ -56,7 +56,7 @@ pub(crate) fn run(args: &ChatterArgs) -> Answer<()> {
     setting.turned_by(machine.rotary.clone());
     let claimed = ClaimedFiles::claim(&args.outputs, &setting.inputs)?;
     let read = read_program(&setting)?;
-    let progress = Progress::new();
+    let progress = Progress::with_lines();
     let forces = forces_of(&machine, &setting, read.path(), &progress)?;
     let Some(forces) = &forces else {
         return Err(Failure::input("the job has no forces of the cut"));
@@ -75,6 +75,7 @@ pub(crate) fn run(args: &ChatterArgs) -> Answer<()> {
     let mut said = warnings(Some(forces));
     said.extend(setting.of_expansion());
     said.extend(implausible(&judging.damping));
+    said.extend(judging.points.clone());
     let damping = words(&judging.damping);
     let result = found.result(damping.clone());
     let material = machine.cut.as_ref().map_or("", |cut| &cut.material);

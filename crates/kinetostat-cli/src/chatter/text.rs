@@ -1,5 +1,6 @@
 //! The answer of `chatter` for a person, and as a table.
 
+use kinetostat_chatter::Instability;
 use kinetostat_machining::ChatterResult;
 
 use crate::chatter::answer::{ChatterAnswer, Stretch, Vibration};
@@ -60,7 +61,7 @@ fn stretches(a: &ChatterAnswer) -> String {
         "depth, mm",
         "stable to, mm",
         "chatter, Hz",
-        "then",
+        "limit",
         "stable at, rpm",
     ];
     let mut rows = vec![heads.map(str::to_owned).to_vec()];
@@ -74,7 +75,11 @@ fn stretches(a: &ChatterAnswer) -> String {
             number(s.depth_mm, 4),
             number(s.stable_depth_mm, 4),
             number(s.chatter_hz, 4),
-            instability(Some(s.kind)).to_owned(),
+            match s.kind {
+                Instability::Flip => "half tooth passing",
+                _ => "own frequency",
+            }
+            .to_owned(),
             stable_at(s),
         ]);
     }

@@ -6,14 +6,16 @@ use std::path::Path;
 use kinetostat::Mechanism;
 use kinetostat_machining::number::counted;
 use kinetostat_machining::{
-    FlatProgram, LoadAlongPath, Placement, Task, Unwatched, Warning, load_description,
+    FlatProgram, LoadAlongPath, Placement, Task, Unwatched, Warning, WarningCode, load_description,
     refused_question, unusual_question,
 };
+use kinetostat_model::Model;
 use kinetostat_program::{Knowledge, Move, MoveKind, Path as ToolPath};
 use nalgebra::Vector3;
 use serde::Serialize;
 use serde_spanned::Spanned;
 
+use crate::convert::for_run::in_other_language;
 use crate::convert::targets::{Named, in_language};
 use crate::files::input_files::InputFiles;
 use crate::files::outputs::may_be_written;
@@ -23,10 +25,11 @@ use crate::job::cut::along;
 use crate::job::feature_lines::refuse_lines_beyond;
 use crate::job::file_endings::refuse_other_endings;
 use crate::job::job_file::JobFile;
-use crate::job::machine::machine_setup;
+use crate::job::machine::{MachineSetup, machine_setup};
 use crate::job::of_model::give_of_model;
 use crate::job::output_paths::OutputPaths;
 use crate::job::setting::{Setting, setting};
+use crate::job::target_word::RobotWord;
 use crate::job::{program, run_warnings};
 use crate::program::aim::Aim;
 use crate::program::chatter::Judging;
@@ -149,6 +152,17 @@ fn findings(files: &InputFiles, path: &Path, flags: &ProgramArgs) -> Answer<JobF
     let (refused, unusual) = with_task(Aim::Compensate, &machine, &setting, &read, forces, check)?;
     warnings.extend(along::warnings(forces));
     warnings.extend(setting.of_expansion());
+    if let Some(word) = to(&job) {
+        let setting = self::setting(files, Some(&job), flags, &WritingFlags::default())?;
+        warnings.extend(conversion(
+            files,
+            (&job, flags),
+            (setting, word),
+            (&model, &machine),
+        )?);
+    }
+    // The list is cut behind some: what keeps the part from being cut comes first.
+    warnings.sort_by_key(|warning| warning.code != WarningCode::SpindleNotStarted);
     let is_refused = !refused.is_empty() || along::breaks_the_tool(forces).is_some();
     warnings.extend(refused);
     warnings.extend(unusual);
@@ -189,6 +203,40 @@ fn findings(files: &InputFiles, path: &Path, flags: &ProgramArgs) -> Answer<JobF
         warnings: of_warnings(warnings, setting.flat.as_ref()),
         refused: is_refused,
     })
+}
+
+/// The language in which the compensated program is written, where it is another one.
+fn to(job: &JobFile) -> Option<RobotWord> {
+    let table = job.job.robot.as_ref().map(Spanned::get_ref);
+    table.and_then(|table| Some(*table.to.as_ref()?.get_ref()))
+}
+
+/// Warnings of the conversion that a compensation begins with; what it refuses is refused.
+fn conversion(
+    files: &InputFiles,
+    (job, flags): (&JobFile, &ProgramArgs),
+    (mut setting, word): (Setting, RobotWord),
+    (model, machine): (&Model, &MachineSetup),
+) -> Answer<Vec<Warning>> {
+    let mut flags = flags.clone();
+    flags.robot.converted = true;
+    let of = (Some(job), &flags);
+    give_of_model(&mut setting, files, (Some(job), None), &flags)?;
+    setting.turned_by(machine.rotary.clone());
+    let found = in_other_language(
+        files,
+        of,
+        (setting, word, Named::default()),
+        (model, machine),
+    )?;
+    let mut setting = found.setting;
+    let mut frames = setting.robot_frames()?;
+    if let Some(frames) = &mut frames {
+        frames.converted = true;
+    }
+    let with = (frames.as_ref(), &mut setting.inputs);
+    machine_setup(files, Some(job), None, &flags, with)?;
+    Ok(found.findings)
 }
 
 /// All points where a move ends, mm, with their lines.
@@ -241,15 +289,14 @@ fn ends(mechanism: &Mechanism, placement: &Placement, motion: &ToolPath) -> Vec<
 
 /// Where a compensation writes its programs, with the endings of their language.
 fn named_outputs(job: &JobFile, setting: &mut Setting) -> Answer<()> {
-    let table = job.job.robot.as_ref().map(Spanned::get_ref);
-    let Some(word) = table.and_then(|table| table.to.as_ref()) else {
+    let Some(word) = to(job) else {
         return refuse_other_endings(setting);
     };
     in_language(
         &mut setting.targets,
         &setting.program_path,
         (Some(job), Named::default()),
-        word.get_ref().language(),
+        word.language(),
     )
 }
 

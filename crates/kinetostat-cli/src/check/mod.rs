@@ -13,19 +13,15 @@ use std::path::Path;
 use crate::check::arguments::CheckArgs;
 use crate::check::model::findings::findings;
 use crate::check::model::text::answer_text;
+use crate::files::file_kind::FileKind;
 use crate::files::input_files::InputFiles;
-use crate::job::format::looks_like_a_job;
 use crate::options::vector;
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::json;
 
 pub(crate) fn run(args: &CheckArgs) -> Answer<()> {
     let file = Path::new(&args.model);
-    let is_job = file.is_file()
-        && InputFiles::default()
-            .job(file)
-            .is_ok_and(|text| looks_like_a_job(&text));
-    if is_job {
+    if FileKind::of_file(file) == Some(FileKind::Job) {
         if args.pose.is_some() || args.force.is_some() {
             return Err(Failure::input(
                 "--pose and --force check a model, and this is a job file: name its model instead",

@@ -2,6 +2,7 @@
 //!
 //! It takes the words of the command line, negative numbers among them made readable, and gives a [`Command`].
 
+pub(crate) mod given;
 pub(crate) mod negative_numbers;
 
 use clap::{Parser, Subcommand};
@@ -68,6 +69,7 @@ use crate::verify::arguments::VerifyArgs;
         "  2    no answer: not converged, or a point that cannot be reached\n",
         "  3    compensated and written, but the tolerance is missed; the line is said. Of\n",
         "       verify: missed, or the program cuts otherwise than the original\n",
+        "  4    compensated and written; the tolerance is kept only if the assumptions hold\n",
         "  130  stopped with Ctrl-C; nothing was written",
     )
 )]

@@ -34,6 +34,7 @@ pub(crate) struct Design {
 impl Design {
     fn read(named: &str, tool_length_mm: f64) -> Answer<Self> {
         let (model, path) = InputFiles::default().model(named, Path::new(""))?;
+        model.require_stiffness()?;
         Ok(Self {
             mechanism: model
                 .mechanism

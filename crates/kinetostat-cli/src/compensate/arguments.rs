@@ -20,7 +20,8 @@ use crate::options::{EXIT_CODES, number, small};
 pub(crate) struct CompensateArgs {
     #[command(flatten)]
     pub(crate) run: RunArgs,
-    /// The compensated program; without it, PROGRAM-compensated beside the job or the program
+    /// The compensated program; without it, PROGRAM-compensated beside the job or the program, or compensated/PROGRAM of one that its
+    /// controller loads by name
     #[arg(long, short, value_name = "FILE", help_heading = "Outputs")]
     pub(crate) out: Option<PathBuf>,
     /// Convert the program for a robot first, and compensate that (other languages: `kinetostat convert`)
@@ -158,11 +159,13 @@ A job file:
   # correction_mm = 2, own_weight_mm = 5, tilt_deg = 1
   # force_n = 5000, moment_n_m = 200
   # share_of_rating = 1, share_of_buckling = 0.5, blocks_per_second = 2000
-  # shortest_tool_mm = 1, longest_tool_mm = 1000
+  # shortest_tool_mm = 1, longest_tool_mm = 1000, below_base_mm = 400
+  # nearest_base_mm = 10, speed_mm_per_s = 7000, zone_mm = 5
 
 Exit codes:
   0    answered
   1    wrong input: a file, a number or an option; the message says which
   2    no answer: not converged, or a point that cannot be reached
   3    compensated and written, but the tolerance is missed; the line is said
+  4    compensated and written; the tolerance is kept only if the assumptions hold
   130  stopped with Ctrl-C; nothing was written"#;

@@ -1,5 +1,6 @@
 //! `kinetostat compensate --map`: a program corrected from a table.
 
+use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 
 use kinetostat_machining::number::{
@@ -13,6 +14,7 @@ use kinetostat_machining::{
 use kinetostat_program::{Accounting, CorrectionMap, Path as ToolPath, WriteOptions};
 use serde::Serialize;
 
+use crate::files::csv_text::with_decimal_points;
 use crate::files::input_files::InputFiles;
 use crate::files::outputs::{self, Existing, Outputs};
 use crate::job::output_paths::{BESIDE, FLAT_PROGRAM};
@@ -171,6 +173,13 @@ pub(crate) fn from_map(
 /// The table of corrections; of a faulty one all faults.
 fn read_table(files: &InputFiles, map: &Path) -> Answer<CorrectionMap> {
     let bytes = files.bytes("map", map)?;
+    // What is no text is refused by the reader, with its line.
+    let text = std::str::from_utf8(&bytes).ok();
+    let points = text.and_then(|text| match with_decimal_points(text) {
+        Cow::Owned(text) => Some(text.into_bytes()),
+        Cow::Borrowed(_) => None,
+    });
+    let bytes = points.unwrap_or(bytes);
     CorrectionMap::read(&bytes).map_err(|first| {
         let all = CorrectionMap::faults(&bytes, FAULTS_OF_A_TABLE);
         let places = match all.len() {

@@ -88,5 +88,6 @@ pub(crate) fn compensate(
     report::print_run(&text, to_screen.then_some(&run.result))?;
     report::refuse_missed_tolerance(&run.result.tolerance, &setting)?;
     refuse_missed_features(&run.result.features, &setting)?;
+    report::refuse_doubtful(&run.result, &setting)?;
     Ok(true)
 }

@@ -13,23 +13,22 @@ mod long;
 use std::path::{Path, PathBuf};
 
 use kinetostat_formats::Language;
-use kinetostat_model::Model;
+use kinetostat_machining::merged;
 
+use crate::command_line::given::Given;
 use crate::compensate::arguments::CompensateArgs;
 use crate::compensate::copy::{copy, rotary_of_copy};
-use crate::convert::for_run::{Converted, for_run};
-use crate::convert::targets::{Named, in_language};
-use crate::convert::template_file::{TemplateAsked, TemplateFile};
+use crate::convert::for_run::in_other_language;
+use crate::convert::targets::Named;
 use crate::files::input_files::InputFiles;
-use crate::files::origin;
 use crate::files::outputs::{self, Existing};
 use crate::job::all_faults::{RunQuery, with_all_others};
-use crate::job::arguments::{ProgramArgs, WritingFlags};
+use crate::job::arguments::WritingFlags;
 use crate::job::feature_lines::refuse_lines_beyond;
 use crate::job::file_endings::refuse_other_endings;
 use crate::job::free_turn::FreeTurn;
 use crate::job::job_file::JobFile;
-use crate::job::machine::{MachineSetup, machine_setup};
+use crate::job::machine::machine_setup;
 use crate::job::of_model::give_of_model;
 use crate::job::setting::{Setting, program_path, setting};
 use crate::job::target_word::RobotWord;
@@ -42,14 +41,16 @@ use crate::program::outputs::RunOutputs;
 use crate::program::{report, solve, summary};
 use crate::ui::failure::{Answer, Failure};
 
-pub(crate) fn run(mut args: CompensateArgs) -> Answer<()> {
+pub(crate) fn run(mut args: CompensateArgs, given: &Given) -> Answer<()> {
     job_after_json(&mut args);
     let files = InputFiles::default();
+    refuse_unused(&files, &args, given)?;
     compensate(&files, &args).map_err(|failure| {
         let mut program = args.run.program.clone();
         let job = args.run.job.as_deref();
         let job = job.and_then(|path| JobFile::read(&files, path).ok());
         program.robot.converted = target(job.as_ref(), &args).is_some();
+        program.robot.template.clone_from(&args.template);
         let query = RunQuery {
             // A table and a copy need no machine: not all of the job is read for them.
             job: args
@@ -64,6 +65,74 @@ pub(crate) fn run(mut args: CompensateArgs) -> Answer<()> {
         with_all_others(&files, &query, failure)
     })
 }
+
+/// Refuses options that have no effect: on a table of corrections, on a copy, and without another language.
+fn refuse_unused(files: &InputFiles, args: &CompensateArgs, given: &Given) -> Answer<()> {
+    let job = args.run.job.as_deref();
+    let job = job.and_then(|path| JobFile::read(files, path).ok());
+    if args.no_compensation {
+        given.refuse_but(
+            &OF_A_COPY,
+            "is for a correction, and --no-compensation writes none: leave it out",
+        )?;
+    }
+    if args.map.is_some() {
+        given.refuse(
+            &UNUSED_BY_A_TABLE,
+            "is for a run with a model, and --map corrects from a table: leave it out",
+        )?;
+    }
+    if target(job.as_ref(), args).is_none() {
+        given.refuse(
+            &["--template"],
+            "is for a program that is written in another language: add --to krl, rapid or ls",
+        )?;
+    }
+    Ok(())
+}
+
+/// Options that a table of corrections has no use for.
+const UNUSED_BY_A_TABLE: [&str; 13] = [
+    "--correct",
+    "--free-turn",
+    "--stiff-turn",
+    "--turn-plot",
+    "--weight",
+    "--touch-off",
+    "--uncertain",
+    "--machines",
+    "--vtk",
+    "--all-points",
+    "--restart",
+    "--threads",
+    "--load-at-corners",
+];
+
+/// Options of a copy: how the program is read and written flat.
+const OF_A_COPY: [&str; 22] = [
+    "--no-compensation",
+    "--program",
+    "--model",
+    "--out",
+    "--force-overwrite",
+    "--units",
+    "--arc-tolerance",
+    "--work-offset",
+    "--block-delete",
+    "--axes-stand-still",
+    "--tool-centre-point",
+    "--start-position-mm",
+    "--machine-zero-mm",
+    "--g28-mm",
+    "--g30-mm",
+    "--expand",
+    "--subprograms",
+    "--tool-diameter-mm",
+    "--parameter",
+    "--dialect",
+    "--no-comments",
+    "--flat-program",
+];
 
 fn compensate(files: &InputFiles, args: &CompensateArgs) -> Answer<()> {
     let job = args.run.job.as_deref();
@@ -103,6 +172,7 @@ fn compensate_whole(files: &InputFiles, args: &CompensateArgs) -> Answer<()> {
     let to = target(job, args);
     let mut flags = args.run.program.clone();
     flags.robot.converted = to.is_some();
+    flags.robot.template.clone_from(&args.template);
     let flags = &flags;
     let mut setting = setting(files, job, flags, &writing(args))?;
     let existing = Existing::forced(flags.force_overwrite);
@@ -135,8 +205,12 @@ fn compensate_whole(files: &InputFiles, args: &CompensateArgs) -> Answer<()> {
     let (mut turn, mut findings) = (None, Vec::new());
     match to {
         Some(word) => {
-            let found =
-                in_other_language(files, job, (args, flags, word), setting, (&model, &machine))?;
+            let named = Named {
+                out: args.out.as_deref(),
+                flat: flags.expansion.flat_program.as_deref(),
+            };
+            let of = (job, flags);
+            let found = in_other_language(files, of, (setting, word, named), (&model, &machine))?;
             setting = found.setting;
             (turn, findings) = (found.turn, found.findings);
             let mut frames = setting.robot_frames()?;
@@ -156,6 +230,7 @@ fn compensate_whole(files: &InputFiles, args: &CompensateArgs) -> Answer<()> {
     run.result
         .warnings
         .extend(run_warnings::of_run(&model, job));
+    run.result.warnings = merged(run.result.warnings);
     outputs.list(flags.all_points, &model);
     if let Some(turn) = &turn {
         turn.put_into(&mut run.result.run_inputs);
@@ -171,7 +246,8 @@ fn compensate_whole(files: &InputFiles, args: &CompensateArgs) -> Answer<()> {
     );
     report::print_run(&text, to_screen.then_some(&run.result))?;
     report::refuse_missed_tolerance(&run.result.tolerance, &setting)?;
-    refuse_missed_features(&run.result.features, &setting)
+    refuse_missed_features(&run.result.features, &setting)?;
+    report::refuse_doubtful(&run.result, &setting)
 }
 
 /// Where a program of positions is written for a robot and the arm cannot follow it, the turn of the tool may help.
@@ -198,47 +274,6 @@ fn target(job: Option<&JobFile>, args: &CompensateArgs) -> Option<RobotWord> {
     let runs = args.map.is_none() && !args.no_compensation;
     args.to
         .or(in_job.filter(|_| runs).map(|word| *word.get_ref()))
-}
-
-/// The run over the program converted for a robot.
-fn in_other_language(
-    files: &InputFiles,
-    job: Option<&JobFile>,
-    (args, flags, word): (&CompensateArgs, &ProgramArgs, RobotWord),
-    mut setting: Setting,
-    source: (&Model, &MachineSetup),
-) -> Answer<Converted> {
-    let options = Named {
-        out: args.out.as_deref(),
-        flat: flags.expansion.flat_program.as_deref(),
-    };
-    in_language(
-        &mut setting.targets,
-        &setting.program_path,
-        (job, options),
-        word.language(),
-    )?;
-    let out = setting.targets.program.clone().unwrap_or_default();
-    let table = job.and_then(|j| Some((j, j.job.robot.as_ref()?.get_ref().template.as_ref()?)));
-    let in_job = table.map(|(j, written)| j.base().join(written.get_ref()));
-    let file = args.template.clone().or(in_job);
-    let template = TemplateFile::read(
-        files,
-        &TemplateAsked {
-            file: file.as_deref(),
-            out: &out,
-            tool_orientation: None,
-            tolerance_mm: None,
-        },
-    )?;
-    if let Some(path) = &file {
-        let bytes = files.bytes("template", path)?;
-        setting
-            .program_files
-            .push(origin::file("template", path, &bytes));
-        setting.inputs.push(path.clone());
-    }
-    for_run(job, flags, (setting, template, word), source)
 }
 
 /// G-code and APT say where the tool goes, not how it is turned; programs of robots say both, and keep how it is turned.

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use clap::Args;
+use clap::{ArgAction, Args};
 
 use crate::job::arguments::ReadingArgs;
 use crate::job::expansion::arguments::ExpandFlags;
@@ -62,6 +62,10 @@ pub(crate) struct ConvertArgs {
     /// (linear: a row for each pose; joint: as many as the tolerance needs) [default: linear where it is written]
     #[arg(long, value_enum, value_name = "WAY", help_heading = "Joint values")]
     pub(crate) joint_rows: Option<JointRowsWord>,
+    /// Move a limit, as in speed_mm_per_s=9000 (repeat for more): shortest_tool_mm, longest_tool_mm, nearest_base_mm,
+    /// speed_mm_per_s, zone_mm. A program that leaves a limit is refused
+    #[arg(long = "limit", value_name = "NAME=VALUE", action = ArgAction::Append, allow_hyphen_values = true, help_heading = "Limits")]
+    pub(crate) limits: Vec<String>,
     /// Overwrite the outputs if they exist (never an input)
     #[arg(long)]
     pub(crate) force_overwrite: bool,
@@ -124,6 +128,10 @@ positions need:
 
   # [[tools]]                      # of a program with several: T1 M6, T2 M6
   # in_program = 2                 # and number, name, pose, mass_kg as above
+
+  # [spindle]                      # for S, M3, M4, M5; without it, notes
+  # clockwise = ["$ANOUT[1]={rpm}/24000.0", "$OUT[12]=TRUE"]
+  # counter_clockwise = [...], stop = ["$OUT[12]=FALSE"]
 
   [zones]                          # 0 stops at each end
   feeds_mm = 0.3                   # KRL and RAPID

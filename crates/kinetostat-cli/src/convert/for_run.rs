@@ -5,12 +5,15 @@ use kinetostat_formats::{
 };
 use kinetostat_machining::{FlatProgram, ForceAlongPath, Unwatched, Warning, WarningCode};
 use kinetostat_model::Model;
-use nalgebra::Isometry3;
+use nalgebra::{Isometry3, Vector3};
 
 use crate::convert::completed::{complete, refuse_leaning_tool, up};
 use crate::convert::free_turn::{base_of_source, free_turn};
-use crate::convert::made::made;
-use crate::convert::template_file::TemplateFile;
+use crate::convert::made::{made, spindle_text};
+use crate::convert::plausible::refuse_implausible;
+use crate::convert::targets::{Named, in_language};
+use crate::files::input_files::InputFiles;
+use crate::files::origin;
 use crate::job::arguments::ProgramArgs;
 use crate::job::cut::along::{refuse_what_breaks_the_tool, warnings_of_moves};
 use crate::job::free_turn::FreeTurn;
@@ -19,10 +22,11 @@ use crate::job::machine::MachineSetup;
 use crate::job::program::{ReadProgram, read_program};
 use crate::job::robot::divided::Divided;
 use crate::job::robot::read_once::Reading;
-use crate::job::robot::settings::{MadeArm, settings};
+use crate::job::robot::settings::{MadeArm, RobotSettings, settings};
 use crate::job::robot::source::RobotSource;
 use crate::job::setting::Setting;
 use crate::job::target_word::RobotWord;
+use crate::job::template_file::{TemplateAsked, TemplateFile};
 use crate::job::turn_arguments::FreeTurnWord;
 use crate::program::solve::forces_of;
 use crate::ui::failure::{Answer, Failure};
@@ -42,7 +46,7 @@ pub(crate) struct Converted {
 }
 
 /// The run over the program in another language; `machine` is that of the source.
-pub(crate) fn for_run(
+fn for_run(
     job: Option<&JobFile>,
     flags: &ProgramArgs,
     (mut setting, mut template, word): (Setting, TemplateFile, RobotWord),
@@ -61,8 +65,9 @@ pub(crate) fn for_run(
             "the program says itself which tools it takes and where their tips are: leave out [[tools]] in the job file (a load for all of them stands under [load])",
         ));
     }
+    refuse_implausible(&setting, &template, &read)?;
     if !states_orientation {
-        complete(&mut template.template, job, flags, machine)?;
+        complete(&mut template.template, job, machine);
     }
     let most = match language {
         MakeLanguage::FanucLs => MOST_POINTS_OF_LS,
@@ -89,21 +94,21 @@ pub(crate) fn for_run(
         (Some(robot), None) if states_orientation => robot.path.path.tool_axis,
         _ => up(&template.template),
     };
-    let mut found = settings(None, &flags.robot, (of_robot, axis))?;
-    found.axis_is_stated = true;
+    let mut found = settings_of_made(flags, &template.template, (of_robot, axis))?;
     found.corrected = setting.correct_converted.directions();
     found.made_arm = Some(MadeArm {
         states_configuration: made.states_configuration,
         start_joints_deg: template.template.start_joints_deg.clone(),
     });
-    found.making.tool_axis = axis;
-    // Straight rapids have this speed, but for the last digit.
-    found.making.rapid_from_mm_per_s = Some(0.999_999 * template.template.rapid_speed_mm_per_s);
     let Whole { file, divided } = whole;
     let stated = Stated::of(&read, &template.template);
     stated.put_into(&mut found.reading.frames, of_robot, &file)?;
     let of_cut = warnings_of_moves(forces.as_ref());
     let mut findings = findings(&setting, &made);
+    findings.extend(
+        spindle_text(&made)
+            .map(|text| Warning::new(WarningCode::SpindleNotStarted, in_source(&setting, &text))),
+    );
     let of_cut = of_cut
         .into_iter()
         .map(|warning| of_source(&setting, warning));
@@ -137,6 +142,54 @@ pub(crate) fn for_run(
         turn,
         findings,
     })
+}
+
+/// Reading of a program that was made for a template, whose tool lies along this axis of its frame.
+pub(crate) fn settings_of_made(
+    flags: &ProgramArgs,
+    template: &Template,
+    (of_robot, axis): (Language, Vector3<f64>),
+) -> Answer<RobotSettings> {
+    let mut found = settings(None, &flags.robot, (of_robot, axis))?;
+    found.axis_is_stated = true;
+    found.making.tool_axis = axis;
+    // Straight rapids have this speed, but for the last digit.
+    found.making.rapid_from_mm_per_s = Some(0.999_999 * template.rapid_speed_mm_per_s);
+    Ok(found)
+}
+
+/// Converts the program of a job into the language that it names, for the template of options or job.
+pub(crate) fn in_other_language(
+    files: &InputFiles,
+    (job, flags): (Option<&JobFile>, &ProgramArgs),
+    (mut setting, word, named): (Setting, RobotWord, Named<'_>),
+    source: (&Model, &MachineSetup),
+) -> Answer<Converted> {
+    in_language(
+        &mut setting.targets,
+        &setting.program_path,
+        (job, named),
+        word.language(),
+    )?;
+    let out = setting.targets.program.clone().unwrap_or_default();
+    let file = TemplateFile::path(job, flags.robot.template.as_deref());
+    let template = TemplateFile::read(
+        files,
+        &TemplateAsked {
+            file: file.as_deref(),
+            out: &out,
+            tool_orientation: None,
+            tolerance_mm: None,
+        },
+    )?;
+    if let Some(path) = &file {
+        let bytes = files.bytes("template", path)?;
+        setting
+            .program_files
+            .push(origin::file("template", path, &bytes));
+        setting.inputs.push(path.clone());
+    }
+    for_run(job, flags, (setting, template, word), source)
 }
 
 /// The made program in one file.
@@ -219,14 +272,14 @@ fn refuse_fast_feeds(setting: &Setting, read: &ReadProgram<'_>, template: &Templ
 }
 
 /// Where work object and tools are, which not every language declares; mm.
-struct Stated {
+pub(crate) struct Stated {
     base: Option<Isometry3<f64>>,
     /// With the numbers that they have in the made program, where they are stated.
     tools: Vec<(Option<u32>, Option<Isometry3<f64>>)>,
 }
 
 impl Stated {
-    fn of(read: &ReadProgram<'_>, template: &Template) -> Self {
+    pub(crate) fn of(read: &ReadProgram<'_>, template: &Template) -> Self {
         let robot = read.robot().map(|robot| &robot.path);
         let of_source = |frame: &FrameUse| frame.known().copied();
         let tools: Vec<_> = match (template.tool.frame.pose, robot) {
@@ -249,7 +302,7 @@ impl Stated {
     }
 
     /// Under the names that the made program has for them, where it does not say itself what they are.
-    fn put_into(
+    pub(crate) fn put_into(
         &self,
         frames: &mut std::collections::BTreeMap<String, Isometry3<f64>>,
         language: Language,

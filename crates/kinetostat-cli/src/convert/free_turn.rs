@@ -8,6 +8,7 @@ use nalgebra::Isometry3;
 
 use crate::job::free_turn::{FreeTurn, chosen, only_tool};
 use crate::job::program::ReadProgram;
+use crate::job::robot::frames::in_metres;
 use crate::job::setting::Setting;
 use crate::ui::failure::{Answer, Failure};
 
@@ -63,8 +64,4 @@ fn known(frame: &StatedFrame, what: &str) -> Answer<Pose> {
             "--free-turn needs to know {what}, in the template (--template)"
         ))
     })
-}
-
-pub(crate) fn in_metres(pose: &Isometry3<f64>) -> Pose {
-    Pose::from_parts((1e-3 * pose.translation.vector).into(), pose.rotation)
 }

@@ -11,8 +11,9 @@ use kinetostat_model::Model;
 use kinetostat_program::{Knowledge, Move};
 use nalgebra::Isometry3;
 
-use crate::convert::free_turn::{base_of_source, in_metres};
+use crate::convert::free_turn::base_of_source;
 use crate::job::program::ReadProgram;
+use crate::job::robot::frames::in_metres;
 use crate::job::robot::joint_arm::ArmOfTable;
 use crate::job::robot_arguments::JointRowsWord;
 use crate::job::setting::Setting;

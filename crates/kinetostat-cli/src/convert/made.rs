@@ -5,10 +5,11 @@ use kinetostat_formats::{
 };
 use kinetostat_machining::FlatProgram;
 
-use crate::convert::template_file::TemplateFile;
 use crate::job::free_turn::FreeTurn;
 use crate::job::program::ReadProgram;
 use crate::job::setting::Setting;
+use crate::job::template_file::TemplateFile;
+use crate::program::summary::SPINDLE_NOT_STARTED;
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::fault_list::fault_list_text;
 
@@ -47,6 +48,14 @@ pub(crate) fn made(
     }
     let path = turned.map_or(read.path(), |turned| &turned.path);
     make(path, &events, &template.template, language).map_err(refused)
+}
+
+/// That the made program does not start the spindle, where its source does.
+pub(crate) fn spindle_text(made: &Made) -> Option<String> {
+    let note = made.spindle_not_started.as_ref()?;
+    Some(format!(
+        "{SPINDLE_NOT_STARTED}: the language has no words for it, and {note} is a note; state the cell's statements under [spindle] in the template"
+    ))
 }
 
 fn refused(setting: &Setting, template: &TemplateFile, all: &[MakeError]) -> Failure {

@@ -1,18 +1,16 @@
 //! `kinetostat convert`: a program of one language written in another.
 //!
-//! It takes a program and a template of the cell ([`template_file`]); it gives the program in another language, read again and
+//! It takes a program and a template of the cell ; it gives the program in another language, read again and
 //! compared with the path before it is written, and says what is otherwise.
 
 pub(crate) mod arguments;
-mod completed;
-mod file_names;
+pub(crate) mod completed;
 pub(crate) mod for_run;
 mod free_turn;
 mod joints;
 pub(crate) mod made;
+mod plausible;
 pub(crate) mod targets;
-pub(crate) mod template_file;
-mod template_format;
 mod text;
 
 use std::path::Path;
@@ -24,7 +22,7 @@ use crate::convert::arguments::ConvertArgs;
 use crate::convert::free_turn::free_turn;
 use crate::convert::joints::{Asked, as_joints, with_all_digits};
 use crate::convert::made::made;
-use crate::convert::template_file::{TemplateAsked, TemplateFile};
+use crate::convert::plausible::refuse_implausible;
 use crate::files::input_files::InputFiles;
 use crate::files::outputs::{self, Existing, Outputs};
 use crate::job::arguments::{ProgramArgs, WritingFlags};
@@ -37,6 +35,7 @@ use crate::job::robot::joint_arm::give_arm;
 use crate::job::robot_arguments::RobotArgs;
 use crate::job::setting::{Setting, setting};
 use crate::job::target_word::TargetWord;
+use crate::job::template_file::{TemplateAsked, TemplateFile};
 use crate::job::turn_arguments::FreeTurnWord;
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::layout::wrapped;
@@ -94,6 +93,7 @@ pub(crate) fn run(args: &ConvertArgs) -> Answer<()> {
         &template.template,
     )?;
     let read = read_program(&setting)?;
+    refuse_implausible(&setting, &template, &read)?;
     let turned = match &args.free_turn {
         Some(named) => {
             let (model, _) = files.model(named, Path::new(""))?;
@@ -189,8 +189,10 @@ fn flags(args: &ConvertArgs) -> ProgramArgs {
             rapid_from_mm_per_s: args.rapid_from_mm_per_s,
             joint_rows: args.joint_rows.filter(|_| args.to != TargetWord::Joints),
             converted: false,
+            template: None,
         },
         expansion,
+        limits: args.limits.clone(),
         ..ProgramArgs::default()
     }
 }

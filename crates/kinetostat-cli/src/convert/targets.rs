@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use kinetostat_formats::MakeLanguage;
 
-use crate::convert::file_names::stem;
+use crate::files::file_names::stem;
 use crate::job::file_endings::{Written, refuse_other_ending};
 use crate::job::job_file::JobFile;
 use crate::job::output_paths::{COMPENSATED_PROGRAM, FLAT_PROGRAM, OutputPaths};

@@ -4,12 +4,14 @@ use std::path::Path;
 
 use kinetostat_formats::{Kept, Made};
 use kinetostat_machining::number::counted;
+use kinetostat_machining::{Warning, WarningCode, merged};
 
-use crate::convert::file_names::{file_name, stem};
-use crate::convert::template_file::TemplateFile;
+use crate::convert::made::spindle_text;
+use crate::files::file_names::{file_name, stem};
 use crate::job::program::ReadProgram;
 use crate::job::setting::Setting;
 use crate::job::target_word::TargetWord;
+use crate::job::template_file::TemplateFile;
 use crate::ui::layout::{item, wrapped};
 
 /// The answer in words.
@@ -35,19 +37,23 @@ pub(crate) fn answer(
         ),
         0,
     );
-    let mut found: Vec<String> = Vec::new();
+    if let Some(not_started) = spindle_text(made) {
+        text.push_str(&wrapped(&format!("{not_started}."), 0));
+    }
+    let mut found: Vec<Warning> = Vec::new();
+    let general = |text: String| Warning::new(WarningCode::Writing, text);
     let own = &template.template.program_name;
     let by_name = matches!(to, TargetWord::Krl | TargetWord::Ls);
     if by_name && !own.eq_ignore_ascii_case(&stem(out)) {
-        found.push(format!(
+        found.push(general(format!(
             "the program is called {own} and its file {}: controllers want one name",
             file_name(out)
-        ));
+        )));
     }
     for finding in &made.findings {
         found.push(match finding.line {
-            Some(line) => format!("line {line}: {}", finding.message),
-            None => finding.message.clone(),
+            Some(line) => Warning::at_line(WarningCode::Writing, line, finding.message.clone()),
+            None => general(finding.message.clone()),
         });
     }
     let named = |line: usize| made.findings.iter().any(|f| f.line == Some(line));
@@ -59,12 +65,14 @@ pub(crate) fn answer(
                 || !warning.text.contains("correct") && !warning.text.contains("carried"))
     });
     for warning in warnings.chain(&setting.expansion_warnings) {
-        found.push(format!("line {}: {}", warning.line, warning.text));
+        let own = Warning::at_line(WarningCode::Program, warning.line, warning.text.clone());
+        found.push(own);
     }
     if !found.is_empty() {
         text.push_str("\nWhat is otherwise, or was taken for granted\n");
     }
-    for finding in found {
+    for finding in merged(found) {
+        let finding = finding.to_string();
         text.push_str(&item(&match &setting.flat {
             Some(flat) => flat.with_sources(&finding),
             None => finding,

@@ -33,7 +33,7 @@ pub(crate) struct CurveArgs {
     #[arg(long, num_args = 3, value_names = ["X", "Y", "Z"], allow_negative_numbers = true, help_heading = "Motion", value_parser = number, conflicts_with = "factor")]
     pub(crate) about: Option<Vec<f64>>,
     /// from this to that angle, counted from the commanded place, degrees
-    #[arg(long, num_args = 2, value_names = ["FROM", "TO"], allow_negative_numbers = true, help_heading = "Motion", value_parser = number, requires = "about")]
+    #[arg(long, num_args = 2, value_names = ["FROM", "TO"], allow_negative_numbers = true, help_heading = "Motion", value_parser = number, requires = "about", conflicts_with = "displacement_mm")]
     pub(crate) turn_deg: Option<Vec<f64>>,
     /// The curve ends where the force along the direction (N, or N m) leaves these limits
     #[arg(long, num_args = 2, value_names = ["LOW", "HIGH"], allow_negative_numbers = true, help_heading = "Motion", value_parser = number, conflicts_with = "factor")]

@@ -27,6 +27,12 @@ pub(crate) struct Deflection {
     pub(crate) moment_n_m: [f64; 3],
     pub(crate) displacement_mm: [f64; 3],
     pub(crate) displacement_size_mm: f64,
+    /// From where the tool is without a load to where it is under it.
+    pub(crate) displacement_by_load_mm: [f64; 3],
+    pub(crate) displacement_by_load_size_mm: f64,
+    /// From where the tool is commanded to where it is without a load: by own weight, other loads of the model and its deviations.
+    pub(crate) displacement_without_load_mm: [f64; 3],
+    pub(crate) displacement_without_load_size_mm: f64,
     pub(crate) rotation_vector_deg: [f64; 3],
     pub(crate) rotation_size_deg: f64,
     pub(crate) actuators: Vec<ActuatorAnswer>,
@@ -122,6 +128,7 @@ pub(crate) fn answer(
     snapped: bool,
 ) -> Deflection {
     let shift = loaded.displacement.linear() * 1e3;
+    let unloaded = rest.displacement.linear() * 1e3;
     let turn = loaded.displacement.angular().map(f64::to_degrees);
     let mut warnings = query.warnings.clone();
     let near_singularity = query.near_singular();
@@ -154,6 +161,10 @@ pub(crate) fn answer(
         moment_n_m: query.wrench.moment().into(),
         displacement_mm: shift.into(),
         displacement_size_mm: shift.norm(),
+        displacement_by_load_mm: (shift - unloaded).into(),
+        displacement_by_load_size_mm: (shift - unloaded).norm(),
+        displacement_without_load_mm: unloaded.into(),
+        displacement_without_load_size_mm: unloaded.norm(),
         rotation_vector_deg: turn.into(),
         rotation_size_deg: turn.norm(),
         actuators: actuators(&query.mechanism, posture, &loaded.actuator_forces()),

@@ -11,28 +11,29 @@ mod text;
 
 use std::path::Path;
 
+use crate::command_line::given::Given;
 use crate::deflect::arguments::DeflectArgs;
 use crate::deflect::place::at_place;
 use crate::deflect::program::along_program;
+use crate::files::file_kind::FileKind;
 use crate::files::input_files::InputFiles;
 use crate::job::all_faults::{RunQuery, with_all_others};
 use crate::job::arguments::WritingFlags;
-use crate::job::format::looks_like_a_job;
 use crate::ui::failure::{Answer, Failure};
 
-pub(crate) fn run(args: DeflectArgs) -> Answer<()> {
+pub(crate) fn run(args: DeflectArgs, given: &Given) -> Answer<()> {
     let subject = Path::new(&args.subject);
-    let is_job = !args.place.given()
-        && subject.is_file()
-        && InputFiles::default()
-            .job(subject)
-            .is_ok_and(|t| looks_like_a_job(&t));
+    let is_job = !args.place.given() && FileKind::of_file(subject) == Some(FileKind::Job);
     if is_job || args.program.program.is_some() {
         if args.place.given() {
             return Err(Failure::input(
                 "--at, --joints and --controller ask for one place, --program for all of a program: keep one of them",
             ));
         }
+        given.refuse(
+            &["--load-at-corners", "--chord-tolerance-um"],
+            "is about a program that is written, and deflect writes none: leave it out, or give it to compensate",
+        )?;
         return along_program(&args, is_job).map_err(|failure| {
             let query = RunQuery {
                 job: is_job.then_some(subject),
@@ -43,5 +44,5 @@ pub(crate) fn run(args: DeflectArgs) -> Answer<()> {
             with_all_others(&InputFiles::default(), &query, failure)
         });
     }
-    at_place(&args)
+    at_place(&args, given)
 }

@@ -4,6 +4,7 @@ use std::path::Path;
 
 use kinetostat::Wrench;
 
+use crate::command_line::given::Given;
 use crate::deflect::answer::answer;
 use crate::deflect::arguments::DeflectArgs;
 use crate::deflect::text::answer_text;
@@ -30,8 +31,25 @@ fn without_load(error: kinetostat::Error) -> Failure {
     }
 }
 
-pub(crate) fn at_place(args: &DeflectArgs) -> Answer<()> {
-    refuse_program_flags(args)?;
+/// Options of one place; all others are for a run along a program.
+const OF_A_PLACE: [&str; 10] = [
+    "--at",
+    "--rotation",
+    "--joints",
+    "--controller",
+    "--pendant",
+    "--tool-length-mm",
+    "--force",
+    "--moment",
+    "--json",
+    "--force-overwrite",
+];
+
+pub(crate) fn at_place(args: &DeflectArgs, given: &Given) -> Answer<()> {
+    given.refuse_but(
+        &OF_A_PLACE,
+        "belongs to a run along a program; name the program with --program FILE or give a job file",
+    )?;
     let files = InputFiles::default();
     let query = place_query(
         &files,
@@ -62,39 +80,4 @@ pub(crate) fn at_place(args: &DeflectArgs) -> Answer<()> {
     }
     let text = format!("{text}{}", outputs::written(&paths));
     json::print_answer(&text, &answer, to_screen)
-}
-
-/// Options that say something about a program are not dropped silently.
-fn refuse_program_flags(args: &DeflectArgs) -> Answer<()> {
-    let p = &args.program;
-    let given = [
-        ("--report", p.report.is_some()),
-        ("--points", p.points.is_some()),
-        ("--all-points", p.all_points),
-        ("--milling", p.milling.is_some()),
-        ("--part-origin-mm", p.part_origin_mm.is_some()),
-        ("--part-orientation", p.part_orientation.is_some()),
-        ("--tool-orientation", p.tool_orientation.is_some()),
-        ("--below-z-mm", p.below_z_mm.is_some()),
-        ("--load-axes", p.load_axes.is_some()),
-        ("--load-at-corners", p.load_at_corners.is_some()),
-        ("--scale", p.scale.is_some()),
-        ("--units", p.reading.units.is_some()),
-        ("--arc-tolerance", p.reading.arc_tolerance.is_some()),
-        ("--work-offset", !p.reading.work_offset.is_empty()),
-        ("--block-delete", p.reading.block_delete.is_some()),
-        ("--axes-stand-still", p.reading.axes_stand_still),
-        ("--start-position-mm", p.reading.start_position_mm.is_some()),
-        ("--machine-zero-mm", p.reading.machine_zero_mm.is_some()),
-        ("--g28-mm", p.reading.g28_mm.is_some()),
-        ("--g30-mm", p.reading.g30_mm.is_some()),
-        ("--chord-tolerance-um", p.chord_tolerance_um.is_some()),
-        ("--limit", !p.limits.is_empty()),
-    ];
-    match given.iter().find(|(_, given)| *given) {
-        Some((name, _)) => Err(Failure::input(format!(
-            "{name} belongs to a run along a program; name the program with --program FILE or give a job file"
-        ))),
-        None => Ok(()),
-    }
 }

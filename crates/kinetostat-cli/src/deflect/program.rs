@@ -13,7 +13,7 @@ use crate::job::free_turn::FreeTurn;
 use crate::job::job_file::JobFile;
 use crate::job::machine::{MachineSetup, machine_setup};
 use crate::job::of_model::give_of_model;
-use crate::job::output_paths::OutputPaths;
+use crate::job::output_paths::{OutputPaths, refuse_unused};
 use crate::job::setting::{Setting, program_path, setting};
 use crate::job::turn_arguments::FreeTurnWord;
 use crate::job::{program, run_warnings};
@@ -75,6 +75,7 @@ fn run_along(
         setting.free_turn != FreeTurnWord::AsStated
     });
     chosen.json = args.json.clone().filter(|p| p != Path::new("-"));
+    refuse_unused(&args.program, &chosen)?;
     let existing = Existing::forced(args.program.force_overwrite);
     let model_of_job = (job, named);
     give_of_model(&mut setting, files, model_of_job, &args.program)?;

@@ -14,16 +14,26 @@ use kinetostat::number::largest_size;
 /// From this rate of the last corrections on, an iteration is slow.
 const SLOW: f64 = 0.2;
 
+/// Displacements up to this are none, mm.
+const SEEN_MM: f64 = 1e-7;
+
 pub(crate) fn answer_text(query: &PlaceQuery, a: &Deflection) -> String {
     let mut out = query.heading();
-    out.push_str(&wrapped(
-        &format!(
-            "The tool's tip moves by {} and turns by {}.",
-            formatter::length(a.displacement_size_mm, 4, formatter::Rounding::Nearest),
-            formatter::angle(a.rotation_size_deg, 4, formatter::Rounding::Nearest)
-        ),
-        2,
-    ));
+    let length = |mm: f64| formatter::length(mm, 4, formatter::Rounding::Nearest);
+    let mut moves = format!(
+        "The tool's tip moves by {} and turns by {}.",
+        length(a.displacement_size_mm),
+        formatter::angle(a.rotation_size_deg, 4, formatter::Rounding::Nearest)
+    );
+    if a.displacement_without_load_size_mm > SEEN_MM {
+        moves.push_str(&format!(
+            " The load moves it by {}; {} by {} without the load.",
+            length(a.displacement_by_load_size_mm),
+            query.moves_unloaded(),
+            length(a.displacement_without_load_size_mm)
+        ));
+    }
+    out.push_str(&wrapped(&moves, 2));
     if let Some(by) = a.found_by.filter(|by| by.may_be_another_branch()) {
         out.push_str(&wrapped(&format!("Note: {}.", by.sentence()), 2));
     }
@@ -63,16 +73,19 @@ fn vectors(a: &Deflection) -> String {
         }));
         cells
     };
-    columns(
-        &[
-            ["base axes", "x", "y", "z"].map(str::to_owned).to_vec(),
-            row("force on the tool", a.force_n, 3, "N"),
-            row("moment about its tip", a.moment_n_m, 3, "N m"),
-            row("displacement of the tip", a.displacement_mm, 6, "mm"),
-            row("rotation vector", a.rotation_vector_deg, 6, "deg"),
-        ],
-        2,
-    )
+    let mut rows = vec![
+        ["base axes", "x", "y", "z"].map(str::to_owned).to_vec(),
+        row("force on the tool", a.force_n, 3, "N"),
+        row("moment about its tip", a.moment_n_m, 3, "N m"),
+        row("displacement of the tip", a.displacement_mm, 6, "mm"),
+    ];
+    if a.displacement_without_load_size_mm > SEEN_MM {
+        let (load, unloaded) = (a.displacement_by_load_mm, a.displacement_without_load_mm);
+        rows.push(row("of it by the load", load, 6, "mm"));
+        rows.push(row("of it without the load", unloaded, 6, "mm"));
+    }
+    rows.push(row("rotation vector", a.rotation_vector_deg, 6, "deg"));
+    columns(&rows, 2)
 }
 
 fn actuators(a: &Deflection) -> String {

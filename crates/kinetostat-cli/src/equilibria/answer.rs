@@ -61,7 +61,7 @@ pub(crate) struct ShapeAnswer {
     /// natural length. Null if infinite.
     pub(crate) stiffness_n_per_mm: f64,
     /// Rows: force (N), moment (N m); columns: displacement (m), rotation (rad); at the tool's tip.
-    pub(crate) stiffness_n_m_rad: [[f64; 6]; 6],
+    pub(crate) stiffness_n_m_rad: [[f64; 6]; 6], // NaN (null) where it is infinite
     pub(crate) force_n: [f64; 3],
     pub(crate) moment_n_m: [f64; 3],
     pub(crate) position_mm: [f64; 3],

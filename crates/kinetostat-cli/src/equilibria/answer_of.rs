@@ -1,11 +1,12 @@
 //! The answer of `equilibria` from what a search found of a chain or a machine.
 
 use kinetostat::{
-    DirectionKind,
+    CartesianStiffness, DirectionKind,
     continuation::CurveEquilibrium,
     equilibrium::{Equilibria, FoundEquilibrium},
 };
 use kinetostat_machining::{Warning, large_load};
+use nalgebra::{Matrix6, Vector3};
 
 use crate::end_condition::subject::Subject;
 use crate::equilibria::answer::{Coverage, EquilibriaAnswer, ShapeAnswer};
@@ -50,6 +51,13 @@ pub(crate) fn answer_of<S: Subject>(
     }
 }
 
+/// Stiffness along a unit direction; NaN where it is infinite.
+fn along(stiffness: &Matrix6<f64>, d: &Vector3<f64>) -> f64 {
+    let parts = (0..3).flat_map(|i| (0..3).map(move |j| (i, j)));
+    let parts = parts.filter(|&(i, j)| d[i] != 0.0 && d[j] != 0.0);
+    parts.map(|(i, j)| d[i] * stiffness[(i, j)] * d[j]).sum()
+}
+
 fn shape<S: Subject>(
     subject: &S,
     q: &EquilibriaQuery,
@@ -57,7 +65,8 @@ fn shape<S: Subject>(
     f: &FoundEquilibrium<S::Equilibrium>,
 ) -> ShapeAnswer {
     let e = &f.equilibrium;
-    let k = e.stiffness();
+    let matrix = *e.stiffness();
+    let k = CartesianStiffness { matrix }.finite_entries(e.directions());
     // Smallest principal stiffness that is neither free nor rigid.
     let softest = || {
         let directions = e.directions().iter();
@@ -78,7 +87,7 @@ fn shape<S: Subject>(
         found_by_spread_starts: f.hits,
         stiffness_n_per_mm: 1e-3
             * match q.along {
-                Some(d) => (d.transpose() * k.fixed_view::<3, 3>(0, 0) * d)[0],
+                Some(d) => along(&k, &d),
                 None => softest(),
             },
         stiffness_n_m_rad: std::array::from_fn(|i| std::array::from_fn(|j| k[(i, j)])),

@@ -150,7 +150,10 @@ fn table(a: &EquilibriaAnswer) -> String {
             stability.to_owned(),
             e.share_to_buckling
                 .map_or_else(|| "-".to_owned(), kinetostat_machining::number::share),
-            number(e.stiffness_n_per_mm, 5),
+            match e.stiffness_n_per_mm.is_finite() {
+                true => number(e.stiffness_n_per_mm, 5),
+                false => "infinite".to_owned(),
+            },
         ];
         row.extend(shown.iter().map(|&k| {
             let x = component(e, k);

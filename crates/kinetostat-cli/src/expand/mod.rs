@@ -9,7 +9,7 @@ use kinetostat_machining::number::counted;
 use nalgebra::Vector3;
 
 use crate::expand::arguments::ExpandArgs;
-use crate::files::input_files::InputFiles;
+use crate::files::input_files::{InputFiles, refuse_beyond_memory};
 use crate::files::outputs::{Existing, Outputs, written};
 use crate::job::expansion::arguments::NO_COMMENTS;
 use crate::job::expansion::flat::{Flattened, flattened};
@@ -23,12 +23,14 @@ use crate::job::robot::read_once::Reading;
 use crate::job::robot::settings::settings as robot_settings;
 use crate::job::robot::source::{RobotSource, slash_blocks};
 use crate::job::robot_arguments::RobotArgs;
+use crate::job::setting::line_count;
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::layout::{item, wrapped};
 use crate::ui::screen::print_bytes;
 
 pub(crate) fn run(args: &ExpandArgs) -> Answer<()> {
     let bytes = InputFiles::default().bytes("program", &args.program)?;
+    refuse_beyond_memory(&args.program, bytes.len(), line_count(&bytes))?;
     let name = args.program.display().to_string();
     let language = language_of(&name, &bytes);
     if let Some(out) = &args.out {

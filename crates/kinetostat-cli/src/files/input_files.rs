@@ -8,13 +8,18 @@ use std::path::{Path, PathBuf};
 
 use kinetostat_model::{Model, preset_text, read_model};
 
+use crate::files::file_kind::{FileKind, beginning, refuse_other_kind};
 use crate::ui::failure::{Answer, Failure};
 
 /// Largest program or map that is read, bytes.
 const MOST_BYTES: u64 = 512 << 20;
 
-/// Largest job file.
-const MOST_JOB_BYTES: u64 = 1 << 20;
+/// Largest file of settings, bytes: a job, a template, uncertainties, materials, tools. A table of TOML takes some thirty times its
+/// length in memory.
+const MOST_SETTINGS_BYTES: u64 = 1 << 20;
+
+/// Largest state of trials, bytes; a state has seven numbers for each of its stations.
+pub(crate) const MOST_STATE_BYTES: u64 = 16 << 20;
 
 /// Files on disk, and some that are not there yet.
 #[derive(Clone, Debug, Default)]
@@ -30,9 +35,17 @@ impl InputFiles {
 
     /// The bytes of a file; `what` names its part in the question.
     pub(crate) fn bytes(&self, what: &str, path: &Path) -> Answer<Vec<u8>> {
+        let bytes = self.at_most(what, path, MOST_BYTES)?;
+        if what == "program" && is_toml(path) {
+            refuse_other_kind(path, &bytes, FileKind::Program)?;
+        }
+        Ok(bytes)
+    }
+
+    fn at_most(&self, what: &str, path: &Path, most: u64) -> Answer<Vec<u8>> {
         match self.memory.get(path) {
             Some(bytes) => Ok(bytes.clone()),
-            None => read(what, path, MOST_BYTES),
+            None => read(what, path, most),
         }
     }
 
@@ -41,12 +54,24 @@ impl InputFiles {
         text_in(what, path, self.bytes(what, path)?)
     }
 
+    /// The text of a file that a person writes: at most 1 MB.
+    pub(crate) fn settings(&self, what: &str, path: &Path) -> Answer<String> {
+        text_in(what, path, self.at_most(what, path, MOST_SETTINGS_BYTES)?)
+    }
+
+    /// The text of a state of trials.
+    pub(crate) fn state(&self, path: &Path) -> Answer<String> {
+        text_in(
+            "state",
+            path,
+            self.at_most("state", path, MOST_STATE_BYTES)?,
+        )
+    }
+
     /// A job file's text.
     pub(crate) fn job(&self, path: &Path) -> Answer<String> {
-        let bytes = match self.memory.get(path) {
-            Some(bytes) => bytes.clone(),
-            None => read("job file", path, MOST_JOB_BYTES)?,
-        };
+        let bytes = self.at_most("job file", path, MOST_SETTINGS_BYTES)?;
+        refuse_other_kind(path, &bytes, FileKind::Job)?;
         let text = text_in("job file", path, bytes)?;
         if text.trim().is_empty() {
             return Err(Failure::input(format!(
@@ -70,10 +95,36 @@ impl InputFiles {
         }
         let like_a_path = named.contains(['/', '\\', '.']) || path.exists();
         if like_a_path {
+            let first = beginning(&path).unwrap_or_default();
+            refuse_other_kind(&path, &first, FileKind::Model)?;
             return Ok((read_model(&path)?, Some(path)));
         }
         Ok((Model::preset(named)?, None))
     }
+}
+
+/// Memory that a line of a program takes while it is followed and written again, bytes: measured on lines of one motion.
+const BYTES_OF_A_LINE: usize = 1000;
+
+/// Refuses a program whose moves would not fit into memory: an allocation that fails later ends the process without a word.
+pub(crate) fn refuse_beyond_memory(path: &Path, bytes: usize, lines: usize) -> Answer<()> {
+    let needed = BYTES_OF_A_LINE
+        .saturating_mul(lines)
+        .saturating_add(2 * bytes);
+    // The address space is asked for and given back; no page of it is touched.
+    Vec::<u8>::new().try_reserve_exact(needed).map_err(|_| {
+        Failure::input(format!(
+            "the program '{}' has {lines} lines ({:.0} MB) and needs about {:.1} GB of memory, more than the system gives; divide it, or raise the limit of memory (ulimit -v)",
+            path.display(),
+            bytes as f64 * 1e-6,
+            needed as f64 * 1e-9
+        ))
+    })
+}
+
+fn is_toml(path: &Path) -> bool {
+    let ending = path.extension();
+    ending.is_some_and(|ending| ending.eq_ignore_ascii_case("toml"))
 }
 
 /// Bytes that are text.

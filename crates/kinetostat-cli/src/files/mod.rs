@@ -4,6 +4,9 @@
 //! in place together, or not at all ([`outputs`], [`journal`]). It knows nothing of what is in them.
 
 pub(crate) mod answer_files;
+pub(crate) mod csv_text;
+pub(crate) mod file_kind;
+pub(crate) mod file_names;
 pub(crate) mod hash;
 pub(crate) mod held_folder;
 pub(crate) mod input_files;

@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 use tempfile::NamedTempFile;
 
 use crate::files::journal::{self, Contents, Entry, Journal};
-use crate::files::paths::{parent_of, same_bytes, same_file, same_place};
+use crate::files::paths::{is_own_folder, parent_of, same_bytes, same_file, same_place};
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::progress::still_wanted;
 use crate::ui::safe_text::safe;
@@ -90,6 +90,10 @@ pub(crate) fn may_be_written(
             )));
         }
         Ok(_) => {}
+        Err(error)
+            if error.kind() == ErrorKind::NotFound
+                && is_own_folder(&parent)
+                && parent_of(&parent).is_dir() => {}
         Err(error) if error.kind() == ErrorKind::NotFound => {
             return Err(refuse(&format!(
                 "the directory '{}' does not exist; create it first",
@@ -148,6 +152,18 @@ pub(crate) struct Outputs {
     journals: Vec<Journal>,
     /// What an earlier run of the same question was putting in place when it ended.
     own: Vec<Entry>,
+    /// Folders that were made for outputs.
+    made: Vec<MadeFolder>,
+}
+
+/// A folder that was made for an output; dropped, it is removed if nothing was put into it.
+struct MadeFolder(PathBuf);
+
+impl Drop for MadeFolder {
+    fn drop(&mut self) {
+        // A folder with files in it stays.
+        let _ = fs::remove_dir(&self.0);
+    }
 }
 
 impl Outputs {
@@ -158,6 +174,7 @@ impl Outputs {
             claimed: Vec::new(),
             journals: Vec::new(),
             own: Vec::new(),
+            made: Vec::new(),
         }
     }
 
@@ -195,7 +212,12 @@ impl Outputs {
             Existing::Refuse if self.own.iter().any(is_own) => Existing::Replace,
             existing => existing,
         };
-        let journal = self.journal(&parent_of(target));
+        let parent = parent_of(target);
+        if !parent.exists() {
+            fs::create_dir(&parent).map_err(|error| refuse(&description(&error)))?;
+            self.made.push(MadeFolder(parent.clone()));
+        }
+        let journal = self.journal(&parent);
         if existing == Existing::Refuse && fs::symlink_metadata(target).is_ok() {
             return Err(refuse(
                 "it exists already; choose another name, or allow it with --force-overwrite",

@@ -16,6 +16,18 @@ pub(crate) fn parent_of(path: &Path) -> PathBuf {
     }
 }
 
+/// Folder of compensated programs that keep the names of their sources.
+pub(crate) const COMPENSATED: &str = "compensated";
+
+/// Folder of flat programs that keep them.
+pub(crate) const FLAT: &str = "flat";
+
+/// True of a folder that is made where it is missing.
+pub(crate) fn is_own_folder(path: &Path) -> bool {
+    let name = path.file_name();
+    name.is_some_and(|name| name == COMPENSATED || name == FLAT)
+}
+
 /// The same file under two names: links of either kind included.
 pub(crate) fn same_file(one: &Path, other: &Path) -> bool {
     #[cfg(unix)]

@@ -25,6 +25,9 @@ pub(crate) struct ForceAnswer {
     /// What the numbers rest on, in sentences.
     pub(crate) assumed: Vec<String>,
     pub(crate) warnings: Vec<Warning>,
+    /// Mean force of the flat end along the tool, N.
+    #[serde(skip)]
+    pub(crate) end_axial_n: f64,
     /// The force over one revolution, for the table and the drawing.
     #[serde(skip)]
     pub(crate) revolution: Vec<AtAngle>,

@@ -1,7 +1,7 @@
 //! From tool, cut and law to the answer.
 
 use kinetostat_cutting::{
-    Applied, CutForce, Material, Milling, Revolution, Rotation, Shape, Side, Tool, Wall,
+    Applied, CutForce, Material, Milling, Peaks, Revolution, Rotation, Shape, Side, Tool, Wall,
 };
 
 use crate::force::answer::{
@@ -51,7 +51,7 @@ pub(crate) fn answer_of(
     })?;
     let revolution = milling.revolution_at(angles_per_tooth(tool, cut));
     let mean = milling.mean();
-    let peak = peak(&revolution, cut, applied.spread);
+    let peak = peak(&milling.peaks(), cut, applied.spread);
     let contact = cut.engagement.contacts.first();
     let (from, to) = contact.map_or((0.0, 0.0), |c| (c.entry, c.exit));
     let feed_mm_per_min = cut.feed_mm_per_min(tool);
@@ -86,6 +86,7 @@ pub(crate) fn answer_of(
         harmonics: harmonics(&revolution, tool.run_out().offset_mm > 0.0, cut.rpm),
         assumed: assumed(material, of_tool, cut),
         warnings: Vec::new(),
+        end_axial_n: milling.mean_of_end().force_n.z,
         revolution: at_angles(&revolution),
     };
     answer.warnings = findings(&answer, material, of_tool, cut);
@@ -174,18 +175,16 @@ fn mean_answer(mean: &CutForce, cut: &Cut, spread: f64) -> MeanAnswer {
     }
 }
 
-fn peak(revolution: &Revolution, cut: &Cut, spread: f64) -> PeakAnswer {
-    let (turn, peak) = revolution.peak();
-    let torque_n_mm = revolution.peak_torque_n_mm();
-    let mut all = revolution.turns().zip(&revolution.forces);
-    let torque_at = all.find(|(_, force)| force.torque_n_mm() >= torque_n_mm);
+fn peak(peaks: &Peaks, cut: &Cut, spread: f64) -> PeakAnswer {
+    let across = peaks.across.force;
+    let torque_n_mm = peaks.torque.force.torque_n_mm();
     PeakAnswer {
-        force_n: peak.force_n.into(),
-        across_tool_n: peak.in_plane_n(),
-        across_tool_high_n: (1.0 + spread) * peak.in_plane_n(),
-        at_deg: turn.to_degrees(),
+        force_n: across.force_n.into(),
+        across_tool_n: across.in_plane_n(),
+        across_tool_high_n: (1.0 + spread) * across.in_plane_n(),
+        at_deg: peaks.across.turn.to_degrees(),
         torque_n_mm,
-        torque_at_deg: torque_at.map_or(0.0, |(turn, _)| turn.to_degrees()),
+        torque_at_deg: peaks.torque.turn.to_degrees(),
         power_w: cut.power_w(torque_n_mm),
     }
 }

@@ -19,6 +19,7 @@ pub(crate) fn findings(
     list.extend(of_spindle(answer, cut));
     let (mean, largest) = (answer.cut.mean_chip_mm, answer.cut.largest_chip_mm);
     list.extend(of_chip(material, mean, largest));
+    list.extend(of_end(material, answer, cut));
     let speed = answer.cut.cutting_speed_m_per_min;
     list.extend(speed.and_then(|speed| of_speed(material, speed)));
     list
@@ -50,6 +51,15 @@ fn of_tool(answer: &ForceAnswer, tool: &CutTool, cut: &Cut) -> Vec<Warning> {
         }
     }
     let diameter = tool.tool.diameter_mm();
+    if tool.tool.helix() < 0.0 {
+        say(
+            WarningCode::ImplausibleCoefficient,
+            format!(
+                "a helix of {} deg pushes the chip down, and materials state their axial coefficients for one that lifts it: the axial force has the wrong sign unless the material was measured with such a tool",
+                given(tool.tool.helix().to_degrees())
+            ),
+        );
+    }
     if tool.max_chip_mm.is_none() {
         let feed = cut.feed.level_mm.hypot(cut.feed.down_mm);
         list_coarse(feed, diameter, "per tooth", &mut say);
@@ -100,7 +110,10 @@ fn of_tool(answer: &ForceAnswer, tool: &CutTool, cut: &Cut) -> Vec<Warning> {
 }
 
 /// A feed beyond this share of the diameter is none of milling or drilling.
-const COARSE: f64 = 0.25;
+const COARSE: f64 = 0.1;
+
+/// Chips under a flat end that are thinner than this are beyond a law of which no range is known, mm.
+const THINNEST_MM: f64 = 0.005;
 
 /// Cuts deeper than this, in diameters, need a tool that is seldom made.
 const DEEP: f64 = 8.0;
@@ -169,6 +182,27 @@ fn of_spindle(answer: &ForceAnswer, cut: &Cut) -> Option<Warning> {
         other => other.to_string(),
     };
     Some(Warning::new(WarningCode::SpindleExceeded, message))
+}
+
+/// A flat end whose chips the law does not know.
+fn of_end(material: &Material, answer: &ForceAnswer, cut: &Cut) -> Option<Warning> {
+    let thinnest_mm = material.chip_mm.map_or(THINNEST_MM, |(from, _)| from);
+    let down_mm = cut.feed.down_mm;
+    let (end_n, all_n) = (answer.end_axial_n.abs(), answer.mean.force_n[2].abs());
+    (end_n > 0.0 && down_mm < thinnest_mm).then(|| {
+        Warning::new(
+            WarningCode::ChipsOutsideMeasured,
+            format!(
+                "the flat end takes {} mm per tooth, and the law of {} is known from {} mm on: {} of {} N along the tool are edge forces of the end, a guess. An end with relief bears less, down to {} N in all",
+                given(down_mm),
+                material.name,
+                given(thinnest_mm),
+                number(end_n, 3),
+                number(all_n, 3),
+                number((all_n - end_n).abs(), 3)
+            ),
+        )
+    })
 }
 
 /// Chips, mm, that the law does not know.

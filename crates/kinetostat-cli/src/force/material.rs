@@ -13,7 +13,7 @@ use crate::ui::failure::{Answer, Failure};
 pub(crate) fn materials(files: &InputFiles, own: Option<&Path>) -> Answer<Materials> {
     let mut all = Materials::library();
     if let Some(path) = own {
-        let text = files.text("file of materials", path)?;
+        let text = files.settings("file of materials", path)?;
         let read = Materials::read(&path.display().to_string(), &text);
         all.with(read.map_err(|error| refused(&error))?);
     }

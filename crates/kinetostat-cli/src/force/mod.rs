@@ -25,6 +25,7 @@ mod turning;
 
 use std::path::PathBuf;
 
+use crate::command_line::given::Given;
 use crate::files::answer_files::{ClaimedFiles, Shown};
 use crate::files::input_files::InputFiles;
 use crate::force::answer_of::answer_of;
@@ -35,8 +36,76 @@ use crate::force::tool::tool_of;
 use crate::ui::background::interruptible;
 use crate::ui::failure::{Answer, Failure};
 
-pub(crate) fn run(args: &ForceArgs) -> Answer<()> {
+/// Options of a dynamometer's log.
+const OF_A_FIT: [&str; 4] = ["--acts-on", "--group", "--spread-percent", "--out-material"];
+
+/// Options of a milling cut, and of its tool.
+const OF_A_MILLING_CUT: [&str; 11] = [
+    "--helix-deg",
+    "--corner-radius-mm",
+    "--lead-angle-deg",
+    "--run-out-um",
+    "--run-out-angle-deg",
+    "--max-chip-mm",
+    "--flute-length-mm",
+    "--stick-out-mm",
+    "--counter-clockwise",
+    "--down-feed-per-tooth-mm",
+    "--feed-per-tooth-mm",
+];
+
+/// Refuses options of another kind of cut than the one that is asked for.
+fn refuse_unused(args: &ForceArgs, given: &Given) -> Answer<()> {
+    let steady = &args.steady;
+    if args.list_materials {
+        let used = [
+            "--list-materials",
+            "--materials",
+            "--json",
+            "--force-overwrite",
+        ];
+        return given.refuse_but(
+            &used,
+            "is for a cut, and --list-materials lists materials: leave one of them out",
+        );
+    }
+    if args.fit.fit.is_none() {
+        given.refuse(
+            &OF_A_FIT,
+            "belongs to --fit FILE: add that, or leave it out",
+        )?;
+    }
+    if steady.drill || steady.turning {
+        given.refuse(
+            &OF_A_MILLING_CUT,
+            "is for a milling cut: leave it out with --drill and --turning",
+        )?;
+    }
+    if steady.drill {
+        let of_turning = ["--approach-angle-deg", "--speed-m-per-min"];
+        given.refuse(
+            &of_turning,
+            "belongs to --turning: leave it out with --drill",
+        )?;
+    }
+    if steady.turning {
+        let of_drilling = [
+            "--point-angle-deg",
+            "--hole-mm",
+            "--chisel-factor",
+            "--lips",
+        ];
+        given.refuse(
+            &of_drilling,
+            "belongs to --drill: leave it out with --turning",
+        )?;
+    }
+    Ok(())
+}
+
+pub(crate) fn run(args: &ForceArgs, given: &Given) -> Answer<()> {
     let files = InputFiles::default();
+    refuse_unused(args, given)?;
     if let Some(means) = &args.fit.fit {
         return fit::run(&files, args, means);
     }

@@ -32,7 +32,7 @@ pub(crate) fn tool_of(files: &InputFiles, args: &ToolArgs) -> Answer<CutTool> {
 }
 
 pub(crate) fn tool_table(files: &InputFiles, path: &std::path::Path) -> Answer<ToolTable> {
-    let text = files.text("table of tools", path)?;
+    let text = files.settings("table of tools", path)?;
     let table = ToolTable::read(&path.display().to_string(), &text);
     table.map_err(|error| refused(&error))
 }

@@ -7,6 +7,7 @@ use kinetostat_chatter::{
 };
 use kinetostat_machining::{Warning, WarningCode};
 
+use crate::files::csv_text::with_decimal_points;
 use crate::files::input_files::InputFiles;
 use crate::ui::failure::{Answer, Failure};
 
@@ -25,7 +26,7 @@ pub(crate) fn read(files: &InputFiles, path: &Path) -> Answer<Measured> {
     let universal = written.next() == Some("-1");
     let found = match universal {
         true => read_universal(&text).map(|file| file.responses),
-        false => read_columns(&text),
+        false => read_columns(&with_decimal_points(&text)),
     };
     let failed = |error| Failure::input(format!("{}: {error}", path.display()));
     Ok(Measured {

@@ -1,12 +1,13 @@
 //! `kinetostat import link-displacements`: the stiffness of a link from displacements under loads.
 
 use kinetostat_links::{
-    DIRECTIONS, Identified, Text, identify, read_displacements, read_loads, read_nodes,
-    symmetrised, unit_loads,
+    DIRECTIONS, Identified, identify, read_displacements, read_loads, read_nodes, symmetrised,
+    unit_loads,
 };
 use kinetostat_machining::number as formatter;
 use nalgebra::Matrix6;
 
+use crate::files::csv_text::text_or_table;
 use crate::import::link::{Remarks, file_name, finish};
 use crate::import::link_arguments::DisplacementsArgs;
 use crate::import::mesh::{axes, metres, needed_units, units};
@@ -16,13 +17,16 @@ pub(crate) fn displacements(args: &DisplacementsArgs) -> Answer<()> {
     let mut inputs = vec![args.file.clone()];
     inputs.extend(args.loads.clone());
     inputs.extend(args.mesh.nodes.clone());
-    let text = Text::read(&args.file)?;
+    let text = text_or_table(&args.file)?;
     let loads = match &args.loads {
-        Some(path) => read_loads(&Text::read(path)?)?,
+        Some(path) => read_loads(&text_or_table(path)?)?,
         None => unit_loads(args.force_n, args.moment_n_mm * 1e-3),
     };
     let nodes = match &args.mesh.nodes {
-        Some(path) => Some(read_nodes(&Text::read(path)?, needed_units(&args.mesh)?)?),
+        Some(path) => Some(read_nodes(
+            &text_or_table(path)?,
+            needed_units(&args.mesh)?,
+        )?),
         None => None,
     };
     let cases = read_displacements(&text, &loads, nodes.as_ref(), units(&args.mesh)?)?;

@@ -7,6 +7,7 @@ use kinetostat_links::{
 use kinetostat_machining::number as formatter;
 use nalgebra::Matrix6;
 
+use crate::files::csv_text::text_or_table;
 use crate::import::link::{Remarks, file_name, finish};
 use crate::import::link_arguments::MatrixArgs;
 use crate::import::mesh::{axes, metres, needed_units, units};
@@ -33,7 +34,7 @@ pub(crate) fn matrix(args: &MatrixArgs) -> Answer<()> {
 
 /// A 6 x 6 as the file has it.
 fn plain(args: &MatrixArgs, remarks: &mut Remarks) -> Answer<(Matrix6<f64>, String)> {
-    let text = Text::read(&args.file)?;
+    let text = text_or_table(&args.file)?;
     if args.mesh.x_axis.is_some() || args.mesh.y_axis.is_some() || args.mesh.nodes.is_some() {
         return Err(Failure::input(
             "--nodes, --x-axis and --y-axis belong to a matrix of a mesh: say --interface too; a 6 x 6 has the lines reference_point_mm, x_axis and y_axis",
@@ -94,11 +95,11 @@ fn reduced(
     remarks: &mut Remarks,
 ) -> Answer<(Matrix6<f64>, String)> {
     let units = needed_units(&args.mesh)?;
-    let text = Text::read(&args.file)?;
+    let text = text_or_table(&args.file)?;
     let companion = args.dofs.as_deref().map(Text::read).transpose()?;
     let element = read_superelement(&text, companion.as_ref(), args.matrix.as_deref())?;
     let nodes = match &args.mesh.nodes {
-        Some(path) => read_nodes(&Text::read(path)?, units)?,
+        Some(path) => read_nodes(&text_or_table(path)?, units)?,
         None => Nodes::default(),
     };
     let request = CondensationRequest {

@@ -9,6 +9,7 @@ use kinetostat_import::{
 };
 use serde::Serialize;
 
+use crate::files::csv_text::with_decimal_points;
 use crate::files::outputs::{Existing, Outputs};
 use crate::import::arguments::UrdfArgs;
 use crate::ui::failure::{Answer, Failure};
@@ -106,7 +107,8 @@ fn options(args: &UrdfArgs, inputs: &mut Vec<std::path::PathBuf>) -> Answer<Urdf
                 inputs.push(path.to_owned());
                 JointStiffness::Table {
                     file: word.clone(),
-                    text: read_text("table of joint stiffnesses", path)?,
+                    text: with_decimal_points(&read_text("table of joint stiffnesses", path)?)
+                        .into_owned(),
                 }
             }
         },

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use clap::{ArgAction, Args};
 
 use crate::job::expansion::arguments::ExpandFlags;
-use crate::job::format::{ArcsWord, Axes, BlockDeleteWord, CornerWord};
+use crate::job::format::{ArcsWord, Axes, BlockDeleteWord, CornerWord, WeightWord};
 use crate::job::robot_arguments::RobotArgs;
 use crate::job::turn_arguments::TurnFlags;
 use crate::job::uncertain::UncertainFlags;
@@ -71,6 +71,14 @@ pub(crate) struct ProgramArgs {
     /// The load acts only below this height of the program, mm
     #[arg(long, value_name = "Z", allow_negative_numbers = true, help_heading = "Load", value_parser = number)]
     pub(crate) below_z_mm: Option<f64>,
+    /// How much of the displacement by the machine's own weight counts as an error of the program; it must
+    /// be stated where own weight moves the tool
+    #[arg(long, value_enum, value_name = "SHARE", help_heading = "Load")]
+    pub(crate) weight: Option<WeightWord>,
+    /// Place where this machine touched the part off, program coordinates, mm, for --weight touch-off: one,
+    /// or three and more (repeat it) that give the frame's orientation, too
+    #[arg(long, num_args = 3, value_names = ["X", "Y", "Z"], action = ArgAction::Append, allow_negative_numbers = true, help_heading = "Load", value_parser = number)]
+    pub(crate) touch_off: Option<Vec<f64>>,
     #[command(flatten)]
     pub(crate) reading: ReadingArgs,
     #[command(flatten)]
@@ -87,7 +95,7 @@ pub(crate) struct ProgramArgs {
     pub(crate) uncertain: UncertainFlags,
     /// Move a limit, as in correction_mm=5 (repeat for more): correction_mm, own_weight_mm,
     /// tilt_deg, force_n, moment_n_m, share_of_rating, share_of_buckling, blocks_per_second, shortest_tool_mm,
-    /// longest_tool_mm. A program that leaves a limit is refused
+    /// longest_tool_mm, nearest_base_mm, below_base_mm, speed_mm_per_s, zone_mm. A program that leaves a limit is refused
     #[arg(long = "limit", value_name = "NAME=VALUE", action = ArgAction::Append, allow_hyphen_values = true, help_heading = "Limits")]
     pub(crate) limits: Vec<String>,
     /// The report, one HTML file

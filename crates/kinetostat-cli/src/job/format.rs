@@ -118,6 +118,10 @@ pub(crate) struct ToolTable {
     pub pose: Option<Spanned<PoseTable>>,
     /// Its edges, for loads that are computed from the cut.
     pub cutter: Option<Spanned<WrittenTool>>,
+    /// Mass that the flange carries, kg: spindle and tool.
+    pub mass_kg: Option<Spanned<f64>>,
+    /// Its centre in the frame of the flange, mm; halfway to the tip if not given.
+    pub centre_of_mass_mm: Option<Spanned<[f64; 3]>>,
 }
 
 /// A tool that the program takes by its number.
@@ -158,6 +162,22 @@ pub(crate) struct LoadTable {
     pub largest_step_mm_per_mm: Option<Spanned<f64>>,
     /// What it is on the steps written at sharp corners, of this tool.
     pub at_corners: Option<CornerWord>,
+    /// Share of the displacement by the machine's own weight that counts as an error; of the machine, not of a tool.
+    pub weight: Option<Spanned<WeightWord>>,
+    /// Places where the machine touched the part off, program coordinates, mm.
+    pub touch_off_mm: Option<Spanned<Vec<[f64; 3]>>>,
+}
+
+/// Share of the displacement by the machine's own weight that counts as an error.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, clap::ValueEnum)]
+#[serde(rename_all = "kebab-case")]
+pub(crate) enum WeightWord {
+    /// This machine touched the part off, hanging as it hangs: only the change of the sag from there
+    TouchOff,
+    /// The part was measured without this machine: all of it
+    All,
+    /// None of it: the controller corrects the weight
+    None,
 }
 
 /// The load on the steps that are written at sharp corners.
@@ -291,12 +311,4 @@ impl Job {
             "use the program that wrote the file, or convert the file",
         ))
     }
-}
-
-/// Whether a TOML text looks like a job file rather than a model file.
-pub(crate) fn looks_like_a_job(text: &str) -> bool {
-    toml::de::DeTable::parse(text).is_ok_and(|tree| {
-        let has = |key: &str| tree.get_ref().iter().any(|(k, _)| k.get_ref() == key);
-        !has("mechanism") && !has("platform") && (has("program") || has("model"))
-    })
 }

@@ -34,6 +34,15 @@ pub(crate) fn load(
             },
             wrench: Wrench::new(force, moment),
         };
+    let has_force = flags.force.is_some()
+        || flags.moment.is_some()
+        || table.force_n.is_some()
+        || table.moment_n_m.is_some();
+    if flags.load_axes.is_some() && !has_force {
+        return Err(Failure::input(
+            "--load-axes are the axes of a force or moment, and the load has none: add --force or --moment, or leave it out",
+        ));
+    }
     let cutting = if let Some(v) = &flags.milling {
         let v = vector("--milling", v)?;
         CuttingLoad::Milling {

@@ -4,7 +4,9 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use kinetostat::Mechanism;
-use kinetostat_machining::{Bounds, FileRead, Placement, ProgramLoad, RunInputs, ToolGiven};
+use kinetostat_machining::{
+    Bounds, FileRead, Placement, ProgramLoad, RunInputs, ToolGiven, WeightCorrection,
+};
 use kinetostat_model::Model;
 use kinetostat_program::{RotaryAxes, WriteOptions};
 
@@ -12,6 +14,7 @@ use crate::files::hash::{FNV1A, fnv1a};
 use crate::files::input_files::InputFiles;
 use crate::files::origin;
 use crate::job::arguments::ProgramArgs;
+use crate::job::cell::Cell;
 use crate::job::cut::{CutSetup, FilesOfCut, MeasuredSetup, cut_setup, measured_setup};
 use crate::job::job_file::JobFile;
 use crate::job::load::load;
@@ -22,7 +25,9 @@ use crate::job::robot::machine::{
     placement_of_robot, tool_of_robot, tools_of_converted, tools_of_robot,
 };
 use crate::job::rotary::rotary;
+use crate::job::tool_mass::{ToolMass, carrying, tool_mass};
 use crate::job::tools::{numbered_tools, tool};
+use crate::job::weight::weight;
 use crate::machine::model_warnings::deviation_descriptions;
 use crate::machine::stiffness_list;
 use crate::place::orientation;
@@ -34,6 +39,8 @@ pub(crate) struct MachineSetup {
     pub(crate) mechanism: Mechanism,
     pub(crate) placement: Placement,
     pub(crate) load: ProgramLoad,
+    pub(crate) weight: WeightCorrection,
+    pub(crate) tool_mass: Option<ToolMass>,
     /// The cuts that the load is computed from, where the job names a material.
     pub(crate) cut: Option<CutSetup>,
     /// Forces that were measured, where the job has them.
@@ -89,18 +96,6 @@ fn read_model(
     })
 }
 
-/// A machine without a spring has no deflection, and an answer about it would be no answer.
-fn refuse_rigid(model: &Model) -> Answer<()> {
-    let mut limbs = model.mechanism.limbs().iter();
-    match limbs.all(|limb| limb.actual.springs().is_empty()) {
-        true => Err(Failure::input(format!(
-            "the model '{}' has no spring: nothing in it gives way, so that there is nothing to say of its tool. Give its drives and links a stiffness; in a model that was imported, where it says FILL IN, or import it once more with --joint-stiffness",
-            model.name()
-        ))),
-        false => Ok(()),
-    }
-}
-
 /// The machine, its tool, the placement and the load.
 pub(crate) fn machine_setup(
     files: &InputFiles,
@@ -111,19 +106,41 @@ pub(crate) fn machine_setup(
 ) -> Answer<(MachineSetup, Model)> {
     let named = read_model(files, job, flag_model)?;
     inputs.extend(named.path);
-    let model = with_deviations(named.model, job)?;
-    refuse_rigid(&model)?;
-    let fingerprint = fingerprint(&model);
+    named.model.require_stiffness()?;
     let (mut tool, mut tool_words) = tool(job, flags)?;
+    // A program that states how its tool stands brings tool and work object with it; one that was converted has them of the cell.
+    let is_own = |frames: &RobotFrames| frames.states_orientation && !frames.converted;
+    let cell = match frames.is_some_and(is_own) {
+        true => None,
+        false => Cell::of(files, job, flags)?,
+    };
+    let of_cell = cell
+        .as_ref()
+        .map(|cell| cell.tool(&tool))
+        .transpose()?
+        .flatten();
+    let tool_is_of_cell = of_cell.is_some();
+    (tool, tool_words) = of_cell.unwrap_or((tool, tool_words));
     if let Some(frames) = frames {
         (tool, tool_words) = tool_of_robot(frames, job, flags, (tool, tool_words))?;
     }
+    let tool_mass = tool_mass(job, &tool)?;
+    let mut model = with_deviations(named.model, job)?;
+    if let Some(mass) = tool_mass {
+        model = carrying(&model, mass)?;
+        tool_words.push_str(&format!(", {} kg", short(mass.mass_kg)));
+    }
+    let fingerprint = fingerprint(&model);
     let mechanism = model.mechanism.with_tool(&tool);
     let mut placement = placement(job, flags, &mechanism)?;
+    if let Some(cell) = &cell {
+        cell.place(&mut placement)?;
+    }
     if let Some(frames) = frames {
         placement = placement_of_robot(frames, job, flags, placement)?;
     }
     let load = load(job, job.map(|j| &j.job.load), flags)?;
+    let weight = weight(job, flags)?;
     if frames.is_some_and(|f| f.axis_is_open && f.states_orientation) && load.turns() {
         return Err(Failure::input(
             "this load turns with feed and tool, and the program does not say along which axis of its frame the tool lies: at KUKA that is x in some cells and z in others. State it, from the tip to the holder: --tool-axis -x or -z, or tool_axis under [robot]",
@@ -142,9 +159,14 @@ pub(crate) fn machine_setup(
         pose: tool,
         stated: frames.is_some_and(|frames| frames.tools.iter().any(|(_, _, pose)| pose.is_some()))
             || flags.tool_length_mm.is_some()
+            || tool_is_of_cell
             || job.is_some_and(|j| j.job.tool.length_mm.is_some() || j.job.tool.pose.is_some()),
     }];
     let mut tools = numbered_tools(job, flags, &model.mechanism, &mut tool_words, &mut given)?;
+    if let Some(cell) = &cell {
+        let described = (&mut tool_words, &mut given);
+        cell.add_tools(&mut tools, (&model.mechanism, load), described)?;
+    }
     if let Some(frames) = frames.filter(|frames| frames.converted && !tools.is_empty()) {
         tools = tools_of_converted(frames, &model.mechanism, load, (&tools, &mut given))?;
     }
@@ -176,6 +198,8 @@ pub(crate) fn machine_setup(
             mechanism,
             placement,
             load,
+            weight,
+            tool_mass,
             cut,
             measured,
             tools,

@@ -2,13 +2,14 @@
 
 use std::path::{Path, PathBuf};
 
+use kinetostat_formats::{Language, endings_of};
 use serde_spanned::Spanned;
 
-use crate::files::paths::inside;
+use crate::files::paths::{COMPENSATED, FLAT, inside, is_own_folder, parent_of};
 use crate::job::arguments::{ProgramArgs, WritingFlags};
 use crate::job::format::Job;
 use crate::job::job_file::JobFile;
-use crate::ui::failure::Answer;
+use crate::ui::failure::{Answer, Failure};
 use crate::ui::language::LanguageWord;
 
 /// What the compensated program is called among outputs.
@@ -149,10 +150,17 @@ pub(crate) fn output_paths(
             j.output.flat_program.as_ref()
         })?,
     };
-    let out = targets.program.take().unwrap_or_else(|| {
-        let near = job.map_or(program, |j| &j.path);
-        beside(near, program, "-compensated")
-    });
+    refuse_unused(flags, &targets)?;
+    let out = match targets.program.take() {
+        Some(out) => out,
+        None => {
+            let near = job.map_or(program, |j| &j.path);
+            match keeps_name(program) {
+                true => in_folder(near, program, COMPENSATED)?,
+                false => beside(near, program, "-compensated"),
+            }
+        }
+    };
     if form == Form::Flat && targets.flat.is_none() {
         targets.flat = Some(flat_beside(&out, program));
     }
@@ -160,9 +168,55 @@ pub(crate) fn output_paths(
     Ok(targets)
 }
 
+/// Refuses options of outputs that are not asked for.
+pub(crate) fn refuse_unused(flags: &ProgramArgs, targets: &OutputPaths) -> Answer<()> {
+    if flags.language.is_some() && targets.report.is_none() && targets.pdf.is_none() {
+        return Err(Failure::input(
+            "--language is the language of the reports, and none is asked for: add --report FILE or --pdf FILE",
+        ));
+    }
+    match flags.all_points && targets.points.is_none() {
+        true => Err(Failure::input(
+            "--all-points is about the table of points, and none is asked for: add --points FILE",
+        )),
+        false => Ok(()),
+    }
+}
+
+/// True of a program that its controller loads by a name that it states itself, with letters that file names have.
+fn keeps_name(program: &Path) -> bool {
+    let ending = program.extension().unwrap_or_default().to_string_lossy();
+    let ending = ending.to_ascii_lowercase();
+    let mut loaded = Language::ALL
+        .iter()
+        .filter(|l| !matches!(l, Language::Poses | Language::Apt));
+    loaded.any(|language| endings_of(*language).contains(&ending.as_str()))
+}
+
+/// A program under its own name in a folder beside `near`, which leads to no other place.
+fn in_folder(near: &Path, program: &Path, folder: &str) -> Answer<PathBuf> {
+    let folder = near.with_file_name(folder);
+    if folder.is_symlink() {
+        return Err(Failure::input(format!(
+            "'{}' is a symbolic link, and outputs do not follow links; name the output (--out), or remove the link",
+            folder.display()
+        )));
+    }
+    Ok(folder.join(program.file_name().unwrap_or_default()))
+}
+
 /// Where a flat program goes that nobody named.
 pub(crate) fn flat_beside(out: &Path, program: &Path) -> PathBuf {
-    beside(out, program, "-flat")
+    if !keeps_name(program) {
+        return beside(out, program, "-flat");
+    }
+    let folder = parent_of(out);
+    let near = match is_own_folder(&folder) {
+        true => folder,
+        false => out.to_owned(),
+    };
+    near.with_file_name(FLAT)
+        .join(program.file_name().unwrap_or_default())
 }
 
 /// `part.ngc` becomes `part-compensated.ngc` in the directory of `near`.

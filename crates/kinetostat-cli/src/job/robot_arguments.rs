@@ -1,5 +1,7 @@
 //! Options for programs of robots.
 
+use std::path::PathBuf;
+
 use clap::{Args, ValueEnum};
 use kinetostat::Directions;
 use kinetostat_formats::BetweenRows;
@@ -76,6 +78,9 @@ pub(crate) struct RobotArgs {
     /// The program is converted into the language of a robot before it is run.
     #[arg(skip)]
     pub(crate) converted: bool,
+    /// Template of the cell, in place of the job's.
+    #[arg(skip)]
+    pub(crate) template: Option<PathBuf>,
 }
 
 impl CorrectWord {

@@ -11,7 +11,7 @@ use kinetostat_program::{
     Arcs, Corrected, Path as ToolPath, ReadOptions, RotaryAxes, Warning, WriteOptions,
 };
 
-use crate::files::input_files::InputFiles;
+use crate::files::input_files::{InputFiles, refuse_beyond_memory};
 use crate::files::origin;
 use crate::job::arguments::{ProgramArgs, WritingFlags};
 use crate::job::chatter::ChatterSetting;
@@ -248,6 +248,7 @@ pub(crate) fn setting(
     // The last, so that nothing else is hidden by a program that is not there.
     let program = files.bytes("program", &path)?;
     let lines = line_count(&program);
+    refuse_beyond_memory(&path, program.len(), lines)?;
     let mut program_files = vec![origin::file("program", &path, &program)];
     if let Some(own) = &uncertain {
         program_files.push(own.read.clone());
@@ -360,7 +361,7 @@ pub(crate) fn setting(
 }
 
 /// Lines of a text, whose last one may have no ending.
-fn line_count(text: &[u8]) -> usize {
+pub(crate) fn line_count(text: &[u8]) -> usize {
     let count = |ending| text.iter().filter(|byte| **byte == ending).count();
     let open = text.last().is_some_and(|last| !b"\r\n".contains(last));
     count(b'\n').max(count(b'\r')) + usize::from(open)

@@ -84,6 +84,12 @@ pub(crate) fn tool(job: Option<&JobFile>, flags: &ProgramArgs) -> Answer<(Pose, 
     }
 }
 
+/// The place of a tool's tip in words.
+pub(crate) fn tip_words(pose: &Pose) -> String {
+    let tip = pose.translation.vector * 1e3;
+    format!("tip at {} mm in the flange", triple(tip.into(), short))
+}
+
 fn tool_of(
     j: &JobFile,
     length: Option<&Spanned<f64>>,
@@ -101,11 +107,7 @@ fn tool_of(
                 .get_ref()
                 .pose()
                 .map_err(|(message, help)| j.error(table, &message, &help))?;
-            let tip = pose.translation.vector * 1e3;
-            Ok((
-                pose,
-                format!("tip at {} mm in the flange", triple(tip.into(), short)),
-            ))
+            Ok((pose, tip_words(&pose)))
         }
         (None, None) => straight(0.0),
     }

@@ -65,8 +65,8 @@ pub(crate) fn uncertainty(
             false => Err(NotAllowed("64 to 1048576 machines can be drawn")),
         },
     )?;
+    let text = files.settings("uncertainties", &path)?;
     let bytes = files.bytes("uncertainties", &path)?;
-    let text = files.text("uncertainties", &path)?;
     Ok(Some(Uncertainty {
         name: path.display().to_string(),
         text,

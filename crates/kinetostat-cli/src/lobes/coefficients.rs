@@ -26,7 +26,7 @@ impl CutCoefficients {
         match &args.material.material {
             Some(_) => Self::of_material(args, arc),
             None => Ok(Self {
-                law: stated(&args.coefficients_n_per_mm2)?,
+                law: stated(&args.coefficients_n_per_mm2, args.helix_deg.unwrap_or(0.0))?,
                 of_material: None,
                 warnings: Vec::new(),
             }),
@@ -83,7 +83,7 @@ impl CutCoefficients {
     }
 }
 
-fn stated(given: &[f64]) -> Answer<Coefficients> {
+fn stated(given: &[f64], helix_deg: f64) -> Answer<Coefficients> {
     let &[tangential, radial, axial] = given else {
         return Err(Failure::input("--coefficients-n-per-mm2 needs KT KR KA"));
     };
@@ -114,6 +114,20 @@ fn stated(given: &[f64]) -> Answer<Coefficients> {
         return Err(Failure::input(format!(
             "--coefficients-n-per-mm2: {other} N/mm^2 is more than any material has ({} at most)",
             PLAUSIBLE.end()
+        )));
+    }
+    let (wrong, helix) = match helix_deg < 0.0 {
+        true => (
+            axial > 0.0,
+            "a helix below zero, which pushes the chip down,",
+        ),
+        false => (axial < 0.0, "a helix that lifts the chip"),
+    };
+    if wrong {
+        return Err(Failure::input(format!(
+            "--coefficients-n-per-mm2: KA is {axial} N/mm^2; positive pushes the tool towards the spindle, as K_ac of `force` and of the material library, and {helix} has it {}. Give {} (tables with the opposite sign are common), or the helix with its sign (--helix-deg with --diameter-mm)",
+            if axial > 0.0 { "negative" } else { "positive" },
+            -axial
         )));
     }
     Coefficients::new(1e6 * tangential, 1e6 * radial, 1e6 * axial).map_err(Failure::input)

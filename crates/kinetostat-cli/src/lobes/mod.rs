@@ -16,6 +16,7 @@ use kinetostat_machining::{Warning, WarningCode};
 use kinetostat_report::lobes_svg;
 use nalgebra::Vector3;
 
+use crate::command_line::given::Given;
 use crate::files::answer_files::{ClaimedFiles, Shown};
 use crate::lobes::answer::LobesAnswer;
 use crate::lobes::arguments::LobesArgs;
@@ -29,7 +30,8 @@ use crate::vibration::{damping::words, subject};
 /// Modes up to this frequency vibrate whether they count or not, Hz.
 const AT_LEAST_HZ: f64 = 1000.0;
 
-pub(crate) fn run(args: &LobesArgs) -> Answer<()> {
+pub(crate) fn run(args: &LobesArgs, given: &Given) -> Answer<()> {
+    refuse_unused(args, given)?;
     let (cut, coefficients) = cut(args)?;
     let request = request(args)?;
     let query = subject::query(&args.machine)?;
@@ -216,4 +218,30 @@ fn refused(error: MachineCutError) -> Failure {
         MachineCutError::Cut(error) => Failure::input(error),
         _ => Failure::unanswered(error),
     }
+}
+
+/// Refuses options of a material where coefficients are given, and a diameter that nothing depends on.
+fn refuse_unused(args: &LobesArgs, given: &Given) -> Answer<()> {
+    if !args.coefficients_n_per_mm2.is_empty() {
+        given.refuse(
+            &[
+                "--feed-per-tooth-mm",
+                "--materials",
+                "--rake-deg",
+                "--wear",
+                "--coolant",
+                "--edge",
+                "--correct-speed",
+                "--process-factor",
+            ],
+            "corrects the coefficients of a material, and --coefficients-n-per-mm2 states them: leave one of them out",
+        )?;
+    }
+    if args.helix_deg.is_none() && !args.material.correct_speed {
+        given.refuse(
+            &["--diameter-mm"],
+            "has an effect with a helix and with the correction for the cutting speed alone: add --helix-deg or --correct-speed, or leave it out",
+        )?;
+    }
+    Ok(())
 }

@@ -132,6 +132,7 @@ impl<'a> LongRun<'a> {
                 format!("{:#?}", s.writing),
             ),
             ("the load", format!("{:#?}", self.machine.load)),
+            ("the weight", format!("{:?}", self.machine.weight)),
             (
                 "the place of the part",
                 format!("{:#?}", self.machine.placement),

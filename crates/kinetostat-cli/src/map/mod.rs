@@ -60,6 +60,9 @@ pub(crate) fn run(args: &MapArgs) -> Answer<()> {
     let actuators = limbs.flat_map(|limb| limb.nominal.actuators().iter().map(|a| a.kind));
     let actuators: Vec<MotionKind> = actuators.collect();
     let (variables, shown) = asked(args, &actuators, loaded, cases)?;
+    if variables.is_empty() || variables.iter().any(|v| v.needs_stiffness()) {
+        model.require_stiffness()?;
+    }
     masses(&variables, &mechanism, &model.file)?;
     let further = columns::columns(&variables, &actuators);
     let picture = Picture::new(args, &grid, shown)?;

@@ -22,12 +22,13 @@ use crate::ui::system_error::description;
 const BLOCK: usize = kinetostat_machining::MAP_BLOCK;
 /// Numbers of a place besides its further variables.
 const USUAL: usize = 13;
-const FOUND: [FoundBy; 5] = [
+const FOUND: [FoundBy; 6] = [
     FoundBy::Directly,
     FoundBy::OutOfLine,
     FoundBy::GrowingLoad,
     FoundBy::OtherStart,
     FoundBy::Continuation,
+    FoundBy::Relaxation,
 ];
 
 /// Bytes of the check number behind a block.

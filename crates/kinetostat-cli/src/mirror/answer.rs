@@ -1,7 +1,7 @@
 //! The answer of `mirror`, stable names with units.
 
 use kinetostat_mirror::{
-    Convergence, DeviationFigures, LeftOut, Measurement, MirrorState, Outcome, Outlier,
+    Convergence, DeviationFigures, LeftOut, Measurement, MirrorState, Outcome, Outlier, Register,
     Registration, Repeatability, ToldBy, Unseen,
 };
 use kinetostat_program::Accounting;
@@ -18,6 +18,7 @@ pub(crate) struct MirrorAnswer {
     pub(crate) trial: usize,
     pub(crate) relaxation: f64,
     pub(crate) smoothing_mm: f64,
+    pub(crate) register: Register,
     pub(crate) outcome: Outcome,
     pub(crate) measurements: Vec<MeasurementResult>,
     /// Smoothed deviation of the mean of all measurements, root mean square.
@@ -61,6 +62,8 @@ pub(crate) struct RegistrationResult {
     pub(crate) told_by: ToldBy,
     /// Motions that the points do not determine, in words.
     pub(crate) free: Vec<String>,
+    /// Largest way by which it moves a point that counts.
+    pub(crate) moved_mm: f64,
     pub(crate) scatter_mm: f64,
     pub(crate) rejected_rows: Vec<usize>,
 }
@@ -74,6 +77,7 @@ impl From<&Registration> for RegistrationResult {
             scale: found.motion.scale,
             told_by: found.told_by,
             free: found.free.iter().map(ToString::to_string).collect(),
+            moved_mm: found.moved_mm,
             scatter_mm: found.deviation_mm,
             rejected_rows: found.rejected_rows.clone(),
         }

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::{ArgAction, Args, ValueEnum};
-use kinetostat_mirror::Alignment;
+use kinetostat_mirror::{Alignment, Register};
 
 use crate::job::arguments::ReadingArgs;
 use crate::job::robot_arguments::RobotArgs;
@@ -23,6 +23,27 @@ impl From<AlignWord> for Alignment {
         match word {
             AlignWord::Nearest => Self::Nearest,
             AlignWord::ArcLength => Self::ArcLength,
+        }
+    }
+}
+
+/// Motion that brings the points into the frame of the program.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum RegisterWord {
+    /// The points are in the frame of the program: a shift of the whole is corrected too
+    None,
+    /// A shift; it is not corrected
+    Translation,
+    /// A shift and a turn; both are not corrected
+    Rigid,
+}
+
+impl From<RegisterWord> for Register {
+    fn from(word: RegisterWord) -> Self {
+        match word {
+            RegisterWord::None => Self::None,
+            RegisterWord::Translation => Self::Translation,
+            RegisterWord::Rigid => Self::Rigid,
         }
     }
 }
@@ -67,20 +88,21 @@ pub(crate) struct MirrorArgs {
     /// How points find their places on the path [default: nearest]
     #[arg(long, value_enum, value_name = "HOW")]
     pub(crate) align: Option<AlignWord>,
-    /// Bring the points onto the path by a rigid motion first; the default
-    #[arg(long, conflicts_with = "no_register")]
-    pub(crate) register: bool,
-    /// The points are in the frame of the program: no motion is sought, and a shift of the whole is
-    /// corrected too
-    #[arg(long)]
-    pub(crate) no_register: bool,
+    /// Motion that brings the points onto the path first; what it takes away is not corrected. A state that exists knows it,
+    /// and without one it must be chosen
+    #[arg(long, value_enum, value_name = "MOTION")]
+    pub(crate) register: Option<RegisterWord>,
     /// Seek a scale besides the rigid motion
-    #[arg(long, conflicts_with = "no_register")]
+    #[arg(long)]
     pub(crate) scale: bool,
     /// The program that was measured is the last one written for certain: go on although its
     /// correction is not seen in the points
     #[arg(long, requires = "state")]
     pub(crate) was_run: bool,
+    /// Move a limit, as in correction_mm=5 (repeat for more; see `kinetostat compensate --help`): correction_mm bounds the
+    /// correction by measurement, blocks_per_second the program
+    #[arg(long = "limit", value_name = "NAME=VALUE", action = ArgAction::Append, allow_hyphen_values = true, help_heading = "Limits")]
+    pub(crate) limits: Vec<String>,
     #[command(flatten)]
     pub(crate) reading: ReadingArgs,
     #[command(flatten)]
@@ -111,11 +133,18 @@ pub(crate) struct MirrorArgs {
 const HELP: &str = "\
 Examples:
   kinetostat mirror part.ngc --measured trial1.csv --state mirror.toml \\
-      --out trial2.ngc --repeatability-um 10 --plot trial1.svg
+      --register none --out trial2.ngc --repeatability-um 10 --plot trial1.svg
   kinetostat mirror part.ngc --measured trial2.csv --state mirror.toml \\
       --out trial3.ngc --repeatability-um 10
-  kinetostat mirror part.ngc --measured tracker.csv --no-register \\
+  kinetostat mirror part.ngc --measured tracker.csv --register rigid \\
       --align arc-length --out next.ngc
+
+Registration is a choice:
+
+  --register none         the points are in the frame of the program
+  --register translation  its zero was not measured; a shift is not corrected
+  --register rigid        the points are in another frame (laser tracker); a
+                          shift and a turn of the whole are not corrected
 
 Measured points, one a row; units stand in the names (mm, m, um, cm, in):
 

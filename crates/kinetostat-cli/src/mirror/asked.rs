@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use kinetostat_mirror::{MeasureSettings, NominalPath, Stations};
+use kinetostat_mirror::{MeasureSettings, MirrorState, NominalPath, Register, Stations};
 
 use crate::files::input_files::InputFiles;
 use crate::job::arguments::{ProgramArgs, WritingFlags};
@@ -60,18 +60,35 @@ pub(crate) fn flags_of(args: &MirrorArgs, program: &Path) -> ProgramArgs {
         reading: args.reading.clone(),
         robot: args.robot.clone(),
         force_overwrite: args.force_overwrite,
+        limits: args.limits.clone(),
         ..ProgramArgs::default()
     }
 }
 
-/// How this trial is measured, as lengths that its path allows.
-pub(crate) fn settings_of(args: &MirrorArgs, nominal: &NominalPath<'_>) -> Answer<MeasureSettings> {
+/// How this trial is measured, as lengths that its path allows; the registration may be that of the trials before.
+pub(crate) fn settings_of(
+    args: &MirrorArgs,
+    nominal: &NominalPath<'_>,
+    before: Option<&MirrorState>,
+) -> Answer<MeasureSettings> {
     let usual = MeasureSettings::default();
+    let chosen = args.register.map(Register::from);
+    let register = chosen.or(before.map(|state| state.settings.register)).ok_or_else(|| {
+        Failure::input(
+            "how the points are registered is not stated, and what a registration takes away is not corrected: give --register none (points in the frame of the program), translation (a shift is not corrected), or rigid (a shift and a turn are not corrected)",
+        )
+    })?;
+    if args.scale && register != Register::Rigid {
+        return Err(Failure::input(format!(
+            "--scale: a scale is sought besides a rigid motion, and the registration is '{}'; give --register rigid, or leave --scale out",
+            register.word()
+        )));
+    }
     let settings = MeasureSettings {
         smoothing_mm: args.smoothing_mm.unwrap_or(usual.smoothing_mm),
         window_mm: args.window_mm.unwrap_or(usual.window_mm),
         align: args.align.map_or(usual.align, Into::into),
-        register: !args.no_register,
+        register,
         scale: args.scale,
     };
     Stations::of(nominal, settings.smoothing_mm)

@@ -6,12 +6,17 @@ use kinetostat_mirror::{
     MeasureSettings, MeasuredFile, MeasuredPoints, Measurement, NominalPath, Repeatability, measure,
 };
 
+use crate::files::csv_text::with_decimal_points;
 use crate::files::input_files::{InputFiles, text_in};
 use crate::job::job_file::JobFile;
 use crate::job::program::read_program;
 use crate::mirror::arguments::MirrorArgs;
 use crate::mirror::asked::asked;
 use crate::ui::failure::{Answer, Failure};
+
+/// Standard deviations that a measurement of a point can have, um: an interferometer at rest, and a tape measure.
+const FINEST_UM: f64 = 1e-3;
+const COARSEST_UM: f64 = 1e3;
 
 /// All measurements of this trial, compared with the path. The program that was measured follows its correction within a tolerance,
 /// and kinks by twice that.
@@ -27,7 +32,8 @@ pub(crate) fn measurements(
         let points = match is_table {
             true => {
                 let bytes = files.bytes("measurement", path)?;
-                MeasuredPoints::read(&name, &text_in("measurement", path, bytes)?)?
+                let text = text_in("measurement", path, bytes)?;
+                MeasuredPoints::read(&name, &with_decimal_points(&text))?
             }
             false => {
                 let second = asked(files, job, args, path)?;
@@ -57,9 +63,11 @@ pub(crate) fn repeatability(
     measured: &[(MeasuredFile, Measurement)],
 ) -> Answer<Option<Repeatability>> {
     match args.repeatability_um {
-        Some(um) if um > 0.0 => Ok(Some(Repeatability::OfPoints(1e-3 * um))),
+        Some(um) if (FINEST_UM..=COARSEST_UM).contains(&um) => {
+            Ok(Some(Repeatability::OfPoints(1e-3 * um)))
+        }
         Some(um) => Err(Failure::input(format!(
-            "--repeatability-um {um}: a standard deviation above 0 is needed"
+            "--repeatability-um {um}: measurements repeat within {FINEST_UM} to {COARSEST_UM} um; give a standard deviation above 0, in micrometres"
         ))),
         None => Ok(Repeatability::of_repeats(
             measured.iter().map(|(_, found)| found),

@@ -16,11 +16,12 @@ mod written;
 
 use std::path::{Path, PathBuf};
 
-use kinetostat_machining::FieldCorrection;
+use kinetostat_machining::{FieldCorrection, RunError, of_accounting};
 use kinetostat_mirror::{
     MeasuredFile, Measurement, MirrorError, MirrorField, MirrorState, NominalPath, Outcome,
     Repeatability,
 };
+use kinetostat_program::Accounting;
 
 use crate::files::hash::sha256;
 use crate::files::input_files::InputFiles;
@@ -55,11 +56,13 @@ pub(crate) fn run(args: &MirrorArgs) -> Answer<()> {
     let read = read_program(&setting)?;
     let nominal =
         NominalPath::new(read.path()).map_err(|e| setting.within(MirrorError::from(e).into()))?;
-    let settings = settings_of(args, &nominal)?;
+    let before = args.state.as_ref().filter(|path| path.exists());
+    let before = before.map(|path| read_state(&files, path)).transpose()?;
+    let settings = settings_of(args, &nominal, before.as_ref())?;
     let hash = hash_of(&setting);
-    let mut state = match &args.state {
-        Some(path) if path.exists() => read_state(&files, path)?,
-        _ => MirrorState::new(&nominal, &hash, settings)?,
+    let mut state = match before {
+        Some(state) => state,
+        None => MirrorState::new(&nominal, &hash, settings)?,
     };
     let of_state = |error: MirrorError| {
         let name = args.state.as_ref().map(|path| path.display().to_string());
@@ -84,6 +87,7 @@ pub(crate) fn run(args: &MirrorArgs) -> Answer<()> {
     let outcome = outcome.map_err(Failure::from)?;
     let field = MirrorField::new(&nominal, &state).map_err(of_state)?;
     let made = written(machine.as_ref(), (&setting, &read), &field)?;
+    refuse_beyond_limits(&setting, &state, &made)?;
 
     let model = machine.map(|machine| machine.run_inputs.model);
     let answer = answer_of(
@@ -98,6 +102,23 @@ pub(crate) fn run(args: &MirrorArgs) -> Answer<()> {
     let paths = claimed.filled((&setting, &made), &answer, (&state, first))?;
     let text = format!("{}{}", text::answer_text(&answer), outputs::written(&paths));
     json::print_answer(&text, &answer, to_screen)
+}
+
+/// Corrections by measurement beyond the limits of `compensate`; a model's part has limits of its own.
+fn refuse_beyond_limits(
+    setting: &Setting,
+    state: &MirrorState,
+    made: &FieldCorrection,
+) -> Answer<()> {
+    let accounting = Accounting {
+        largest_correction_mm: largest_correction_mm(state),
+        largest_correction_line: None,
+        ..made.written.accounting.clone()
+    };
+    match of_accounting(&setting.limits, &accounting) {
+        beyond if beyond.is_empty() => Ok(()),
+        beyond => Err(setting.within(Failure::from(RunError::BeyondLimits(beyond)))),
+    }
 }
 
 /// The machine of a job that names a model.
@@ -215,6 +236,7 @@ fn answer_of(
         trial: state.trials.len(),
         relaxation,
         smoothing_mm,
+        register: state.settings.register,
         outcome,
         measurements: measured
             .iter()

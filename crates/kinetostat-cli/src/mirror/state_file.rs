@@ -22,7 +22,7 @@ struct Digest {
 }
 
 pub(crate) fn read_state(files: &InputFiles, path: &Path) -> Answer<MirrorState> {
-    let text = files.text("state", path)?;
+    let text = files.state(path)?;
     let of_file = |error: toml::de::Error| {
         let before = error.span().map_or(0, |span| span.start);
         let line = 1 + text.as_bytes()[..before]

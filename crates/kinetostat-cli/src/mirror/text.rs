@@ -1,5 +1,6 @@
 //! The answer in words.
 
+use kinetostat::number::larger;
 use kinetostat_machining::number::{largest_length, mean_length};
 use kinetostat_mirror::Outcome;
 
@@ -11,13 +12,14 @@ use crate::ui::numbers::{given, number};
 pub(crate) fn answer_text(a: &MirrorAnswer) -> String {
     let mut out = wrapped(
         &format!(
-            "{}, trial {}{}: {}",
+            "{}, trial {}{}: {}{}",
             a.program,
             a.trial,
             a.model
                 .as_ref()
                 .map_or_else(String::new, |model| format!(" on top of {model}")),
-            outcome(a)
+            outcome(a),
+            taken_away(a)
         ),
         0,
     );
@@ -67,6 +69,22 @@ pub(crate) fn answer_text(a: &MirrorAnswer) -> String {
     rows.push(row("blocks written", a.accounting.blocks_out.to_string()));
     out.push_str(&columns(&rows, 2));
     out
+}
+
+/// States what the registration keeps from being corrected.
+fn taken_away(a: &MirrorAnswer) -> String {
+    let found = a
+        .measurements
+        .iter()
+        .filter_map(|m| m.registration.as_ref());
+    match found.map(|r| r.moved_mm).reduce(larger) {
+        Some(mm) => format!(
+            ". The registration ({}) moved the points by up to {}: what it takes away is not corrected",
+            a.register.word(),
+            largest_length(mm)
+        ),
+        None => String::new(),
+    }
 }
 
 /// A bound, to a hundredth.

@@ -65,6 +65,7 @@ pub(crate) fn place_query(
     moment: Option<&[f64]>,
 ) -> Answer<PlaceQuery> {
     let (read, path) = files.model(model, Path::new(""))?;
+    read.require_stiffness()?;
     place_query_of(&read, path, model, place, tool_length_mm, force, moment)
 }
 
@@ -171,6 +172,24 @@ fn own_loads(model: &Model) -> Vec<String> {
 
 impl PlaceQuery {
     /// The machine commanded for the place, within the limits of its actuators.
+    /// What moves the tool without a load on it, as subject of a sentence: "own weight moves it".
+    pub(crate) fn moves_unloaded(&self) -> String {
+        let mechanism = &self.mechanism;
+        let has_weight = mechanism.gravity().norm() > 0.0 && mechanism.moving_mass() > 0.0;
+        let causes = [
+            (has_weight, "own weight"),
+            (!self.own_loads.is_empty(), "other loads of the model"),
+            (!self.deviations.is_empty(), "deviations of the model"),
+        ];
+        let causes = causes.into_iter().filter(|(acts, _)| *acts);
+        let causes: Vec<&str> = causes.map(|(_, cause)| cause).collect();
+        match causes.as_slice() {
+            [] => "preloads of the model move it".to_owned(),
+            ["own weight"] => "own weight moves it".to_owned(),
+            all => format!("{} move it", all.join(" and ")),
+        }
+    }
+
     pub(crate) fn posture(&self) -> Answer<Posture> {
         let posture = self.standing()?;
         posture.within_limits()?;

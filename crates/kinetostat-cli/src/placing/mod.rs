@@ -15,6 +15,7 @@ use std::path::{Path, PathBuf};
 use kinetostat_machining::{Task, analyse};
 use kinetostat_placing::{Effort, Placed, Space, place};
 
+use crate::command_line::given::Given;
 use crate::files::input_files::InputFiles;
 use crate::files::outputs::{self, Existing, Outputs};
 use crate::job::arguments::{ProgramArgs, WritingFlags};
@@ -37,13 +38,17 @@ use crate::ui::threads::in_threads;
 /// Most placements that may fill the ranges.
 const MOST_SAMPLES: usize = 1_000_000;
 
-pub(crate) fn run(args: &PlacingArgs) -> Answer<()> {
+pub(crate) fn run(args: &PlacingArgs, given: &Given) -> Answer<()> {
     let files = InputFiles::default();
     let job = args.job.as_deref().map(|path| JobFile::read(&files, path));
     let job = job.transpose()?;
     let job = job.as_ref();
     let named = args.model.as_deref();
     refuse_what_says_nothing(&args.program)?;
+    given.refuse(
+        &["--load-at-corners", "--chord-tolerance-um", "--limit"],
+        "is about a program that is compensated, and place writes none: leave it out",
+    )?;
     if let Some(samples) = args.samples
         && !(1..=MOST_SAMPLES).contains(&samples)
     {

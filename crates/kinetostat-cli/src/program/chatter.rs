@@ -25,6 +25,8 @@ const TOLD: usize = 5;
 pub(crate) struct Judging<'a> {
     pub(crate) cut: &'a CutQuestion,
     pub(crate) damping: Damping,
+    /// Bodies that are points, as a warning.
+    pub(crate) points: Option<Warning>,
     pub(crate) setting: &'a ChatterSetting,
 }
 
@@ -64,6 +66,7 @@ impl<'a> Judging<'a> {
         Ok(Self {
             cut: &cut.question,
             damping,
+            points: subject::point_bodies(&machine.mechanism),
             setting,
         })
     }
@@ -93,6 +96,7 @@ pub(crate) fn put_chatter(run: &mut Run, found: &ProgramChatter, judging: &Judgi
     let result = found.result(words(&judging.damping));
     run.result.warnings.extend(chattering(&result));
     run.result.warnings.extend(implausible(&judging.damping));
+    run.result.warnings.extend(judging.points.clone());
     run.result.warnings.extend(limits(found, judging.setting));
     run.result.chatter = Some(result);
 }
@@ -132,6 +136,12 @@ pub(crate) fn limits(found: &ProgramChatter, setting: &ChatterSetting) -> Vec<Wa
         say(format!(
             "{places} of {} places are not judged, the first on line {line}: {why}",
             found.places
+        ));
+    }
+    if let Some(without) = &found.without_side {
+        say(format!(
+            "at {} places a force acts and the side of the tool is not in the cut (a plunge or drilling), up to {:.0} N on line {}: chatter is not judged there, check these lines by `kinetostat engagement`",
+            without.places, without.force_n, without.line
         ));
     }
     let uneven = found.uneven();

@@ -52,6 +52,7 @@ pub(crate) fn put_found(result: &mut RunResult, found: Vec<FeatureResult>) {
         ));
     }
     result.features = found;
+    result.assess();
 }
 
 /// A table of features, or nothing.

@@ -1,6 +1,6 @@
 //! Lines of a flat program in answers: beside each the line that it came from, in the JSON and under the text.
 
-use kinetostat_machining::{FlatProgram, Warning};
+use kinetostat_machining::{FlatProgram, Warning, merged};
 use serde::{Serialize, Serializer};
 use serde_json::{Map, Value};
 
@@ -68,8 +68,9 @@ pub(crate) fn listed_under(text: &str, flat: Option<&FlatProgram>) -> String {
     out
 }
 
-/// Warnings with the lines that theirs came from.
+/// Warnings, one of each kind, with the lines that theirs came from.
 pub(crate) fn of_warnings(warnings: Vec<Warning>, flat: Option<&FlatProgram>) -> Vec<Warning> {
+    let warnings = merged(warnings);
     match flat {
         Some(flat) => {
             let with = |warning: Warning| warning.with_sources(flat);

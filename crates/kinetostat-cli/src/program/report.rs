@@ -4,7 +4,7 @@ use kinetostat_machining::{RunResult, ToleranceResult};
 
 use crate::job::setting::Setting;
 use crate::program::flat_lines::WithSources;
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Code, Failure};
 use crate::ui::json::print_answer;
 use crate::ui::screen::{self, Stream};
 
@@ -15,6 +15,19 @@ pub(crate) fn refuse_missed_tolerance(
 ) -> Answer<()> {
     match tolerance.missed_text() {
         Some(text) => Err(setting.within(Failure::tolerance_missed(text))),
+        None => Ok(()),
+    }
+}
+
+/// A written program that keeps its tolerance only if its assumptions hold has an exit code of its own; files are in place.
+pub(crate) fn refuse_doubtful(result: &RunResult, setting: &Setting) -> Answer<()> {
+    match result.at_worst_text() {
+        Some(text) => {
+            let costliest = result.assessment.assumptions.first();
+            let costliest = costliest.map_or("", |assumption| &assumption.text);
+            let text = format!("{text} The costliest one: {costliest}");
+            Err(setting.within(Failure::new(Code::Doubtful, text)))
+        }
         None => Ok(()),
     }
 }

@@ -183,6 +183,7 @@ pub(crate) fn with_task<R>(
             placement: machine.placement,
             load,
             tools: &tools,
+            weight: machine.weight.clone(),
             cut: forces,
             writing,
             run_inputs,
@@ -275,6 +276,9 @@ pub(crate) fn turned(
         in_threads(threads, || {
             put_band(&mut run, (machine, model), with, parts, &progress)
         })??;
+        let shared = file.shared.iter();
+        let shared = shared.map(|s| Warning::new(WarningCode::SharedNumber, s.description()));
+        run.result.warnings.extend(shared);
     }
     progress.finish();
     if let Some((judging, found)) = judging.as_ref().zip(found.as_ref()) {

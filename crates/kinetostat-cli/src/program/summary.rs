@@ -3,7 +3,7 @@
 use kinetostat_machining::number::{
     MISSING, Rounding, against, largest, largest_length, significant, with_unit,
 };
-use kinetostat_machining::{Figures, PointResult, RunResult, Summary};
+use kinetostat_machining::{Figures, PointResult, RunResult, Summary, WarningCode};
 
 use crate::program::features::features_text;
 use crate::program::flat_lines::listed_under;
@@ -21,6 +21,7 @@ pub(crate) fn of_run(result: &RunResult) -> String {
     ));
     out.push('\n');
     out.push_str(&wrapped(&result_text(result), 2));
+    out.push_str(&assumptions(result));
     out.push('\n');
     out.push_str(&figures(result));
     for sentence in result.summary.solving.sentences("point") {
@@ -35,6 +36,9 @@ pub(crate) fn of_run(result: &RunResult) -> String {
     out.push_str(&listed_under(&out, q.flat.as_ref()));
     out
 }
+
+/// The beginning of what is said of a made program whose source starts the spindle.
+pub(crate) const SPINDLE_NOT_STARTED: &str = "SPINDLE NOT STARTED by this program";
 
 /// One or two sentences that answer the question.
 pub(crate) fn result_text(result: &RunResult) -> String {
@@ -66,37 +70,38 @@ pub(crate) fn result_text(result: &RunResult) -> String {
             figures.error_before
         )
     };
-    if let Some(own) = result.own_weight_text() {
+    if let Some(doubt) = result.at_worst_text() {
         text.push(' ');
-        text.push_str(&own);
+        text.push_str(&doubt);
     }
-    if let Some(corners) = result.corners_text() {
-        text.push(' ');
-        text.push_str(&corners);
-    }
-    if let Some(ramp) = result.ramp_text() {
-        text.push(' ');
-        text.push_str(&ramp);
-    }
-    if let Some(band) = result.force_band_text() {
-        text.push(' ');
-        text.push_str(&band);
-    }
-    if let Some(band) = result.uncertainty_text() {
-        text.push(' ');
-        text.push_str(&band);
-    }
-    if let Some(chatter) = &result.chatter {
-        text.push(' ');
-        text.push_str(&chatter.verdict_text());
-        for more in [chatter.nearest_text(), chatter.vibration_text()] {
-            text.extend(more.map(|more| format!(" {more}")));
-        }
+    let mut warnings = result.warnings.iter();
+    if warnings.any(|warning| warning.code == WarningCode::SpindleNotStarted) {
+        text = format!("{SPINDLE_NOT_STARTED}. {text}");
     }
     if !result.summary.stable {
         text.push_str(" THE MACHINE IS NOT STABLE under this load: do not run this program.");
     }
     text
+}
+
+/// Assumptions of the run, the costliest first.
+fn assumptions(result: &RunResult) -> String {
+    let all = &result.assessment.assumptions;
+    if all.is_empty() {
+        return String::new();
+    }
+    let items = all.iter().map(|assumption| match assumption.up_to_um {
+        Some(um) => item(&format!(
+            "{}: {}",
+            largest_length(1e-3 * um),
+            assumption.text
+        )),
+        None => item(&assumption.text),
+    });
+    format!(
+        "\nAssumptions, by the error of the tool if they fail\n{}",
+        items.collect::<String>()
+    )
 }
 
 /// Rows of figures: a name, and what it is before and after.

@@ -6,7 +6,7 @@ use kinetostat::Wrench;
 use kinetostat_cutting::{EdgeForce, Scaled};
 use kinetostat_machining::{
     CutFailure, CuttingLoad, CuttingTool, ForceOrigin, ProgramLoad, ProgramPlace, Run, Task, Tool,
-    Watch, wrenches_at,
+    Watch, WeightCorrection, wrenches_at,
 };
 use kinetostat_model::Model;
 use kinetostat_tolerance::{
@@ -36,6 +36,16 @@ pub(crate) fn read(
         return Err(Failure::input(
             "the tool of this machine turns as it moves: the band of the errors (--uncertain, [uncertain] in the job) is for machines that hold the orientation of their tool; `kinetostat tolerance` answers for single places",
         ));
+    }
+    let contained = !matches!(
+        machine.weight,
+        WeightCorrection::NotStated | WeightCorrection::All
+    );
+    if contained && machine.mechanism.has_own_loads() {
+        return Err(Failure::input(format!(
+            "weight is \"{}\": the band of the errors (--uncertain, [uncertain] in the job) would hold the part where the machine as drawn measured it, though every machine sags by its own amount there; give weight = \"all\" (--weight all) for the band, or leave the band out",
+            machine.weight.word()
+        )));
     }
     let (text, name) = (&uncertainty.text, &uncertainty.name);
     Ok(UncertaintyFile::read_along_program(text, name, model)?)

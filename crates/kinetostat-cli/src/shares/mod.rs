@@ -28,6 +28,7 @@ use crate::ui::numbers::{short, triple};
 
 pub(crate) fn run(args: &SharesArgs) -> Answer<()> {
     let (model, path) = InputFiles::default().model(&args.model, Path::new(""))?;
+    model.require_stiffness()?;
     let query = place_query_of(
         &model,
         path,

@@ -2,7 +2,7 @@
 
 use kinetostat::{
     CartesianStiffness, ChainStiffness, Direction, DirectionKind, Posture, Wrench,
-    chain::CartesianCompliance,
+    chain::CartesianCompliance, machine::LimbStiffness,
 };
 use kinetostat_machining::{NearSingular, Warning, WarningCode};
 use nalgebra::Matrix6;
@@ -29,7 +29,8 @@ pub(crate) struct Stiffness {
     pub(crate) loaded: bool,
     pub(crate) force_n: [f64; 3],
     pub(crate) moment_n_m: [f64; 3],
-    /// Rows: force (N), moment (N m); columns: displacement (m), rotation (rad).
+    /// Rows: force (N), moment (N m); columns: displacement (m), rotation (rad); null along axes that a rigid
+    /// direction has a part in.
     pub(crate) stiffness_n_m_rad: [[f64; 6]; 6],
     /// The same as the terminal shows it: rows N and N m, columns per mm and per rad.
     pub(crate) stiffness_n_n_m_per_mm_rad: [[f64; 6]; 6],
@@ -53,6 +54,8 @@ pub(crate) struct Stiffness {
     pub(crate) rank: usize,
     pub(crate) free_directions: usize,
     pub(crate) rigid_directions: usize,
+    /// Loads on the tip (force, moment) that move nothing, one for each rigid direction.
+    pub(crate) constraint_wrenches_n_n_m: Vec<[f64; 6]>,
     pub(crate) negative_directions: usize,
     pub(crate) principal_directions: Vec<Principal>,
     pub(crate) limbs: Vec<LimbShare>,
@@ -71,12 +74,14 @@ pub(crate) struct AtRest {
 
 #[derive(Serialize)]
 pub(crate) struct LimbShare {
-    pub(crate) name: String,
     pub(crate) rank: usize,
     pub(crate) free: usize,
     pub(crate) rigid: usize,
     pub(crate) negative: usize,
     pub(crate) redundant_passive_joints: Vec<String>,
+    /// `K_C`, `K_Cq`, `K_Ctheta` at the limb's end, and how they act at its platform.
+    #[serde(flatten)]
+    pub(crate) stiffness: LimbStiffness,
 }
 
 /// Directions with the participation of joints and springs in them, the stiff ones too.
@@ -102,7 +107,7 @@ pub(crate) fn with_own_loads(answer: &mut Stiffness, query: &PlaceQuery, posture
     match posture.deflected_by(&Wrench::zero()) {
         Ok(rest) => {
             answer.at_rest = Some(AtRest {
-                stiffness_n_m_rad: rows(&rest.stiffness.matrix),
+                stiffness_n_m_rad: rows(&rest.stiffness.finite_entries(&rest.directions)),
                 smallest_stiffness_n_per_mm: 1e-3 * rest.stiffness_against_force(),
                 stable: rest.stable(),
             });
@@ -121,7 +126,7 @@ pub(crate) fn answer(
     cartesian: &CartesianStiffness,
     compliance: &CartesianCompliance,
     directions: &[Direction],
-    limbs: &[&ChainStiffness],
+    limbs: Vec<(&ChainStiffness, LimbStiffness)>,
 ) -> Stiffness {
     let count = |kind| directions.iter().filter(|d| d.kind == kind).count();
     let free = count(DirectionKind::Free);
@@ -130,6 +135,7 @@ pub(crate) fn answer(
     let mut warnings = query.warnings.clone();
     warnings.extend(near_singularity.iter().map(NearSingular::warning));
     warnings.extend(uneven(&query.mechanism, directions));
+    let stiffness = rows(&cartesian.finite_entries(directions));
     Stiffness {
         schema: 2,
         kinetostat_version: env!("CARGO_PKG_VERSION"),
@@ -142,10 +148,9 @@ pub(crate) fn answer(
         loaded,
         force_n: query.wrench.force().into(),
         moment_n_m: query.wrench.moment().into(),
-        stiffness_n_m_rad: rows(&cartesian.matrix),
-        stiffness_n_n_m_per_mm_rad: std::array::from_fn(|i| {
-            std::array::from_fn(|j| per_column(j) * cartesian.matrix[(i, j)])
-        }),
+        stiffness_n_m_rad: stiffness,
+        stiffness_n_n_m_per_mm_rad: stiffness
+            .map(|row| std::array::from_fn(|j| per_column(j) * row[j])),
         compliance_m_rad_per_n: (free == 0).then(|| rows(&compliance.springs)),
         compliance_um_urad_per_n_n_m: (free == 0).then(|| rows(&(MICRO * compliance.springs))),
         compliance_besides_free_motions_m_rad_per_n: (free > 0 && held)
@@ -155,6 +160,9 @@ pub(crate) fn answer(
         at_rest: None,
         free_directions: free,
         rigid_directions: count(DirectionKind::Rigid),
+        constraint_wrenches_n_n_m: (compliance.constraint_wrenches().iter())
+            .map(|w| w.0.into())
+            .collect(),
         negative_directions: count(DirectionKind::Negative),
         rank: directions
             .iter()
@@ -162,10 +170,9 @@ pub(crate) fn answer(
             .count(),
         principal_directions: directions.iter().map(principal).collect(),
         limbs: limbs
-            .iter()
-            .zip(query.mechanism.limbs())
-            .map(|(k, limb)| LimbShare {
-                name: limb.name.clone(),
+            .into_iter()
+            .map(|(k, stiffness)| LimbShare {
+                stiffness,
                 rank: k.rank,
                 free: k.count(DirectionKind::Free),
                 rigid: k.count(DirectionKind::Rigid),

@@ -7,7 +7,7 @@ mod answer;
 pub(crate) mod arguments;
 mod text;
 
-use kinetostat::{ChainStiffness, Direction};
+use kinetostat::Direction;
 
 use crate::files::input_files::InputFiles;
 use crate::place::query::place_query;
@@ -30,7 +30,8 @@ pub(crate) fn run(args: &StiffnessArgs) -> Answer<()> {
     let loaded = args.force.is_some() || args.moment.is_some();
     let answer = if loaded {
         let e = posture.deflected_by(&query.wrench)?;
-        let limbs: Vec<&ChainStiffness> = e.limbs.iter().map(|l| &l.stiffness).collect();
+        let limbs = e.limbs.iter().map(|l| &l.stiffness);
+        let limbs = limbs.zip(e.limb_stiffnesses(&query.mechanism)).collect();
         let participation = |d: &Direction| e.participation(&query.mechanism, &d.twist);
         let directions = with_causes(&e.directions, participation);
         answer(
@@ -40,11 +41,11 @@ pub(crate) fn run(args: &StiffnessArgs) -> Answer<()> {
             &e.stiffness,
             &e.compliance(),
             &directions,
-            &limbs,
+            limbs,
         )
     } else {
         let k = posture.stiffness()?;
-        let limbs: Vec<&ChainStiffness> = k.limbs.iter().collect();
+        let limbs = k.limbs.iter().zip(k.limb_stiffnesses(&posture)).collect();
         let directions = with_causes(&k.directions, |d| k.participation(&posture, &d.twist));
         let mut answer = answer(
             &query,
@@ -53,7 +54,7 @@ pub(crate) fn run(args: &StiffnessArgs) -> Answer<()> {
             &k.cartesian,
             &k.compliance(),
             &directions,
-            &limbs,
+            limbs,
         );
         with_own_loads(&mut answer, &query, &posture);
         answer

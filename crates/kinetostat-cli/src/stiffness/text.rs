@@ -40,6 +40,7 @@ pub(crate) fn answer_text(query: &PlaceQuery, a: &Stiffness) -> String {
     ));
     out.push('\n');
     out.push_str(&table(&a.stiffness_n_m_rad));
+    out.push_str(&rigid(a));
     out.push_str(&asymmetry(query, a));
     out.push('\n');
     out.push_str(&wrapped(&against_force(a), 0));
@@ -49,7 +50,7 @@ pub(crate) fn answer_text(query: &PlaceQuery, a: &Stiffness) -> String {
     if let Some(c) = &a.compliance_m_rad_per_n {
         out.push_str(match a.rigid_directions {
             0 => "\nCompliance, its inverse: micrometres and microradians\n\n",
-            _ => "\nCompliance, zero along rigid directions: micrometres and microradians\n\n",
+            _ => "\nCompliance, zero along the locked motion: micrometres and microradians\n\n",
         });
         out.push_str(&compliance(c));
     } else {
@@ -116,14 +117,17 @@ fn matrix(
     header.extend(units.map(str::to_owned));
     let mut rows = vec![header];
     // The largest entry of the translational, and of the rotational, diagonal.
+    let known = |i: usize| if m[i][i].is_nan() { 0.0 } else { m[i][i] };
     let scale = |i: usize| {
         let block = if i < 3 { 0..3 } else { 3..6 };
-        largest_size(block.map(|k| m[k][k]))
+        largest_size(block.map(known))
     };
-    let most = largest_size(m.iter().flatten());
+    let most = largest_size(m.iter().flatten().filter(|x| !x.is_nan()));
     let cell = |i: usize, j: usize, digits: i32| {
         let noise = (1e-9 * (scale(i) * scale(j)).sqrt()).max(1e-15 * most);
-        if m[i][j].abs() <= noise {
+        if m[i][j].is_nan() {
+            "locked".to_owned()
+        } else if m[i][j].abs() <= noise {
             "0".to_owned()
         } else {
             number(m[i][j] * factor(i, j), digits)
@@ -196,6 +200,23 @@ fn table(stiffness: &[[f64; 6]; 6]) -> String {
     )
 }
 
+/// Loads that move nothing, where a direction is rigid.
+fn rigid(a: &Stiffness) -> String {
+    if a.constraint_wrenches_n_n_m.is_empty() {
+        return String::new();
+    }
+    let part = |w: &[f64]| load_triple([w[0], w[1], w[2]]);
+    let loads = a.constraint_wrenches_n_n_m.iter();
+    let loads: Vec<String> = loads
+        .map(|w| format!("{} N with {} N m", part(&w[..3]), part(&w[3..])))
+        .collect();
+    let text = format!(
+        "locked: the machine cannot move along this axis alone, so the stiffness is infinite there; the compliance below holds in all directions. Loads that move nothing: {}.",
+        loads.join("; ")
+    );
+    format!("\n{}", wrapped(&text, 0))
+}
+
 /// Under a moment the matrix is not symmetric, which surprises who compares it with a table.
 fn asymmetry(query: &PlaceQuery, a: &Stiffness) -> String {
     let moment = query.wrench.moment();
@@ -203,6 +224,9 @@ fn asymmetry(query: &PlaceQuery, a: &Stiffness) -> String {
         return String::new();
     }
     let k = &a.stiffness_n_m_rad;
+    if (k[3][4] - k[4][3]).is_nan() {
+        return String::new();
+    }
     format!(
         "\n{}",
         wrapped(
@@ -236,7 +260,7 @@ fn limb_text(limb: &LimbShare, of: usize) -> String {
             limb.negative
         ));
     }
-    let mut text = format!("limb '{}': {}", limb.name, parts.join(", "));
+    let mut text = format!("limb '{}': {}", limb.stiffness.name, parts.join(", "));
     if !limb.redundant_passive_joints.is_empty() {
         text.push_str(&format!(
             "; {} can move while the end is held (redundant)",

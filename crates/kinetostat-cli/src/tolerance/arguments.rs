@@ -13,7 +13,7 @@ pub(crate) enum Asked {
     /// Where the unloaded tool is, from where it is commanded
     Error,
     /// How far the load moves it
-    Deflection,
+    DeflectionByLoad,
     /// Where the loaded tool is, from where it is commanded
     Deviation,
     /// What compensation with the numbers of the drawing leaves of it
@@ -26,7 +26,7 @@ impl Asked {
     pub(crate) fn quantity(self) -> Quantity {
         match self {
             Self::Error => Quantity::Error,
-            Self::Deflection => Quantity::Deflection,
+            Self::DeflectionByLoad => Quantity::DeflectionByLoad,
             Self::Deviation => Quantity::Deviation,
             Self::Compensated => Quantity::Compensated,
             Self::Stiffness => Quantity::Stiffness,
@@ -107,6 +107,8 @@ What is uncertain, one table for each number; spreads are in its own unit:
   parameter = \"chain.leg.q2.length_mm\"   # a number of the model, by its path
   normal = 0.02                          # standard deviation; or uniform,
                                          # triangular: half width
+  each = true                            # limbs that share it scatter by
+                                         # themselves; all together without it
   [[uncertain]]
   load = \"force_n.x\"                     # or moment_n_m.z, or factor: the
   uniform_percent = 10                   # whole load, as all cutting

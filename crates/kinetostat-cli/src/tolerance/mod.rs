@@ -11,7 +11,7 @@ mod text;
 use std::path::{Path, PathBuf};
 
 use kinetostat::{Pose, Wrench};
-use kinetostat_machining::straight_tool;
+use kinetostat_machining::{Warning, WarningCode, straight_tool};
 use kinetostat_model::Model;
 use kinetostat_report::Plot;
 use kinetostat_tolerance::{
@@ -43,6 +43,7 @@ impl From<TaskError> for Failure {
 
 pub(crate) fn run(args: &ToleranceArgs) -> Answer<()> {
     let (model, path) = InputFiles::default().model(&args.model, Path::new(""))?;
+    model.require_stiffness()?;
     let queries = queries(args, &model, path.as_ref())?;
     let Some(first) = queries.first() else {
         return Err(Failure::input("give a place with --at"));
@@ -131,7 +132,7 @@ impl Study {
         wrench: &Wrench,
     ) -> Answer<Self> {
         let name = args.uncertain.display().to_string();
-        let text = InputFiles::default().text("uncertainties", &args.uncertain)?;
+        let text = InputFiles::default().settings("uncertainties", &args.uncertain)?;
         let file = UncertaintyFile::read(&text, &name, model, wrench)?;
         let quantities = quantities(args);
         let tool = straight_tool(1e-3 * args.tool_length_mm.unwrap_or(0.0));
@@ -256,6 +257,9 @@ fn answer_of(
 ) -> ToleranceAnswer {
     let wrench: Wrench = query.wrench;
     let numbers = &study.file.uncertainties;
+    let shared = study.file.shared.iter();
+    let shared = shared.map(|s| Warning::new(WarningCode::SharedNumber, s.description()));
+    let warnings = shared.chain(query.warnings.iter().cloned()).collect();
     ToleranceAnswer {
         schema: 1,
         kinetostat_version: env!("CARGO_PKG_VERSION"),
@@ -271,7 +275,7 @@ fn answer_of(
         failures: drawn.samples.failures.clone(),
         sobol_failures: drawn.sobol.as_ref().map(|(_, failed)| failed.clone()),
         places,
-        warnings: query.warnings.clone(),
+        warnings,
     }
 }
 

@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use kinetostat_machining::number::plus_minus;
-use kinetostat_tolerance::MOST_MISSING;
+use kinetostat_tolerance::{MOST_MISSING, NOTHING};
 
 use crate::tolerance::answer::{ColumnResult, ToleranceAnswer};
 use crate::ui::layout::{columns, item, wrapped};
@@ -12,15 +12,21 @@ use crate::ui::numbers::{given, number, short, triple};
 fn row(result: &ColumnResult) -> Vec<String> {
     let (draws, linear) = (&result.answer.draws, &result.answer.linear);
     let spread = draws.standard_deviation.value;
+    let is_at_zero = linear.nominal.abs() <= NOTHING && linear.standard_deviation <= 0.01 * spread;
     vec![
         result.name.to_owned(),
         plus_minus(draws.mean.value, spread),
         number(draws.quantile(0.025), 3),
         number(draws.quantile(0.975), 3),
-        plus_minus(linear.nominal, linear.standard_deviation),
-        match result.answer.verdict.linear_is_enough {
-            true => "yes".to_owned(),
-            false => format!(
+        match is_at_zero {
+            true => "0".to_owned(),
+            false => plus_minus(linear.nominal, linear.standard_deviation),
+        },
+        match (result.answer.verdict.linear_is_enough, is_at_zero) {
+            (true, _) => "yes".to_owned(),
+            // A length has a kink at zero, and no slope there.
+            (false, true) => "NO (a length at 0)".to_owned(),
+            (false, false) => format!(
                 "NO ({} %)",
                 number(100.0 * result.answer.verdict.nonlinearity, 2)
             ),

@@ -20,6 +20,8 @@ pub(crate) enum Code {
     Unanswered = 2,
     /// A program was written, but it misses its tolerance.
     ToleranceMissed = 3,
+    /// A program was written that keeps its tolerance only if the stated assumptions hold.
+    Doubtful = 4,
     /// Ctrl-C.
     Stopped = 130,
 }

@@ -2,7 +2,7 @@
 
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use kinetostat_machining::Watch;
@@ -10,12 +10,15 @@ use kinetostat_program::Monitor;
 
 use crate::ui::failure::{Answer, Code, Failure, STOPPED};
 use crate::ui::host::{self, Host};
-use crate::ui::screen;
+use crate::ui::screen::{self, Stream};
 
 static STOP: AtomicBool = AtomicBool::new(false);
 
 /// Time that work has to stop by itself and to say so.
 const PATIENCE: Duration = Duration::from_secs(1);
+
+/// Time between two lines of progress.
+const BETWEEN_LINES: Duration = Duration::from_secs(10);
 
 /// Ctrl-C asks the work to stop. What does not look, a single place or a drawing, is ended a second
 /// later, after removing temporary files.
@@ -27,6 +30,12 @@ pub(crate) fn catch_interrupts(remove_temporary: fn()) {
         screen::complain(&Failure::new(Code::Stopped, STOPPED));
         std::process::exit(Code::Stopped as i32);
     };
+    // A file that outgrows its limit (`ulimit -f`) is then an error of writing, and temporary files are removed.
+    #[cfg(unix)]
+    let _ = signal_hook::flag::register(
+        signal_hook::consts::SIGXFSZ,
+        Arc::new(AtomicBool::new(false)),
+    );
     // Without a handler Ctrl-C ends the program at once: worse, but no reason to refuse.
     let _ = ctrlc::set_handler(handler);
 }
@@ -42,6 +51,8 @@ pub(crate) struct Progress {
     host: Option<Arc<Host>>,
     bar: Option<ProgressBar>,
     stage: Mutex<(String, usize)>,
+    /// Begin of the stage and time of the last line, where progress is written as lines.
+    lines: Option<Mutex<[Instant; 2]>>,
 }
 
 impl Progress {
@@ -52,7 +63,35 @@ impl Progress {
             host: host::current(),
             bar,
             stage: Mutex::new((String::new(), 0)),
+            lines: None,
         }
+    }
+
+    /// Progress that is written as lines where no bar can be drawn and no host asks for it.
+    pub(crate) fn with_lines() -> Self {
+        let mut own = Self::new();
+        if own.bar.is_none() && own.host.is_none() {
+            own.lines = Some(Mutex::new([Instant::now(); 2]));
+        }
+        own
+    }
+
+    /// Writes a line if the last one is old enough.
+    fn line(&self, done: usize) {
+        let (Some(lines), Ok(stage)) = (&self.lines, self.stage.lock()) else {
+            return;
+        };
+        let Ok(mut times) = lines.lock() else { return };
+        if done == 0 || times[1].elapsed() < BETWEEN_LINES {
+            return;
+        }
+        times[1] = Instant::now();
+        let (name, total) = &*stage;
+        let left_s =
+            times[0].elapsed().as_secs_f64() * total.saturating_sub(done) as f64 / done as f64;
+        let text = format!("{name}: {done} of {total}, about {left_s:.0} s left\n");
+        // A closed pipe does not end the work.
+        let _ = screen::print(Stream::Err, &text);
     }
 
     pub(crate) fn finish(&self) {
@@ -72,6 +111,14 @@ impl Watch for Progress {
     fn stage(&self, name: &str, total: usize) {
         if let Some(host) = &self.host {
             host.watch().stage(name, total);
+        }
+        if let Some(mut times) = self.lines.as_ref().and_then(|lines| lines.lock().ok()) {
+            *times = [Instant::now(); 2];
+        }
+        if self.lines.is_some()
+            && let Ok(mut stage) = self.stage.lock()
+        {
+            *stage = (name.to_owned(), total);
         }
         let Some(bar) = &self.bar else { return };
         let Ok(mut stage) = self.stage.lock() else {
@@ -102,6 +149,7 @@ impl Watch for Progress {
         if let Some(host) = &self.host {
             host.watch().advance(done);
         }
+        self.line(done);
         if let Some(bar) = &self.bar {
             bar.set_position(done as u64);
         }
@@ -211,6 +259,7 @@ mod tests {
             host: None,
             bar: Some(ProgressBar::with_draw_target(None, target)),
             stage: Mutex::new((String::new(), 0)),
+            lines: None,
         };
         let names = [
             "corrections",

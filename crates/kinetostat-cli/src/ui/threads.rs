@@ -5,7 +5,13 @@ use std::error::Error;
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::host;
 
-/// Runs `work` on a number of threads.
+/// Threads for each core, at most: more bring nothing, and each takes address space that its start may lack, which ends the process.
+const MOST_PER_CORE: usize = 4;
+
+/// Threads that are started on any machine where they are asked for.
+const ALWAYS: usize = 16;
+
+/// Runs `work` on a number of threads, or on as many as the machine has a use for: the result is the same.
 pub(crate) fn in_threads<R: Send>(
     threads: Option<usize>,
     work: impl FnOnce() -> R + Send,
@@ -26,6 +32,8 @@ pub(crate) fn in_threads<R: Send>(
             "--threads {count}: 1 to 1024 threads can be used"
         )));
     }
+    let cores = std::thread::available_parallelism().map_or(1, usize::from);
+    let count = count.min((MOST_PER_CORE * cores).max(ALWAYS));
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(count)
         .build()

@@ -13,6 +13,7 @@ mod faults;
 mod frames;
 mod in_force;
 mod on_paper;
+mod other_language;
 mod other_word;
 mod robot_words;
 mod statements;
@@ -24,6 +25,7 @@ mod written;
 use std::path::Path;
 
 use kinetostat::Directions;
+use kinetostat_formats::Template;
 use kinetostat_machining::{Condition, RunError, Verified, verify_program};
 
 use crate::files::input_files::InputFiles;
@@ -35,7 +37,7 @@ use crate::job::machine::{MachineSetup, machine_setup};
 use crate::job::of_model::give_of_model;
 use crate::job::program::read_program;
 use crate::job::run_warnings;
-use crate::job::setting::{Setting, setting};
+use crate::job::setting::{Setting, program_path, setting};
 use crate::long::which::say_as_a_whole;
 use crate::program::aim::Aim;
 use crate::program::features::put_features;
@@ -49,6 +51,7 @@ use crate::verify::answer::VerifyAnswer;
 use crate::verify::arguments::VerifyArgs;
 use crate::verify::ending::{ends_in_cut, is_cut};
 use crate::verify::frames::other_words;
+use crate::verify::other_language::{fitting, language, read_as_made, template, words_of_cell};
 use crate::verify::other_word::OtherWord;
 use crate::verify::robot_words::robot_words;
 use crate::verify::tilted::Tilted;
@@ -65,20 +68,40 @@ pub(crate) fn run(args: &VerifyArgs) -> Answer<()> {
         decimals: args.decimals,
         ..WritingFlags::default()
     };
-    let mut original = asked(&files, job.as_ref(), (&args.original, &flags), model_named)?;
+    let of_original = program_path(job.as_ref(), &args.original)?;
+    let is_gcode = |path: &Path| language(&files, path).is_none();
+    let gcode = [is_gcode(&of_original), is_gcode(&args.verified)];
+    let in_two_languages = gcode[0] != gcode[1];
+    let [
+        (job_of_original, of_original),
+        (job_of_verified, mut of_verified),
+    ] = match in_two_languages {
+        true => gcode.map(|is_gcode| fitting(job.as_ref(), &args.original, is_gcode)),
+        false => [0, 1].map(|_| (job.clone(), args.original.clone())),
+    };
+    let job = job_of_original;
+    let mut original = asked(&files, job.as_ref(), (&of_original, &flags), model_named)?;
     refuse_lines_beyond(job.as_ref(), &original)?;
-    let mut of_verified = args.original.clone();
     of_verified.program = Some(args.verified.clone());
-    let mut verified = asked(&files, job.as_ref(), (&of_verified, &flags), model_named)?;
+    let named = job_of_verified.as_ref();
+    let mut verified = asked(&files, named, (&of_verified, &flags), model_named)?;
     for path in [&original.program_path, &verified.program_path] {
         let why = "each place of it is found on the other program (verify)";
         say_as_a_whole(path, &args.original, &[why]);
     }
     let frames = original.robot_frames()?;
     let with = (frames.as_ref(), &mut original.inputs);
-    let (machine, model) = machine_setup(&files, job.as_ref(), model_named, &args.original, with)?;
+    let (machine, model) = machine_setup(&files, job.as_ref(), model_named, &of_original, with)?;
     original.turned_by(machine.rotary.clone());
     verified.turned_by(machine.rotary.clone());
+    let template = match in_two_languages && gcode[0] {
+        true => template(&files, job.as_ref(), &machine)?,
+        false => None,
+    };
+    if let Some(template) = &template {
+        let read = read_program(&original)?;
+        read_as_made(&mut verified, &of_verified, (template, &read))?;
+    }
 
     let inputs = original.inputs.iter().chain(&verified.inputs);
     let claimed = ClaimedFiles::of(args, inputs.cloned().collect())?;
@@ -90,7 +113,12 @@ pub(crate) fn run(args: &VerifyArgs) -> Answer<()> {
         corrected,
         rounding_mm,
         forces_from_cut,
-    } = solved(&machine, (&original, &verified), args.original.threads)?;
+    } = solved(
+        &machine,
+        (&original, &verified),
+        template.as_ref(),
+        args.original.threads,
+    )?;
     let own_bound = found.run.result.allowed_mm() + rounding_mm;
     let allowed_mm = args.tolerance_um.map_or(own_bound, |um| 1e-3 * um);
     put_features(&mut found.run, &original, allowed_mm, &uncut);
@@ -179,6 +207,7 @@ struct Solved {
 fn solved(
     machine: &MachineSetup,
     (original, verified): (&Setting, &Setting),
+    template: Option<&Template>,
     threads: Option<usize>,
 ) -> Answer<Solved> {
     let read = read_program(original)?;
@@ -221,6 +250,12 @@ fn solved(
             conditions.retain(|other| other.condition != Condition::Tool);
             let cuts = found.matched.cut_lines.as_slice();
             robot_words(of_original, of_verified, (cuts, forces.is_some()))
+        }
+        ((Some(_), None), (None, Some(_))) => {
+            // A robot has no words for spindle and tools of G-code: those of its cell are compared.
+            let conditions = &mut found.matched.conditions;
+            conditions.retain(|other| other.condition == Condition::Feed);
+            words_of_cell(machine, verified, (read.path(), &other), template)?
         }
         _ => Vec::new(),
     };

@@ -3,10 +3,12 @@
 use kinetostat_machining::number::{against, largest, largest_length, mean_length};
 
 use crate::program::features::features_text;
+use crate::program::summary::SPINDLE_NOT_STARTED;
 use crate::ui::layout::{columns, wrapped};
 use crate::ui::numbers::{fixed, triple};
 use crate::ui::warnings::warnings;
 use crate::verify::answer::VerifyAnswer;
+use crate::verify::other_language::SPINDLE;
 
 pub(crate) fn answer_text(answer: &VerifyAnswer) -> String {
     let head = format!(
@@ -23,6 +25,11 @@ pub(crate) fn answer_text(answer: &VerifyAnswer) -> String {
             largest_length(answer.max_position_error_of_original_mm)
         ),
         false => faults.join(" "),
+    };
+    let mut words = answer.other_words.iter();
+    let verdict = match words.any(|other| other.word == SPINDLE) {
+        true => format!("{SPINDLE_NOT_STARTED}. {verdict}"),
+        false => verdict,
     };
     out.push_str(&wrapped(&verdict, 2));
     out.push('\n');

@@ -1,10 +1,11 @@
 //! The machine of a question about vibrations.
 
 use kinetostat::number::larger;
-use kinetostat::{Directions, Posture};
+use kinetostat::{Directions, Mechanism, Posture};
 use kinetostat_analysis::vibration::VibratingMachine;
 use kinetostat_dynamics::{Error, Held};
 use kinetostat_machining::{Warning, WarningCode};
+use nalgebra::Matrix3;
 
 use crate::end_condition::holding::list;
 use crate::files::input_files::InputFiles;
@@ -105,6 +106,41 @@ pub(crate) fn far_below(machine: &VibratingMachine, hz: f64) -> Option<f64> {
     (hz > BEYOND_MODES * fastest_hz).then_some(fastest_hz)
 }
 
+/// Most bodies that a warning names.
+const NAMED: usize = 6;
+
+/// Bodies with mass and without inertia, which dynamics takes as points.
+pub(crate) fn point_bodies(mechanism: &Mechanism) -> Option<Warning> {
+    fn is_point(mass: f64, inertia: &Matrix3<f64>) -> bool {
+        mass > 0.0 && inertia.norm() == 0.0
+    }
+    let several = mechanism.limbs().len() > 1;
+    let of_limbs = mechanism.limbs().iter().flat_map(|limb| {
+        let bodies = limb.actual.bodies().iter();
+        let points = bodies.filter(|body| is_point(body.mass, &body.inertia));
+        points.map(move |body| match several {
+            true => format!("{}.{}", limb.name, body.name),
+            false => body.name.clone(),
+        })
+    });
+    let platforms = mechanism.platforms().iter();
+    let platforms = platforms.filter(|p| is_point(p.mass, &p.inertia));
+    let names: Vec<String> = of_limbs.chain(platforms.map(|p| p.name.clone())).collect();
+    let more = match names.len().saturating_sub(NAMED) {
+        0 => String::new(),
+        more => format!(" and {more} more"),
+    };
+    (!names.is_empty()).then(|| {
+        Warning::new(
+            WarningCode::Model,
+            format!(
+                "bodies with mass and without inertia are points: {}{more}. They turn without resistance, and frequencies are too high; give them inertia_kg_m2",
+                names[..names.len().min(NAMED)].join(", ")
+            ),
+        )
+    })
+}
+
 /// What limits the answer: loads without a potential, parts without mass.
 pub(crate) fn limits(machine: &VibratingMachine, posture: &Posture) -> Vec<Warning> {
     let mut warnings = Vec::new();
@@ -124,6 +160,7 @@ pub(crate) fn limits(machine: &VibratingMachine, posture: &Posture) -> Vec<Warni
             ),
         ));
     }
+    warnings.extend(point_bodies(posture.mechanism()));
     if !machine.equilibrium.stable() {
         warnings.push(Warning::new(
             WarningCode::NotStable,

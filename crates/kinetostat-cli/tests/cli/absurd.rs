@@ -20,6 +20,7 @@ part_origin_mm = [1050, 0, 1000]
 length_mm = 180
 
 [load]
+weight = "all"
 milling = { radial_n = 215.0, tangential_n = -10.0, axial_n = 25.0 }
 below_z_mm = 1.0
 
@@ -56,7 +57,7 @@ pub fn compensated(here: &Path, job: &str, model: &str, more: &[&str]) -> (Said,
     let written = here.join("out.ngc").exists();
     assert_eq!(
         written,
-        matches!(said.code, 0 | 3),
+        matches!(said.code, 0 | 3 | 4),
         "a refused program is not written: {said:?}"
     );
     let mut codes = Vec::new();
@@ -74,7 +75,8 @@ pub fn compensated(here: &Path, job: &str, model: &str, more: &[&str]) -> (Said,
 fn a_good_job_passes_without_a_warning() {
     let here = workplace();
     let (said, codes) = compensated(here.path(), ARM_JOB, &arm(), &[]);
-    assert_eq!(said.code, 0, "{said:?}");
+    // Kept if the load turns evenly at the corners, as is assumed.
+    assert_eq!(said.code, 4, "{said:?}");
     assert!(codes.is_empty(), "{codes:?}");
     assert!(!said.out.contains("times less"), "{said:?}");
     assert!(said.out.contains("as true as its stiffnesses"), "{said:?}");
@@ -178,7 +180,7 @@ fn each_absurd_input_is_refused_with_its_option_or_warned_about() {
             assert!(said.err.contains("under [limits]"), "{name}: {said:?}");
             assert!(said.err.contains("nothing was written"), "{name}: {said:?}");
         } else {
-            let refused = said.code != 0 && said.code != 3;
+            let refused = !matches!(said.code, 0 | 3 | 4);
             assert!(
                 refused || codes.iter().any(|c| c == wanted),
                 "{name}: {codes:?} {said:?}"
@@ -246,7 +248,7 @@ fn limits_of_the_job_file_hold_and_unknown_ones_are_refused() {
     let advice = said.err.split("--limit ").nth(1).expect("advice");
     let advice = advice.split_whitespace().next().expect("a word").to_owned();
     let (said, _) = compensated(here.path(), &strict, &arm(), &["--limit", &advice]);
-    assert_eq!(said.code, 0, "{advice}: {said:?}");
+    assert_eq!(said.code, 4, "{advice}: {said:?}");
     let unknown = format!("{ARM_JOB}\n[limits]\ncorrection = 5\n");
     let (said, _) = compensated(here.path(), &unknown, &arm(), &[]);
     assert!(said.code == 1 && said.err.contains("job.toml"), "{said:?}");
@@ -412,7 +414,7 @@ fn figure_one_figure_in_a_wrong_unit_never_passes_in_silence() {
             let (said, codes) = compensated(here.path(), &job, &model, &[]);
             runs += 1;
             match (said.code, codes.is_empty()) {
-                (0 | 3, true) => {
+                (0 | 3 | 4, true) => {
                     silent += 1;
                     assert!(
                         usual(&figure.key, figure.value, new),
@@ -421,7 +423,7 @@ fn figure_one_figure_in_a_wrong_unit_never_passes_in_silence() {
                         figure.value
                     );
                 }
-                (0 | 3, false) => warned += 1,
+                (0 | 3 | 4, false) => warned += 1,
                 (1 | 2, _) => refused += 1,
                 (code, _) => panic!("exit code {code}: {said:?}"),
             }

@@ -156,7 +156,7 @@ fn an_arm_runs_axes_as_the_same_poses_in_whole() {
     std::fs::write(here.join("a.mod"), rapid()).unwrap();
     let job = |program: &str, robot: &str| {
         format!(
-            "schema = 1\nmodel = \"heavy_6r\"\nprogram = \"{program}\"\n[load]\nmilling = {{ radial_n = 300, tangential_n = -100, axial_n = -50 }}\n{robot}"
+            "schema = 1\nmodel = \"heavy_6r\"\nprogram = \"{program}\"\n[load]\nweight = \"all\"\nmilling = {{ radial_n = 300, tangential_n = -100, axial_n = -50 }}\n{robot}"
         )
     };
     let frames = "[robot.frames]\nTOOL = { position_mm = [0, 0, 180] }\nPART = { position_mm = [1800, 0, 900] }\n";
@@ -285,7 +285,7 @@ fn a_machine_of_five_axes_points_its_tool_as_the_same_angles_do() {
     ] {
         std::fs::write(here.join(name), text).unwrap();
         let line = format!(
-            "compensate --model portal.toml --program {name} --tool-length-mm 120 --milling 400 -150 -80 --part-origin-mm 0 0 100 --points {name}.csv --all-points"
+            "compensate --model portal.toml --weight all --program {name} --tool-length-mm 120 --milling 400 -150 -80 --part-origin-mm 0 0 100 --points {name}.csv --all-points"
         );
         let words: Vec<&str> = line.split_whitespace().collect();
         run(here, &words).answered();

@@ -17,6 +17,8 @@ model = "heavy_6r"
 program = "slots.ngc"
 [placement]
 part_origin_mm = [1450, 70, 500]
+[load]
+weight = "all"
 [tool]
 length_mm = 200
 cutter = { shape = "flat", diameter_mm = 12, teeth = 2, helix_deg = 30 }
@@ -137,7 +139,7 @@ fn limits_of_slots_are_those_of_lobes_at_their_places() {
         let at = place_in_base(place);
         let words = format!(
             "lobes heavy_6r --at {at} --tool-length-mm 200 --damping 0.03 --teeth 2 --helix-deg 30 --diameter-mm 12 \
-             --coefficients-n-per-mm2 796 168 -222 --immersion 1 --tool-axis 0 0 1 --feed-direction {feed} --rpm 3000 3001 2 --depth-mm 12 --json"
+             --coefficients-n-per-mm2 796 168 222 --immersion 1 --tool-axis 0 0 1 --feed-direction {feed} --rpm 3000 3001 2 --depth-mm 12 --json"
         );
         let other = said(here.path(), &words).answered();
         let other: Value = serde_json::from_str(&other.out).expect("JSON");
@@ -203,6 +205,20 @@ fn a_spindle_that_turns_to_the_left_is_not_judged() {
         w["message"]
             .as_str()
             .is_some_and(|text| text.contains("are not judged"))
+    });
+    assert!(said, "{found}");
+}
+
+/// A plunge is a force without a side in the cut: the places are counted, with the largest force.
+#[test]
+fn a_plunge_is_said_not_to_be_judged() {
+    let here = here("G21 G90 G17\nT1 M6\nS3000 M3\nG0 X20 Y20 Z5\nG1 Z-4 F300\nG0 Z5\nM30\n");
+    let found = answer(here.path());
+    assert_eq!(found["places_in_cut"], 0);
+    let said = list(&found, "warnings").iter().any(|w| {
+        w["message"].as_str().is_some_and(|text| {
+            text.contains("the side of the tool is not in the cut") && text.contains("on line 5")
+        })
     });
     assert!(said, "{found}");
 }
@@ -410,8 +426,8 @@ fn a_run_reports_the_chatter_of_its_program() {
     }
     let cut = JOB.find("[material]").expect("material");
     let job = format!(
-        "{}[load]\nforce_n = [1, 2, 3]\n[chatter]\ndamping_ratio = 0.03\n",
-        &JOB[..cut]
+        "{}[chatter]\ndamping_ratio = 0.03\n",
+        JOB[..cut].replace("[load]\n", "[load]\nforce_n = [1, 2, 3]\n")
     );
     std::fs::write(here.path().join("job.toml"), job).expect("written");
     let refused = said(here.path(), "deflect job.toml");

@@ -82,7 +82,7 @@ fn a_tool_that_bends_at_700_hz_chatters_without_being_asked_for() {
     let limit = number(&found["nearest"], "limit_mm");
     let lobes = |more: &str| {
         let line = format!(
-            "lobes tool.toml --damping 0.02 --teeth 2 --immersion 1 --coefficients-n-per-mm2 796 168 -222 --tool-axis 0 0 1 --at 1470 70 498 \
+            "lobes tool.toml --damping 0.02 --teeth 2 --immersion 1 --coefficients-n-per-mm2 796 168 222 --tool-axis 0 0 1 --at 1470 70 498 \
              --tool-length-mm 50 --helix-deg 30 --diameter-mm 12 --rpm 8300 8300 1 --json{more}"
         );
         json(&said(here.path(), &line).answered())
@@ -212,6 +212,11 @@ fn damping_and_coefficients_that_nothing_has_are_told() {
         ),
         ("0.8 0.2 0", "5 to 20000"),
         ("800 240 -222e6", "more than any material"),
+        (
+            "796 168 -222",
+            "positive pushes the tool towards the spindle, as K_ac of `force` and of the material library",
+        ),
+        ("796 168 222 --helix-deg -30 --diameter-mm 12", "Give -222"),
     ] {
         let refused = lobes(&format!("--damping 0.03 --coefficients-n-per-mm2 {given}"));
         assert_eq!(refused.code, 1, "{refused:?}");

@@ -336,7 +336,7 @@ fn an_engraving_becomes_a_program_for_each_robot() {
             said.out
         );
     }
-    let line = "compensate --model heavy_6r --program engrave.mod --force 30 0 -20 --correct position --rapid-from-mm-per-s 100000 --tolerance-um 20 --out sent.mod";
+    let line = "compensate --model heavy_6r --weight all --program engrave.mod --force 30 0 -20 --correct position --rapid-from-mm-per-s 100000 --tolerance-um 20 --out sent.mod";
     let said = run(here, &words(line));
     assert!(said.code == 0 || said.code == 3, "{said:?}");
     assert!(here.join("sent.mod").exists(), "{said:?}");

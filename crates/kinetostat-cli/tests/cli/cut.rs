@@ -102,13 +102,13 @@ fn the_correction_follows_the_engagement() {
     );
 }
 
-/// The same program beside the block: nothing is cut and nothing corrected.
+/// The same program above the block: nothing is cut and nothing corrected.
 #[test]
 fn air_needs_no_correction() {
     let here = place(
         &JOB.replace(
             "[[0, -20, -12], [20, 0, 0]]",
-            "[[0, -60, -12], [20, -40, 0]]",
+            "[[0, -20, -12], [20, 0, -4]]",
         ),
         PASS,
     );
@@ -430,7 +430,7 @@ fn the_first_block_takes_the_correction_up() {
         .replace("length_mm = 0", "length_mm = 150")
         .replace(
             "[material]",
-            "[reading]\nstart_position_mm = [0, 0, 50]\n[material]",
+            "[reading]\nstart_position_mm = [0, 0, 50]\n[load]\nweight = \"all\"\n[material]",
         );
     let program = PASS.replace("G0 X-30 Y0 Z5", "G1 X-30 Y0 Z5 F900");
     let here = place(&job, &program);

@@ -90,6 +90,8 @@ part_origin_mm = {origin:?}
 [tool]
 length_mm = {:?}
 cutter = {{ shape = "flat", diameter_mm = {DIAMETER:?}, teeth = 2, helix_deg = 30 }}
+[load]
+weight = "all"
 [material]
 name = "AlMg4.5Mn"
 [stock]

@@ -8,7 +8,7 @@ use crate::common::run;
 
 const CELL: &str = "schema = 1\nrapid_speed_mm_per_s = 200\ntool_orientation = { a_b_c_kuka_deg = [0, 0, 180] }\n[base]\npose = { position_mm = [1800, 0, 900] }\n[tool]\npose = { position_mm = [0, 0, 180] }\n";
 
-const RUN: &str = "--model heavy_6r --force 60 20 100 --tool-axis -z";
+const RUN: &str = "--model heavy_6r --weight all --force 60 20 100 --tool-axis -z";
 
 fn words(line: &str) -> Vec<&str> {
     line.split_whitespace().collect()
@@ -80,7 +80,7 @@ fn a_divided_program_is_compensated_as_a_whole() {
             // Neither the whole nor a part is compensated twice. A part of RAPID does not say by itself what its frames are.
             std::fs::write(
                 here.join("part.toml"),
-                format!("schema = 1\nmodel = \"heavy_6r\"\nprogram = \"{part}\"\n[load]\nforce_n = [60, 20, 100]\n[robot]\ntool_axis = \"-z\"\nframes.tool1 = {{ position_mm = [0, 0, 180] }}\nframes.wobj1 = {{ position_mm = [1800, 0, 900] }}\n"),
+                format!("schema = 1\nmodel = \"heavy_6r\"\nprogram = \"{part}\"\n[load]\nweight = \"all\"\nforce_n = [60, 20, 100]\n[robot]\ntool_axis = \"-z\"\nframes.tool1 = {{ position_mm = [0, 0, 180] }}\nframes.wobj1 = {{ position_mm = [1800, 0, 900] }}\n"),
             )
             .unwrap();
             let job = match to {
@@ -153,7 +153,7 @@ fn to_a_robot_in_parts() {
     for (to, ending) in [("krl", "src"), ("rapid", "mod")] {
         let line = |form: &str, out: &str| {
             format!(
-                "compensate --model heavy_6r --program wave.ngc --force 60 20 100 --to {to} --template {form}.toml --out {out}.{ending} --part-origin-mm 1800 0 900 --tool-length-mm 180"
+                "compensate --model heavy_6r --weight all --program wave.ngc --force 60 20 100 --to {to} --template {form}.toml --out {out}.{ending} --part-origin-mm 1800 0 900 --tool-length-mm 180"
             )
         };
         run(here, &words(&line("one", "single"))).answered();
@@ -166,7 +166,7 @@ fn to_a_robot_in_parts() {
             motions(here, &[&format!("single.{ending}")])
         );
     }
-    let line = "compensate --model heavy_6r --program wave.ngc --force 60 20 100 --to ls --template parts.toml --part-origin-mm 1800 0 900 --tool-length-mm 180";
+    let line = "compensate --model heavy_6r --weight all --program wave.ngc --force 60 20 100 --to ls --template parts.toml --part-origin-mm 1800 0 900 --tool-length-mm 180";
     let said = run(here, &words(line));
     assert!(
         said.code == 1 && said.err.contains("most_points"),

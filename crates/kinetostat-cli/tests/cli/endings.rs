@@ -55,11 +55,11 @@ fn the_ending_of_another_language_is_refused_before_the_run() {
             ["'f.src'", "the flat program is G-code: name it 'f.ngc'"],
         ),
         (
-            "compensate --model heavy_6r --program poses.csv --force 0 0 -100 --tool-length-mm 0 --out x.yaml",
+            "compensate --model heavy_6r --weight all --program poses.csv --force 0 0 -100 --tool-length-mm 0 --out x.yaml",
             ["'x.yaml'", "a table as text: name it 'x.csv'"],
         ),
         (
-            "compensate --model heavy_6r --program poses.csv --force 0 0 -100 --tool-length-mm 0 --out x.parquet",
+            "compensate --model heavy_6r --weight all --program poses.csv --force 0 0 -100 --tool-length-mm 0 --out x.parquet",
             ["'x.parquet'", "name it 'x.csv'"],
         ),
         (

@@ -256,7 +256,7 @@ fn a_job_with_a_machine_gives_the_same() {
     close(number(&c["stock"]["removed_mm3"]), expected, 5e-3);
     let air = JOB.replace(
         "[[0, -20, -10], [40, 20, 0]]",
-        "[[0, 30, -10], [40, 40, 0]]",
+        "[[0, -20, -10], [40, 20, -4]]",
     );
     let here = place(&air, SLOT);
     let said = run(
@@ -349,7 +349,7 @@ fn the_band_is_what_a_larger_force_gives() {
     let job = |factor: f64| {
         JOB.replace(
             "[tool]\n",
-            "model = \"heavy_6r\"\n[placement]\npart_origin_mm = [1100, 0, 900]\n[tool]\nlength_mm = 100\n",
+            "model = \"heavy_6r\"\n[placement]\npart_origin_mm = [1100, 0, 900]\n[load]\nweight = \"all\"\n[tool]\nlength_mm = 100\n",
         )
         .replace("[stock]", &format!("wear_factor = {factor:?}\n[stock]"))
     };

@@ -225,7 +225,7 @@ fn programs_of_controls_are_converted_with_expand() {
         assert_eq!(one, two);
         // A run has the comments that the job asks for, in which nothing moves.
         run(here, &words("compensate job.toml")).answered();
-        let flat = std::fs::read_to_string(here.join(format!("a-flat.{end}"))).unwrap();
+        let flat = std::fs::read_to_string(here.join("flat").join(source.main)).unwrap();
         assert!(
             flat.contains(" ;line 3\n") && flat.contains(&format!(";{}, line 2\n", source.called)),
             "{flat}"

@@ -258,6 +258,33 @@ fn signs_and_senses() {
         let other = fit(here.path(), &turned_of(&text, [1.0, -1.0, 1.0]), &options);
         assert_eq!(values(&other), plain);
     }
+    // Axes of the dynamometer that are exchanged, and a z that points into the part, are told with what to turn.
+    let exchanged: String = text
+        .lines()
+        .map(|line| {
+            let cells: Vec<&str> = line.split(',').collect();
+            match cells[..] {
+                [feed, x, y, z] if feed.parse::<f64>().is_ok() => {
+                    let [x, y] = [x, y].map(|force| -force.parse::<f64>().unwrap());
+                    format!("{feed},{y},{x},{z}\n")
+                }
+                _ => format!("{line}\n"),
+            }
+        })
+        .collect();
+    for (text, part) in [
+        (
+            exchanged,
+            "x (along the feed) and y (to its left) of the forces look exchanged",
+        ),
+        (turned([1.0, 1.0, -1.0]), "Turn the sign of fz_n"),
+    ] {
+        let wrong = fit(here.path(), &text, SLOT.options);
+        let said = warnings(&wrong).join(" ");
+        assert!(said.contains(part), "{said}");
+        assert!(wrong["material_toml"].is_null());
+        assert!(refused(&text, SLOT.options).contains(part));
+    }
     // The wrong sign is seen.
     let wrong = fit(here.path(), &turned([-1.0; 3]), SLOT.options);
     assert!(wrong["material_toml"].is_null());

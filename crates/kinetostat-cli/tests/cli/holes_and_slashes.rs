@@ -9,7 +9,7 @@ use crate::common::run;
 const HOLES: &str = "PARTNO/PLATE\nUNITS/MM\nSPINDL/500,RPM,CLW\nFEDRAT/600,MMPM\nRAPID\nGOTO/0,0,20\nCYCLE/DRILL,RAPTO,3,FEDTO,-10,RTRCTO,AUTO,MMPM,150\n\
     GOTO/10,5,0\nGOTO/40,-5,-1\nCYCLE/OFF\nGOTO/60,0,20\nFINI\n";
 
-const JOB: &str = "schema = 1\nmodel = \"heavy_6r\"\nprogram = \"holes.apt\"\n[load]\nforce_n = [0, 0, 300]\n[tool]\nlength_mm = 180\n\
+const JOB: &str = "schema = 1\nmodel = \"heavy_6r\"\nprogram = \"holes.apt\"\n[load]\nweight = \"all\"\nforce_n = [0, 0, 300]\n[tool]\nlength_mm = 180\n\
     [placement]\npart_origin_mm = [1800, 0, 900]\n";
 
 const CELL: &str = "schema = 1\ntool_orientation = { a_b_c_kuka_deg = [0, 0, 180] }\n";
@@ -150,7 +150,7 @@ fn an_operation_on_its_side_is_solved_there() {
     let error = |name: &str, program: &str| -> Vec<f64> {
         put(&format!("{name}.cls"), program);
         let job = format!(
-            "schema = 1\nmodel = \"heavy_6r\"\nprogram = \"{name}.cls\"\n[load]\nforce_n = [0, 0, 100]\n[tool]\nlength_mm = 180\n\
+            "schema = 1\nmodel = \"heavy_6r\"\nprogram = \"{name}.cls\"\n[load]\nweight = \"all\"\nforce_n = [0, 0, 100]\n[tool]\nlength_mm = 180\n\
              [robot.frames]\nPART = {{ position_mm = [1800, 0, 900] }}\n"
         );
         put(&format!("{name}.toml"), &job);

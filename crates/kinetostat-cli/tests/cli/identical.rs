@@ -71,7 +71,11 @@ fn answer(query: &str, environment: (&str, &str)) -> Answer {
 fn every_command_answers_with_the_same_bytes_on_any_number_of_threads() {
     for query in QUERIES {
         let first = answer(query, ("RAYON_NUM_THREADS", "1"));
-        assert_eq!(first.said.0, Some(0), "{query}: {first:?}");
+        let code = match query.starts_with("compensate") {
+            true => 4,
+            false => 0,
+        };
+        assert_eq!(first.said.0, Some(code), "{query}: {first:?}");
         let again = answer(query, ("RAYON_NUM_THREADS", "3"));
         assert!(first == again, "{query}: {first:?} {again:?}");
     }

@@ -34,7 +34,7 @@ fn table(unit: &str) -> String {
     text
 }
 
-const RUN: &str = "compensate --model heavy_6r --program q.csv --tool-length-mm 180 --force 300 -200 500 --correct pose";
+const RUN: &str = "compensate --model heavy_6r --weight all --program q.csv --tool-length-mm 180 --force 300 -200 500 --correct pose";
 
 fn words(line: &str) -> Vec<&str> {
     line.split_whitespace().collect()
@@ -95,7 +95,7 @@ fn a_table_of_joint_values_is_compensated_and_is_one_again() {
         let here = here.path();
         // The analysis commands what is written.
         let line = format!(
-            "deflect heavy_6r --program q.csv --tool-length-mm 180 --force 0 0 100 --joint-rows {way} --points p.csv --all-points"
+            "deflect heavy_6r --weight all --program q.csv --tool-length-mm 180 --force 0 0 100 --joint-rows {way} --points p.csv --all-points"
         );
         run(here, &words(&line)).answered();
         let commanded = commands(&read(here, "p.csv"));
@@ -138,7 +138,7 @@ fn what_a_table_of_joint_values_does_not_say_is_asked_for() {
     let text = table("deg");
     let here = place(&text);
     let here = here.path();
-    let deflect = "deflect heavy_6r --program q.csv --force 0 0 1";
+    let deflect = "deflect heavy_6r --weight all --program q.csv --force 0 0 1";
     for (line, expected) in [
         (deflect.to_owned(), "--joint-rows"),
         (
@@ -283,8 +283,7 @@ fn rows_beyond_the_limits_of_the_arm_are_said() {
     assert!(!said.out.contains("limit"), "{said:?}");
     // A run over the table says it, too.
     std::fs::write(here.join("q.csv"), text.replace("-66", "7")).unwrap();
-    let line =
-        "deflect heavy_6r --program q.csv --tool-length-mm 180 --force 0 0 100 --joint-rows linear";
+    let line = "deflect heavy_6r --weight all --program q.csv --tool-length-mm 180 --force 0 0 100 --joint-rows linear";
     let said = flat(&run(here, &words(line)).answered().out);
     assert!(
         said.contains("line 4: joint 6 is at -414.6667 deg"),

@@ -107,7 +107,7 @@ fn joint_values_give_the_poses_of_the_program() {
         assert!(place_mm < 1e-9 && turn < 1e-7, "{place_mm} mm, {turn}");
     }
     // The table is compensated with the same model.
-    let line = "compensate --model heavy_6r --program q.csv --joint-rows joint --tool-length-mm 0 --force 10 0 10 --tolerance-um 20";
+    let line = "compensate --model heavy_6r --weight all --program q.csv --joint-rows joint --tool-length-mm 0 --force 10 0 10 --tolerance-um 20";
     run(here, &words(line)).answered();
 }
 

@@ -15,7 +15,8 @@ const CONFIG: &str = "&ACCESS RV1\nDEFDAT  $CONFIG\nENUM MY_TYP NOT_KNOWN, OTHER
     BASE_DATA[1]={FRAME: X 1.0,Y 0.0,Z 0.0,A 0.0,B 0.0,C 0.0}\nBASE_DATA[2]={FRAME: X 1700.0,Y 12.5,Z 900.0,A 0.0,B 0.0,C 0.0}\n\
     TOOL_DATA[3]={X 0.0,Y 0.0,Z 180.0,A 0.0,B 0.0,C 0.0}\nE6AXIS XHOME={A1 0.0,A2 -90.0,A3 90.0,A4 0.0,A5 0.0,A6 0.0}\nENDDAT\n";
 
-const MACHINE: &str = "--model heavy_6r --force 30 0 -20 --correct position --tool-axis -z";
+const MACHINE: &str =
+    "--model heavy_6r --weight all --force 30 0 -20 --correct position --tool-axis -z";
 
 fn words(line: &str) -> Vec<&str> {
     line.split_whitespace().collect()
@@ -90,7 +91,7 @@ fn tools_and_bases_are_taken_from_the_controllers_data() {
 fn what_the_user_states_counts_before_the_controllers_data() {
     let here = place("part.src", Some(("$config.dat", CONFIG)));
     let here = here.path();
-    let job = "schema = 1\nprogram = \"part.src\"\nmodel = \"heavy_6r\"\n[load]\nforce_n = [30, 0, -20]\n[robot]\ncorrect = \"position\"\ntool_axis = \"-z\"\n[robot.frames]\n\"BASE_DATA[2]\" = { position_mm = [1600, 0, 900] }\n";
+    let job = "schema = 1\nprogram = \"part.src\"\nmodel = \"heavy_6r\"\n[load]\nweight = \"all\"\nforce_n = [30, 0, -20]\n[robot]\ncorrect = \"position\"\ntool_axis = \"-z\"\n[robot.frames]\n\"BASE_DATA[2]\" = { position_mm = [1600, 0, 900] }\n";
     std::fs::write(here.join("job.toml"), job).unwrap();
     let said = run(here, &words("compensate job.toml --out out.src"));
     let text = flat(&format!("{}{}", said.out, said.err));

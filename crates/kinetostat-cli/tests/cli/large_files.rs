@@ -89,7 +89,16 @@ fn figure_files_of_200_mb_are_refused_without_being_read() {
         "import link-displacements large.csv --end-mm 1 0 0",
         "check large.toml",
         "compensate large.toml",
+        "tolerance orthoglide --uncertain large.toml",
+        "convert part.ngc --to krl --out new.src --template large.toml",
+        "mirror part.ngc --measured large.csv --register none --out new.ngc --state large.toml",
+        "force --material x --materials large.toml",
     ];
+    std::fs::write(
+        here.path().join("part.ngc"),
+        "G21 G90\nG0 X0 Y0 Z0\nG1 X40 F600\n",
+    )
+    .expect("a file");
     for query in queries {
         let words: Vec<&str> = query.split(' ').collect();
         let (said, peak) = limited(here.path(), &words, 150);
@@ -114,6 +123,76 @@ fn figure_files_of_200_mb_are_refused_without_being_read() {
         "MB",
         most <= 64.0,
     );
+}
+
+/// A program whose moves do not fit into memory is refused before they are made; threads without a use are not started.
+#[test]
+fn programs_and_threads_beyond_memory_end_in_words() {
+    let here = tempfile::tempdir().expect("a directory");
+    let head = "G21 G90\nG0 X0 Y0 Z0\nF100\n";
+    repeated(&here.path().join("long.ngc"), head, "G1X1\nX2\n", 3 * MB);
+    for query in [
+        "expand long.ngc --out flat.ngc",
+        "convert long.ngc --to krl --out new.src --tool-orientation a_b_c_kuka_deg=0,0,180",
+    ] {
+        let words: Vec<&str> = query.split(' ').collect();
+        let (said, _) = limited(here.path(), &words, 300);
+        for needle in ["long.ngc", "lines", "GB of memory", "divide it"] {
+            assert!(said.contains(needle), "{query}: {needle}: {said}");
+        }
+    }
+    let spread =
+        "schema = 1\n[[uncertain]]\nparameter = \"chain.leg.q2.length_mm\"\nnormal = 0.02\n";
+    std::fs::write(here.path().join("u.toml"), spread).expect("a file");
+    for limit in ["600000", "2600000", "3000000"] {
+        let script = format!("ulimit -v {limit} && exec \"$@\"");
+        let words = "tolerance orthoglide --uncertain u.toml --machines 64 --threads 1024";
+        let done = Command::new("sh")
+            .args(["-c", &script, "sh", BINARY])
+            .args(words.split(' '))
+            .current_dir(here.path())
+            .output();
+        let done = done.expect("sh");
+        assert_eq!(done.status.code(), Some(0), "{limit}: {done:?}");
+    }
+}
+
+/// A file that may not grow any more is an error in words, and leaves nothing beside it.
+#[test]
+fn files_beyond_the_limit_of_their_size_end_in_words() {
+    let here = tempfile::tempdir().expect("a directory");
+    let head = "G21 G90\nG0 X0 Y0 Z0\nF100\n";
+    repeated(
+        &here.path().join("part.ngc"),
+        head,
+        "G1 X1.25 Y3.5\nX2\n",
+        2 * MB,
+    );
+    for words in [
+        "expand part.ngc --out flat.ngc",
+        "convert part.ngc --to krl --out new.src --tool-orientation a_b_c_kuka_deg=0,0,180",
+        "demo --out demo",
+        "model draw orthoglide --out drawn.svg",
+    ] {
+        let done = Command::new("sh")
+            .args(["-c", "ulimit -f 1 && exec \"$@\"", "sh", BINARY])
+            .args(words.split(' '))
+            .current_dir(here.path())
+            .output();
+        let done = done.expect("sh");
+        let said = String::from_utf8_lossy(&done.stderr);
+        assert_eq!(done.status.code(), Some(1), "{words}: {done:?}");
+        assert!(
+            said.contains("larger than is allowed here"),
+            "{words}: {said}"
+        );
+        let left: Vec<_> = std::fs::read_dir(here.path())
+            .expect("a directory")
+            .filter_map(|entry| entry.ok()?.file_name().into_string().ok())
+            .filter(|name| name.contains("part") && name != "part.ngc" || name.ends_with(".svg"))
+            .collect();
+        assert!(left.is_empty(), "{words}: {left:?}");
+    }
 }
 
 #[test]

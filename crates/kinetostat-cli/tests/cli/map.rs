@@ -295,7 +295,7 @@ fn the_answer_says_what_was_found_otherwise_or_one_by_one() {
     let why = "it has platforms between base and tool";
     assert_eq!(answer["one_by_one_because"], why);
     assert!(said.err.contains(why), "{}", said.err);
-    let line = "deflect delta --program part.ngc --part-origin-mm 0 0 -850 --json";
+    let line = "deflect delta --weight all --program part.ngc --part-origin-mm 0 0 -850 --json";
     let said = run(here.path(), &line.split(' ').collect::<Vec<_>>()).answered();
     assert_eq!(json(&said)["summary"]["one_by_one_because"], why);
 }

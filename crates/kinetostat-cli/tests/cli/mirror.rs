@@ -174,7 +174,8 @@ pub(crate) fn three_trials(
             "model_job.toml",
             "--state",
             "state.toml",
-            "--no-register",
+            "--register",
+            "none",
             "--align",
             "arc-length",
             "--out",
@@ -240,7 +241,8 @@ fn what_is_measured_is_said_and_kept_for_the_next_trial() {
             measured,
             "--state",
             "state.toml",
-            "--no-register",
+            "--register",
+            "none",
             "--align",
             "arc-length",
             "--out",
@@ -348,7 +350,8 @@ fn a_second_program_is_a_measurement_too() {
         "circle.ngc",
         "--measured",
         "lower.ngc",
-        "--no-register",
+        "--register",
+        "none",
         "--align",
         "arc-length",
         "--out",
@@ -371,6 +374,8 @@ fn a_second_program_is_a_measurement_too() {
         "lower.ngc",
         "--out",
         "same.ngc",
+        "--register",
+        "rigid",
         "--align",
         "arc-length",
         "--json",
@@ -423,7 +428,7 @@ fn soft_arm(preset: &str) -> String {
 fn figure_a_robots_program_with_a_model_thirty_percent_off_ends_below_two_micrometres() {
     let job = |model: &str| {
         format!(
-            "schema = 1\nmodel = \"{model}\"\nprogram = \"circle.mod\"\n[load]\nmilling = {{ radial_n = 215, tangential_n = -10, axial_n = -25 }}\n[robot]\nrapid_from_mm_per_s = 100\n[[features]]\nname = \"ring\"\nlines = [8, 9]\ntolerance_um = 5\n[[features]]\nname = \"way back\"\nlines = [11, 11]\n"
+            "schema = 1\nmodel = \"{model}\"\nprogram = \"circle.mod\"\n[load]\nweight = \"all\"\nmilling = {{ radial_n = 215, tangential_n = -10, axial_n = -25 }}\n[robot]\nrapid_from_mm_per_s = 100\n[[features]]\nname = \"ring\"\nlines = [8, 9]\ntolerance_um = 5\n[[features]]\nname = \"way back\"\nlines = [11, 11]\n"
         )
     };
     let part = Part {
@@ -482,7 +487,8 @@ fn a_feature_without_a_point_is_named() {
         "trial1.csv",
         "--job",
         "job.toml",
-        "--no-register",
+        "--register",
+        "none",
         "--out",
         "next.src",
     ];

@@ -51,6 +51,9 @@ fn mirror(here: &Path, measured: &str, more: &[&str]) -> Said {
         "next.ngc",
     ];
     words.extend(more);
+    if !more.contains(&"--register") {
+        words.extend(["--register", "rigid"]);
+    }
     run(here, &words)
 }
 
@@ -117,7 +120,7 @@ fn a_part_of_the_path_in_another_frame_is_told_or_refused() {
 /// Points on the path: nothing is to be corrected, nothing is an outlier, and the program says what it said.
 #[test]
 fn no_deviation_is_nothing_to_correct() {
-    for more in [&["--no-register"][..], &[]] {
+    for more in [&["--register", "none"][..], &[]] {
         let here = workplace();
         let said = mirror(here.path(), &table(off(120, 0.0)), more).answered();
         assert!(

@@ -37,6 +37,9 @@ fn mirror(here: &Path, measured: &[&str], more: &[&str]) -> Said {
         words.extend(["--measured", *file]);
     }
     words.extend(more);
+    if !more.contains(&"--register") {
+        words.extend(["--register", "rigid"]);
+    }
     run(here, &words)
 }
 
@@ -70,7 +73,7 @@ fn lengths_of_nothing_are_refused_by_their_option() {
         let said = mirror(
             here.path(),
             &["trial1.csv"],
-            &["--no-register", option, value],
+            &["--register", "none", option, value],
         );
         assert_eq!(said.code, 1, "{said:?}");
         assert!(said.err.contains(says), "{}", said.err);
@@ -87,9 +90,9 @@ fn a_program_without_the_last_correction_is_not_corrected_twice() {
     put("trial1.csv", &table(&raised(0.05)));
     // The same but for a tenth of a micrometre.
     put("again.csv", &table(&raised(0.0501)));
-    mirror(here.path(), &["trial1.csv"], &["--no-register"]).answered();
+    mirror(here.path(), &["trial1.csv"], &["--register", "none"]).answered();
     let kept = std::fs::read(here.path().join("state.toml")).unwrap();
-    let more = ["--no-register", "--force-overwrite"];
+    let more = ["--register", "none", "--force-overwrite"];
     let said = mirror(here.path(), &["again.csv"], &more);
     assert_eq!(said.code, 1, "{said:?}");
     let says = "nothing is seen of the correction that trial 1 wrote";
@@ -141,7 +144,7 @@ fn a_measurement_given_again_is_told_by_its_numbers() {
     let said = mirror(
         here.path(),
         &["trial1.csv", "trial2.csv"],
-        &["--no-register"],
+        &["--register", "none"],
     );
     assert_eq!(said.code, 1, "{said:?}");
     assert!(
@@ -150,9 +153,9 @@ fn a_measurement_given_again_is_told_by_its_numbers() {
         "{}",
         said.err
     );
-    mirror(here.path(), &["trial1.csv"], &["--no-register"]).answered();
+    mirror(here.path(), &["trial1.csv"], &["--register", "none"]).answered();
     let kept = std::fs::read(here.path().join("state.toml")).unwrap();
-    let more = ["--no-register", "--force-overwrite"];
+    let more = ["--register", "none", "--force-overwrite"];
     let said = mirror(here.path(), &["trial2.csv"], &more);
     assert_eq!(said.code, 1, "{said:?}");
     let says = "trial2.csv is the measurement trial1.csv of an earlier trial, point for point";
@@ -171,7 +174,7 @@ fn points_in_no_order_are_not_mirrored_in_one() {
         .collect();
     put("circle.ngc", CIRCLE);
     put("trial1.csv", &table(&shuffled));
-    let more = ["--no-register", "--align", "arc-length"];
+    let more = ["--register", "none", "--align", "arc-length"];
     let said = mirror(here.path(), &["trial1.csv"], &more);
     assert_eq!(said.code, 1, "{said:?}");
     assert!(
@@ -183,7 +186,7 @@ fn points_in_no_order_are_not_mirrored_in_one() {
     );
     assert!(!here.path().join("next.ngc").exists());
     // The nearest places do not ask for an order.
-    mirror(here.path(), &["trial1.csv"], &["--no-register"]).answered();
+    mirror(here.path(), &["trial1.csv"], &["--register", "none"]).answered();
 }
 
 #[test]

@@ -27,7 +27,7 @@ fn beside(by: f64, jitter_mm: f64, seed: i32) -> String {
 fn mirror(here: &Path, measured: &str, more: &[&str]) -> Said {
     let mut words = vec!["mirror", "groove.ngc", "--measured", measured];
     words.extend(["--state", "state.toml", "--out", "next.ngc"]);
-    words.extend(["--no-register", "--force-overwrite"]);
+    words.extend(["--register", "none", "--force-overwrite"]);
     words.extend(more);
     run(here, &words)
 }

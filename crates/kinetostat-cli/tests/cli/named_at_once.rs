@@ -75,7 +75,7 @@ fn a_main_program_names_the_parts_that_it_calls() {
     ask(here, made).answered();
     let said = ask(
         here,
-        "compensate --model heavy_6r --program part.ls --force 60 20 100 --rapid-from-mm-per-s 100",
+        "compensate --model heavy_6r --weight all --program part.ls --force 60 20 100 --rapid-from-mm-per-s 100",
     );
     assert_eq!(said.code, 1, "{said:?}");
     let text = said.err.to_lowercase();
@@ -104,7 +104,7 @@ fn coordinates_that_no_machine_reaches_are_named_before_anything_is_solved() {
     put(here, "far.mod", &text);
     let said = ask(
         here,
-        "compensate --model heavy_6r --program far.mod --force 0 0 100 --rapid-from-mm-per-s 50",
+        "compensate --model heavy_6r --weight all --program far.mod --force 0 0 100 --rapid-from-mm-per-s 50",
     );
     assert_eq!(said.code, 1, "{said:?}");
     assert!(said.err.contains("2 lines are refused"), "{said:?}");
@@ -150,7 +150,7 @@ fn a_turn_that_is_to_be_stiff_says_how_stiff_it_is() {
     // It says how a turn is chosen, and needs one.
     for line in [
         line.to_owned() + " --stiff-turn",
-        "compensate --model heavy_6r --program part.ngc --force 0 0 9 --to krl --template cell.toml --stiff-turn".to_owned(),
+        "compensate --model heavy_6r --weight all --program part.ngc --force 0 0 9 --to krl --template cell.toml --stiff-turn".to_owned(),
     ] {
         let said = ask(here, &line);
         assert_eq!(said.code, 1, "{said:?}");

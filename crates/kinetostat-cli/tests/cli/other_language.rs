@@ -20,8 +20,12 @@ tool_orientation = { a_b_c_kuka_deg = [160, 0, 180] }
 [tool]
 pose = { position_mm = [200, 0, 100], a_b_c_kuka_deg = [0, 90, 0] }
 [load]
+weight = "all"
 force_n = [60, 20, 100]
 "#;
+
+/// The load of [`JOB`], where another one is to stand.
+const LOAD: &str = "[load]\nweight = \"all\"\nforce_n = [60, 20, 100]\n";
 
 fn place(job: &str) -> tempfile::TempDir {
     let here = tempfile::tempdir().unwrap();
@@ -320,6 +324,8 @@ fn is_the_same(here: &Path, options: &str) {
 }
 
 const CUTTER: &str = r#"cutter = { shape = "flat", diameter_mm = 10, teeth = 2, helix_deg = 30 }
+[load]
+weight = "all"
 [material]
 name = "AlMg4.5Mn"
 [stock]
@@ -328,7 +334,8 @@ block_mm = [[10, -20, -12], [70, 30, 0]]
 
 #[test]
 fn forces_that_are_computed_from_the_cut_act_on_the_program_of_the_robot() {
-    let job = JOB.replace("[load]\nforce_n = [60, 20, 100]\n", CUTTER);
+    let job = JOB.replace(LOAD, CUTTER);
+    assert_ne!(job, JOB);
     for to in ["krl", "rapid", "ls"] {
         let here = place(&job);
         is_the_same(here.path(), &format!("--to {to} --template cell.toml"));
@@ -358,9 +365,10 @@ fn forces_that_are_computed_from_the_cut_act_on_the_program_of_the_robot() {
 fn measured_forces_act_on_the_program_of_the_robot() {
     for axes in ["part", "feed"] {
         let measured = format!(
-            "[measured]\nfile = \"log.csv\"\nacts_on = \"tool\"\naxes = \"{axes}\"\nsmooth_mm = 0\n"
+            "[load]\nweight = \"all\"\n[measured]\nfile = \"log.csv\"\nacts_on = \"tool\"\naxes = \"{axes}\"\nsmooth_mm = 0\n"
         );
-        let here = place(&JOB.replace("[load]\nforce_n = [60, 20, 100]\n", &measured));
+        assert!(JOB.contains(LOAD));
+        let here = place(&JOB.replace(LOAD, &measured));
         let log = "along_mm,fx_n,fy_n,fz_n\n0,10,0,40\n20,80,30,90\n46,120,-60,60\n62,40,-10,100\n";
         std::fs::write(here.path().join("log.csv"), log).unwrap();
         is_the_same(here.path(), "--to krl --template cell.toml");

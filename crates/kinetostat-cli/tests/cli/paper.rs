@@ -75,7 +75,7 @@ const CUT: &str =
 
 fn cut_job(language: &str) -> String {
     format!(
-        "schema = 1\nmodel = \"heavy_6r\"\nprogram = \"pass.ngc\"\n[placement]\npart_origin_mm = [1400, 70, 500]\n[tool]\nlength_mm = 200\ncutter = {{ shape = \"flat\", diameter_mm = 6, teeth = 2, helix_deg = 30 }}\n[material]\nname = \"AlMg4.5Mn\"\n[stock]\nblock_mm = [[0, -20, -12], [20, 30, 0]]\n[[features]]\nname = \"slot\"\nlines = [5, 5]\ntolerance_um = 25\n[[features]]\nname = \"back\"\nlines = [7, 7]\ntolerance_um = 0.01\n[output]\nprogram = \"out-{language}.ngc\"\njson = \"out-{language}.json\"\npdf = \"paper-{language}.pdf\"\nlanguage = \"{language}\"\n"
+        "schema = 1\nmodel = \"heavy_6r\"\nprogram = \"pass.ngc\"\n[placement]\npart_origin_mm = [1400, 70, 500]\n[load]\nweight = \"all\"\n[tool]\nlength_mm = 200\ncutter = {{ shape = \"flat\", diameter_mm = 6, teeth = 2, helix_deg = 30 }}\n[material]\nname = \"AlMg4.5Mn\"\n[stock]\nblock_mm = [[0, -20, -12], [20, 30, 0]]\n[[features]]\nname = \"slot\"\nlines = [5, 5]\ntolerance_um = 25\n[[features]]\nname = \"back\"\nlines = [7, 7]\ntolerance_um = 0.01\n[output]\nprogram = \"out-{language}.ngc\"\njson = \"out-{language}.json\"\npdf = \"paper-{language}.pdf\"\nlanguage = \"{language}\"\n"
     )
 }
 
@@ -127,7 +127,7 @@ fn lines_of_pdf(file: &std::path::Path) -> Option<Vec<String>> {
 fn the_paper_of_a_verification_says_what_is_otherwise_than_in_the_original() {
     let here = workplace();
     let with: Vec<&str> =
-        "--model heavy_6r --force 200 -150 300 --tool-length-mm 150 --part-origin-mm 1300 50 900"
+        "--model heavy_6r --weight all --force 200 -150 300 --tool-length-mm 150 --part-origin-mm 1300 50 900"
             .split(' ')
             .collect();
     std::fs::write(here.path().join("pass.ngc"), CUT).unwrap();
@@ -244,6 +244,8 @@ fn the_tool_stands_in_the_angles_of_its_controller() {
         "compensate",
         "--model",
         "heavy_6r",
+        "--weight",
+        "all",
         "--program",
         "slot.src",
         "--tool-axis",

@@ -12,7 +12,7 @@ const PLATE: &str = "G21 G90\nG0 X0 Y0 Z20\nG1 Z-2 F600\nG1 X160\nG1 Y90\nG0 Z20
 
 fn job(program: &str, place: &str) -> String {
     format!(
-        "schema = 1\nmodel = \"heavy_6r\"\nprogram = \"{program}\"\n[placement]\npart_origin_mm = [1400, 70, 500]\n[tool]\nlength_mm = 200\n[load]\nmilling = {{ radial_n = 215, tangential_n = -10, axial_n = -25 }}\n{place}"
+        "schema = 1\nmodel = \"heavy_6r\"\nprogram = \"{program}\"\n[placement]\npart_origin_mm = [1400, 70, 500]\n[tool]\nlength_mm = 200\n[load]\nweight = \"all\"\nmilling = {{ radial_n = 215, tangential_n = -10, axial_n = -25 }}\n{place}"
     )
 }
 

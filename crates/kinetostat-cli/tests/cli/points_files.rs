@@ -85,7 +85,7 @@ fn points_are_read_back_as_parquet_and_vtk() {
     std::fs::write(at.join("part.ngc"), PART).unwrap();
     std::fs::write(at.join("job.toml"), JOB).unwrap();
     let output = run(at, &["compensate", "job.toml"]);
-    assert_eq!(output.code, 0, "{output:?}");
+    assert_eq!(output.code, 4, "{output:?}");
     let again = [
         "compensate",
         "job.toml",
@@ -95,7 +95,7 @@ fn points_are_read_back_as_parquet_and_vtk() {
         "q.vtk",
     ];
     let output = run(at, &[&again[..], &["--force-overwrite"]].concat());
-    assert_eq!(output.code, 0, "{output:?}");
+    assert_eq!(output.code, 4, "{output:?}");
     let [one, other] = ["p.vtk", "q.vtk"].map(|name| std::fs::read(at.join(name)).unwrap());
     assert!(one == other && one.starts_with(b"# vtk DataFile"));
     let parquet = std::fs::read(at.join("p.parquet")).unwrap();
@@ -255,7 +255,7 @@ fn very_short_blocks_are_looked_at_where_they_end_and_some_inside() {
         let words = words.split_whitespace().chain(["--points", name]);
         let words: Vec<&str> = words.chain(more.iter().copied()).collect();
         let said = run(here.path(), &words);
-        assert_eq!(said.code, 0, "{said:?}");
+        assert_eq!(said.code, 4, "{said:?}");
         let text = std::fs::read_to_string(here.path().join(name)).unwrap();
         let rows = text.lines().skip(1).map(|line| {
             let cells: Vec<&str> = line.split(',').collect();

@@ -47,7 +47,7 @@ fn a_table_of_poses_is_compensated_and_is_one_again() {
     let here = here.path();
     std::fs::write(here.join("slot.csv"), SLOT).unwrap();
     let line = format!(
-        "compensate --model heavy_6r --program slot.csv --milling 300 -100 -50 --tolerance-um 10 --correct pose --json out.json {PLACED}"
+        "compensate --model heavy_6r --weight all --program slot.csv --milling 300 -100 -50 --tolerance-um 10 --correct pose --json out.json {PLACED}"
     );
     run(here, &words(&line)).answered();
     let output = read(here, "slot-compensated.csv");
@@ -71,7 +71,7 @@ fn a_table_of_poses_is_compensated_and_is_one_again() {
     let out: Value = serde_json::from_str(&read(here, "out.json")).unwrap();
     within(&out["summary"], 0.1, 0.0201);
     let again = format!(
-        "compensate --model heavy_6r --program slot-compensated.csv --milling 1 1 1 {PLACED}"
+        "compensate --model heavy_6r --weight all --program slot-compensated.csv --milling 1 1 1 {PLACED}"
     );
     let refused = run(here, &words(&again));
     assert_eq!(refused.code, 1);
@@ -91,7 +91,7 @@ fn a_table_in_parquet_is_compensated_and_is_parquet_again() {
     std::fs::copy(slot, here.join("slot.parquet")).unwrap();
     let line = |force: &str| {
         format!(
-            "compensate --model heavy_6r --program slot.parquet --milling {force} --tolerance-um 10 --correct pose --json out.json {PLACED}"
+            "compensate --model heavy_6r --weight all --program slot.parquet --milling {force} --tolerance-um 10 --correct pose --json out.json {PLACED}"
         )
     };
     run(here, &words(&line("300 -100 -50"))).answered();
@@ -100,7 +100,7 @@ fn a_table_in_parquet_is_compensated_and_is_parquet_again() {
     let out: Value = serde_json::from_str(&read(here, "out.json")).unwrap();
     within(&out["summary"], 0.1, 0.0201);
     let again = format!(
-        "deflect heavy_6r --program slot-compensated.parquet --milling 300 -100 -50 --json again.json {PLACED}"
+        "deflect heavy_6r --weight all --program slot-compensated.parquet --milling 300 -100 -50 --json again.json {PLACED}"
     );
     run(here, &words(&again)).answered();
 }
@@ -118,7 +118,7 @@ fn the_unit_of_lengths_is_stated_or_the_list_is_refused() {
         put(
             "job.toml",
             &format!(
-                "schema = 1\nmodel = \"heavy_6r\"\nprogram = \"slot.yaml\"\n[load]\nforce_n = [0, 0, 100]\n[tool]\nlength_mm = 180\n[placement]\npart_origin_mm = [1800, 0, 900]\n{unit}"
+                "schema = 1\nmodel = \"heavy_6r\"\nprogram = \"slot.yaml\"\n[load]\nweight = \"all\"\nforce_n = [0, 0, 100]\n[tool]\nlength_mm = 180\n[placement]\npart_origin_mm = [1800, 0, 900]\n{unit}"
             ),
         );
     };
@@ -171,7 +171,7 @@ fn rasters_of_a_robot_surface_process_are_compensated() {
     // The poses' z points out of the part, along its x: turned, it looks at the robot.
     std::fs::write(
         here.join("job.toml"),
-        "schema = 1\nmodel = \"heavy_6r\"\nprogram = \"part.yaml\"\n[load]\nmilling = { radial_n = 0, tangential_n = -20, axial_n = -100 }\n[robot]\ncorrect = \"pose\"\ntool_axis = \"z\"\n[robot.frames]\ntool = { position_mm = [0, 0, 180], roll_pitch_yaw_urdf_deg = [180, 0, 0] }\npart = { position_mm = [2000, 0, 1300], roll_pitch_yaw_urdf_deg = [0, 0, 180] }\n[output]\njson = \"out.json\"\n",
+        "schema = 1\nmodel = \"heavy_6r\"\nprogram = \"part.yaml\"\n[load]\nweight = \"all\"\nmilling = { radial_n = 0, tangential_n = -20, axial_n = -100 }\n[robot]\ncorrect = \"pose\"\ntool_axis = \"z\"\n[robot.frames]\ntool = { position_mm = [0, 0, 180], roll_pitch_yaw_urdf_deg = [180, 0, 0] }\npart = { position_mm = [2000, 0, 1300], roll_pitch_yaw_urdf_deg = [0, 0, 180] }\n[output]\njson = \"out.json\"\n",
     )
     .unwrap();
     let said = run(here, &["compensate", "job.toml"]).answered();
@@ -191,7 +191,7 @@ fn a_table_of_a_spreadsheet_keeps_its_byte_order_mark_and_odd_names_are_refused(
     let here = tempfile::tempdir().unwrap();
     let here = here.path();
     let rows = "0,0,50,0,0,1,0\n0,0,-1,0,0,1,0\n60,0,-1,0,0,1,0\n";
-    let line = "compensate --model heavy_6r --program t.csv --force 0 0 100 --part-origin-mm 1800 0 900 --tool-length-mm 150 --out o.csv";
+    let line = "compensate --model heavy_6r --weight all --program t.csv --force 0 0 100 --part-origin-mm 1800 0 900 --tool-length-mm 150 --out o.csv";
     let words: Vec<&str> = line.split_whitespace().collect();
     std::fs::write(
         here.join("t.csv"),

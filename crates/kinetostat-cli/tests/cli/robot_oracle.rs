@@ -157,7 +157,7 @@ impl Case {
         let [force, moment] = LOAD;
         // The weights of public URDFs are not those of the robots.
         let job = format!(
-            "schema = 1\nmodel = \"{}\"\nprogram = \"{}\"\n[load]\nforce_n = {force:?}\nmoment_n_m = {moment:?}\naxes = \"base\"\n[robot]\ncorrect = \"pose\"\ntool_axis = \"{axis}\"\n[tolerances]\npath_um = {}\nchord_um = {}\n[output]\npoints = \"points.csv\"\nprogram = \"out/{}\"\n[limits]\nown_weight_mm = 30\ncorrection_mm = 10\n",
+            "schema = 1\nmodel = \"{}\"\nprogram = \"{}\"\n[load]\nweight = \"all\"\nforce_n = {force:?}\nmoment_n_m = {moment:?}\naxes = \"base\"\n[robot]\ncorrect = \"pose\"\ntool_axis = \"{axis}\"\n[tolerances]\npath_um = {}\nchord_um = {}\n[output]\npoints = \"points.csv\"\nprogram = \"out/{}\"\n[limits]\nown_weight_mm = 30\ncorrection_mm = 10\n",
             self.model,
             self.file(),
             1e3 * TOLERANCE_MM,
@@ -238,7 +238,7 @@ fn figure_tables_of_joint_values_of_heavy_6r_agree_with_pinocchio() {
     let here = tempfile::tempdir().unwrap();
     let here = here.path();
     std::fs::write(here.join("q.csv"), joint_table()).unwrap();
-    let line = "compensate --model heavy_6r --program q.csv --tool-length-mm 180 --force 300 -200 500 --moment 20 -15 8 --correct pose --joint-rows joint --tolerance-um 10";
+    let line = "compensate --model heavy_6r --weight all --program q.csv --tool-length-mm 180 --force 300 -200 500 --moment 20 -15 8 --correct pose --joint-rows joint --tolerance-um 10";
     run(here, &line.split(' ').collect::<Vec<_>>()).answered();
     let [force, moment] = LOAD;
     let found = asked(&json!({

@@ -23,7 +23,7 @@ const SLOT: &str = r#"MODULE Slot
 ENDMODULE
 "#;
 
-const RUN: &str = "compensate --model heavy_6r --program slot.mod --milling 300 -100 -50 --rapid-from-mm-per-s 100 --tolerance-um 10";
+const RUN: &str = "compensate --model heavy_6r --weight all --program slot.mod --milling 300 -100 -50 --rapid-from-mm-per-s 100 --tolerance-um 10";
 
 fn place(text: &str) -> tempfile::TempDir {
     let here = tempfile::tempdir().unwrap();
@@ -46,7 +46,7 @@ fn a_program_in_rapid_is_compensated_and_is_one_again() {
     let line = format!("{RUN} --correct pose --json out.json --points points.csv --report r.html");
     let said = run(here, &words(&line)).answered();
     assert!(!said.out.contains("no tool is given"), "{said:?}");
-    let output = read(here, "slot-compensated.mod");
+    let output = read(here, "compensated/slot.mod");
     // What is no motion is there as it was; what is new says where it is from.
     assert!(
         output.starts_with("MODULE Slot\n  ! kinetostat: compensated program")
@@ -86,7 +86,8 @@ fn a_program_in_rapid_is_compensated_and_is_one_again() {
     let quaternion = &out["points"][0]["tool_orientation"];
     assert_eq!(quaternion.as_array().map(Vec::len), Some(4));
     // It can be looked at again, and is not compensated a second time.
-    let again = "compensate --model heavy_6r --program slot-compensated.mod --milling 1 1 1";
+    let again =
+        "compensate --model heavy_6r --weight all --program compensated/slot.mod --milling 1 1 1";
     let refused = run(here, &words(again));
     assert_eq!(refused.code, 1);
     assert!(refused.err.contains("compensated already"), "{refused:?}");
@@ -101,8 +102,7 @@ fn the_job_states_what_the_program_does_not() {
         .join("\n");
     let here = place(&text);
     let here = here.path();
-    let job =
-        "schema = 1\nmodel = \"heavy_6r\"\nprogram = \"slot.mod\"\n[load]\nforce_n = [0, 0, 100]\n";
+    let job = "schema = 1\nmodel = \"heavy_6r\"\nprogram = \"slot.mod\"\n[load]\nweight = \"all\"\nforce_n = [0, 0, 100]\n";
     let put = |more: &str| std::fs::write(here.join("job.toml"), format!("{job}{more}")).unwrap();
     put("");
     let refused = run(here, &["check", "job.toml"]);
@@ -117,12 +117,12 @@ fn the_job_states_what_the_program_does_not() {
         "[robot]\ncorrect = \"pose\"\nrapid_from_mm_per_s = 100\n[robot.frames]\ntMill = { position_mm = [0, 0, 180] }\nwPart = { position_mm = [1800, 0, 900] }\n",
     );
     let stated = run(here, &["compensate", "job.toml"]).answered();
-    let output = read(here, "slot-compensated.mod");
+    let output = read(here, "compensated/slot.mod");
     std::fs::write(here.join("slot.mod"), SLOT).unwrap();
-    std::fs::remove_file(here.join("slot-compensated.mod")).unwrap();
+    std::fs::remove_file(here.join("compensated/slot.mod")).unwrap();
     put("[robot]\ncorrect = \"pose\"\nrapid_from_mm_per_s = 100\n");
     run(here, &["compensate", "job.toml"]).answered();
-    let own = read(here, "slot-compensated.mod");
+    let own = read(here, "compensated/slot.mod");
     let moves = |text: &str| -> Vec<String> {
         let moves = text.lines().filter(|line| line.contains("Move"));
         moves.map(str::to_owned).collect()
@@ -150,13 +150,18 @@ fn contradictions_and_what_belongs_to_g_code_are_refused_with_what_to_do() {
         ),
         ("--no-compensation", "would be its own copy"),
     ] {
-        let said = run(here, &words(&format!("{RUN} {more}")));
+        // A copy takes no options of a correction.
+        let line = match more {
+            "--no-compensation" => "compensate --program slot.mod",
+            _ => RUN,
+        };
+        let said = run(here, &words(&format!("{line} {more}")));
         assert_eq!(said.code, 1, "{more}");
         assert!(
             said.err.replace('\n', " ").contains(expected),
             "{more}: {said:?}"
         );
-        assert!(!here.join("slot-compensated.mod").exists());
+        assert!(!here.join("compensated/slot.mod").exists());
     }
     std::fs::write(here.join("part.ngc"), "G21 G90\nG0 X0 Y0 Z1\nG1 X9 F100\n").unwrap();
     let said = run(
@@ -211,7 +216,7 @@ fn another_configuration_than_the_model_s_is_warned_of() {
 fn frames_of_the_job_that_fit_no_motion_or_contradict_the_program_are_warned_of() {
     let here = place(SLOT);
     let here = here.path();
-    let job = "schema = 1\nmodel = \"heavy_6r\"\nprogram = \"slot.mod\"\n[load]\nforce_n = [0, 0, 100]\n[robot.frames]\ntMil = { position_mm = [0, 0, 180] }\nwPart = { position_mm = [1800, 0, 910] }\n";
+    let job = "schema = 1\nmodel = \"heavy_6r\"\nprogram = \"slot.mod\"\n[load]\nweight = \"all\"\nforce_n = [0, 0, 100]\n[robot.frames]\ntMil = { position_mm = [0, 0, 180] }\nwPart = { position_mm = [1800, 0, 910] }\n";
     std::fs::write(here.join("job.toml"), job).unwrap();
     let said = run(here, &["compensate", "job.toml"]).answered();
     let flat = said.out.split_whitespace().collect::<Vec<_>>().join(" ");
@@ -327,7 +332,7 @@ fn a_data_list_is_written_beside_its_program_and_an_axis_along_the_cut_is_warned
             pose(0.0, -1.0)
         ),
     );
-    let line = "compensate --model heavy_6r --program slot.src --milling 300 -100 -50";
+    let line = "compensate --model heavy_6r --weight all --program slot.src --milling 300 -100 -50";
     let open = run(here, &words(line));
     assert_eq!(open.code, 1);
     assert!(open.err.contains("--tool-axis"), "{open:?}");
@@ -335,12 +340,12 @@ fn a_data_list_is_written_beside_its_program_and_an_axis_along_the_cut_is_warned
     // x of the tool lies along this cut.
     let flat = said.out.split_whitespace().collect::<Vec<_>>().join(" ");
     assert!(flat.contains("the tool goes along its own axis"), "{flat}");
-    let data = read(here, "slot-compensated.dat");
+    let data = read(here, "compensated/slot.dat");
     assert!(data.starts_with("DEFDAT SLOT\nDECL E6POS XIN={X "));
     assert!(!data.contains(&pose(0.0, -1.0)), "{data}");
     put(
         "job.toml",
-        "schema = 1\nmodel = \"heavy_6r\"\nprogram = \"slot.src\"\n[load]\nmilling = { radial_n = 300, tangential_n = -100, axial_n = -50 }\n[robot]\ntool_axis = \"-z\"\n[output]\nprogram = \"z.src\"\n",
+        "schema = 1\nmodel = \"heavy_6r\"\nprogram = \"slot.src\"\n[load]\nweight = \"all\"\nmilling = { radial_n = 300, tangential_n = -100, axial_n = -50 }\n[robot]\ntool_axis = \"-z\"\n[output]\nprogram = \"z.src\"\n",
     );
     let said = run(here, &["compensate", "job.toml"]).answered();
     assert!(!said.out.contains("along its own axis"), "{said:?}");
@@ -368,7 +373,7 @@ fn programs_of_controls_with_loops_are_run_once_and_compensated_flat() {
         let here = here.path();
         std::fs::write(here.join(name), text).unwrap();
         let line = format!(
-            "compensate --model heavy_6r --program {name} --force 100 50 -80 --part-origin-mm 1800 0 900 --tool-length-mm 150 --points points.csv"
+            "compensate --model heavy_6r --weight all --program {name} --force 100 50 -80 --part-origin-mm 1800 0 900 --tool-length-mm 150 --points points.csv"
         );
         let refused = run(here, &words(&line));
         assert_eq!(refused.code, 1, "{refused:?}");
@@ -379,16 +384,12 @@ fn programs_of_controls_with_loops_are_run_once_and_compensated_flat() {
             said.out.contains("was run once and written flat"),
             "{said:?}"
         );
-        let [stem, ending] = [
-            name.split_once('.').unwrap().0,
-            name.split_once('.').unwrap().1,
-        ];
-        let flat = read(here, &format!("{stem}-flat.{ending}"));
+        let flat = read(here, &format!("flat/{name}"));
         assert!(!flat.contains(looped), "{flat}");
         let printed = run(here, &["expand", name, "--no-comments"]).answered();
         assert_eq!(printed.out, flat);
         // Both slots are there, each line of points with the line of the program that it came from.
-        let output = read(here, &format!("{stem}-compensated.{ending}"));
+        let output = read(here, &format!("compensated/{name}"));
         assert!(output.lines().count() > flat.lines().count(), "{output}");
         let table = read(here, "points.csv");
         assert!(

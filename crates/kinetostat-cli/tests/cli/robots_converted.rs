@@ -31,7 +31,7 @@ fn tools_that_a_program_assigns_itself_count_in_every_command() {
         "{text}"
     );
     assert!(!said.contains("is not stated: TOOL_DATA"), "{said}");
-    let line = "compensate --model heavy_6r --program part.src --force 30 0 -20 --correct position --tool-axis -z --out b.src";
+    let line = "compensate --model heavy_6r --weight all --program part.src --force 30 0 -20 --correct position --tool-axis -z --out b.src";
     run(here, &words(line)).answered();
 }
 

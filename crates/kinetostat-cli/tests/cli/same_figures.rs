@@ -13,8 +13,8 @@ const UNEVEN: &str = "G21 G90 G17\nG0 X0 Y0 Z5\nG1 Z0 F300\nG1 X20 Y7 F600\nG2 X
 fn json(here: &Path, line: &str) -> Value {
     let words: Vec<&str> = line.split(' ').collect();
     let said = run(here, &words);
-    // A tolerance that is missed is an answer, too.
-    assert!([0, 3].contains(&said.code), "{line}:");
+    // A tolerance that is missed, or rests on assumptions, is an answer, too.
+    assert!([0, 3, 4].contains(&said.code), "{line}: {said:?}");
     serde_json::from_str(&said.out).expect("JSON")
 }
 
@@ -39,7 +39,7 @@ fn deflect_and_compensate_agree_before_compensation() {
             _ => home(here, preset),
         };
         let query = format!(
-            "--program uneven.ngc --tool-length-mm 100 --part-origin-mm {x} {y} {z} --milling 20 -5 -10 --json"
+            "--weight all --program uneven.ngc --tool-length-mm 100 --part-origin-mm {x} {y} {z} --milling 20 -5 -10 --json"
         );
         let plain = json(here, &format!("deflect {preset} {query}"));
         let line = format!("compensate --model {preset} {query} - --out o.ngc --force-overwrite");
@@ -222,7 +222,7 @@ fn limits_are_millimetres_of_the_machine() {
     .expect("a program");
     for (scale, shown) in [("1", "3.6"), ("10", "4.1")] {
         let line = format!(
-            "compensate --model kuka_kr270_like --program s.ngc --force 2500 -1200 150 --tool-length-mm 150 --part-origin-mm 1500 200 1000 --scale {scale} --out o.ngc --force-overwrite"
+            "compensate --model kuka_kr270_like --weight all --program s.ngc --force 2500 -1200 150 --tool-length-mm 150 --part-origin-mm 1500 200 1000 --scale {scale} --out o.ngc --force-overwrite"
         );
         let said = run(here, &line.split(' ').collect::<Vec<_>>());
         assert_eq!(said.code, 1, "{line}: {said:?}");
@@ -231,7 +231,7 @@ fn limits_are_millimetres_of_the_machine() {
             "{line}: {said:?}"
         );
     }
-    let line = "compensate --model kuka_kr270_like --program s.ngc --force 250 -120 15 --tool-length-mm 150 --part-origin-mm 1500 200 1000 --out o.ngc --force-overwrite --json -";
+    let line = "compensate --model kuka_kr270_like --weight all --program s.ngc --force 250 -120 15 --tool-length-mm 150 --part-origin-mm 1500 200 1000 --out o.ngc --force-overwrite --json -";
     let [one, ten] = ["1", "10"].map(|scale| {
         let answer = json(here, &format!("{line} --scale {scale}"));
         answer["question"]["tolerance_mm"]

@@ -99,7 +99,7 @@ fn all_commands_give_the_same_figure_at_the_same_place() {
         let program = ["--program", "there.ngc", "--part-origin-mm", x, y, z];
         let mut words = vec!["deflect", model];
         words.extend(program);
-        words.push("--json");
+        words.extend(["--weight", "all", "--json"]);
         let along = json(here, &words);
         same(model, figure(&along["summary"]), rest);
     }

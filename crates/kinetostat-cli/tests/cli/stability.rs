@@ -192,7 +192,7 @@ fn warnings_have_one_form_in_every_command() {
             moon,
         ),
         (
-            "deflect gantry.toml --program part.ngc --part-origin-mm 0 0 900 --force 10 0 0",
+            "deflect gantry.toml --weight all --program part.ngc --part-origin-mm 0 0 900 --force 10 0 0",
             "model",
             moon,
         ),

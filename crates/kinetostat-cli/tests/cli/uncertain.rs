@@ -216,7 +216,7 @@ fn what_no_band_can_be_made_of_is_refused() {
         (
             "[placement]\npart_origin_mm = [0, 600, 0]\n[load]\nmilling = { radial_n = 10, tangential_n = 0, axial_n = 0 }\n",
             RADIAL,
-            "compensate job.toml --model prs3 --uncertain spread.toml --out out.ngc",
+            "compensate job.toml --model prs3 --weight all --uncertain spread.toml --out out.ngc",
             "turns as it moves",
         ),
     ] {

@@ -309,7 +309,7 @@ length_mm = 100\ncutter = { shape = \"flat\", diameter_mm = 6, teeth = 2, helix_
 [engagement]\nwidth_mm = 2\ndepth_mm = 1\npart = \"left\"\n";
     std::fs::write(here.path().join("job.toml"), job).unwrap();
     let done = run(here.path(), &["compensate", "job.toml", "--out", "out.ngc"]);
-    assert_eq!(done.code, 0, "{done:?}");
+    assert_eq!(done.code, 4, "{done:?}");
     let said = run(here.path(), &["verify", "out.ngc", "--job", "job.toml"]);
     assert_eq!(said.code, 0, "{said:?}");
 }

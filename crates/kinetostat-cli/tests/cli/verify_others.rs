@@ -189,6 +189,8 @@ fn a_circle_on_which_the_pose_is_corrected_is_verified() {
     let machine = [
         "--model",
         "heavy_6r",
+        "--weight",
+        "all",
         "--milling",
         "300",
         "-100",
@@ -200,7 +202,7 @@ fn a_circle_on_which_the_pose_is_corrected_is_verified() {
     ];
     let compensate = ["compensate", "--program", "arc.mod", "-o", "out.mod"];
     let output = run(here.path(), &[&compensate[..], &machine].concat());
-    assert_eq!(output.code, 0, "{output:?}");
+    assert_eq!(output.code, 4, "{output:?}");
     let verify = ["verify", "out.mod", "--against", "arc.mod"];
     let output = run(here.path(), &[&verify[..], &machine].concat());
     assert_eq!(output.code, 0, "{output:?}");
@@ -240,7 +242,7 @@ fn a_short_block_beside_a_lift_is_none() {
     let circle = "G1 X20.5 F300\nG3 I-0.5 J0\nG1 X20\nG0 Z5\n";
     let slot = "G1 X22.1 Y10.3 F300\nG0 Z1\n";
     for cut in [circle, slot] {
-        let load = "{ radial_n = 215, tangential_n = -10, axial_n = -25 }";
+        let load = "{ radial_n = 215, tangential_n = -10, axial_n = -25 }\nweight = \"all\"";
         let here = job(&format!("G21 G90\n{hole}{cut}M2\n"), HEAVY, load);
         let [claimed, found] = both(here.path(), &["--tolerance-um", "3"]);
         assert!(found <= claimed + 2e-4, "{found} {claimed}");

@@ -26,7 +26,7 @@ const HEIDENHAIN: &str = "BEGIN PGM h MM\nTOOL CALL 1 Z S5000\nL X+0 Y+0 Z+30 R0
 const APT: &str = "PARTNO T\nUNITS/MM\nLOADTL/1\nSPINDL/5000,RPM,CLW\nRAPID\nGOTO/0,0,30\nFEDRAT/600,MMPM\nGOTO/0,0,0\nGOTO/100,0,0\nGOTO/100,60,0\nRAPID\nGOTO/100,60,30\nFINI\n";
 const SHIFTED: &str = "G21 G90 G17 G94\nT1 M6\nS5000 M3\nG92 X0 Y0 Z30\nG0 X0 Y0 Z30\nG1 Z0 F600\nX100\nY60\nG0 Z30\nM2\n";
 
-pub(crate) const LOADED: &str = "--model heavy_6r --force 200 -150 300";
+pub(crate) const LOADED: &str = "--model heavy_6r --weight all --force 200 -150 300";
 pub(crate) const POSE: &str = " --rapid-from-mm-per-s 150 --correct pose";
 pub(crate) const PLACED: &str = " --tool-length-mm 150 --part-origin-mm 1300 50 900";
 
@@ -50,7 +50,7 @@ pub(crate) fn verified(
     ];
     line.extend(&options);
     let done = run(here, &line);
-    assert_eq!(done.code, 0, "{done:?}");
+    assert!(matches!(done.code, 0 | 4), "{done:?}");
     let text = std::fs::read_to_string(here.join(&out)).unwrap();
     std::fs::write(here.join(&other), change(&text)).unwrap();
     let mut line = vec!["verify", other.as_str(), "--against", original];

@@ -3,9 +3,10 @@
 //! The mean does not depend on the helix: each piece of edge passes every angle of the arc once a revolution. So it is an
 //! integral over the envelope, not over the edge.
 
+use std::borrow::Cow;
 use std::f64::consts::TAU;
 
-use crate::engagement::{Contact, Edge};
+use crate::engagement::{Contact, Edge, Engagement};
 use crate::law::ForceLaw;
 use crate::milling::chip::Tooth;
 use crate::milling::cut::Milling;
@@ -63,6 +64,26 @@ impl<L: ForceLaw + ?Sized> Milling<'_, L> {
             }
         }
         self.as_it_turns(sum * TAU.recip(), CutForce::mirrored)
+    }
+
+    /// Mean force of the edges on the flat end alone.
+    #[must_use]
+    pub fn mean_of_end(&self) -> CutForce {
+        let contacts = self.engagement.contacts.iter();
+        let contacts = contacts
+            .filter(|contact| contact.edge == Edge::End)
+            .copied();
+        let ends = Milling {
+            tool: self.tool,
+            law: self.law,
+            engagement: Cow::Owned(Engagement {
+                contacts: contacts.collect(),
+            }),
+            feed: self.feed,
+            chips: self.chips.clone(),
+            rotation: self.rotation,
+        };
+        ends.mean()
     }
 
     /// Adds what all teeth bear on an arc, with a width of edge.

@@ -1,4 +1,4 @@
-//! Force over the revolution: peaks and harmonics.
+//! Force over the revolution at evenly spaced angles, and its harmonics.
 
 use std::f64::consts::TAU;
 
@@ -60,38 +60,13 @@ impl Revolution {
         (0..self.forces.len()).map(move |i| step * i as f64)
     }
 
-    /// Largest force across the tool axis, N.
-    #[must_use]
-    pub fn peak_in_plane_n(&self) -> f64 {
-        self.largest(CutForce::in_plane_n)
-    }
-
-    /// Largest force, N.
+    /// Largest force at these angles, N; [`Milling::peaks`] finds the largest between them.
     #[must_use]
     pub fn peak_n(&self) -> f64 {
-        self.largest(|force| force.force_n.norm())
-    }
-
-    /// Largest torque, N mm.
-    #[must_use]
-    pub fn peak_torque_n_mm(&self) -> f64 {
-        self.largest(CutForce::torque_n_mm)
-    }
-
-    fn largest(&self, of: impl Fn(&CutForce) -> f64) -> f64 {
-        self.forces.iter().map(of).fold(0.0, larger)
-    }
-
-    /// The force with the largest part across the tool axis, and the angle of the spindle at which it acts, rad.
-    #[must_use]
-    pub fn peak(&self) -> (f64, CutForce) {
-        let mut peak = (0.0, CutForce::default());
-        for (turn, force) in self.turns().zip(&self.forces) {
-            if force.in_plane_n() > peak.1.in_plane_n() {
-                peak = (turn, *force);
-            }
-        }
-        peak
+        self.forces
+            .iter()
+            .map(|force| force.force_n.norm())
+            .fold(0.0, larger)
     }
 
     /// The part of the force that comes back so many times a revolution; the number of teeth is the frequency of the teeth.

@@ -111,6 +111,8 @@ impl Stock {
             false => 0.0,
         };
         let seen_from = if reach < wall { reach } else { wall + known };
+        // The floor that the tool has left is no wall above it, whatever the rounding of its height.
+        let tolerance = self.tolerance();
         let skin = (SKIN * self.cell) as f32;
         let (wall_square, reach_square) = (wall * wall, reach * reach);
         let deep_square = (wall - known).max(0.0) * (wall - known);
@@ -127,7 +129,8 @@ impl Stock {
                 }
                 let distance = (seen.square.sqrt() - wall) as f32;
                 if distance < column.drop
-                    && f64::from(column.top) > sweep.height(profile, &seen, wall + known)
+                    && f64::from(column.top)
+                        > sweep.height(profile, &seen, wall + known) + tolerance
                 {
                     column.drop = distance;
                     column.drop_normal = sweep.outward(&seen);

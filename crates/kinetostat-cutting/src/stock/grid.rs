@@ -79,6 +79,8 @@ pub struct Stock {
     /// Cells per mm.
     pub(crate) per_mm: f64,
     pub(crate) bottom: f64,
+    /// Lowest and highest corner of the blank, mm.
+    pub(crate) space: [[f64; 3]; 2],
     /// Greatest top at the start, above the bottom.
     pub(crate) height: f64,
     pub(crate) asked_cell: f64,
@@ -139,6 +141,10 @@ impl Stock {
             cell,
             per_mm: 1.0 / cell,
             bottom,
+            space: [
+                [corner[0], corner[1], bottom],
+                [opposite[0], opposite[1], top],
+            ],
             height: top - bottom,
             asked_cell: settings.cell_mm(),
             front: None,
@@ -223,6 +229,21 @@ impl Stock {
     pub fn corners_mm(&self) -> [[f64; 2]; 2] {
         let [nx, ny] = self.points;
         [self.origin, self.place(nx - 1, ny - 1)]
+    }
+
+    /// Lowest and highest corner of the box around the material at the start, mm.
+    ///
+    /// ```
+    /// use kinetostat_cutting::{Stock, StockSettings};
+    ///
+    /// let stock = Stock::block([0.0; 3], [20.0, 10.0, 5.0], &StockSettings::with_cell_mm(0.5)?)?;
+    /// let [low, high] = stock.space_mm();
+    /// assert_eq!((low, high), ([0.0; 3], [20.0, 10.0, 5.0]));
+    /// # Ok::<(), kinetostat_cutting::CutError>(())
+    /// ```
+    #[must_use]
+    pub fn space_mm(&self) -> [[f64; 3]; 2] {
+        self.space
     }
 
     /// Top of the material at the grid point next to x and y, mm; `None` where there is no material.

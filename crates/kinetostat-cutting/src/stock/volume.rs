@@ -1,10 +1,11 @@
 //! Volume of a stock.
 
 use crate::stock::grid::Stock;
+use crate::stock::normal::Normal;
 
 impl Stock {
     /// Volume of the material, mm^3: the square around each point, with the part of it beyond a wall at the height of the
-    /// neighbour there.
+    /// neighbour across that wall.
     ///
     /// ```
     /// use kinetostat_cutting::{Stock, StockSettings};
@@ -39,33 +40,25 @@ impl Stock {
         if (drop >= near && rise >= near) || i == 0 || j == 0 || i + 1 == nx || j + 1 == ny {
             return top;
         }
-        let at = |a: usize, b: usize| f64::from(self.columns[b * nx + a].top);
-        // The gradient of the tops points across the wall.
-        let slope_x = at(i + 1, j) - at(i - 1, j);
-        let slope_y = at(i, j + 1) - at(i, j - 1);
-        let length = slope_x.hypot(slope_y);
-        let (mut lowest, mut highest) = (top, top);
-        for b in j - 1..=j + 1 {
-            for a in i - 1..=i + 1 {
-                let neighbour = at(a, b);
-                lowest = if neighbour < lowest {
-                    neighbour
-                } else {
-                    lowest
-                };
-                highest = if neighbour > highest {
-                    neighbour
-                } else {
-                    highest
-                };
+        // Of two walls near the point, as where a slot leaves the block, each leads to its own level: its normal says where.
+        let beyond = |distance: f64, normal: Normal, sign: f64| {
+            let [x, y] = normal.vector();
+            let [along_x, along_y] = [x.abs(), y.abs()];
+            let longer = if along_x > along_y { along_x } else { along_y };
+            if distance >= near || longer == 0.0 {
+                return 0.0;
             }
-        }
-        let across = match length > 0.0 {
-            true => [slope_x.abs() / length, slope_y.abs() / length],
-            false => [1.0, 0.0],
+            let step = |part: f64| (sign * part / longer).round() as isize;
+            let (a, b) = (
+                i.wrapping_add_signed(step(x)),
+                j.wrapping_add_signed(step(y)),
+            );
+            let level = f64::from(self.columns[b * nx + a].top);
+            beyond_line(distance / self.cell, [along_x, along_y]) * (level - top)
         };
-        let beyond = |distance: f64| beyond_line(distance / self.cell, across);
-        top - beyond(drop) * (top - lowest) + beyond(rise) * (highest - top)
+        let below = beyond(drop, column.drop_normal, -1.0);
+        let above = beyond(rise, column.rise_normal, 1.0);
+        top + if below < 0.0 { below } else { 0.0 } + if above > 0.0 { above } else { 0.0 }
     }
 }
 

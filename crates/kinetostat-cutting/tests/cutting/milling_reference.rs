@@ -136,14 +136,14 @@ fn measured(row: &Row) -> [f64; 6] {
     let (width, depth, feed) = row.cut;
     let engagement = Engagement::straight(tool.radius_mm(), width, depth, row.part).unwrap();
     let cut = Milling::new(&tool, &row.law, &engagement, Feed::level(feed).unwrap());
-    let (mean, revolution) = (cut.mean(), cut.revolution_at(1440));
+    let (mean, peaks) = (cut.mean(), cut.peaks());
     [
         mean.force_n.x,
         mean.force_n.y,
         mean.force_n.z,
-        revolution.peak_in_plane_n(),
+        peaks.across.force.in_plane_n(),
         mean.torque_n_mm(),
-        revolution.peak_torque_n_mm(),
+        peaks.torque.force.torque_n_mm(),
     ]
 }
 

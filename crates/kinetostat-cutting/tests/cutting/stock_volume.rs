@@ -40,6 +40,46 @@ fn length() -> f64 {
     (B[0] - A[0]).hypot(B[1] - A[1])
 }
 
+/// A slot through a block whose sides it leaves, in one move, in short ones, off the grid and aslant, with the default cell: walls
+/// that meet in a cell lead to levels of their own.
+#[test]
+fn slots_through_the_sides_of_a_block() {
+    let tool = flat(16.0);
+    let (depth, sides) = (1.31, [90.0, 40.0]);
+    let mut worst = kinetostat_testing::Worst::new();
+    // From below x = 0 to beyond x = 90; the strip of a slanted slot within the block is a parallelogram.
+    for (ends, moves) in [
+        ([20.0, 20.0], 1),
+        ([20.0, 20.0], 57),
+        ([20.33, 20.33], 1),
+        ([15.0, 25.0], 1),
+        ([15.0, 25.0], 31),
+    ] {
+        let mut stock = block([0.0, 0.0, -20.0], [sides[0], sides[1], 0.0], 0.8);
+        let before = stock.volume_mm3();
+        let mut probe = Probe::new(&tool);
+        let slope = (ends[1] - ends[0]) / sides[0];
+        let place = |k: usize| {
+            let x = -30.0 + 150.0 * k as f64 / f64::from(moves);
+            [x, ends[0] + slope * x, -depth]
+        };
+        let places: Vec<[f64; 3]> = (0..=moves as usize).map(place).collect();
+        probe.cut_along(&mut stock, &places).unwrap();
+        probe.cut(&mut stock, [500.0; 3], [500.0; 3]).unwrap();
+        let exact = sides[0] * 16.0 * slope.hypot(1.0) * depth;
+        worst.add((before - stock.volume_mm3()) / exact - 1.0);
+    }
+    assert!(
+        at_most(
+            "removed volume, slots through the sides of a block: share",
+            worst.of(5),
+            2e-3,
+            "1"
+        ),
+        "{worst}"
+    );
+}
+
 #[test]
 fn figure_a_slot_with_round_ends() {
     let exact = (PI * 9.0 + 6.0 * length()) * 2.0;

@@ -65,6 +65,11 @@ impl EventAction {
         }
     }
 
+    /// True if the spindle turns from here on.
+    pub(crate) fn starts_spindle(self) -> bool {
+        matches!(self, Self::Spindle { rotation, .. } if rotation != SpindleRotation::Stopped)
+    }
+
     /// Whether a language has it.
     pub(crate) fn is_in(self, language: MakeLanguage) -> bool {
         let of_a_machine = matches!(language, MakeLanguage::Apt | MakeLanguage::Gcode);

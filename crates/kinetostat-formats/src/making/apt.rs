@@ -32,6 +32,7 @@ pub(crate) fn files(
         match step {
             Step::Note(note) => text += &format!("$$ {note}\n"),
             Step::Tool(number) => text += &format!("LOADTL/{number}\n"),
+            Step::Statement(statement) => text += &format!("{statement}\n"),
             Step::Action(action) => text += &action_text(*action),
             Step::Motion(motion) => {
                 let per_minute = short(

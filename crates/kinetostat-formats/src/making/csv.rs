@@ -39,7 +39,7 @@ pub(crate) fn files(
                     tool = number.to_string();
                 }
             }
-            Step::Action(_) => {}
+            Step::Action(_) | Step::Statement(_) => {}
             Step::Motion(motion) => {
                 text += &coordinates(&motion.end, template).join(",");
                 if let (true, Some(turn)) = (oriented, &motion.orientation) {

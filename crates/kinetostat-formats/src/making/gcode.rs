@@ -42,6 +42,7 @@ pub(crate) fn files(
         match step {
             Step::Note(note) => text += &format!("({note})\n"),
             Step::Tool(number) => text += &format!("T{number} M6\n"),
+            Step::Statement(statement) => text += &format!("{statement}\n"),
             Step::Action(action) => text += &action_text(*action),
             Step::Motion(motion) => {
                 let [x, y, z] = coordinates(&motion.end, template);

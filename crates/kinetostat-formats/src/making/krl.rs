@@ -129,6 +129,7 @@ impl Writer<'_> {
             }
             Step::Action(EventAction::Stop | EventAction::OptionalStop) => self.line("HALT"),
             Step::Action(_) => {}
+            Step::Statement(text) => self.line(text),
             Step::Tool(number) => {
                 self.tool = Some(*number);
                 self.tool_line();

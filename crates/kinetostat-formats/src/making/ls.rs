@@ -175,6 +175,9 @@ impl<'t> Writer<'t> {
                 self.instruction("  PAUSE");
             }
             Step::Action(_) => {}
+            Step::Statement(text) => {
+                self.instruction(&format!("  {}", text.trim_end_matches([' ', ';'])))
+            }
             Step::Tool(number) => {
                 self.tool = Some(*number);
                 let tool = self.tool_number();

@@ -36,6 +36,8 @@ pub struct Made {
     pub parts: Vec<(usize, [f64; 2])>,
     /// The first motion to a pose states how the arm reaches it: as the template says, or as the source does in the same language.
     pub states_configuration: bool,
+    /// The first start of the spindle in the source that is a note alone: the program does not start it.
+    pub spindle_not_started: Option<String>,
 }
 
 /// What stands at the head of made programs.
@@ -152,7 +154,7 @@ pub(crate) fn make_along(
     let first = steps.iter().find_map(Step::motion);
     let of_source = first.is_some_and(|motion| motion.end_configuration().is_some());
     let states_configuration = template.configuration.is_some() || of_source;
-    let mut findings = planned.findings;
+    let mut findings = planned.findings.clone();
     if language.is_of_an_arm() {
         findings.extend(crowded(steps));
     }
@@ -171,6 +173,7 @@ pub(crate) fn make_along(
         lines,
         parts,
         states_configuration,
+        spindle_not_started: planned.spindle_not_started.clone(),
     })
 }
 

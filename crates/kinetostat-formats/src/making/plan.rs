@@ -26,6 +26,7 @@ use crate::making::turned_pieces::Turned;
 pub(crate) struct Planned {
     pub steps: Vec<Step>,
     pub findings: Vec<MakeFinding>,
+    pub spindle_not_started: Option<String>,
 }
 
 /// Places and orientations that differ by less are one.
@@ -53,6 +54,7 @@ pub(crate) fn plan(
         findings: Vec::new(),
         otherwise: Otherwise::default(),
         turned: Turned::default(),
+        spindle_not_started: None,
         tool: None,
         last_tool: None,
         begun: false,
@@ -76,6 +78,8 @@ struct Planner<'p> {
     findings: Vec<MakeFinding>,
     otherwise: Otherwise,
     turned: Turned,
+    /// The first start of the spindle that is a note alone.
+    spindle_not_started: Option<String>,
     tool: Option<u32>,
     /// Tool of the last motion.
     last_tool: Option<u32>,
@@ -161,9 +165,16 @@ impl Planner<'_> {
                     }
                     self.steps.push(Step::Action(*action));
                 }
-                false => {
-                    lost.insert(action.kind());
-                }
+                false => match self.statements(*action) {
+                    Some(lines) => self.steps.extend(lines.into_iter().map(Step::Statement)),
+                    None => {
+                        let starts = action.starts_spindle() && !of_a_machine;
+                        if starts && self.spindle_not_started.is_none() {
+                            self.spindle_not_started = Some(note.clone());
+                        }
+                        lost.insert(action.kind());
+                    }
+                },
             }
         }
         let is_taken = |kind: EventKind| {
@@ -173,12 +184,23 @@ impl Planner<'_> {
         let speaks_alone = event.actions.is_empty() && event.rest.is_none();
         lost.extend(event.rest.filter(|kind| !is_taken(*kind)));
         // The speed of a spindle that stands still is written where it starts.
-        lost.extend((event.states_speed && !of_a_machine).then_some(EventKind::Spindle));
+        let is_written_there = of_a_machine || !self.template.spindle.clockwise.is_empty();
+        lost.extend((event.states_speed && !is_written_there).then_some(EventKind::Spindle));
         lost.extend((speaks_alone && !event.states_speed).then_some(event.kind));
         for kind in lost {
             if !matches!(kind, EventKind::Comment | EventKind::End) {
                 self.otherwise.lose(kind, note.clone());
             }
+        }
+    }
+
+    /// Statements of the template for what the language has no words for.
+    fn statements(&self, action: EventAction) -> Option<Vec<String>> {
+        match action {
+            EventAction::Spindle { rotation, rpm } if self.language.is_of_an_arm() => {
+                self.template.spindle.lines(rotation, rpm)
+            }
+            _ => None,
         }
     }
 
@@ -371,6 +393,7 @@ impl Planner<'_> {
         Ok(Planned {
             steps: self.steps,
             findings: self.findings,
+            spindle_not_started: self.spindle_not_started,
         })
     }
 }

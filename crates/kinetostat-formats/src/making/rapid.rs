@@ -247,6 +247,7 @@ impl<'t> Writer<'t> {
             }
             Step::Action(EventAction::Stop | EventAction::OptionalStop) => "Stop;".to_owned(),
             Step::Action(_) => return,
+            Step::Statement(text) => text.clone(),
             Step::Tool(number) => {
                 self.tool = Some(*number);
                 return;

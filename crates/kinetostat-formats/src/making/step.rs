@@ -85,6 +85,8 @@ pub(crate) enum Step {
     Note(String),
     /// What the language has.
     Action(EventAction),
+    /// A statement of the template in the language of the program.
+    Statement(String),
     /// Another tool, by its number.
     Tool(u32),
     Motion(MadeMotion),

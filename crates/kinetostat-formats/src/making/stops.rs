@@ -18,7 +18,7 @@ pub(crate) fn stops(steps: &mut [Step]) {
                     next = None;
                 }
             }
-            Step::Tool(_) => next = None,
+            Step::Tool(_) | Step::Statement(_) => next = None,
             Step::Note(_) => {}
         }
     }

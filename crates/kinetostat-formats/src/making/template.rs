@@ -2,7 +2,10 @@
 
 use std::collections::BTreeMap;
 
+use kinetostat_program::SpindleRotation;
 use nalgebra::{Isometry3, UnitQuaternion, Vector3};
+
+use crate::making::numbers::short;
 
 /// A base or a tool as the controller knows it, and where it is.
 ///
@@ -45,6 +48,43 @@ pub struct StatedTool {
     /// Its moments of inertia about those axes through its centre of mass, kg m^2.
     pub inertia_kg_m2: Option<Vector3<f64>>,
 }
+
+/// Statements by which the cell starts and stops its spindle, in the language of the made program; `{rpm}` stands for the speed.
+///
+/// Robots have no words for a spindle: where none of these is stated, S, M3 and M4 of the source become notes.
+///
+/// ```
+/// assert!(kinetostat_formats::SpindleStatements::default().stop.is_empty());
+/// ```
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct SpindleStatements {
+    /// For M3, one statement a line.
+    pub clockwise: Vec<String>,
+    /// For M4.
+    pub counter_clockwise: Vec<String>,
+    /// For M5.
+    pub stop: Vec<String>,
+}
+
+impl SpindleStatements {
+    /// The lines for a rotation at a speed; `None` where the cell states none, or where they need a speed that is not known.
+    pub(crate) fn lines(&self, rotation: SpindleRotation, rpm: Option<f64>) -> Option<Vec<String>> {
+        let lines = match rotation {
+            SpindleRotation::Clockwise => &self.clockwise,
+            SpindleRotation::CounterClockwise => &self.counter_clockwise,
+            SpindleRotation::Stopped => &self.stop,
+        };
+        let needs_speed = lines.iter().any(|line| line.contains(RPM));
+        if lines.is_empty() || (needs_speed && rpm.is_none()) {
+            return None;
+        }
+        let rpm = short(rpm.unwrap_or(0.0), 3);
+        Some(lines.iter().map(|line| line.replace(RPM, &rpm)).collect())
+    }
+}
+
+/// The place of the speed in a statement of the spindle.
+const RPM: &str = "{rpm}";
 
 /// What rapids become.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -120,6 +160,8 @@ pub struct Template {
     pub tool: StatedTool,
     /// Tools by the numbers of the source, of a program with several.
     pub tools: BTreeMap<u32, StatedTool>,
+    /// How the spindle is started and stopped.
+    pub spindle: SpindleStatements,
     /// Turns the part's axes into the tool's, for moves that state no orientation.
     pub tool_orientation: Option<UnitQuaternion<f64>>,
     /// What rapids become.
@@ -161,6 +203,7 @@ impl Default for Template {
             base: StatedFrame::default(),
             tool: StatedTool::default(),
             tools: BTreeMap::new(),
+            spindle: SpindleStatements::default(),
             tool_orientation: None,
             rapids: Rapids::Linear,
             rapid_speed_mm_per_s: 200.0,

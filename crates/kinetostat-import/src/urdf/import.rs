@@ -15,7 +15,7 @@ use crate::urdf::graph::{Graph, LinkPath, graph};
 use crate::urdf::loops::{self, Loops};
 use crate::urdf::options::UrdfOptions;
 use crate::urdf::remarks::{
-    in_metres, left_out, moving_base, one_limb_each, reach, several_platforms, singular, standing,
+    in_metres, left_out, moving_base, one_limb_each, reach, several_platforms, standing,
 };
 use crate::urdf::request::{
     closed, closings, ends, followers, homes, known_stiffnesses, used, variables,
@@ -206,9 +206,7 @@ fn remark(
     inertial::look(robot, &moving, reach, log);
     standing(robot, &home.tree, &home.variables, &home.values, log);
     let between = |w: &LinkPath| w.from != home.base || w.to != home.tip;
-    if graph.paths.len() == 1 {
-        singular(plan, graph, &home.frames, reach, log);
-    } else if graph.paths.iter().any(between) {
+    if graph.paths.len() > 1 && graph.paths.iter().any(between) {
         several_platforms(robot, graph, log);
     }
     if !home.is_fixed(robot, home.tree.root) {

@@ -6,11 +6,6 @@ use nalgebra::{Matrix3, Vector3};
 use crate::log::{Log, some_names};
 use crate::urdf::robot::{Inertial, Robot};
 
-/// Mass per reach squared, kg/m^2, of arms as they are built: 15 (light collaborative arms) to 350
-/// (heavy ones of 700 kg payload); a factor of about 1.3 to 3 beside these is let pass.
-const LIGHTEST: f64 = 5.0;
-const HEAVIEST: f64 = 450.0;
-
 /// Looks at the inertials of the links that move; `reach` is the length of the moving arm, m.
 pub(crate) fn look(robot: &Robot, moving: &[usize], reach: f64, log: &mut Log) {
     let named = |links: &[usize]| {
@@ -46,45 +41,6 @@ pub(crate) fn look(robot: &Robot, moving: &[usize], reach: f64, log: &mut Log) {
     for &link in &with {
         let Some(inertial) = of(&link) else { continue };
         one(inertial, reach, log);
-    }
-    let heavy: Vec<&Inertial> = with.iter().filter_map(of).collect();
-    let first = heavy[0];
-    let same = |a: f64, b: f64| (a - b).abs() <= 1e-9 * a.abs().max(b.abs());
-    if heavy.len() >= 3 && heavy.iter().all(|i| same(i.mass, first.mass)) && first.mass > 0.0 {
-        log.notice(
-            &first.at,
-            format!(
-                "all {} moving links have the same mass, {} kg: a placeholder",
-                heavy.len(),
-                first.mass
-            ),
-            "gravity will be wrong; write the true masses into the model, or gravity_m_per_s2 = [0, 0, 0]",
-        );
-    }
-    // Data sheets count the base too.
-    let total: f64 = robot
-        .links
-        .iter()
-        .filter_map(|l| l.inertial.as_ref())
-        .map(|i| i.mass)
-        .sum();
-    let ratio = total / (reach * reach);
-    if reach > 0.05 && total > 0.0 && !(LIGHTEST..=HEAVIEST).contains(&ratio) {
-        let (word, side) = match ratio > HEAVIEST {
-            true => ("much", "heaviest"),
-            false => ("little", "lightest"),
-        };
-        log.notice(
-            &first.at,
-            format!(
-                "the links weigh {total:.1} kg in all, {word} for an arm of {reach:.2} m: the {side} that are built have about {:.0} kg",
-                match ratio > HEAVIEST {
-                    true => 350.0 * reach * reach,
-                    false => 15.0 * reach * reach,
-                }
-            ),
-            "gravity will be wrong if these are placeholders; compare with the data sheet, and write the true masses into the model",
-        );
     }
 }
 

@@ -2,12 +2,10 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use kinetostat::{Pose, spatial::pose_residual};
-use nalgebra::{DMatrix, Vector3};
+use nalgebra::Vector3;
 
 use crate::log::{Log, some_names};
-use crate::urdf::chain::{Plan, Variable, Written};
-use crate::urdf::close::product;
+use crate::urdf::chain::{Variable, Written};
 use crate::urdf::graph::Graph;
 use crate::urdf::request::with_unit;
 use crate::urdf::robot::Robot;
@@ -111,39 +109,6 @@ pub(crate) fn standing(
                 "masses behind it are carried along in that position; choose another tip, or say how it is held by a loop file (--loops)",
             );
         }
-    }
-}
-
-/// Whether the arm at home has lost a direction.
-pub(crate) fn singular(plan: &Plan<'_>, graph: &Graph, frames: &[Pose], reach: f64, log: &mut Log) {
-    let Some(path) = graph.paths.first() else {
-        return;
-    };
-    let mut moving: Vec<usize> = path.steps.iter().filter_map(TreeStep::variable).collect();
-    moving.sort_unstable();
-    moving.dedup();
-    if moving.len() < 6 || reach < 1e-3 {
-        return;
-    }
-    let step = 1e-6;
-    let mut jacobian = DMatrix::zeros(6, moving.len());
-    for (column, &v) in moving.iter().enumerate() {
-        let mut values = plan.home.to_vec();
-        values[v] += step;
-        let ahead = product(&path.steps, frames[path.from], &values);
-        let change = pose_residual(&ahead, &frames[path.to]).0 / step;
-        for i in 0..6 {
-            let unit = if i < 3 { reach } else { 1.0 };
-            jacobian[(i, column)] = change[i] / unit;
-        }
-    }
-    let values = kinetostat::linalg::SingularValues::of(&jacobian);
-    if values.least() < 1e-4 * values.largest() {
-        log.notice(
-            &plan.robot.at,
-            "the arm is singular at home: two of its axes do the same there",
-            "choose a home that is not, as in --home joint_5=30deg; `check` and the search for joint values start from it",
-        );
     }
 }
 

@@ -31,9 +31,10 @@ pub fn between(base: &str, tip: &str) -> UrdfOptions {
     options
 }
 
-/// All notices in one text.
+/// All notices in one text, with the warnings of the model that was made.
 pub fn notices(imported: &Imported) -> String {
-    imported.notices.iter().map(|n| format!("{n}\n")).collect()
+    let all = imported.notices.iter().chain(&imported.model.warnings);
+    all.map(|n| format!("{n}\n")).collect()
 }
 
 /// Real robots, where they are: the files belong to others and are not part of the project.

@@ -62,7 +62,7 @@ fn inertials_that_were_never_meant() {
     let same = inertial(2.0, 0.01);
     let said = notices(&import(&arm([&same, &same, &same]), &between("l0", "l3")));
     assert!(
-        said.contains("all 3 moving links have the same mass, 2 kg"),
+        said.contains("all 3 bodies of this limb have the same mass, 2 kg"),
         "{said}"
     );
 }

@@ -42,7 +42,19 @@ fn all_of_them_import_and_load_again() {
         let model = Model::from_toml(&imported.toml, "again.toml").unwrap();
         assert_eq!(model.mechanism.actuator_names(), imported.actuators);
         // At home the chain ends where the platform is said to stand, and limits are there.
-        assert!(model.warnings.is_empty(), "{name}: {:?}", model.warnings);
+        // Beside that it bends nowhere, is singular at its zero posture, and may have masses that were never meant.
+        let known = [
+            "singular at home",
+            "has no spring",
+            "the bodies weigh",
+            "have the same mass",
+        ];
+        let is_known = |w: &kinetostat_model::Problem| known.iter().any(|k| w.message.contains(k));
+        assert!(
+            model.warnings.iter().all(is_known),
+            "{name}: {:?}",
+            model.warnings
+        );
         for a in model.mechanism.limbs()[0].nominal.actuators() {
             assert!(a.limits.is_some(), "{name}: {}", a.name);
         }
@@ -134,17 +146,19 @@ fn placeholders_of_real_files_are_noticed() {
         return;
     };
     assert!(
-        notices(&heavy).contains("the links weigh 4879"),
+        // 4879 kg with its base.
+        notices(&heavy).contains("the bodies weigh 3306"),
         "{}",
         notices(&heavy)
     );
     let (_, light) = robot("kuka_kr120r2500pro", UrdfOptions::default()).unwrap();
     let said = notices(&light);
     assert!(
-        said.contains("all 6 moving links have the same mass, 2 kg"),
+        said.contains("all 6 bodies of this limb have the same mass, 2 kg"),
         "{said}"
     );
     assert!(said.contains("little for an arm"), "{said}");
+    assert!(said.contains("the arm is singular at home"), "{said}");
     let (_, none) = robot("kuka_lbr_iiwa_14_r820", UrdfOptions::default()).unwrap();
     assert!(notices(&none).contains("no moving link has a mass"));
     // Meshes stay as references.

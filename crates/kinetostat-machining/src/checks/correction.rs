@@ -60,7 +60,7 @@ pub(crate) fn corrections(exceeded: &mut Exceeded<'_>, task: &Task<'_>, points: 
         }
     };
     for (point, own) in compared.into_iter().zip(own) {
-        let own = own.unwrap_or_default();
+        let own = own.unwrap_or_default().error;
         note(0, scale * besides(point, &own), point);
         note(1, scale * own.norm(), point);
     }

@@ -9,21 +9,10 @@ pub(crate) struct Exceeded<'l> {
 }
 
 impl Exceeded<'_> {
-    /// Notes a figure that is above its limit, or is NaN.
+    /// Notes a figure that is beyond its limit, or is NaN.
     pub(crate) fn above(&mut self, name: &str, found: f64, line: Option<usize>, place: String) {
-        let Some(limit) = Limits::named(name) else {
-            return;
-        };
-        let allowed = self.limits.get(limit);
-        if found > allowed || found.is_nan() {
-            self.found.push(Beyond {
-                limit,
-                found,
-                allowed,
-                line,
-                place,
-            });
-        }
+        let beyond = self.limits.beyond(name, found, line, &place);
+        self.found.extend(beyond);
     }
 }
 

@@ -2,66 +2,78 @@
 //! it: the part of a correction that has nothing to do with cutting.
 //!
 //! It has a limit of its own. Heavy arms sag by millimetres, as they should; a cutting force that moves the tool
-//! that far is a wrong unit. And whoever touched the part off with the machine itself, or has a controller
-//! that knows the weight, must not correct it twice.
+//! that far is a wrong unit. How much of it is an error of the program depends on how the part was measured
+//! ([`crate::WeightCorrection`]).
 
-use kinetostat::{Mechanism, Wrench};
+use kinetostat::number::larger;
 use nalgebra::Vector3;
 
 use crate::checks::few_places::every;
+use crate::measured_frame::{FrameMotion, MeasuredFrame, PartPlace, Sag};
 use crate::postures::neighbour::in_chunks;
-use crate::postures::orientation::Orientation;
 use crate::result::point::PointResult;
-use crate::task::Task;
+use crate::task::{RunError, Task};
 
-/// Displacement of the tool at points by what acts without a load on it, program axes, mm: the difference
-/// between the machine and the same machine without weight and loads, so that errors of its geometry do not
-/// count. None where there is no answer.
-pub(crate) fn by_own_loads(task: &Task<'_>, points: &[&PointResult]) -> Vec<Option<Vector3<f64>>> {
+/// Displacement of the unloaded tool by what acts in the machine, program axes, mm.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct ByOwnLoads {
+    /// All of it.
+    pub whole: Vector3<f64>,
+    /// Its part that is an error of the program.
+    pub error: Vector3<f64>,
+}
+
+/// Displacements at points; none where there is no answer.
+pub(crate) fn by_own_loads(task: &Task<'_>, points: &[&PointResult]) -> Vec<Option<ByOwnLoads>> {
+    let Ok(frame) = MeasuredFrame::of(task, None) else {
+        return vec![None; points.len()];
+    };
     let machine = |p: &PointResult| task.mechanism_on(p.line);
     let of_one_machine = points.chunk_by(|a, b| std::ptr::eq(machine(a), machine(b)));
     of_one_machine
-        .flat_map(|run| shifts(task, machine(run[0]), run))
+        .flat_map(|run| {
+            let sag = Sag::new(machine(run[0]), &task.placement);
+            in_chunks(run, |_, points| {
+                let programmed = |point: &&PointResult| PartPlace::of_point(task, point);
+                let places: Vec<PartPlace> = points.iter().map(programmed).collect();
+                let measured = frame.motions(machine(run[0]), &places, |_| None);
+                let both = sag.at(&places, |_| None).into_iter().zip(measured);
+                let shift = |motion: FrameMotion| motion.shift_mm;
+                both.map(|(whole, measured)| {
+                    let (whole, measured) = (shift(whole.ok()?), shift(measured.ok()?));
+                    let error = whole - measured;
+                    Some(ByOwnLoads { whole, error })
+                })
+                .collect()
+            })
+        })
         .collect()
 }
 
-fn shifts(
-    task: &Task<'_>,
-    mechanism: &Mechanism,
-    points: &[&PointResult],
-) -> Vec<Option<Vector3<f64>>> {
-    if !mechanism.has_own_loads() {
-        return vec![Some(Vector3::zeros()); points.len()];
-    }
-    let bare = mechanism.without_own_loads();
-    let orientation = Orientation {
-        follows: task.placement.orientation_follows,
-        load_turns: false,
-    };
-    in_chunks(points, |[own, without], points| {
-        let shift = |point: &&PointResult| {
-            let pose = point.wanted_pose(&task.placement);
-            let none = Wrench::zero();
-            let (_, sagged) = own.rest(mechanism, &pose, &none, orientation).ok()?;
-            let (_, straight) = without.rest(&bare, &pose, &none, orientation).ok()?;
-            let off = sagged.translation.vector - straight.translation.vector;
-            Some(point.placement(&task.placement).to_program(&off))
-        };
-        points.iter().map(shift).collect()
-    })
-    .collect()
-}
-
-/// How far own weight and loads of the model put the tool off by themselves, mm, the largest of
-/// [`RunResult::MAX_POSTURES`](crate::RunResult::MAX_POSTURES) places.
-pub(crate) fn largest_by_own_weight(task: &Task<'_>, points: &[&PointResult]) -> Option<f64> {
+/// Largest displacement of the unloaded tool by own weight and loads of the model at
+/// [`RunResult::MAX_POSTURES`](crate::RunResult::MAX_POSTURES) places, mm: all of it, and its part that is an error.
+pub(crate) fn largest_by_own_weight(task: &Task<'_>, points: &[&PointResult]) -> Option<[f64; 2]> {
     let mut machines = points.iter().map(|p| task.mechanism_on(p.line));
-    if !machines.any(Mechanism::has_own_loads) {
+    if !machines.any(kinetostat::Mechanism::has_own_loads) {
         return None;
     }
     let some = points.iter().step_by(every(task, points.len()));
     let some: Vec<&PointResult> = some.copied().collect();
-    let own = by_own_loads(task, &some);
-    let sizes = own.into_iter().flatten().map(|shift| shift.norm());
-    sizes.max_by(f64::total_cmp)
+    let own = by_own_loads(task, &some).into_iter().flatten();
+    let sizes = own.map(|own| [own.whole.norm(), own.error.norm()]);
+    sizes.reduce(|[a, b], [c, d]| [larger(a, c), larger(b, d)])
+}
+
+/// Refuses a program along which own weight moves the tool where nobody stated whether that is an error.
+pub(crate) fn weight_is_stated(task: &Task<'_>, points: &[PointResult]) -> Result<(), RunError> {
+    if !task.weight.is_not_stated() {
+        return Ok(());
+    }
+    let points: Vec<&PointResult> = points.iter().collect();
+    let displacement_mm = largest_by_own_weight(task, &points).map_or(0.0, |[whole, _]| whole);
+    let last_digit = 10_f64.powi(-i32::from(task.writing.decimals.unwrap_or(4)));
+    match displacement_mm > last_digit {
+        true => Err(RunError::WeightNotStated { displacement_mm }),
+        false => Ok(()),
+    }
 }

@@ -3,7 +3,10 @@
 use kinetostat::number::short;
 use kinetostat::{Mechanism, Pose};
 use kinetostat_program::Knowledge;
+use nalgebra::Vector3;
 
+use crate::limits::Beyond;
+use crate::measured_frame::PartPlace;
 use crate::placement::Placement;
 use crate::result::point::{PointKind, PointResult, place};
 use crate::task::Task;
@@ -53,6 +56,24 @@ pub fn origin_in_metres(
     })
 }
 
+/// A part far below the base of a machine whose tool is above it at home: mostly a sign. Where the model states a workspace, that
+/// is what counts.
+pub(crate) fn below_base(task: &Task<'_>) -> Option<Beyond> {
+    let mechanism = task.mechanism;
+    let up = match mechanism.gravity().try_normalize(1e-9) {
+        Some(down) => -down,
+        None => Vector3::z(),
+    };
+    let home = mechanism.platforms()[mechanism.tool()].home;
+    let is_above = home.translation.vector.dot(&up) > 0.0;
+    if !is_above || task.bounds.workspace.is_some() {
+        return None;
+    }
+    let origin = &task.placement.base_from_part.translation.vector;
+    let depth_mm = -1e3 * origin.dot(&up);
+    (task.bounds.limits).beyond("below_base_mm", depth_mm, None, "")
+}
+
 pub(crate) fn outside_workspace(task: &Task<'_>, points: &[PointResult]) -> Option<Warning> {
     let (low, high) = task.bounds.workspace?;
     // With several tools the flange is not one.
@@ -63,7 +84,9 @@ pub(crate) fn outside_workspace(task: &Task<'_>, points: &[PointResult]) -> Opti
     };
     let slack = 1e-3;
     let outside = |p: &&PointResult| {
-        let at = (p.wanted_pose(&task.placement) * flange).translation.vector;
+        let at = (PartPlace::of_point(task, p).pose() * flange)
+            .translation
+            .vector;
         (0..3).any(|k| at[k] < low[k] - slack || at[k] > high[k] + slack)
     };
     let first = points

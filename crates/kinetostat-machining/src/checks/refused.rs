@@ -3,11 +3,12 @@
 
 use kinetostat::MotionKind;
 use kinetostat::number::short;
-use kinetostat_program::Accounting;
+use kinetostat_program::{Accounting, Path};
 
 use crate::checks::correction::corrections;
 use crate::checks::exceeded::Exceeded;
 use crate::checks::load::{loads, numbered, of_law};
+use crate::checks::placement::below_base;
 use crate::checks::tool::note_length;
 use crate::joints::figures::most_loaded;
 use crate::limits::{Beyond, Limits};
@@ -31,7 +32,20 @@ pub(crate) fn of_task(task: &Task<'_>) -> Vec<Beyond> {
     for tool in &task.bounds.tools {
         note_length(&mut exceeded, tool.length_mm(), &numbered(tool.number));
     }
+    exceeded.found.extend(below_base(task));
+    exceeded.found.extend(fastest_feed(limits, task.path()));
     exceeded.found
+}
+
+/// The fastest feed of a path, where it is beyond its limit.
+#[must_use]
+pub fn fastest_feed(limits: &Limits, path: &Path) -> Option<Beyond> {
+    let feeds = path.moves.iter().filter(|m| m.is_known_feed());
+    let speeds = feeds.filter_map(|m| Some((m.line, m.feed_mm_per_minute(f64::NAN)? / 60.0)));
+    // Feeds per revolution are not known here.
+    let known = speeds.filter(|(_, speed)| speed.is_finite());
+    let (line, speed) = known.max_by(|a, b| a.1.total_cmp(&b.1))?;
+    limits.beyond("speed_mm_per_s", speed, Some(line), "")
 }
 
 /// The correction of a written program, and its rate of blocks, where they are beyond their limits.

@@ -5,6 +5,7 @@ use kinetostat::number::short;
 
 use crate::bounds::ToolGiven;
 use crate::checks::exceeded::Exceeded;
+use crate::checks::load::numbered;
 use crate::limits::{Beyond, Limits};
 use crate::near::natural_length;
 use crate::task::Task;
@@ -15,18 +16,21 @@ const SHORT_MM: f64 = 15.0;
 
 /// Notes the length of a tool, mm, where it is beyond a limit; a tool that is not there has none.
 pub(crate) fn note_length(exceeded: &mut Exceeded<'_>, length: f64, place: &str) {
-    exceeded.above("longest_tool_mm", length, None, place.to_owned());
-    let shortest = exceeded.limits.shortest_tool_mm;
-    if length != 0.0 && length < shortest {
-        let limit = Limits::named("shortest_tool_mm");
-        exceeded.found.extend(limit.map(|limit| Beyond {
-            limit,
-            found: length,
-            allowed: shortest,
-            line: None,
-            place: place.to_owned(),
-        }));
+    if length != 0.0 {
+        exceeded.above("longest_tool_mm", length, None, place.to_owned());
+        exceeded.above("shortest_tool_mm", length, None, place.to_owned());
     }
+}
+
+/// Limits that the length of a tool leaves.
+#[must_use]
+pub fn beyond_tool_length(limits: &Limits, tool: &ToolGiven) -> Vec<Beyond> {
+    let mut exceeded = Exceeded {
+        limits,
+        found: Vec::new(),
+    };
+    note_length(&mut exceeded, tool.length_mm(), &numbered(tool.number));
+    exceeded.found
 }
 
 /// What is unusual about the length of a tool (mm, along z of the flange) where the machine stands at a place.

@@ -1,13 +1,13 @@
 //! What is allowed and unusual, about the question and about its answer: usually a unit is wrong.
 
 use kinetostat::number::{largest, short};
-use kinetostat_program::WriteOptions;
+use kinetostat_program::{Knowledge, Move, Path, WriteOptions};
 
 use crate::checks::correction::{besides, odd_correction};
 use crate::checks::exceeded::ODD;
 use crate::checks::load::{loads, never_acts, odd_load};
 use crate::checks::motion::no_motion;
-use crate::checks::own_weight::by_own_loads;
+use crate::checks::own_weight::{by_own_loads, weight_is_stated};
 use crate::checks::placement::{origin_in_metres, outside_workspace};
 use crate::checks::refused::{as_warning, of_task};
 use crate::checks::tool::odd_tool;
@@ -63,7 +63,26 @@ pub fn refused_question(task: &Task<'_>) -> Vec<Warning> {
     let mut list: Vec<Warning> = beyond.map(|beyond| as_warning(&beyond)).collect();
     let motion = no_motion(task.path());
     list.extend(motion.map(|reason| Warning::new(WarningCode::Program, reason.to_string())));
+    let unstated = weight_is_stated(task, &some_ends(task.path())).err();
+    list.extend(unstated.map(|error| Warning::new(WarningCode::Program, error.to_string())));
     list
+}
+
+/// Most ends of moves at which the displacement by own weight is looked at.
+const MOST_ENDS: usize = 8;
+
+/// Some ends of moves, as places of a run.
+fn some_ends(path: &Path) -> Vec<PointResult> {
+    let known = || path.moves.iter().filter(|m| m.known != Knowledge::Nothing);
+    let every = known().count().div_ceil(MOST_ENDS).max(1);
+    let end = |motion: &Move| PointResult {
+        line: motion.line,
+        position_mm: motion.end.into(),
+        part_turn: motion.part_turn(1.0),
+        tool_orientation: motion.orientation(1.0).map(|o| [o.w, o.i, o.j, o.k]),
+        ..PointResult::default()
+    };
+    known().step_by(every).map(end).collect()
 }
 
 /// What of a question is allowed and unusual, before anything is solved.
@@ -120,7 +139,7 @@ pub(crate) fn unusual(
                     .pop()
                     .flatten()
                     .unwrap_or_default();
-                besides(at, &own).max(2.0 * tolerance)
+                besides(at, &own.error).max(2.0 * tolerance)
             }
             false => size,
         };

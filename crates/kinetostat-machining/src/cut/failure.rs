@@ -1,5 +1,6 @@
 //! Why a program has no cutting force.
 
+use kinetostat::number::short;
 use kinetostat_cutting::CutError;
 
 /// Why no force can be computed.
@@ -42,6 +43,17 @@ pub enum CutFailure {
         /// What is wrong.
         error: Box<CutError>,
     },
+    /// The stock lies beside all feed moves.
+    #[error(
+        "the stock lies from {} to {} mm, and the tip goes from {} to {} mm beside it: nothing would be cut. Correct the corners of the stock or the zero of the program, or leave the stock out",
+        corner(&.stock_mm[0]), corner(&.stock_mm[1]), corner(&.path_mm[0]), corner(&.path_mm[1])
+    )]
+    BesideStock {
+        /// Lowest and highest corner of the stock, mm.
+        stock_mm: [[f64; 3]; 2],
+        /// Lowest and highest coordinates of the tip in feed moves, mm.
+        path_mm: [[f64; 3]; 2],
+    },
     /// A log of forces that cannot be used, or does not belong to this program.
     #[error("measured forces: {error}")]
     Log {
@@ -51,4 +63,9 @@ pub enum CutFailure {
     /// Stopped on request.
     #[error("stopped on request; nothing was written")]
     Cancelled,
+}
+
+/// A corner in words.
+fn corner([x, y, z]: &[f64; 3]) -> String {
+    format!("({}, {}, {})", short(*x), short(*y), short(*z))
 }

@@ -24,6 +24,16 @@ pub enum CutFindingKind {
     /// The tool goes down into material where its end is, as the whole tool is, in contact: tools that do not cut at the centre
     /// cannot.
     Plunge,
+    /// The flat end takes chips that are thinner than the law of force knows: its force is that of edges, and a guess.
+    EndBeyondTheLaw,
+    /// A feed per tooth that is too small for a chip, as of a feed in mm/s.
+    ThinFeed,
+    /// The tip is further below the stock than the tool is wide.
+    BelowTheStock,
+    /// No feed move meets the stock.
+    NothingCut,
+    /// The program turns the spindle counter-clockwise, and the helix is that of a right-hand tool if nobody says otherwise.
+    LeftHandTool,
     /// The log of the forces does not cover a move.
     NotMeasured,
     /// A force was measured in a rapid.

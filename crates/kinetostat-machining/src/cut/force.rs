@@ -57,7 +57,7 @@ impl<'a> ForceOf<'a> {
         }
         let chosen = match self.choice {
             ForceChoice::Mean => mean,
-            ForceChoice::Peak => cut().revolution_at(ANGLES).peak().1,
+            ForceChoice::Peak => cut().peaks().across.force,
             ForceChoice::AtSurfaceGeneration => {
                 let walls = [Wall::Left, Wall::Right].map(|wall| cut().surface_generation(wall));
                 match walls {
@@ -93,6 +93,3 @@ impl<'a> ForceOf<'a> {
         Ok(known.table.as_ref())
     }
 }
-
-/// Angles from tooth to tooth at which a peak is looked for.
-const ANGLES: usize = 48;

@@ -1,10 +1,12 @@
 //! The forces of a program's cuts.
 
 use kinetostat::Wrench;
+use kinetostat::number::{larger, short, smaller};
 use kinetostat_cutting::{CutError, Edge, Engagement, Feed, Milling, Rotation, Stock};
 use kinetostat_program::{Move, MoveKind, Path};
 use nalgebra::{Rotation3, Vector3};
 
+use crate::cut::drive::Drive;
 use crate::cut::engagement_source::EngagementSource;
 use crate::cut::failure::CutFailure;
 use crate::cut::finding::{CutFindingKind, Findings};
@@ -77,6 +79,7 @@ impl CutQuestion {
             }
             moves.push(stations);
         }
+        self.meets_stock(path, &moves, &mut findings)?;
         let forces = ForceAlongPath::of(moves, findings.list());
         let forces = forces.with_resolution_mm(match &self.engagement {
             EngagementSource::Stock(stock) => stock.cell_mm(),
@@ -101,6 +104,72 @@ impl CutQuestion {
                     )
                 });
             }
+        }
+    }
+
+    /// Refuses a stock that lies beside all feed moves as seen along the tool, and tells of one that no feed move meets.
+    fn meets_stock(
+        &self,
+        path: &Path,
+        moves: &[Vec<CutStation>],
+        findings: &mut Findings,
+    ) -> Result<(), CutFailure> {
+        let EngagementSource::Stock(stock) = &self.engagement else {
+            return Ok(());
+        };
+        let is_cut = |station: &CutStation| station.rpm > 0.0;
+        let mut feeds = path
+            .moves
+            .iter()
+            .filter(|m| m.is_known_feed() && m.has_length());
+        let Some(first) = feeds.next().filter(|_| !moves.iter().flatten().any(is_cut)) else {
+            return Ok(());
+        };
+        let stock_mm = stock.space_mm();
+        let mut path_mm: [[f64; 3]; 2] = [first.start.into(); 2];
+        for place in [first]
+            .into_iter()
+            .chain(feeds)
+            .flat_map(|m| [0.0, 1.0].map(|s| m.point(s)))
+        {
+            for k in 0..3 {
+                path_mm[0][k] = smaller(path_mm[0][k], place[k]);
+                path_mm[1][k] = larger(path_mm[1][k], place[k]);
+            }
+        }
+        let widths = self.tools.iter().map(|tool| tool.tool.diameter_mm());
+        let width_mm = widths.fold(0.0, larger);
+        let is_beside = |k: usize| {
+            path_mm[0][k] - width_mm > stock_mm[1][k] || path_mm[1][k] + width_mm < stock_mm[0][k]
+        };
+        if is_beside(0) || is_beside(1) {
+            return Err(CutFailure::BesideStock { stock_mm, path_mm });
+        }
+        findings.add(CutFindingKind::NothingCut, first.line, 0.0, || {
+            format!(
+                "no feed move meets the stock, which is up to z = {} mm high; the tip goes down to z = {} mm: nothing is cut, and no force acts",
+                short(stock_mm[1][2]),
+                short(path_mm[0][2])
+            )
+        });
+        Ok(())
+    }
+
+    /// A tip that is further below the stock than the tool is wide.
+    fn below_stock(&self, motion: &Move, met: &Met, drive: &Drive<'_>, findings: &mut Findings) {
+        let EngagementSource::Stock(stock) = &self.engagement else {
+            return;
+        };
+        let [[_, _, bottom_mm], [_, _, top_mm]] = stock.space_mm();
+        let below_mm = bottom_mm - motion.point(met.share).z;
+        if below_mm > drive.tool.tool.diameter_mm() {
+            findings.add(CutFindingKind::BelowTheStock, motion.line, below_mm, || {
+                format!(
+                    "the tip is {} mm below the bottom of a stock that is {} mm high: correct the depth of the program, its zero or the corners of the stock",
+                    short(below_mm),
+                    short(top_mm - bottom_mm)
+                )
+            });
         }
     }
 
@@ -178,6 +247,7 @@ impl CutQuestion {
                 feed_per_tooth_mm: drive.per_tooth_mm,
                 rpm: drive.rpm,
             };
+            self.below_stock(motion, met, &drive, findings);
             let place = (&station, &met.engagement);
             self.look_at(place, (&drive, feed), motion.line, findings);
             stations.push(station);

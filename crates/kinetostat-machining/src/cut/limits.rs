@@ -3,15 +3,21 @@
 use std::f64::consts::TAU;
 
 use kinetostat::number::{larger, short};
-use kinetostat_cutting::{Contact, Edge, Engagement, Feed};
+use kinetostat_cutting::{Contact, Edge, Engagement, Feed, Milling, Rotation};
 
 use crate::cut::drive::Drive;
 use crate::cut::finding::{CutFindingKind, Findings};
 use crate::cut::question::CutQuestion;
 use crate::cut::station::CutStation;
 
-/// A feed per tooth beyond this share of the diameter is no feed of milling.
-const COARSE: f64 = 0.25;
+/// A feed per tooth beyond this share of the diameter is no feed of milling; high-feed cutters reach a tenth.
+const COARSE: f64 = 0.1;
+
+/// Nor is one below this share: edges rub, and a tool lasts minutes.
+const FINE: f64 = 4e-4;
+
+/// Chips under the flat end that are thinner than this are beyond a law of which no range is known, mm.
+const THINNEST_MM: f64 = 0.005;
 
 impl CutQuestion {
     /// What no such cut should be.
@@ -76,11 +82,64 @@ impl CutQuestion {
         let full = |c: &Contact| c.edge == Edge::End && c.exit - c.entry > 0.999 * TAU;
         if feed.down_mm > 0.0 && engagement.contacts.iter().any(full) {
             findings.add(CutFindingKind::Plunge, line, feed.down_mm, || {
+                match feed.level_mm > 0.0 {
+                    true => format!(
+                        "the tool goes down at {:.2} degrees with its whole end in contact ({} mm per tooth under the end): its end must cut at the centre",
+                        feed.down_mm.atan2(feed.level_mm).to_degrees(),
+                        short(feed.down_mm)
+                    ),
+                    false => format!(
+                        "the tool plunges with {} mm per tooth: its end must cut at the centre",
+                        short(feed.down_mm)
+                    ),
+                }
+            });
+        }
+        look_at_end(engagement, (drive, feed), line, findings);
+        if chip < FINE * tool.tool.diameter_mm() {
+            findings.add(CutFindingKind::ThinFeed, line, -chip, || {
                 format!(
-                    "the tool plunges with {} mm per tooth: its end must cut at the centre",
-                    short(feed.down_mm)
+                    "a feed of {} mm per tooth with a tool of {} mm: no chip is so thin; F is read in mm/min (in mm/s it would be 60 times as much), so correct F, speed or number of teeth",
+                    short(chip),
+                    tool.tool.diameter_mm()
+                )
+            });
+        }
+        let helix_deg = tool.tool.helix().to_degrees();
+        if self.rotation.is_none()
+            && drive.rotation == Rotation::CounterClockwise
+            && helix_deg > 0.0
+        {
+            findings.add(CutFindingKind::LeftHandTool, line, 0.0, || {
+                format!(
+                    "M4 with a helix of {helix_deg:.0} degrees that lifts the chip is the cut of a left-hand tool, and a right-hand one rubs with its back: write M3, or state rotation = \"counter_clockwise\" under [spindle]"
                 )
             });
         }
     }
+}
+
+/// Force of a flat end whose chips are thinner than the law of force knows.
+fn look_at_end(
+    engagement: &Engagement,
+    (drive, feed): (&Drive<'_>, Feed),
+    line: usize,
+    findings: &mut Findings,
+) {
+    let (tool, law) = (&drive.tool.tool, &*drive.tool.law);
+    let thinnest_mm = law.known_between_mm().map_or(THINNEST_MM, |(from, _)| from);
+    let has_end = engagement.contacts.iter().any(|c| c.edge == Edge::End);
+    if !(has_end && feed.down_mm > 0.0 && feed.down_mm < thinnest_mm) {
+        return;
+    }
+    let cut = Milling::new(tool, law, engagement, feed).turning(drive.rotation);
+    let [end_n, all_n] = [cut.mean_of_end(), cut.mean()].map(|force| force.force_n.z.abs());
+    findings.add(CutFindingKind::EndBeyondTheLaw, line, end_n, || {
+        format!(
+            "the flat end takes {} mm per tooth, and the law of the material is known from {} mm on: {end_n:.0} of {all_n:.0} N along the tool are edge forces of the end, a guess. An end with relief bears less, down to {:.0} N in all",
+            short(feed.down_mm),
+            short(thinnest_mm),
+            (all_n - end_n).abs()
+        )
+    });
 }

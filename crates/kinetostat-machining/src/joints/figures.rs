@@ -5,7 +5,7 @@ use kinetostat::{Mechanism, MotionKind};
 use crate::joints::arm::Arm;
 use crate::near::natural_length;
 use crate::result::joints::{ArmConfiguration, LimitEnd, MostLoaded, NearestLimit};
-use crate::result::point::PointResult;
+use crate::result::point::{PointKind, PointResult};
 
 /// What joint values and drive loads of a machine are compared with.
 #[derive(Clone, Debug)]
@@ -50,6 +50,26 @@ impl<'r> JointFigures<'r> {
     /// Limits of every actuator, mm or deg.
     pub(crate) fn limits(&self) -> impl Iterator<Item = Option<[f64; 2]>> + '_ {
         self.joints.iter().map(|joint| joint.1)
+    }
+
+    /// Takes turning joints to the whole turn next to that of the point before. A solution may take any of the values that are whole
+    /// turns apart, and a controller turns its joints on: in a feed motion always, in a rapid as far as the limits allow.
+    pub(crate) fn unwind(&self, before: &PointResult, point: &mut PointResult) {
+        let commands = point
+            .actuator_command
+            .iter_mut()
+            .zip(&before.actuator_command);
+        for ((command, last), (kind, limits)) in commands.zip(&self.joints) {
+            let turns = ((last - *command) / 360.0).round();
+            if *kind != MotionKind::Revolute || turns == 0.0 || !turns.is_finite() {
+                continue;
+            }
+            let value = *command + 360.0 * turns;
+            let is_within = limits.is_none_or(|[low, high]| (low..=high).contains(&value));
+            if is_within || point.kind != PointKind::Rapid {
+                *command = value;
+            }
+        }
     }
 
     /// Puts the figures of a point beside its joint values and drive loads.

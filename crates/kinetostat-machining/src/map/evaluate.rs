@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use kinetostat::batch::{Batch, BatchEquilibrium, BatchStiffness, Details};
+use kinetostat::spatial::pose_residual;
 use kinetostat::{Mechanism, Pose, Posture, Wrench};
 
 use crate::map::frequencies::{LOWEST, lowest};
@@ -26,6 +27,8 @@ pub struct Evaluator {
     details: Details,
     /// How many natural frequencies are asked for: they are about the state of a posture, which the kernels do not hand out.
     modes: usize,
+    /// Where the tool is without its load is asked for.
+    unloaded: bool,
     nearness: Option<Nearness>,
     configurations: Configurations,
 }
@@ -44,6 +47,7 @@ pub struct Outcome {
 pub struct EvaluationRoom {
     stiffness: BatchStiffness,
     equilibrium: BatchEquilibrium,
+    unloaded: BatchEquilibrium,
     place: Option<Solved>,
     nearness: NearnessRoom,
 }
@@ -69,6 +73,7 @@ impl Evaluator {
                 false => Details::Rest,
             },
             modes: (variables.iter().map(|v| v.frequencies()).max()).unwrap_or_default(),
+            unloaded: asks(Needs::Unloaded),
             nearness: variables
                 .contains(&Variable::SingularityDistance)
                 .then(|| Nearness::of(mechanism)),
@@ -131,6 +136,7 @@ impl Evaluator {
         let EvaluationRoom {
             stiffness,
             equilibrium,
+            unloaded,
             place,
             nearness,
         } = room;
@@ -147,6 +153,14 @@ impl Evaluator {
                 found.is_ok()
             }
         };
+        let also_unloaded = self.unloaded && loads.is_some();
+        let rest_is_known = also_unloaded && {
+            let none = vec![Wrench::zero(); poses.len()];
+            let found = self
+                .batch
+                .equilibrium_into(poses, &none, Details::Rest, unloaded);
+            found.is_ok()
+        };
         for (i, pose) in poses.iter().enumerate() {
             place.forget();
             let machine = &self.mechanism;
@@ -162,6 +176,12 @@ impl Evaluator {
                     place.take_equilibrium(machine, &self.ratings, equilibrium, i, pose)
                 }
             };
+            if taken && also_unloaded {
+                taken = rest_is_known && unloaded.status[i].is_solved();
+                if taken {
+                    place.unloaded = pose_residual(&unloaded.tool_pose(i), pose);
+                }
+            }
             if let (true, true, Some(loads)) = (taken, self.modes > 0, loads) {
                 let found = self.frequencies(pose, &loads[i], &equilibrium.tool_pose(i));
                 taken = found.is_some();
@@ -211,6 +231,7 @@ impl Evaluator {
         let wanted = Wanted {
             ratings: &self.ratings,
             modes: self.modes,
+            unloaded: self.unloaded,
         };
         let posture = place.take_posture(posture, load, &wanted);
         if let (Some(own), Some(posture), true) = (&self.nearness, &posture, place.found) {

@@ -25,6 +25,8 @@ pub(crate) struct Solved {
     pub free: Vec<Twist>,
     pub softest: f64,
     pub displacement: Twist,
+    /// Without the load.
+    pub unloaded: Twist,
     pub commands: Vec<f64>,
     pub efforts: Vec<f64>,
     pub effort_share: f64,
@@ -42,6 +44,8 @@ pub(crate) struct Wanted<'a> {
     pub ratings: &'a [Option<f64>],
     /// So many of its natural frequencies, too.
     pub modes: usize,
+    /// Where the tool is without the load, too.
+    pub unloaded: bool,
 }
 
 /// Below this relative pivot the rank of a stiffness has to be decided.
@@ -59,6 +63,7 @@ impl Solved {
             free: Vec::new(),
             softest: f64::NAN,
             displacement: Twist::zero(),
+            unloaded: Twist::zero(),
             commands: vec![f64::NAN; actuators],
             efforts: vec![f64::NAN; actuators],
             effort_share: f64::NAN,
@@ -77,6 +82,7 @@ impl Solved {
         self.compliance.fill(f64::NAN);
         self.free.clear();
         self.displacement.0.fill(f64::NAN);
+        self.unloaded.0.fill(f64::NAN);
         self.commands.fill(f64::NAN);
         self.efforts.fill(f64::NAN);
         self.softest = f64::NAN;
@@ -233,8 +239,9 @@ impl Solved {
             }
             self.softest = stability.stiffness_against_force;
             let matrix = Matrix6::from_fn(|r, c| found.stiffness.get(i, 6 * r + c));
-            // Zero: a direction is free, which the general engine names.
-            let inverse = match stability.stiffness_against_force == 0.0 {
+            // A direction is free (zero) or rigid (NaN), which the general engine names.
+            let rigid = matrix.iter().any(|x| x.is_nan());
+            let inverse = match rigid || stability.stiffness_against_force == 0.0 {
                 true => None,
                 false => matrix.try_inverse(),
             };
@@ -288,6 +295,9 @@ impl Solved {
 
     fn take_loaded(&mut self, posture: &Posture, load: &Wrench, wanted: &Wanted<'_>) -> Option<()> {
         let e = posture.deflected_by(load).ok()?;
+        if wanted.unloaded {
+            self.unloaded = posture.deflected_by(&Wrench::zero()).ok()?.displacement;
+        }
         if wanted.modes > 0 {
             self.frequencies = lowest(posture, &e.state, &e.wrench, wanted.modes);
         }

@@ -24,6 +24,8 @@ pub enum Variable {
     PrincipalDirections,
     Deflection,
     DeflectionXyz,
+    DeflectionByLoad,
+    DeflectionWithoutLoad,
     Rotation,
     RotationXyz,
     Commands,
@@ -70,6 +72,8 @@ pub(crate) enum Needs {
     Posture,
     Stiffness,
     Rest,
+    /// At rest without the load, too.
+    Unloaded,
     Stability,
     Modes,
 }
@@ -128,6 +132,8 @@ pub const VARIABLES: &[Entry] = table![
     PrincipalDirections, "principal_directions", "1", Width::Fixed(9), Neither, Stiffness, "unit vectors of the principal directions, base axes, one after the other, the softest first, the largest part of each positive";
     Deflection, "deflection", "m", ONE, Larger, Rest, "how far the tool goes from where it is commanded under the load";
     DeflectionXyz, "deflection_xyz", "m", THREE, LargerSize, Rest, "from where the tool is commanded to where it goes under the load, base axes";
+    DeflectionByLoad, "deflection_by_load", "m", ONE, Larger, Unloaded, "how far the load moves the tool from where it is without the load: own weight is not in it";
+    DeflectionWithoutLoad, "deflection_without_load", "m", ONE, Larger, Unloaded, "how far the tool without a load is from where it is commanded: by own weight, other loads of the model and its deviations";
     Rotation, "rotation", "rad", ONE, Larger, Rest, "how far the tool turns under the load";
     RotationXyz, "rotation_xyz", "rad", THREE, LargerSize, Rest, "rotation vector of the tool under the load, base axes";
     Commands, "commands", "m or rad", Width::Actuators, Neither, Posture, "commands of the actuators";
@@ -171,6 +177,12 @@ impl Variable {
 
     pub(crate) fn needs(self) -> Needs {
         self.entry().needs
+    }
+
+    /// It has an answer only where something gives way.
+    #[must_use]
+    pub fn needs_stiffness(self) -> bool {
+        self.needs() >= Needs::Stiffness
     }
 
     /// It exists under a load only.
@@ -244,6 +256,10 @@ impl Variable {
             Self::PrincipalDirections => out.copy_from_slice(place.principal().1.as_slice()),
             Self::Deflection => out[0] = place.displacement.linear().norm(),
             Self::DeflectionXyz => out.copy_from_slice(place.displacement.linear().as_slice()),
+            Self::DeflectionByLoad => {
+                out[0] = (place.displacement.linear() - place.unloaded.linear()).norm();
+            }
+            Self::DeflectionWithoutLoad => out[0] = place.unloaded.linear().norm(),
             Self::Rotation => out[0] = place.displacement.angular().norm(),
             Self::RotationXyz => out.copy_from_slice(place.displacement.angular().as_slice()),
             Self::Commands => out.copy_from_slice(&place.commands),

@@ -2,7 +2,7 @@
 //!
 //! Takes one place by itself. Along a program an arm stays in the configuration in which it comes along, and nothing here is asked.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
 use kinetostat::machine::LimbPosture;
 use kinetostat::model::Role;
@@ -16,6 +16,12 @@ const MOST_JOINTS: usize = 6;
 
 /// Shares of the range of a joint from which an arm without a closed form is looked at.
 const SHARES: [f64; 2] = [1.0 / 6.0, 5.0 / 6.0];
+
+/// Shapes from which all postures of an arm without a closed form are looked for.
+const STARTS: usize = 128;
+
+/// Joint values that differ by less are the same, rad or natural lengths.
+const SAME: f64 = 1e-6;
 
 /// An arm, and in which configurations it reaches a pose.
 ///
@@ -102,8 +108,111 @@ impl Configurations {
         found.into_iter().min_by(|a, b| away(a).total_cmp(&away(b)))
     }
 
-    /// The machine with these joint values at the pose that they lead to.
-    fn standing(&self, joints: &Joints, pose: &Pose) -> Option<Posture> {
+    /// All postures of an arm at a pose, those within all limits first, then by their distance from home; commands of joints that
+    /// turn are those nearest to home, or within their limits. In closed form for arms with six axes and a spherical wrist; of
+    /// other arms those that Newton's iteration finds from home and from 128 shapes spread over the ranges of the joints.
+    #[must_use]
+    pub fn all(&self, pose: &Pose) -> Vec<Posture> {
+        let ask = |request: PostureRequest<'_>| self.mechanism.posture(request).ok();
+        let found: Vec<Posture> = match &self.ways {
+            Ways::SixAxes(arm) => {
+                let ways = arm.ways(pose).into_iter().flatten();
+                ways.filter_map(|way| self.reached(&way, pose)).collect()
+            }
+            _ => {
+                let starts = (1..=STARTS).map(|k| self.spread(k));
+                let near = starts.filter_map(|commands| {
+                    let start = ask(PostureRequest::commands(&commands))?;
+                    ask(PostureRequest::pose(pose).near(&start))
+                });
+                ask(PostureRequest::pose(pose))
+                    .into_iter()
+                    .chain(near)
+                    .collect()
+            }
+        };
+        let mut different: Vec<Posture> = Vec::new();
+        for posture in found {
+            let posture = self.next_to_home(posture);
+            let same = |other: &Posture| self.is_same(&posture.commands(), &other.commands());
+            if !different.iter().any(same) {
+                different.push(posture);
+            }
+        }
+        let rank = |p: &Posture| {
+            let outside = f64::from(u8::from(p.within_limits().is_err()));
+            (outside, away_from_home(&self.mechanism, &p.commands()))
+        };
+        different.sort_by(|a, b| {
+            let (a, b) = (rank(a), rank(b));
+            a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1))
+        });
+        different
+    }
+
+    /// Joint values of the `k`-th start, spread evenly over the ranges of the joints.
+    fn spread(&self, k: usize) -> Vec<f64> {
+        let drives = self.mechanism.limbs().iter();
+        let drives = drives.flat_map(|limb| limb.nominal.actuators());
+        let length = self.mechanism.natural_length();
+        // Multiples of the roots of primes are spread evenly, whatever their number.
+        drives
+            .zip(
+                [2.0_f64, 3.0, 5.0, 7.0, 11.0, 13.0, 17.0]
+                    .into_iter()
+                    .cycle(),
+            )
+            .map(|(drive, prime)| {
+                let half = match drive.kind {
+                    MotionKind::Prismatic => length,
+                    MotionKind::Revolute => PI,
+                };
+                let (low, high) = (drive.limits).unwrap_or((drive.home - half, drive.home + half));
+                low + (high - low) * (prime.sqrt() * k as f64).fract()
+            })
+            .collect()
+    }
+
+    /// The same posture with its turning joints on the circles that are within limits, or nearest to home.
+    fn next_to_home(&self, posture: Posture) -> Posture {
+        let [limb] = posture.limbs() else {
+            return posture;
+        };
+        let drives = self.mechanism.limbs()[0].nominal.actuators();
+        let commands = drives.iter().zip(&limb.commands).map(|(drive, x)| {
+            let nearest = x - TAU * ((x - drive.home) / TAU).round();
+            match (drive.kind, drive.limits) {
+                (MotionKind::Prismatic, _) => *x,
+                (MotionKind::Revolute, None) => nearest,
+                (MotionKind::Revolute, Some((low, high))) => {
+                    [nearest, nearest - TAU, nearest + TAU]
+                        .into_iter()
+                        .find(|x| (low..=high).contains(x))
+                        .unwrap_or(nearest)
+                }
+            }
+        });
+        let mut limb = limb.clone();
+        limb.commands = commands.collect();
+        let turned = PostureRequest::joints(posture.target(), vec![limb]);
+        self.mechanism.posture(turned).unwrap_or(posture)
+    }
+
+    fn is_same(&self, one: &[f64], other: &[f64]) -> bool {
+        let drives = self.mechanism.limbs().iter();
+        let drives = drives.flat_map(|limb| limb.nominal.actuators());
+        let length = self.mechanism.natural_length();
+        drives.zip(one.iter().zip(other)).all(|(drive, (a, b))| {
+            let apart = match drive.kind {
+                MotionKind::Prismatic => (a - b) / length,
+                MotionKind::Revolute => (a - b) - TAU * ((a - b) / TAU).round(),
+            };
+            apart.abs() < SAME
+        })
+    }
+
+    /// The machine at a pose, next to these joint values.
+    fn reached(&self, joints: &Joints, pose: &Pose) -> Option<Posture> {
         let limb = self.mechanism.limbs().first()?;
         let start = LimbPosture {
             commands: joints.to_vec(),
@@ -112,10 +221,14 @@ impl Configurations {
         let start = self
             .mechanism
             .posture(PostureRequest::joints(pose, vec![start]));
-        let found = self
-            .mechanism
-            .posture(PostureRequest::pose(pose).near(&start.ok()?));
-        found.ok().filter(|p| p.within_limits().is_ok())
+        let request = PostureRequest::pose(pose);
+        self.mechanism.posture(request.near(&start.ok()?)).ok()
+    }
+
+    /// The same within all limits.
+    fn standing(&self, joints: &Joints, pose: &Pose) -> Option<Posture> {
+        let found = self.reached(joints, pose);
+        found.filter(|p| p.within_limits().is_ok())
     }
 }
 

@@ -1,11 +1,9 @@
 //! One place of the path: what happens there, where the tool is and what the machine carries.
 
-use kinetostat::Pose;
 use kinetostat::chain::FoundBy;
-use nalgebra::{Isometry3, Quaternion, UnitQuaternion, Vector3};
+use nalgebra::{Isometry3, Vector3};
 use serde::{Deserialize, Serialize};
 
-use crate::placement::Placement;
 use crate::result::joints::{ArmConfiguration, MostLoaded, NearestLimit};
 
 /// What happens at a point.
@@ -131,24 +129,10 @@ fn is_direct(found_by: &FoundBy) -> bool {
 }
 
 impl PointResult {
-    /// Where the tool should be, base frame, m.
-    pub(crate) fn wanted_pose(&self, placement: &Placement) -> Pose {
-        let stated = self
-            .tool_orientation
-            .map(|[w, i, j, k]| UnitQuaternion::from_quaternion(Quaternion::new(w, i, j, k)));
-        let placement = self.placement(placement);
-        placement.pose(&self.position_mm.into(), placement.orientation_of(stated))
-    }
-
     /// Distance of the tool from where it should be, as the program is now, mm.
     #[must_use]
     pub fn off_mm(&self) -> f64 {
         size(&self.error_after_mm)
-    }
-
-    /// Where the program lies there.
-    pub(crate) fn placement(&self, placement: &Placement) -> Placement {
-        placement.turned(self.part_turn.as_ref())
     }
 }
 

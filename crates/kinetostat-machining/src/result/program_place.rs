@@ -16,9 +16,11 @@ pub struct ProgramPlace {
     pub share: f64,
     /// Number of its tool; none where the run has one tool for all blocks.
     pub tool: Option<u32>,
-    /// Where the tool should be, and where the program as it is commands it: base from tool, m.
+    /// Where the program as it is commands the tool: base from tool, m.
+    pub programmed: Pose,
+    /// Where the tool should be: there, or where the part lies as it was measured ([`crate::WeightCorrection`]).
     pub wanted: Pose,
-    /// Where the written program commands it; `wanted` without one.
+    /// Where the written program commands it; `programmed` without one.
     pub commanded: Pose,
     /// Where the tool should be when the written program has turned the part; `wanted` unless a table turns it otherwise.
     pub wanted_as_commanded: Pose,

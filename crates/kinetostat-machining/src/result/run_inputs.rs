@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::flat_program::FlatProgram;
 use crate::load::law::CornerLoad;
+use crate::weight_correction::WeightCorrection;
 
 /// Model, program, load and tolerances of a run, in words and numbers.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -40,6 +41,9 @@ pub struct RunInputs {
     pub tool_orientation: String,
     /// The load in words.
     pub load: String,
+    /// Share of the displacement by own weight that counts as an error; none where nothing was stated.
+    #[serde(default, skip_serializing_if = "WeightCorrection::is_not_stated")]
+    pub weight: WeightCorrection,
     /// What was assumed of a load that is computed from the cut, one sentence each.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub cut: Vec<String>,
@@ -62,7 +66,7 @@ pub struct RunInputs {
     pub tolerance_from: String,
     /// Tolerance of arcs divided into chords, mm.
     pub chord_tolerance_mm: f64,
-    /// Decimals written.
+    /// Least decimals written; numbers of the program that had more keep them.
     pub decimals: u8,
     /// Lower and upper corner of the feed path in program coordinates, mm.
     pub box_min_mm: [f64; 3],

@@ -5,6 +5,7 @@ use kinetostat_program::{Accounting, WriteOptions};
 use serde::{Deserialize, Serialize};
 
 use crate::near::NearSingular;
+use crate::result::assessment::Assessment;
 use crate::result::chatter::ChatterResult;
 use crate::result::cutting::CuttingResult;
 use crate::result::feature::FeatureResult;
@@ -31,6 +32,9 @@ pub struct RunResult {
     /// Whether the written program holds the tolerance that it was to hold.
     #[serde(default)]
     pub tolerance: ToleranceResult,
+    /// How good the news is, and the assumptions behind it, the costliest first.
+    #[serde(default)]
+    pub assessment: Assessment,
     /// Figures of the whole run.
     pub summary: Summary,
     /// Model, program, load and tolerances of the run.

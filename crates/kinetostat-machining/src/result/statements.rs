@@ -8,6 +8,7 @@ use crate::result::force_band::ForceBand;
 use crate::result::run_result::RunResult;
 use crate::result::tolerance::unchanged_text;
 use crate::result::uncertainty_band::UncertaintyBand;
+use crate::weight_correction::WeightCorrection;
 
 impl RunResult {
     /// What a program that came back byte for byte means; none for others, nor where that misses the tolerance.
@@ -109,28 +110,37 @@ impl RunResult {
         })
     }
 
-    /// What the machine's own weight has to do with the errors, and for whom it must not be corrected; none
+    /// How far the machine's own weight moves the tool, and which part of that counts as an error; none
     /// where it is no more than the tolerance.
     #[must_use]
     pub fn own_weight_text(&self) -> Option<String> {
         let s = &self.summary;
-        let own = s.max_error_by_own_weight_mm?;
-        if !own.is_finite() || own <= self.run_inputs.tolerance_mm || s.unchanged {
+        let whole = s.max_displacement_by_weight_mm?;
+        if !whole.is_finite() || whole <= self.run_inputs.tolerance_mm {
             return None;
         }
-        let put = format!(
-            "By themselves, the machine's own weight and what else acts in its model (springs, counterweights) put \
-             the tool up to {} off",
-            largest_length(own)
-        );
-        Some(match self.run_inputs.compensated {
-            true => format!(
-                "{put}; the program makes up for that too. Where the part was touched off with this machine, or its \
-                 controller corrects the weight, that would be done twice: leave weight and springs out of the model \
-                 then."
+        let error = largest_length(s.max_error_by_own_weight_mm?);
+        let becomes = match self.run_inputs.compensated && !s.unchanged {
+            true => "is corrected",
+            false => "counts as an error",
+        };
+        let part = match &self.run_inputs.weight {
+            WeightCorrection::None => {
+                format!("none of it {becomes} (weight \"none\": the controller corrects it)")
+            }
+            WeightCorrection::TouchOff(at) => format!(
+                "only its change of up to {error} from {} {becomes} (weight \"touch-off\")",
+                at.description()
             ),
-            false => format!("{put}."),
-        })
+            WeightCorrection::All | WeightCorrection::NotStated => format!(
+                "all of it {becomes} (weight \"all\": the part was measured without this machine)"
+            ),
+        };
+        Some(format!(
+            "By themselves, the machine's own weight and what else acts in its model (springs, counterweights) move \
+             the tool by up to {}; {part}.",
+            largest_length(whole)
+        ))
     }
 
     /// What becomes of the claim if the force of the cut is as far off as its coefficients may be; none where the load is not

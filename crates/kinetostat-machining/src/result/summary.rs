@@ -51,9 +51,12 @@ pub struct Summary {
     /// It came back so because the tool keeps the tolerance as the program is.
     #[serde(default)]
     pub within_tolerance_before: bool,
-    /// How far the machine's own weight and the loads of its model put the tool off by themselves where it
+    /// How far the machine's own weight and the loads of its model move the unloaded tool where it
     /// cuts, mm, the largest of [`RunResult::MAX_POSTURES`](crate::RunResult::MAX_POSTURES) places; none where nothing acts without a load on
     /// the tool.
+    #[serde(default)]
+    pub max_displacement_by_weight_mm: Option<f64>,
+    /// The part of it that counts as an error of the program ([`crate::WeightCorrection`]), mm.
     #[serde(default)]
     pub max_error_by_own_weight_mm: Option<f64>,
     /// Share of the points that lie on corner steps, percent.

@@ -6,7 +6,6 @@ use kinetostat_program::{Corrected, CorrectionField, Monitor, NoCorrection, Veri
 use crate::checks::refused::{of_accounting, of_points};
 use crate::load::law::CornerLoad;
 use crate::load::ramp_findings::TooFast;
-use crate::load::ramps::Ramped;
 use crate::result::point::{PointResult, most, size};
 use crate::result::run_result::bound_mm;
 use crate::result::tolerance::keeps_as_it_is;
@@ -49,21 +48,17 @@ pub fn analyse_part(
 }
 
 fn analysed(task: &Task<'_>, whole: Option<&OfWhole>, watch: &dyn Watch) -> Result<Run, RunError> {
-    let Preparation { load, course } = Preparation::of_analysis(task, whole, watch)?;
-    let Ramped {
-        acting: load,
-        findings: ramps,
-        ..
-    } = load;
-    let sites = || sites_of_path(task, &load);
-    let (mut points, _) = solve(task, sites(), (false, course.as_ref()), watch)?;
+    let prepared = Preparation::of_analysis(task, whole, watch)?;
+    let load = &prepared.load.acting;
+    let sites = || sites_of_path(task, load);
+    let (mut points, _) = solve(task, sites(), prepared.solving(false), watch)?;
     let checked = Checked {
         force_band: force_band(task, &mut points, sites, watch)?,
-        places: places(task, &points, sites, course.as_ref()),
-        ramps,
+        places: places(task, &points, sites, prepared.solving(false)),
+        ramps: prepared.load.findings.clone(),
         ..Checked::default()
     };
-    Ok(conclude(task, &load, points, None, &checked))
+    Ok(conclude(task, load, points, None, &checked))
 }
 
 /// The compensated program, with deflections solved again from its bytes.
@@ -93,7 +88,7 @@ fn compensated(
     watch: &dyn Watch,
 ) -> Result<Run, RunError> {
     let prepared = Preparation::of_correction(task, whole, watch)?;
-    let (load, course) = (&prepared.load.acting, &prepared.course);
+    let (load, how) = (&prepared.load.acting, prepared.solving(true));
     let field = prepared.field(task);
     let mut again = Again::default();
     let arcs = feed_arcs(task.path());
@@ -103,12 +98,7 @@ fn compensated(
             true => write_and_read_again(task, &NoCorrection, watch)?,
             false => write_and_read_again(task, &again.field(&field), watch)?,
         };
-        let (points, worse) = solve(
-            task,
-            sites_of_written(task, load, &written),
-            (true, course.as_ref()),
-            watch,
-        )?;
+        let (points, worse) = solve(task, sites_of_written(task, load, &written), how, watch)?;
         let stable = points.iter().all(|p| p.stable);
         let allowed_mm = bound_mm(&task.writing, arcs, &written.accounting);
         if !stable || as_it_is || !again.divides(task.path(), &field, &points, allowed_mm) {
@@ -137,12 +127,7 @@ fn compensated(
     if within_before {
         // As it is, the program keeps what is claimed of a corrected one, which could be farther off.
         (written, check) = write_and_read_again(task, &NoCorrection, watch)?;
-        (points, worse) = solve(
-            task,
-            sites_of_written(task, load, &written),
-            (true, course.as_ref()),
-            watch,
-        )?;
+        (points, worse) = solve(task, sites_of_written(task, load, &written), how, watch)?;
     }
     // Where the force changes faster than the correction may, a block may end farther off; the tolerance is missed there.
     let matters = |found: &TooFast| found.matters(task.writing.tolerance_mm);
@@ -162,7 +147,7 @@ fn compensated(
         if_turns_mm: by_the_other_reading(task, CornerLoad::Turns, steps, watch)?,
         if_follows_mm: by_the_other_reading(task, CornerLoad::FollowsFeed, steps, watch)?,
         force_band: force_band(task, &mut points, sites, watch)?,
-        places: places(task, &points, sites, course.as_ref()),
+        places: places(task, &points, sites, how),
         divided_again: match within_before {
             true => None,
             false => again.description(allowed_mm),

@@ -9,6 +9,7 @@ use crate::checks::unusual::unusual;
 use crate::joints::figures::JointFigures;
 use crate::load::along_path::LoadAlongPath;
 use crate::load::ramp_findings::TooFast;
+use crate::result::assessment::Assessment;
 use crate::result::envelope::Envelope;
 use crate::result::kept_points::KeptPoints;
 use crate::result::point::{PointKind, PointResult};
@@ -84,6 +85,7 @@ pub(crate) fn conclude(
         schema: RESULT_SCHEMA,
         kinetostat_version: env!("CARGO_PKG_VERSION").into(),
         tolerance: ToleranceResult::default(),
+        assessment: Assessment::default(),
         summary,
         chatter: None,
         cutting: task.cut.map(|forces| cutting_result(forces, task.path())),
@@ -109,6 +111,7 @@ pub(crate) fn conclude(
         task.path(),
     );
     result.points = kept.points();
+    result.assess();
     Run {
         result,
         points,
@@ -129,6 +132,7 @@ fn run_inputs_of(
     let tools = task.tools.iter();
     RunInputs {
         load: load_description(task.mechanism, load),
+        weight: task.weight.clone(),
         tolerance_mm: task.writing.tolerance_mm,
         chord_tolerance_mm: task.writing.chord_tolerance_mm,
         decimals: task.writing.decimals.unwrap_or(4),

@@ -4,9 +4,11 @@
 use kinetostat::Error;
 use kinetostat::number::smaller;
 
+use crate::checks::own_weight::weight_is_stated;
 use crate::checks::refused::{of_points, of_task};
 use crate::limits::Beyond;
 use crate::load::along_path::LoadAlongPath;
+use crate::measured_frame::MeasuredFrame;
 use crate::result::point::PointResult;
 use crate::run::machines::Machines;
 use crate::run::points::{Solving, chunk};
@@ -57,7 +59,7 @@ impl FirstLook {
     /// A few places of the program as it is.
     ///
     /// # Errors
-    /// [`RunError::Cancelled`].
+    /// [`RunError::WeightNotStated`], [`RunError::TouchOff`], [`RunError::Cancelled`].
     pub fn new(
         task: &Task<'_>,
         load: &LoadAlongPath<'_>,
@@ -69,7 +71,7 @@ impl FirstLook {
     /// Those of the few places of a whole program of so many moves that lie on a part of it.
     ///
     /// # Errors
-    /// [`RunError::Cancelled`].
+    /// [`RunError::WeightNotStated`], [`RunError::TouchOff`], [`RunError::Cancelled`].
     pub fn of_whole(
         task: &Task<'_>,
         load: &LoadAlongPath<'_>,
@@ -89,6 +91,7 @@ impl FirstLook {
         watch: &dyn Watch,
     ) -> Result<Self, RunError> {
         let machines = Machines::new(task);
+        let frame = MeasuredFrame::of(task, None)?;
         let mut look = Self {
             points: Vec::new(),
             first: None,
@@ -105,6 +108,7 @@ impl FirstLook {
                 orientation,
                 written: false,
                 course: None,
+                frame: &frame,
             };
             for found in chunk(task, machine, memory, one, how) {
                 match found {
@@ -122,6 +126,7 @@ impl FirstLook {
                 }
             }
         }
+        weight_is_stated(task, &look.points)?;
         Ok(look)
     }
 

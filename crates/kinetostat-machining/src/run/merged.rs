@@ -181,6 +181,7 @@ impl MergedRun {
         result.points = kept.iter().map(|i| self.points[*i].clone()).collect();
         result.warnings = reading;
         result.warnings.extend(self.warnings.finish());
+        result.assess();
         Some(result)
     }
 }
@@ -312,6 +313,10 @@ fn largest_figures(own: &mut Summary, next: &Summary) {
         most(own, next);
     }
     for (own, next) in [
+        (
+            &mut own.max_displacement_by_weight_mm,
+            next.max_displacement_by_weight_mm,
+        ),
         (
             &mut own.max_error_by_own_weight_mm,
             next.max_error_by_own_weight_mm,

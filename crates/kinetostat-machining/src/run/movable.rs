@@ -9,6 +9,7 @@ use nalgebra::Vector3;
 use crate::field::cause_and_advice;
 use crate::joints::figures::JointFigures;
 use crate::load::along_path::LoadAlongPath;
+use crate::measured_frame::{MeasuredFrame, PartPlace};
 use crate::placement::Placement;
 use crate::postures::neighbour::{CHUNK, Neighbour, in_chunks};
 use crate::result::point::{PointKind, PointResult};
@@ -142,6 +143,7 @@ impl<'t, 'm> MovableProgram<'t, 'm> {
     ) -> Result<Vec<PointResult>, (usize, RunError)> {
         let task = self.task_at(placement);
         let sites = self.sites_at(&placement, indices);
+        let frame = MeasuredFrame::of(&task, None).map_err(|error| (0, error))?;
         let figures = JointFigures::new(task.mechanism, &task.bounds.ratings);
         let of_one_tool = sites.chunk_by(|a, b| self.machines.same(a, b));
         let mut points = Vec::with_capacity(sites.len());
@@ -151,6 +153,7 @@ impl<'t, 'm> MovableProgram<'t, 'm> {
                 orientation,
                 written: false,
                 course: None,
+                frame: &frame,
             };
             let first = points.len();
             let solved = in_chunks(run, |memory, sites| {
@@ -176,22 +179,25 @@ impl<'t, 'm> MovableProgram<'t, 'm> {
         indices: &[usize],
     ) -> Result<Vec<f64>, (usize, RunError)> {
         let sites = self.sites_at(&placement, indices);
+        let task = self.task_at(placement);
+        let frame = MeasuredFrame::of(&task, None).map_err(|error| (0, error))?;
         let mut sizes = Vec::with_capacity(sites.len());
         for run in sites.chunk_by(|a, b| self.machines.same(a, b)) {
             let (machine, orientation) = self.machines.at(&run[0]);
             for sites in run.chunks(CHUNK) {
                 let first = sizes.len();
-                let lies = |s: &Site| {
-                    let motion = &self.task.path().moves[s.move_index];
-                    placement.on(motion, s.share)
-                };
-                let pose = |s: &Site| {
-                    let lies = lies(s);
-                    lies.pose(&s.desired, lies.orientation_of(s.orientation))
-                };
-                let poses: Vec<Pose> = sites.iter().map(pose).collect();
+                let programmed = |s: &Site| s.programmed(s.placement(&task));
+                let places: Vec<PartPlace> = sites.iter().map(programmed).collect();
+                let corrected = task.corrected;
+                let own = task.mechanism_on(sites[0].line);
+                let motions = frame.motions(own, &places, |_| None).into_iter();
+                let wanted = places.iter().zip(motions).enumerate();
+                let wanted = wanted.map(|(i, (place, motion))| {
+                    let motion = motion.map_err(|cause| (first + i, failed(&sites[i], cause)))?;
+                    Ok(place.corrected(&motion, corrected).pose())
+                });
+                let poses = wanted.collect::<Result<Vec<Pose>, _>>()?;
                 let wrenches: Vec<Wrench> = sites.iter().map(|s| s.wrench).collect();
-                let corrected = self.task.corrected;
                 let targets = match machine.targets(&poses, &wrenches, corrected) {
                     Some(targets) => targets,
                     None => {
@@ -206,9 +212,9 @@ impl<'t, 'm> MovableProgram<'t, 'm> {
                         all.collect::<Result<Vec<Pose>, _>>()?
                     }
                 };
-                for ((site, pose), target) in sites.iter().zip(&poses).zip(&targets) {
-                    let shift = target.translation.vector - pose.translation.vector;
-                    sizes.push(lies(site).to_program(&shift).norm());
+                for (programmed, target) in places.iter().zip(&targets) {
+                    let shift = target.translation.vector - programmed.pose().translation.vector;
+                    sizes.push(programmed.place.to_program(&shift).norm());
                 }
             }
         }

@@ -3,6 +3,7 @@
 use kinetostat::Posture;
 
 use crate::checks::few_places::every;
+use crate::measured_frame::PartPlace;
 use crate::near::{natural_length, near_singular};
 use crate::postures::orientation::Orientation;
 use crate::result::point::PointResult;
@@ -23,7 +24,7 @@ pub(crate) fn nearest_singular(
     let mut last: Option<Posture> = None;
     let mut found: Option<(f64, NearSingularPlace)> = None;
     for point in points.iter().step_by(every(task, points.len())) {
-        let pose = point.wanted_pose(&task.placement);
+        let pose = PartPlace::of_point(task, point).pose();
         let mechanism = task.mechanism_on(point.line);
         let near = last
             .as_ref()

@@ -2,6 +2,7 @@
 
 use kinetostat::{Pose, Wrench};
 
+use crate::measured_frame::{MeasuredFrame, PartPlace};
 use crate::postures::neighbour::in_chunks;
 use crate::run::machines::Machines;
 use crate::run::points::BATCH;
@@ -20,6 +21,7 @@ pub(crate) fn errors_under(
 ) -> Result<Vec<Option<f64>>, RunError> {
     watch.stage(stage, loaded.len());
     let machines = Machines::new(task);
+    let frame = MeasuredFrame::of(task, None)?;
     let mut all: Vec<Option<f64>> = Vec::with_capacity(loaded.len());
     for batch in loaded.chunks(BATCH) {
         if watch.cancelled() {
@@ -32,14 +34,14 @@ pub(crate) fn errors_under(
             in_chunks(run, |memory, sites| {
                 let poses: Vec<Pose> = sites
                     .iter()
-                    .map(|(site, _)| {
-                        let place = site.commanded_placement(task);
-                        place.pose(
-                            &site.commanded,
-                            place.orientation_of(site.commanded_orientation),
-                        )
-                    })
+                    .map(|(site, _)| site.commanded_pose(task))
                     .collect();
+                let places: Vec<PartPlace> = sites
+                    .iter()
+                    .map(|(site, _)| site.programmed(site.commanded_placement(task)))
+                    .collect();
+                let own = task.mechanism_on(sites[0].0.line);
+                let motions = frame.motions(own, &places, |_| None);
                 let wrenches: Vec<Wrench> = sites.iter().map(|(_, wrench)| *wrench).collect();
                 let found = machine.rest(&poses, &wrenches);
                 let [memory, _] = memory;
@@ -54,10 +56,10 @@ pub(crate) fn errors_under(
                 };
                 (0..sites.len())
                     .map(|i| {
-                        let place = sites[i].0.commanded_placement(task);
-                        let wanted = place.tool_pose(&sites[i].0.desired);
+                        let wanted = places[i].moved(motions[i].as_ref().ok()?).pose();
                         let off = tool(i)?.translation.vector - wanted.translation.vector;
-                        Some(place.to_program(&off).norm()).filter(|error| error.is_finite())
+                        Some(places[i].place.to_program(&off).norm())
+                            .filter(|error| error.is_finite())
                     })
                     .collect::<Vec<Option<f64>>>()
             })

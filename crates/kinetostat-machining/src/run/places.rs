@@ -11,6 +11,7 @@ use crate::result::point::{PointKind, PointResult, size};
 use crate::result::program_place::ProgramPlace;
 use crate::result::selection::{thinned, worst};
 use crate::run::machines::Machines;
+use crate::run::points::Solving;
 use crate::run::sites::site::Site;
 use crate::task::Task;
 
@@ -20,7 +21,7 @@ pub(crate) fn places<S: Iterator<Item = Site>>(
     task: &Task<'_>,
     points: &[PointResult],
     sites: impl Fn() -> S,
-    course: Option<&ArmCourse>,
+    how: Solving<'_>,
 ) -> Vec<ProgramPlace> {
     if task.places == 0 {
         return Vec::new();
@@ -33,14 +34,15 @@ pub(crate) fn places<S: Iterator<Item = Site>>(
     let chosen: Vec<(usize, Site)> = sites().enumerate().filter(wanted).collect();
     let machines = Machines::new(task);
     let compliances = in_chunks(&chosen, |memory, some| {
-        let of =
-            |(_, site): &(usize, Site)| compliance(task, &machines, &mut memory[0], (site, course));
+        let of = |(_, site): &(usize, Site)| {
+            compliance(task, &machines, &mut memory[0], (site, how.course))
+        };
         some.iter().map(of).collect()
     });
     let all = chosen.iter().zip(compliances);
     all.map(|((i, site), compliance)| ProgramPlace {
         compliance_um_per_n: compliance,
-        ..place(task, site, &points[*i])
+        ..place(task, site, &points[*i], how)
     })
     .collect()
 }
@@ -57,10 +59,7 @@ fn compliance(
     }
     let (machine, orientation) = machines.at(site);
     let lies = site.commanded_placement(task);
-    let pose = lies.pose(
-        &site.commanded,
-        lies.orientation_of(site.commanded_orientation),
-    );
+    let pose = site.commanded_pose(task);
     let mechanism = machine.mechanism();
     let found = memory.equilibrium(mechanism, &pose, &site.wrench, orientation);
     let found = found.ok()?.1.compliance();
@@ -77,22 +76,27 @@ fn compliance(
     in_part.iter().all(|x| x.is_finite()).then_some(rows)
 }
 
-fn place(task: &Task<'_>, site: &Site, point: &PointResult) -> ProgramPlace {
-    let lies = site.placement(task);
-    let turned = site.commanded_placement(task);
-    let stated = lies.orientation_of(site.orientation);
+fn place(task: &Task<'_>, site: &Site, point: &PointResult, how: Solving<'_>) -> ProgramPlace {
+    let programmed = site.programmed(site.placement(task));
+    let near = how
+        .course
+        .and_then(|c| c.standing_at(site.move_index, site.share));
+    let motions = how
+        .frame
+        .motions(task.mechanism_on(site.line), &[programmed], |_| near);
+    // Where there is none, the place had no answer.
+    let motion = motions.into_iter().find_map(Result::ok).unwrap_or_default();
+    let as_commanded = site.programmed(site.commanded_placement(task));
     ProgramPlace {
         line: site.line,
         path_mm: site.path_mm,
         move_index: site.move_index,
         share: site.share,
         tool: tool_on(task.tools, task.path(), site.line).map(|tool| tool.number),
-        wanted: lies.pose(&site.desired, stated),
-        commanded: turned.pose(
-            &site.commanded,
-            turned.orientation_of(site.commanded_orientation),
-        ),
-        wanted_as_commanded: turned.pose(&site.desired, turned.orientation_of(site.orientation)),
+        programmed: programmed.pose(),
+        wanted: programmed.moved(&motion).pose(),
+        commanded: site.commanded_pose(task),
+        wanted_as_commanded: as_commanded.moved(&motion).pose(),
         wrench: site.wrench,
         error_before_mm: size(&point.error_before_mm),
         error_after_mm: size(&point.error_after_mm),

@@ -4,11 +4,11 @@
 use kinetostat::batch::BatchEquilibrium;
 use kinetostat::chain::FoundBy;
 use kinetostat::{Error, MechanismEquilibrium, MotionKind, Pose, Posture, Wrench};
-use nalgebra::{UnitQuaternion, Vector3};
+use nalgebra::UnitQuaternion;
 
 use crate::field::cause_and_advice;
 use crate::joints::figures::{JointFigures, in_display};
-use crate::placement::Placement;
+use crate::measured_frame::{FrameMotion, MeasuredFrame, PartPlace};
 use crate::postures::arm_course::ArmCourse;
 use crate::postures::neighbour::{Neighbour, in_chunks};
 use crate::postures::orientation::Orientation;
@@ -28,10 +28,10 @@ pub(crate) const BATCH: usize = 16_384;
 pub(crate) fn solve(
     task: &Task<'_>,
     mut sites: impl Iterator<Item = Site>,
-    (written, course): (bool, Option<&ArmCourse>),
+    how: Solving<'_>,
     watch: &dyn Watch,
 ) -> Result<(Vec<PointResult>, Option<RunError>), RunError> {
-    let name = if written {
+    let name = if how.written {
         "deflections of the written program"
     } else {
         "deflections"
@@ -55,16 +55,15 @@ pub(crate) fn solve(
         let solved = of_one_tool.flat_map(|run| {
             let (machine, orientation) = machines.at(&run[0]);
             in_chunks(run, |memory, sites| {
-                let how = Solving {
-                    orientation,
-                    written,
-                    course,
-                };
+                let how = Solving { orientation, ..how };
                 chunk(task, machine, memory, sites, how)
             })
         });
         for (site, point) in batch.iter().zip(solved) {
             let mut point = point?;
+            if let Some(before) = points.last() {
+                figures.unwind(before, &mut point);
+            }
             figures.fill(&mut point);
             worse = worse.or_else(|| worse_than_before(task, site, &point));
             points.push(point);
@@ -78,9 +77,6 @@ pub(crate) fn solve(
     }
 }
 
-/// A position in mm and the orientation there, if the program states it.
-type Place<'s> = (&'s Vector3<f64>, Option<UnitQuaternion<f64>>);
-
 /// How points are solved.
 #[derive(Clone, Copy)]
 pub(crate) struct Solving<'c> {
@@ -89,6 +85,8 @@ pub(crate) struct Solving<'c> {
     pub written: bool,
     /// The way of an arm that is not the one from home.
     pub course: Option<&'c ArmCourse>,
+    /// Where the part lies as it was measured.
+    pub frame: &'c MeasuredFrame<'c>,
 }
 
 /// Points of a chunk, by vector kernels where there are some, else one after the other; up to the first that has no
@@ -104,28 +102,31 @@ pub(crate) fn chunk(
         orientation,
         written,
         course,
+        frame,
     } = how;
     let mechanism = machine.mechanism();
-    let poses =
-        |of: fn(&Site) -> Place<'_>, lies: fn(&Site, &Task<'_>) -> Placement| -> Vec<Pose> {
-            let pose = |s: &Site| {
-                let (position, orientation) = of(s);
-                let place = lies(s, task);
-                place.pose(position, place.orientation_of(orientation))
-            };
-            sites.iter().map(pose).collect()
-        };
-    let wanted = poses(|s| (&s.desired, s.orientation), Site::placement);
+    let places: Vec<PartPlace> = sites
+        .iter()
+        .map(|s| s.programmed(s.placement(task)))
+        .collect();
+    let programmed: Vec<Pose> = places.iter().map(PartPlace::pose).collect();
+    let standing =
+        |i: usize| course.and_then(|c| c.standing_at(sites[i].move_index, sites[i].share));
+    let motions = match sites.first() {
+        Some(site) => frame.motions(task.mechanism_on(site.line), &places, standing),
+        None => Vec::new(),
+    };
     let wrenches: Vec<Wrench> = sites.iter().map(|s| s.wrench).collect();
     // Along a way of its own every place is solved next to the arm there.
     let together = course.is_none();
-    let before = written.then(|| together.then(|| machine.rest(&wanted, &wrenches)).flatten());
+    let before = written.then(|| {
+        together
+            .then(|| machine.rest(&programmed, &wrenches))
+            .flatten()
+    });
     let commanded = match written {
-        true => poses(
-            |s| (&s.commanded, s.commanded_orientation),
-            Site::commanded_placement,
-        ),
-        false => wanted.clone(),
+        true => sites.iter().map(|s| s.commanded_pose(task)).collect(),
+        false => programmed.clone(),
     };
     let after = together.then(|| machine.with_stability(&commanded, &wrenches));
     let after = after.flatten();
@@ -133,8 +134,7 @@ pub(crate) fn chunk(
     // One after the other: each starts from its neighbour.
     let mut solved = |i: usize| -> Result<PointResult, Error> {
         let wrench = &wrenches[i];
-        let on_the_way = course.and_then(|c| c.standing_at(sites[i].move_index, sites[i].share));
-        if let Some(posture) = on_the_way {
+        if let Some(posture) = standing(i) {
             before_memory.stand_at(posture);
             after_memory.stand_at(posture);
         }
@@ -142,7 +142,7 @@ pub(crate) fn chunk(
             None => None,
             Some(Some(found)) => Some((found.commands.row(i).collect(), found.tool_pose(i))),
             Some(None) => {
-                let pose = &wanted[i];
+                let pose = &programmed[i];
                 let (posture, tool) = before_memory.rest(mechanism, pose, wrench, orientation)?;
                 Some((posture.commands(), tool))
             }
@@ -159,7 +159,8 @@ pub(crate) fn chunk(
                 Loaded::of_posture(&found.0, &found.1)
             }
         };
-        Ok(point(task, &sites[i], &wanted[i], before, after))
+        let motion = motions[i].clone()?;
+        Ok(point(task, &sites[i], &motion, before, after))
     };
     let mut points = Vec::with_capacity(sites.len());
     for (i, site) in sites.iter().enumerate() {
@@ -186,7 +187,6 @@ pub(crate) fn failed(site: &Site, cause: Error) -> RunError {
 /// What a result states of an equilibrium.
 struct Loaded {
     tool: Pose,
-    rotation: f64,
     /// Orientation of the unloaded tool.
     nominal: UnitQuaternion<f64>,
     commands: Vec<f64>,
@@ -199,10 +199,8 @@ struct Loaded {
 
 impl Loaded {
     fn of_posture(posture: &Posture, equilibrium: &MechanismEquilibrium) -> Self {
-        let turned = equilibrium.tool.rotation * posture.target().rotation.inverse();
         Self {
             tool: equilibrium.tool,
-            rotation: turned.angle(),
             nominal: posture.target().rotation,
             commands: posture.commands(),
             actuator_forces: equilibrium.actuator_forces(),
@@ -215,10 +213,8 @@ impl Loaded {
 
     fn of_batch(found: &BatchEquilibrium, i: usize, commanded: &Pose) -> Option<Self> {
         let stability = found.stability(i)?;
-        let tool = found.tool_pose(i);
         Some(Self {
-            rotation: (tool.rotation * commanded.rotation.inverse()).angle(),
-            tool,
+            tool: found.tool_pose(i),
             nominal: commanded.rotation,
             commands: found.commands.row(i).collect(),
             actuator_forces: found.actuator_forces.row(i).collect(),
@@ -244,17 +240,18 @@ fn change(kind: MotionKind, difference: f64) -> f64 {
 fn point(
     task: &Task<'_>,
     site: &Site,
-    wanted: &Pose,
+    motion: &FrameMotion,
     before: Option<(Vec<f64>, Pose)>,
     after: Loaded,
 ) -> PointResult {
     let place = &site.placement(task);
+    let wanted = site.programmed(*place).moved(motion).pose();
     let off = |tool: &Pose| -> [f64; 3] {
         let shift = tool.translation.vector - wanted.translation.vector;
         place.to_program(&shift).into()
     };
     let lies = &site.commanded_placement(task);
-    let there = lies.pose(&site.desired, lies.orientation_of(site.orientation));
+    let there = site.programmed(*lies).moved(motion).pose();
     let error_after_mm: [f64; 3] = {
         let shift = after.tool.translation.vector - there.translation.vector;
         lies.to_program(&shift).into()
@@ -298,7 +295,11 @@ fn point(
                 tool.cross(&wanted).norm().atan2(tool.dot(&wanted))
             }
             Some(_) => after.tool.rotation.angle_to(&wanted.rotation),
-            None => after.rotation,
+            None => {
+                let turn = lies.to_base_axes(&motion.turn.scaled_axis());
+                let held = UnitQuaternion::from_scaled_axis(turn) * after.nominal;
+                (after.tool.rotation * held.inverse()).angle()
+            }
         }
         .to_degrees(),
         tool_turn_deg: place

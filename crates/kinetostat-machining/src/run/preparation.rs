@@ -1,4 +1,4 @@
-//! What every run begins with: a first look at the program, the load along it, and the way of the arm.
+//! What every run begins with: a first look at the program, the load along it, the way of the arm, and the measured part frame.
 
 use kinetostat_program::CorrectionField;
 
@@ -8,9 +8,12 @@ use crate::field::ModelField;
 use crate::limits::Beyond;
 use crate::load::along_path::LoadAlongPath;
 use crate::load::ramps::Ramped;
+use crate::measured_frame::MeasuredFrame;
 use crate::postures::arm_course::ArmCourse;
+use crate::postures::orientation::Orientation;
 use crate::run::first_look::FirstLook;
 use crate::run::of_whole::OfWhole;
+use crate::run::points::Solving;
 use crate::task::{RunError, Task};
 use crate::watch::Watch;
 
@@ -22,10 +25,11 @@ pub(crate) fn refuse(beyond: Vec<Beyond>) -> Result<(), RunError> {
     }
 }
 
-/// The load along a program in its two readings, and the way of an arm that is not the one from home.
+/// The load along a program in its two readings, the way of an arm that is not the one from home, and the part as it was measured.
 pub(crate) struct Preparation<'a> {
     pub load: Ramped<'a>,
     pub course: Option<ArmCourse>,
+    pub frame: MeasuredFrame<'a>,
 }
 
 impl<'a> Preparation<'a> {
@@ -42,7 +46,7 @@ impl<'a> Preparation<'a> {
         let load = load(task);
         let looked = FirstLook::new(task, &load, watch)?;
         refuse(looked.folding_load(task))?;
-        Ok(Self::with(task, load, stiffness(&looked, whole)))
+        Self::with(task, load, stiffness(&looked, whole))
     }
 
     /// Of a program that is corrected.
@@ -59,13 +63,25 @@ impl<'a> Preparation<'a> {
         let load = load(task);
         let looked = FirstLook::new(task, &load, watch)?.beginning_solved()?;
         refuse(looked.gross(task))?;
-        Ok(Self::with(task, load, stiffness(&looked, whole)))
+        Self::with(task, load, stiffness(&looked, whole))
     }
 
-    fn with(task: &Task<'a>, load: LoadAlongPath<'a>, stiffness: f64) -> Self {
-        Self {
+    fn with(task: &Task<'a>, load: LoadAlongPath<'a>, stiffness: f64) -> Result<Self, RunError> {
+        let course = ArmCourse::of(task);
+        Ok(Self {
             load: load.ramped(stiffness),
-            course: ArmCourse::of(task),
+            frame: MeasuredFrame::of(task, course.as_ref())?,
+            course,
+        })
+    }
+
+    /// Solves the program as it is, or as it is written.
+    pub fn solving(&self, written: bool) -> Solving<'_> {
+        Solving {
+            orientation: Orientation::default(),
+            written,
+            course: self.course.as_ref(),
+            frame: &self.frame,
         }
     }
 
@@ -74,6 +90,7 @@ impl<'a> Preparation<'a> {
         ModelField::new(task.mechanism, task.placement, &self.load.followed)
             .correcting(task.corrected)
             .on_course(self.course.as_ref())
+            .in_frame(&self.frame)
     }
 }
 

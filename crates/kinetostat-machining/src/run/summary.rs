@@ -43,6 +43,7 @@ pub(crate) fn summarise(
             .map(|i| most(&|p: &PointResult| f(p)[i].abs()))
             .collect()
     };
+    let by_weight = largest_by_own_weight(task, &programmed);
     let mut summary = Summary {
         points: points.len(),
         blocks: task.program.statement_count(),
@@ -76,7 +77,8 @@ pub(crate) fn summarise(
             .filter_map(|p| p.share_to_buckling)
             .max_by(f64::total_cmp),
         largest_share_of_rating: largest_share_of_rating(task, points),
-        max_error_by_own_weight_mm: largest_by_own_weight(task, &programmed),
+        max_displacement_by_weight_mm: by_weight.map(|[whole, _]| whole),
+        max_error_by_own_weight_mm: by_weight.map(|[_, error]| error),
         max_actuator_force: per_actuator(&|p| &p.actuator_force),
         max_actuator_correction: per_actuator(&|p| &p.actuator_correction),
         converged: true,

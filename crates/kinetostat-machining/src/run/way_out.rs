@@ -6,6 +6,7 @@ use nalgebra::{Unit, UnitQuaternion, Vector3};
 use rayon::prelude::*;
 
 use crate::joints::arm::Arm;
+use crate::measured_frame::PartPlace;
 use crate::near::{NEAR_SINGULAR, natural_length};
 use crate::result::joints::WayOut;
 use crate::result::point::PointResult;
@@ -35,7 +36,7 @@ impl Places {
         points: &[PointResult],
         worst: &[&PointResult],
     ) -> Self {
-        let at = |point: &PointResult| (point.line, point.wanted_pose(&task.placement));
+        let at = |point: &PointResult| (point.line, PartPlace::of_point(task, point).pose());
         let stride = points.len().div_ceil(MOST_PLACES).max(1);
         Self {
             worst: worst.iter().map(|point| at(point)).collect(),

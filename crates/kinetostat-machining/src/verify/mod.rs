@@ -31,7 +31,6 @@ mod way;
 use kinetostat::number::smaller;
 use kinetostat_program::{Arcs, Corrected, CorrectionField, Path, Unwatched, WriteError};
 
-use crate::load::ramps::Ramped;
 use crate::run::checked::Checked;
 use crate::run::conclude::{Run, conclude};
 use crate::run::places::places;
@@ -100,21 +99,16 @@ fn verified(
     matched.cut_lines = cut_lines(&both);
     matched.turned = turned_most(task.path(), other, &pieces);
     let written = as_written(task.path(), (other, bytes), pieces);
-    let Preparation { load, course } = prepared;
-    let Ramped {
-        acting: load,
-        findings: ramps,
-        ..
-    } = load;
-    let sites = || sites_of_written(task, &load, &written);
+    let (load, how) = (&prepared.load.acting, prepared.solving(true));
+    let sites = || sites_of_written(task, load, &written);
     // A place where the program is worse than the original is a finding here.
-    let (points, _worse) = solve(task, sites(), (true, course.as_ref()), watch)?;
+    let (points, _worse) = solve(task, sites(), how, watch)?;
     let checked = Checked {
-        places: places(task, &points, sites, course.as_ref()),
-        ramps,
+        places: places(task, &points, sites, how),
+        ramps: prepared.load.findings.clone(),
         ..Checked::default()
     };
-    let mut run = conclude(task, &load, points, Some(written), &checked);
+    let mut run = conclude(task, load, points, Some(written), &checked);
     // A program without corrections is one that leaves something to correct, unless the original does not.
     if run.result.summary.max_position_error_before_mm > task.writing.tolerance_mm {
         let warnings = &mut run.result.warnings;

@@ -7,7 +7,7 @@ use kinetostat::{
 };
 use kinetostat_machining::{
     Bounds, CuttingLoad, Placement, ProgramLoad, Run, RunInputs, Task, Unwatched, WarningCode,
-    compensate_program,
+    WeightCorrection, compensate_program,
 };
 use kinetostat_program::{Gcode, Program, ReadOptions, WriteOptions, interpret};
 use kinetostat_testing::Worst;
@@ -68,6 +68,7 @@ fn run(bump: [f64; 2]) -> Run {
         placement: Placement::at(vector![0.0, 0.0, 0.2]),
         load: ProgramLoad::new(CuttingLoad::None),
         tools: &[],
+        weight: WeightCorrection::All,
         cut: None,
         writing: WriteOptions::default(),
         run_inputs: RunInputs::default(),

@@ -3,7 +3,7 @@
 use kinetostat::{Directions, Mechanism, PostureRequest, Wrench};
 use kinetostat_machining::{
     Bounds, CuttingLoad, LoadAxes, Placement, ProgramLoad, Run, RunInputs, Task, Unwatched,
-    Warning, WarningCode, analyse,
+    Warning, WarningCode, WeightCorrection, analyse,
 };
 use kinetostat_model::Model;
 use kinetostat_program::{Gcode, Path, Program, ReadOptions, ToolTurn, WriteOptions, interpret};
@@ -43,6 +43,7 @@ fn run(mechanism: &Mechanism, text: &str, placement: Placement, turns_deg: &[f64
             wrench: Wrench::new(vector![0.0, 0.0, 50.0], Vector3::zeros()),
         }),
         tools: &[],
+        weight: WeightCorrection::All,
         cut: None,
         writing: WriteOptions::default(),
         run_inputs: RunInputs::default(),
@@ -124,4 +125,45 @@ fn a_joint_that_turns_on_and_on_meets_its_limit() {
     let turns = [0.0, 0.0, 120.0, 240.0, 120.0, 0.0];
     let run = run(&mechanism, text, placement, &turns);
     assert!(warning(&run, WarningCode::JointTurnsOn).is_none());
+}
+
+/// The tool turns by one and a half turns over 600 short moves: joint 6 turns by as much, without a jump at any boundary of a batch.
+#[test]
+fn joint_values_are_continuous_along_the_path() {
+    let mechanism = Model::preset("heavy_6r").expect("preset").mechanism;
+    let home = mechanism.platforms()[mechanism.tool()].home;
+    let mut placement = Placement::at(vector![1.2, 0.0, 0.8]);
+    placement.tool_orientation = home.rotation;
+    let moves: String = (1..=600)
+        .map(|k| format!("G1 X{:.1} F600\n", 0.1 * f64::from(k)))
+        .collect();
+    let turns: Vec<f64> = (0..=600).map(|k| 0.9 * f64::from(k)).collect();
+    let run = run(
+        &mechanism,
+        &format!("G21 G90\nG0 X0 Y0 Z0\n{moves}"),
+        placement,
+        &turns,
+    );
+    assert!(run.points.len() > 512, "more than two batches");
+    let commands = || run.points.iter().map(|p| &p.actuator_command);
+    for (before, after) in commands().zip(commands().skip(1)) {
+        let steps = before.iter().zip(after).map(|(a, b)| (b - a).abs());
+        assert!(steps.clone().all(|step| step < 2.0), "{before:?} {after:?}");
+    }
+    let sixth: Vec<f64> = commands().map(|values| values[5]).collect();
+    let turned = (sixth[sixth.len() - 1] - sixth[0]).abs();
+    assert!((turned - 540.0).abs() < 5.0, "{turned}");
+    // The kept points and the ranges have the same values.
+    let [low, high] = run.result.joints.ranges[5];
+    assert!((high - low - turned).abs() < 1.0, "{low} to {high}");
+    for kept in &run.result.points {
+        let same = |p: &&kinetostat_machining::PointResult| {
+            p.path_mm == kept.path_mm && p.kind == kept.kind
+        };
+        assert!(
+            run.points
+                .iter()
+                .any(|p| same(&p) && p.actuator_command == kept.actuator_command)
+        );
+    }
 }

@@ -227,6 +227,69 @@ fn a_rapid_through_the_stock_is_told() {
     );
 }
 
+/// Cuts that nobody makes are told: feeds in mm/s, tips far below the stock, a right-hand helix with M4, and a ramp so flat that
+/// edge forces under the end are a guess, with the force that is left without them.
+#[test]
+fn cuts_that_nobody_makes_are_told() {
+    let stock = || block([0.0, -20.0, -10.0], [60.0, 20.0, 0.0]);
+    let told = |text: &str, rotation: Option<Rotation>| {
+        let mut question = question(stock());
+        question.rotation = rotation;
+        let along = question.along(&path(text), &Unwatched).unwrap();
+        let found = along.findings.iter();
+        found.map(|f| (f.kind, f.text.clone())).collect::<Vec<_>>()
+    };
+    let kinds = |text: &str, rotation| -> Vec<CutFindingKind> {
+        told(text, rotation)
+            .into_iter()
+            .map(|(kind, _)| kind)
+            .collect()
+    };
+    use CutFindingKind::{
+        BelowTheStock, EndBeyondTheLaw, LeftHandTool, Plunge, ThickChip, ThinFeed,
+    };
+    let slot = |m: &str, z: f64, f: f64| {
+        format!("G21 G90\nS10000 {m}\nG0 X-10 Y0 Z5\nG0 Z{z}\nG1 X50 F{f}\n")
+    };
+    assert_eq!(kinds(&slot("M3", -2.0, 600.0), None), []);
+    assert_eq!(kinds(&slot("M3", -2.0, 20.0), None), [ThinFeed]);
+    assert_eq!(kinds(&slot("M3", -2.0, 13_000.0), None), [ThickChip]);
+    assert_eq!(kinds(&slot("M3", -60.0, 600.0), None), [BelowTheStock]);
+    assert_eq!(kinds(&slot("M4", -2.0, 600.0), None), [LeftHandTool]);
+    assert_eq!(
+        kinds(&slot("M4", -2.0, 600.0), Some(Rotation::CounterClockwise)),
+        []
+    );
+    // 1:24 down through the block: 0.00125 mm per tooth under the end.
+    let ramp = "G21 G90\nS10000 M3\nG0 X-10 Y0 Z0.4\nG1 X38 Z-1.6 F600\n";
+    let found = told(ramp, None);
+    let of_kinds: Vec<CutFindingKind> = found.iter().map(|(kind, _)| *kind).collect();
+    assert_eq!(of_kinds, [Plunge, EndBeyondTheLaw]);
+    assert!(found[0].1.contains("2.39 degrees"), "{}", found[0].1);
+    // Two lips of 3 mm with 168 N/mm2 x 0.00125 mm and 30.8 N/mm.
+    let end_n = 6.0 * (168.0 * 0.03 * 2.0 / 48.0416 + 30.8);
+    assert!(
+        found[1].1.contains(&format!("{end_n:.0} of ")),
+        "{} {end_n}",
+        found[1].1
+    );
+}
+
+/// A stock beside the program is refused with both places, whatever the program.
+#[test]
+fn a_stock_beside_the_program_is_refused() {
+    let path = path(&format!("{START}G1 Z-2 F600\nG1 X50\n"));
+    let failure = question(block([0.0, 430.0, -10.0], [60.0, 470.0, 0.0]))
+        .along(&path, &Unwatched)
+        .unwrap_err();
+    let text = failure.to_string();
+    assert!(matches!(failure, CutFailure::BesideStock { .. }), "{text}");
+    assert!(
+        text.contains("from (0, 430, -10) to (60, 470, 0) mm") && text.contains("(50, 0, 5)"),
+        "{text}"
+    );
+}
+
 /// A cut in many short moves: the load is that of one long move, and does not jump from move to move.
 #[test]
 fn short_moves_have_the_load_of_a_long_one() {

@@ -2,7 +2,7 @@
 
 use kinetostat::{Directions, Mechanism, Pose};
 use kinetostat_machining::{
-    Bounds, CuttingLoad, Placement, ProgramLoad, Run, RunInputs, Task, Unwatched,
+    Bounds, CuttingLoad, Placement, ProgramLoad, Run, RunInputs, Task, Unwatched, WeightCorrection,
     compensate_program, straight_tool,
 };
 use kinetostat_model::Model;
@@ -52,6 +52,7 @@ fn run(machine: &Mechanism, arcs: Arcs, tolerance_mm: f64) -> Run {
             axial: -25.0,
         }),
         tools: &[],
+        weight: WeightCorrection::All,
         cut: None,
         writing: writing.clone(),
         run_inputs: RunInputs::default(),

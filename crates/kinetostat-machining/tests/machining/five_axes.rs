@@ -6,7 +6,7 @@ use std::sync::Arc;
 use kinetostat::{Directions, Mechanism, Pose, Wrench};
 use kinetostat_machining::{
     Bounds, CuttingLoad, LoadAxes, Placement, ProgramLoad, Run, RunInputs, Task, Unwatched,
-    compensate_program, straight_tool,
+    WeightCorrection, compensate_program, straight_tool,
 };
 use kinetostat_model::Model;
 use kinetostat_program::{
@@ -219,6 +219,7 @@ impl Machine {
                 wrench,
             }),
             tools: &[],
+            weight: WeightCorrection::All,
             cut: None,
             writing,
             run_inputs: RunInputs::default(),

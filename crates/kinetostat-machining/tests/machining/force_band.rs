@@ -6,8 +6,8 @@ use kinetostat::{Directions, Mechanism};
 use kinetostat_cutting::{Engagement, Linear, Shape, Side, Tool};
 use kinetostat_machining::{
     Bounds, CutQuestion, CuttingLoad, CuttingTool, EngagementSource, ForceChoice, ForceOrigin,
-    Placement, ProgramLoad, Run, RunInputs, Task, Unwatched, analyse, compensate_program,
-    cut_places, cutting_result,
+    Placement, ProgramLoad, Run, RunInputs, Task, Unwatched, WeightCorrection, analyse,
+    compensate_program, cut_places, cutting_result,
 };
 use kinetostat_model::Model;
 use kinetostat_program::{Gcode, Program, ReadOptions, WriteOptions, interpret};
@@ -67,6 +67,7 @@ fn run(
             origin: ForceOrigin::Computed,
         }),
         tools: &[],
+        weight: WeightCorrection::All,
         cut: Some(&forces),
         writing: WriteOptions::default(),
         run_inputs: RunInputs::default(),

@@ -6,7 +6,8 @@ use kinetostat::{Directions, Mechanism, Pose, PostureRequest, Wrench};
 use kinetostat_machining::internal::configuration_at;
 use kinetostat_machining::{
     Bounds, CuttingLoad, Elbow, LimitEnd, LoadAxes, Placement, PointKind, ProgramLoad, Run,
-    RunError, RunInputs, Shoulder, Task, Unwatched, WarningCode, Wrist, analyse, natural_length,
+    RunError, RunInputs, Shoulder, Task, Unwatched, WarningCode, WeightCorrection, Wrist, analyse,
+    natural_length,
 };
 use kinetostat_model::{Model, preset_names};
 use kinetostat_program::{Gcode, Program, ReadOptions, WriteOptions, interpret, irregular};
@@ -37,6 +38,7 @@ fn run(
             wrench: Wrench::new(force, Vector3::zeros()),
         }),
         tools: &[],
+        weight: WeightCorrection::All,
         cut: None,
         writing: WriteOptions::default(),
         run_inputs: RunInputs::default(),

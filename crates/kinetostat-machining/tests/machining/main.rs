@@ -36,3 +36,4 @@ mod tools;
 mod turned_axes;
 mod turns_in_place;
 mod turns_of_load;
+mod weight;

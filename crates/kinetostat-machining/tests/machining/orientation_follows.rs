@@ -3,8 +3,8 @@
 use kinetostat::{Directions, Mechanism, MotionKind, Pose, PostureRequest, Wrench};
 use kinetostat_machining::{
     Bounds, CuttingLoad, Grid, LoadAxes, MapPlace, MapTask, PlaceState, Placement, ProgramLoad,
-    Run, RunError, RunInputs, Task, Unwatched, Variable, analyse, compensate_program, map,
-    straight_tool,
+    Run, RunError, RunInputs, Task, Unwatched, Variable, WeightCorrection, analyse,
+    compensate_program, map, straight_tool,
 };
 use kinetostat_model::Model;
 use kinetostat_program::{Gcode, MachineProgram, Program, ReadOptions, WriteOptions, interpret};
@@ -73,6 +73,7 @@ fn task<'a>(
         },
         load,
         tools: &[],
+        weight: WeightCorrection::All,
         cut: None,
         writing: WriteOptions::default(),
         run_inputs: RunInputs::default(),

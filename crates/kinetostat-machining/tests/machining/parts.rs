@@ -3,8 +3,8 @@
 use kinetostat::{Directions, Mechanism, Pose};
 use kinetostat_machining::{
     Bounds, CuttingLoad, MergedRun, OfWhole, Placement, ProgramLoad, Run, RunInputs, Task,
-    Unwatched, analyse, analyse_part, compensate_part, compensate_program, look_at_part,
-    straight_tool,
+    Unwatched, WeightCorrection, analyse, analyse_part, compensate_part, compensate_program,
+    look_at_part, straight_tool,
 };
 use kinetostat_model::Model;
 use kinetostat_program::{
@@ -58,6 +58,7 @@ fn with_task<R>(
         placement: Placement::at(vector![0.0, 0.0, 0.1]),
         load: ProgramLoad::new(milling),
         tools: &[],
+        weight: WeightCorrection::All,
         cut: None,
         writing: WriteOptions::default(),
         run_inputs: RunInputs::default(),

@@ -7,7 +7,7 @@ use kinetostat_cutting::{Engagement, Linear, Shape, Side, Stock, StockSettings, 
 use kinetostat_machining::{
     Bounds, CutQuestion, CuttingLoad, CuttingTool, EngagementSource, ForceChoice, ForceOrigin,
     LoadAxes, LoadBegins, Placement, PointKind, ProgramLoad, Run, RunInputs, Task, Unwatched,
-    Warning, WarningCode, compensate_program,
+    Warning, WarningCode, WeightCorrection, compensate_program,
 };
 use kinetostat_program::{Gcode, MoveKind, Path, Program, ReadOptions, WriteOptions, interpret};
 use nalgebra::{Vector3, vector};
@@ -69,6 +69,7 @@ fn run_with(
         placement: Placement::at(Vector3::zeros()),
         load,
         tools: &[],
+        weight: WeightCorrection::All,
         cut: forces.as_ref(),
         writing: WriteOptions::default(),
         run_inputs: RunInputs::default(),

@@ -4,8 +4,8 @@ use kinetostat::{Directions, Mechanism};
 use kinetostat_cutting::{Linear, Shape, Stock, StockSettings, Tool};
 use kinetostat_machining::{
     Bounds, CutQuestion, CuttingLoad, CuttingTool, EngagementSource, ForceAlongPath, ForceChoice,
-    ForceOrigin, Placement, ProgramLoad, Run, RunInputs, Task, Unwatched, WarningCode, analyse,
-    compensate_program, straight_tool,
+    ForceOrigin, Placement, ProgramLoad, Run, RunInputs, Task, Unwatched, WarningCode,
+    WeightCorrection, analyse, compensate_program, straight_tool,
 };
 use kinetostat_model::Model;
 use kinetostat_program::{Gcode, MoveKind, Path, Program, ReadOptions, WriteOptions, interpret};
@@ -43,6 +43,7 @@ fn with_task<T>(
         placement: Placement::at(vector![0.01, -0.02, 0.1]),
         load,
         tools: &[],
+        weight: WeightCorrection::All,
         cut,
         writing: WriteOptions::default(),
         run_inputs: RunInputs::default(),

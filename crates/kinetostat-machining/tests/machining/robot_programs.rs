@@ -8,7 +8,7 @@ use kinetostat_formats::{
 };
 use kinetostat_machining::{
     Bounds, CuttingLoad, LoadAlongPath, LoadAxes, Placement, ProgramLoad, Run, RunInputs, Task,
-    Unwatched, compensate_program,
+    Unwatched, WeightCorrection, compensate_program,
 };
 use kinetostat_model::Model;
 use kinetostat_program::{ToolTurn, WriteOptions, irregular};
@@ -138,6 +138,7 @@ fn run(mechanism: &Mechanism, text: &str, corrected: Directions, load: ProgramLo
         placement: Placement::at(Vector3::zeros()),
         load,
         tools: &[],
+        weight: WeightCorrection::All,
         cut: None,
         writing: WriteOptions::default(),
         run_inputs: RunInputs::default(),

@@ -3,7 +3,7 @@
 use kinetostat::{Directions, Mechanism, Pose, Wrench};
 use kinetostat_machining::{
     Bounds, CuttingLoad, LoadAlongPath, Placement, ProgramLoad, Run, RunError, RunInputs, Task,
-    Unwatched, analyse, compensate_program, straight_tool,
+    Unwatched, WeightCorrection, analyse, compensate_program, straight_tool,
 };
 use kinetostat_model::Model;
 use kinetostat_program::{Gcode, Program, ReadOptions, WriteOptions, interpret};
@@ -86,6 +86,7 @@ fn run(
         placement: Placement::at(origin),
         load,
         tools: &[],
+        weight: WeightCorrection::All,
         cut: None,
         writing: WriteOptions::default(),
         run_inputs: RunInputs::default(),
@@ -250,6 +251,7 @@ fn a_heavy_arm_sags_and_its_program_is_corrected_under_gravity_too() {
         placement,
         load: milling(),
         tools: &[],
+        weight: WeightCorrection::All,
         cut: None,
         writing: WriteOptions::default(),
         run_inputs: RunInputs::default(),
@@ -345,6 +347,7 @@ fn points_of_a_run_are_those_of_the_general_engine() {
             },
             load: milling(),
             tools: &[],
+            weight: WeightCorrection::All,
             cut: None,
             writing: WriteOptions::default(),
             run_inputs: RunInputs::default(),

@@ -6,7 +6,7 @@ use kinetostat::{Directions, Mechanism, Pose, Wrench};
 use kinetostat_machining::number::largest_length;
 use kinetostat_machining::{
     Bounds, CornerLoad, CuttingLoad, LoadAlongPath, LoadAxes, Placement, ProgramLoad, Run,
-    RunInputs, Task, Unwatched, WarningCode, compensate_program, straight_tool,
+    RunInputs, Task, Unwatched, WarningCode, WeightCorrection, compensate_program, straight_tool,
 };
 use kinetostat_model::Model;
 use kinetostat_program::{Gcode, Piece, Program, ReadOptions, WriteOptions, interpret, irregular};
@@ -75,6 +75,7 @@ fn run(
         placement,
         load,
         tools: &[],
+        weight: WeightCorrection::All,
         cut: None,
         writing: WriteOptions::default(),
         run_inputs: RunInputs::default(),

@@ -3,7 +3,7 @@
 use kinetostat::{Directions, Mechanism};
 use kinetostat_machining::{
     Bounds, CornerLoad, CuttingLoad, Placement, ProgramLoad, Run, RunError, RunInputs, Task, Tool,
-    Unwatched, analyse, compensate_program, straight_tool,
+    Unwatched, WeightCorrection, analyse, compensate_program, straight_tool,
 };
 use kinetostat_model::Model;
 use kinetostat_program::{Gcode, Program, ReadOptions, WriteOptions, interpret};
@@ -64,6 +64,7 @@ fn run(
         placement: placement(),
         load,
         tools,
+        weight: WeightCorrection::All,
         cut: None,
         writing: WriteOptions::default(),
         run_inputs: RunInputs::default(),

@@ -19,6 +19,45 @@ use kinetostat_program::{NominalPath, WhyLeftOut};
 /// More points than this share beyond the window, and a motion onto the path is none.
 const MOST_BEYOND: f64 = 0.1;
 
+/// Motion that brings measured points into the frame of the program before they are compared with its path.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Register {
+    /// No motion: the points are in the frame of the program, and a shift of the whole is a deviation.
+    None,
+    /// A shift.
+    Translation,
+    /// A shift and a turn.
+    Rigid,
+}
+
+/// Reads a registration; states of earlier versions have `true` for a rigid motion and `false` for none.
+fn word_or_bool<'de, D: serde::Deserializer<'de>>(from: D) -> Result<Register, D::Error> {
+    #[derive(Deserialize)]
+    #[serde(untagged)]
+    enum Written {
+        IsRigid(bool),
+        Word(Register),
+    }
+    Ok(match Written::deserialize(from)? {
+        Written::IsRigid(true) => Register::Rigid,
+        Written::IsRigid(false) => Register::None,
+        Written::Word(word) => word,
+    })
+}
+
+impl Register {
+    /// Its name on the command line and in states.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::None => "none",
+            Self::Translation => "translation",
+            Self::Rigid => "rigid",
+        }
+    }
+}
+
 /// How points become deviations; the same for all trials of a program.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct MeasureSettings {
@@ -28,9 +67,10 @@ pub struct MeasureSettings {
     pub window_mm: f64,
     /// How points find their places.
     pub align: Alignment,
-    /// Whether they are brought onto the path by a rigid motion first.
-    pub register: bool,
-    /// Whether that motion has a scale.
+    /// How they are brought onto the path first. What that takes away is not corrected.
+    #[serde(deserialize_with = "word_or_bool")]
+    pub register: Register,
+    /// True if a rigid motion onto the path has a scale.
     pub scale: bool,
 }
 
@@ -40,7 +80,7 @@ impl Default for MeasureSettings {
             smoothing_mm: 5.0,
             window_mm: RegistrationOptions::default().window_mm,
             align: Alignment::Nearest,
-            register: true,
+            register: Register::Rigid,
             scale: false,
         }
     }
@@ -74,7 +114,7 @@ pub struct Measurement {
 /// Compares a measurement with the path.
 ///
 /// ```
-/// use kinetostat_mirror::{MeasureSettings, MeasuredPoints, NominalPath, measure};
+/// use kinetostat_mirror::{MeasureSettings, MeasuredPoints, NominalPath, Register, measure};
 /// use kinetostat_program::{Program, ReadOptions, interpret};
 /// use nalgebra::Vector3;
 ///
@@ -82,7 +122,7 @@ pub struct Measurement {
 /// let path = interpret(&program, &ReadOptions::default())?;
 /// let nominal = NominalPath::new(&path)?;
 /// let points: Vec<_> = (0..=100).map(|x| Vector3::new(f64::from(x), 0.05, 0.0)).collect();
-/// let settings = MeasureSettings { register: false, ..MeasureSettings::default() };
+/// let settings = MeasureSettings { register: Register::None, ..MeasureSettings::default() };
 /// let measured = measure(&nominal, &MeasuredPoints::at(&points)?, &settings)?;
 /// assert!((measured.figures.smoothed_largest_mm - 0.05).abs() < 1e-4);
 /// assert!(measured.outliers.is_empty() && measured.unseen.is_empty());
@@ -105,11 +145,12 @@ pub fn measure(
     }
     let options = RegistrationOptions {
         with_scale: settings.scale,
+        only_shift: settings.register == Register::Translation,
         window_mm: settings.window_mm,
     };
     let registration = match settings.register {
-        true => Some(register(nominal, measured, options)?),
-        false => None,
+        Register::None => None,
+        _ => Some(register(nominal, measured, options)?),
     };
     let motion = registration
         .as_ref()

@@ -14,7 +14,7 @@ mod unseen;
 pub(crate) use along_path::smoothed_along;
 pub use figures::DeviationFigures;
 pub use kernel::{Kernel, Smoothed};
-pub use measure::{MeasureSettings, Measurement, measure};
+pub use measure::{MeasureSettings, Measurement, Register, measure};
 pub use on_lines::{OnLines, on_lines};
 pub use outliers::Outlier;
 pub use piece_means::PieceMean;

@@ -24,7 +24,7 @@ pub struct OnLines {
 /// What a measurement says of the feed moves from the first line to the last.
 ///
 /// ```
-/// use kinetostat_mirror::{MeasureSettings, MeasuredPoints, NominalPath, measure, on_lines};
+/// use kinetostat_mirror::{MeasureSettings, MeasuredPoints, NominalPath, Register, measure, on_lines};
 /// use kinetostat_program::{Program, ReadOptions, interpret};
 /// use nalgebra::Vector3;
 ///
@@ -32,7 +32,7 @@ pub struct OnLines {
 /// let path = interpret(&program, &ReadOptions::default())?;
 /// let nominal = NominalPath::new(&path)?;
 /// let points: Vec<_> = (0..=50).map(|x| Vector3::new(f64::from(x), 0.05, 0.0)).collect();
-/// let settings = MeasureSettings { register: false, ..MeasureSettings::default() };
+/// let settings = MeasureSettings { register: Register::None, ..MeasureSettings::default() };
 /// let measured = measure(&nominal, &MeasuredPoints::at(&points)?, &settings)?;
 /// let first = on_lines(&nominal, &measured, [3, 3], settings.smoothing_mm);
 /// assert_eq!((first.points, first.length_mm), (51, 60.0));

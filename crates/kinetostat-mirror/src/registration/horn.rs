@@ -1,7 +1,7 @@
 //! The motion between two lists of points, in closed form by quaternions.
 //!
 //! B. K. P. Horn, Closed-form solution of absolute orientation using unit quaternions, J. Opt. Soc. Am. A 4 (1987) 629: the
-//! turn is the eigenvector of the largest eigenvalue of a symmetric 4 x 4 matrix, the scale the root of the two spreads' ratio.
+//! turn is the eigenvector of the largest eigenvalue of a symmetric 4 x 4 matrix.
 
 use nalgebra::{Matrix3, Matrix4, Quaternion, UnitQuaternion, Vector3, Vector4};
 
@@ -14,8 +14,8 @@ const AS_WELL: f64 = 1e-9;
 pub(crate) type Pair = (Vector3<f64>, Vector3<f64>, f64);
 
 /// The motion with the smallest weighted sum of squares between the first of each pair, moved, and the second; of several that
-/// fit as well the one that turns least. `None` of nothing.
-pub(crate) fn closest_motion(pairs: &[Pair], with_scale: bool) -> Option<Motion> {
+/// fit as well the one that turns least, or the one without a turn (`only_shift`). `None` of nothing.
+pub(crate) fn closest_motion(pairs: &[Pair], only_shift: bool) -> Option<Motion> {
     let total: f64 = pairs.iter().map(|pair| pair.2).sum();
     if total.is_nan() || total <= 0.0 {
         return None;
@@ -25,23 +25,22 @@ pub(crate) fn closest_motion(pairs: &[Pair], with_scale: bool) -> Option<Motion>
         sum / total
     };
     let (from_middle, to_middle) = (mean(|pair| pair.0), mean(|pair| pair.1));
+    if only_shift {
+        return Some(Motion {
+            shift_mm: to_middle - from_middle,
+            ..Motion::default()
+        });
+    }
     let mut product = Matrix3::zeros();
-    let (mut spread_from, mut spread_to) = (0.0, 0.0);
     for (from, to, weight) in pairs {
         let (from, to) = (from - from_middle, to - to_middle);
         product += from * to.transpose() * *weight;
-        spread_from += weight * from.norm_squared();
-        spread_to += weight * to.norm_squared();
     }
     let rotation = turn(&product)?;
-    let scale = match with_scale && spread_from > 0.0 {
-        true => (spread_to / spread_from).sqrt(),
-        false => 1.0,
-    };
     Some(Motion {
         rotation,
-        shift_mm: to_middle - rotation * from_middle * scale,
-        scale,
+        shift_mm: to_middle - rotation * from_middle,
+        scale: 1.0,
     })
 }
 

@@ -1,6 +1,7 @@
 //! The search for the motion.
 
 use crate::error::MirrorError;
+use crate::number::larger;
 use crate::points::{MeasuredPoint, MeasuredPoints};
 use crate::registration::candidates::{Candidate, ToldBy, chosen};
 use crate::registration::closest::{Closest, Counting};
@@ -42,6 +43,8 @@ const SAME_MM: f64 = 1e-6;
 pub struct RegistrationOptions {
     /// Seek a scale too: where the part has another temperature than its drawing.
     pub with_scale: bool,
+    /// Seek a shift only: no turn, and no scale.
+    pub only_shift: bool,
     /// How far the tool may be from its path, mm: points within that are not taken for others for being off.
     pub window_mm: f64,
 }
@@ -50,6 +53,7 @@ impl Default for RegistrationOptions {
     fn default() -> Self {
         Self {
             with_scale: false,
+            only_shift: false,
             window_mm: 1.0,
         }
     }
@@ -81,6 +85,8 @@ pub struct Registration {
     pub deviation_mm: f64,
     /// Points that counted nothing, and rows of them.
     pub rejected_rows: Vec<usize>,
+    /// Largest way by which the motion moves a point that counts, mm: deviations of this size may be taken away.
+    pub moved_mm: f64,
 }
 
 /// Brings measured points onto the path.
@@ -115,9 +121,13 @@ pub fn register(
     let points = points.points();
     let judged = some_of(points, JUDGED);
     let candidates = candidates((nominal, options), points, &judged);
+    let without_scale = RegistrationOptions {
+        with_scale: false,
+        ..options
+    };
     let free = |motion: &Motion| {
         let closest = Closest::of(nominal, points, motion, options.counting(false));
-        let next = closest.and_then(|closest| step(&closest, motion, false));
+        let next = closest.and_then(|closest| step(&closest, motion, without_scale));
         next.map_or_else(Vec::new, |next| next.free)
     };
     let found = chosen(nominal, &judged, &candidates, &free)?.and_then(|(motion, told_by)| {
@@ -159,7 +169,7 @@ fn candidates(
             near,
         })
     };
-    let starts = starts(nominal, points, counting);
+    let starts = starts(nominal, points, counting, options.only_shift);
     let near = starts.near.then(|| candidate(Motion::default(), true));
     let near = near.flatten();
     let is_good = |c: &Candidate| c.closest.left_mm <= NO_GOOD * c.closest.size_mm;
@@ -168,7 +178,7 @@ fn candidates(
     let of_whole = starts.of_whole.into_iter();
     all.extend(of_whole.filter_map(|start| candidate(start, false)));
     let size = all.first().map(|c| c.closest.size_mm);
-    if let Some(size) = size.filter(|_| seek) {
+    if let Some(size) = size.filter(|_| seek && !options.only_shift) {
         let elsewhere = everywhere(nominal, &following, size).into_iter();
         all.extend(elsewhere.filter_map(|start| candidate(start, false)));
     }
@@ -213,7 +223,7 @@ fn follow(
             .zip(&closest.all)
             .map(|(point, followed)| (point.position_mm, followed.foot.place_mm, followed.weight))
             .collect();
-        let next = closest_motion(&pairs, false)?;
+        let next = closest_motion(&pairs, options.only_shift)?;
         let nearer = Closest::of(nominal, points, &next, counting)?;
         if nearer.left_mm >= closest.left_mm {
             break;
@@ -243,7 +253,7 @@ fn refine(
         at_rest = false;
         for _ in 0..most {
             let closest = Closest::of(nominal, points, &motion, counting)?;
-            let next = step(&closest, &motion, options.with_scale)?;
+            let next = step(&closest, &motion, options)?;
             (motion, free) = (next.motion, next.free);
             steps += 1;
             at_rest = next.way_mm <= AT_REST * closest.size_mm;
@@ -254,7 +264,10 @@ fn refine(
     }
     let closest = Closest::of(nominal, points, &motion, counting)?;
     let counted = points.iter().zip(&closest.all);
-    let rejected = counted.filter(|(_, followed)| followed.weight == 0.0);
+    let rejected = counted.clone().filter(|(_, f)| f.weight == 0.0);
+    let counted_ways = counted
+        .filter(|(_, f)| f.weight > 0.0)
+        .map(|(point, f)| (f.moved - point.position_mm).norm());
     Some(Registration {
         motion,
         told_by: ToldBy::Frame,
@@ -263,5 +276,6 @@ fn refine(
         at_rest,
         deviation_mm: closest.deviation_mm,
         rejected_rows: rejected.map(|(point, _)| point.row).collect(),
+        moved_mm: counted_ways.fold(0.0, larger),
     })
 }

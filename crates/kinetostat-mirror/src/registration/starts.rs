@@ -34,10 +34,13 @@ pub(crate) fn starts(
     nominal: &NominalPath<'_>,
     points: &[MeasuredPoint],
     counting: Counting,
+    only_shift: bool,
 ) -> Starts {
     let unmoved = Closest::of(nominal, points, &Motion::default(), counting);
-    let mut of_whole: Vec<Motion> = in_order(nominal, points).into_iter().collect();
-    of_whole.extend(by_principal_axes(nominal, points));
+    let mut of_whole: Vec<Motion> = in_order(nominal, points, only_shift).into_iter().collect();
+    if !only_shift {
+        of_whole.extend(by_principal_axes(nominal, points));
+    }
     Starts {
         near: unmoved.is_some_and(|found| found.left_mm <= ABOUT * found.size_mm),
         of_whole,
@@ -45,13 +48,17 @@ pub(crate) fn starts(
 }
 
 /// Points in the order of the path: at the same share of the way.
-fn in_order(nominal: &NominalPath<'_>, points: &[MeasuredPoint]) -> Option<Motion> {
+fn in_order(
+    nominal: &NominalPath<'_>,
+    points: &[MeasuredPoint],
+    only_shift: bool,
+) -> Option<Motion> {
     let places = places_in_order(nominal, points);
     let pairs = points.iter().zip(places);
     let pairs: Vec<Pair> = pairs
         .map(|(point, place)| (point.position_mm, place, point.weight))
         .collect();
-    closest_motion(&pairs, false)
+    closest_motion(&pairs, only_shift)
 }
 
 /// The places of the path at the shares of the way through the points.

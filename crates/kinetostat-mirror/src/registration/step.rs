@@ -5,6 +5,7 @@ use nalgebra::{Matrix3, SMatrix, UnitQuaternion, Vector3};
 use crate::registration::closest::Closest;
 use crate::registration::free::{UNKNOWNS, Unknowns, free_motions};
 use crate::registration::motion::{FreeMotion, Motion};
+use crate::registration::search::RegistrationOptions;
 
 /// Eigenvalues of the normal equations below this share of the largest determine nothing.
 const UNDETERMINED: f64 = 1e-6;
@@ -18,7 +19,11 @@ pub(crate) struct Step {
 }
 
 /// The step from a motion to the next, by Gauss-Newton with the distances across the path; `None` where numbers are lost.
-pub(crate) fn step(closest: &Closest, before: &Motion, with_scale: bool) -> Option<Step> {
+pub(crate) fn step(
+    closest: &Closest,
+    before: &Motion,
+    options: RegistrationOptions,
+) -> Option<Step> {
     let size = closest.size_mm.max(f64::MIN_POSITIVE);
     let mut normal = SMatrix::<f64, UNKNOWNS, UNKNOWNS>::zeros();
     let mut right = Unknowns::zeros();
@@ -28,11 +33,13 @@ pub(crate) fn step(closest: &Closest, before: &Motion, with_scale: bool) -> Opti
         let across = Matrix3::identity() - tangent * tangent.transpose();
         // Columns: turn about x, y, z, shift along x, y, z, and growth; all as ways in mm.
         let mut ways = SMatrix::<f64, 3, UNKNOWNS>::zeros();
-        ways.view_mut((0, 0), (3, 3))
-            .copy_from(&(-lever.cross_matrix()));
+        if !options.only_shift {
+            ways.view_mut((0, 0), (3, 3))
+                .copy_from(&(-lever.cross_matrix()));
+        }
         ways.view_mut((0, 3), (3, 3))
             .copy_from(&Matrix3::identity());
-        if with_scale {
+        if options.with_scale {
             ways.set_column(6, &lever);
         }
         let gap = across * (point.foot.place_mm - point.moved);
@@ -61,6 +68,14 @@ pub(crate) fn step(closest: &Closest, before: &Motion, with_scale: bool) -> Opti
             false => open += vector * vector.transpose(),
         }
     }
+    if options.only_shift {
+        // Turns are not sought, so that none is open.
+        let shifts =
+            SMatrix::<f64, UNKNOWNS, UNKNOWNS>::from_diagonal(&Unknowns::from_fn(|i, _| {
+                f64::from(u8::from((3..6).contains(&i)))
+            }));
+        open = shifts * open * shifts;
+    }
     let turn = Vector3::new(solution[0], solution[1], solution[2]) / size;
     let shift = Vector3::new(solution[3], solution[4], solution[5]);
     let growth = 1.0 + solution[6] / size;
@@ -73,6 +88,6 @@ pub(crate) fn step(closest: &Closest, before: &Motion, with_scale: bool) -> Opti
     Some(Step {
         motion,
         way_mm: solution.norm(),
-        free: free_motions(open, closest, with_scale),
+        free: free_motions(open, closest, options.with_scale),
     })
 }

@@ -118,8 +118,8 @@ impl MirrorState {
             ),
             (
                 "register",
-                own.register.to_string(),
-                other.register.to_string(),
+                own.register.word().to_owned(),
+                other.register.word().to_owned(),
             ),
             ("scale", own.scale.to_string(), other.scale.to_string()),
         ];

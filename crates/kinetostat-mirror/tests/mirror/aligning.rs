@@ -28,7 +28,7 @@ fn no_point_is_given_to_a_pass_beside_its_own() {
     let (path, points) = beside();
     let nominal = NominalPath::new(&path).unwrap();
     let mut settings = MeasureSettings {
-        register: false,
+        register: kinetostat_mirror::Register::None,
         align: Alignment::ArcLength,
         ..MeasureSettings::default()
     };
@@ -77,7 +77,7 @@ fn a_line_of_the_program_tells_passes_apart() {
     });
     let measured = MeasuredPoints::new(measured.collect()).unwrap();
     let settings = MeasureSettings {
-        register: false,
+        register: kinetostat_mirror::Register::None,
         ..MeasureSettings::default()
     };
     let found = measure(&nominal, &measured, &settings).unwrap();
@@ -102,7 +102,7 @@ fn what_the_points_do_not_tell_is_said() {
         ways.map(|s| nominal.point_at(s)).collect()
     };
     let settings = MeasureSettings {
-        register: false,
+        register: kinetostat_mirror::Register::None,
         ..MeasureSettings::default()
     };
     // Every 12 mm, and none on the 46 mm of the ramp's beginning.

@@ -17,7 +17,7 @@ fn mirrored(path: &Path, off: impl Fn(f64) -> Vector3<f64>) -> MirrorState {
     let places = (0..count as usize).map(|k| nominal.length_mm() * ((k as f64 + 0.5) / count));
     let points: Vec<Vector3<f64>> = places.map(|at| nominal.point_at(at) + off(at)).collect();
     let settings = MeasureSettings {
-        register: false,
+        register: kinetostat_mirror::Register::None,
         align: Alignment::ArcLength,
         ..MeasureSettings::default()
     };
@@ -154,7 +154,7 @@ fn a_leg_without_points_is_led_from_one_to_the_other() {
         points.push(Vector3::new(60.0 - f64::from(k), 3.02, 0.0));
     }
     let settings = MeasureSettings {
-        register: false,
+        register: kinetostat_mirror::Register::None,
         align: Alignment::ArcLength,
         ..MeasureSettings::default()
     };
@@ -214,7 +214,7 @@ fn points_around_a_corner_are_not_taken_for_the_other_leg() {
     let (_, path) = read("G21 G90\nG0 X0 Y0 Z0\nG1 X60 F600\nG1 Y60\nG0 Z9\nM2\n");
     let nominal = NominalPath::new(&path).expect("a path");
     let settings = MeasureSettings {
-        register: false,
+        register: kinetostat_mirror::Register::None,
         align: Alignment::ArcLength,
         ..MeasureSettings::default()
     };

@@ -112,10 +112,10 @@ fn a_state_comes_back_and_belongs_to_one_program() {
     };
     assert!(of("abc", &other).starts_with("the state has smoothing_mm = 5, this run 6"));
     let other = MeasureSettings {
-        register: false,
+        register: kinetostat_mirror::Register::None,
         ..settings
     };
-    assert!(of("abc", &other).starts_with("the state has register = true, this run false"));
+    assert!(of("abc", &other).starts_with("the state has register = rigid, this run none"));
     let mut broken = back.clone();
     broken.correction_mm[3].y = f64::NAN;
     assert!(broken.fits(&nominal, "abc", &settings).is_err());

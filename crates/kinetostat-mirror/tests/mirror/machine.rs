@@ -12,7 +12,7 @@ pub(crate) const SETTINGS: kinetostat_mirror::MeasureSettings =
         smoothing_mm: 5.0,
         window_mm: 2.0,
         align: kinetostat_mirror::Alignment::Nearest,
-        register: false,
+        register: kinetostat_mirror::Register::None,
         scale: false,
     };
 

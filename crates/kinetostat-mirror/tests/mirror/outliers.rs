@@ -46,7 +46,7 @@ fn figure_twenty_of_a_thousand_are_found_and_no_other() {
             points[*index] += out * (0.1 + 0.3 * noise.uniform());
         }
         let settings = MeasureSettings {
-            register: false,
+            register: kinetostat_mirror::Register::None,
             ..MeasureSettings::default()
         };
         let measured = measure(&nominal, &MeasuredPoints::at(&points).unwrap(), &settings).unwrap();
@@ -88,7 +88,7 @@ fn without_a_scatter_none_is_found() {
     let (program, path) = read(POCKET);
     let nominal = NominalPath::new(&path).unwrap();
     let settings = MeasureSettings {
-        register: false,
+        register: kinetostat_mirror::Register::None,
         ..MeasureSettings::default()
     };
     let mut state = MirrorState::new(&nominal, "pocket", settings).unwrap();

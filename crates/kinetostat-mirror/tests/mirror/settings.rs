@@ -25,7 +25,7 @@ fn a_smoothing_length_of_nothing_is_refused() {
     ] {
         let settings = MeasureSettings {
             smoothing_mm,
-            register: false,
+            register: kinetostat_mirror::Register::None,
             ..MeasureSettings::default()
         };
         let why = measure(&nominal, &points, &settings).map(|found| found.figures);

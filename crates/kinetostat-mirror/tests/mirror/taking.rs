@@ -35,7 +35,7 @@ fn the_same_points_are_no_second_measurement_whatever_the_file_looks_like() {
     let (_, path) = read(SHAPE);
     let nominal = NominalPath::new(&path).unwrap();
     let settings = MeasureSettings {
-        register: false,
+        register: kinetostat_mirror::Register::None,
         ..MeasureSettings::default()
     };
     let points: Vec<_> = sampled(&path, 200)
@@ -83,7 +83,7 @@ fn a_measurement_most_of_which_has_no_place_is_not_mirrored() {
     let (_, path) = read(SHAPE);
     let nominal = NominalPath::new(&path).unwrap();
     let settings = MeasureSettings {
-        register: false,
+        register: kinetostat_mirror::Register::None,
         align: Alignment::ArcLength,
         ..MeasureSettings::default()
     };

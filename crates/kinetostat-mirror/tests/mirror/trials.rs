@@ -14,7 +14,7 @@ const SETTINGS: MeasureSettings = MeasureSettings {
     smoothing_mm: 5.0,
     window_mm: 20.0,
     align: kinetostat_mirror::Alignment::Nearest,
-    register: false,
+    register: kinetostat_mirror::Register::None,
     scale: false,
 };
 

@@ -24,6 +24,10 @@ pub(crate) enum Misfit {
     Tilted(UnitQuaternion<f64>),
 }
 
+/// Advice against a second deviation of one element.
+const ONE_DEVIATION: &str =
+    "write both as one [[deviation]]: moved_by states a shift and a turn at once, in their order";
+
 /// Deviations of one limb, by the name of their place.
 pub(crate) type Own<'d> = BTreeMap<&'d str, (KeyPath, Misfit)>;
 
@@ -69,7 +73,7 @@ pub(crate) fn deviations<'d>(
                     "the limb '{}' has a deviation at '{}' already",
                     d.limb, d.at
                 ),
-                "write their product as one deviation",
+                ONE_DEVIATION,
             );
         } else if let Some(misfit) = misfit {
             taken.insert(&d.at, (place, misfit));
@@ -171,6 +175,17 @@ pub(crate) fn as_built(own: &Own<'_>, parts: &[(usize, Part)]) -> ReadResult<AsB
             return Err(nowhere(place, at, misfit, parts));
         }
         for k in named {
+            // An axis of a joint has its own name and that of the joint.
+            if built.instead.contains_key(&k) {
+                return Err(Finding::new(
+                    &place.key("at"),
+                    format!(
+                        "'{}' has a deviation already, by another name than '{at}'",
+                        joint(&parts[k].1).unwrap_or_default()
+                    ),
+                    ONE_DEVIATION,
+                ));
+            }
             let part = instead(&parts[k].1, misfit).ok_or_else(|| {
                 let (key, help) = match misfit {
                     Misfit::Moved(_) => ("moved_by", "write tilted_by_deg and about for its axis, or name the rigid element or link in front of it"),

@@ -1,9 +1,10 @@
 //! Where the parts of a limb are when the machine is at home, and which weight its joints carry.
 
+use kinetostat::linalg::SingularValues;
 use kinetostat::number::larger;
 use kinetostat::number::smaller;
 use kinetostat::{Chain, Mechanism, MotionKind, Pose, model::Element};
-use nalgebra::{Translation3, UnitQuaternion, Vector3};
+use nalgebra::{DMatrix, Translation3, UnitQuaternion, Vector3};
 
 /// Poses in the chain's base before every element and at the end, at home.
 pub(crate) fn frames(chain: &Chain) -> Vec<Pose> {
@@ -50,6 +51,63 @@ pub(crate) fn machine_size(mechanism: &Mechanism) -> f64 {
     };
     let limbs = mechanism.limbs().iter();
     limbs.map(|l| length(&l.nominal)).fold(0.0, larger)
+}
+
+/// Length of an arm from its second drive on, m: the first one only turns it about its foot. Zero where fewer than three turn.
+pub(crate) fn reach(chain: &Chain) -> f64 {
+    let frames = frames(chain);
+    let drives =
+        chain
+            .elements()
+            .iter()
+            .zip(&frames)
+            .filter_map(|(element, frame)| match element {
+                Element::Motion(m) if m.command.is_some() && m.kind == MotionKind::Revolute => {
+                    Some(frame)
+                }
+                _ => None,
+            });
+    let mut at: Vec<Vector3<f64>> = drives.map(|frame| frame.translation.vector).collect();
+    if at.len() < 3 {
+        return 0.0;
+    }
+    at.extend(frames.last().map(|frame| frame.translation.vector));
+    at.windows(2).skip(1).map(|w| (w[1] - w[0]).norm()).sum()
+}
+
+/// Least over largest singular value of the Jacobian of an arm of six drives or more at home, rotations at its reach; none of other
+/// machines.
+pub(crate) fn conditioning(mechanism: &Mechanism) -> Option<f64> {
+    let [limb] = mechanism.limbs() else {
+        return None;
+    };
+    let chain = &limb.nominal;
+    let reach = reach(chain);
+    let (frames, count) = (frames(chain), chain.actuators().len());
+    if count < 6 || reach < 1e-3 {
+        return None;
+    }
+    let end = frames.last()?.translation.vector;
+    let mut jacobian = DMatrix::<f64>::zeros(6, count);
+    for (element, frame) in chain.elements().iter().zip(&frames) {
+        let Element::Motion(motion) = element else {
+            continue;
+        };
+        let Some(drive) = motion.command else {
+            continue;
+        };
+        let axis = frame.rotation * motion.axis.into_inner();
+        let (shift, turn) = match motion.kind {
+            MotionKind::Prismatic => (axis, Vector3::zeros()),
+            MotionKind::Revolute => (axis.cross(&(end - frame.translation.vector)), axis),
+        };
+        for k in 0..3 {
+            jacobian[(k, drive.index)] += drive.ratio * shift[k] / reach;
+            jacobian[(3 + k, drive.index)] += drive.ratio * turn[k];
+        }
+    }
+    let values = SingularValues::of(&jacobian);
+    Some(values.least() / values.largest())
 }
 
 /// The body whose centre of mass is farthest from the nearest joint or end of its limb, and that

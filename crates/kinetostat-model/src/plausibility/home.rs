@@ -4,7 +4,7 @@ use kinetostat::number::larger;
 use kinetostat::number::{apart, short};
 use kinetostat::{Chain, Mechanism, Pose};
 
-use crate::plausibility::at_home::frames;
+use crate::plausibility::at_home::{conditioning, frames};
 use crate::plausibility::link_matrix::check as check_link_matrices;
 use crate::plausibility::machine::of_machine;
 use crate::plausibility::masses::{next_to_nothing, no_body};
@@ -28,6 +28,31 @@ fn tip(chain: &Chain) -> (Pose, f64) {
 /// Springs with more loss than any material.
 const LOSSY: f64 = 1.0;
 
+/// Finding of a machine in which nothing gives way.
+pub(crate) const NOTHING_YIELDS: &str = "this model has no spring: nothing in it gives way, so that there is nothing to say of deflections and stiffness";
+
+/// Says what is to be filled in where nothing gives way; none where something does.
+pub(crate) fn without_stiffness(mechanism: &Mechanism) -> Option<String> {
+    let limbs = mechanism.limbs();
+    if limbs.iter().any(|limb| !limb.actual.springs().is_empty()) {
+        return None;
+    }
+    let names: Vec<&str> = limbs
+        .iter()
+        .flat_map(|limb| limb.nominal.actuators())
+        .map(|actuator| actuator.name.as_str())
+        .collect();
+    let more = match names.len().saturating_sub(8) {
+        0 => String::new(),
+        n => format!(" and {n} more"),
+    };
+    let names = names[..names.len().min(8)].join(", ");
+    Some(format!(
+        "give the drives {names}{more} a stiffness_n_m_per_rad or stiffness_n_per_m in place of rigid_drive (an imported model says FILL IN \
+         there; --joint-stiffness of `import urdf` writes them), and links that bend a stiffness"
+    ))
+}
+
 /// Looks at sizes, masses, gravity and the home posture.
 pub(crate) fn check_plausibility(
     document: &Document,
@@ -38,6 +63,17 @@ pub(crate) fn check_plausibility(
     of_machine(document, mechanism, warnings);
     check_link_matrices(document, warnings);
     let root = KeyPath::root();
+    if conditioning(mechanism).is_some_and(|ratio| ratio < 1e-4) {
+        warnings.push(Finding::new(
+            &root.key("platform").index(0).key("home"),
+            "the arm is singular at home: two of its axes do the same there",
+            "write home values of its joints at which it is not, as 30 degrees for joint 5; the search for joint values starts there",
+        ));
+    }
+    if let Some(text) = without_stiffness(mechanism) {
+        let place = root.key("limb").index(0);
+        warnings.push(Finding::new(&place, NOTHING_YIELDS, text));
+    }
     let loss = document
         .damping
         .as_ref()

@@ -3,7 +3,7 @@
 use kinetostat::number::short;
 use nalgebra::Matrix3;
 
-use crate::plausibility::at_home::farthest;
+use crate::plausibility::at_home::{farthest, reach};
 use crate::plausibility::limb::LimbCheck;
 use crate::problem::{Finding, KeyPath};
 
@@ -131,6 +131,51 @@ impl LimbCheck<'_> {
         }
         self.neighbours(warnings);
         self.density(warnings);
+        self.placeholders(warnings);
+    }
+
+    /// Masses of an arm that were never meant: equal everywhere, or too heavy or too light for its reach.
+    fn placeholders(&self, warnings: &mut Vec<Finding>) {
+        let limbs = self.mechanism.limbs();
+        let masses: Vec<f64> = limbs[self.limb]
+            .nominal
+            .bodies()
+            .iter()
+            .map(|b| b.mass)
+            .collect();
+        let Some(first) = limbs[self.limb].nominal.bodies().first() else {
+            return;
+        };
+        let mut warn = |message: String| {
+            warnings.push(Finding::new(
+                &self.place(&first.name, &["mass_kg"]),
+                message,
+                "gravity will be wrong if these are placeholders: write the true masses, or gravity_m_per_s2 = [0, 0, 0] under [mechanism]",
+            ));
+        };
+        let same = |mass: &f64| (mass - first.mass).abs() <= 1e-9 * first.mass;
+        if masses.len() >= 3 && first.mass > 0.0 && masses.iter().all(same) {
+            warn(format!(
+                "all {} bodies of this limb have the same mass, {} kg",
+                masses.len(),
+                short(first.mass)
+            ));
+        }
+        let reach = reach(&limbs[self.limb].nominal);
+        let total: f64 = masses.iter().sum();
+        let ratio = total / (reach * reach);
+        let is_arm = limbs.len() == 1 && masses.len() >= 3 && reach > 0.05;
+        if is_arm && total > 0.0 && !(LIGHTEST..=HEAVIEST).contains(&ratio) {
+            let (word, side, usual) = match ratio > HEAVIEST {
+                true => ("much", "heaviest", 250.0),
+                false => ("little", "lightest", 10.0),
+            };
+            warn(format!(
+                "the bodies weigh {} kg in all, {word} for an arm of {reach:.2} m: those of the {side} that are built have about {:.0} kg",
+                short(total),
+                usual * reach * reach
+            ));
+        }
     }
 
     /// Bodies beside the next ones of their limb: what is carried weighs less than what carries it, and no
@@ -218,3 +263,8 @@ const CARRIED: f64 = 3.0;
 
 /// A body that is lighter than those next to it by this was given in tonnes (1000) or is odd anyhow.
 const BESIDE: f64 = 50.0;
+
+/// Moving mass per reach squared, kg/m^2, of arms as they are built: 10 (light collaborative arms) to 250 (heavy ones of 700 kg
+/// payload); a factor of about 1.3 to 3 beside these is let pass.
+const LIGHTEST: f64 = 3.0;
+const HEAVIEST: f64 = 330.0;

@@ -123,7 +123,13 @@ fn doubt_of(key: &str, x: f64) -> Option<(String, &'static str)> {
 /// Twelfths of a half turn by which angles are usually written.
 const USUAL: [f64; 7] = [2.0, 3.0, 4.0, 6.0, 9.0, 12.0, 24.0];
 
-fn looks_like_radians(x: f64) -> bool {
+/// True if an angle in degrees is a usual share of pi, as an angle in radians is.
+///
+/// ```
+/// assert!(kinetostat_model::looks_like_radians(3.14159) && !kinetostat_model::looks_like_radians(3.0));
+/// ```
+#[must_use]
+pub fn looks_like_radians(x: f64) -> bool {
     USUAL
         .iter()
         .any(|k| (x.abs() / (k * PI / 12.0) - 1.0).abs() < 6e-4)

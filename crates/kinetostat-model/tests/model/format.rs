@@ -33,14 +33,19 @@ fn a_model_that_is_written_and_read_is_the_same() {
 }
 
 #[test]
-fn a_deviation_is_written_and_replaced() {
+fn a_deviation_is_written_and_a_second_one_of_the_same_element_is_refused() {
     let model = Model::preset("orthoglide").expect("preset");
     let small = Pose::new(Vector3::new(1e-4, 0.0, 0.0), Vector3::new(0.0, 0.01, 0.0));
     let large = Pose::new(Vector3::new(2e-4, 0.0, 0.0), Vector3::zeros());
     let once = model.with_deviation("leg y", "line", &small).expect("once");
-    let twice = once.with_deviation("leg y", "line", &large).expect("twice");
-    assert_eq!(twice.document.deviation.len(), 1);
-    let both = twice.with_deviation("leg y", "end", &small).expect("both");
+    let twice = once.with_deviation("leg y", "line", &large);
+    let twice = twice.expect_err("one of both would be dropped").to_string();
+    assert!(
+        twice.contains("the limb 'leg y' has a deviation at 'line' already")
+            && twice.contains("write both as one [[deviation]]"),
+        "{twice}"
+    );
+    let both = once.with_deviation("leg y", "end", &small).expect("both");
     let all = both.with_deviation("leg z", "start", &small).expect("all");
     assert_eq!(all.document.deviation.len(), 3);
     for limb in all.mechanism.limbs() {

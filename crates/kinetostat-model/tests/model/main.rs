@@ -6,6 +6,7 @@ mod bad_models;
 mod controller;
 mod damping;
 mod deviations;
+mod error_pairs;
 mod format;
 mod identical;
 mod internal;

@@ -2,7 +2,7 @@
 
 use kinetostat::{Directions, Mechanism, Wrench};
 use kinetostat_machining::{
-    Bounds, CuttingLoad, LoadAxes, Placement, ProgramLoad, RunInputs, Task,
+    Bounds, CuttingLoad, LoadAxes, Placement, ProgramLoad, RunInputs, Task, WeightCorrection,
 };
 use kinetostat_model::Model;
 use kinetostat_program::{Gcode, Program, ReadOptions, WriteOptions, interpret};
@@ -88,6 +88,7 @@ pub fn with_task<T>(
         placement,
         load,
         tools: &[],
+        weight: WeightCorrection::All,
         cut: None,
         writing: WriteOptions::default(),
         run_inputs: RunInputs::default(),

@@ -1,7 +1,8 @@
 //! What a paper holds, before anybody decides where it stands on a page: the same for PDF and HTML.
 
+use kinetostat_machining::Level;
+
 use crate::paper::language::Language;
-use crate::run::meaning::Level;
 
 /// A paper: headed, in its order.
 #[derive(Clone, Debug)]

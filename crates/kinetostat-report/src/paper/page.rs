@@ -3,6 +3,7 @@
 use std::fmt::Write;
 
 use crate::paper::block::{Block, Cell, Contents, Side, Table};
+use crate::run::meaning::class;
 use crate::text::escape;
 
 const STYLE: &str = "body{font:15px/1.45 'Noto Sans','Segoe UI',Arial,sans-serif;max-width:52em;margin:2em auto;padding:0 1em;color:#111;background:#fff}\
@@ -60,7 +61,7 @@ fn block(out: &mut String, block: &Block) {
         } => writeln!(
             out,
             "<div class=\"box {}\"><strong>{}</strong>{}</div>",
-            level.class(),
+            class(*level),
             escape(word),
             each(sentences, "p")
         ),

@@ -23,6 +23,7 @@ fn run() -> RunResult {
     (s.entry_steps, s.largest_entry_step_mm) = (2, 0.577);
     (s.feed_limited_pieces, s.max_feed_factor) = (4, 1.5);
     s.largest_backward_step_mm = 0.0333;
+    s.max_displacement_by_weight_mm = Some(0.0912);
     s.max_error_by_own_weight_mm = Some(0.0912);
     let q = &mut result.run_inputs;
     q.compensated = true;
@@ -54,6 +55,7 @@ fn run() -> RunResult {
     result.worst_points_after.push(point);
     let warning = Warning::at_line(WarningCode::Writing, 5, "a step against the motion");
     result.warnings.push(warning);
+    result.assess();
     result
 }
 
@@ -162,6 +164,7 @@ fn a_run_of_nothing_and_one_that_must_not_run_say_so() {
     }
     let mut result = run();
     result.summary.stable = false;
+    result.assess();
     let words = ["Do not run", "Ne pas exécuter", "Nicht ausführen"];
     for (language, expected) in Language::ALL.into_iter().zip(words) {
         let text = said(&Paper::of(&result).in_language(language));
@@ -202,6 +205,7 @@ fn a_verified_program_has_its_own_verdict() {
 fn a_missed_tolerance_without_a_reason_has_no_empty_one() {
     let mut result = run();
     result.summary.max_position_error_after_mm = 0.04;
+    result.assess();
     result.tolerance.missed = Some(kinetostat_machining::MissedTolerance {
         line: 12,
         ..kinetostat_machining::MissedTolerance::default()

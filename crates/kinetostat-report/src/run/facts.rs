@@ -6,6 +6,7 @@ use kinetostat_machining::{
 use minijinja::{Value, context};
 
 use crate::number::{self, MISSING, Rounding, norm};
+use crate::run::meaning;
 use crate::run::shown::Shown;
 use crate::text::{self, or_unknown};
 
@@ -27,15 +28,7 @@ pub(crate) fn cards(result: &Shown<'_>) -> Vec<Value> {
         format!("largest; root mean square {}", figures.rms_before),
     )];
     if run_inputs.compensated {
-        cards.push(card(
-            "Error with compensation",
-            figures.error_after.clone(),
-            format!(
-                "largest; root mean square {}; {} allowed",
-                figures.rms_after,
-                number::against(summary.max_position_error_after_mm, result.allowed_mm()).1
-            ),
-        ));
+        cards.push(error_with_compensation(result));
         cards.push(card(
             "Largest correction",
             figures.correction.clone(),
@@ -83,6 +76,36 @@ pub(crate) fn cards(result: &Shown<'_>) -> Vec<Value> {
         )
     });
     cards
+}
+
+/// The error after compensation; where it may be beyond the tolerance, that of the costliest assumption.
+fn error_with_compensation(result: &Shown<'_>) -> Value {
+    let (summary, figures) = (&result.summary, &result.figures);
+    let (value, note) = match (result.is_doubtful(), meaning::worst_and_allowed(result)) {
+        (true, (worst, allowed)) => {
+            let note = format!(
+                "{} if all assumptions hold; {allowed} allowed",
+                figures.error_after
+            );
+            (
+                worst.map_or_else(
+                    || "not bounded".to_owned(),
+                    |worst| format!("up to {worst}"),
+                ),
+                note,
+            )
+        }
+        (false, _) => {
+            let allowed =
+                number::against(summary.max_position_error_after_mm, result.allowed_mm()).1;
+            let note = format!(
+                "largest; root mean square {}; {allowed} allowed",
+                figures.rms_after
+            );
+            (figures.error_after.clone(), note)
+        }
+    };
+    card("Error with compensation", value, note)
 }
 
 fn actuator_card(result: &Shown<'_>) -> Value {
@@ -362,7 +385,7 @@ impl Left {
                 band.map_or_else(String::new, uncertain_words)
             }
             Self::Rounding => format!(
-                "Numbers are written with {} decimals. This part of the error after compensation comes from that alone.",
+                "Numbers are written with {} decimals at least: those that had more keep them. This part of the error after compensation comes from that alone.",
                 result.run_inputs.decimals
             ),
             Self::CornerSteps => format!(
@@ -617,7 +640,10 @@ fn written(result: &Shown<'_>) -> Vec<Value> {
             "Tolerance of chords in arcs",
             number::length_setting(run_inputs.chord_tolerance_mm),
         ),
-        fact("Decimals written", run_inputs.decimals.to_string()),
+        fact(
+            "Decimals written, at least",
+            run_inputs.decimals.to_string(),
+        ),
         fact(
             "Error allowed in all",
             number::against(summary.max_position_error_after_mm, result.allowed_mm()).1,

@@ -1,6 +1,6 @@
 //! What a run means, in plain words.
 
-use kinetostat_machining::{PointKind, RunResult};
+use kinetostat_machining::{AssumptionKind, Level, PointKind, RunResult};
 
 use crate::number;
 use crate::run::shown::in_type;
@@ -8,41 +8,24 @@ use crate::run::shown::in_type;
 /// Rotations below this are not worth a sentence, deg.
 const SMALLEST_ROTATION: f64 = 0.000_5;
 
-/// How good the news is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Level {
-    /// The written program does what was requested.
-    Good,
-    /// Nothing was to be corrected.
-    Unchanged,
-    /// An answer without a tolerance: analysis only.
-    Analysis,
-    /// Usable only after a look at what is said.
-    Attention,
-    /// Not to be run.
-    Stop,
+/// Class of a level in the style sheet.
+pub(crate) fn class(level: Level) -> &'static str {
+    match level {
+        Level::Good => "good",
+        Level::Analysis | Level::Unchanged => "analysis",
+        Level::Attention => "attention",
+        Level::Stop => "stop",
+    }
 }
 
-impl Level {
-    /// Class in the style sheet.
-    pub(crate) fn class(self) -> &'static str {
-        match self {
-            Self::Good => "good",
-            Self::Analysis | Self::Unchanged => "analysis",
-            Self::Attention => "attention",
-            Self::Stop => "stop",
-        }
-    }
-
-    /// The level in words, for those who do not see colours.
-    pub(crate) fn word(self) -> &'static str {
-        match self {
-            Self::Good => "Corrected",
-            Self::Unchanged => "Unchanged",
-            Self::Analysis => "Analysis",
-            Self::Attention => "Attention",
-            Self::Stop => "Do not run",
-        }
+/// The level in words, for those who do not see colours.
+pub(crate) fn word(level: Level) -> &'static str {
+    match level {
+        Level::Good => "Corrected",
+        Level::Unchanged => "Unchanged",
+        Level::Analysis => "Analysis",
+        Level::Attention => "Attention",
+        Level::Stop => "Do not run",
     }
 }
 
@@ -75,91 +58,76 @@ pub(crate) enum Statement {
     WithinBefore,
     /// The errors before and after.
     Corrected,
+    /// The tolerance is kept only if assumptions hold.
+    AtWorst,
     /// Features that miss their tolerance.
     FeaturesMissed,
-    /// What the machine's own weight does.
-    OwnWeight,
-    /// What is assumed at corners.
-    Corners,
-    /// Over which length the load comes.
-    Ramp,
-    /// What another force does.
-    ForceBand,
-    /// What other machines do.
-    Uncertainty,
+    /// An assumption of the run.
+    Assumed(AssumptionKind),
     /// The tilt that stays.
     Tilt,
 }
 
-/// Compares a run with its tolerance.
+/// Statements about a run, the costliest assumption first.
 pub(crate) fn assessment(result: &RunResult) -> RunAssessment {
     let summary = &result.summary;
-    let only = |level, statement| RunAssessment {
+    let level = result.assessment.level;
+    let only = |statement| RunAssessment {
         level,
         statements: vec![statement],
     };
     if summary.points == 0 && result.points.is_empty() {
-        return only(Level::Attention, Statement::NoPoint);
+        return only(Statement::NoPoint);
     }
     if !summary.stable {
         let line = first_unstable_line(result);
-        return only(Level::Stop, Statement::Unstable { line });
+        return only(Statement::Unstable { line });
     }
     if !summary.converged {
-        return only(Level::Stop, Statement::NotConverged);
+        return only(Statement::NotConverged);
     }
-    let (mut level, main) = match result.run_inputs.compensated {
-        true => compensated(result),
-        false => analysed(result),
-    };
     let missed = result.features.iter().any(|f| f.held == Some(false));
-    if missed && level != Level::Stop && result.run_inputs.compensated {
-        level = Level::Attention;
-    }
-    let beside = [
+    let first = [
         (cuts_without_load(result), Statement::NoLoad),
-        (true, main),
+        (true, main(result)),
+        (result.is_doubtful(), Statement::AtWorst),
         (missed, Statement::FeaturesMissed),
-        (result.own_weight_text().is_some(), Statement::OwnWeight),
-        (result.corners_text().is_some(), Statement::Corners),
-        (result.ramp_text().is_some(), Statement::Ramp),
-        (result.force_band.is_some(), Statement::ForceBand),
-        (result.uncertainty.is_some(), Statement::Uncertainty),
-        (
-            summary.max_residual_rotation_deg > SMALLEST_ROTATION,
-            Statement::Tilt,
-        ),
     ];
-    let said = beside.into_iter().filter(|(is_said, _)| *is_said);
+    let assumptions = result.assessment.assumptions.iter();
+    let assumed = assumptions.map(|assumption| (true, Statement::Assumed(assumption.kind)));
+    let is_tilted = summary.max_residual_rotation_deg > SMALLEST_ROTATION;
+    let all = first
+        .into_iter()
+        .chain(assumed)
+        .chain([(is_tilted, Statement::Tilt)]);
+    let said = all.filter(|(is_said, _)| *is_said);
     RunAssessment {
         level,
         statements: said.map(|(_, statement)| statement).collect(),
     }
 }
 
-fn analysed(result: &RunResult) -> (Level, Statement) {
-    match result.summary.max_position_error_before_mm.is_finite() {
-        true => (Level::Analysis, Statement::Analysed),
-        false => (Level::Stop, Statement::Unknown),
-    }
-}
-
-fn compensated(result: &RunResult) -> (Level, Statement) {
+/// The errors, before and after.
+fn main(result: &RunResult) -> Statement {
     let before = result.summary.max_position_error_before_mm;
     let after = result.summary.max_position_error_after_mm;
-    if !before.is_finite() || !after.is_finite() {
-        return (Level::Stop, Statement::Unknown);
+    let compensated = result.run_inputs.compensated;
+    if !before.is_finite() || (compensated && !after.is_finite()) {
+        return Statement::Unknown;
+    }
+    if !compensated {
+        return Statement::Analysed;
     }
     if result.unchanged_text().is_some() {
-        return (Level::Unchanged, Statement::Unchanged);
+        return Statement::Unchanged;
     }
     if result.holds_tolerance() != Some(true) {
         let better = after < before;
-        return (Level::Attention, Statement::Missed { better });
+        return Statement::Missed { better };
     }
     match before <= result.allowed_mm() {
-        true => (Level::Good, Statement::WithinBefore),
-        false => (Level::Good, Statement::Corrected),
+        true => Statement::WithinBefore,
+        false => Statement::Corrected,
     }
 }
 
@@ -227,23 +195,25 @@ impl Statement {
                 in_type(result).error_before,
                 after_and_allowed(result).0
             ),
+            Self::AtWorst => result.at_worst_text().unwrap_or_default(),
             Self::FeaturesMissed => {
                 format!(
                     "The tolerance is missed of: {}.",
                     missed_features(result).join(", ")
                 )
             }
-            Self::OwnWeight => result.own_weight_text().unwrap_or_default(),
-            Self::Corners => result.corners_text().unwrap_or_default(),
-            Self::Ramp => result.ramp_text().unwrap_or_default(),
-            Self::ForceBand => result.force_band_text().unwrap_or_default(),
-            Self::Uncertainty => {
-                let band = result.uncertainty_text().unwrap_or_default();
-                band.replace("+-", "±")
-            }
+            Self::Assumed(kind) => assumed(result, kind),
             Self::Tilt => tilt(result),
         }
     }
+}
+
+/// The sentences of an assumption, in English.
+pub(crate) fn assumed(result: &RunResult, kind: AssumptionKind) -> String {
+    let all = result.assessment.assumptions.iter();
+    let found = all.filter(|assumption| assumption.kind == kind);
+    let texts = found.map(|assumption| assumption.text.replace("+-", "±"));
+    texts.collect::<Vec<_>>().join(" ")
 }
 
 /// Largest error with the written program beside what is allowed.
@@ -252,6 +222,18 @@ pub(crate) fn after_and_allowed(result: &RunResult) -> (String, String) {
         result.summary.max_position_error_after_mm,
         result.allowed_mm(),
     )
+}
+
+/// Largest error if an assumption fails, in figures of a report, beside what is allowed; none where nothing bounds it.
+pub(crate) fn worst_and_allowed(result: &RunResult) -> (Option<String>, String) {
+    let allowed = result.allowed_mm();
+    match result.assessment.max_error_um {
+        Some(um) => {
+            let (worst, allowed) = number::against(1e-3 * um, allowed);
+            (Some(worst), allowed)
+        }
+        None => (None, number::length_setting(allowed)),
+    }
 }
 
 /// Names of features that miss their tolerance.
@@ -350,6 +332,9 @@ mod tests {
     }
 
     fn sentence(result: &RunResult) -> (Level, String) {
+        let mut result = result.clone();
+        result.assess();
+        let result = &result;
         let assessment = assessment(result);
         (
             assessment.level,
@@ -404,6 +389,50 @@ mod tests {
             "{text}"
         );
         assert!(text.contains("no compensated program was written"));
+    }
+
+    /// The costliest assumption decides level and first sentence; the others follow by what they cost.
+    #[test]
+    fn the_worst_of_what_is_stated_decides_the_level() {
+        let mut result = run();
+        let mut band = kinetostat_machining::ForceBand::default();
+        band.max_error_if_larger_mm = Some(0.398);
+        band.max_error_if_smaller_mm = Some(0.2);
+        result.force_band = Some(band);
+        result.summary.backward_steps = 3;
+        result.summary.largest_backward_step_mm = 0.52;
+        result.summary.backward_step_limit_mm = 0.05;
+        result.assess();
+        assert_eq!(result.assessment.max_error_um, Some(520.0));
+        let kinds: Vec<AssumptionKind> = result
+            .assessment
+            .assumptions
+            .iter()
+            .map(|a| a.kind)
+            .collect();
+        let ranked = [AssumptionKind::BackwardSteps, AssumptionKind::ForceSpread];
+        assert_eq!(kinds, ranked);
+        let (level, text) = sentence(&result);
+        assert_eq!(level, Level::Attention);
+        assert!(
+            text.contains("otherwise the tool is up to 0.520 mm off"),
+            "{text}"
+        );
+        let at = |words: &str| {
+            text.find(words)
+                .unwrap_or_else(|| panic!("{words}: {text}"))
+        };
+        assert!(at("Against the direction of motion") < at("If the force of the cut"));
+        // Within what is allowed all is well; without an equilibrium nothing bounds the error.
+        result.run_inputs.asked_mm = Some(0.53);
+        assert_eq!(sentence(&result).0, Level::Good);
+        result
+            .force_band
+            .iter_mut()
+            .for_each(|band| band.max_error_if_larger_mm = None);
+        let (level, text) = sentence(&result);
+        assert_eq!(level, Level::Attention);
+        assert!(text.contains("nothing bounds the error"), "{text}");
     }
 
     #[test]

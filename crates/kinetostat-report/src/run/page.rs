@@ -45,8 +45,8 @@ pub(crate) fn render(result: &Shown<'_>) -> Result<String, minijinja::Error> {
         version => text::shorten(&result.kinetostat_version, 40),
         compensated => run_inputs.compensated,
         assessment => context! {
-            class => assessment.level.class(),
-            word => assessment.level.word(),
+            class => meaning::class(assessment.level),
+            word => meaning::word(assessment.level),
             sentence => assessment.sentence(result),
         },
         heading => facts::heading(result),

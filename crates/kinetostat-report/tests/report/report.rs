@@ -2,7 +2,7 @@
 
 use crate::common::*;
 use kinetostat_machining::{LargestChange, LoadBegins, LoadRamp, PointResult, RunResult};
-use kinetostat_report::{html, plot_preview_svg};
+use kinetostat_report::{ReportError, plot_preview_svg};
 
 fn fixtures() -> Vec<(&'static str, RunResult)> {
     let mut one_point = circle_groove();
@@ -75,6 +75,13 @@ fn assert_balanced(name: &str, page: &str) {
         }
     }
     assert!(open.is_empty(), "{name}: {open:?} stay open");
+}
+
+/// The page of a result that is assessed first, as a run is.
+fn html(result: &RunResult) -> Result<String, ReportError> {
+    let mut result = result.clone();
+    result.assess();
+    kinetostat_report::html(&result)
 }
 
 /// Set `KINETOSTAT_REPORT_DIR` to keep the pages and look at them.

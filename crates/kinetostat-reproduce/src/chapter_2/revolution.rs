@@ -1,7 +1,8 @@
 //! Figure 2.3: the forces of the machining process, over one revolution of a milling cutter.
 
 use kinetostat_cutting::{
-    Engagement, Feed, Kienzle, Milling, Result, Revolution, Shape, Side, Tool, force_as_printed,
+    Engagement, Feed, Kienzle, Milling, Peaks, Result, Revolution, Shape, Side, Tool,
+    force_as_printed,
 };
 use kinetostat_report::{Plot, PlotLine};
 
@@ -16,24 +17,28 @@ const CUTTER: (f64, usize) = (20.0, 2);
 const DRAWING: &str = "The figure is a drawing of the forces without numbers, and it is not in the text that exists. The cut is assumed: a slot with the thinner chip and width of Table 2.3, Al Mg 4.5 Mn, a cutter of 20 mm with two teeth, factors 1, radial and axial parts as the library assumes them.";
 
 /// The force over one revolution with teeth of this helix, rad, and its mean.
-fn slot(law: &Kienzle, helix: f64) -> Result<(Revolution, [f64; 4])> {
+fn slot(law: &Kienzle, helix: f64) -> Result<(Revolution, Peaks, [f64; 4])> {
     let tool = Tool::new(Shape::Flat, CUTTER.0, CUTTER.1)?.with_helix(helix)?;
     let slot = Engagement::straight(tool.radius_mm(), CUTTER.0, CHIP.1, Side::Left)?;
     let cut = Milling::new(&tool, law, &slot, Feed::level(CHIP.0)?);
     let mean = cut.mean();
     let [x, y, z] = mean.force_n.into();
-    Ok((cut.revolution(), [x, y, z, 1e-3 * mean.torque_n_mm()]))
+    Ok((
+        cut.revolution(),
+        cut.peaks(),
+        [x, y, z, 1e-3 * mean.torque_n_mm()],
+    ))
 }
 
 pub(crate) fn fig_2_3() -> std::result::Result<Contents, Cause> {
     let law = kienzle("AlMg4.5Mn")?;
     let (mut items, mut plots) = (Vec::new(), Vec::new());
     for (helix, teeth) in [(0.0_f64, "straight teeth"), (30.0, "helix of 30 degrees")] {
-        let (revolution, mean) = slot(&law, helix.to_radians())?;
+        let (revolution, peaks, mean) = slot(&law, helix.to_radians())?;
         let named = |what: &str| format!("{teeth}: {what}");
         if helix == 0.0 {
             // One tooth cuts at a time, across the feed with the whole chip.
-            let tangential = revolution.peak_torque_n_mm() / (0.5 * CUTTER.0);
+            let tangential = peaks.torque.force.torque_n_mm() / (0.5 * CUTTER.0);
             items.push(Item::formula(
                 named("largest tangential force"),
                 "b h k_c",

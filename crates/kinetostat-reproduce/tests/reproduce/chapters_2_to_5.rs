@@ -192,6 +192,17 @@ fn curves_of_chapter_2() {
     let name =
         "force of a tooth, Al Mg 4.5 Mn, at twice the spindle speed and the same feed, as a share";
     assert!((computed(&text, name) - 0.5_f64.powf(0.77)).abs() < 1e-12);
+    // The compliances of six joints add up to the trace of the rotational block: its largest eigenvalue is a third of it or more.
+    let joints: f64 = [1.4e6, 3.31e6, 2.46e6, 3.33e5, 3.03e5, 4.23e5]
+        .map(f64::recip)
+        .iter()
+        .sum();
+    let sum = (10.0 * joints).to_degrees();
+    let [least, most] = ["least", "most"]
+        .map(|which| computed(&text, &format!("turn of a KUKA-240 under 10 N m, {which}")));
+    assert!(most >= sum / 3.0 && most <= sum, "{most} {sum}");
+    assert!(least > 0.0 && least <= sum / 3.0, "{least} {sum}");
+    assert!((300.0..3000.0).contains(&(1.6 / most)), "{most}");
 }
 
 #[test]

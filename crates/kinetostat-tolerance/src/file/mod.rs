@@ -21,6 +21,30 @@ pub struct UncertaintyFile {
     pub uncertainties: Uncertainties,
     /// What each is of.
     pub sources: Vec<Source>,
+    /// Numbers that several limbs have and that move together in all of them.
+    pub shared: Vec<SharedNumber>,
+}
+
+/// A number of a chain, a section or a stiffness that several limbs share.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct SharedNumber {
+    /// Path of the number.
+    pub name: String,
+    /// Limbs that have it.
+    pub limbs: Vec<String>,
+}
+
+impl SharedNumber {
+    /// States that the limbs move together, and the other way.
+    #[must_use]
+    pub fn description(&self) -> String {
+        format!(
+            "'{}' is one number of {} limbs ({}) and scatters in all of them together: write each = true in its table where every limb scatters by itself",
+            self.name,
+            self.limbs.len(),
+            self.limbs.join(", ")
+        )
+    }
 }
 
 impl UncertaintyFile {
@@ -91,7 +115,9 @@ impl UncertaintyFile {
         }
         let mut each: Vec<Uncertain> = Vec::new();
         let mut sources = Vec::new();
-        for row in &written.uncertain {
+        let mut shared = Vec::new();
+        let rows = reader.of_each_limb(&written.uncertain, model, &mut shared);
+        for row in &rows {
             let Some((uncertain, source)) = reader.row(row, model, load) else {
                 continue;
             };
@@ -113,6 +139,7 @@ impl UncertaintyFile {
             Ok(uncertainties) => Ok(Self {
                 uncertainties,
                 sources,
+                shared,
             }),
             Err(contradiction) => {
                 let first = written.correlation.first();

@@ -2,16 +2,61 @@
 
 use std::ops::Range;
 
+use kinetostat::number::short;
+use kinetostat_machining::Limits;
 use kinetostat_model::{Model, ParameterKind};
 use serde_spanned::Spanned;
 
 use crate::distribution::Distribution;
+use crate::file::SharedNumber;
 use crate::file::load::Load;
 use crate::file::source::Source;
 use crate::file::written::{Pair, Reader, Row};
 use crate::uncertain::Uncertain;
 
+/// Largest spread of a length (m) and of an angle (rad): machines are built to micrometres or to tenths of a millimetre. What is off by
+/// more is measured and put into the model.
+const LARGEST_LENGTH: f64 = 3e-3;
+const LARGEST_ANGLE: f64 = 2.0 * std::f64::consts::PI / 180.0;
+
 impl Reader<'_> {
+    /// The rows, those with `each` once for every limb; numbers without it that several limbs share are added to `shared`.
+    pub(super) fn of_each_limb(
+        &mut self,
+        rows: &[Spanned<Row>],
+        model: &Model,
+        shared: &mut Vec<SharedNumber>,
+    ) -> Vec<Spanned<Row>> {
+        let mut all = Vec::new();
+        for row in rows {
+            let path = row.get_ref().parameter.as_ref();
+            let own = path.map_or_else(Vec::new, |path| own_paths(model, path.get_ref()));
+            let each = row.get_ref().each.as_ref();
+            match (path, each.is_some_and(|each| *each.get_ref())) {
+                (Some(path), true) if own.len() > 1 => {
+                    all.extend(own.into_iter().map(|(_, own)| {
+                        let mut of_limb = row.get_ref().clone();
+                        of_limb.parameter = Some(Spanned::new(path.span(), own));
+                        Spanned::new(row.span(), of_limb)
+                    }));
+                    continue;
+                }
+                (_, true) => self.refuse(
+                    each.map_or(0..0, Spanned::span),
+                    "'each' is for a number that several limbs share",
+                    "name a number of such a chain, section or stiffness, or leave 'each' out",
+                ),
+                (Some(path), false) if own.len() > 1 => shared.push(SharedNumber {
+                    name: path.get_ref().clone(),
+                    limbs: own.into_iter().map(|(limb, _)| limb).collect(),
+                }),
+                _ => {}
+            }
+            all.push(row.clone());
+        }
+        all
+    }
+
     pub(super) fn row(
         &mut self,
         row: &Spanned<Row>,
@@ -19,12 +64,14 @@ impl Reader<'_> {
         load: Load<'_>,
     ) -> Option<(Uncertain, Source)> {
         let (span, own) = (row.span(), row.get_ref());
+        let mut in_si = 1.0;
         let (name, value, unit, kind, source) = match (&own.parameter, &own.load) {
             (Some(path), None) => {
                 let name = path.get_ref();
                 match model.parametric(&[name]) {
                     Ok(found) => {
                         let p = found.parameters()[0].clone();
+                        in_si = p.in_si;
                         (
                             name.clone(),
                             p.value,
@@ -106,6 +153,42 @@ impl Reader<'_> {
             );
             return None;
         }
+        let most = match (kind, load) {
+            (Some(ParameterKind::Length), _) => Some((
+                LARGEST_LENGTH / in_si,
+                "machines are built to 0.001 to 1 mm",
+            )),
+            (Some(ParameterKind::Angle), _) => Some((
+                LARGEST_ANGLE / in_si,
+                "machines are built to 0.001 to 0.5 deg",
+            )),
+            (Some(ParameterKind::Force | ParameterKind::Moment), _) if value != 0.0 => {
+                Some((value.abs(), "a preload keeps its sign"))
+            }
+            (None, Load::Stated(wrench)) if source_is_force(&source) => Some((
+                largest_of(wrench.force().norm(), Limits::default().force_n),
+                "a component scatters by less than the whole force",
+            )),
+            (None, Load::Stated(wrench)) => Some((
+                largest_of(wrench.moment().norm(), Limits::default().moment_n_m),
+                "a component scatters by less than the whole moment",
+            )),
+            _ => None,
+        };
+        let spread = distribution.spread();
+        if let Some((most, usual)) = most.filter(|(most, _)| spread > *most) {
+            self.refuse(
+                place,
+                format!(
+                    "'{name}' is {} {unit}; a spread of {} {unit} is more than the {} {unit} that are allowed",
+                    short(value),
+                    short(spread),
+                    short(most)
+                ),
+                format!("{usual}: check the unit, or the percentage"),
+            );
+            return None;
+        }
         let uncertain = Uncertain {
             name,
             value,
@@ -138,11 +221,11 @@ impl Reader<'_> {
             return None;
         };
         let number = *spread.get_ref();
-        if !number.is_finite() || number < 0.0 {
+        if !number.is_finite() || number <= 0.0 {
             self.refuse(
                 spread.span(),
-                format!("a spread of {number}: it cannot be negative"),
-                "state a positive standard deviation or half width",
+                format!("a spread of {number}: a number above 0 is needed"),
+                "state a positive standard deviation or half width, or leave out the table of a number that is known exactly",
             );
             return None;
         }
@@ -215,6 +298,31 @@ impl Reader<'_> {
             out.push((i, j, coefficient));
         }
         out
+    }
+}
+
+/// The number of every limb that has it, by name of the limb and path; of a number of one limb at most one.
+fn own_paths(model: &Model, path: &str) -> Vec<(String, String)> {
+    let limbs = model.document.limb.iter();
+    let own = limbs.filter_map(|limb| {
+        let of_chain = path.strip_prefix(&format!("chain.{}.", limb.chain));
+        let is_table = path.starts_with("section.") || path.starts_with("stiffness.");
+        let rest = of_chain.or(is_table.then_some(path))?;
+        Some((limb.name.clone(), format!("limb.{}.{rest}", limb.name)))
+    });
+    own.filter(|(_, own)| model.parametric(&[own.as_str()]).is_ok())
+        .collect()
+}
+
+fn source_is_force(source: &Source) -> bool {
+    matches!(source, Source::Load(component) if *component < 3)
+}
+
+/// A component may scatter by the size of the whole; of no load at all by what is allowed on a tool.
+fn largest_of(whole: f64, limit: f64) -> f64 {
+    match whole > 0.0 {
+        true => whole,
+        false => limit,
     }
 }
 

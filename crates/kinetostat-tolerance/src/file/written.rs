@@ -16,11 +16,13 @@ pub(super) struct Written {
     pub(super) correlation: Vec<Spanned<Pair>>,
 }
 
-#[derive(Deserialize)]
+#[derive(Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Row {
     pub(super) parameter: Option<Spanned<String>>,
     pub(super) load: Option<Spanned<String>>,
+    /// True if every limb that shares the number scatters by itself.
+    pub(super) each: Option<Spanned<bool>>,
     pub(super) normal: Option<Spanned<f64>>,
     pub(super) normal_percent: Option<Spanned<f64>>,
     pub(super) uniform: Option<Spanned<f64>>,

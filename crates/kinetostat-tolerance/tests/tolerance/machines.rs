@@ -90,7 +90,7 @@ uniform = 0.3
     let at = [Pose::translation(0.4, 0.0, 0.12)];
     let quantities = [
         Quantity::Error,
-        Quantity::Deflection,
+        Quantity::DeflectionByLoad,
         Quantity::Deviation,
         Quantity::Compensated,
     ];
@@ -103,7 +103,7 @@ uniform = 0.3
         Draws::new(4096, 9),
     );
     // 600 N: 0.3 mm and 0.2 mm; 1 % and 2 % of them, independent.
-    let found = asked.column("deflection_z_mm");
+    let found = asked.column("deflection_by_load_z_mm");
     let exact = (0.003_f64.powi(2) + 0.004_f64.powi(2)).sqrt();
     assert!((found.linear.nominal - 0.5).abs() < 1e-9, "{found:?}");
     assert!(
@@ -173,7 +173,7 @@ normal_percent = 1
     let places = [Pose::identity(), Pose::translation(0.06, -0.04, 0.05)];
     let quantities = [
         Quantity::Error,
-        Quantity::Deflection,
+        Quantity::DeflectionByLoad,
         Quantity::Deviation,
         Quantity::Stiffness,
     ];
@@ -218,7 +218,7 @@ normal_percent = 1
     let at = asked
         .columns
         .iter()
-        .position(|c| *c == "deflection_mm")
+        .position(|c| *c == "deflection_by_load_mm")
         .expect("a column");
     for (index, share) in indices[at].iter().zip(&asked.each[at].linear.shares) {
         for own in [index.first, index.total] {
@@ -330,7 +330,7 @@ uniform = 300
         let wrench = Wrench::new(along * (-moment / 0.4), Vector3::zeros());
         let file = UncertaintyFile::read(spread, "spread.toml", &model, &wrench).expect("a file");
         let tool = Pose::identity();
-        let asked = [Quantity::Deflection];
+        let asked = [Quantity::DeflectionByLoad];
         let machine = UncertainMachine::new(&model, &tool, &file, &at, wrench, &asked);
         let draws = Draws::new(1536, 3);
         let machine = machine.expect("a machine");

@@ -1,5 +1,7 @@
 //! Loaded postures: what is wanted of them, and where the answers go.
 
+use nalgebra::Matrix6;
+
 use crate::batch::compiled::{BLOCKS, Batch, LOADED_BLOCKS, in_parallel, left};
 use crate::batch::limb::loaded::{ALONG_PATH, EXACT, FROM_DRAWN};
 use crate::batch::limb::shape::springs;
@@ -14,9 +16,11 @@ use crate::chain::system::System;
 use crate::compensation::target::target_under_load;
 use crate::error::{Error, Result};
 use crate::machine::equilibrium::MechanismEquilibrium;
+use crate::machine::participation::NEARLY_RIGID_SPREAD;
 use crate::machine::posture::Posture;
 use crate::machine::state::MechanismState;
 use crate::model::mechanism::Mechanism;
+use crate::number::smaller;
 use crate::spatial::{Directions, Pose, Wrench};
 
 /// Loaded equilibrium of many postures.
@@ -32,7 +36,8 @@ pub struct BatchEquilibrium {
     /// Forces (N) or torques (N m) of the loads on all actuators, in the same order, as
     /// [`MechanismEquilibrium::actuator_forces`].
     pub actuator_forces: Table,
-    /// Tangent stiffness of the tool, 36 numbers as in [`crate::batch::BatchStiffness`]. Empty unless wanted.
+    /// Tangent stiffness of the tool, 36 numbers as in [`crate::batch::BatchStiffness`], NaN where it is infinite. Empty unless
+    /// wanted.
     pub stiffness: Table,
     /// See [`Self::stability`]. Empty unless wanted: [`Details::Stability`].
     pub stability: Table,
@@ -221,7 +226,7 @@ impl Scalar {
     }
 
     fn with_stability(posture: &Posture, found: &MechanismEquilibrium) -> Self {
-        let matrix = &found.stiffness.matrix;
+        let matrix = found.stiffness.finite_entries(&found.directions);
         Self {
             target: *posture.target(),
             tool: found.tool,
@@ -510,6 +515,27 @@ impl Batch {
         in_parallel(jobs, places.len());
     }
 
+    /// Leaves to the general engine what may be rigid in a direction, which it names.
+    fn leave_nearly_rigid(&self, out: &mut BatchEquilibrium) {
+        let length = self.mechanism.scale().length;
+        let unit = |k: usize| if k % 6 < 3 { 1.0 } else { length };
+        for (i, status) in out.status.iter_mut().enumerate() {
+            if out.stiffness.width() == 0 || *status != Status::Vectorised {
+                continue;
+            }
+            let scaled =
+                Matrix6::from_fn(|r, c| out.stiffness.get(i, 6 * r + c) / (unit(r) * unit(c)));
+            let diagonal = scaled.diagonal();
+            if diagonal.max() > 1e-2 * NEARLY_RIGID_SPREAD * diagonal.min() {
+                let values = (0.5 * (scaled + scaled.transpose())).symmetric_eigenvalues();
+                let positive = values.iter().copied().filter(|x| *x > 0.0);
+                if values.max() > NEARLY_RIGID_SPREAD * positive.fold(f64::INFINITY, smaller) {
+                    *status = Status::Unsolved;
+                }
+            }
+        }
+    }
+
     fn as_many(&self, places: &Places<'_>, wrenches: &[Wrench]) -> Result<()> {
         if wrenches.len() == places.len() {
             return Ok(());
@@ -588,6 +614,7 @@ impl Batch {
         if query != Details::Stability || self.stability_by_kernels() {
             let mut beside = [(); 3].map(|()| Table::none(places.len()));
             self.vectorised(places, wrenches, None, out, beside.each_mut());
+            self.leave_nearly_rigid(out);
             if places.have_a_start() {
                 return self.once_more(places, wrenches, query, out);
             }

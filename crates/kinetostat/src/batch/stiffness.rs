@@ -16,7 +16,7 @@ use crate::spatial::Pose;
 #[non_exhaustive]
 pub struct BatchStiffness {
     /// Cartesian stiffness of the tool at its origin, base axes, 36 numbers row by row (N/m, N/rad,
-    /// N m/m, N m/rad), as in [`crate::UnloadedStiffness`].
+    /// N m/m, N m/rad), as [`crate::CartesianStiffness::finite_entries`]: NaN where it is infinite.
     pub stiffness: Table,
     /// Jacobian of a serial machine, 6 x n row by row: twist of the tool (m, rad, base axes, at its
     /// origin) per unit of every coordinate. Empty unless requested.
@@ -142,7 +142,8 @@ impl Batch {
             let posture = self.posture(places, i)?;
             let found = posture.stiffness()?;
             let columns = jacobian.then(|| self.jacobian(&posture));
-            Ok((found.cartesian.matrix, columns, posture.commands()))
+            let entries = found.cartesian.finite_entries(&found.directions);
+            Ok((entries, columns, posture.commands()))
         };
         for (i, answer) in left(&out.status, scalar) {
             let Some((matrix, columns, own)) = answer else {

@@ -5,7 +5,7 @@ use nalgebra::{DMatrix, DVector, Matrix6, Vector6};
 
 use crate::chain::directions::{Direction, DirectionKind};
 use crate::linalg::saddle::column_space;
-use crate::spatial::{Twist, Wrench};
+use crate::spatial::{CartesianStiffness, Twist, Wrench};
 
 /// Compliances below this share of the largest, rotations at the natural length, are rounding.
 const NO_MOTION: f64 = 1e-12;
@@ -36,6 +36,39 @@ pub(crate) fn stiffness_against_force(
     }
 }
 
+/// Parts of a rigid direction (m, rad; its longest part is 1 m) up to this are rounding.
+const NO_PART: f64 = 1e-6;
+
+impl CartesianStiffness {
+    /// The matrix with NaN in the rows and columns of all coordinate axes that a rigid direction has a part in: a motion
+    /// along such an axis is impossible, its stiffness infinite. The other entries do not depend on units. `directions` are
+    /// those of this stiffness.
+    ///
+    /// ```
+    /// # use kinetostat::nalgebra::Vector3;
+    /// # use kinetostat::*;
+    /// # let slide = |axis, stiffness| ActuatorSpec::new(MotionKind::Prismatic, axis, stiffness);
+    /// # let table = Chain::builder("table").actuator("x", slide(Vector3::x(), 8e7)).build()?; // N/m
+    /// # let table = Mechanism::serial(table, Pose::identity(), Vector3::zeros())?;
+    /// let stiffness = table.posture(&Pose::identity())?.stiffness()?;
+    /// let entries = stiffness.cartesian.finite_entries(&stiffness.directions);
+    /// assert!((entries[(0, 0)] / 8e7 - 1.0).abs() < 1e-12);
+    /// assert!(entries[(1, 1)].is_nan(), "nothing moves it across");
+    /// # Ok::<(), Error>(())
+    /// ```
+    #[must_use]
+    pub fn finite_entries(&self, directions: &[Direction]) -> Matrix6<f64> {
+        let rigid = directions.iter().filter(|d| d.kind == DirectionKind::Rigid);
+        let locked = rigid.fold([false; 6], |locked, d| {
+            std::array::from_fn(|k| locked[k] || d.twist.0[k].abs() > NO_PART)
+        });
+        Matrix6::from_fn(|i, j| match locked[i] || locked[j] {
+            true => f64::NAN,
+            false => self.matrix[(i, j)],
+        })
+    }
+}
+
 /// `twist = springs * wrench + any combination of free`, for wrenches that do no work on the free
 /// directions. Base axes, at the tip.
 #[derive(Clone, Debug, PartialEq)]
@@ -55,6 +88,15 @@ pub struct CartesianCompliance {
 }
 
 impl CartesianCompliance {
+    /// Wrenches (N, N m; base axes, at the tip) that move nothing, one for each rigid direction: all reactions of the chain
+    /// are combinations of them. The longest part, moments by the natural length, is 1 N.
+    #[must_use]
+    pub fn constraint_wrenches(&self) -> Vec<Wrench> {
+        let square = self.length * self.length;
+        let wrench = |t: &Twist| Wrench::new(t.linear(), t.angular() * square);
+        self.rigid.iter().map(wrench).collect()
+    }
+
     /// Of a stiffness (base axes, at the tip) within those of its principal directions that are
     /// neither free nor rigid: with rotations times `length` (m) and `N` an orthonormal basis of
     /// them, `C = N (N^T K N)^-1 N^T`. The inverse of `K` if there are no others.

@@ -20,6 +20,8 @@ pub enum FoundBy {
     OtherStart,
     /// A curve of equilibria was followed to it.
     Continuation,
+    /// Damped steps, as limbs do not hold the platforms in all directions.
+    Relaxation,
 }
 
 impl FoundBy {
@@ -57,6 +59,9 @@ impl FoundBy {
                 "the equilibrium was found from another start, after a load that grows from rest was lost: it may lie on another branch than the one to which that load leads"
             }
             Self::Continuation => "the equilibrium was found along a curve of equilibria",
+            Self::Relaxation => {
+                "the machine is under-constrained, and the equilibrium is the nearest one on the way from the commanded posture: there may be others farther away"
+            }
         }
     }
 }

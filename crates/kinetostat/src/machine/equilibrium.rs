@@ -22,7 +22,9 @@ use crate::machine::directions::{
     condensed_directions, none_diverges, others_hold, scaled_directions,
 };
 use crate::machine::graded::GradedPlatforms;
-use crate::machine::participation::{name_participation, participation_of_limbs};
+use crate::machine::participation::{
+    lock_nearly_rigid, name_participation, participation_of_limbs,
+};
 use crate::machine::platform_system::RigidRows;
 use crate::machine::platforms::parts::Unknowns;
 use crate::machine::platforms::solver::PlatformSolver;
@@ -258,9 +260,11 @@ pub(crate) fn conclude(
     let (platform, others_hold) = tool.stability(solver, conservative, &limbs);
     let place = solver.state.platforms[m.tool()];
     let mut directions = tool.directions;
-    name_participation(&mut directions, |twist| {
+    let participation = |twist: &Twist| {
         participation_of_limbs(m, &place, limbs.iter().map(|limb| &limb.stiffness), twist)
-    });
+    };
+    lock_nearly_rigid(&mut directions, solver, participation);
+    name_participation(&mut directions, participation);
     Ok(MechanismEquilibrium {
         tool: place,
         displacement: pose_residual(&place, &solver.target),
@@ -291,17 +295,8 @@ fn limb_equilibrium(
     let system = solver.limb_system(i);
     let n = limb.actual.coordinate_count();
     let r = limb.actual.actuators().len();
-    let joints = &solver.posture[i];
-    let loaded = ChainProblem {
-        chain: &limb.actual,
-        base: solver.state.platforms[limb.from],
-        commands: joints.commands.clone(),
-        posture: joints.coordinates.clone(),
-        loads: solver.loads[i].clone(),
-        end: EndCondition::pose(system.kinematics.tip_pose()),
-    };
     Ok(LimbEquilibrium {
-        load_energy: load_energy(&loaded, &solver.state.coordinates[i])?,
+        load_energy: load_energy_of_limb(solver, i)?,
         conservative: solver.mechanism.loads_conservative(i),
         link_loads: link_loads(&limb.actual, &system.spring_torque),
         nodes: (0..limb.actual.nodes().len())
@@ -316,6 +311,34 @@ fn limb_equilibrium(
         stiffness,
         stability,
     })
+}
+
+/// Potential of what acts on a limb between its ends, J; `None` where a load has none.
+fn load_energy_of_limb(solver: &PlatformSolver<'_>, i: usize) -> Result<Option<f64>> {
+    let limb = &solver.mechanism.limbs()[i];
+    let joints = &solver.posture[i];
+    let loaded = ChainProblem {
+        chain: &limb.actual,
+        base: solver.state.platforms[limb.from],
+        commands: joints.commands.clone(),
+        posture: joints.coordinates.clone(),
+        loads: solver.loads[i].clone(),
+        end: EndCondition::pose(solver.limb_system(i).kinematics.tip_pose()),
+    };
+    load_energy(&loaded, &solver.state.coordinates[i])
+}
+
+/// Energy of springs and loads and of the wrench on the tool at the evaluated state, J; `None` where a load has no potential.
+pub(crate) fn potential(solver: &PlatformSolver<'_>) -> Option<f64> {
+    let limbs = (0..solver.mechanism.limbs().len())
+        .map(|i| Some(solver.limb_system(i).energy + load_energy_of_limb(solver, i).ok()??));
+    let place = solver.state.platforms[solver.mechanism.tool()]
+        .translation
+        .vector;
+    let tool = solver.wrench.moment() == nalgebra::Vector3::zeros();
+    let tool = tool.then(|| -solver.wrench.force().dot(&place));
+    let outside = [potential_of_platforms(solver), tool].into_iter();
+    limbs.chain(outside).sum()
 }
 
 /// Potential of weights, dead forces and compensators on the platforms, J; `None` where one has none.

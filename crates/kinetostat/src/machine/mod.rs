@@ -3,7 +3,7 @@
 //! Takes a [`Mechanism`](crate::Mechanism) and a target of the tool, gives the commands of the actuators (`inverse`), the
 //! posture, its unloaded stiffness, what the limbs constrain, how near a singular posture is (`singular`), what assembly
 //! with errors does to first order (`assembly`), and which joints and springs take part in a motion of the tool
-//! (`participation`, `negative_stiffness`). `linearised` is an equilibrium's tangent with all coordinates kept: who stores what of
+//! (`participation`, `negative_stiffness`). `limb_stiffness` is each limb's share in the tangent. `linearised` is an equilibrium's tangent with all coordinates kept: who stores what of
 //! a deflection, and where the equilibrium goes as the machine changes. `platforms` is the equilibrium of the platforms at one share of the load.
 //!
 //! ```text
@@ -19,6 +19,7 @@ pub(crate) mod following;
 pub(crate) mod forward;
 pub(crate) mod graded;
 pub(crate) mod inverse;
+pub(crate) mod limb_stiffness;
 pub(crate) mod linearised;
 pub(crate) mod mobility;
 pub(crate) mod negative_stiffness;
@@ -37,6 +38,7 @@ pub use assembly::LinearAssembly;
 pub use constraints::{Overconstraint, SelfStress};
 pub use equilibrium::{LimbEquilibrium, MechanismEquilibrium, PlatformStability};
 pub use inverse::limb::{LimbPosture, inverse_kinematics};
+pub use limb_stiffness::{JointSensitivity, LimbStiffness};
 pub use linearised::{
     LinearisedMachine, MachineMotion, MachineResidual, MachineTangents, WorkOf, WorkTerm,
 };

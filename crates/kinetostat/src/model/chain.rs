@@ -6,7 +6,7 @@
 //! a coordinate may drive several of them with ratios (a parallelogram: +1 and -1), so
 //! `J = J_e C` and `H = C^T H_e C` hold from the first day.
 
-use nalgebra::{Matrix3, Unit, Vector3};
+use nalgebra::{DMatrix, Matrix3, Unit, Vector3};
 #[cfg(feature = "serde")]
 use serde::{Deserialize, Serialize};
 
@@ -299,6 +299,30 @@ impl Chain {
     #[must_use]
     pub fn home_commands(&self) -> Vec<f64> {
         self.actuators.iter().map(|a| a.home).collect()
+    }
+
+    /// Stiffness matrix `K_theta` of the springs at an unloaded posture [R 3.5], in the order of
+    /// [`Self::indices_of`] for [`Role::Spring`]; N/m, N, N m/rad.
+    ///
+    /// # Errors
+    /// [`Error::Size`] for a list of another length.
+    pub fn spring_stiffness(&self, coordinates: &[f64]) -> Result<DMatrix<f64>> {
+        self.check(coordinates, &self.home_commands())?;
+        let indices = self.indices_of(Role::Spring);
+        let mut whole = DMatrix::zeros(coordinates.len(), coordinates.len());
+        let mut torque = vec![0.0; coordinates.len()];
+        for block in &self.springs {
+            let mut entry = |i, j, value| whole[(block.first + i, block.first + j)] += value;
+            block.add(
+                coordinates,
+                coordinates,
+                1.0,
+                &mut torque,
+                &mut entry,
+                &mut Vec::new(),
+            );
+        }
+        Ok(whole.select_rows(&indices).select_columns(&indices))
     }
 
     /// The same chain with its end moved on by a rigid offset (old end from new end): a tool, say.

@@ -1,5 +1,6 @@
 //! All cuts along a program, judged.
 
+use std::ops::Range;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use kinetostat_chatter::LeftOut;
@@ -8,8 +9,11 @@ use rayon::prelude::*;
 
 use crate::vibration::program::judged::{JudgedSite, Verdict};
 use crate::vibration::program::question::{ChatterQuestion, ProgramChatterError};
-use crate::vibration::program::site::{SiteGroup, groups, sites};
+use crate::vibration::program::site::{SiteGroup, WithoutSide, groups, sites};
 use crate::vibration::program::stretches::{ChatterStretch, stretches};
+
+/// Share of the work that other spindle speeds are reckoned with: one in so many of the judged cuts.
+const SPEEDS_SHARE: usize = 3;
 
 /// Where a program chatters.
 #[derive(Clone, Debug, PartialEq)]
@@ -20,6 +24,8 @@ pub struct ProgramChatter {
     pub stretches: Vec<ChatterStretch>,
     /// Places of the program at which the tool cuts; each stands in one group with those like it.
     pub places: usize,
+    /// Places at which a force acts and the side of the tool is not in the cut.
+    pub without_side: Option<WithoutSide>,
     /// How many times more than usual places in one group may differ, so that they are no more than was asked for: 1 as usual.
     pub wider: f64,
 }
@@ -38,25 +44,37 @@ impl ChatterQuestion<'_> {
         let (groups, wider) = groups(&all, &tools, self.every_mm, self.most);
         let load = LoadAlongPath::with_tools(self.task.load, self.task.path(), self.task.tools)
             .with_cut(self.task.cut);
-        watch.stage("chatter", groups.len());
+        let (cluster_of, judged) = self.clusters((&all, &tools), &groups, wider);
+        let of_speeds = (judged.len() / SPEEDS_SHARE).max(1);
+        watch.stage("chatter", judged.len() + of_speeds);
         let done = AtomicUsize::new(0);
-        let judged: Vec<Result<JudgedSite, ProgramChatterError>> = groups
+        let found: Vec<Result<JudgedSite, ProgramChatterError>> = judged
             .par_iter()
-            .map(|range| {
+            .map(|group| {
                 if watch.cancelled() {
                     return Err(ProgramChatterError::Cancelled);
                 }
-                let found = self.judge(&load, &SiteGroup::of(&all, range.clone()), wider);
+                let group = SiteGroup::of(&all, groups[*group].clone());
+                let found = self.judge(&load, &group, wider);
                 watch.advance(done.fetch_add(1, Ordering::Relaxed) + 1);
                 found
             })
             .collect();
-        let judged: Vec<JudgedSite> = judged.into_iter().collect::<Result<_, _>>()?;
-        let stretches = stretches(self, &load, &judged, watch)?;
+        let found: Vec<JudgedSite> = found.into_iter().collect::<Result<_, _>>()?;
+        let of_group = |(range, cluster): (&Range<usize>, &usize)| {
+            found[*cluster].for_group(SiteGroup::of(&all, range.clone()), *cluster)
+        };
+        let judged_sites: Vec<JudgedSite> = groups.iter().zip(&cluster_of).map(of_group).collect();
+        let part = |share: f64| {
+            let of_speeds = (share * of_speeds as f64) as usize;
+            watch.advance(judged.len() + of_speeds);
+        };
+        let stretches = stretches(self, &load, &judged_sites, (watch, &part))?;
         Ok(ProgramChatter {
-            sites: judged,
+            sites: judged_sites,
             stretches,
             places: all.len(),
+            without_side: WithoutSide::of(self.forces, self.task.path()),
             wider,
         })
     }

@@ -138,6 +138,7 @@ impl ChatterQuestion<'_> {
             force_spread: self.tool_of(site)?.spread,
             lost_coupling,
             is_open: false,
+            cluster: 0,
             places: group.count(),
             path_mm: group.path_mm(),
         })

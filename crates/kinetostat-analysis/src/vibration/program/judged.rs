@@ -46,6 +46,8 @@ pub struct JudgedSite {
     pub lost_coupling: f64,
     /// Nothing is said because its limit was not found: it may chatter.
     pub(crate) is_open: bool,
+    /// Number of the cluster of groups that are judged as one.
+    pub(crate) cluster: usize,
     /// Places of the program that this one stands for.
     pub places: usize,
     /// From where to where along the path these lie, mm.
@@ -83,6 +85,18 @@ impl JudgedSite {
         rank(self) > rank(other) || (rank(self) == rank(other) && share(self) < share(other))
     }
 
+    /// What was found, for a group of the same cluster.
+    pub(crate) fn for_group(&self, group: SiteGroup<'_>, cluster: usize) -> Self {
+        let (deepest, _) = group.judged(1.0);
+        Self {
+            site: *deepest,
+            cluster,
+            places: group.count(),
+            path_mm: group.path_mm(),
+            ..self.clone()
+        }
+    }
+
     pub(crate) fn not_judged(
         site: &CutSite,
         group: &SiteGroup<'_>,
@@ -102,6 +116,7 @@ impl JudgedSite {
             force_spread: 0.0,
             lost_coupling: 0.0,
             is_open: false,
+            cluster: 0,
             places: group.count(),
             path_mm: group.path_mm(),
         }

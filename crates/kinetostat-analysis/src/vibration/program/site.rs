@@ -9,7 +9,7 @@ use nalgebra::Vector3;
 /// Relative change of depth and feed per tooth, and change of the ends of the arc and of the heading (rad), beyond which a cut
 /// is another one.
 const SAME_SIZE: f64 = 0.05;
-const SAME_ANGLE: f64 = 0.1;
+pub(crate) const SAME_ANGLE: f64 = 0.1;
 
 /// A place of a program at which the tool cuts.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -54,7 +54,44 @@ pub(crate) fn sites(forces: &ForceAlongPath, path: &Path) -> Vec<CutSite> {
     all
 }
 
+/// Places at which a force acts and the side of the tool is not in the cut (a plunge, drilling): nothing is said of them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct WithoutSide {
+    /// How many.
+    pub places: usize,
+    /// Line of the largest force, from 1.
+    pub line: usize,
+    /// Largest force, N.
+    pub force_n: f64,
+}
+
+impl WithoutSide {
+    pub(crate) fn of(forces: &ForceAlongPath, path: &Path) -> Option<Self> {
+        let mut found: Option<Self> = None;
+        for (i, motion) in path.moves.iter().enumerate() {
+            for station in forces.stations(i) {
+                let force_n = station.wrench.force().norm();
+                let is_judged = station.rpm > 0.0 && station.depth_mm > 0.0;
+                if force_n == 0.0 || (is_judged && motion.tangent(station.share).is_some()) {
+                    continue;
+                }
+                let own = found.get_or_insert(Self {
+                    places: 0,
+                    line: motion.line,
+                    force_n,
+                });
+                own.places += 1;
+                if force_n > own.force_n {
+                    (own.line, own.force_n) = (motion.line, force_n);
+                }
+            }
+        }
+        found
+    }
+}
+
 /// Places that are alike, one of which is judged for all.
+#[derive(Clone, Copy)]
 pub(crate) struct SiteGroup<'s> {
     /// In the order of the path.
     sites: &'s [CutSite],
@@ -144,7 +181,7 @@ fn groups_within(
     all
 }
 
-fn is_alike(site: &CutSite, reference: &CutSite, wider: f64) -> bool {
+pub(crate) fn is_alike(site: &CutSite, reference: &CutSite, wider: f64) -> bool {
     let (a, b) = (&site.station, &reference.station);
     let size = |a: f64, b: f64| (a - b).abs() <= SAME_SIZE * wider * b.abs();
     let angle = |a: f64, b: f64| (a - b).abs() <= SAME_ANGLE * wider;

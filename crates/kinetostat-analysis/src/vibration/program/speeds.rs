@@ -1,5 +1,7 @@
 //! A spindle speed at which a stretch of a program would not chatter.
 
+use std::collections::BTreeSet;
+
 use kinetostat_chatter::Regeneration;
 use kinetostat_machining::LoadAlongPath;
 use rayon::prelude::*;
@@ -60,16 +62,23 @@ pub(crate) fn stable_speed(
         }))
     };
     let (mut others, mut cuts): (Vec<&JudgedSite>, Vec<Tried>) = (Vec::new(), Vec::new());
-    for (places, most) in [(sites, TRIED), (beside, TRIED_BESIDE)] {
+    for (places, most) in [
+        (one_of_each(sites), TRIED),
+        (one_of_each(beside), TRIED_BESIDE),
+    ] {
         for (judged, is_chosen) in places.iter().zip(some_of(places.len(), most)) {
-            match is_chosen {
-                true => cuts.extend(cut_at(judged)?),
-                false => others.push(judged),
+            if !is_chosen {
+                others.push(judged);
+                continue;
+            }
+            if let Some(cut) = cut_at(judged)? {
+                cut.rule_out(&speeds, &mut stable);
+                cuts.push(cut);
+            }
+            if !stable.contains(&true) {
+                return Ok(None);
             }
         }
-    }
-    for cut in &cuts {
-        cut.rule_out(&speeds, &mut stable);
     }
     let (offered, is_narrow) = loop {
         let Some((k, is_narrow)) = candidate(&speeds, &stable, rpm, &cuts) else {
@@ -122,6 +131,14 @@ fn candidate(speeds: &[f64], stable: &[bool], rpm: f64, cuts: &[Tried]) -> Optio
 impl Tried {
     /// Whether it does not chatter at a speed. Where no multiplier is found nothing is known to be stable.
     fn is_stable(&self, rpm: f64) -> bool {
+        // A cut that is unstable at its depth is so without a look at its limit.
+        if self
+            .regeneration
+            .is_unstable_at(rpm, self.depth)
+            .unwrap_or(true)
+        {
+            return false;
+        }
         let found = limit_at(&self.regeneration, rpm, self.depth, false);
         found.is_ok_and(|found| found.limit().is_none())
     }
@@ -131,6 +148,13 @@ impl Tried {
         let still = speeds.par_iter().zip(stable).filter(|(_, s)| **s);
         still.for_each(|(speed, is_stable)| *is_stable = self.is_stable(*speed));
     }
+}
+
+/// The first place of each cluster.
+fn one_of_each<'j>(places: &[&'j JudgedSite]) -> Vec<&'j JudgedSite> {
+    let mut known = BTreeSet::new();
+    let is_first = |judged: &&&JudgedSite| known.insert(judged.cluster);
+    places.iter().filter(is_first).copied().collect()
 }
 
 /// Which of so many places are tried, evenly; the last one, too: the machine stands otherwise there.

@@ -39,7 +39,7 @@ pub(crate) fn stretches(
     question: &ChatterQuestion<'_>,
     load: &LoadAlongPath<'_>,
     judged: &[JudgedSite],
-    watch: &dyn Watch,
+    (watch, advance): (&dyn Watch, &dyn Fn(f64)),
 ) -> Result<Vec<ChatterStretch>, ProgramChatterError> {
     let mut all: Vec<(ChatterStretch, Vec<&JudgedSite>)> = Vec::new();
     let mut goes_on = false;
@@ -86,7 +86,7 @@ pub(crate) fn stretches(
     let share = |i: &usize| all[*i].0.stable_depth_mm / all[*i].0.depth_mm;
     order.sort_by(|a, b| share(a).total_cmp(&share(b)));
     order.truncate(MOST);
-    watch.stage("other spindle speeds", order.len());
+    let tried = order.len();
     for (done, i) in order.into_iter().enumerate() {
         if watch.cancelled() {
             return Err(ProgramChatterError::Cancelled);
@@ -102,7 +102,7 @@ pub(crate) fn stretches(
         let beside: Vec<&JudgedSite> = judged.iter().filter(is_beside).collect();
         stretch.stable_speed = stable_speed(question, load, stretch.rpm, (sites, &beside))?;
         stretch.speeds_tried = true;
-        watch.advance(done + 1);
+        advance((done + 1) as f64 / tried as f64);
     }
     Ok(all.into_iter().map(|(stretch, _)| stretch).collect())
 }

@@ -5,6 +5,7 @@ use std::path::Path;
 use crate::check::poses::csv_file::from_csv;
 use crate::check::poses::pose_row::{MOST, PoseRow};
 use crate::check::poses::toml_file::from_toml;
+use crate::files::csv_text::with_decimal_points;
 use crate::files::input_files::InputFiles;
 use crate::place::joints::Named;
 use crate::ui::failure::{Answer, Failure};
@@ -20,7 +21,7 @@ pub(crate) fn read(files: &InputFiles, path: &Path, names: &[Named]) -> Answer<V
         .is_some_and(|e| e.eq_ignore_ascii_case("toml"));
     let rows = match toml {
         true => from_toml(&name, text, names)?,
-        false => from_csv(text, names).map_err(|f| f.within(&name))?,
+        false => from_csv(&with_decimal_points(text), names).map_err(|f| f.within(&name))?,
     };
     if rows.is_empty() {
         return Err(Failure::input(format!(

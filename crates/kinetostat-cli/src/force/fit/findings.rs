@@ -24,6 +24,9 @@ const TANGENTIAL: [f64; 2] = [20.0, 15_000.0];
 pub(super) fn findings(a: &FitAnswer, diameter_mm: f64) -> Vec<Warning> {
     let mut list = Vec::new();
     let mut say = |code, message: String| list.push(Warning::new(code, message));
+    if let Some(message) = exchanged_axes(&a.coefficients, a.tool.helix_deg) {
+        say(Code::ImplausibleCoefficient, message);
+    }
     for message in of_coefficients(&a.coefficients, a.acts_on) {
         say(Code::ImplausibleCoefficient, message);
     }
@@ -42,6 +45,36 @@ pub(super) fn findings(a: &FitAnswer, diameter_mm: f64) -> Vec<Warning> {
         say(Code::PoorFit, message);
     }
     list
+}
+
+/// Coefficients that no material has, and that exchanged axes or a turned sign make.
+pub(super) fn exchanged_axes(all: &[CoefficientAnswer], helix_deg: f64) -> Option<String> {
+    let of = |symbol: &str| all.iter().find(|c| c.symbol == symbol);
+    let (tangential, radial, axial) = (of("K_tc")?, of("K_rc")?, of("K_ac")?);
+    if tangential.value <= 0.0 {
+        return None;
+    }
+    let low = |c: &CoefficientAnswer| c.low_95.unwrap_or(c.value);
+    let high = |c: &CoefficientAnswer| c.high_95.unwrap_or(c.value);
+    if low(radial) > high(tangential) {
+        return Some(format!(
+            "K_rc = {} {unit} is above K_tc = {} {unit}, and no chip pushes the tooth more than it brakes it: x (along the feed) and y (to its left) of the forces look exchanged. Exchange fx_n and fy_n with their signs, or correct on which side the part was",
+            number(radial.value, 3),
+            number(tangential.value, 3),
+            unit = radial.unit
+        ));
+    }
+    let (is_wrong, lifts) = match helix_deg < 0.0 {
+        true => (low(axial) > 0.0, "pushes the chip down"),
+        false => (high(axial) < 0.0, "lifts the chip"),
+    };
+    is_wrong.then(|| {
+        format!(
+            "K_ac = {} {}: positive pushes the tool towards the spindle, and a helix that {lifts} has the other sign. Turn the sign of fz_n (z is along the tool towards the spindle), or state the helix with its sign (--helix-deg)",
+            number(axial.value, 3),
+            axial.unit
+        )
+    })
 }
 
 /// Coefficients that hardly any material has.

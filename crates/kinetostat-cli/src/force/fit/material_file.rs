@@ -8,6 +8,7 @@ use kinetostat_cutting::{CoefficientFit, Materials};
 
 use crate::force::arguments::ForceArgs;
 use crate::force::fit::answer::{CoefficientAnswer, FitAnswer};
+use crate::force::fit::findings::exchanged_axes;
 use crate::force::fit_arguments::GroupWord;
 use crate::ui::numbers::{given, number};
 
@@ -41,6 +42,9 @@ pub(super) fn material_file(
             error.expected
         )
     })?;
+    if let Some(wrong) = exchanged_axes(&a.coefficients, a.tool.helix_deg) {
+        return Err(wrong);
+    }
     let spread = match a.spread_percent {
         Some(percent) if percent <= WIDEST => percent,
         Some(percent) => {

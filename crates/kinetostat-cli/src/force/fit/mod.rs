@@ -14,6 +14,7 @@ mod text;
 use std::path::Path;
 
 use crate::files::answer_files::{ClaimedFiles, Shown};
+use crate::files::csv_text::with_decimal_points;
 use crate::files::input_files::InputFiles;
 use crate::force::arguments::ForceArgs;
 use crate::force::fit::answer_of::answer_of;
@@ -30,7 +31,7 @@ pub(crate) fn run(files: &InputFiles, args: &ForceArgs, means: &Path) -> Answer<
     let material = target
         .map(|path| claimed.claim_also("material", path))
         .transpose()?;
-    let mut answer = answer_of(args, &tool, (means, &text))?;
+    let mut answer = answer_of(args, &tool, (means, &with_decimal_points(&text)))?;
     if let Some(claim) = material {
         let toml = answer.material_toml.as_deref().ok_or_else(|| {
             Failure::input(format!(

@@ -130,6 +130,11 @@ fn code(kind: CutFindingKind) -> WarningCode {
         CutFindingKind::ShortEdges => WarningCode::ToolTooShort,
         CutFindingKind::LinesWithoutCut => WarningCode::LoadNeverActs,
         CutFindingKind::Plunge => WarningCode::Plunge,
+        CutFindingKind::EndBeyondTheLaw => WarningCode::ChipsOutsideMeasured,
+        CutFindingKind::NothingCut => WarningCode::LoadNeverActs,
+        CutFindingKind::ThinFeed | CutFindingKind::BelowTheStock | CutFindingKind::LeftHandTool => {
+            WarningCode::ImplausibleCut
+        }
         CutFindingKind::NotMeasured => WarningCode::NotMeasured,
         CutFindingKind::ForceInRapid => WarningCode::ForceInRapid,
         CutFindingKind::TimeUnknown => WarningCode::TimeUnknown,

@@ -4,6 +4,7 @@ use kinetostat_cutting::{ForceLog, LoggedBy};
 use kinetostat_machining::{MeasuredForces, Placement};
 use serde_spanned::Spanned;
 
+use crate::files::csv_text::with_decimal_points;
 use crate::files::input_files::InputFiles;
 use crate::job::arguments::ProgramArgs;
 use crate::job::cut::files_of_cut::FilesOfCut;
@@ -68,7 +69,7 @@ pub(crate) fn measured_setup(
     )?;
     let mut read = FilesOfCut::default();
     let (text, name) = read.text(files, j, "log of forces", &t.file)?;
-    let log = ForceLog::read(&name, &text).map_err(Failure::input)?;
+    let log = ForceLog::read(&name, &with_decimal_points(&text)).map_err(Failure::input)?;
     drop(text);
     let (smooth, air) = by_its_columns(j, t, log.by())?;
     let mut forces = MeasuredForces::new(log, t.acts_on);

@@ -48,6 +48,6 @@ impl RobotFrames {
     }
 }
 
-fn in_metres(frame: &Isometry3<f64>) -> Pose {
+pub(crate) fn in_metres(frame: &Isometry3<f64>) -> Pose {
     Pose::from_parts((1e-3 * frame.translation.vector).into(), frame.rotation)
 }

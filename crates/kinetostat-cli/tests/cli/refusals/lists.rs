@@ -18,7 +18,7 @@ moved_by = { translation_mm = [0.1, 0, 0], rotation_vector_rad = [0, 0, 0.001] }
 
 [[deviation]]
 limb = "leg x"
-at = "start"
+at = "line"
 tilted_by_deg = 0.1
 about = [0, 0, 1]
 

@@ -237,14 +237,14 @@ pub fn programs() -> Vec<Case> {
             &["dx_mm", "convert its numbers"],
         ),
         case(
-            "map: semicolons",
+            "map: semicolons, and points in thousands",
             vec![(
                 "map.csv",
-                b"x_mm;y_mm;z_mm;dx_mm;dy_mm;dz_mm\n0;0;0;0,5;0;0\n".to_vec(),
+                b"x_mm;y_mm;z_mm;dx_mm;dy_mm;dz_mm\n0;0;0;1.234,5;0;0\n".to_vec(),
             )],
             &MAP,
             1,
-            &["separated by commas"],
+            &["line 2", "`1.234,5` in column dx_mm", "no finite number"],
         ),
         case(
             "program: 10 nm beyond the map",

@@ -1,9 +1,10 @@
 //! A place at which errors are looked at.
 
-use kinetostat::Wrench;
+use kinetostat::{Pose, Wrench};
 use kinetostat_program::{Knowledge, Move, MoveKind, Path};
 use nalgebra::{UnitQuaternion, Vector3};
 
+use crate::measured_frame::PartPlace;
 use crate::near::natural_length;
 use crate::placement::Placement;
 use crate::result::point::PointKind;
@@ -46,6 +47,24 @@ impl Site {
     pub(crate) fn placement(&self, task: &Task<'_>) -> Placement {
         let motion = &task.path().moves[self.move_index];
         task.placement.on(motion, self.share)
+    }
+
+    /// The place as the program states it.
+    pub(crate) fn programmed(&self, placement: Placement) -> PartPlace {
+        PartPlace {
+            place: placement,
+            position_mm: self.desired,
+            orientation: self.orientation,
+        }
+    }
+
+    /// The place as the written program commands it.
+    pub(crate) fn commanded_pose(&self, task: &Task<'_>) -> Pose {
+        let place = self.commanded_placement(task);
+        place.pose(
+            &self.commanded,
+            place.orientation_of(self.commanded_orientation),
+        )
     }
 
     /// Where it lies as the written program turns it.

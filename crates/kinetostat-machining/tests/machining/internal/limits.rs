@@ -18,7 +18,7 @@ fn each_limit_is_read_and_moved_by_its_name() {
 }
 
 #[test]
-fn every_default_is_in_its_range_and_no_size_is_zero_or_less() {
+fn every_default_is_in_its_range_and_no_size_is_negative() {
     for limit in Limits::ALL {
         let value = Limits::default().get(limit);
         assert!(
@@ -26,9 +26,12 @@ fn every_default_is_in_its_range_and_no_size_is_zero_or_less() {
             "{limit:?}: {}",
             limit.range_description()
         );
-        let tool = limit.name.ends_with("tool_mm");
-        for none in [0.0, -value, f64::MIN_POSITIVE] {
-            assert_eq!(limit.takes(none), tool, "{limit:?} {none}");
+        let is_tool = limit.name.ends_with("tool_mm");
+        assert_eq!(limit.takes(-value), is_tool, "{limit:?}");
+        // A base or a rounding may be as near to zero as one likes.
+        let is_from_zero = is_tool || limit.name.ends_with("base_mm") || limit.name == "zone_mm";
+        for none in [0.0, f64::MIN_POSITIVE] {
+            assert_eq!(limit.takes(none), is_from_zero, "{limit:?} {none}");
         }
         for none in [f64::NAN, f64::INFINITY, -f64::INFINITY] {
             assert!(!limit.takes(none), "{limit:?} {none}");

@@ -12,6 +12,9 @@ const WHOLE: f64 = 1e-4;
 /// Diameters beyond this are no tool's, in mm.
 const LARGEST_DIAMETER_MM: f64 = 1e4;
 
+/// A negative diameter is that of a tool thinner than the contour was made for, by its wear; beyond this it is a sign, in mm.
+const MOST_WEAR_MM: f64 = 1.0;
+
 /// Which tool a program has in the spindle.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct InSpindle {
@@ -54,6 +57,14 @@ pub(crate) fn side_and_radius(
         return Err((
             format!("a tool of {diameter} mm in diameter"),
             "give the diameter in mm",
+        ));
+    }
+    if diameter < -MOST_WEAR_MM {
+        return Err((
+            format!(
+                "a tool of {diameter} mm in diameter: wear makes at most -{MOST_WEAR_MM} mm of a corrected contour"
+            ),
+            "give the diameter of the tool, above 0, and the other side (G42 for G41) where that is meant",
         ));
     }
     // A tool that is thinner than the contour was made for.

@@ -99,7 +99,7 @@ fn tools_are_found_by_their_numbers() {
     assert!(same(x(&text("T3 M6").replace("G41", "G42 D0")), 3.0));
     assert!(same(x(&text("M61 Q2")), -2.0));
     assert!(same(x(&text("").replace("G41", "G41.1 D2.5")), -1.25));
-    assert!(same(x(&text("").replace("G41", "G41.1 D-2.5")), 1.25));
+    assert!(same(x(&text("").replace("G41", "G41.1 D-0.5")), 0.25));
     let without = text("").replace("G41", "G41.1 D0");
     let flat = flat(&without);
     assert!(same(made(&flat)[1].end[0], 0.0), "{:?}", made(&flat));

@@ -6,13 +6,15 @@ mod of;
 mod results;
 mod tables;
 
+use kinetostat_machining::{AssumptionKind, Level};
+
 use crate::number;
 use crate::paper::block::{Block, Contents};
 use crate::paper::content::of::{MOST, Of, more};
 use crate::paper::question::Paper;
 use crate::paper::words::table::fill;
 use crate::paper::words::{statement, words};
-use crate::run::meaning::{Level, Statement, assessment};
+use crate::run::meaning::{Statement, assessment};
 use crate::run::shown::Shown;
 use crate::text::{clean, shorten};
 
@@ -95,7 +97,9 @@ fn verdict(of: &Of<'_>) -> Block {
         .statements
         .iter()
         // Of a program of others it is not solved what another reading of the load at its steps would do.
-        .filter(|said| of.paper.verified.is_none() || **said != Statement::Corners)
+        .filter(|said| {
+            of.paper.verified.is_none() || **said != Statement::Assumed(AssumptionKind::Corners)
+        })
         .filter_map(|said| statement(of.language, said, of.result))
         .map(|sentence| clean(&sentence))
         .collect();

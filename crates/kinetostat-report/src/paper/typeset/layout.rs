@@ -1,8 +1,9 @@
 //! Where everything stands: blocks one below the other, on as many pages as they need. Points, from the upper left corner.
 
+use kinetostat_machining::Level;
+
 use crate::paper::block::{Block, Contents, Remark};
 use crate::paper::typeset::letters::{Letters, Weight};
-use crate::run::meaning::Level;
 
 /// A4.
 pub(super) const WIDTH: f32 = 595.28;

@@ -58,7 +58,7 @@ pub(super) const WORDS: Words = Words {
     bytes: "{blocks} ({bytes} bytes)",
     tolerance_path: "Tolerance of the path",
     tolerance_chords: "Tolerance of chords in arcs",
-    decimals: "Decimals written",
+    decimals: "Decimals written, at least",
     figure: "Figure",
     before: "before",
     after: "after",

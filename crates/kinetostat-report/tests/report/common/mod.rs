@@ -180,6 +180,8 @@ pub fn circle_groove() -> RunResult {
     summary.pieces = 457;
     summary.corner_steps = 2;
     summary.largest_corner_step_mm = 0.31;
+    summary.max_corner_error_if_load_turns_mm = Some(0.000_3);
+    summary.max_corner_error_if_load_follows_feed_mm = Some(0.000_4);
     summary.smallest_piece_mm = 0.2134;
     summary.blocks_per_second = Some(46.2);
     summary.feed_length_mm = 159.1;

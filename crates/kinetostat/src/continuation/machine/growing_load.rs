@@ -125,11 +125,21 @@ impl Posture {
         wrench: &Wrench,
         start: MechanismState,
     ) -> std::result::Result<Converged<'_>, Box<NoRest>> {
-        let mut solver = self.solver(start, Unknowns::Pose);
-        solver.wrench = *wrench;
+        let from = |state: MechanismState| {
+            let mut solver = self.solver(state, Unknowns::Pose);
+            solver.wrench = *wrench;
+            solver
+        };
+        let mut solver = from(start.clone());
         match solver.solve_robustly() {
             Ok(residual) => Ok((solver, residual)),
-            Err(newton) => self.along_free_motions(wrench, newton),
+            Err(newton) => {
+                let mut solver = from(start);
+                match solver.relax() {
+                    Some(residual) => Ok((solver, residual)),
+                    None => self.along_free_motions(wrench, newton),
+                }
+            }
         }
     }
 

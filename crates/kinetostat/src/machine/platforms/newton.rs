@@ -205,7 +205,7 @@ impl PlatformSolver<'_> {
             .sqrt()
     }
 
-    fn place(&self) -> Iterate {
+    pub(crate) fn place(&self) -> Iterate {
         Iterate {
             state: self.state.clone(),
             posture: self.posture.clone(),
@@ -215,7 +215,7 @@ impl PlatformSolver<'_> {
         }
     }
 
-    fn put(&mut self, place: Iterate) {
+    pub(crate) fn put(&mut self, place: Iterate) {
         self.state = place.state;
         self.posture = place.posture;
         self.nominal = place.nominal;
@@ -224,7 +224,7 @@ impl PlatformSolver<'_> {
     }
 
     /// Goes a share of a step from a place; `false` where the commands cannot follow.
-    fn go(
+    pub(crate) fn go(
         &mut self,
         from: &Iterate,
         step: &PlatformStep,
@@ -353,8 +353,8 @@ impl PlatformSolver<'_> {
 }
 
 /// Where an iteration is.
-struct Iterate {
-    state: MechanismState,
+pub(crate) struct Iterate {
+    pub(crate) state: MechanismState,
     posture: Vec<LimbPosture>,
     nominal: Vec<Pose>,
     target: Pose,

@@ -68,6 +68,8 @@ pub(crate) struct PlatformSolver<'m> {
     /// The tool is moved to its place while the load grows, its limb after it.
     pub leads: bool,
     pub share: f64,
+    /// Stiffness against motions of the platforms during a step, by the machine's.
+    pub damping: f64,
     /// How the state was found.
     pub found_by: FoundBy,
     /// See [`crate::chain::Residual::rate`], of the limbs' wrenches and coordinates.
@@ -155,6 +157,7 @@ impl<'m> PlatformSolver<'m> {
             tree: tree(mechanism),
             leads: false,
             share: 1.0,
+            damping: 0.0,
             found_by: FoundBy::Directly,
             rate: None,
             length,

@@ -8,7 +8,7 @@ use nalgebra::{DMatrix, DVector, Matrix6};
 
 use crate::chain::system::Hessian;
 use crate::linalg::sparse::Sparse;
-use crate::machine::platform_system::{PlatformSystem, RigidRows};
+use crate::machine::platform_system::{PlatformSystem, RigidRows, motion_units};
 use crate::machine::platforms::parts::{PlatformStep, Tangents, Unknowns};
 use crate::machine::platforms::solver::PlatformSolver;
 use crate::machine::state::MechanismState;
@@ -234,6 +234,9 @@ impl PlatformSolver<'_> {
         for k in (0..6).filter(|&k| exchanged[k]) {
             a.add(0, tool + k, &by_target.column(k));
         }
+        if self.damping > 0.0 {
+            self.damp(&mut a);
+        }
         let mut conditions = self.conditions(at, exchanged);
         if self.unknowns == Unknowns::Displacement {
             self.hold_tool(&mut a, &mut b, &mut conditions);
@@ -255,6 +258,23 @@ impl PlatformSolver<'_> {
         PlatformSystem::with_reactions(a, sizes, rigid, reactions, scale).solve(&mut b);
         let finite = b.iter().all(|x| x.is_finite());
         finite.then(|| self.step_from(&b, exchanged))
+    }
+
+    /// Adds the damping to the tangent of the platforms, and more where that is negative.
+    fn damp(&self, tangent: &mut Sparse) {
+        let (length, stiffness) = (self.length, self.stiffness);
+        let units = motion_units(tangent.rows, Scale { length, stiffness });
+        let dense = tangent.dense();
+        let scaled = DMatrix::from_fn(tangent.rows, tangent.rows, |i, j| {
+            0.5 * (dense[(i, j)] + dense[(j, i)]) * units[i] * units[j]
+        });
+        let least = scaled.symmetric_eigenvalues().min();
+        let damping = self.damping.max(-2.0 * least);
+        let own = units
+            .iter()
+            .enumerate()
+            .map(|(i, unit)| (i, i, damping / (unit * unit)));
+        tangent.entries.extend(own);
     }
 
     /// Directions of the tool that are held while the nominal target moves in their place.

@@ -1,5 +1,7 @@
 //! Ce qu'un programme laisse.
 
+use kinetostat_machining::AssumptionKind;
+
 use crate::number;
 use crate::paper::words::french::sentences::{nombre, statement};
 use crate::paper::words::shared::{stated_change, uncertain_numbers};
@@ -20,14 +22,14 @@ pub(crate) fn left(left: Left, result: &Shown<'_>) -> [String; 3] {
     let said = |s| statement(&s, result).unwrap_or_default();
     let (name, text) = match left {
         Left::Tilt => ("Inclinaison de l’outil", "La charge, le poids et les défauts de montage déplacent l’outil, et le tournent aussi. Un programme de positions ramène la pointe de l’outil à sa place mais ne peut pas la redresser ; une paroi coupée loin sous la pointe le montre.".to_owned()),
-        Left::ForceOfCut => ("Effort de coupe", said(Statement::ForceBand)),
+        Left::ForceOfCut => ("Effort de coupe", said(Statement::Assumed(AssumptionKind::ForceSpread))),
         Left::Uncertain => ("Machine et effort tels qu’ils peuvent être", {
             let (numbers, seed, linear, deviation) = uncertain_numbers(result);
             let linear = match linear { true => "La propagation linéaire concorde", false => "La propagation linéaire ne suffit pas : les écarts ne sont pas linéaires dans ces nombres" };
             format!("Machines tirées avec {numbers}, graine {seed}. Moyenne et écart-type du plus grand écart. {linear} (avant compensation : écart-type {}).", nombre(&deviation))
         }),
-        Left::Rounding => ("Arrondi", format!("Les nombres sont écrits avec {} décimales. Cette part de l’écart après compensation ne vient que de là.", result.run_inputs.decimals)),
-        Left::CornerSteps => ("Pas aux angles", format!("Là où la charge tourne d’un coup, comme à un angle vif, la correction tourne avec elle : le programme y fait un petit pas pendant que l’outil reste à son angle. {}", said(Statement::Corners)).trim_end().to_owned()),
+        Left::Rounding => ("Arrondi", format!("Les nombres sont écrits avec {} décimales au moins : ceux qui en avaient plus les gardent. Cette part de l’écart après compensation ne vient que de là.", result.run_inputs.decimals)),
+        Left::CornerSteps => ("Pas aux angles", format!("Là où la charge tourne d’un coup, comme à un angle vif, la correction tourne avec elle : le programme y fait un petit pas pendant que l’outil reste à son angle. {}", said(Statement::Assumed(AssumptionKind::Corners))).trim_end().to_owned()),
         Left::EntrySteps => ("Pas en fin de rapide", "La charge est là d’un coup à la fin d’un déplacement rapide : le programme fait un pas pendant que l’outil reste à sa place.".to_owned()),
         Left::Change => ("Variation de la correction", {
             let (line, stated) = stated_change(result);

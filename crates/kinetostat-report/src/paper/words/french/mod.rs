@@ -61,7 +61,7 @@ pub(super) const WORDS: Words = Words {
     bytes: "{blocks} ({bytes} octets)",
     tolerance_path: "Tolérance de la trajectoire",
     tolerance_chords: "Tolérance des cordes dans les arcs",
-    decimals: "Décimales écrites",
+    decimals: "Décimales écrites, au moins",
     figure: "Grandeur",
     before: "avant",
     after: "après",

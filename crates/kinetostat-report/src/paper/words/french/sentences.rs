@@ -1,12 +1,14 @@
 //! Ce qu'il y a à dire d'un calcul.
 
-use kinetostat_machining::{CornerLoad, LoadBegins};
+use kinetostat_machining::{AssumptionKind, CornerLoad, LoadBegins, WeightCorrection};
 
 use crate::number;
 use crate::paper::language::Language;
 use crate::paper::words::french::WORDS;
 use crate::paper::words::shared::{corners, length, missed_place, uncertain};
-use crate::run::meaning::{Statement, after_and_allowed, missed_features};
+use crate::run::meaning::{
+    Statement, after_and_allowed, assumed, missed_features, worst_and_allowed,
+};
 use crate::run::shown::Shown;
 
 /// Un nombre, comme on l'écrit en français.
@@ -46,15 +48,29 @@ pub(crate) fn statement(statement: &Statement, result: &Shown<'_>) -> Option<Str
         Statement::WithinBefore => format!("Même sans compensation, l’outil s’écarte d’au plus {before}, dans les {allowed} demandés ; avec le programme compensé, d’au plus {after}."),
         Statement::Corrected => format!("Sans compensation, l’outil s’écarte jusqu’à {before} ; avec le programme compensé, d’au plus {after}."),
         Statement::FeaturesMissed => format!("La tolérance n’est pas tenue pour : {}.", missed_features(result).join(", ")),
-        Statement::OwnWeight => {
-            let own = up_to(summary.max_error_by_own_weight_mm?);
-            let put = format!("À eux seuls, le poids propre de la machine et ce qui agit encore dans son modèle (ressorts, contrepoids) écartent l’outil jusqu’à {own}");
-            match result.run_inputs.compensated {
-                true => format!("{put} ; le programme le compense aussi. Si la pièce a été palpée avec cette machine, ou si sa commande corrige le poids, ce serait fait deux fois : laissez alors poids et ressorts hors du modèle."),
-                false => format!("{put}."),
-            }
+        Statement::AtWorst => match worst_and_allowed(result) {
+            (Some(worst), allowed) => format!("La tolérance n’est tenue que si les hypothèses ci-dessous se vérifient : sinon l’outil s’écarte jusqu’à {worst} avec le programme écrit, plus que les {allowed} demandés.", worst = nombre(&worst), allowed = nombre(&allowed)),
+            (None, allowed) => format!("La tolérance de {allowed} n’est tenue que si les hypothèses ci-dessous se vérifient ; sans la première, rien ne borne l’erreur.", allowed = nombre(&allowed)),
+        },
+        Statement::Assumed(AssumptionKind::BackwardSteps) => {
+            let [limit, longest] = [nombre(&number::length_setting(summary.backward_step_limit_mm)), up_to(summary.largest_backward_step_mm)];
+            format!("Contre le sens du mouvement, le programme a {} pas de plus de {limit}, jusqu’à {longest} : il n’y est rien coupé que si la machine cède comme calculé.", number::count(summary.backward_steps))
         }
-        Statement::Corners => {
+        Statement::Assumed(AssumptionKind::OwnWeight) => {
+            let whole = up_to(summary.max_displacement_by_weight_mm?);
+            let error = up_to(summary.max_error_by_own_weight_mm?);
+            let becomes = match result.run_inputs.compensated && !summary.unchanged {
+                true => "est corrigé",
+                false => "compte comme erreur",
+            };
+            let part = match &result.run_inputs.weight {
+                WeightCorrection::None => format!("rien n’en {becomes} (la commande corrige le poids)"),
+                WeightCorrection::TouchOff(_) => format!("seul le changement, jusqu’à {error} depuis l’endroit où la pièce a été palpée, {becomes}"),
+                WeightCorrection::All | WeightCorrection::NotStated => format!("tout en {becomes} (la pièce a été mesurée sans cette machine)"),
+            };
+            format!("À eux seuls, le poids propre de la machine et ce qui agit encore dans son modèle (ressorts, contrepoids) déplacent l’outil jusqu’à {whole} ; {part}.")
+        }
+        Statement::Assumed(AssumptionKind::Corners) => {
             let c = corners(result)?;
             let places = match (c.corner, c.entry) {
                 (Some(_), None) => "Aux angles vifs",
@@ -74,7 +90,7 @@ pub(crate) fn statement(statement: &Statement, result: &Shown<'_>) -> Option<Str
             let steps: Vec<String> = [counted("pas aux angles", c.corner), counted("pas en fin de rapide", c.entry)].into_iter().flatten().collect();
             format!("{places}, {assumed}. Cela concerne {}, soit {} des points.", steps.join(" et "), nombre(&c.percent))
         }
-        Statement::Ramp => {
+        Statement::Assumed(AssumptionKind::LoadRamp) => {
             let ramp = summary.load_ramp?;
             let length = up_to(ramp.length_mm);
             match ramp.begins {
@@ -83,7 +99,7 @@ pub(crate) fn statement(statement: &Statement, result: &Shown<'_>) -> Option<Str
                 _ => return None,
             }
         }
-        Statement::ForceBand => {
+        Statement::Assumed(AssumptionKind::ForceSpread) => {
             let band = result.force_band.as_ref()?;
             let percent = nombre(&number::significant(band.spread_percent, 2, number::Rounding::Nearest));
             let line = number::count(band.line);
@@ -97,7 +113,7 @@ pub(crate) fn statement(statement: &Statement, result: &Shown<'_>) -> Option<Str
                 None => format!("{first} la machine n’a pas d’équilibre à la ligne {line}."),
             }
         }
-        Statement::Uncertainty => {
+        Statement::Assumed(AssumptionKind::UncertainNumbers) => {
             let u = uncertain(result)?;
             let mut text = format!("Avec les {} nombres incertains de {} ({} machines tirées, calculées en {} endroits), l’outil s’écarte, tel que programmé, jusqu’à {}", u.numbers, u.file, u.machines, u.places, nombre(&u.before));
             if let Some(after) = &u.after {
@@ -115,6 +131,10 @@ pub(crate) fn statement(statement: &Statement, result: &Shown<'_>) -> Option<Str
             }
             text
         }
+        // Its own section has it in this language.
+        Statement::Assumed(AssumptionKind::Chatter) => return None,
+        // A kind without words in this language is quoted in English.
+        Statement::Assumed(kind) => assumed(result, *kind),
         Statement::Tilt => {
             let angle = nombre(&result.figures.rotation);
             let inputs = &result.run_inputs;

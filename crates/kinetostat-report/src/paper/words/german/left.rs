@@ -1,5 +1,7 @@
 //! Was ein Programm übrig lässt.
 
+use kinetostat_machining::AssumptionKind;
+
 use crate::number;
 use crate::paper::words::german::sentences::{statement, zahl};
 use crate::paper::words::shared::{stated_change, uncertain_numbers};
@@ -20,14 +22,14 @@ pub(crate) fn left(left: Left, result: &Shown<'_>) -> [String; 3] {
     let said = |s| statement(&s, result).unwrap_or_default();
     let (name, text) = match left {
         Left::Tilt => ("Verkippung des Werkzeugs", "Last, Gewicht und Montagefehler verschieben das Werkzeug nicht nur, sie drehen es auch. Ein Programm aus Positionen bringt die Werkzeugspitze an ihren Ort zurück, kann sie aber nicht zurückdrehen; eine tief unter der Spitze gefräste Seitenwand zeigt es.".to_owned()),
-        Left::ForceOfCut => ("Schnittkraft", said(Statement::ForceBand)),
+        Left::ForceOfCut => ("Schnittkraft", said(Statement::Assumed(AssumptionKind::ForceSpread))),
         Left::Uncertain => ("Maschine und Kraft, wie sie sein können", {
             let (numbers, seed, linear, deviation) = uncertain_numbers(result);
             let linear = match linear { true => "Lineare Fortpflanzung stimmt damit überein", false => "Lineare Fortpflanzung reicht nicht: die Fehler sind in diesen Zahlen nicht linear" };
             format!("Maschinen gezogen mit {numbers}, Startwert {seed}. Mittel und Standardabweichung des größten Fehlers. {linear} (vor der Kompensation: Abweichung {}).", zahl(&deviation))
         }),
-        Left::Rounding => ("Runden", format!("Zahlen werden mit {} Nachkommastellen geschrieben. Dieser Teil des Fehlers nach der Kompensation kommt allein davon.", result.run_inputs.decimals)),
-        Left::CornerSteps => ("Schritte an Ecken", format!("Wo sich die Last sofort dreht, wie an einer scharfen Ecke, dreht sich die Korrektur mit: das Programm macht dort einen kurzen Schritt, während das Werkzeug an seiner Ecke steht. {}", said(Statement::Corners)).trim_end().to_owned()),
+        Left::Rounding => ("Runden", format!("Zahlen werden mit mindestens {} Nachkommastellen geschrieben: solche, die mehr hatten, behalten sie. Dieser Teil des Fehlers nach der Kompensation kommt allein davon.", result.run_inputs.decimals)),
+        Left::CornerSteps => ("Schritte an Ecken", format!("Wo sich die Last sofort dreht, wie an einer scharfen Ecke, dreht sich die Korrektur mit: das Programm macht dort einen kurzen Schritt, während das Werkzeug an seiner Ecke steht. {}", said(Statement::Assumed(AssumptionKind::Corners))).trim_end().to_owned()),
         Left::EntrySteps => ("Schritte am Ende von Eilgängen", "Die Last ist am Ende eines Eilgangs sofort da: das Programm macht einen Schritt, während das Werkzeug an seinem Ort steht.".to_owned()),
         Left::Change => ("Änderung der Korrektur", {
             let (line, stated) = stated_change(result);

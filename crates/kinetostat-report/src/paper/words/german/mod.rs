@@ -61,7 +61,7 @@ pub(super) const WORDS: Words = Words {
     bytes: "{blocks} ({bytes} Byte)",
     tolerance_path: "Toleranz der Bahn",
     tolerance_chords: "Toleranz der Sehnen in Bögen",
-    decimals: "Geschriebene Nachkommastellen",
+    decimals: "Geschriebene Nachkommastellen, mindestens",
     figure: "Größe",
     before: "vorher",
     after: "nachher",

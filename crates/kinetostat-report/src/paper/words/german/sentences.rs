@@ -1,12 +1,14 @@
 //! Was über einen Lauf zu sagen ist.
 
-use kinetostat_machining::{CornerLoad, LoadBegins};
+use kinetostat_machining::{AssumptionKind, CornerLoad, LoadBegins, WeightCorrection};
 
 use crate::number;
 use crate::paper::language::Language;
 use crate::paper::words::german::WORDS;
 use crate::paper::words::shared::{corners, length, missed_place, uncertain};
-use crate::run::meaning::{Statement, after_and_allowed, missed_features};
+use crate::run::meaning::{
+    Statement, after_and_allowed, assumed, missed_features, worst_and_allowed,
+};
 use crate::run::shown::Shown;
 
 /// Eine Zahl, wie sie im Deutschen steht.
@@ -46,15 +48,30 @@ pub(crate) fn statement(statement: &Statement, result: &Shown<'_>) -> Option<Str
         Statement::WithinBefore => format!("Schon ohne Kompensation liegt das Werkzeug höchstens {before} ab, innerhalb der verlangten {allowed}; mit dem kompensierten Programm höchstens {after}."),
         Statement::Corrected => format!("Ohne Kompensation liegt das Werkzeug bis zu {before} ab, mit dem kompensierten Programm höchstens {after}."),
         Statement::FeaturesMissed => format!("Die Toleranz ist verfehlt bei: {}.", missed_features(result).join(", ")),
-        Statement::OwnWeight => {
-            let own = up_to(summary.max_error_by_own_weight_mm?);
-            let put = format!("Das Eigengewicht der Maschine und was sonst in ihrem Modell wirkt (Federn, Gegengewichte) verschieben das Werkzeug für sich allein um bis zu {own}");
-            match result.run_inputs.compensated {
-                true => format!("{put}; auch das gleicht das Programm aus. Wo das Werkstück mit dieser Maschine angetastet wurde oder die Steuerung das Gewicht korrigiert, geschähe das doppelt: lassen Sie dann Gewicht und Federn aus dem Modell weg."),
-                false => format!("{put}."),
-            }
+        Statement::AtWorst => match worst_and_allowed(result) {
+            (Some(worst), allowed) => format!("Die Toleranz ist nur eingehalten, wenn die folgenden Annahmen zutreffen: sonst liegt das Werkzeug mit dem geschriebenen Programm bis zu {worst} ab, mehr als die verlangten {allowed}.", worst = zahl(&worst), allowed = zahl(&allowed)),
+            (None, allowed) => format!("Die Toleranz von {allowed} ist nur eingehalten, wenn die folgenden Annahmen zutreffen; ohne die erste begrenzt nichts den Fehler.", allowed = zahl(&allowed)),
+        },
+        Statement::Assumed(AssumptionKind::BackwardSteps) => {
+            let steps = summary.backward_steps;
+            let [limit, longest] = [zahl(&number::length_setting(summary.backward_step_limit_mm)), up_to(summary.largest_backward_step_mm)];
+            format!("Gegen die Bewegungsrichtung hat das Programm {} {}, länger als {limit}, bis {longest} lang: dabei wird nur dann nichts geschnitten, wenn die Maschine nachgibt wie gerechnet.", number::count(steps), if steps == 1 { "Schritt" } else { "Schritte" })
         }
-        Statement::Corners => {
+        Statement::Assumed(AssumptionKind::OwnWeight) => {
+            let whole = up_to(summary.max_displacement_by_weight_mm?);
+            let error = up_to(summary.max_error_by_own_weight_mm?);
+            let becomes = match result.run_inputs.compensated && !summary.unchanged {
+                true => "wird korrigiert",
+                false => "zählt als Fehler",
+            };
+            let part = match &result.run_inputs.weight {
+                WeightCorrection::None => format!("nichts davon {becomes} (die Steuerung korrigiert das Gewicht)"),
+                WeightCorrection::TouchOff(_) => format!("nur die Änderung von bis zu {error} gegenüber dem Ort, an dem das Werkstück angetastet wurde, {becomes}"),
+                WeightCorrection::All | WeightCorrection::NotStated => format!("alles davon {becomes} (das Werkstück wurde ohne diese Maschine vermessen)"),
+            };
+            format!("Das Eigengewicht der Maschine und was sonst in ihrem Modell wirkt (Federn, Gegengewichte) verschieben das Werkzeug für sich allein um bis zu {whole}; {part}.")
+        }
+        Statement::Assumed(AssumptionKind::Corners) => {
             let c = corners(result)?;
             let places = match (c.corner, c.entry) {
                 (Some(_), None) => "An scharfen Ecken",
@@ -74,7 +91,7 @@ pub(crate) fn statement(statement: &Statement, result: &Shown<'_>) -> Option<Str
             let steps: Vec<String> = [counted("an Ecken", c.corner), counted("am Ende von Eilgängen", c.entry)].into_iter().flatten().collect();
             format!("{places} {assumed}. Das betrifft {}, {} der Punkte.", steps.join(" und "), zahl(&c.percent))
         }
-        Statement::Ramp => {
+        Statement::Assumed(AssumptionKind::LoadRamp) => {
             let ramp = summary.load_ramp?;
             let length = up_to(ramp.length_mm);
             match ramp.begins {
@@ -83,7 +100,7 @@ pub(crate) fn statement(statement: &Statement, result: &Shown<'_>) -> Option<Str
                 _ => return None,
             }
         }
-        Statement::ForceBand => {
+        Statement::Assumed(AssumptionKind::ForceSpread) => {
             let band = result.force_band.as_ref()?;
             let percent = zahl(&number::significant(band.spread_percent, 2, number::Rounding::Nearest));
             let line = number::count(band.line);
@@ -97,7 +114,7 @@ pub(crate) fn statement(statement: &Statement, result: &Shown<'_>) -> Option<Str
                 None => format!("{first} so hat die Maschine in Zeile {line} kein Gleichgewicht."),
             }
         }
-        Statement::Uncertainty => {
+        Statement::Assumed(AssumptionKind::UncertainNumbers) => {
             let u = uncertain(result)?;
             let mut text = format!("Mit den {} unsicheren Zahlen aus {} ({} Maschinen gezogen, an {} Stellen gerechnet) liegt das Werkzeug wie programmiert bis zu {} ab", u.numbers, u.file, u.machines, u.places, zahl(&u.before));
             if let Some(after) = &u.after {
@@ -115,6 +132,10 @@ pub(crate) fn statement(statement: &Statement, result: &Shown<'_>) -> Option<Str
             }
             text
         }
+        // Its own section has it in this language.
+        Statement::Assumed(AssumptionKind::Chatter) => return None,
+        // A kind without words in this language is quoted in English.
+        Statement::Assumed(kind) => assumed(result, *kind),
         Statement::Tilt => {
             let angle = zahl(&result.figures.rotation);
             let inputs = &result.run_inputs;

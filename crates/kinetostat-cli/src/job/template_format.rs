@@ -32,6 +32,8 @@ pub(crate) struct TemplateTable {
     #[serde(default)]
     pub tools: Vec<Spanned<NumberedToolTable>>,
     #[serde(default)]
+    pub spindle: SpindleTable,
+    #[serde(default)]
     pub zones: ZonesTable,
 }
 
@@ -65,6 +67,18 @@ pub(crate) struct NumberedToolTable {
     pub pose: Option<Spanned<PoseTable>>,
     pub mass_kg: Option<f64>,
     pub centre_of_mass_mm: Option<[f64; 3]>,
+}
+
+/// Statements that start and stop the spindle.
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct SpindleTable {
+    #[serde(default)]
+    pub clockwise: Vec<Spanned<String>>,
+    #[serde(default)]
+    pub counter_clockwise: Vec<Spanned<String>>,
+    #[serde(default)]
+    pub stop: Vec<Spanned<String>>,
 }
 
 /// Rounding of corners.

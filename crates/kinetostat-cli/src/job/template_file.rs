@@ -1,18 +1,21 @@
 //! A template file read, options over it.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
-use kinetostat_formats::{PlacesUnknown, Rapids, StatedFrame, StatedTool, Template, Zones};
+use kinetostat_formats::{
+    PlacesUnknown, Rapids, SpindleStatements, StatedFrame, StatedTool, Template, Zones,
+};
 use kinetostat_model::schema::Placement as PoseTable;
 use nalgebra::{Isometry3, Vector3};
 use serde_spanned::Spanned;
 
-use crate::convert::file_names::stem;
-use crate::convert::template_format::{
+use crate::files::file_names::stem;
+use crate::files::input_files::InputFiles;
+use crate::job::job_file::JobFile;
+use crate::job::source::Source;
+use crate::job::template_format::{
     FrameTable, NumberedToolTable, PlacesWord, RapidsWord, TemplateTable, ToolTable,
 };
-use crate::files::input_files::InputFiles;
-use crate::job::source::Source;
 use crate::place::orientation;
 use crate::ui::failure::Answer;
 
@@ -55,8 +58,18 @@ impl TemplateFile {
         Ok(file)
     }
 
-    fn of_file(files: &InputFiles, path: &Path) -> Answer<Self> {
-        let text = files.text("template", path)?;
+    /// The template that an option names, or `[robot]` of the job.
+    pub(crate) fn path(job: Option<&JobFile>, named: Option<&Path>) -> Option<PathBuf> {
+        let in_job = || {
+            let j = job?;
+            let written = j.job.robot.as_ref()?.get_ref().template.as_ref()?;
+            Some(j.base().join(written.get_ref()))
+        };
+        named.map(Path::to_owned).or_else(in_job)
+    }
+
+    pub(crate) fn of_file(files: &InputFiles, path: &Path) -> Answer<Self> {
+        let text = files.settings("template", path)?;
         let name = path.display().to_string();
         let source = Source {
             file: &name,
@@ -69,6 +82,9 @@ impl TemplateFile {
                 &format!("schema {} is not known", table.schema.get_ref()),
                 "write  schema = 1",
             ));
+        }
+        if let Some((span, message)) = kinetostat_model::odd_angles(&text).into_iter().next() {
+            return Err(source.error(span, &message, "correct the value, or the unit in its name"));
         }
         Ok(Self {
             template: template(source, table)?,
@@ -122,6 +138,11 @@ fn template(source: Source<'_>, table: TemplateTable) -> Answer<Template> {
         rapids_percent: table.zones.rapids_percent.unwrap_or(usual.rapids_percent),
         feeds_percent: table.zones.feeds_percent.unwrap_or(usual.feeds_percent),
     };
+    template.spindle = SpindleStatements {
+        clockwise: statements(source, table.spindle.clockwise)?,
+        counter_clockwise: statements(source, table.spindle.counter_clockwise)?,
+        stop: statements(source, table.spindle.stop)?,
+    };
     template.base = frame(source, table.base)?;
     template.tool = tool(source, table.tool)?;
     for written in table.tools {
@@ -151,6 +172,20 @@ fn template(source: Source<'_>, table: TemplateTable) -> Answer<Template> {
         }
     }
     Ok(template)
+}
+
+/// Statements of the controller, each of which is one line.
+fn statements(source: Source<'_>, written: Vec<Spanned<String>>) -> Answer<Vec<String>> {
+    let is_line = |text: &str| !text.trim().is_empty() && !text.contains(char::is_control);
+    let wrong = written.iter().find(|line| !is_line(line.get_ref()));
+    match wrong {
+        Some(line) => Err(source.error(
+            line.span(),
+            "this is not one line of a program",
+            "write each statement as a text of its own, as in  clockwise = [\"$OUT[12]=TRUE\"]",
+        )),
+        None => Ok(written.into_iter().map(Spanned::into_inner).collect()),
+    }
 }
 
 /// A pose in mm.

@@ -1,0 +1,57 @@
+//! The options that stand on the command line, so that a command refuses those that it has no use for.
+
+use clap::ArgMatches;
+use clap::parser::ValueSource;
+
+use crate::ui::failure::{Answer, Failure};
+
+/// Options that were given, as they are written.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Given(Vec<String>);
+
+impl Given {
+    /// The options of the command that was called.
+    pub(crate) fn of(command: &clap::Command, matches: &ArgMatches) -> Self {
+        let Some((name, matches)) = matches.subcommand() else {
+            return Self::default();
+        };
+        let Some(command) = command.find_subcommand(name) else {
+            return Self::default();
+        };
+        let inner = Self::of(command, matches);
+        let own = command.get_arguments().filter(|argument| {
+            let id = argument.get_id().as_str();
+            let source = matches
+                .try_contains_id(id)
+                .ok()
+                .and_then(|_| matches.value_source(id));
+            source == Some(ValueSource::CommandLine)
+        });
+        let own = own.filter_map(|argument| Some(format!("--{}", argument.get_long()?)));
+        Self(own.chain(inner.0).collect())
+    }
+
+    /// Refuses every option but these; `why` says what the others are for.
+    pub(crate) fn refuse_but(&self, used: &[&str], why: &str) -> Answer<()> {
+        match self
+            .0
+            .iter()
+            .find(|option| !used.contains(&option.as_str()))
+        {
+            Some(option) => Err(Failure::input(format!("{option} {why}"))),
+            None => Ok(()),
+        }
+    }
+
+    /// Refuses these options; `why` says what they are for.
+    pub(crate) fn refuse(&self, unused: &[&str], why: &str) -> Answer<()> {
+        match self
+            .0
+            .iter()
+            .find(|option| unused.contains(&option.as_str()))
+        {
+            Some(option) => Err(Failure::input(format!("{option} {why}"))),
+            None => Ok(()),
+        }
+    }
+}

@@ -1,0 +1,85 @@
+//! Mass of the tool, which the machine carries beside its own.
+
+use kinetostat::Pose;
+use kinetostat_model::Model;
+use nalgebra::{Matrix3, Vector3};
+
+use crate::job::job_file::JobFile;
+use crate::ui::failure::{Answer, Failure};
+
+/// Mass of a tool and its centre in the frame of the flange.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct ToolMass {
+    pub(crate) mass_kg: f64,
+    pub(crate) centre_mm: Vector3<f64>,
+}
+
+/// Mass that a job states, with its centre halfway to the tip where none is stated.
+pub(crate) fn tool_mass(job: Option<&JobFile>, tool: &Pose) -> Answer<Option<ToolMass>> {
+    let Some(j) = job else { return Ok(None) };
+    let table = &j.job.tool;
+    let Some(mass) = &table.mass_kg else {
+        return match &table.centre_of_mass_mm {
+            Some(at) => Err(j.error(
+                at,
+                "the tool has a centre of mass and no mass",
+                "write mass_kg, too",
+            )),
+            None => Ok(None),
+        };
+    };
+    if !(1e-3..=5000.0).contains(mass.get_ref()) {
+        return Err(j.error(
+            mass,
+            "the mass of a tool is from 0.001 to 5000 kg",
+            "write it in kg",
+        ));
+    }
+    let centre = table.centre_of_mass_mm.as_ref();
+    if let Some(at) = centre.filter(|c| !c.get_ref().iter().all(|x| x.abs() <= 1e5)) {
+        return Err(j.error(
+            at,
+            "the centre of mass lies more than 100 m away",
+            "write it in mm from the flange",
+        ));
+    }
+    let halfway = 500.0 * tool.translation.vector;
+    Ok(Some(ToolMass {
+        mass_kg: *mass.get_ref(),
+        centre_mm: centre.map_or(halfway, |c| (*c.get_ref()).into()),
+    }))
+}
+
+/// The machine that carries a tool of this mass, as a point: statics, modes, chatter and placements are those of the sum.
+pub(crate) fn carrying(model: &Model, tool: ToolMass) -> Answer<Model> {
+    let mechanism = &model.mechanism;
+    let name = &mechanism.platforms()[mechanism.tool()].name;
+    let mut document = model.document.clone();
+    let Some(own) = document.platform.iter_mut().find(|p| p.name == *name) else {
+        return Err(Failure::input(format!(
+            "the model has no platform '{name}' that could carry the tool: leave mass_kg out of [tool]"
+        )));
+    };
+    let own_mass = own.mass_kg.unwrap_or(0.0);
+    let in_mm = own.centre_of_mass_mm.map(Vector3::from);
+    let in_m = own.centre_of_mass_m.map(|c| 1e3 * Vector3::from(c));
+    let own_centre = in_mm.or(in_m).unwrap_or_default();
+    let mass = own_mass + tool.mass_kg;
+    let centre = (own_mass * own_centre + tool.mass_kg * tool.centre_mm) / mass;
+    if own_mass > 0.0 || own.inertia_kg_m2.is_some() {
+        let rows = own.inertia_kg_m2.unwrap_or_default();
+        let mut inertia = Matrix3::from_fn(|i, k| rows[i][k]);
+        for (mass, from) in [(own_mass, own_centre), (tool.mass_kg, tool.centre_mm)] {
+            let d = 1e-3 * (from - centre);
+            inertia += mass * (Matrix3::identity() * d.norm_squared() - d * d.transpose());
+        }
+        own.inertia_kg_m2 = Some([0, 1, 2].map(|i| inertia.row(i).transpose().into()));
+    }
+    own.mass_kg = Some(mass);
+    own.centre_of_mass_mm = Some(centre.into());
+    own.centre_of_mass_m = None;
+    Ok(Model::from_document(
+        &document,
+        &format!("{} with the mass of its tool", model.name()),
+    )?)
+}

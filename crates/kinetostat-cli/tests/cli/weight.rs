@@ -1,0 +1,160 @@
+//! Own weight along programs: stated in the job or by options, refused where nobody says it, told in the headline.
+
+use crate::common::{Said, run, workplace};
+use serde_json::Value;
+use std::path::Path;
+
+const JOB: &str = "schema = 1\nmodel = \"arm.toml\"\nprogram = \"part.ngc\"\n[placement]\npart_origin_mm = [1500, 0, 900]\n[tool]\nlength_mm = 180\n[load]\nforce_n = [100, 0, -50]\n[output]\nprogram = \"out.ngc\"\n";
+
+fn here(job: &str, model: &str) -> tempfile::TempDir {
+    let here = workplace();
+    std::fs::write(here.path().join("job.toml"), job).expect("written");
+    std::fs::write(here.path().join("arm.toml"), model).expect("written");
+    here
+}
+
+fn arm() -> &'static str {
+    include_str!("../../../kinetostat-model/models/heavy_6r.toml")
+}
+
+fn said(here: &Path, line: &str) -> Said {
+    run(here, &line.split(' ').collect::<Vec<_>>())
+}
+
+fn flat(text: &str) -> String {
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+/// Largest displacement by own weight, the part of it that is an error, and the headline.
+fn deflected(here: &Path, more: &str) -> ([f64; 2], String) {
+    let found = said(here, &format!("deflect job.toml --json{more}")).answered();
+    let json: Value = serde_json::from_str(&found.out).expect("JSON");
+    let of = |name: &str| json["summary"][name].as_f64().expect("a figure");
+    let both = [
+        "max_displacement_by_weight_mm",
+        "max_error_by_own_weight_mm",
+    ]
+    .map(of);
+    (both, flat(&found.err))
+}
+
+#[test]
+fn every_command_along_a_program_asks_what_becomes_of_own_weight() {
+    let here = here(JOB, arm());
+    std::fs::copy(here.path().join("part.ngc"), here.path().join("other.ngc")).expect("a copy");
+    for line in [
+        "compensate job.toml",
+        "deflect job.toml",
+        "verify other.ngc --job job.toml",
+        "place job.toml --x-mm 1400 1600",
+    ] {
+        let found = said(here.path(), line);
+        let text = flat(&found.err);
+        assert_eq!(found.code, 1, "{line}: {found:?}");
+        for word in [
+            "own weight",
+            "\"touch-off\"",
+            "\"all\"",
+            "\"none\"",
+            "--weight",
+        ] {
+            assert!(text.contains(word), "{line}: {text}");
+        }
+    }
+    assert!(!here.path().join("out.ngc").exists());
+    let found = said(here.path(), "check job.toml");
+    assert!(flat(&(found.out + &found.err)).contains("\"touch-off\""));
+}
+
+#[test]
+fn options_and_job_say_the_same_and_the_headline_tells_it() {
+    let here = here(JOB, arm());
+    let of_option = |more: &str| deflected(here.path(), more);
+    let ([whole, error], text) = of_option(" --weight all");
+    assert!(
+        whole > 0.1 && (whole - error).abs() < 1e-9,
+        "{whole} {error}"
+    );
+    assert!(text.contains("all of it counts as an error"), "{text}");
+    let ([same, error], text) = of_option(" --weight none");
+    assert!(
+        (same - whole).abs() < 1e-9 && error < 1e-9,
+        "{same} {error}"
+    );
+    assert!(text.contains("none of it counts as an error"), "{text}");
+    let touched = " --weight touch-off --touch-off 0 0 0";
+    let ([same, error], text) = of_option(touched);
+    assert!(
+        (same - whole).abs() < 1e-9 && error < 0.2 * whole,
+        "{same} {error}"
+    );
+    assert!(text.contains("only its change"), "{text}");
+    let in_job = "[load]\nweight = \"touch-off\"\ntouch_off_mm = [[0, 0, 0]]\n";
+    let job = JOB.replace("[load]\n", in_job);
+    std::fs::write(here.path().join("job.toml"), job).expect("written");
+    assert_eq!(deflected(here.path(), "").0, [same, error]);
+    // An option goes over the job.
+    assert!(deflected(here.path(), " --weight none").0[1] < 1e-9);
+    for (line, word) in [
+        (
+            " --weight touch-off --touch-off 0 0 0 --touch-off 50 0 0",
+            "on one line",
+        ),
+        (" --weight all --touch-off 0 0 0", "leave the places out"),
+    ] {
+        let found = said(here.path(), &format!("deflect job.toml{line}"));
+        assert!(found.code == 1 && found.err.contains(word), "{found:?}");
+    }
+}
+
+/// A tool of 80 kg in the job is that of a model whose flange carries it.
+#[test]
+fn the_mass_of_the_tool_is_carried() {
+    let carried = "mass_kg = 80\ncentre_of_mass_mm = [10, 0, 70]\n";
+    let job = JOB.replace("[load]\n", "[load]\nweight = \"all\"\n");
+    let of_job = here(
+        &job.replace("length_mm = 180\n", &format!("length_mm = 180\n{carried}")),
+        arm(),
+    );
+    let platform = "[[platform]]\nname = \"tool\"\n";
+    assert!(arm().contains(platform), "the preset has another form");
+    let of_model = here(
+        &job,
+        &arm().replace(platform, &format!("{platform}{carried}")),
+    );
+    let bare = here(&job, arm());
+    let [of_job, of_model, bare] =
+        [&of_job, &of_model, &bare].map(|here| deflected(here.path(), "").0[0]);
+    assert!((of_job - of_model).abs() < 1e-9, "{of_job} {of_model}");
+    assert!(of_job > bare + 0.05, "{of_job} {bare}");
+}
+
+/// Own weight and load are told apart at a place, too.
+#[test]
+fn a_place_tells_what_the_load_moves() {
+    let here = here(JOB, arm());
+    let line = "deflect arm.toml --force 0 0 -100 --json";
+    let json: Value = serde_json::from_str(&said(here.path(), line).answered().out).expect("JSON");
+    let of = |name: &str| json[name].as_f64().expect("a figure");
+    let [all, by_load, unloaded] = [
+        "displacement_size_mm",
+        "displacement_by_load_size_mm",
+        "displacement_without_load_size_mm",
+    ]
+    .map(of);
+    // Both point down, so that their sizes add up nearly.
+    assert!(
+        (all - by_load - unloaded).abs() < 0.05 * all,
+        "{all} {by_load} {unloaded}"
+    );
+    assert!(by_load < 0.2 * all, "{by_load} {all}");
+    let text = flat(
+        &said(here.path(), "deflect arm.toml --force 0 0 -100")
+            .answered()
+            .out,
+    );
+    assert!(
+        text.contains("The load moves it by") && text.contains("own weight moves it by"),
+        "{text}"
+    );
+}
