@@ -9,7 +9,9 @@ use kinetostat_model::{Model, Parameter, ParametricModel};
 use nalgebra::{Matrix6, Vector6};
 use rayon::prelude::*;
 
-use super::{CommandedPlace, STEPS, SensitivityError, WEIGHTS, step_of};
+use super::differences::{STEPS, WEIGHTS, step_of};
+use super::error::SensitivityError;
+use super::place::CommandedPlace;
 
 /// Difference of the pose of the commanded machine from that of the posture above which the commands lead elsewhere, m and rad.
 const ELSEWHERE: f64 = 1e-6;

@@ -7,6 +7,8 @@
 //! is commanded for the same place, as a controller that knows the machine does. The margin is that of the limb that is nearest to
 //! buckling, also where another one overtakes it within a step; figures that are the largest of equal ones are told ([`Sharp`]).
 
+mod differences;
+mod error;
 mod gradients;
 mod place;
 mod sharp;
@@ -14,9 +16,11 @@ mod values;
 
 use kinetostat::machine::{LinearisedMachine, MachineResidual, MechanismState};
 use kinetostat::{Error, Mechanism, MechanismEquilibrium, Pose, Posture, Wrench};
-use kinetostat_model::{Model, ModelError, Parameter, ParameterKind, ParametricModel};
+use kinetostat_model::{Model, Parameter, ParametricModel};
 use rayon::prelude::*;
 
+use self::differences::{STEPS, WEIGHTS, step_of};
+pub use self::error::SensitivityError;
 pub use self::gradients::{Gradient, GradientTask, gradients};
 pub use self::place::CommandedPlace;
 pub use self::sharp::Sharp;
@@ -131,23 +135,6 @@ fn nearest_to_buckling(found: &MechanismEquilibrium) -> Option<usize> {
     nearest.next().filter(|_| nearest.next().is_none())
 }
 
-/// Why there are no derivatives at all.
-#[derive(Debug, thiserror::Error)]
-#[non_exhaustive]
-pub enum SensitivityError {
-    /// No equilibrium.
-    #[error(transparent)]
-    Machine(#[from] Error),
-    /// A path names nothing.
-    #[error(transparent)]
-    Model(#[from] ModelError),
-    /// Another posture has the same commands.
-    #[error(
-        "the commands of this posture lead to another pose of the tool; take a posture that its commands alone determine"
-    )]
-    Elsewhere,
-}
-
 struct Tangent<'a> {
     task: &'a SensitivityTask<'a>,
     posture: &'a Posture,
@@ -237,11 +224,6 @@ impl Tangent<'_> {
     }
 }
 
-/// Shares of the largest step.
-const STEPS: [f64; 3] = [1.0, 0.5, 0.25];
-/// Of central differences with these steps in the derivative of sixth order.
-const WEIGHTS: [f64; 3] = [1.0 / 45.0, -20.0 / 45.0, 64.0 / 45.0];
-
 /// The derivative of sixth order, and how far that of fourth order is from it.
 fn extrapolated(sides: &[Values]) -> (Values, Values) {
     let sum = |weights: [f64; 3]| {
@@ -255,20 +237,4 @@ fn extrapolated(sides: &[Values]) -> (Values, Values) {
     let fourth = sum([0.0, -1.0 / 3.0, 4.0 / 3.0]);
     let error = best.combined(&fourth, |x, y| (x - y).abs());
     (best, error)
-}
-
-/// A step that is small beside what the number does, in its unit.
-fn step_of(parameter: &Parameter) -> f64 {
-    let least = match parameter.kind {
-        ParameterKind::Length => 1e-3,
-        ParameterKind::Angle | ParameterKind::Direction => 4e-3,
-        ParameterKind::Mass | ParameterKind::Inertia | ParameterKind::Acceleration => 1e-2,
-        ParameterKind::Force | ParameterKind::Moment => 1.0,
-        ParameterKind::Ratio | ParameterKind::PoissonsRatio | ParameterKind::Factor => 1e-3,
-        _ => 0.0,
-    };
-    let least = least / parameter.in_si;
-    let step = (4e-3 * parameter.value.abs()).max(least);
-    // An entry of a matrix that is zero: as one of its unit.
-    if step > 0.0 { step } else { 1.0 }
 }

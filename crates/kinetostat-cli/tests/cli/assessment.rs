@@ -66,7 +66,7 @@ fn the_headline_follows_the_worst_of_what_is_stated() {
             _ => number(&summary["largest_backward_step_mm"]),
         };
         let stated = stated.into_iter().filter_map(Value::as_f64);
-        let worst_um = stated.fold(backward, f64::max) * 1e3;
+        let worst_um = kinetostat_testing::largest(stated.chain([backward])) * 1e3;
         let said_um = number(&assessment["max_error_um"]);
         assert!(
             (said_um - worst_um).abs() < 1e-9 * worst_um,

@@ -102,7 +102,7 @@ proptest! {
             let at = cut.at(std::f64::consts::TAU * (f64::from(i) + 0.37) / 2003.0);
             for (most, found) in largest.iter_mut().zip([at.in_plane_n(), at.torque_n_mm()]) {
                 prop_assert!(found.is_finite());
-                *most = most.max(found);
+                *most = kinetostat_testing::largest([*most, found]);
             }
         }
         for (peak, sampled) in [peaks.across.force.in_plane_n(), peaks.torque.force.torque_n_mm()].into_iter().zip(largest) {

@@ -46,7 +46,10 @@ pub(crate) fn files(
                     text += &wanted;
                     feed = wanted;
                 }
-                text += &format!("GOTO/{}", coordinates(&motion.end, template).join(","));
+                text += &format!(
+                    "GOTO/{}",
+                    coordinates(&motion.end, template.position_decimals).join(",")
+                );
                 if leans {
                     let axis =
                         [0, 1, 2].map(|i| fixed(motion.axis[i], template.quaternion_decimals));

@@ -41,7 +41,7 @@ pub(crate) fn files(
             }
             Step::Action(_) | Step::Statement(_) => {}
             Step::Motion(motion) => {
-                text += &coordinates(&motion.end, template).join(",");
+                text += &coordinates(&motion.end, template.position_decimals).join(",");
                 if let (true, Some(turn)) = (oriented, &motion.orientation) {
                     let numbers = angles(
                         turn,

@@ -56,7 +56,7 @@ pub(crate) fn of_frames(template: &Template, language: MakeLanguage, say: &mut i
 /// A program in LS holds the numbers of its frames alone: what they are has to be set at the controller.
 fn frames_of_controller(template: &Template, say: &mut impl FnMut(String)) {
     let six = |frame: &Isometry3<f64>| {
-        let [x, y, z] = coordinates(&frame.translation.vector, template);
+        let [x, y, z] = coordinates(&frame.translation.vector, template.position_decimals);
         let decimals = template.angle_decimals;
         let turn = angles(&frame.rotation, OrientationText::Wpr, decimals).into_iter();
         let turn: Vec<String> = ["W", "P", "R"]

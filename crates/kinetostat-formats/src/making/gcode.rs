@@ -45,7 +45,7 @@ pub(crate) fn files(
             Step::Statement(statement) => text += &format!("{statement}\n"),
             Step::Action(action) => text += &action_text(*action),
             Step::Motion(motion) => {
-                let [x, y, z] = coordinates(&motion.end, template);
+                let [x, y, z] = coordinates(&motion.end, template.position_decimals);
                 let word = match motion.way {
                     _ if motion.rapid => "G0",
                     Way::AboutZ {

@@ -113,7 +113,7 @@ impl Writer<'_> {
     }
 
     fn pose(&self, place: &Vector3<f64>, turn: &UnitQuaternion<f64>, behind: &str) -> String {
-        let [x, y, z] = coordinates(place, self.template);
+        let [x, y, z] = coordinates(place, self.template.position_decimals);
         let abc = angles(turn, OrientationText::Abc, self.template.angle_decimals);
         format!(
             "{{X {x},Y {y},Z {z},A {},B {},C {}{behind}}}",

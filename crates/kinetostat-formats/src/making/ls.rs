@@ -144,7 +144,7 @@ impl<'t> Writer<'t> {
         stated: Option<&str>,
     ) -> usize {
         self.count += 1;
-        let [x, y, z] = coordinates(place, self.template);
+        let [x, y, z] = coordinates(place, self.template.position_decimals);
         let wpr = angles(turn, OrientationText::Wpr, self.template.angle_decimals);
         let configuration = self
             .template

@@ -2,7 +2,6 @@
 
 use nalgebra::{UnitQuaternion, Vector3};
 
-use crate::making::template::Template;
 use crate::model::orientation::OrientationText;
 
 /// With so many decimals; a zero has no sign.
@@ -25,8 +24,8 @@ pub(crate) fn short(value: f64, decimals: usize) -> String {
 }
 
 /// The three coordinates.
-pub(crate) fn coordinates(place: &Vector3<f64>, template: &Template) -> [String; 3] {
-    [0, 1, 2].map(|axis| fixed(place[axis], template.position_decimals))
+pub(crate) fn coordinates(place: &Vector3<f64>, decimals: usize) -> [String; 3] {
+    [0, 1, 2].map(|axis| fixed(place[axis], decimals))
 }
 
 /// The numbers of an orientation; angles within half a turn.

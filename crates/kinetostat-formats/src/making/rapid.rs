@@ -167,7 +167,7 @@ impl<'t> Writer<'t> {
             let centre = tool
                 .centre_of_mass_mm
                 .unwrap_or_else(|| Vector3::new(0.0, 0.0, 1.0));
-            let [x, y, z] = coordinates(&centre, self.template);
+            let [x, y, z] = coordinates(&centre, self.template.position_decimals);
             let axes = (tool.axes_of_moment.as_ref())
                 .map_or_else(|| "1,0,0,0".to_owned(), |turn| self.quaternion_text(turn));
             let inertia = tool.inertia_kg_m2.unwrap_or_default();
@@ -222,7 +222,7 @@ impl<'t> Writer<'t> {
     }
 
     fn pose(&self, pose: &Isometry3<f64>) -> String {
-        let [x, y, z] = coordinates(&pose.translation.vector, self.template);
+        let [x, y, z] = coordinates(&pose.translation.vector, self.template.position_decimals);
         format!("[[{x},{y},{z}],[{}]]", self.quaternion_text(&pose.rotation))
     }
 
@@ -232,7 +232,7 @@ impl<'t> Writer<'t> {
         turn: &UnitQuaternion<f64>,
         configuration: &str,
     ) -> String {
-        let [x, y, z] = coordinates(place, self.template);
+        let [x, y, z] = coordinates(place, self.template.position_decimals);
         format!(
             "[[{x},{y},{z}],[{}],{configuration},{NO_AXES}]",
             self.quaternion_text(turn)

@@ -226,7 +226,10 @@ impl RunResult {
             s.max_corner_error_if_load_turns_mm,
             s.max_corner_error_if_load_follows_feed_mm,
         ];
-        let cost = readings.into_iter().flatten().reduce(f64::max);
+        let cost = readings
+            .into_iter()
+            .flatten()
+            .reduce(kinetostat::number::larger);
         let has_none = readings.contains(&None);
         let text = self.corners_text();
         add(AssumptionKind::Corners, cost, has_none, text);

@@ -130,7 +130,7 @@ fn several_places_take_out_the_rigid_motion_that_fits_best() {
     let places = [[0.0; 3], [300.0, 0.0, 0.0], [150.0, 200.0, 0.0]];
     let run = run(touched(&places), Vector3::zeros(), false).expect("a run");
     let arm = arm();
-    let (mut sum, mut moment, mut sizes) = (Vector3::zeros(), Vector3::zeros(), [0.0_f64; 2]);
+    let (mut sum, mut moment, mut sizes) = (Vector3::zeros(), Vector3::zeros(), [vec![], vec![]]);
     for place in places {
         let away = |p: &&kinetostat_machining::PointResult| {
             (Vector3::from(p.position_mm) - Vector3::from(place)).norm()
@@ -143,10 +143,10 @@ fn several_places_take_out_the_rigid_motion_that_fits_best() {
         let sag = moved(&arm, place, &Wrench::zero());
         // About where the frame has these places.
         moment += (Vector3::from(place) + sag - left).cross(&left);
-        sizes[0] = sizes[0].max(left.norm());
-        sizes[1] = sizes[1].max(sag.norm());
+        sizes[0].push(left.norm());
+        sizes[1].push(sag.norm());
     }
-    let [left, whole] = sizes;
+    let [left, whole] = sizes.map(kinetostat_testing::largest);
     assert!(whole > 0.3 && left < 0.1 * whole, "{left} {whole}");
     assert!(sum.norm() < 1e-8 && moment.norm() < 1e-5, "{sum} {moment}");
 }

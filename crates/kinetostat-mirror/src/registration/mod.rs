@@ -26,10 +26,12 @@ mod extent;
 mod free;
 mod horn;
 mod motion;
+mod options;
 mod search;
 mod starts;
 mod step;
 
 pub use candidates::ToldBy;
 pub use motion::{FreeMotion, Motion};
-pub use search::{Registration, RegistrationOptions, register};
+pub use options::RegistrationOptions;
+pub use search::{Registration, register};

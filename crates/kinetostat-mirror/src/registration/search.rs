@@ -4,11 +4,12 @@ use crate::error::MirrorError;
 use crate::number::larger;
 use crate::points::{MeasuredPoint, MeasuredPoints};
 use crate::registration::candidates::{Candidate, ToldBy, chosen};
-use crate::registration::closest::{Closest, Counting};
+use crate::registration::closest::Closest;
 use crate::registration::everywhere::everywhere;
 use crate::registration::extent::of_the_same_size;
 use crate::registration::horn::{Pair, closest_motion};
 use crate::registration::motion::{FreeMotion, Motion};
+use crate::registration::options::RegistrationOptions;
 use crate::registration::starts::starts;
 use crate::registration::step::step;
 use kinetostat_program::NominalPath;
@@ -37,36 +38,6 @@ const FEWEST: usize = 4;
 
 /// Two places are one where they are no farther apart than this, mm.
 const SAME_MM: f64 = 1e-6;
-
-/// How a registration is made.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct RegistrationOptions {
-    /// Seek a scale too: where the part has another temperature than its drawing.
-    pub with_scale: bool,
-    /// Seek a shift only: no turn, and no scale.
-    pub only_shift: bool,
-    /// How far the tool may be from its path, mm: points within that are not taken for others for being off.
-    pub window_mm: f64,
-}
-
-impl Default for RegistrationOptions {
-    fn default() -> Self {
-        Self {
-            with_scale: false,
-            only_shift: false,
-            window_mm: 1.0,
-        }
-    }
-}
-
-impl RegistrationOptions {
-    fn counting(self, without_outliers: bool) -> Counting {
-        Counting {
-            window_mm: self.window_mm,
-            without_outliers,
-        }
-    }
-}
 
 /// The motion found.
 #[derive(Clone, Debug, PartialEq)]

@@ -5,7 +5,7 @@ use nalgebra::{Matrix3, SMatrix, UnitQuaternion, Vector3};
 use crate::registration::closest::Closest;
 use crate::registration::free::{UNKNOWNS, Unknowns, free_motions};
 use crate::registration::motion::{FreeMotion, Motion};
-use crate::registration::search::RegistrationOptions;
+use crate::registration::options::RegistrationOptions;
 
 /// Eigenvalues of the normal equations below this share of the largest determine nothing.
 const UNDETERMINED: f64 = 1e-6;

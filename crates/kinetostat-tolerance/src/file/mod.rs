@@ -12,6 +12,7 @@ use crate::file::load::Load;
 use crate::file::written::{Reader, Written};
 use crate::uncertain::{Uncertain, Uncertainties};
 
+pub use rows::SharedNumber;
 pub use source::{CUTTING_PARTS, Source};
 
 /// What a file of uncertainties says.
@@ -23,28 +24,6 @@ pub struct UncertaintyFile {
     pub sources: Vec<Source>,
     /// Numbers that several limbs have and that move together in all of them.
     pub shared: Vec<SharedNumber>,
-}
-
-/// A number of a chain, a section or a stiffness that several limbs share.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct SharedNumber {
-    /// Path of the number.
-    pub name: String,
-    /// Limbs that have it.
-    pub limbs: Vec<String>,
-}
-
-impl SharedNumber {
-    /// States that the limbs move together, and the other way.
-    #[must_use]
-    pub fn description(&self) -> String {
-        format!(
-            "'{}' is one number of {} limbs ({}) and scatters in all of them together: write each = true in its table where every limb scatters by itself",
-            self.name,
-            self.limbs.len(),
-            self.limbs.join(", ")
-        )
-    }
 }
 
 impl UncertaintyFile {

@@ -8,7 +8,6 @@ use kinetostat_model::{Model, ParameterKind};
 use serde_spanned::Spanned;
 
 use crate::distribution::Distribution;
-use crate::file::SharedNumber;
 use crate::file::load::Load;
 use crate::file::source::Source;
 use crate::file::written::{Pair, Reader, Row};
@@ -18,6 +17,28 @@ use crate::uncertain::Uncertain;
 /// more is measured and put into the model.
 const LARGEST_LENGTH: f64 = 3e-3;
 const LARGEST_ANGLE: f64 = 2.0 * std::f64::consts::PI / 180.0;
+
+/// A number of a chain, a section or a stiffness that several limbs share.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct SharedNumber {
+    /// Path of the number.
+    pub name: String,
+    /// Limbs that have it.
+    pub limbs: Vec<String>,
+}
+
+impl SharedNumber {
+    /// States that the limbs move together, and the other way.
+    #[must_use]
+    pub fn description(&self) -> String {
+        format!(
+            "'{}' is one number of {} limbs ({}) and scatters in all of them together: write each = true in its table where every limb scatters by itself",
+            self.name,
+            self.limbs.len(),
+            self.limbs.join(", ")
+        )
+    }
+}
 
 impl Reader<'_> {
     /// The rows, those with `each` once for every limb; numbers without it that several limbs share are added to `shared`.

@@ -304,6 +304,15 @@ impl Chain {
     /// Stiffness matrix `K_theta` of the springs at an unloaded posture [R 3.5], in the order of
     /// [`Self::indices_of`] for [`Role::Spring`]; N/m, N, N m/rad.
     ///
+    /// ```
+    /// # use kinetostat::*;
+    /// # use kinetostat::nalgebra::Vector3;
+    /// let column = Chain::builder("column").spring("lift", MotionKind::Prismatic, Vector3::z(), 2e6, 0.0);
+    /// let chain = column.build()?;
+    /// assert_eq!(chain.spring_stiffness(&chain.home_coordinates())?[(0, 0)], 2e6);
+    /// # Ok::<(), Error>(())
+    /// ```
+    ///
     /// # Errors
     /// [`Error::Size`] for a list of another length.
     pub fn spring_stiffness(&self, coordinates: &[f64]) -> Result<DMatrix<f64>> {

@@ -103,7 +103,8 @@ impl PlatformSolver<'_> {
         energy: f64,
     ) -> Option<((MechanismResiduals, Vec<Wrench>), f64)> {
         let size = step.motions.iter().map(|motion| self.size(motion));
-        let length = (STEP / size.fold(0.0, larger)).min(1.0);
+        let largest = size.fold(0.0, larger);
+        let length = (STEP / largest).min(1.0);
         let steps = self.limb_steps(step, &start.state);
         if !self.go(start, step, &steps, length) {
             return None;

@@ -1,0 +1,33 @@
+//! How a registration is made.
+
+use crate::registration::closest::Counting;
+
+/// How a registration is made.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RegistrationOptions {
+    /// Seek a scale too: where the part has another temperature than its drawing.
+    pub with_scale: bool,
+    /// Seek a shift only: no turn, and no scale.
+    pub only_shift: bool,
+    /// How far the tool may be from its path, mm: points within that are not taken for others for being off.
+    pub window_mm: f64,
+}
+
+impl Default for RegistrationOptions {
+    fn default() -> Self {
+        Self {
+            with_scale: false,
+            only_shift: false,
+            window_mm: 1.0,
+        }
+    }
+}
+
+impl RegistrationOptions {
+    pub(crate) fn counting(self, without_outliers: bool) -> Counting {
+        Counting {
+            window_mm: self.window_mm,
+            without_outliers,
+        }
+    }
+}
