@@ -19,7 +19,7 @@ pub fn nearest_rotation(m: &Matrix3<f64>) -> Option<UnitQuaternion<f64>> {
     Some(UnitQuaternion::from_rotation_matrix(&rotation))
 }
 
-/// The rigid motion that brings points nearest to others [Kabsch]; none where they lie on a line.
+/// The rigid motion that brings points nearest to others (Kabsch); none where they lie on a line.
 ///
 /// ```
 /// use kinetostat::nalgebra::{Isometry3, Point3, Vector3};

@@ -113,7 +113,7 @@ pub(crate) fn parquet_row(file: &SourceFile, line: &Range<usize>) -> Option<usiz
 }
 
 /// Lines from a place on that are neither empty nor comments, without blanks around them.
-fn lines_of(bytes: &[u8], from: usize) -> impl Iterator<Item = Range<usize>> {
+pub(crate) fn lines_of(bytes: &[u8], from: usize) -> impl Iterator<Item = Range<usize>> {
     let mut at = from;
     std::iter::from_fn(move || {
         while at < bytes.len() {

@@ -2,7 +2,7 @@
 //!
 //! Which of the two a file is, [`carrier`] says; [`cells`] finds the cells of a line, [`tree`] the nodes of YAML
 //! ([`characters`]). What a name means, [`columns`] says, and [`layout`] what all names of a row mean together; [`row`] reads
-//! the row, [`joints`] finds the poses of joint values. [`units`] decides what a length
+//! the row, [`joints`] finds the poses of joint values, [`decimal_comma`] reads commas as points. [`units`] decides what a length
 //! is: a wrong factor of 1000 is the worst fault of such a list. What each name is taken for stands in [`table`].
 //!
 //! Source: RFC 4180 (CSV), YAML 1.2.2, ROS `geometry_msgs/Pose` with REP 103 (metres, quaternions).
@@ -12,6 +12,7 @@ pub(crate) mod cells;
 pub(crate) mod characters;
 pub(crate) mod columns;
 pub(crate) mod csv;
+pub(crate) mod decimal_comma;
 pub(crate) mod joints;
 pub(crate) mod layout;
 #[cfg(feature = "parquet")]

@@ -11,6 +11,7 @@ use crate::model::target::{Configuration, PoseTarget, Target};
 use crate::options::{ExternalAxes, LengthUnit, ReadOptions};
 use crate::poses::carrier::Carrier;
 use crate::poses::csv::{parquet_row, read_table};
+use crate::poses::decimal_comma::with_points;
 use crate::poses::joints::{base, between_rows, joint_target};
 use crate::poses::row::{Row, RowTarget, Rows};
 use crate::poses::units::{Reach, mm_of};
@@ -32,7 +33,8 @@ const PARQUET_REMEDY: &str = "write it as CSV (in Python  pandas.read_parquet('a
 /// Reads lists of poses: tables (`.csv`, `.tsv`) and YAML (`.yaml`, `.yml`).
 ///
 /// A table has a line of names with units in front (`x_mm,y_mm,z_mm`, `qw,qx,qy,qz`, `speed_mm_per_s`, ...; all of them:
-/// [`crate::POSES_STATEMENTS`]), in any order, between commas, semicolons or tabs. In YAML a raster is a list of items with
+/// [`crate::POSES_STATEMENTS`]), in any order, between commas, semicolons or tabs; decimal commas may
+/// stand between the latter two, and are written again. In YAML a raster is a list of items with
 /// `position` and `orientation`. The first pose of a raster is reached by a joint motion, the others on straight lines. A
 /// table of joint values (`joint_1_deg`, ...) is read as [`Target::Joints`], which is not corrected.
 ///
@@ -87,7 +89,8 @@ pub(crate) fn parse_poses(files: Vec<SourceFile>, options: &ReadOptions) -> Pars
             continue;
         }
         let before = reader.faults.len();
-        reader.file(index, file);
+        let with_points = with_points(file);
+        reader.file(index, with_points.as_ref().unwrap_or(file));
         for fault in &mut reader.faults[before..] {
             // Such a file has no lines that a person could look up.
             if let Some(row) = parquet_row(file, &fault.span) {

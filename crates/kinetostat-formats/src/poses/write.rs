@@ -10,6 +10,7 @@ use crate::model::motion::Motion;
 use crate::model::program::RobotProgram;
 use crate::model::site::TargetSite;
 use crate::options::WriteOptions;
+use crate::poses::decimal_comma::{with_commas, with_points};
 use crate::text::edits::Edits;
 use crate::text::number::NumberText;
 use crate::writing::motions::write_with;
@@ -36,7 +37,13 @@ pub(crate) fn write_poses(
         // As fine in metres.
         options.position_decimals += 3;
     }
-    write_with(program, &all, &options, &PosesSyntax)
+    let mut written = write_with(program, &all, &options, &PosesSyntax)?;
+    for (file, (name, bytes)) in program.files.iter().zip(&mut written) {
+        if with_points(file).is_some() {
+            *bytes = with_commas(name, std::mem::take(bytes));
+        }
+    }
+    Ok(written)
 }
 
 /// How many mm one of the text is: what was read against what is written, at a place that is not zero.

@@ -132,8 +132,8 @@ fn rows_that_are_wrong_are_refused_by_line_all_at_once() {
             .contains("`4e4`: the angle is more than a hundred turns"),
         "{found:?}"
     );
-    // German tables: commas of decimals.
-    let found = errors("a.csv", "x_mm;y_mm;z_mm\n1,5;2;3\n");
+    // Commas of decimals beside points of decimals, or of thousands.
+    let found = errors("a.csv", "x_mm;y_mm;z_mm\n1,5;2.0;3\n");
     assert!(found[0].1.contains("`1,5`: it is no number"), "{found:?}");
     let found = errors("a.csv", "x_mm,y_mm,z_mm\n1,5,2,3\n");
     assert!(

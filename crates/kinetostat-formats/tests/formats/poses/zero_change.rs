@@ -3,7 +3,7 @@
 use kinetostat_formats::*;
 use nalgebra::{Isometry3, Rotation3, UnitQuaternion, Vector3};
 
-use super::{RASTERS, TABLE, place, program, read_with};
+use super::{RASTERS, TABLE, place, program, read_with, written};
 
 #[test]
 fn every_byte_comes_back_with_any_line_ending() {
@@ -26,6 +26,23 @@ fn every_byte_comes_back_with_any_line_ending() {
             assert!(files == [(name.to_owned(), bytes)]);
         }
     }
+}
+
+/// As spreadsheets in German write it: each number is read, and corrected ones have commas again.
+#[test]
+fn decimal_commas_are_read_and_written_again() {
+    let text = "x_mm;y_mm;z_mm;note\r\n1200,5;-0,25;9e2;a, b.c\r\n1,5e3;1;900,125;1\r\n";
+    let own = program("de.csv", text);
+    assert_eq!(place(&own, 0), [1200.5, -0.25, 900.0]);
+    assert_eq!(place(&own, 1), [1500.0, 1.0, 900.125]);
+    assert_eq!(written(&own, &[]), text);
+    let pose = own.motions[1].target.pose().unwrap().clone();
+    let moved = Piece::to(1, pose.position_mm + Vector3::new(0.5, 0.25, 0.0));
+    let corrected = text.replace("1,5e3;1;900,125", "1500,500;1,250;900,125");
+    assert_eq!(written(&own, &[moved]), corrected);
+    // Whether a point stands behind thousands is not known then.
+    let both = text.replace("9e2", "900.125");
+    assert!(read_with("de.csv", both.as_bytes(), &ReadOptions::default()).is_err());
 }
 
 #[test]

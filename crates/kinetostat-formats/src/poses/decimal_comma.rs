@@ -1,0 +1,53 @@
+//! Tables with decimal commas, as spreadsheets in German or French write them: semicolons or tabs between cells.
+
+use std::ops::Range;
+
+use crate::poses::carrier::Carrier;
+use crate::poses::cells::{cells_of, number_of, separator_of};
+use crate::poses::csv::lines_of;
+use crate::text::source::{SourceFile, beginning};
+
+/// The table with points in place of its decimal commas, byte for byte in the same places; none where it has no such commas, or points
+/// too.
+pub(crate) fn with_points(file: &SourceFile) -> Option<SourceFile> {
+    let mut points = file.bytes().to_vec();
+    let mut found = false;
+    for cell in cells(file) {
+        let is_mark = |at: &usize| matches!(file.bytes()[*at], b',' | b'.');
+        let Some(mark) = cell.clone().find(is_mark) else {
+            continue;
+        };
+        let is_comma = points[mark] == b',';
+        points[mark] = b'.';
+        match (number_of(&points, &cell), is_comma) {
+            (Some(_), true) => found = true,
+            // Whether that point stands before thousandths or behind thousands is not known.
+            (Some(_), false) => return None,
+            (None, _) => points[mark] = file.bytes()[mark],
+        }
+    }
+    found.then(|| SourceFile::new(file.name(), points))
+}
+
+/// A written table with commas in place of the points of its numbers.
+pub(crate) fn with_commas(name: &str, bytes: Vec<u8>) -> Vec<u8> {
+    let file = SourceFile::new(name, bytes);
+    let mut commas = file.bytes().to_vec();
+    for cell in cells(&file).filter(|cell| number_of(file.bytes(), cell).is_some()) {
+        if let Some(point) = cell.clone().find(|at| commas[*at] == b'.') {
+            commas[point] = b',';
+        }
+    }
+    commas
+}
+
+/// The cells below the line of names of a table between whose cells no commas stand.
+fn cells(file: &SourceFile) -> impl Iterator<Item = Range<usize>> {
+    let bytes = file.bytes();
+    let mut lines = lines_of(bytes, beginning(bytes));
+    let head = lines.next().filter(|_| Carrier::of(file) == Carrier::Table);
+    let separator = head.map_or(b',', |head| separator_of(file.part(&head)));
+    lines
+        .take_while(move |_| separator != b',')
+        .flat_map(move |line| cells_of(bytes, line, separator).unwrap_or_default())
+}
