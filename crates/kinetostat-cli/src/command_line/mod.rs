@@ -2,7 +2,6 @@
 //!
 //! It takes the words of the command line, negative numbers among them made readable, and gives a [`Command`].
 
-pub(crate) mod given;
 pub(crate) mod negative_numbers;
 
 use clap::{Parser, Subcommand};

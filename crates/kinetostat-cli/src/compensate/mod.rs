@@ -15,7 +15,6 @@ use std::path::{Path, PathBuf};
 use kinetostat_formats::Language;
 use kinetostat_machining::merged;
 
-use crate::command_line::given::Given;
 use crate::compensate::arguments::CompensateArgs;
 use crate::compensate::copy::{copy, rotary_of_copy};
 use crate::convert::for_run::in_other_language;
@@ -40,6 +39,7 @@ use crate::program::features::refuse_missed_features;
 use crate::program::outputs::RunOutputs;
 use crate::program::{report, solve, summary};
 use crate::ui::failure::{Answer, Failure};
+use crate::ui::given::Given;
 
 pub(crate) fn run(mut args: CompensateArgs, given: &Given) -> Answer<()> {
     job_after_json(&mut args);

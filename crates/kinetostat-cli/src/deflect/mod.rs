@@ -11,7 +11,6 @@ mod text;
 
 use std::path::Path;
 
-use crate::command_line::given::Given;
 use crate::deflect::arguments::DeflectArgs;
 use crate::deflect::place::at_place;
 use crate::deflect::program::along_program;
@@ -20,6 +19,7 @@ use crate::files::input_files::InputFiles;
 use crate::job::all_faults::{RunQuery, with_all_others};
 use crate::job::arguments::WritingFlags;
 use crate::ui::failure::{Answer, Failure};
+use crate::ui::given::Given;
 
 pub(crate) fn run(args: DeflectArgs, given: &Given) -> Answer<()> {
     let subject = Path::new(&args.subject);

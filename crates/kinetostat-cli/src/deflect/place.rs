@@ -4,7 +4,6 @@ use std::path::Path;
 
 use kinetostat::Wrench;
 
-use crate::command_line::given::Given;
 use crate::deflect::answer::answer;
 use crate::deflect::arguments::DeflectArgs;
 use crate::deflect::text::answer_text;
@@ -13,6 +12,7 @@ use crate::files::outputs::{self, Existing, Outputs};
 use crate::machine::displacement_warnings::snaps;
 use crate::place::query::place_query;
 use crate::ui::failure::{Answer, Failure};
+use crate::ui::given::Given;
 use crate::ui::json;
 
 /// Why nothing is reported of a place where the machine's own loads find no equilibrium.

@@ -25,7 +25,6 @@ mod turning;
 
 use std::path::PathBuf;
 
-use crate::command_line::given::Given;
 use crate::files::answer_files::{ClaimedFiles, Shown};
 use crate::files::input_files::InputFiles;
 use crate::force::answer_of::answer_of;
@@ -35,6 +34,7 @@ use crate::force::material::{Made, applied, material, materials};
 use crate::force::tool::tool_of;
 use crate::ui::background::interruptible;
 use crate::ui::failure::{Answer, Failure};
+use crate::ui::given::Given;
 
 /// Options of a dynamometer's log.
 const OF_A_FIT: [&str; 4] = ["--acts-on", "--group", "--spread-percent", "--out-material"];

@@ -16,13 +16,13 @@ use kinetostat_machining::{Warning, WarningCode};
 use kinetostat_report::lobes_svg;
 use nalgebra::Vector3;
 
-use crate::command_line::given::Given;
 use crate::files::answer_files::{ClaimedFiles, Shown};
 use crate::lobes::answer::LobesAnswer;
 use crate::lobes::arguments::LobesArgs;
 use crate::lobes::coefficients::CutCoefficients;
 use crate::options::vector;
 use crate::ui::failure::{Answer, Failure};
+use crate::ui::given::Given;
 use crate::ui::numbers::number;
 use crate::vibration::stability::{damped, implausible, left_out_warning};
 use crate::vibration::{damping::words, subject};

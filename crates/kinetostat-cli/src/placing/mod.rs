@@ -15,7 +15,6 @@ use std::path::{Path, PathBuf};
 use kinetostat_machining::{Task, analyse};
 use kinetostat_placing::{Effort, Placed, Space, place};
 
-use crate::command_line::given::Given;
 use crate::files::input_files::InputFiles;
 use crate::files::outputs::{self, Existing, Outputs};
 use crate::job::arguments::{ProgramArgs, WritingFlags};
@@ -31,6 +30,7 @@ use crate::placing::part::beside_the_part;
 use crate::program::aim::Aim;
 use crate::program::solve::{forces_of, with_task};
 use crate::ui::failure::{Answer, Failure};
+use crate::ui::given::Given;
 use crate::ui::json;
 use crate::ui::progress::Progress;
 use crate::ui::threads::in_threads;

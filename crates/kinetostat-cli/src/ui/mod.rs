@@ -8,6 +8,7 @@ pub(crate) mod csv_cell;
 pub(crate) mod csv_table;
 pub(crate) mod failure;
 pub(crate) mod fault_list;
+pub(crate) mod given;
 pub(crate) mod host;
 pub(crate) mod json;
 pub(crate) mod language;

@@ -1,6 +1,7 @@
 //! What a run gives: plain data with units in the names, and the figures and sentences made from them once, so that
 //! terminal, report and JSON say the same. Computes no posture.
 
+mod assess;
 pub(crate) mod assessment;
 pub(crate) mod chatter;
 pub(crate) mod cutting;
