@@ -65,7 +65,8 @@ pub(crate) struct ProgramArgs {
     #[arg(long, num_args = 3, value_names = ["RADIAL", "TANGENTIAL", "AXIAL"], allow_negative_numbers = true, conflicts_with_all = ["force", "moment", "load_axes"], help_heading = "Load", value_parser = number)]
     pub(crate) milling: Option<Vec<f64>>,
     /// Load on the steps that are written at sharp corners: it turns evenly while the tool steps, or it
-    /// follows the feed; the program is the same, the claim about it is not [default: turns]
+    /// follows the feed; the program is the same, the claim about it is not [default: turns, which is an
+    /// assumption until it is stated]
     #[arg(long, value_enum, value_name = "READING", help_heading = "Load")]
     pub(crate) load_at_corners: Option<CornerWord>,
     /// The load acts only below this height of the program, mm

@@ -79,7 +79,9 @@ pub(crate) fn load(
     };
     possible(cutting)?;
     let mut load = ProgramLoad::new(cutting);
-    load.at_corners = match flags.load_at_corners.or(table.at_corners) {
+    let at_corners = flags.load_at_corners.or(table.at_corners);
+    load.corners_stated = at_corners.is_some();
+    load.at_corners = match at_corners {
         Some(CornerWord::FollowsFeed) => CornerLoad::FollowsFeed,
         Some(CornerWord::Turns) | None => CornerLoad::Turns,
     };

@@ -94,3 +94,31 @@ fn the_headline_follows_the_worst_of_what_is_stated() {
         assert_eq!(page.contains("if all assumptions hold"), code == 4);
     }
 }
+
+/// A load at corners that is stated is no assumption.
+#[test]
+fn what_is_stated_of_corners_is_not_assumed() {
+    let here = workplace();
+    std::fs::write(here.path().join("pocket.ngc"), POCKET).expect("a program");
+    for (stated, is_assumed) in [("", true), ("at_corners = \"turns\"\n[material]", false)] {
+        let job = JOB.replace("TOLERANCE", "path_um = 20");
+        let job = match stated {
+            "" => job,
+            stated => job.replace("[material]", stated),
+        };
+        std::fs::write(here.path().join("job.toml"), job).expect("a job");
+        let words = ["compensate", "job.toml", "--force-overwrite"];
+        run(here.path(), &words).answered();
+        let found = std::fs::read_to_string(here.path().join("out.json")).expect("a result");
+        let found: Value = serde_json::from_str(&found).expect("JSON");
+        assert!(
+            found["summary"]["corner_steps"].as_u64() > Some(0),
+            "{found}"
+        );
+        let assumptions = found["assessment"]["assumptions"]
+            .as_array()
+            .expect("a list");
+        let corners = assumptions.iter().any(|a| a["kind"] == "corners");
+        assert_eq!(corners, is_assumed, "{assumptions:?}");
+    }
+}

@@ -93,6 +93,9 @@ pub struct ProgramLoad {
     /// What it is on the steps written at sharp corners. Default [`CornerLoad::Turns`].
     #[serde(default)]
     pub at_corners: CornerLoad,
+    /// That was stated, and is no assumption. Default false.
+    #[serde(default)]
+    pub corners_stated: bool,
 }
 
 fn largest_step() -> f64 {
@@ -121,6 +124,7 @@ impl ProgramLoad {
             turning_length_mm: 2.0,
             largest_step: largest_step(),
             at_corners: CornerLoad::Turns,
+            corners_stated: false,
         }
     }
 

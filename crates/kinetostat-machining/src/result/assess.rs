@@ -127,7 +127,8 @@ impl RunResult {
             .flatten()
             .reduce(kinetostat::number::larger);
         let has_none = readings.contains(&None);
-        let text = self.corners_text();
+        let is_stated = self.run_inputs.corners_stated;
+        let text = self.corners_text().filter(|_| !is_stated);
         add(AssumptionKind::Corners, cost, has_none, text);
         let backward = Some(s.largest_backward_step_mm);
         let text = self.backward_text();

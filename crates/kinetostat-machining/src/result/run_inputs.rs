@@ -77,6 +77,9 @@ pub struct RunInputs {
     /// What the load is taken to be while the written program steps at sharp corners.
     #[serde(default)]
     pub load_at_corners: CornerLoad,
+    /// That was stated, of all tools, and is no assumption.
+    #[serde(default)]
+    pub corners_stated: bool,
     /// The same for each tool that the program takes by number; empty where there is one tool.
     #[serde(default)]
     pub tools_at_corners: Vec<ToolAtCorners>,

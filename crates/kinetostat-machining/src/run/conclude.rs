@@ -130,6 +130,10 @@ fn run_inputs_of(
 ) -> RunInputs {
     let (box_min_mm, box_max_mm) = feed_box(points);
     let tools = task.tools.iter();
+    let corners_stated = match task.tools {
+        [] => task.load.corners_stated,
+        tools => tools.iter().all(|tool| tool.load.corners_stated),
+    };
     RunInputs {
         load: load_description(task.mechanism, load),
         weight: task.weight.clone(),
@@ -140,6 +144,7 @@ fn run_inputs_of(
         states_orientation: task.path().moves.iter().any(|m| m.tool_turn.is_some()),
         orientation_corrected: compensated && task.corrected == Directions::ALL,
         load_at_corners: task.load.at_corners,
+        corners_stated,
         tools_at_corners: tools
             .map(|tool| ToolAtCorners {
                 number: tool.number,
