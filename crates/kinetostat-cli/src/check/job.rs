@@ -21,7 +21,7 @@ use crate::files::input_files::InputFiles;
 use crate::files::outputs::may_be_written;
 use crate::job::all_faults::{RunQuery, with_all_others};
 use crate::job::arguments::{ProgramArgs, WritingFlags};
-use crate::job::cut::along;
+use crate::job::cut::along::{self, refuse_what_breaks_the_tool};
 use crate::job::feature_lines::refuse_lines_beyond;
 use crate::job::file_endings::refuse_other_endings;
 use crate::job::job_file::JobFile;
@@ -30,6 +30,7 @@ use crate::job::of_model::give_of_model;
 use crate::job::output_paths::OutputPaths;
 use crate::job::setting::{Setting, setting};
 use crate::job::target_word::RobotWord;
+use crate::job::turn_arguments::FreeTurnWord;
 use crate::job::{program, run_warnings};
 use crate::program::aim::Aim;
 use crate::program::chatter::Judging;
@@ -61,9 +62,9 @@ struct JobFindings {
     ends: Vec<EndFinding>,
     outputs: Vec<OutputFinding>,
     warnings: Vec<Warning>,
-    /// A compensation would refuse the question for one of its warnings.
+    /// Why a compensation would refuse the question.
     #[serde(skip)]
-    refused: bool,
+    refused: Option<Failure>,
 }
 
 #[derive(Serialize)]
@@ -115,6 +116,9 @@ pub(crate) fn run(path: &Path, json: bool) -> Answer<()> {
     let text = answer_text(&found);
     let flat = found.program.flat.as_ref();
     json::print_answer(&text, &WithSources(&found, flat), json)?;
+    if let Some(refused) = found.refused {
+        return Err(refused);
+    }
     match found.ends.iter().filter(|e| !e.reached).count() {
         0 => Ok(()),
         n => Err(Failure::unanswered(format!(
@@ -146,10 +150,12 @@ fn findings(files: &InputFiles, path: &Path, flags: &ProgramArgs) -> Answer<JobF
     ));
     let judging = Judging::of_run((&machine, &model), &setting)
         .map_err(|failure| failure.within(&path.display().to_string()))?;
-    let check = |task: &Task<'_>| (refused_question(task), unusual_question(task));
+    let is_placed = setting.free_turn == FreeTurnWord::AsStated;
+    let check = |task: &Task<'_>| (refused_question(task, is_placed), unusual_question(task));
     let forces = forces_of(&machine, &setting, motion, &Unwatched)?;
     let forces = forces.as_ref();
-    let (refused, unusual) = with_task(Aim::Compensate, &machine, &setting, &read, forces, check)?;
+    let ((refused, error), unusual) =
+        with_task(Aim::Compensate, &machine, &setting, &read, forces, check)?;
     warnings.extend(along::warnings(forces));
     warnings.extend(setting.of_expansion());
     if let Some(word) = to(&job) {
@@ -163,7 +169,8 @@ fn findings(files: &InputFiles, path: &Path, flags: &ProgramArgs) -> Answer<JobF
     }
     // The list is cut behind some: what keeps the part from being cut comes first.
     warnings.sort_by_key(|warning| warning.code != WarningCode::SpindleNotStarted);
-    let is_refused = !refused.is_empty() || along::breaks_the_tool(forces).is_some();
+    let of_tool = refuse_what_breaks_the_tool(forces, &setting).err();
+    let error = of_tool.or_else(|| Some(setting.within(error?.into())));
     warnings.extend(refused);
     warnings.extend(unusual);
     outputs_can_be(&setting)?;
@@ -201,7 +208,7 @@ fn findings(files: &InputFiles, path: &Path, flags: &ProgramArgs) -> Answer<JobF
         ends: ends(&machine.mechanism, &machine.placement, motion),
         outputs: outputs(&setting.targets),
         warnings: of_warnings(warnings, setting.flat.as_ref()),
-        refused: is_refused,
+        refused: error,
     })
 }
 
@@ -395,7 +402,7 @@ fn answer_text(f: &JobFindings) -> String {
     if !missed.is_empty() {
         mended.push("what the machine does not reach: part_origin_mm, the tool or its orientation");
     }
-    if f.refused {
+    if f.refused.is_some() {
         mended.push("what `kinetostat compensate` refuses: see the warnings above");
     }
     out.push_str(&match mended.is_empty() {

@@ -40,7 +40,7 @@ fn check_says_what_is_to_be_mended_before_a_compensation() {
         (0, "  kinetostat compensate job.toml\n".to_owned())
     );
     let (code, advice) = next(JOB.replace("radial_n = 215", "radial_n = 5200"));
-    assert_eq!(code, 0);
+    assert_eq!(code, 1);
     assert!(
         advice.contains("mend first what `kinetostat compensate` refuses"),
         "{advice}"
@@ -64,4 +64,31 @@ fn a_place_out_of_reach_is_not_blamed_on_the_load() {
     let said = run(here.path(), &["deflect", "job.toml"]);
     assert_eq!(said.code, 2, "{said:?}");
     assert!(!said.err.contains("force_n"), "{said:?}");
+}
+
+/// What `compensate` refuses by a limit, `check` refuses for the same reason; an analysis, which corrects nothing, warns of it.
+#[test]
+fn a_strict_limit_refuses_where_something_is_corrected() {
+    let here = workplace();
+    for limits in [
+        "correction_mm = 0.001",
+        "force_n = 10\ncorrection_mm = 0.001",
+    ] {
+        let job = format!(
+            "{}[limits]\n{limits}\n",
+            crate::mirror::job("part.ngc", "orthoglide")
+        );
+        std::fs::write(here.path().join("job.toml"), job).expect("written");
+        let of = |command: &str| run(here.path(), &[command, "job.toml"]);
+        let [check, compensate, deflect] = ["check", "compensate", "deflect"].map(of);
+        assert_eq!(
+            [check.code, compensate.code, deflect.code],
+            [1, 1, 0],
+            "{check:?} {deflect:?}"
+        );
+        let limit = limits.split(' ').next().expect("a name");
+        for text in [check.err, compensate.err, deflect.out] {
+            assert!(text.contains(limit), "{limits}: {text}");
+        }
+    }
 }

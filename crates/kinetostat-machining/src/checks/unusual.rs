@@ -1,13 +1,13 @@
 //! What is allowed and unusual, about the question and about its answer: usually a unit is wrong.
 
 use kinetostat::number::{largest, short};
-use kinetostat_program::{Knowledge, Move, Path, WriteOptions};
+use kinetostat_program::WriteOptions;
 
 use crate::checks::correction::{besides, odd_correction};
 use crate::checks::exceeded::ODD;
 use crate::checks::load::{loads, never_acts, odd_load};
 use crate::checks::motion::no_motion;
-use crate::checks::own_weight::{by_own_loads, weight_is_stated};
+use crate::checks::own_weight::by_own_loads;
 use crate::checks::placement::{origin_in_metres, outside_workspace};
 use crate::checks::refused::{as_warning, of_task};
 use crate::checks::tool::odd_tool;
@@ -15,8 +15,11 @@ use crate::checks::tool_axis::{at_pole, odd_tool_axis, tip_behind_flange};
 use crate::limits::Limits;
 use crate::result::point::{PointResult, most, size};
 use crate::result::summary::Summary;
-use crate::task::Task;
+use crate::run::first_look::FirstLook;
+use crate::run::preparation::{load, refuse};
+use crate::task::{RunError, Task};
 use crate::warning::{Warning, WarningCode};
+use crate::watch::Unwatched;
 
 /// Softer tools than this are no machines that cut, N/mm.
 const SOFT: f64 = 50.0;
@@ -56,33 +59,28 @@ pub fn odd_tolerances(writing: &WriteOptions) -> Vec<Warning> {
         .collect()
 }
 
-/// What a compensation refuses a question for before anything is solved.
+/// What a compensation refuses a question for before anything is solved along the whole program, as warnings, and its first error.
+/// `is_placed`: the tool stands as the task says, and not as it is still to be chosen, so that figures at places count.
 #[must_use]
-pub fn refused_question(task: &Task<'_>) -> Vec<Warning> {
-    let beyond = of_task(task).into_iter();
-    let mut list: Vec<Warning> = beyond.map(|beyond| as_warning(&beyond)).collect();
-    let motion = no_motion(task.path());
-    list.extend(motion.map(|reason| Warning::new(WarningCode::Program, reason.to_string())));
-    let unstated = weight_is_stated(task, &some_ends(task.path())).err();
-    list.extend(unstated.map(|error| Warning::new(WarningCode::Program, error.to_string())));
-    list
-}
-
-/// Most ends of moves at which the displacement by own weight is looked at.
-const MOST_ENDS: usize = 8;
-
-/// Some ends of moves, as places of a run.
-fn some_ends(path: &Path) -> Vec<PointResult> {
-    let known = || path.moves.iter().filter(|m| m.known != Knowledge::Nothing);
-    let every = known().count().div_ceil(MOST_ENDS).max(1);
-    let end = |motion: &Move| PointResult {
-        line: motion.line,
-        position_mm: motion.end.into(),
-        part_turn: motion.part_turn(1.0),
-        tool_orientation: motion.orientation(1.0).map(|o| [o.w, o.i, o.j, o.k]),
-        ..PointResult::default()
-    };
-    known().step_by(every).map(end).collect()
+pub fn refused_question(task: &Task<'_>, is_placed: bool) -> (Vec<Warning>, Option<RunError>) {
+    let mut errors = Vec::new();
+    errors.extend(refuse(of_task(task)).err());
+    match no_motion(task.path()) {
+        Some(reason) => errors.push(RunError::NoMotion(reason)),
+        None => match FirstLook::new(task, &load(task), &Unwatched) {
+            Err(error) => errors.push(error),
+            Ok(looked) if is_placed => {
+                errors.extend(refuse(looked.beyond(task)).err());
+                errors.extend(looked.beginning_solved().err());
+            }
+            Ok(_) => {}
+        },
+    }
+    let said = errors.iter().flat_map(|error| match error {
+        RunError::BeyondLimits(beyond) => beyond.iter().map(as_warning).collect(),
+        error => vec![Warning::new(WarningCode::Program, error.to_string())],
+    });
+    (said.collect(), errors.into_iter().next())
 }
 
 /// What of a question is allowed and unusual, before anything is solved.

@@ -6,7 +6,7 @@ use kinetostat::number::smaller;
 
 use crate::checks::own_weight::weight_is_stated;
 use crate::checks::refused::{of_points, of_task};
-use crate::limits::Beyond;
+use crate::limits::{Beyond, Limits};
 use crate::load::along_path::LoadAlongPath;
 use crate::measured_frame::MeasuredFrame;
 use crate::result::point::PointResult;
@@ -142,23 +142,31 @@ impl FirstLook {
     }
 
     /// A load beyond its limits under which a place has no equilibrium, or that puts the tool off by far more than any correction:
-    /// a machine that folds over takes minutes to be solved everywhere. Of other loads an analysis only warns.
+    /// a machine that folds over takes minutes to be solved everywhere. Of other loads an analysis only warns, and of limits that
+    /// are stricter than usual, which are those of a correction.
     pub fn folding_load(&self, task: &Task<'_>) -> Vec<Beyond> {
+        let usual = Limits::default();
         let mut beyond = of_task(task);
-        beyond.retain(|b| ["force_n", "moment_n_m"].contains(&b.limit.name));
-        let folds = || {
-            let gross = self.gross(task);
-            gross.iter().any(|b| b.limit.name == "correction_mm")
-        };
+        beyond.retain(|b| {
+            ["force_n", "moment_n_m"].contains(&b.limit.name) && b.found > usual.get(b.limit)
+        });
+        let is_gross =
+            |b: &Beyond| b.limit.name == "correction_mm" && b.found > GROSS * usual.get(b.limit);
+        let folds = || self.gross(task).iter().any(is_gross);
         match self.not_converged || folds() {
             true => beyond,
             false => Vec::new(),
         }
     }
 
+    /// What of these places is beyond its limit.
+    pub fn beyond(&self, task: &Task<'_>) -> Vec<Beyond> {
+        of_points(task, &self.points)
+    }
+
     /// Corrections that are beyond their limits by far.
     pub fn gross(&self, task: &Task<'_>) -> Vec<Beyond> {
-        let mut beyond = of_points(task, &self.points);
+        let mut beyond = self.beyond(task);
         beyond.retain(|b| {
             let of_correction = ["correction_mm", "own_weight_mm"].contains(&b.limit.name);
             of_correction && b.found > GROSS * b.allowed

@@ -51,7 +51,7 @@ pub(crate) fn stopped_or_within(failure: CutFailure, setting: &Setting) -> Failu
 
 /// A cut that the tool does not survive: chips beyond its limit, material behind the ends of its edges. A program with one is
 /// not compensated.
-pub(crate) fn breaks_the_tool(forces: Option<&ForceAlongPath>) -> Option<&CutFinding> {
+fn breaks_the_tool(forces: Option<&ForceAlongPath>) -> Option<&CutFinding> {
     let mut found = forces.into_iter().flat_map(|forces| &forces.findings);
     found.find(|finding| {
         matches!(
