@@ -53,6 +53,7 @@ length_mm = 100                 # tip along z of the platform
 
 [load]                          # on feed moves; turns with the feed direction
 milling = { radial_n = 215, tangential_n = -10, axial_n = -25 }
+at_corners = "turns"            # in this example; unstated, it is an assumption
 
 [tolerances]
 path_um = 0.5                   # pieces against the corrected path
@@ -162,7 +163,8 @@ fn in_directory(args: &DemoArgs) -> Answer<()> {
     text.push_str(&summary::of_run(&run.result));
     text.push_str(&next(&args.out));
     report::print_run(&text, args.json.then_some(&run.result))?;
-    report::refuse_missed_tolerance(&run.result.tolerance, &setting)
+    report::refuse_missed_tolerance(&run.result.tolerance, &setting)?;
+    report::refuse_doubtful(&run.result, &setting)
 }
 
 fn next(out: &Path) -> String {

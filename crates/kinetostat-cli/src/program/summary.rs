@@ -85,7 +85,7 @@ pub(crate) fn result_text(result: &RunResult) -> String {
 }
 
 /// Assumptions of the run, the costliest first.
-fn assumptions(result: &RunResult) -> String {
+pub(crate) fn assumptions(result: &RunResult) -> String {
     let all = &result.assessment.assumptions;
     if all.is_empty() {
         return String::new();

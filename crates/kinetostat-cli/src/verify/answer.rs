@@ -1,8 +1,8 @@
 //! What `verify` answers.
 
 use kinetostat_machining::{
-    FeatureResult, FileRead, FlatProgram, MissedTolerance, PointResult, Verified, Warning,
-    farthest_off,
+    Assessment, FeatureResult, FileRead, FlatProgram, MissedTolerance, PointResult, Verified,
+    Warning, farthest_off,
 };
 use serde::Serialize;
 
@@ -42,6 +42,8 @@ pub(crate) struct VerifyAnswer {
     pub(crate) other_words: Vec<OtherWord>,
     /// Where the tool stands otherwise than it should, if its orientation is corrected.
     pub(crate) tilted: Option<Tilted>,
+    /// What the verdict rests on, as of a program that is compensated.
+    pub(crate) assessment: Assessment,
     pub(crate) features: Vec<FeatureResult>,
     /// Places where the program is farthest off, worst first; at most ten.
     pub(crate) worst_points: Vec<PointResult>,
@@ -110,6 +112,7 @@ impl VerifyAnswer {
             forces_from_cut,
             other_words,
             tilted,
+            assessment: Assessment::default(),
             features: result.features.clone(),
             worst_points,
             warnings,

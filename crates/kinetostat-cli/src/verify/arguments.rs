@@ -70,4 +70,5 @@ Exit codes:
   2    no answer: not converged, or a point that cannot be reached
   3    a tolerance is missed, or something is cut otherwise than in the original; the
        line is said
+  4    verified; the tolerances are kept only if the assumptions hold
   130  stopped with Ctrl-C; nothing was written"#;

@@ -41,6 +41,7 @@ use crate::job::setting::{Setting, program_path, setting};
 use crate::long::which::say_as_a_whole;
 use crate::program::aim::Aim;
 use crate::program::features::put_features;
+use crate::program::report::refuse_doubtful;
 use crate::program::solve::{forces_of, with_task};
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::json;
@@ -133,7 +134,7 @@ pub(crate) fn run(args: &VerifyArgs) -> Answer<()> {
         verified.program_name.as_str(),
         original.program_name.as_str(),
     );
-    let answer = VerifyAnswer::of(
+    let mut answer = VerifyAnswer::of(
         &found,
         names,
         read,
@@ -146,14 +147,17 @@ pub(crate) fn run(args: &VerifyArgs) -> Answer<()> {
         ),
         original.flat.clone().filter(|_| original.robot.is_none()),
     );
+    let assessed = answer.as_run(&found);
+    answer.assessment = assessed.assessment.clone();
     let controller = model.controller.clone();
     let language = LanguageWord::language(original.targets.language);
     let paths = claimed.write(args, (&found, &answer), (controller, language))?;
     let to_screen = args.json.as_deref() == Some(Path::new("-"));
-    let text = format!("{}{}", text::answer_text(&answer), outputs::written(&paths));
+    let text = text::answer_text(&answer, &assessed);
+    let text = format!("{text}{}", outputs::written(&paths));
     json::print_answer(&text, &answer, to_screen)?;
     match answer.held {
-        true => Ok(()),
+        true => refuse_doubtful(&assessed, &verified),
         false => {
             let faults = answer.faults().join("\n");
             Err(Failure::tolerance_missed(faults).within(&verified.program_name))

@@ -26,6 +26,7 @@ impl VerifyAnswer {
         let others = self.faults_of_words().into_iter();
         let others = others.map(|text| Warning::new(WarningCode::OtherThanOriginal, text));
         run.warnings.splice(0..0, others);
+        run.assess();
         run
     }
 

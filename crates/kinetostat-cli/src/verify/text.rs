@@ -1,16 +1,17 @@
 //! What `verify` says to a person.
 
+use kinetostat_machining::RunResult;
 use kinetostat_machining::number::{against, largest, largest_length, mean_length};
 
 use crate::program::features::features_text;
-use crate::program::summary::SPINDLE_NOT_STARTED;
+use crate::program::summary::{SPINDLE_NOT_STARTED, assumptions};
 use crate::ui::layout::{columns, wrapped};
 use crate::ui::numbers::{fixed, triple};
 use crate::ui::warnings::warnings;
 use crate::verify::answer::VerifyAnswer;
 use crate::verify::other_language::SPINDLE;
 
-pub(crate) fn answer_text(answer: &VerifyAnswer) -> String {
+pub(crate) fn answer_text(answer: &VerifyAnswer, assessed: &RunResult) -> String {
     let head = format!(
         "{} against {}, on {}",
         answer.program, answer.against, answer.model
@@ -19,9 +20,11 @@ pub(crate) fn answer_text(answer: &VerifyAnswer) -> String {
     out.push('\n');
     let (error, allowed) = against(answer.max_position_error_mm, answer.allowed_mm);
     let faults = answer.faults();
+    let doubt = assessed.at_worst_text();
+    let doubt = doubt.map_or_else(String::new, |doubt| format!(" {doubt}"));
     let verdict = match faults.is_empty() {
         true => format!(
-            "VERIFIED: along this program the tool is at most {error} off, inside the {allowed} that are allowed; along the original as it is, {}. These figures are the model's: they are as true as its stiffnesses and masses.",
+            "VERIFIED: along this program the tool is at most {error} off, inside the {allowed} that are allowed; along the original as it is, {}. These figures are the model's: they are as true as its stiffnesses and masses.{doubt}",
             largest_length(answer.max_position_error_of_original_mm)
         ),
         false => faults.join(" "),
@@ -32,6 +35,7 @@ pub(crate) fn answer_text(answer: &VerifyAnswer) -> String {
         false => verdict,
     };
     out.push_str(&wrapped(&verdict, 2));
+    out.push_str(&assumptions(assessed));
     out.push('\n');
     let rows = [
         ["", "original", "this program"].map(str::to_owned),

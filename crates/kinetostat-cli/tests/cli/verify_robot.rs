@@ -68,7 +68,7 @@ pub(crate) fn changes(name: &str, program: &str, with: &str, all: &[(&str, &str,
     let here = workplace();
     std::fs::write(here.path().join(name), program).unwrap();
     let (code, said) = verified(here.path(), name, with, str::to_owned);
-    assert_eq!(code, 0, "{said}");
+    assert!(matches!(code, 0 | 4), "{said}");
     assert!(
         !said.contains("in the original at") && !said.contains("ANOTHER"),
         "{said}"

@@ -31,8 +31,11 @@ mod way;
 use kinetostat::number::smaller;
 use kinetostat_program::{Arcs, Corrected, CorrectionField, Path, Unwatched, WriteError};
 
+use crate::load::law::CornerLoad;
 use crate::run::checked::Checked;
 use crate::run::conclude::{Run, conclude};
+use crate::run::corner_steps::by_the_other_reading;
+use crate::run::force_band::force_band;
 use crate::run::places::places;
 use crate::run::points::solve;
 use crate::run::preparation::Preparation;
@@ -98,12 +101,16 @@ fn verified(
     matched.conditions = conditions(task.path(), other, &both, most_feed_factor);
     matched.cut_lines = cut_lines(&both);
     matched.turned = turned_most(task.path(), other, &pieces);
-    let written = as_written(task.path(), (other, bytes), pieces);
+    let backward_mm = task.writing.backward_step_mm;
+    let written = as_written(task.path(), (other, bytes), pieces, backward_mm);
     let (load, how) = (&prepared.load.acting, prepared.solving(true));
     let sites = || sites_of_written(task, load, &written);
     // A place where the program is worse than the original is a finding here.
-    let (points, _worse) = solve(task, sites(), how, watch)?;
+    let (mut points, _worse) = solve(task, sites(), how, watch)?;
     let checked = Checked {
+        if_turns_mm: by_the_other_reading(task, CornerLoad::Turns, sites, watch)?,
+        if_follows_mm: by_the_other_reading(task, CornerLoad::FollowsFeed, sites, watch)?,
+        force_band: force_band(task, &mut points, sites, watch)?,
         places: places(task, &points, sites, how),
         ramps: prepared.load.findings.clone(),
         ..Checked::default()

@@ -6,7 +6,7 @@ mod of;
 mod results;
 mod tables;
 
-use kinetostat_machining::{AssumptionKind, Level};
+use kinetostat_machining::Level;
 
 use crate::number;
 use crate::paper::block::{Block, Contents};
@@ -14,7 +14,7 @@ use crate::paper::content::of::{MOST, Of, more};
 use crate::paper::question::Paper;
 use crate::paper::words::table::fill;
 use crate::paper::words::{statement, words};
-use crate::run::meaning::{Statement, assessment};
+use crate::run::meaning::assessment;
 use crate::run::shown::Shown;
 use crate::text::{clean, shorten};
 
@@ -85,7 +85,10 @@ fn verdict(of: &Of<'_>) -> Block {
     let assessment = assessment(of.result);
     let (level, word) = match (&of.paper.verified, assessment.level) {
         (_, Level::Stop) => (Level::Stop, words.stop),
-        (Some(verified), _) if verified.held => (Level::Good, words.verified),
+        (Some(verified), level) if verified.held && level != Level::Attention => {
+            (Level::Good, words.verified)
+        }
+        (Some(verified), _) if verified.held => (Level::Attention, words.attention),
         (Some(_), _) if keeps_tolerances(of) => (Level::Attention, words.not_verified),
         (Some(_), _) => (Level::Attention, words.missed),
         (None, Level::Good) => (Level::Good, words.good),
@@ -96,10 +99,6 @@ fn verdict(of: &Of<'_>) -> Block {
     let mut sentences: Vec<String> = assessment
         .statements
         .iter()
-        // Of a program of others it is not solved what another reading of the load at its steps would do.
-        .filter(|said| {
-            of.paper.verified.is_none() || **said != Statement::Assumed(AssumptionKind::Corners)
-        })
         .filter_map(|said| statement(of.language, said, of.result))
         .map(|sentence| clean(&sentence))
         .collect();
