@@ -139,7 +139,11 @@ pub(crate) fn make_along(
         MakeLanguage::Gcode => gcode::files(steps, &name, template, MADE_BY),
         MakeLanguage::Csv => csv::files(steps, &name, template, MADE_BY),
     };
-    let again = read_again(&files, language).map_err(|fault| vec![fault])?;
+    let states = |step: &Step| matches!(step, Step::Statement(_));
+    let again = read_again(&files, language).map_err(|fault| match steps.iter().any(states) {
+        true => vec![stated::foreign_statement("not every line is", language)],
+        false => vec![fault],
+    })?;
     let kept = compare(path, steps, &again, template, language).map_err(|fault| vec![fault])?;
     let lines = (again.iter().zip(steps.iter().filter_map(Step::motion)))
         .map(|(read, motion)| [read.line, motion.line])

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use kinetostat_program::{COMPENSATED_MARK, Knowledge, Move, MoveKind, Path};
+use kinetostat_program::{COMPENSATED_MARK, Knowledge, Move, MoveKind, Path, SpindleRotation};
 use nalgebra::{UnitQuaternion, Vector3};
 
 use crate::making::action::EventAction;
@@ -55,6 +55,7 @@ pub(crate) fn plan(
         otherwise: Otherwise::default(),
         turned: Turned::default(),
         spindle_not_started: None,
+        spindle_turns: false,
         tool: None,
         last_tool: None,
         begun: false,
@@ -80,6 +81,7 @@ struct Planner<'p> {
     turned: Turned,
     /// The first start of the spindle that is a note alone.
     spindle_not_started: Option<String>,
+    spindle_turns: bool,
     tool: Option<u32>,
     /// Tool of the last motion.
     last_tool: Option<u32>,
@@ -121,6 +123,7 @@ impl Planner<'_> {
         for (at, event) in events {
             self.event(*at, event);
         }
+        self.stop_spindle();
         if !self.begun && self.faults.is_empty() {
             let line = moves.first().map_or(1, |motion| motion.line);
             self.fault(
@@ -128,6 +131,21 @@ impl Planner<'_> {
                 "the program has no move to a place that is known",
                 "give a program that moves the tool",
             );
+        }
+    }
+
+    /// The end of a program stops the spindle, and that of an arm's does not.
+    fn stop_spindle(&mut self) {
+        if !self.spindle_turns {
+            return;
+        }
+        let stop = self.template.spindle.lines(SpindleRotation::Stopped, None);
+        match stop {
+            Some(lines) => self.steps.extend(lines.into_iter().map(Step::Statement)),
+            None => self.findings.push(MakeFinding::of(
+                None,
+                "the spindle still turns at the end of the program: the template states no stop under [spindle]",
+            )),
         }
     }
 
@@ -166,7 +184,10 @@ impl Planner<'_> {
                     self.steps.push(Step::Action(*action));
                 }
                 false => match self.statements(*action) {
-                    Some(lines) => self.steps.extend(lines.into_iter().map(Step::Statement)),
+                    Some(lines) => {
+                        self.spindle_turns = action.starts_spindle();
+                        self.steps.extend(lines.into_iter().map(Step::Statement));
+                    }
                     None => {
                         let starts = action.starts_spindle() && !of_a_machine;
                         if starts && self.spindle_not_started.is_none() {

@@ -94,7 +94,39 @@ pub(crate) fn faults(template: &Template, language: MakeLanguage) -> Vec<MakeErr
         faults.extend(words_taken(template));
     }
     faults.extend(of_configuration(template, language));
+    let spindle = &template.spindle;
+    let lines = spindle.clockwise.iter().chain(&spindle.counter_clockwise);
+    let lines = lines.chain(&spindle.stop);
+    let foreign = lines.filter(|line| is_foreign(line, language));
+    faults.extend(foreign.map(|line| foreign_statement(&format!("`{line}` is not"), language)));
     faults
+}
+
+/// Whether a statement is written so by another controller alone.
+fn is_foreign(line: &str, language: MakeLanguage) -> bool {
+    let line = line.to_ascii_uppercase().replace(' ', "");
+    let sets = |values: [&str; 2]| values.iter().any(|value| line.ends_with(value));
+    match language {
+        MakeLanguage::Krl => line.ends_with(';') || sets(["=ON", "=OFF"]),
+        MakeLanguage::Rapid => !line.ends_with(';') && !line.starts_with('!'),
+        MakeLanguage::FanucLs => line.starts_with("$OUT[") || sets(["=TRUE", "=FALSE"]),
+        _ => false,
+    }
+}
+
+/// Statements of the spindle that are not of the language.
+pub(crate) fn foreign_statement(which: &str, language: MakeLanguage) -> MakeError {
+    let (title, example) = match language {
+        MakeLanguage::Rapid => ("RAPID", "SetDO doSpindle, 1;"),
+        MakeLanguage::FanucLs => ("TP", "DO[5]=ON"),
+        _ => ("KRL", "$OUT[12]=TRUE"),
+    };
+    MakeError::of_template(
+        format!("[spindle]: {which} a statement of {title}"),
+        format!(
+            "write it as its controller has it, such as `{example}`, or give the template of that cell"
+        ),
+    )
 }
 
 pub(crate) fn of_tool(tool: &StatedTool, language: MakeLanguage) -> Vec<MakeError> {
