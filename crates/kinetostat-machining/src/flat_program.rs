@@ -32,7 +32,7 @@ use crate::number::counted;
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct FlatProgram {
-    /// File name of the flat program; none where it was not written.
+    /// File name of the flat program, with its folder where it keeps the name of its source; none where it was not written.
     #[serde(default)]
     pub name: Option<String>,
     /// Number of its blocks; of a program that was converted, of its motions.

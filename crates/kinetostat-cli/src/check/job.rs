@@ -30,6 +30,7 @@ use crate::job::of_model::give_of_model;
 use crate::job::output_paths::OutputPaths;
 use crate::job::setting::{Setting, setting};
 use crate::job::target_word::RobotWord;
+use crate::job::template_file::TemplateFile;
 use crate::job::turn_arguments::FreeTurnWord;
 use crate::job::{program, run_warnings};
 use crate::program::aim::Aim;
@@ -132,7 +133,7 @@ fn findings(files: &InputFiles, path: &Path, flags: &ProgramArgs) -> Answer<JobF
     let job = JobFile::read(files, path)?;
     let mut setting = setting(files, Some(&job), flags, &WritingFlags::default())?;
     refuse_lines_beyond(Some(&job), &setting)?;
-    named_outputs(&job, &mut setting)?;
+    named_outputs(files, &job, &mut setting)?;
     give_of_model(&mut setting, files, (Some(&job), None), flags)?;
     let frames = setting.robot_frames()?;
     let inputs = &mut setting.inputs;
@@ -295,13 +296,15 @@ fn ends(mechanism: &Mechanism, placement: &Placement, motion: &ToolPath) -> Vec<
 }
 
 /// Where a compensation writes its programs, with the endings of their language.
-fn named_outputs(job: &JobFile, setting: &mut Setting) -> Answer<()> {
+fn named_outputs(files: &InputFiles, job: &JobFile, setting: &mut Setting) -> Answer<()> {
     let Some(word) = to(job) else {
         return refuse_other_endings(setting);
     };
+    let template = TemplateFile::path(Some(job), None);
+    let module = TemplateFile::program_name(files, template.as_deref())?;
     in_language(
         &mut setting.targets,
-        &setting.program_path,
+        (&setting.program_path, module),
         (Some(job), Named::default()),
         word.language(),
     )

@@ -165,14 +165,15 @@ pub(crate) fn in_other_language(
     (mut setting, word, named): (Setting, RobotWord, Named<'_>),
     source: (&Model, &MachineSetup),
 ) -> Answer<Converted> {
+    let file = TemplateFile::path(job, flags.robot.template.as_deref());
+    let module = TemplateFile::program_name(files, file.as_deref())?;
     in_language(
         &mut setting.targets,
-        &setting.program_path,
+        (&setting.program_path, module),
         (job, named),
         word.language(),
     )?;
     let out = setting.targets.program.clone().unwrap_or_default();
-    let file = TemplateFile::path(job, flags.robot.template.as_deref());
     let template = TemplateFile::read(
         files,
         &TemplateAsked {

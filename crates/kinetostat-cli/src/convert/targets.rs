@@ -5,9 +5,12 @@ use std::path::{Path, PathBuf};
 use kinetostat_formats::MakeLanguage;
 
 use crate::files::file_names::stem;
+use crate::files::paths::{COMPENSATED, FLAT};
 use crate::job::file_endings::{Written, refuse_other_ending};
 use crate::job::job_file::JobFile;
-use crate::job::output_paths::{COMPENSATED_PROGRAM, FLAT_PROGRAM, OutputPaths};
+use crate::job::output_paths::{
+    COMPENSATED_PROGRAM, FLAT_PROGRAM, OutputPaths, in_folder, or_its_folder,
+};
 use crate::ui::failure::Answer;
 
 /// Programs that options name.
@@ -17,11 +20,11 @@ pub(crate) struct Named<'o> {
     pub(crate) flat: Option<&'o Path>,
 }
 
-/// Puts the programs where they go in the other language: what neither options nor the job name has the ending of that, and names of
-/// programs have no hyphen.
+/// Puts the programs where they go in the other language: one that neither options nor the job name is called like its module, in a
+/// folder of its own.
 pub(crate) fn in_language(
     targets: &mut OutputPaths,
-    program: &Path,
+    (program, module): (&Path, Option<String>),
     (job, options): (Option<&JobFile>, Named<'_>),
     language: MakeLanguage,
 ) -> Answer<()> {
@@ -30,16 +33,18 @@ pub(crate) fn in_language(
         options.out.is_some() || in_job.is_some_and(|output| output.program.is_some());
     let flat_is_named =
         options.flat.is_some() || in_job.is_some_and(|output| output.flat_program.is_some());
-    let out = targets.program.take().unwrap_or_default();
+    let named = targets.program.take().unwrap_or_default();
+    let module = module.unwrap_or_else(|| stem(program));
+    let own = PathBuf::from(format!("{module}.{}", language.ending()));
     let out = match out_is_named {
-        true => out,
-        false => {
-            let ending = language.ending();
-            out.with_file_name(format!("{}_compensated.{ending}", stem(program)))
-        }
+        true => named,
+        false => in_folder(&or_its_folder(&named), &own, COMPENSATED)?,
     };
-    let flat = targets.flat.take().filter(|_| flat_is_named);
-    let flat = flat.unwrap_or_else(|| as_converted(&out, language));
+    let flat = match (targets.flat.take().filter(|_| flat_is_named), out_is_named) {
+        (Some(flat), _) => flat,
+        (None, true) => as_converted(&out, language),
+        (None, false) => in_folder(&or_its_folder(&out), &own, FLAT)?,
+    };
     for (what, path) in [(COMPENSATED_PROGRAM, &out), (FLAT_PROGRAM, &flat)] {
         let written = Written {
             what,

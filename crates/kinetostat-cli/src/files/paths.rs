@@ -3,6 +3,8 @@
 use std::fs;
 use std::path::{Component, Path, PathBuf};
 
+use crate::files::file_names::file_name;
+
 /// Whether two files hold the same, if both can be read.
 pub(crate) fn same_bytes(one: &Path, other: &Path) -> Option<bool> {
     Some(fs::read(one).ok()? == fs::read(other).ok()?)
@@ -26,6 +28,13 @@ pub(crate) const FLAT: &str = "flat";
 pub(crate) fn is_own_folder(path: &Path) -> bool {
     let name = path.file_name();
     name.is_some_and(|name| name == COMPENSATED || name == FLAT)
+}
+
+/// The name of a file, with that of its folder where that is one of these two.
+pub(crate) fn named_with_own_folder(path: &Path) -> String {
+    let folder = path.parent().filter(|folder| is_own_folder(folder));
+    let folder = folder.map_or_else(String::new, |folder| file_name(folder) + "/");
+    folder + &file_name(path)
 }
 
 /// The same file under two names: links of either kind included.

@@ -2,9 +2,10 @@
 
 use std::path::{Path, PathBuf};
 
-use kinetostat_formats::{Language, endings_of};
+use kinetostat_formats::{Language, endings_of, language_of};
 use serde_spanned::Spanned;
 
+use crate::files::file_names::file_name;
 use crate::files::paths::{COMPENSATED, FLAT, inside, is_own_folder, parent_of};
 use crate::job::arguments::{ProgramArgs, WritingFlags};
 use crate::job::format::Job;
@@ -101,7 +102,7 @@ pub(crate) fn output_paths(
     job: Option<&JobFile>,
     flags: &ProgramArgs,
     writing: &WritingFlags<'_>,
-    (program, form): (&Path, Form),
+    (program, bytes, form): (&Path, &[u8], Form),
 ) -> Answer<OutputPaths> {
     let from_job = |flag: Option<&Path>, pick: fn(&Job) -> Option<&Spanned<String>>| {
         if let Some(path) = flag {
@@ -155,14 +156,14 @@ pub(crate) fn output_paths(
         Some(out) => out,
         None => {
             let near = job.map_or(program, |j| &j.path);
-            match keeps_name(program) {
+            match keeps_name(program, bytes) {
                 true => in_folder(near, program, COMPENSATED)?,
                 false => beside(near, program, "-compensated"),
             }
         }
     };
     if form == Form::Flat && targets.flat.is_none() {
-        targets.flat = Some(flat_beside(&out, program));
+        targets.flat = Some(flat_beside(&out, program, bytes)?);
     }
     targets.program = Some(out);
     Ok(targets)
@@ -184,17 +185,18 @@ pub(crate) fn refuse_unused(flags: &ProgramArgs, targets: &OutputPaths) -> Answe
 }
 
 /// True of a program that its controller loads by a name that it states itself, with letters that file names have.
-fn keeps_name(program: &Path) -> bool {
+fn keeps_name(program: &Path, bytes: &[u8]) -> bool {
     let ending = program.extension().unwrap_or_default().to_string_lossy();
     let ending = ending.to_ascii_lowercase();
     let mut loaded = Language::ALL
         .iter()
         .filter(|l| !matches!(l, Language::Poses | Language::Apt));
     loaded.any(|language| endings_of(*language).contains(&ending.as_str()))
+        || language_of(&file_name(program), bytes) == Some(Language::Siemens)
 }
 
 /// A program under its own name in a folder beside `near`, which leads to no other place.
-fn in_folder(near: &Path, program: &Path, folder: &str) -> Answer<PathBuf> {
+pub(crate) fn in_folder(near: &Path, program: &Path, folder: &str) -> Answer<PathBuf> {
     let folder = near.with_file_name(folder);
     if folder.is_symlink() {
         return Err(Failure::input(format!(
@@ -205,18 +207,21 @@ fn in_folder(near: &Path, program: &Path, folder: &str) -> Answer<PathBuf> {
     Ok(folder.join(program.file_name().unwrap_or_default()))
 }
 
-/// Where a flat program goes that nobody named.
-pub(crate) fn flat_beside(out: &Path, program: &Path) -> PathBuf {
-    if !keeps_name(program) {
-        return beside(out, program, "-flat");
-    }
+/// Another program in a folder of its own goes beside the folder of this one, where it has one.
+pub(crate) fn or_its_folder(out: &Path) -> PathBuf {
     let folder = parent_of(out);
-    let near = match is_own_folder(&folder) {
+    match is_own_folder(&folder) {
         true => folder,
         false => out.to_owned(),
-    };
-    near.with_file_name(FLAT)
-        .join(program.file_name().unwrap_or_default())
+    }
+}
+
+/// Where a flat program goes that nobody named.
+pub(crate) fn flat_beside(out: &Path, program: &Path, bytes: &[u8]) -> Answer<PathBuf> {
+    match keeps_name(program, bytes) {
+        true => in_folder(&or_its_folder(out), program, FLAT),
+        false => Ok(beside(out, program, "-flat")),
+    }
 }
 
 /// `part.ngc` becomes `part-compensated.ngc` in the directory of `near`.

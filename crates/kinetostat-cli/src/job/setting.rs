@@ -1,7 +1,7 @@
 //! Everything that decides a run, the machine apart: options go over the job file.
 
 use std::borrow::Cow;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::Arc;
 
 use kinetostat::number::larger;
@@ -13,6 +13,7 @@ use kinetostat_program::{
 
 use crate::files::input_files::{InputFiles, refuse_beyond_memory};
 use crate::files::origin;
+use crate::files::paths::named_with_own_folder;
 use crate::job::arguments::{ProgramArgs, WritingFlags};
 use crate::job::chatter::ChatterSetting;
 use crate::job::expansion::flat::flattened;
@@ -190,8 +191,7 @@ impl Setting {
     /// Where the flat program goes, if it goes anywhere.
     pub(crate) fn write_flat_to(&mut self, target: Option<PathBuf>) {
         if let Some(flat) = &mut self.flat {
-            let name = target.as_deref().and_then(Path::file_name);
-            flat.name = name.map(|name| name.to_string_lossy().into_owned());
+            flat.name = target.as_deref().map(named_with_own_folder);
         }
         self.targets.flat = target;
     }
@@ -244,9 +244,11 @@ pub(crate) fn setting(
         Some(_) => Form::Flat,
         None => Form::AsItStands,
     };
-    let mut targets = output_paths(job, flags, writing, (&path, form))?;
+    let program = files.bytes("program", &path);
+    let known = program.as_deref().unwrap_or_default();
+    let mut targets = output_paths(job, flags, writing, (&path, known, form))?;
     // The last, so that nothing else is hidden by a program that is not there.
-    let program = files.bytes("program", &path)?;
+    let program = program?;
     let lines = line_count(&program);
     refuse_beyond_memory(&path, program.len(), lines)?;
     let mut program_files = vec![origin::file("program", &path, &program)];
@@ -283,7 +285,7 @@ pub(crate) fn setting(
             program_files.extend(joined.read);
             further = joined.paths;
             if let (None, Some(out)) = (&targets.flat, &targets.program) {
-                targets.flat = Some(flat_beside(out, &path));
+                targets.flat = Some(flat_beside(out, &path, &program)?);
             }
             robot_flat = Some((program_of(&source), joined.flat));
         }

@@ -68,6 +68,13 @@ impl TemplateFile {
         named.map(Path::to_owned).or_else(in_job)
     }
 
+    /// The name of the program that the template states, where it states one.
+    pub(crate) fn program_name(files: &InputFiles, path: Option<&Path>) -> Answer<Option<String>> {
+        let file = path.map(|path| Self::of_file(files, path)).transpose()?;
+        let name = file.map(|file| file.template.program_name);
+        Ok(name.filter(|name| !name.is_empty()))
+    }
+
     pub(crate) fn of_file(files: &InputFiles, path: &Path) -> Answer<Self> {
         let text = files.settings("template", path)?;
         let name = path.display().to_string();

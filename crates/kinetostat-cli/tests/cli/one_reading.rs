@@ -108,7 +108,7 @@ fn every_command_reads_one_cell_however_job_and_template_share_it() {
             assert_eq!(check[key], deflect["question"][key], "{index}: {key}");
         }
         let compensate = answer(here, "compensate job.toml --json");
-        let verify = answer(here, "verify part_compensated.src --job job.toml --json");
+        let verify = answer(here, "verify compensated/part.src --job job.toml --json");
         let before = |value: &Value| number(&value["summary"]["max_position_error_before_mm"]);
         same(before(&compensate), before(&deflect), 1e-6);
         same(
@@ -165,11 +165,12 @@ fn a_spindle_that_is_not_started_is_in_every_headline() {
         for spindle in ["", with] {
             let here = EVERY[1].place(to, spindle);
             let here = here.path();
-            let out = format!("part_compensated.{ending}");
+            let out = format!("compensated/part.{ending}");
             let convert =
                 format!("convert part.ngc --to {to} --template cell.toml --out made.{ending}");
             let verify = format!("verify {out} --job job.toml");
-            for command in ["check job.toml", "compensate job.toml", &verify, &convert] {
+            let compensate = "compensate job.toml --report run.html";
+            for command in ["check job.toml", compensate, &verify, &convert] {
                 let words: Vec<&str> = command.split(' ').collect();
                 let said = run(here, &words).answered();
                 let is_said = text(&said).contains("SPINDLE NOT STARTED");
@@ -177,6 +178,37 @@ fn a_spindle_that_is_not_started_is_in_every_headline() {
             }
             let written = std::fs::read_to_string(here.join(&out)).unwrap();
             assert_eq!(written.contains(line), !spindle.is_empty(), "{written}");
+            // The end of the source stops the spindle, and that of a robot's program does not.
+            let stops = written.contains("\nRUNS=FALSE\n");
+            assert_eq!(stops, spindle == statements, "{written}");
+            let page = std::fs::read_to_string(here.join("run.html")).unwrap();
+            let is_said = page.contains("SPINDLE NOT STARTED");
+            assert_eq!(is_said, spindle.is_empty());
+        }
+    }
+}
+
+/// A template is for one controller.
+#[test]
+fn statements_of_another_controller_are_refused() {
+    let krl = "clockwise = [\"$OUT[12]=TRUE\"]";
+    let undeclared = "clockwise = [\"SPEED {rpm}\"]";
+    for (to, statements) in [
+        ("rapid", krl),
+        ("ls", krl),
+        ("ls", undeclared),
+        ("krl", "stop = [\"DO[5]=OFF\"]"),
+        ("krl", "stop = [\"SetDO doRuns, 0;\"]"),
+    ] {
+        let here = EVERY[1].place(to, &format!("[spindle]\n{statements}\n"));
+        for command in ["check", "compensate"] {
+            let said = run(here.path(), &[command, "job.toml"]);
+            assert_eq!(said.code, 1, "{to} {statements}: {said:?}");
+            let said = text(&said);
+            assert!(
+                said.contains("cell.toml: [spindle]:") && !said.contains("report this"),
+                "{said}"
+            );
         }
     }
 }
@@ -187,7 +219,7 @@ fn another_frame_or_tool_than_that_of_the_job_is_found() {
     let here = EVERY[1].place("krl", "");
     let here = here.path();
     run(here, &["compensate", "job.toml"]).answered();
-    let good = std::fs::read_to_string(here.join("part_compensated.src")).unwrap();
+    let good = std::fs::read_to_string(here.join("compensated/part.src")).unwrap();
     let line = |start: &str| good.lines().find(|line| line.starts_with(start)).unwrap();
     for (start, other) in [
         ("$BASE=", "$BASE={X 1301,Y 0,Z 800,A 0,B 0,C 0}"),
@@ -301,6 +333,27 @@ fn a_file_of_another_kind_is_called_what_it_is() {
 /// A program that its controller loads by name keeps it, in a folder of its own, with all its files.
 #[test]
 fn default_names_are_those_that_controllers_load() {
+    for (to, main) in [
+        ("krl", "DEF Pocket_OP10("),
+        ("rapid", "MODULE Pocket_OP10"),
+        ("ls", "/PROG  POCKET_OP10"),
+    ] {
+        let here = EVERY[0].place(to, "");
+        let cell = std::fs::read_to_string(here.path().join("cell.toml")).unwrap();
+        let named = cell.replace(
+            "schema = 1\n",
+            "schema = 1\nprogram_name = \"Pocket_OP10\"\n",
+        );
+        std::fs::write(here.path().join("cell.toml"), named).unwrap();
+        run(here.path(), &["compensate", "job.toml"]).answered();
+        let ending = if to == "krl" { "src" } else { to };
+        let ending = if to == "rapid" { "mod" } else { ending };
+        for folder in ["compensated", "flat"] {
+            let file = here.path().join(format!("{folder}/Pocket_OP10.{ending}"));
+            let written = std::fs::read_to_string(file).unwrap();
+            assert!(written.contains(main), "{written}");
+        }
+    }
     for (to, name, main) in [
         ("krl", "Pocket_OP10.src", "DEF Pocket_OP10("),
         ("rapid", "Pocket_OP10.mod", "MODULE Pocket_OP10"),

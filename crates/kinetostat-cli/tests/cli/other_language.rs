@@ -50,17 +50,17 @@ fn one_line(text: &str) -> String {
 #[test]
 fn one_command_converts_and_compensates() {
     for (to, ending, main, motion) in [
-        ("krl", "src", "DEF part_compensated", "LIN {"),
-        ("rapid", "mod", "MODULE part_compensated", "MoveL "),
-        ("ls", "ls", "/PROG  PART_COMPENSATED", "L P["),
+        ("krl", "src", "DEF part(", "LIN {"),
+        ("rapid", "mod", "MODULE part", "MoveL "),
+        ("ls", "ls", "/PROG  PART", "L P["),
     ] {
         let here = place(JOB);
         let here = here.path();
         let line =
             format!("compensate job.toml --to {to} --template cell.toml --points points.csv");
         let said = run(here, &words(&line)).answered();
-        let written = read(here, &format!("part_compensated.{ending}"));
-        let flat = read(here, &format!("part_compensated_flat.{ending}"));
+        let written = read(here, &format!("compensated/part.{ending}"));
+        let flat = read(here, &format!("flat/part.{ending}"));
         assert!(written.contains(main) && flat.contains(main), "{written}");
         let count = |text: &str| text.matches(motion).count();
         assert!(
@@ -413,7 +413,7 @@ fn the_check_of_a_job_names_the_programs_of_its_language() {
     for (robot, named) in [
         (
             "[robot]\nto = \"krl\"\n",
-            "part_compensated.src part_compensated_flat.src",
+            "compensated/part.src flat/part.src",
         ),
         ("[expand]\n", "part-compensated.ngc part-flat.ngc"),
     ] {

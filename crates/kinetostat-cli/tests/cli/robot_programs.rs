@@ -353,7 +353,7 @@ fn a_data_list_is_written_beside_its_program_and_an_axis_along_the_cut_is_warned
 }
 
 /// Slots that a loop moves on.
-const CONTROLS: [(&str, &str, &str); 2] = [
+const CONTROLS: [(&str, &str, &str); 3] = [
     (
         "loop.h",
         "0 BEGIN PGM LOOP MM\n1 TOOL CALL 1 Z S3000 F500\n2 L X+0 Y+0 Z+50 R0 FMAX M3\n3 FN 0: Q1 = +0\n4 LBL 1\n5 L X+Q1 Y+0 FMAX\n6 L Z-1 F300\n7 L Y+30 F500\n8 L Z+10 FMAX\n9 FN 1: Q1 = +Q1 + +10\n10 CALL LBL 1 REP 1\n11 L Z+50 FMAX M30\n12 END PGM LOOP MM\n",
@@ -362,6 +362,12 @@ const CONTROLS: [(&str, &str, &str); 2] = [
     (
         "loop.mpf",
         "N10 G90 G71 G17 G54\nN30 R1=0\nN40 G0 X0 Y0 Z50\nN50 WHILE R1<20\nN60 G0 X=R1 Y0\nN70 G1 Z-1 F300\nN80 Y30\nN90 G0 Z10\nN100 R1=R1+10\nN110 ENDWHILE\nN120 G0 Z50\nN130 M30\n",
+        "WHILE R1<20",
+    ),
+    // With the ending of G-code.
+    (
+        "loop.nc",
+        "N5 DEF REAL FREE\nN10 G90 G71 G17 G54\nN30 R1=0\nN40 G0 X0 Y0 Z50\nN50 WHILE R1<20\nN60 G0 X=R1 Y0\nN70 G1 Z-1 F300\nN80 Y30\nN90 G0 Z10\nN100 R1=R1+10\nN110 ENDWHILE\nN120 G0 Z50\nN130 M30\n",
         "WHILE R1<20",
     ),
 ];
@@ -380,10 +386,10 @@ fn programs_of_controls_with_loops_are_run_once_and_compensated_flat() {
         let flat = refused.err.split_whitespace().collect::<Vec<_>>().join(" ");
         assert!(flat.contains(looped) && flat.contains("--expand"), "{flat}");
         let said = run(here, &words(&format!("{line} --expand"))).answered();
-        assert!(
-            said.out.contains("was run once and written flat"),
-            "{said:?}"
-        );
+        let text = words(&said.out).join(" ");
+        assert!(text.contains("was run once and written flat"), "{said:?}");
+        let named = format!("lines are those of the flat program, flat/{name}");
+        assert!(text.contains(&named), "{said:?}");
         let flat = read(here, &format!("flat/{name}"));
         assert!(!flat.contains(looped), "{flat}");
         let printed = run(here, &["expand", name, "--no-comments"]).answered();
