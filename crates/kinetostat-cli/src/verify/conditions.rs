@@ -2,6 +2,7 @@
 
 use kinetostat_machining::{Condition, OtherCondition, Warning, WarningCode};
 
+use crate::verify::other_language::SPINDLE;
 use crate::verify::other_word::{FaultKind, OtherWord};
 
 /// Whether the program must not run so: no cut is made with a spindle that stands still or turns the other way round, forces from the cut
@@ -55,6 +56,12 @@ pub(crate) fn warnings(
             Warning::new(WarningCode::OtherThanOriginal, text.trim_end_matches('.'))
         });
     let words = words.iter().filter(|word| word.fault.is_none());
-    let words = words.map(|word| Warning::new(WarningCode::OtherThanOriginal, word.text.clone()));
+    let words = words.map(|word| {
+        let code = match word.word == SPINDLE {
+            true => WarningCode::SpindleNotStarted,
+            false => WarningCode::OtherThanOriginal,
+        };
+        Warning::new(code, word.text.clone())
+    });
     conditions.chain(words).collect()
 }

@@ -1,6 +1,6 @@
 //! What a run means, in plain words.
 
-use kinetostat_machining::{AssumptionKind, Level, PointKind, RunResult};
+use kinetostat_machining::{AssumptionKind, Level, PointKind, RunResult, Warning, WarningCode};
 
 use crate::number;
 use crate::run::shown::in_type;
@@ -38,6 +38,8 @@ pub(crate) struct RunAssessment {
 /// What is said of a run. It holds no words, so that every language says the same.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Statement {
+    /// The written program never starts the spindle.
+    SpindleNotStarted,
     /// No point was calculated.
     NoPoint,
     /// The machine is not stable, first at this line.
@@ -87,7 +89,12 @@ pub(crate) fn assessment(result: &RunResult) -> RunAssessment {
         return only(Statement::NotConverged);
     }
     let missed = result.features.iter().any(|f| f.held == Some(false));
+    let stands = |warning: &Warning| warning.code == WarningCode::SpindleNotStarted;
     let first = [
+        (
+            result.warnings.iter().any(stands),
+            Statement::SpindleNotStarted,
+        ),
         (cuts_without_load(result), Statement::NoLoad),
         (true, main(result)),
         (result.is_doubtful(), Statement::AtWorst),
@@ -143,6 +150,7 @@ impl Statement {
     /// In English.
     pub(crate) fn sentence(self, result: &RunResult) -> String {
         match self {
+            Self::SpindleNotStarted => "SPINDLE NOT STARTED by this program.".to_owned(),
             Self::NoPoint => {
                 "No point of the program was calculated, so there is nothing to judge.".to_owned()
             }

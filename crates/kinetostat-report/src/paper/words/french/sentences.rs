@@ -24,6 +24,7 @@ pub(crate) fn statement(statement: &Statement, result: &Shown<'_>) -> Option<Str
     let (after, allowed) = (nombre(&after), nombre(&allowed));
     let up_to = |mm: f64| nombre(&length(mm));
     Some(match statement {
+        Statement::SpindleNotStarted => "LA BROCHE N’EST PAS MISE EN MARCHE par ce programme.".to_owned(),
         Statement::NoPoint => "Aucun point du programme n’a été calculé : il n’y a rien à juger.".to_owned(),
         Statement::Unstable { line } => {
             let place = line.map_or_else(String::new, |line| format!(", d’abord à la ligne {}", number::count(line)));

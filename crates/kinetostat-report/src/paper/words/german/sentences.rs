@@ -24,6 +24,7 @@ pub(crate) fn statement(statement: &Statement, result: &Shown<'_>) -> Option<Str
     let (after, allowed) = (zahl(&after), zahl(&allowed));
     let up_to = |mm: f64| zahl(&length(mm));
     Some(match statement {
+        Statement::SpindleNotStarted => "DIE SPINDEL WIRD von diesem Programm NICHT GESTARTET.".to_owned(),
         Statement::NoPoint => "Es wurde kein Punkt des Programms gerechnet; es gibt nichts zu beurteilen.".to_owned(),
         Statement::Unstable { line } => {
             let place = line.map_or_else(String::new, |line| format!(", zuerst in Zeile {}", number::count(line)));
