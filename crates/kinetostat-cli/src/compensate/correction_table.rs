@@ -22,6 +22,7 @@ use crate::job::program;
 use crate::job::setting::Setting;
 use crate::program::flat_lines::{WithSources, listed_under, of_warnings};
 use crate::program::report;
+use crate::program::solve::too_many_blocks;
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::layout::{columns, wrapped};
 use crate::ui::progress::Progress;
@@ -214,6 +215,9 @@ fn warnings_of(
     warnings.extend(odd.filter(nothing_left_out));
     warnings.extend(wide_table(path, field));
     warnings.extend(odd_tolerances(writing));
+    let a = &made.written.accounting;
+    let most = a.peak_blocks_per_second.or(a.mean_blocks_per_second);
+    warnings.extend(too_many_blocks(setting, most));
     warnings
 }
 

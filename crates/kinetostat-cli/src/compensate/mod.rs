@@ -27,6 +27,7 @@ use crate::job::feature_lines::refuse_lines_beyond;
 use crate::job::file_endings::refuse_other_endings;
 use crate::job::free_turn::FreeTurn;
 use crate::job::job_file::JobFile;
+use crate::job::limits::{OF_CORRECTIONS, refuse_limits_but};
 use crate::job::machine::machine_setup;
 use crate::job::of_model::give_of_model;
 use crate::job::setting::{Setting, program_path, setting};
@@ -81,6 +82,8 @@ fn refuse_unused(files: &InputFiles, args: &CompensateArgs, given: &Given) -> An
             &UNUSED_BY_A_TABLE,
             "is for a run with a model, and --map corrects from a table: leave it out",
         )?;
+        let why = "a table of corrections says nothing of loads, tools and places";
+        refuse_limits_but(&OF_CORRECTIONS, &args.run.program.limits, why)?;
     }
     if target(job.as_ref(), args).is_none() {
         given.refuse(

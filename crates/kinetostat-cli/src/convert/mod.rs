@@ -28,6 +28,7 @@ use crate::files::outputs::{self, Existing, Outputs};
 use crate::job::arguments::{ProgramArgs, WritingFlags};
 use crate::job::file_endings::{Written, refuse_other_ending};
 use crate::job::job_file::JobFile;
+use crate::job::limits::refuse_limits_but;
 use crate::job::model_named::model_named;
 use crate::job::output_paths::FLAT_PROGRAM;
 use crate::job::program::read_program;
@@ -45,6 +46,15 @@ pub(crate) fn run(args: &ConvertArgs) -> Answer<()> {
     let files = InputFiles::default();
     let job = args.job.as_deref().map(|path| JobFile::read(&files, path));
     let job = job.transpose()?;
+    let used = [
+        "nearest_base_mm",
+        "shortest_tool_mm",
+        "longest_tool_mm",
+        "zone_mm",
+        "speed_mm_per_s",
+    ];
+    let why = "a conversion knows neither loads nor corrections";
+    refuse_limits_but(&used, &args.limits, why)?;
     let language = args.to.language();
     let made_program = Written {
         what: "made program",

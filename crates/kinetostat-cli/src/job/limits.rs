@@ -29,6 +29,23 @@ pub(crate) fn limits(job: Option<&JobFile>, options: &[String]) -> Answer<Limits
     Ok(limits)
 }
 
+/// Limits of corrections that no model computes.
+pub(crate) const OF_CORRECTIONS: [&str; 2] = ["correction_mm", "blocks_per_second"];
+
+/// Refuses options of limits that mean nothing in a command; `why` says what it is about.
+pub(crate) fn refuse_limits_but(used: &[&str], options: &[String], why: &str) -> Answer<()> {
+    for text in options {
+        let (limit, _) = of_option(text)?;
+        if !used.contains(&limit.name) {
+            return Err(Failure::input(format!(
+                "--limit '{text}' means nothing here, because {why}; leave it out. There are: {}",
+                used.join(", ")
+            )));
+        }
+    }
+    Ok(())
+}
+
 fn of_job(job: &JobFile, limits: &mut Limits) -> Answer<()> {
     let mut last = None;
     for (name, value) in &job.job.limits {

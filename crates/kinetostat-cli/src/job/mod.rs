@@ -22,7 +22,7 @@ pub(crate) mod file_endings;
 pub(crate) mod format;
 pub(crate) mod free_turn;
 pub(crate) mod job_file;
-mod limits;
+pub(crate) mod limits;
 mod load;
 pub(crate) mod machine;
 pub(crate) mod model_named;

@@ -262,7 +262,7 @@ impl<'a> LongRun<'a> {
                 .setting
                 .within(Failure::input("the program has no block")));
         };
-        let found = too_many_blocks(self.setting, &result.summary);
+        let found = too_many_blocks(self.setting, result.summary.blocks_per_second);
         result.warnings.extend(found);
         let (written, allowed_mm) = match self.aim {
             Aim::Analyse => (false, self.setting.writing.tolerance_mm),

@@ -27,6 +27,7 @@ use crate::files::hash::sha256;
 use crate::files::input_files::InputFiles;
 use crate::files::outputs::{self, Existing, Outputs};
 use crate::job::job_file::JobFile;
+use crate::job::limits::{OF_CORRECTIONS, refuse_limits_but};
 use crate::job::machine::{MachineSetup, machine_setup};
 use crate::job::output_paths::BESIDE;
 use crate::job::program::read_program;
@@ -72,6 +73,10 @@ pub(crate) fn run(args: &MirrorArgs) -> Answer<()> {
     let claimed = Claimed::of(args, &setting)?;
 
     let tolerance_mm = setting.writing.tolerance_mm;
+    if !names_model(job.as_ref()) {
+        let why = "without a model nothing is known of loads, tools and places";
+        refuse_limits_but(&OF_CORRECTIONS, &args.limits, why)?;
+    }
     let measured = measurements(
         &files,
         (job.as_ref(), args),

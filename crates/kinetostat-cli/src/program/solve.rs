@@ -5,8 +5,8 @@ use kinetostat::number::{larger, smaller};
 use kinetostat_machining::number::{largest, length_setting, setting as setting_of};
 use kinetostat_machining::{
     Bounds, CuttingLoad, ForceAlongPath, LoadAlongPath, MeasuredReport, ProgramLoad, Run, RunError,
-    Summary, Task, Tool, Warning, WarningCode, Watch, analyse, compensate_program,
-    load_description, origin_in_metres,
+    Task, Tool, Warning, WarningCode, Watch, analyse, compensate_program, load_description,
+    origin_in_metres,
 };
 use kinetostat_model::Model;
 use kinetostat_program::{MachineProgram, Path as ToolPath, WriteError, WriteOptions};
@@ -293,9 +293,8 @@ pub(crate) fn turned(
         let first = of_first_place(read, arm.as_ref(), &run.points);
         run.result.warnings.extend(first);
     }
-    run.result
-        .warnings
-        .extend(too_many_blocks(setting, &run.result.summary));
+    let most = run.result.summary.blocks_per_second;
+    run.result.warnings.extend(too_many_blocks(setting, most));
     let allowed_mm = match aim {
         Aim::Analyse => setting.writing.tolerance_mm,
         Aim::Compensate => run.result.tolerance.allowed_mm,
@@ -307,8 +306,8 @@ pub(crate) fn turned(
 }
 
 /// A program with more blocks per second than a controller takes, as stated.
-pub(crate) fn too_many_blocks(setting: &Setting, summary: &Summary) -> Option<Warning> {
-    let (limit, most) = (setting.max_blocks_per_second?, summary.blocks_per_second?);
+pub(crate) fn too_many_blocks(setting: &Setting, most: Option<f64>) -> Option<Warning> {
+    let (limit, most) = (setting.max_blocks_per_second?, most?);
     (most > limit).then(|| Warning::new(WarningCode::BlocksPerSecond, format!(
         "the written program asks for up to {} blocks per second, more than the {limit} that were stated: the machine may stutter. Widen the tolerance (path_um, chord_um) or cut more slowly",
         largest(most, "")

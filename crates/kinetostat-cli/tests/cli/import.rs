@@ -4,7 +4,7 @@ use crate::common::{run, workplace};
 use serde_json::Value;
 
 /// A turning and a sliding joint, a counterweight that a mimic joint moves.
-const URDF: &str = r#"<robot name="crane">
+pub(crate) const URDF: &str = r#"<robot name="crane">
   <link name="post"/>
   <link name="boom"><inertial><origin xyz="0.8 0 0"/><mass value="40"/><inertia ixx="1" ixy="0" ixz="0" iyy="9" iyz="0" izz="9"/></inertial></link>
   <link name="weight"><inertial><origin xyz="0 0 -0.2"/><mass value="35"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1.5"/></inertial></link>
