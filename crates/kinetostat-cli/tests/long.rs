@@ -45,10 +45,15 @@ fn surface(rows: usize) -> String {
     text
 }
 
+/// A job that states what the load does at corners, so that the verdict is that of the figures.
+fn job() -> String {
+    common::JOB.replace("[load]\n", "[load]\nat_corners = \"turns\"\n")
+}
+
 fn place(rows: usize) -> tempfile::TempDir {
     let here = tempfile::tempdir().expect("a directory");
     fs::write(here.path().join("part.ngc"), surface(rows)).expect("written");
-    fs::write(here.path().join("job.toml"), common::JOB).expect("written");
+    fs::write(here.path().join("job.toml"), job()).expect("written");
     here
 }
 
@@ -292,7 +297,7 @@ fn a_run_in_parts_is_the_run_as_a_whole() {
     for more in [&[][..], &["--tolerance-um", "10"]] {
         let [parts, whole] = [&PARTS[..], &[]].map(|parts| {
             let here = place(12);
-            let job = format!("{}{features}", common::JOB);
+            let job = format!("{}{features}", job());
             fs::write(here.path().join("job.toml"), job).expect("written");
             let (code, said) = end(start(here.path(), parts, more));
             assert_eq!(code, Some(0), "{said}");
