@@ -68,7 +68,7 @@ def revolution(width, up=False, teeth=4, radius=6.0, depth=8.0, feed=0.1, helix=
     inside = phi < arc if up else (phi > np.pi - arc) & (phi < np.pi)
     chip = np.where(inside, feed * np.sin(phi), 0.0).clip(min=0)
     tangential = 1.3 * K11 * chip ** (1 - M) * depth / slices
-    radial, axial = 0.4 * tangential, 0.25 * tangential
+    radial, axial = 0.4 * tangential, -0.25 * tangential
     x = -tangential * np.cos(phi) - radial * np.sin(phi)
     y = tangential * np.sin(phi) - radial * np.cos(phi)
     return turn, np.stack([part.sum(axis=(1, 2)) for part in (x, y, axial)], axis=-1)

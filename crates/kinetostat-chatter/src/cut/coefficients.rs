@@ -9,7 +9,8 @@ use crate::error::{ChatterError, ChatterErrorKind, Result, above};
 ///
 /// The force **on the tool** is `-(Kt t + Kr n - Ka z) a h` with `t` along the tooth's way, `n` outward, `z` towards the
 /// spindle. `Kr` and `Ka` are forces by area like `Kt`, not ratios to it. A positive `Ka` pushes the tool towards the spindle,
-/// as in the material library ([`kinetostat_cutting::EdgeForce`], `cutting.md`); (D 8) is written with the opposite sign.
+/// as in the material library ([`kinetostat_cutting::EdgeForce`], `cutting.md`), so that a helix that lifts the chip has a negative
+/// one; (D 8) is written with the opposite sign.
 ///
 /// ```
 /// use kinetostat_chatter::Coefficients;

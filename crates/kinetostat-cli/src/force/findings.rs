@@ -55,7 +55,7 @@ fn of_tool(answer: &ForceAnswer, tool: &CutTool, cut: &Cut) -> Vec<Warning> {
         say(
             WarningCode::ImplausibleCoefficient,
             format!(
-                "a helix of {} deg pushes the chip down, and materials state their axial coefficients for one that lifts it: the axial force has the wrong sign unless the material was measured with such a tool",
+                "a helix of {} deg pushes the chip down, and materials state their axial coefficients for one that lifts it, which draws the tool to the part: the axial force has the wrong sign unless the material was measured with such a tool",
                 given(tool.tool.helix().to_degrees())
             ),
         );

@@ -37,8 +37,8 @@ place of tooth 0 at the tip, as the spindle turns.
 Mean forces for --fit (CSV): a row for each cut, all of them but for the feed
 alike; better five feeds than two. Lines that begin with # are passed over.
   feed_mm_per_tooth,fx_n,fy_n,fz_n
-  0.05,-95.2,149.7,19.3
-  0.10,-112.3,230.6,33.6
+  0.05,-95.2,149.7,-19.3
+  0.10,-112.3,230.6,-33.6
 
 A table of tools (TOML) has per tool
   [[tool]]

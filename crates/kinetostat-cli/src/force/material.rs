@@ -89,6 +89,10 @@ pub(crate) fn applied(
     let correction = correction(args, made, rake_deg, speed_m_per_min);
     let applied = material.for_milling(&correction);
     let mut applied = applied.map_err(|error| refused(&error))?;
+    if made == Made::Steadily {
+        // Without a helix the axial part is that of the test.
+        applied.law.law = material.clone();
+    }
     if args.process_factor.is_none() && made == Made::Steadily {
         // Nobody gave the 1 that keeps the factor of milling away.
         applied.factors.retain(|factor| factor.symbol != "K_PRO");

@@ -26,7 +26,7 @@ pub(crate) struct LobesArgs {
     #[arg(long, value_name = "A", allow_negative_numbers = true, value_parser = number, default_value = "5", help_heading = "Cut")]
     pub(crate) depth_mm: f64,
     /// Force by area of chip: tangential, radial and axial, N/mm^2 (the radial one is no ratio; a
-    /// positive axial one pushes the tool towards the spindle, as in the material library)
+    /// positive axial one pushes the tool towards the spindle: below zero with a helix that lifts the chip)
     #[arg(long, num_args = 3, value_names = ["KT", "KR", "KA"], allow_negative_numbers = true, value_parser = number, required_unless_present = "material", conflicts_with = "material", help_heading = "Cut")]
     pub(crate) coefficients_n_per_mm2: Vec<f64>,
     /// Feed per tooth, mm: the law of --material is taken as a straight line at the mean thickness of its chips

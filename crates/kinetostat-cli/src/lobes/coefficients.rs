@@ -25,11 +25,14 @@ impl CutCoefficients {
     pub(crate) fn of(args: &LobesArgs, arc: &Arc) -> Answer<Self> {
         match &args.material.material {
             Some(_) => Self::of_material(args, arc),
-            None => Ok(Self {
-                law: stated(&args.coefficients_n_per_mm2, args.helix_deg.unwrap_or(0.0))?,
-                of_material: None,
-                warnings: Vec::new(),
-            }),
+            None => {
+                let law = stated(&args.coefficients_n_per_mm2)?;
+                Ok(Self {
+                    law,
+                    of_material: None,
+                    warnings: odd_sign(&law, args.helix_deg).into_iter().collect(),
+                })
+            }
         }
     }
 
@@ -83,7 +86,28 @@ impl CutCoefficients {
     }
 }
 
-fn stated(given: &[f64], helix_deg: f64) -> Answer<Coefficients> {
+/// An axial coefficient with a sign that its helix does not make: the rake face presses the chip where the helix carries it, and
+/// the tool is pushed to the other side (oblique cutting with friction below 1).
+fn odd_sign(law: &Coefficients, helix_deg: Option<f64>) -> Option<Warning> {
+    let axial = 1e-6 * law.axial();
+    let helix_deg = helix_deg.unwrap_or(0.0);
+    let (is_odd, helix) = match helix_deg < 0.0 {
+        true => (axial < 0.0, "a helix below zero"),
+        false => (axial > 0.0, "a helix that lifts the chip"),
+    };
+    is_odd.then(|| {
+        Warning::new(
+            WarningCode::ImplausibleCoefficient,
+            format!(
+                "KA is {axial} N/mm^2: is its sign meant? Positive pushes the tool towards the spindle, and {helix} pushes it {} (the part the other way). Tables of coefficients mostly count towards the part: give {} then, or the helix with its sign (--helix-deg with --diameter-mm)",
+                if axial > 0.0 { "to the part" } else { "towards the spindle" },
+                -axial
+            ),
+        )
+    })
+}
+
+fn stated(given: &[f64]) -> Answer<Coefficients> {
     let &[tangential, radial, axial] = given else {
         return Err(Failure::input("--coefficients-n-per-mm2 needs KT KR KA"));
     };
@@ -114,20 +138,6 @@ fn stated(given: &[f64], helix_deg: f64) -> Answer<Coefficients> {
         return Err(Failure::input(format!(
             "--coefficients-n-per-mm2: {other} N/mm^2 is more than any material has ({} at most)",
             PLAUSIBLE.end()
-        )));
-    }
-    let (wrong, helix) = match helix_deg < 0.0 {
-        true => (
-            axial > 0.0,
-            "a helix below zero, which pushes the chip down,",
-        ),
-        false => (axial < 0.0, "a helix that lifts the chip"),
-    };
-    if wrong {
-        return Err(Failure::input(format!(
-            "--coefficients-n-per-mm2: KA is {axial} N/mm^2; positive pushes the tool towards the spindle, as K_ac of `force` and of the material library, and {helix} has it {}. Give {} (tables with the opposite sign are common), or the helix with its sign (--helix-deg with --diameter-mm)",
-            if axial > 0.0 { "negative" } else { "positive" },
-            -axial
         )));
     }
     Coefficients::new(1e6 * tangential, 1e6 * radial, 1e6 * axial).map_err(Failure::input)

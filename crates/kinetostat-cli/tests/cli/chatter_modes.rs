@@ -205,6 +205,23 @@ fn damping_and_coefficients_that_nothing_has_are_told() {
     assert!(warned(&json(&answer), "70.0 % of critical"), "{answer:?}");
     let answer = lobes(&format!("{cut} --damping 0.03 --json")).answered();
     assert!(!warned(&json(&answer), "damping:"), "{answer:?}");
+    // Oblique cutting: a helix that lifts the chip draws the tool to the part, where KA is below zero.
+    let right = "--helix-deg 30 --diameter-mm 12";
+    let left = "--helix-deg -30 --diameter-mm 12";
+    for (axial, helix, gives) in [
+        (-222, right, None),
+        (222, right, Some("give -222")),
+        (222, left, None),
+        (-222, left, Some("give 222")),
+        (222, "", Some("give -222")),
+    ] {
+        let line =
+            format!("--damping 0.03 --coefficients-n-per-mm2 796 168 {axial} --json {helix}");
+        let answer = json(&lobes(line.trim_end()).answered());
+        let is_asked = warned(&answer, "is its sign meant?");
+        assert_eq!(is_asked, gives.is_some(), "{answer}");
+        assert!(gives.is_none_or(|part| warned(&answer, part)), "{answer}");
+    }
     for (given, part) in [
         (
             "796e6 168e6 0",
@@ -212,11 +229,6 @@ fn damping_and_coefficients_that_nothing_has_are_told() {
         ),
         ("0.8 0.2 0", "5 to 20000"),
         ("800 240 -222e6", "more than any material"),
-        (
-            "796 168 -222",
-            "positive pushes the tool towards the spindle, as K_ac of `force` and of the material library",
-        ),
-        ("796 168 222 --helix-deg -30 --diameter-mm 12", "Give -222"),
     ] {
         let refused = lobes(&format!("--damping 0.03 --coefficients-n-per-mm2 {given}"));
         assert_eq!(refused.code, 1, "{refused:?}");

@@ -258,7 +258,7 @@ fn signs_and_senses() {
         let other = fit(here.path(), &turned_of(&text, [1.0, -1.0, 1.0]), &options);
         assert_eq!(values(&other), plain);
     }
-    // Axes of the dynamometer that are exchanged, and a z that points into the part, are told with what to turn.
+    // Axes of the dynamometer that are exchanged are told with what to turn.
     let exchanged: String = text
         .lines()
         .map(|line| {
@@ -272,18 +272,17 @@ fn signs_and_senses() {
             }
         })
         .collect();
-    for (text, part) in [
-        (
-            exchanged,
-            "x (along the feed) and y (to its left) of the forces look exchanged",
-        ),
-        (turned([1.0, 1.0, -1.0]), "Turn the sign of fz_n"),
-    ] {
-        let wrong = fit(here.path(), &text, SLOT.options);
-        let said = warnings(&wrong).join(" ");
-        assert!(said.contains(part), "{said}");
-        assert!(wrong["material_toml"].is_null());
-        assert!(refused(&text, SLOT.options).contains(part));
+    let part = "x (along the feed) and y (to its left) of the forces look exchanged";
+    let wrong = fit(here.path(), &exchanged, SLOT.options);
+    let said = warnings(&wrong).join(" ");
+    assert!(said.contains(part), "{said}");
+    assert!(wrong["material_toml"].is_null());
+    assert!(refused(&exchanged, SLOT.options).contains(part));
+    // Oblique cutting: the tool of a helix that lifts the chip is drawn to the part. The other sign is asked about.
+    for (z, is_asked) in [(1.0, true), (-1.0, false)] {
+        let found = fit(here.path(), &turned([1.0, 1.0, z]), SLOT.options);
+        let said = warnings(&found).join(" ");
+        assert_eq!(said.contains("Turn the sign of fz_n"), is_asked, "{said}");
     }
     // The wrong sign is seen.
     let wrong = fit(here.path(), &turned([-1.0; 3]), SLOT.options);

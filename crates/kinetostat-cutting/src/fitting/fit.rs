@@ -117,10 +117,10 @@ impl CoefficientFit {
 /// let slot = Engagement::straight(10.0, 20.0, 2.0, Side::Left)?; // mm
 /// let text = "\
 /// feed_mm_per_tooth,fx_n,fy_n,fz_n
-/// 0.05,-95.2,149.7,19.3
-/// 0.10,-112.3,230.6,33.6
-/// 0.15,-128.6,309.5,48.1
-/// 0.20,-145.9,389.7,62.1
+/// 0.05,-95.2,149.7,-19.3
+/// 0.10,-112.3,230.6,-33.6
+/// 0.15,-128.6,309.5,-48.1
+/// 0.20,-145.9,389.7,-62.1
 /// ";
 /// let series = Series::read("slot.csv", text, MeasuredCut::new(&tool, &slot)?)?;
 /// let fit = fit_coefficients(&[series])?;

@@ -37,6 +37,21 @@ impl Law {
         }
     }
 
+    /// The same law with the opposite axial part.
+    pub(crate) fn with_axial_turned(mut self) -> Self {
+        let (force, edge) = match &mut self {
+            Self::Linear(law) => (&mut law.cutting_n_per_mm2, Some(&mut law.edge_n_per_mm)),
+            Self::Kienzle(law) => (&mut law.specific_n_per_mm2, None),
+            Self::Exponential(law) => (&mut law.cutting_n_per_mm2, Some(&mut law.edge_n_per_mm)),
+            Self::Rational(law) => (&mut law.a_1_n_per_mm2, Some(&mut law.a_2_n_per_mm3)),
+        };
+        force[2] = -force[2];
+        if let Some(edge) = edge {
+            edge[2] = -edge[2];
+        }
+        self
+    }
+
     /// Its name and formula.
     #[must_use]
     pub fn description(&self) -> &'static str {

@@ -48,6 +48,8 @@ impl Material {
     ///
     /// - Coefficients of turning tests take `K_PRO` = 1.3 unless the correction gives another: the report has 1.2 to 1.4 for
     ///   them [R Table 2.1], and this is the middle; the half width of 0.1 goes into the spread.
+    /// - Their axial part is turned: an edge of turning is pushed back along itself, and a helix that lifts the chip presses the
+    ///   chip towards the spindle, so that the tool is drawn to the part (oblique cutting, friction below 1).
     /// - `K_V` and `K_gamma` compare the cut with the test: where speed or rake of the test are known, the factor is divided
     ///   by its value there; else it is that of the table, which is 1 at about 100 m/min and at 7.5 degrees (cast iron 2.5).
     /// - The line of the rake factor is that of the material's group; `rake_reference` of the correction is not asked.
@@ -81,7 +83,7 @@ impl Material {
             (None, Process::Turning) => {
                 factor *= PROCESS;
                 spread = spread.hypot(PROCESS_SPREAD / PROCESS);
-                let reason = "milling with coefficients of turning tests, the middle of 1.2 to 1.4";
+                let reason = "milling with coefficients of turning tests, the middle of 1.2 to 1.4; the helix draws the tool to the part (axial part below zero)";
                 factors.push(given("K_PRO", PROCESS, reason));
             }
             (None, Process::Milling) => {}
@@ -114,11 +116,12 @@ impl Material {
             });
         }
         factors.extend(others(&correction)?);
+        let mut law = self.clone();
+        if self.measured_in.process == Process::Turning {
+            law.law = law.law.with_axial_turned();
+        }
         Ok(Applied {
-            law: Corrected {
-                law: self.clone(),
-                factor,
-            },
+            law: Corrected { law, factor },
             spread,
             factors,
         })

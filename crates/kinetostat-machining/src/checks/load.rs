@@ -142,7 +142,7 @@ pub(crate) fn odd_load(task: &Task<'_>, whose: &str, load: &ProgramLoad) -> Vec<
         warn(
             WarningCode::PullingForce,
             format!(
-                "the force on the tool is {} N along -z of the program: it pulls the tool into the part, more than it pushes across; cutting pushes a tool back, along +z: check the sign",
+                "the force on the tool is {} N along -z of the program: it pulls the tool into the part, more than it pushes across, and even a helix of 45 degrees pulls by less: check the sign",
                 short(-f.z)
             ),
         );

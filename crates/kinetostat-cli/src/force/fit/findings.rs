@@ -24,7 +24,10 @@ const TANGENTIAL: [f64; 2] = [20.0, 15_000.0];
 pub(super) fn findings(a: &FitAnswer, diameter_mm: f64) -> Vec<Warning> {
     let mut list = Vec::new();
     let mut say = |code, message: String| list.push(Warning::new(code, message));
-    if let Some(message) = exchanged_axes(&a.coefficients, a.tool.helix_deg) {
+    if let Some(message) = exchanged_axes(&a.coefficients) {
+        say(Code::ImplausibleCoefficient, message);
+    }
+    if let Some(message) = odd_sign(&a.coefficients, a.tool.helix_deg) {
         say(Code::ImplausibleCoefficient, message);
     }
     for message in of_coefficients(&a.coefficients, a.acts_on) {
@@ -47,10 +50,10 @@ pub(super) fn findings(a: &FitAnswer, diameter_mm: f64) -> Vec<Warning> {
     list
 }
 
-/// Coefficients that no material has, and that exchanged axes or a turned sign make.
-pub(super) fn exchanged_axes(all: &[CoefficientAnswer], helix_deg: f64) -> Option<String> {
+/// Coefficients that no material has, and that exchanged axes make.
+pub(super) fn exchanged_axes(all: &[CoefficientAnswer]) -> Option<String> {
     let of = |symbol: &str| all.iter().find(|c| c.symbol == symbol);
-    let (tangential, radial, axial) = (of("K_tc")?, of("K_rc")?, of("K_ac")?);
+    let (tangential, radial) = (of("K_tc")?, of("K_rc")?);
     if tangential.value <= 0.0 {
         return None;
     }
@@ -64,13 +67,25 @@ pub(super) fn exchanged_axes(all: &[CoefficientAnswer], helix_deg: f64) -> Optio
             unit = radial.unit
         ));
     }
-    let (is_wrong, lifts) = match helix_deg < 0.0 {
-        true => (low(axial) > 0.0, "pushes the chip down"),
-        false => (high(axial) < 0.0, "lifts the chip"),
+    None
+}
+
+/// An axial coefficient with a sign that the helix does not make; with friction above 1 it may.
+fn odd_sign(all: &[CoefficientAnswer], helix_deg: f64) -> Option<String> {
+    let axial = all.iter().find(|c| c.symbol == "K_ac")?;
+    let low = axial.low_95.unwrap_or(axial.value);
+    let high = axial.high_95.unwrap_or(axial.value);
+    let (is_odd, helix, side) = match helix_deg < 0.0 {
+        true => (high < 0.0, "pushes the chip down", "towards the spindle"),
+        false => (
+            helix_deg > 0.0 && low > 0.0,
+            "lifts the chip",
+            "to the part",
+        ),
     };
-    is_wrong.then(|| {
+    is_odd.then(|| {
         format!(
-            "K_ac = {} {}: positive pushes the tool towards the spindle, and a helix that {lifts} has the other sign. Turn the sign of fz_n (z is along the tool towards the spindle), or state the helix with its sign (--helix-deg)",
+            "K_ac = {} {}: positive pushes the tool towards the spindle, and a helix that {helix} pushes it {side} (the part the other way). Turn the sign of fz_n (z is along the tool towards the spindle), or state the helix with its sign (--helix-deg)",
             number(axial.value, 3),
             axial.unit
         )

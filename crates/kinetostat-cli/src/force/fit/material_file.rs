@@ -42,7 +42,7 @@ pub(super) fn material_file(
             error.expected
         )
     })?;
-    if let Some(wrong) = exchanged_axes(&a.coefficients, a.tool.helix_deg) {
+    if let Some(wrong) = exchanged_axes(&a.coefficients) {
         return Err(wrong);
     }
     let spread = match a.spread_percent {
