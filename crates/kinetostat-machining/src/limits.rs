@@ -34,11 +34,13 @@ pub struct Limits {
     pub longest_tool_mm: f64,
     /// Nearest place of a base to the zero of its robot, mm; a base at zero is none. Default 10.
     pub nearest_base_mm: f64,
-    /// How far the program's zero may lie below the base of a machine that works above it, mm. Default 400.
+    /// How far the program's zero may lie below the base of a machine that works above it, mm. Default 400: risers of arms
+    /// are up to 1 m high, and tables with their vice at least 0.6 m.
     pub below_base_mm: f64,
-    /// Fastest feed, mm/s. Default 7000.
+    /// Fastest feed, mm/s. Default 3000: `$VEL.CP` of KRL takes no more, and the fastest cuts (foam) have a tenth of it.
     pub speed_mm_per_s: f64,
-    /// Largest rounding of corners at feed, mm. Default 5.
+    /// Largest rounding of corners at feed, mm. Default 5: it leaves a right angle by 1.8 mm, nearly the whole `correction_mm`,
+    /// and is the coarsest zone that roughing in foam has (z5 of RAPID).
     pub zone_mm: f64,
 }
 
@@ -57,7 +59,7 @@ impl Default for Limits {
             longest_tool_mm: 1000.0,
             nearest_base_mm: 10.0,
             below_base_mm: 400.0,
-            speed_mm_per_s: 7000.0,
+            speed_mm_per_s: 3000.0,
             zone_mm: 5.0,
         }
     }
@@ -246,7 +248,7 @@ impl Limits {
             "mm/s",
             [1e-3, 1e6],
             "the speed at feed",
-            "robots cut with 1 to 300 mm/s and move with up to 3000 mm/s; $VEL.CP of KRL is in m/s, F of G-code in mm/min"
+            "robots cut with 1 to 300 mm/s and move with up to 2000 mm/s; of faster ways through the air a job says so (rapid_from_mm_per_s); $VEL.CP of KRL is in m/s, F of G-code in mm/min"
         ),
         limit!(
             zone_mm,

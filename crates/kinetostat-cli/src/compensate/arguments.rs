@@ -160,7 +160,7 @@ A job file:
   # force_n = 5000, moment_n_m = 200
   # share_of_rating = 1, share_of_buckling = 0.5, blocks_per_second = 2000
   # shortest_tool_mm = 1, longest_tool_mm = 1000, below_base_mm = 400
-  # nearest_base_mm = 10, speed_mm_per_s = 7000, zone_mm = 5
+  # nearest_base_mm = 10, speed_mm_per_s = 3000, zone_mm = 5
 
 Exit codes:
   0    answered

@@ -131,7 +131,7 @@ fn speeds_have_a_limit_in_every_command_that_writes_a_program() {
         &said,
         "new.mod",
         &[
-            "the speed at feed is 16670 mm/s, more than the 7000 mm/s",
+            "the speed at feed is 16670 mm/s, more than the 3000 mm/s",
             "m/s",
             "--limit speed_mm_per_s=",
         ],
@@ -144,7 +144,7 @@ fn speeds_have_a_limit_in_every_command_that_writes_a_program() {
         here,
         &said,
         "out.ngc",
-        &["is 10000 mm/s, more than the 7000 mm/s"],
+        &["is 10000 mm/s, more than the 3000 mm/s"],
     );
 }
 

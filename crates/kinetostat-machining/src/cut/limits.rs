@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use kinetostat::number::{larger, short};
+use kinetostat::number::{larger, short, smaller};
 use kinetostat_cutting::{Contact, Edge, Engagement, Feed, Milling, Rotation};
 
 use crate::cut::drive::Drive;
@@ -10,11 +10,12 @@ use crate::cut::finding::{CutFindingKind, Findings};
 use crate::cut::question::CutQuestion;
 use crate::cut::station::CutStation;
 
-/// A feed per tooth beyond this share of the diameter is no feed of milling; high-feed cutters reach a tenth.
-const COARSE: f64 = 0.1;
+/// A feed per tooth beyond this share of the diameter, or beyond this, mm, is no feed of milling: small high-feed cutters reach a
+/// tenth, large ones (50 mm and more) 2.5 mm.
+const COARSE: (f64, f64) = (0.1, 2.5);
 
-/// Nor is one below this share: edges rub, and a tool lasts minutes.
-const FINE: f64 = 4e-4;
+/// Nor is one below this share, or below this, mm: an edge of sharp carbide is 2 to 5 um round, and rubs.
+const FINE: (f64, f64) = (4e-4, 0.002);
 
 /// Chips under the flat end that are thinner than this are beyond a law of which no range is known, mm.
 const THINNEST_MM: f64 = 0.005;
@@ -40,7 +41,7 @@ impl CutQuestion {
                 )
             });
         }
-        let coarse = COARSE * tool.tool.diameter_mm();
+        let coarse = smaller(COARSE.0 * tool.tool.diameter_mm(), COARSE.1);
         if tool.max_chip_mm.is_none() && chip > coarse {
             findings.add(CutFindingKind::ThickChip, line, chip, || {
                 format!(
@@ -96,7 +97,7 @@ impl CutQuestion {
             });
         }
         look_at_end(engagement, (drive, feed), line, findings);
-        if chip < FINE * tool.tool.diameter_mm() {
+        if chip < larger(FINE.0 * tool.tool.diameter_mm(), FINE.1) {
             findings.add(CutFindingKind::ThinFeed, line, -chip, || {
                 format!(
                     "a feed of {} mm per tooth with a tool of {} mm: no chip is so thin; F is read in mm/min (in mm/s it would be 60 times as much), so correct F, speed or number of teeth",
