@@ -7,6 +7,7 @@ use crate::stability::krylov;
 use crate::stability::limits::SpeedStability;
 use crate::stability::regeneration::{Regeneration, Selected};
 use crate::stability::resolution::resolved_hz;
+use crate::stability::scan::Search;
 use crate::stability::swinging::Known;
 
 /// Share of the usual points of collocation at one look, and the logarithm of a multiplier from which it is unstable for certain.
@@ -31,7 +32,7 @@ impl Regeneration {
     /// # Errors
     /// A speed or a depth that is not positive, and modes too fast for the speed ([`crate::ToolResponse::with_modes_up_to`]).
     pub fn stability_at(&self, speed_rpm: f64, up_to: f64) -> Result<SpeedStability> {
-        self.stability_beyond(None, speed_rpm, up_to)
+        self.stability_beyond(None, speed_rpm, (up_to, Search::All))
     }
 
     /// As [`Self::stability_at`] at the speed of `known`, which was found for this cut up to a smaller depth: where no limit was
@@ -44,7 +45,21 @@ impl Regeneration {
         known: &SpeedStability,
         up_to: f64,
     ) -> Result<SpeedStability> {
-        self.stability_beyond(Some(known), known.speed_rpm, up_to)
+        self.stability_beyond(Some(known), known.speed_rpm, (up_to, Search::All))
+    }
+
+    /// As [`Self::stability_at`] or, with what is known of smaller depths, [`Self::stability_continued`], up to the limit:
+    /// depths above it are not looked at.
+    ///
+    /// # Errors
+    /// As [`Self::stability_at`].
+    pub fn first_limit(
+        &self,
+        known: Option<&SpeedStability>,
+        speed_rpm: f64,
+        up_to: f64,
+    ) -> Result<SpeedStability> {
+        self.stability_beyond(known, speed_rpm, (up_to, Search::First))
     }
 
     /// True if the cut is unstable at a spindle speed (rpm) and a depth (m), by one look at its largest multiplier. False where it
@@ -78,13 +93,13 @@ impl Regeneration {
         &self,
         known: Option<&SpeedStability>,
         speed_rpm: f64,
-        up_to: f64,
+        (up_to, search): (f64, Search),
     ) -> Result<SpeedStability> {
         checked_speed(speed_rpm)?;
         checked_depth(up_to)?;
         match self.selected() {
-            Some(selected) => self.stability_of(selected, known, speed_rpm, up_to),
-            None => self.stability_of_all(known, speed_rpm, up_to),
+            Some(selected) => self.stability_of(selected, known, speed_rpm, (up_to, search)),
+            None => self.stability_of_all(known, speed_rpm, (up_to, search)),
         }
     }
 
@@ -94,7 +109,7 @@ impl Regeneration {
         selected: &Selected,
         known: Option<&SpeedStability>,
         speed_rpm: f64,
-        up_to: f64,
+        (up_to, search): (f64, Search),
     ) -> Result<SpeedStability> {
         let Selected { selection, usual } = selected;
         let resolved = match selection.automatic {
@@ -104,10 +119,10 @@ impl Regeneration {
         let mut count = selection.count.min(resolved);
         loop {
             let found = match count == selection.count {
-                true => usual.stability_of_all(known, speed_rpm, up_to)?,
+                true => usual.stability_of_all(known, speed_rpm, (up_to, search))?,
                 false => self
                     .lowest(count)
-                    .stability_of_all(known, speed_rpm, up_to)?,
+                    .stability_of_all(known, speed_rpm, (up_to, search))?,
             };
             let reach = found.limit().map_or(up_to, |limit| limit.depth);
             let could = |mode: &Known| mode.alone < reach;

@@ -31,6 +31,14 @@ const SCANNED: f64 = 0.75;
 /// Most times the usual points.
 const FINEST: f64 = 3.5;
 
+/// The changes of stability that are looked for.
+#[derive(Clone, Copy, PartialEq)]
+pub(crate) enum Search {
+    All,
+    /// The limit; islands above it are not.
+    First,
+}
+
 /// A place of the scan: logarithms of depth and multiplier.
 #[derive(Clone, Copy)]
 struct Sample {
@@ -44,7 +52,7 @@ impl Regeneration {
         &self,
         known: Option<&SpeedStability>,
         speed_rpm: f64,
-        up_to: f64,
+        (up_to, search): (f64, Search),
     ) -> Result<SpeedStability> {
         let modes = self.response().modes().iter();
         let modes_up_to_hz = modes.map(Mode::frequency_hz).fold(0.0, larger);
@@ -59,7 +67,7 @@ impl Regeneration {
         let mut crossings = Vec::new();
         if certain < up_to {
             let along = Along::new(self, speed_rpm, SCANNED)?;
-            for (low, high) in changes(&along, certain.ln(), up_to.ln())? {
+            for (low, high) in changes(&along, [certain.ln(), up_to.ln()], search)? {
                 crossings.push(self.crossing(&along, low, high)?);
             }
         } else {
@@ -133,7 +141,11 @@ fn followed(along: &Along<'_>, start: f64, slope: f64) -> Result<f64> {
 }
 
 /// Steps in each of which stability changes once, in order.
-fn changes(along: &Along<'_>, from: f64, to: f64) -> Result<Vec<(Sample, Sample)>> {
+fn changes(
+    along: &Along<'_>,
+    [from, to]: [f64; 2],
+    search: Search,
+) -> Result<Vec<(Sample, Sample)>> {
     let sample = |at: f64| -> Result<Sample> {
         Ok(Sample {
             at,
@@ -166,6 +178,9 @@ fn changes(along: &Along<'_>, from: f64, to: f64) -> Result<Vec<(Sample, Sample)
             }
             if change {
                 found.push((last, next));
+                if search == Search::First {
+                    return Ok(found);
+                }
             }
             last = next;
             waiting.pop();

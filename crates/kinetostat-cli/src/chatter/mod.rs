@@ -26,10 +26,13 @@ use crate::program::chatter::{Judging, refused};
 use crate::program::flat_lines::of_warnings;
 use crate::program::solve::{forces_of, with_task};
 use crate::ui::failure::{Answer, Failure};
-use crate::ui::progress::Progress;
+use crate::ui::progress::{AsOne, Progress};
 use crate::ui::threads::in_threads;
 use crate::vibration::damping::words;
 use crate::vibration::stability::implausible;
+
+/// Shares of the forces of the cut and of their stability in the work.
+const SHARES: [f64; 2] = [0.15, 0.85];
 
 pub(crate) fn run(args: &ChatterArgs) -> Answer<()> {
     let files = InputFiles::default();
@@ -57,7 +60,8 @@ pub(crate) fn run(args: &ChatterArgs) -> Answer<()> {
     let claimed = ClaimedFiles::claim(&args.outputs, &setting.inputs)?;
     let read = read_program(&setting)?;
     let progress = Progress::with_lines();
-    let forces = forces_of(&machine, &setting, read.path(), &progress)?;
+    let as_one = AsOne::new(&progress, "chatter, %", &SHARES);
+    let forces = forces_of(&machine, &setting, read.path(), &as_one)?;
     let Some(forces) = &forces else {
         return Err(Failure::input("the job has no forces of the cut"));
     };
@@ -67,7 +71,7 @@ pub(crate) fn run(args: &ChatterArgs) -> Answer<()> {
         &setting,
         &read,
         Some(forces),
-        |task| in_threads(args.threads, || judging.along(task, forces, &progress)),
+        |task| in_threads(args.threads, || judging.along(task, forces, &as_one)),
     )??;
     let found = found.map_err(|error| refused(error, &setting))?;
     progress.finish();

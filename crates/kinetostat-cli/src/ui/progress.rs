@@ -160,6 +160,45 @@ impl Watch for Progress {
     }
 }
 
+/// Stages that are shown as one, each with its share of the work.
+pub(crate) struct AsOne<'p> {
+    progress: &'p Progress,
+    shares: &'static [f64],
+    /// Number of the stage, from 1, and its points.
+    now: Mutex<(usize, usize)>,
+}
+
+impl<'p> AsOne<'p> {
+    pub(crate) fn new(progress: &'p Progress, name: &str, shares: &'static [f64]) -> Self {
+        progress.stage(name, 100);
+        Self {
+            progress,
+            shares,
+            now: Mutex::default(),
+        }
+    }
+}
+
+impl Watch for AsOne<'_> {
+    fn stage(&self, _: &str, total: usize) {
+        if let Ok(mut now) = self.now.lock() {
+            *now = (now.0 + 1, total.max(1));
+        }
+        self.advance(0);
+    }
+
+    fn advance(&self, done: usize) {
+        let Ok(now) = self.now.lock() else { return };
+        let (before, own) = self.shares.split_at(now.0.clamp(1, self.shares.len()) - 1);
+        let share = before.iter().sum::<f64>() + own[0] * done as f64 / now.1.max(1) as f64;
+        self.progress.advance((100.0 * share) as usize);
+    }
+
+    fn cancelled(&self) -> bool {
+        self.progress.cancelled()
+    }
+}
+
 /// Whether the command is to end: its host says so, or without one Ctrl-C came.
 fn stopped(host: Option<&Host>) -> bool {
     match host {

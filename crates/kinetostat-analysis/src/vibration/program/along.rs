@@ -10,6 +10,7 @@ use rayon::prelude::*;
 use crate::vibration::program::judged::{JudgedSite, Verdict};
 use crate::vibration::program::question::{ChatterQuestion, ProgramChatterError};
 use crate::vibration::program::site::{SiteGroup, WithoutSide, groups, sites};
+use crate::vibration::program::speeds::OtherSpeeds;
 use crate::vibration::program::stretches::{ChatterStretch, stretches};
 
 /// Share of the work that other spindle speeds are reckoned with: one in so many of the judged cuts.
@@ -69,7 +70,11 @@ impl ChatterQuestion<'_> {
             let of_speeds = (share * of_speeds as f64) as usize;
             watch.advance(judged.len() + of_speeds);
         };
-        let stretches = stretches(self, &load, &judged_sites, (watch, &part))?;
+        let stretches = stretches(
+            &OtherSpeeds::new(self, &load, &found),
+            &judged_sites,
+            (watch, &part),
+        )?;
         Ok(ProgramChatter {
             sites: judged_sites,
             stretches,

@@ -34,13 +34,13 @@ pub(crate) fn limit_at(
     depth: f64,
     beyond: bool,
 ) -> kinetostat_chatter::Result<SpeedStability> {
-    let mut found = regeneration.stability_at(rpm, FIRST_DEPTH * depth)?;
+    let mut found = regeneration.first_limit(None, rpm, FIRST_DEPTH * depth)?;
     for share in DEPTHS {
         let is_deeper = share > 1.0;
         if found.limit().is_some() || (is_deeper && !beyond) {
             break;
         }
-        match regeneration.stability_continued(&found, share * depth) {
+        match regeneration.first_limit(Some(&found), rpm, share * depth) {
             Ok(deeper) => found = deeper,
             // What is beyond the depth of the program need not be known.
             Err(_) if is_deeper => break,

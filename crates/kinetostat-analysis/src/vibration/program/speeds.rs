@@ -1,7 +1,9 @@
 //! A spindle speed at which a stretch of a program would not chatter.
 
 use std::collections::BTreeSet;
+use std::sync::OnceLock;
 
+use kinetostat::number::smaller;
 use kinetostat_chatter::Regeneration;
 use kinetostat_machining::LoadAlongPath;
 use rayon::prelude::*;
@@ -32,121 +34,166 @@ pub struct StableSpeed {
     pub feed_mm_per_min: Option<f64>,
 }
 
-/// A cut of the stretch at which all speeds are tried, and its depth, m.
+/// A cut at which speeds are tried, and what is known of it.
 struct Tried {
     regeneration: Regeneration,
+    /// m.
     depth: f64,
+    /// By the index of the speed.
+    stable: [OnceLock<bool>; SPEEDS.2],
+    room: [OnceLock<f64>; SPEEDS.2],
 }
 
-/// The speed nearest to that of the program which is stable with its neighbours all along a stretch; else the one with the
-/// largest limit.
-///
-/// All speeds are tried at some of the places. The one that would be offered is tried at all others, with its neighbours if it is to
-/// have room, and where one of these chatters all speeds are tried, too.
-pub(crate) fn stable_speed(
-    question: &ChatterQuestion<'_>,
-    load: &LoadAlongPath<'_>,
-    rpm: f64,
-    (sites, beside): (&[&JudgedSite], &[&JudgedSite]),
-) -> Result<Option<StableSpeed>, ProgramChatterError> {
-    let (from, to, count) = SPEEDS;
-    let speeds: Vec<f64> = (0..count)
-        .map(|k| rpm * (from + (to - from) * k as f64 / (count - 1) as f64))
-        .collect();
-    let mut stable = vec![true; count];
-    let cut_at = |judged: &JudgedSite| -> Result<Option<Tried>, ProgramChatterError> {
-        let cut = question.site_cut(load, &judged.site)?.ok();
-        Ok(cut.map(|SiteCut { regeneration, .. }| Tried {
-            regeneration,
-            depth: 1e-3 * judged.site.station.depth_mm,
-        }))
-    };
-    let (mut others, mut cuts): (Vec<&JudgedSite>, Vec<Tried>) = (Vec::new(), Vec::new());
-    for (places, most) in [
-        (one_of_each(sites), TRIED),
-        (one_of_each(beside), TRIED_BESIDE),
-    ] {
-        for (judged, is_chosen) in places.iter().zip(some_of(places.len(), most)) {
-            if !is_chosen {
-                others.push(judged);
-                continue;
-            }
-            if let Some(cut) = cut_at(judged)? {
-                cut.rule_out(&speeds, &mut stable);
-                cuts.push(cut);
-            }
-            if !stable.contains(&true) {
-                return Ok(None);
-            }
+/// The worst cut of each cluster, which is tried once for all stretches.
+pub(crate) struct OtherSpeeds<'q, 'a, 'l> {
+    question: &'q ChatterQuestion<'a>,
+    load: &'q LoadAlongPath<'l>,
+    worst: &'q [JudgedSite],
+    cuts: Vec<OnceLock<Option<Tried>>>,
+}
+
+impl<'q, 'a, 'l> OtherSpeeds<'q, 'a, 'l> {
+    /// `worst`: what was judged for each cluster.
+    pub(crate) fn new(
+        question: &'q ChatterQuestion<'a>,
+        load: &'q LoadAlongPath<'l>,
+        worst: &'q [JudgedSite],
+    ) -> Self {
+        Self {
+            question,
+            load,
+            worst,
+            cuts: worst.iter().map(|_| OnceLock::new()).collect(),
         }
     }
-    let (offered, is_narrow) = loop {
-        let Some((k, is_narrow)) = candidate(&speeds, &stable, rpm, &cuts) else {
-            return Ok(None);
-        };
-        let beside = usize::from(!is_narrow);
-        let with_neighbours = &speeds[k - beside..=k + beside];
-        let holds = |cut: &Tried| with_neighbours.iter().all(|rpm| cut.is_stable(*rpm));
-        let chatters = |judged: &&JudgedSite| match cut_at(judged) {
-            Ok(Some(cut)) => (!holds(&cut)).then_some(Ok(cut)),
-            Ok(None) => None,
-            Err(error) => Some(Err(error)),
-        };
-        let Some(found) = others.par_iter().find_map_first(chatters) else {
-            break (speeds[k], is_narrow);
-        };
-        let found = found?;
-        found.rule_out(&speeds, &mut stable);
-        cuts.push(found);
-    };
-    Ok(Some(StableSpeed {
-        rpm: offered,
-        is_narrow,
-        feed_mm_per_min: feed(question, sites, offered)?,
-    }))
-}
 
-/// Index of the speed to offer of those that are stable, and whether it is narrow.
-fn candidate(speeds: &[f64], stable: &[bool], rpm: f64, cuts: &[Tried]) -> Option<(usize, bool)> {
-    let offered = 1..speeds.len() - 1;
-    let apart = |k: &usize| (speeds[*k] - rpm).abs();
-    let has_room = |k: &usize| stable[k - 1] && stable[*k] && stable[k + 1];
-    let nearest = offered.clone().filter(has_room);
-    if let Some(k) = nearest.min_by(|a, b| apart(a).total_cmp(&apart(b))) {
-        return Some((k, false));
+    /// The speed nearest to that of the program which is stable with its neighbours all along a stretch; else the one with the
+    /// largest limit.
+    ///
+    /// One look at some of the cuts rules out most speeds; the one that would be offered is tried in full at all of them, with
+    /// its neighbours if it is to have room.
+    pub(crate) fn stable_speed(
+        &self,
+        rpm: f64,
+        (sites, beside): (&[&JudgedSite], &[&JudgedSite]),
+    ) -> Result<Option<StableSpeed>, ProgramChatterError> {
+        let (from, to, count) = SPEEDS;
+        let speeds: Vec<f64> = (0..count)
+            .map(|k| rpm * (from + (to - from) * k as f64 / (count - 1) as f64))
+            .collect();
+        let (mut chosen, mut others) = (Vec::new(), Vec::new());
+        for (places, most) in [
+            (one_of_each(sites), TRIED),
+            (one_of_each(beside), TRIED_BESIDE),
+        ] {
+            for (judged, is_chosen) in places.iter().zip(some_of(places.len(), most)) {
+                match is_chosen {
+                    true => chosen.push(judged.cluster),
+                    false => others.push(judged.cluster),
+                }
+            }
+        }
+        let tried = self.cuts(&chosen)?;
+        let may_be_stable =
+            |(k, rpm): (usize, &f64)| !tried.iter().any(|c| c.is_ruled_out(k, *rpm));
+        let looked_at = speeds.par_iter().enumerate().map(may_be_stable);
+        let mut stable: Vec<bool> = looked_at.collect();
+        if !stable.contains(&true) {
+            return Ok(None);
+        }
+        let others = self.cuts(&others)?;
+        let all: Vec<&Tried> = tried.iter().chain(&others).copied().collect();
+        let holds = |k: usize, stable: &mut [bool]| {
+            stable[k] = stable[k] && all.par_iter().all(|cut| cut.is_stable(k, speeds[k]));
+            stable[k]
+        };
+        let offered = 1..count - 1;
+        let apart = |k: &usize| (speeds[*k] - rpm).abs();
+        let (k, is_narrow) = loop {
+            let has_room = |k: &usize| stable[k - 1..=k + 1].iter().all(|s| *s);
+            let nearest = offered.clone().filter(has_room);
+            if let Some(k) = nearest.min_by(|a, b| apart(a).total_cmp(&apart(b))) {
+                if [k, k - 1, k + 1].iter().all(|k| holds(*k, &mut stable)) {
+                    break (k, false);
+                }
+                continue;
+            }
+            let alone = offered.clone().filter(|k| holds(*k, &mut stable));
+            let alone: Vec<usize> = alone.collect();
+            let room = |k: &usize| -> f64 {
+                let of_cuts = tried.par_iter().map(|cut| cut.room(*k, speeds[*k]));
+                of_cuts.reduce(|| f64::INFINITY, smaller)
+            };
+            let largest = match alone[..] {
+                // One needs no comparison.
+                [] | [_] => alone.first().copied(),
+                _ => (alone.iter().map(|k| (room(k), *k)))
+                    .reduce(|a, b| if b.0 > a.0 { b } else { a })
+                    .map(|(_, k)| k),
+            };
+            match largest {
+                Some(k) => break (k, true),
+                None => return Ok(None),
+            }
+        };
+        Ok(Some(StableSpeed {
+            rpm: speeds[k],
+            is_narrow,
+            feed_mm_per_min: feed(self.question, sites, speeds[k])?,
+        }))
     }
-    let alone: Vec<usize> = offered.filter(|k| stable[*k]).collect();
-    let largest = match alone[..] {
-        // One needs no comparison.
-        [] | [_] => alone.first().copied(),
-        _ => (alone.par_iter().map(|k| (room(cuts, speeds[*k]), *k)))
-            .collect::<Vec<_>>()
-            .into_iter()
-            .reduce(|a, b| if b.0 > a.0 { b } else { a })
-            .map(|(_, k)| k),
-    };
-    largest.map(|k| (k, true))
+
+    /// The cuts of clusters that can be reckoned.
+    fn cuts(&self, clusters: &[usize]) -> Result<Vec<&Tried>, ProgramChatterError> {
+        let each = clusters.par_iter().map(|cluster| {
+            let known = &self.cuts[*cluster];
+            if known.get().is_none() {
+                let site = &self.worst[*cluster].site;
+                let cut = self.question.site_cut(self.load, site)?.ok();
+                let cut = cut.map(|SiteCut { regeneration, .. }| Tried {
+                    regeneration,
+                    depth: 1e-3 * site.station.depth_mm,
+                    stable: Default::default(),
+                    room: Default::default(),
+                });
+                // Nobody else has made it: each cluster comes once.
+                let _ = known.set(cut);
+            }
+            Ok(known.get().and_then(Option::as_ref))
+        });
+        let all: Vec<Option<&Tried>> = each.collect::<Result<_, ProgramChatterError>>()?;
+        Ok(all.into_iter().flatten().collect())
+    }
 }
 
 impl Tried {
-    /// Whether it does not chatter at a speed. Where no multiplier is found nothing is known to be stable.
-    fn is_stable(&self, rpm: f64) -> bool {
-        // A cut that is unstable at its depth is so without a look at its limit.
-        if self
-            .regeneration
-            .is_unstable_at(rpm, self.depth)
-            .unwrap_or(true)
-        {
-            return false;
+    /// True if it chatters at a speed for certain, by one look. Where no multiplier is found nothing is known to be stable.
+    fn is_ruled_out(&self, k: usize, rpm: f64) -> bool {
+        let is_unstable = || self.regeneration.is_unstable_at(rpm, self.depth);
+        match self.stable[k].get() {
+            Some(is_stable) => !is_stable,
+            None if is_unstable().unwrap_or(true) => !*self.stable[k].get_or_init(|| false),
+            None => false,
         }
-        let found = limit_at(&self.regeneration, rpm, self.depth, false);
-        found.is_ok_and(|found| found.limit().is_none())
     }
 
-    /// Marks the speeds at which it chatters, on all cores.
-    fn rule_out(&self, speeds: &[f64], stable: &mut [bool]) {
-        let still = speeds.par_iter().zip(stable).filter(|(_, s)| **s);
-        still.for_each(|(speed, is_stable)| *is_stable = self.is_stable(*speed));
+    /// True if it does not chatter at a speed at its depth or at a smaller one.
+    fn is_stable(&self, k: usize, rpm: f64) -> bool {
+        *self.stable[k].get_or_init(|| {
+            let found = limit_at(&self.regeneration, rpm, self.depth, false);
+            found.is_ok_and(|found| found.limit().is_none())
+        })
+    }
+
+    /// Its limit by its depth at a speed, as far as it is looked for.
+    fn room(&self, k: usize, rpm: f64) -> f64 {
+        *self.room[k].get_or_init(|| {
+            let found = limit_at(&self.regeneration, rpm, self.depth, true);
+            found.map_or(0.0, |found| {
+                let limit = found.limit().map(|crossing| crossing.depth);
+                limit.unwrap_or(found.up_to) / self.depth
+            })
+        })
     }
 }
 
@@ -161,21 +208,6 @@ fn one_of_each<'j>(places: &[&'j JudgedSite]) -> Vec<&'j JudgedSite> {
 fn some_of(places: usize, most: usize) -> impl Iterator<Item = bool> {
     let step = places.div_ceil(most).max(1);
     (0..places).map(move |k| k.is_multiple_of(step) || k + 1 == places)
-}
-
-/// Least limit by its depth of the cuts at a speed, as far as it is looked for.
-fn room(cuts: &[Tried], rpm: f64) -> f64 {
-    let of = |cut: &Tried| {
-        let found = limit_at(&cut.regeneration, rpm, cut.depth, true);
-        found.map_or(0.0, |found| {
-            let limit = found.limit().map(|crossing| crossing.depth);
-            limit.unwrap_or(found.up_to) / cut.depth
-        })
-    };
-    cuts.iter()
-        .map(of)
-        .reduce(|a, b| if b < a { b } else { a })
-        .unwrap_or(0.0)
 }
 
 /// Feed at a speed with the feed per tooth of the program, mm/min, where that is one along the stretch.

@@ -1,11 +1,11 @@
 //! Stretches of a program that chatter, and what would not.
 
 use kinetostat_chatter::Instability;
-use kinetostat_machining::{LoadAlongPath, Watch};
+use kinetostat_machining::Watch;
 
 use crate::vibration::program::judged::{JudgedSite, Verdict};
-use crate::vibration::program::question::{ChatterQuestion, ProgramChatterError};
-use crate::vibration::program::speeds::{StableSpeed, stable_speed};
+use crate::vibration::program::question::ProgramChatterError;
+use crate::vibration::program::speeds::{OtherSpeeds, StableSpeed};
 
 /// Stretches for which other speeds are looked for; the worst ones.
 const MOST: usize = 12;
@@ -36,8 +36,7 @@ pub struct ChatterStretch {
 
 /// Stretches of places that chatter, in the order of the path.
 pub(crate) fn stretches(
-    question: &ChatterQuestion<'_>,
-    load: &LoadAlongPath<'_>,
+    speeds: &OtherSpeeds<'_, '_, '_>,
     judged: &[JudgedSite],
     (watch, advance): (&dyn Watch, &dyn Fn(f64)),
 ) -> Result<Vec<ChatterStretch>, ProgramChatterError> {
@@ -100,7 +99,7 @@ pub(crate) fn stretches(
                 && site.site.station.rpm == stretch.rpm
         };
         let beside: Vec<&JudgedSite> = judged.iter().filter(is_beside).collect();
-        stretch.stable_speed = stable_speed(question, load, stretch.rpm, (sites, &beside))?;
+        stretch.stable_speed = speeds.stable_speed(stretch.rpm, (sites, &beside))?;
         stretch.speeds_tried = true;
         advance((done + 1) as f64 / tried as f64);
     }
