@@ -439,7 +439,7 @@ class Posture:
         33.3
         """
         # Issues the warnings, too: each way from Python into the core and back takes half a microsecond.
-        return Equilibrium(self, self._native.deflected_by(wrench), _DEFLECTED)
+        return Equilibrium(self, self._native.deflected_by(wrench, self.machine._native), _DEFLECTED)
 
     def frames(self) -> dict[tuple[str, str], Floats]:
         """(4, 4) by limb and node: poses of all nodes of the unloaded machine as drawn, base from node, m.

@@ -197,3 +197,28 @@ def test_fields_that_are_left_out() -> None:
     assert part[:2].displacement.shape == (2, 6)
     with pytest.raises(ks.ArgumentError, match=r"fields\[0\] is 'moment', expected one of tool, displacement"):
         ARM.equilibrium(places, WRENCH, fields=["moment"])
+
+
+def test_a_posture_gives_way_in_its_own_configuration() -> None:
+    """Either elbow yields as its own springs say, J K^-1 J^T; what is found later is of the same equilibrium."""
+    machine = ks.Machine.preset("scara")
+    load = np.array([0.3, -0.5, 0.2, 0, 0, 0])
+    both = machine.inverse_solutions(machine.posture(joints=[0.4, 1.1, -0.05, 0.3]).target)
+    moved = []
+    for posture in both:
+        j, k = posture.jacobian("theta"), posture.joint_stiffness()
+        expected = j @ np.linalg.solve(k, j.T @ load)
+        loaded = posture.deflected_by(load)
+        moved.append(loaded.displacement_by_load)
+        np.testing.assert_allclose(moved[-1], expected, rtol=0, atol=2e-3 * np.linalg.norm(expected))
+        np.testing.assert_allclose(loaded.compliance @ loaded.stiffness, np.eye(6), atol=1e-6)
+        np.testing.assert_allclose(loaded.actuator_forces, posture.jacobian("actuated").T @ load + weights(posture), rtol=0, atol=0.02)
+        assert loaded.stable
+        assert loaded.spring_energy > 0
+    assert len(both) == 2
+    assert np.linalg.norm(moved[0] - moved[1]) > 0.01 * np.linalg.norm(moved[0])
+
+
+def weights(posture: ks.Posture) -> np.ndarray:
+    """Loads of its own weight on the actuators."""
+    return posture.deflected_by(np.zeros(6)).actuator_forces

@@ -1,6 +1,6 @@
 //! What looks wrong in a question although it can be answered: the checks of the commands, for typed calls.
 
-use kinetostat::{Mechanism, MechanismEquilibrium, Posture, Wrench};
+use kinetostat::{Mechanism, Wrench};
 use kinetostat_machining::{
     Limits, Warning, WarningCode, folds, odd_correction, odd_tool_length, unusual_load,
 };
@@ -19,15 +19,6 @@ fn said(warning: Warning, kind: &'static str) -> Said {
         WarningCode::LargeDisplacement => (true, FOLDED, warning.message),
         code => (code == WarningCode::OverLimit, kind, warning.message),
     }
-}
-
-/// Warnings about the load on the tool and the displacement from a posture.
-pub fn of_load(posture: &Posture, loaded: &MechanismEquilibrium) -> Vec<Said> {
-    of_figures(
-        posture.mechanism(),
-        &loaded.wrench,
-        loaded.displacement.linear().norm(),
-    )
 }
 
 /// Warnings about a wrench and a displacement of the tool, m.

@@ -9,7 +9,8 @@ use pyo3::prelude::*;
 use crate::arrays::{Numbers, array, matrix_of, one_pose, one_wrench};
 use crate::equilibrium::Equilibrium;
 use crate::errors::{of_core, require_stiffness};
-use crate::plausibility::of_load;
+use crate::machine::Machine;
+use crate::plausibility::of_figures;
 use crate::stiffness::{Stiffness, json_of};
 
 /// A machine whose actuators are commanded.
@@ -70,23 +71,28 @@ impl Posture {
 
     /// Stiffness of every limb as JSON, of an equilibrium of this posture.
     fn limbs_of_equilibrium(&self, found: &Equilibrium) -> PyResult<String> {
-        json_of(&found.0.limb_stiffnesses(self.0.mechanism()))
+        json_of(&found.whole()?.limb_stiffnesses(self.0.mechanism()))
     }
 
     /// Equilibrium under a wrench (6,) on the tool: force (N), moment (N m), base axes, about its reference point. What is beyond
     /// a limit is issued as a warning of the line that called the Python method.
-    fn deflected_by(&self, wrench: &Bound<'_, PyAny>) -> PyResult<Equilibrium> {
+    fn deflected_by(&self, wrench: &Bound<'_, PyAny>, machine: &Machine) -> PyResult<Equilibrium> {
         let py = wrench.py();
         let wrench = one_wrench("wrench", wrench)?;
-        require_stiffness(self.0.mechanism())?;
-        let found = py.detach(|| self.0.deflected_by(&wrench));
+        let mechanism = self.0.mechanism();
+        require_stiffness(mechanism)?;
+        let found = py.detach(|| match machine.batch().deflected(&self.0, &wrench) {
+            Some(found) => Ok(Equilibrium::by_kernels(&self.0, wrench, found)),
+            None => self.0.deflected_by(&wrench).map(Equilibrium::of),
+        });
         let found = found.map_err(|e| of_core(&e))?;
-        let warnings = of_load(&self.0, &found);
+        let moved = found.moved()?.1.linear().norm();
+        let warnings = of_figures(mechanism, &wrench, moved);
         if !warnings.is_empty() {
             let module = py.import("kinetostat._plausibility")?;
             module.call_method1("issue", (warnings,))?;
         }
-        Ok(Equilibrium(found))
+        Ok(found)
     }
 
     /// Equilibrium with the tool held at a pose (4, 4): the wrench that holds it is part of the answer.
@@ -94,7 +100,7 @@ impl Posture {
         let held = one_pose("pose", &target)?;
         require_stiffness(self.0.mechanism())?;
         let found = py.detach(|| self.0.wrench_at(&held));
-        Ok(Equilibrium(found.map_err(|e| of_core(&e))?))
+        Ok(Equilibrium::of(found.map_err(|e| of_core(&e))?))
     }
 
     fn __repr__(&self) -> String {

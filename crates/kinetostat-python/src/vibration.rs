@@ -91,7 +91,7 @@ impl Vibration {
     /// The equilibrium about which it vibrates.
     #[getter]
     fn equilibrium(&self) -> Equilibrium {
-        Equilibrium(self.0.equilibrium.clone())
+        Equilibrium::of(self.0.equilibrium.clone())
     }
 
     /// Signed frequencies (m,), Hz, ascending.

@@ -6,7 +6,7 @@ use pyo3::prelude::*;
 
 use crate::equilibrium::Equilibrium;
 use crate::machine::Machine;
-use crate::plausibility::{Said, of_figures, of_load, of_tool};
+use crate::plausibility::{Said, of_figures, of_tool};
 use crate::posture::Posture;
 
 /// What looks wrong in the tool of a machine.
@@ -30,6 +30,8 @@ pub fn answer_warnings(machine: &Machine, force: f64, moment: f64, displacement:
 
 /// What looks wrong in the load on the tool and in the displacement from a posture.
 #[pyfunction]
-pub fn load_warnings(posture: &Posture, loaded: &Equilibrium) -> Vec<Said> {
-    of_load(&posture.0, &loaded.0)
+pub fn load_warnings(posture: &Posture, loaded: &Equilibrium) -> PyResult<Vec<Said>> {
+    let (_, moved, wrench) = loaded.moved()?;
+    let mechanism = posture.0.mechanism();
+    Ok(of_figures(mechanism, &wrench, moved.linear().norm()))
 }

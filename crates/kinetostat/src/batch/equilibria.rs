@@ -602,6 +602,50 @@ impl Batch {
         Ok(())
     }
 
+    /// [`Posture::deflected_by`] for a posture of this machine, with its stability, by kernels alone: none where these do not decide it.
+    ///
+    /// ```
+    /// # use kinetostat::nalgebra::{Vector3, vector};
+    /// # use kinetostat::{ActuatorSpec, Chain, Mechanism, MotionKind, Pose, Wrench, batch::Batch};
+    /// # let slide = ActuatorSpec::new(MotionKind::Prismatic, Vector3::x(), 5e7); // N/m
+    /// # let chain = Chain::builder("rail").actuator("x", slide).build()?;
+    /// # let rail = Mechanism::serial(chain, Pose::identity(), Vector3::zeros())?;
+    /// let pushed = Wrench::new(vector![500.0, 0.0, 0.0], Vector3::zeros()); // N
+    /// let posture = rail.posture(&Pose::translation(0.1, 0.0, 0.0))?;
+    /// if let Some(found) = Batch::new(&rail).deflected(&posture, &pushed) {
+    ///     assert!((found.tool_pose(0).translation.x - 0.1 - 500.0 / 5e7).abs() < 1e-12);
+    /// }
+    /// # Ok::<(), kinetostat::Error>(())
+    /// ```
+    #[must_use]
+    pub fn deflected(&self, posture: &Posture, wrench: &Wrench) -> Option<BatchEquilibrium> {
+        let nominal = self.nominal.as_ref().ok()?;
+        if !posture.others.is_empty() || !self.stability_by_kernels() {
+            return None;
+        }
+        let mut numbers = Vec::new();
+        for (plan, own) in nominal.iter().zip(posture.limbs()) {
+            numbers.extend_from_slice(&own.commands);
+            numbers.extend(plan.passive.iter().map(|i| own.coordinates[*i]));
+        }
+        let mut joints = Table::default();
+        joints.reset(numbers.len(), 1);
+        joints.set_row(0, |k| numbers[k]);
+        let places = Places::Known {
+            poses: &[posture.target],
+            joints: &joints,
+            standing: None,
+            deviations: &[],
+            first: 0,
+        };
+        let mut out = BatchEquilibrium::default();
+        out.reset(self, Details::Stability, 1);
+        let mut beside = [(); 3].map(|()| Table::none(1));
+        self.vectorised(&places, &[*wrench], None, &mut out, beside.each_mut());
+        self.leave_nearly_rigid(&mut out);
+        (out.status == [Status::Vectorised]).then_some(out)
+    }
+
     pub(crate) fn loaded(
         &self,
         places: &Places<'_>,
