@@ -17,6 +17,7 @@ from kinetostat._plausibility import counted, sentences
 from kinetostat.display import equilibrium_html, posture_html, stiffness_html
 from kinetostat.errors import KinetostatError
 from kinetostat.results import Gradients
+from kinetostat.spatial import rotation_vector
 from kinetostat.status import DirectionKind, FoundBy, Status
 
 if TYPE_CHECKING:
@@ -241,6 +242,32 @@ class Equilibrium:
     def displacement(self) -> Floats:
         """(6,): from the commanded pose to that under load, m and rad, base axes."""
         return self._native.displacement
+
+    @property
+    def displacement_without_load(self) -> Floats:
+        """(6,): from the commanded pose to that without the wrench, by own weight, other loads of the model and its deviations, m and rad.
+
+        Found anew each time that it is asked; :class:`UnansweredError <kinetostat.errors.UnansweredError>` where there is no equilibrium.
+        """
+        return self.posture.deflected_by(np.zeros(6)).displacement
+
+    @property
+    def displacement_by_load(self) -> Floats:
+        """(6,): from the pose without the wrench to that under it, m and rad, base axes: own weight is not in it.
+
+        Examples
+        --------
+        >>> import kinetostat as ks
+        >>> loaded = ks.Machine.preset("heavy_6r").posture().deflected_by([0, 0, -100, 0, 0, 0])
+        >>> own = loaded.displacement_without_load
+        >>> bool(np.allclose(own[:3] + loaded.displacement_by_load[:3], loaded.displacement[:3], rtol=0, atol=1e-12))
+        True
+        >>> bool(abs(own[2]) > 5 * abs(loaded.displacement_by_load[2]))
+        True
+        """
+        rest = self.posture.deflected_by(np.zeros(6)).tool
+        turn = rotation_vector(self.tool[:3, :3] @ rest[:3, :3].T)
+        return np.concatenate([self.tool[:3, 3] - rest[:3, 3], turn])
 
     @property
     def wrench(self) -> Floats:

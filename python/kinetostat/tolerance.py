@@ -114,7 +114,7 @@ class MachineSamples:
     """Results, shape (n, places, columns)."""
     nominal: Floats
     """Results of the machine as drawn, shape (places, columns)."""
-    deviation: Floats
+    standard_deviation: Floats
     """Standard deviations by linear propagation, shape (places, columns)."""
     derivatives: Floats
     """Central differences, shape (places, columns, numbers), per unit of each number."""
@@ -212,8 +212,8 @@ def machines(
         Force and moment on the tool (N, N m), base axes.
     quantities : sequence of str
         Of ``error`` (from where the unloaded tool is commanded to where it is: manufacture, assembly and the machine's own weight),
-        ``deflection_by_load`` (from there to where the wrench moves it: own weight is not in it), ``deviation`` (both together),
-        ``compensated`` (the deviation that stays when commands compensate the machine as drawn), ``stiffness``.
+        ``deflection_by_load`` (from there to where the wrench moves it: own weight is not in it), ``deviation`` (both together,
+        ``deflection`` in maps), ``compensated`` (the deviation that stays when commands compensate the machine as drawn), ``stiffness``.
     correlations : mapping of pairs of names to float, optional
         Of the numbers' normal scores; not with the text of a file, which states its own.
     draws : int

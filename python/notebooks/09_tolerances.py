@@ -85,7 +85,11 @@ builder.platform("tool", [0.5, 0, 0])
 builder.limb("arm", to="tool").actuator("q", "revolute", "z", 1e6).rigid([0.5, 0, 0])
 scatter = {"chain.arm.q.stiffness_n_m_per_rad": tolerance.normal(10, percent=True)}
 one = tolerance.machines(
-    builder.machine(), scatter, [[0.5, 0, 0]], [0, 100, 0, 0, 0, 0], quantities=["deflection_by_load"]
+    builder.machine(),
+    scatter,
+    [[0.5, 0, 0]],
+    [0, 100, 0, 0, 0, 0],
+    quantities=["deflection_by_load"],
 )
 core = one.column("deflection_by_load_mm")[:, 0]
 stiffness = np.random.default_rng(7).normal(1e6, 1e5, 400_000)

@@ -61,7 +61,7 @@ def test_machines_linear_against_draws() -> None:
     assert found.inputs.shape == (512, 3)
     assert found.no_machine == found.no_answer == found.unstable == 0
     at = found.columns.index("deflection_by_load_mm")
-    np.testing.assert_allclose(found.samples[:, :, at].std(axis=0), found.deviation[:, at], rtol=0.05)
+    np.testing.assert_allclose(found.samples[:, :, at].std(axis=0), found.standard_deviation[:, at], rtol=0.05)
     assert (found.nonlinearity()[:, at] < 0.1).all()
     # One machine anew, as a model of its own whose load is the drawn one: the deflection is what the machine itself says.
     no_change = tol.machines(machine, {"load force_n.x": tol.normal(1e-12)}, [[0, 0, 0]], [215, -10, -25, 0, 0, 0], draws=16)
@@ -73,7 +73,7 @@ def test_machines_linear_against_draws() -> None:
     ("spread", "words"),
     [
         ({"chain.leg.q2.lenght_mm": tol.normal(1)}, "chain.leg.q2.length_mm"),
-        ({"chain.leg.q2.length_mm": tol.normal(-1)}, "negative"),
+        ({"chain.leg.q2.length_mm": tol.normal(-1)}, "a number above 0 is needed"),
         ({"chain.leg.slider.stiffness_n_per_mm": tol.normal(40, percent=True)}, "stiffness"),
     ],
 )

@@ -113,7 +113,7 @@ pub fn tolerance_of_machine<'py>(
         .flat_map(|l| l.derivatives.iter().copied())
         .collect();
     out.set_item("nominal", array(py, nominal, [count, each])?)?;
-    out.set_item("deviation", array(py, deviation, [count, each])?)?;
+    out.set_item("standard_deviation", array(py, deviation, [count, each])?)?;
     out.set_item(
         "derivatives",
         array(py, derivatives, [count, each, names.len()])?,
