@@ -51,7 +51,8 @@ class MillingCut:
     up: bool
     """Up milling, else down (climb) milling."""
     coefficients: tuple[float, float, float]
-    """Tangential, radial and axial cutting coefficient, Pa (1 N/mm^2 is 1e6); the radial one is no ratio, and a positive axial one pushes the tool towards the spindle: below zero with a helix that lifts the chip (right-hand with clockwise rotation)."""
+    """Tangential, radial and axial cutting coefficient, Pa (1 N/mm^2 is 1e6); the radial one is no ratio, and a positive axial one pushes
+    the tool towards the spindle: below zero with a helix that lifts the chip (right-hand with clockwise rotation)."""
     feed: tuple[float, float, float] = (1.0, 0.0, 0.0)
     """Direction of feed, axes of the modal data."""
     tool_axis: tuple[float, float, float] = (0.0, 0.0, 1.0)

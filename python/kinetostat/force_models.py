@@ -266,7 +266,7 @@ def equilibrium_under(
 def _of_what_moves(machine: Machine, postures: Callable[[int], Posture], known: Equilibria, loads: Floats) -> Floats:
     """Stiffness of the motions that the machine can make, zero along rigid directions."""
     assert known.stiffness is not None
-    out = known.stiffness.copy()
+    out: Floats = known.stiffness.copy()
     length = np.repeat([1.0, machine._native.natural_length()], 3)
     for at in np.flatnonzero(known.solved & np.isnan(out).any(axis=(1, 2))):
         compliance = postures(int(at)).deflected_by(loads[at]).compliance

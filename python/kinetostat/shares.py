@@ -141,7 +141,7 @@ class SensitivityErrors:
 
 @dataclasses.dataclass(frozen=True)
 class Sensitivity:
-    """Derivatives by one number of the model file, per its unit.
+    """Derivatives by one number of the model file, per its unit: SI units per :attr:`unit`.
 
     Examples
     --------
@@ -157,7 +157,9 @@ class Sensitivity:
     deflection: float
     """m (rad for a moment) per unit, along the direction."""
     compliance: float
+    """m/N, or rad/(N m) for a moment, per unit."""
     stiffness: float
+    """N/m, or N m/rad for a moment, per unit."""
     share_to_buckling: float | None
     """Of the limb that is nearest to buckling; None without a load that buckles, and where limbs (or shapes of one) are equally near and
     the number changes them differently: the share has no derivative there, only one to each side."""

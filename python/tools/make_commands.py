@@ -21,9 +21,10 @@ TARGET = Path(__file__).resolve().parents[1] / "kinetostat" / "commands"
 HEAD = '''"""Every command of the command line as a function; made by python/tools/make_commands.py from the command line's own table.
 
 A function takes the options of its command by their names and gives what the command prints with ``--json``, as a dictionary (units are
-part of its names, see STABILITY.md); commands without such an answer give their text. Where the command line takes the name of a
-model, a :class:`kinetostat.Machine` does too. Wrong input raises ``ArgumentError``, a question without an answer ``UnansweredError``; a
-program that misses its tolerance is written, and warned of with ``ToleranceMissedWarning``.
+part of its names, see STABILITY.md); commands without such an answer give their text. Units of options are those of the command line (mm,
+deg, N, N m), not the SI units of everything else in the package: where a name says none, the docstring does. Where the command line
+takes the name of a model, a :class:`kinetostat.Machine` does too. Wrong input raises ``ArgumentError``, a question without an answer
+``UnansweredError``; a program that misses its tolerance is written, and warned of with ``ToleranceMissedWarning``.
 """
 
 from __future__ import annotations
