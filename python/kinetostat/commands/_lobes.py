@@ -24,6 +24,8 @@ def lobes(
     controller: str | float | Sequence[str | float] | None = None,
     pendant: str | float | Sequence[str | float] | None = None,
     tool_length_mm: float | None = None,
+    tool_mass_kg: float | None = None,
+    tool_centre_of_mass_mm: Sequence[float] | None = None,
     force: Sequence[float] | None = None,
     moment: Sequence[float] | None = None,
     rpm: Sequence[float] | None = None,
@@ -83,6 +85,11 @@ def lobes(
         The name of `--controller` before; it is taken for one version more, with a warning
     tool_length_mm : float
         Distance of the tool's tip along z of the flange, mm
+    tool_mass_kg : float
+        Mass that the flange carries beside that of the model, kg: spindle and tool, as `mass_kg` of
+        a job's tool
+    tool_centre_of_mass_mm : Sequence[float]
+        Its centre in the frame of the flange, mm; halfway to the tip without it
     force : Sequence[float]
         Constant force on the tool's tip, N, about whose equilibrium the machine vibrates
     moment : Sequence[float]
@@ -171,6 +178,8 @@ def lobes(
         ("--controller", controller),
         ("--pendant", pendant),
         ("--tool-length-mm", tool_length_mm),
+        ("--tool-mass-kg", tool_mass_kg),
+        ("--tool-centre-of-mass-mm", tool_centre_of_mass_mm),
         ("--force", force),
         ("--moment", moment),
         ("--rpm", rpm),

@@ -94,10 +94,12 @@ A job file:
 
   [tool]
   length_mm = 100                  # or pose = { position_mm = [...], ... }
+  # mass_kg = 12                   # spindle and tool on the flange
+  # centre_of_mass_mm = [0, 0, 60] # in it; halfway to the tip without this
 
   # [[tools]]                      # several tools: T1 M6, T2 M6
   # number = 1
-  # length_mm = 100                # and load = { ... }, at_corners too
+  # length_mm = 100                # and load, at_corners, mass_kg too
 
   [load]                           # on feed moves; none in rapids
   milling = { radial_n = 215, tangential_n = -10, axial_n = -25 }

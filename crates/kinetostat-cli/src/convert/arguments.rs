@@ -124,7 +124,7 @@ positions need:
   [tool]
   number = 1
   # pose = { position_mm = [0, 0, 180] }
-  # mass_kg = 5, centre_of_mass_mm = [0, 0, 60]   # RAPID
+  # mass_kg = 5, centre_of_mass_mm = [0, 0, 60]   # RAPID, KRL
 
   # [[tools]]                      # of a program with several: T1 M6, T2 M6
   # in_program = 2                 # and number, name, pose, mass_kg as above

@@ -1,7 +1,7 @@
 //! Template and job in one: part, tools and orientation of the tool.
 
 use kinetostat::Pose;
-use kinetostat_formats::Template;
+use kinetostat_formats::{StatedTool, Template};
 use nalgebra::{Isometry3, Vector3};
 
 use crate::job::job_file::JobFile;
@@ -27,7 +27,9 @@ pub(crate) fn complete(template: &mut Template, job: Option<&JobFile>, machine: 
     if job.is_some_and(|j| !j.job.tools.is_empty()) {
         for given in &machine.bounds.tools {
             let Some(number) = given.number else { continue };
-            let frame = &mut template.tools.entry(number).or_default().frame;
+            let tool = template.tools.entry(number).or_default();
+            take_mass(tool, machine, Some(number));
+            let frame = &mut tool.frame;
             frame.pose.get_or_insert(in_mm(&given.pose));
             if frame.number.is_none() && frame.name.is_none() {
                 frame.number = Some(number);
@@ -38,13 +40,19 @@ pub(crate) fn complete(template: &mut Template, job: Option<&JobFile>, machine: 
         let given = machine.bounds.tools.first();
         let of_job = given.map_or_else(Pose::identity, |given| given.pose);
         template.tool.frame.pose.get_or_insert(in_mm(&of_job));
-        if let (None, Some(own)) = (template.tool.mass_kg, machine.tool_mass) {
-            template.tool.mass_kg = Some(own.mass_kg);
-            template.tool.centre_of_mass_mm = Some(own.centre_mm);
-        }
+        take_mass(&mut template.tool, machine, None);
     }
     let in_part = base.rotation.inverse() * placement.tool_orientation;
     template.tool_orientation.get_or_insert(in_part);
+}
+
+/// The mass that the job states of a tool, where the template states none.
+fn take_mass(tool: &mut StatedTool, machine: &MachineSetup, number: Option<u32>) {
+    let mut masses = machine.tool_masses.iter();
+    if let (None, Some((_, own))) = (tool.mass_kg, masses.find(|(of, _)| *of == number)) {
+        tool.mass_kg = Some(own.mass_kg);
+        tool.centre_of_mass_mm = Some(own.centre_mm);
+    }
 }
 
 fn in_mm(pose: &Pose) -> Isometry3<f64> {

@@ -90,9 +90,14 @@ fn all(files: &InputFiles, path: &Path, query: &RunQuery<'_>, first: &Failure) -
             .map(drop)
         },
         &|job| {
-            // Without a model that can be read: tool, placement and load all the same.
+            // Without a model that can be read: tool, placement and load all the same, without masses, for this machine has no weight.
             let mut job = job.clone();
             job.job.deviation.clear();
+            (job.job.tool.mass_kg, job.job.tool.centre_of_mass_mm) = (None, None);
+            for tool in &mut job.job.tools {
+                let tool = tool.get_mut();
+                (tool.mass_kg, tool.centre_of_mass_mm) = (None, None);
+            }
             let mut inputs = Vec::new();
             machine_setup(
                 files,

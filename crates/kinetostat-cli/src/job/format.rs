@@ -136,6 +136,10 @@ pub(crate) struct NumberedTool {
     pub pose: Option<Spanned<PoseTable>>,
     /// Its edges, for loads that are computed from the cut.
     pub cutter: Option<Spanned<WrittenTool>>,
+    /// Mass that the flange carries with it, kg: spindle and tool; without this, that of `[tool]`.
+    pub mass_kg: Option<Spanned<f64>>,
+    /// Its centre in the frame of the flange, mm; halfway to the tip if not given.
+    pub centre_of_mass_mm: Option<Spanned<[f64; 3]>>,
     /// What acts on it; without this, the job's `[load]`.
     pub load: Option<LoadTable>,
 }

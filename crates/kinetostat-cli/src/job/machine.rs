@@ -40,7 +40,8 @@ pub(crate) struct MachineSetup {
     pub(crate) placement: Placement,
     pub(crate) load: ProgramLoad,
     pub(crate) weight: WeightCorrection,
-    pub(crate) tool_mass: Option<ToolMass>,
+    /// What the flange carries, by the tools' numbers; of the only tool without one.
+    pub(crate) tool_masses: Vec<(Option<u32>, ToolMass)>,
     /// The cuts that the load is computed from, where the job names a material.
     pub(crate) cut: Option<CutSetup>,
     /// Forces that were measured, where the job has them.
@@ -124,10 +125,17 @@ pub(crate) fn machine_setup(
     if let Some(frames) = frames {
         (tool, tool_words) = tool_of_robot(frames, job, flags, (tool, tool_words))?;
     }
-    let tool_mass = tool_mass(job, &tool)?;
-    let mut model = with_deviations(named.model, job)?;
-    if let Some(mass) = tool_mass {
-        model = carrying(&model, mass)?;
+    let mass = job.map(|j| {
+        let table = &j.job.tool;
+        let stated = (table.mass_kg.as_ref(), table.centre_of_mass_mm.as_ref());
+        tool_mass(j, stated, &tool)
+    });
+    let mass = mass.transpose()?.flatten();
+    let mut tool_masses: Vec<_> = mass.map(|mass| (None, mass)).into_iter().collect();
+    let bare = with_deviations(named.model, job)?;
+    let mut model = bare.clone();
+    if let Some(mass) = mass {
+        model = carrying(&bare, mass)?;
         tool_words.push_str(&format!(", {} kg", short(mass.mass_kg)));
     }
     let fingerprint = fingerprint(&model);
@@ -162,7 +170,13 @@ pub(crate) fn machine_setup(
             || tool_is_of_cell
             || job.is_some_and(|j| j.job.tool.length_mm.is_some() || j.job.tool.pose.is_some()),
     }];
-    let mut tools = numbered_tools(job, flags, &model.mechanism, &mut tool_words, &mut given)?;
+    let mut tools = numbered_tools(
+        job,
+        flags,
+        (&bare, &model.mechanism),
+        &mut tool_words,
+        (&mut given, &mut tool_masses),
+    )?;
     if let Some(cell) = &cell {
         let described = (&mut tool_words, &mut given);
         cell.add_tools(&mut tools, (&model.mechanism, load), described)?;
@@ -199,7 +213,7 @@ pub(crate) fn machine_setup(
             placement,
             load,
             weight,
-            tool_mass,
+            tool_masses,
             cut,
             measured,
             tools,

@@ -1,8 +1,11 @@
 //! Mass of the tool, which the machine carries beside its own.
 
+use std::ops::RangeInclusive;
+
 use kinetostat::Pose;
 use kinetostat_model::Model;
 use nalgebra::{Matrix3, Vector3};
+use serde_spanned::Spanned;
 
 use crate::job::job_file::JobFile;
 use crate::ui::failure::{Answer, Failure};
@@ -14,12 +17,17 @@ pub(crate) struct ToolMass {
     pub(crate) centre_mm: Vector3<f64>,
 }
 
-/// Mass that a job states, with its centre halfway to the tip where none is stated.
-pub(crate) fn tool_mass(job: Option<&JobFile>, tool: &Pose) -> Answer<Option<ToolMass>> {
-    let Some(j) = job else { return Ok(None) };
-    let table = &j.job.tool;
-    let Some(mass) = &table.mass_kg else {
-        return match &table.centre_of_mass_mm {
+/// What spindle and tool weigh, kg.
+pub(crate) const MASSES_KG: RangeInclusive<f64> = 1e-3..=5000.0;
+
+/// Mass that a job states of a tool, with its centre halfway to the tip where none is stated.
+pub(crate) fn tool_mass(
+    j: &JobFile,
+    (mass, centre): (Option<&Spanned<f64>>, Option<&Spanned<[f64; 3]>>),
+    tool: &Pose,
+) -> Answer<Option<ToolMass>> {
+    let Some(mass) = mass else {
+        return match centre {
             Some(at) => Err(j.error(
                 at,
                 "the tool has a centre of mass and no mass",
@@ -28,14 +36,13 @@ pub(crate) fn tool_mass(job: Option<&JobFile>, tool: &Pose) -> Answer<Option<Too
             None => Ok(None),
         };
     };
-    if !(1e-3..=5000.0).contains(mass.get_ref()) {
+    if !MASSES_KG.contains(mass.get_ref()) {
         return Err(j.error(
             mass,
             "the mass of a tool is from 0.001 to 5000 kg",
             "write it in kg",
         ));
     }
-    let centre = table.centre_of_mass_mm.as_ref();
     if let Some(at) = centre.filter(|c| !c.get_ref().iter().all(|x| x.abs() <= 1e5)) {
         return Err(j.error(
             at,

@@ -2,22 +2,25 @@
 
 use kinetostat::{Mechanism, Pose};
 use kinetostat_machining::{ProgramLoad, ToolGiven, straight_tool};
+use kinetostat_model::Model;
 use serde_spanned::Spanned;
 
 use crate::job::arguments::ProgramArgs;
 use crate::job::job_file::JobFile;
 use crate::job::load::load;
+use crate::job::tool_mass::{ToolMass, carrying, tool_mass};
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::numbers::{short, triple};
 
 /// The tools of `[[tools]]` with their numbers and loads; none where the job file has no such table. Where it has one,
-/// `words` and `given` become those of its tools.
+/// `words` and `given` become those of its tools, and what they weigh is added to `masses`. `bare` has no tool, `mechanism` what
+/// the flange carries where a tool states nothing else.
 pub(crate) fn numbered_tools(
     job: Option<&JobFile>,
     flags: &ProgramArgs,
-    mechanism: &Mechanism,
+    (bare, mechanism): (&Model, &Mechanism),
     words: &mut String,
-    given: &mut Vec<ToolGiven>,
+    (given, masses): (&mut Vec<ToolGiven>, &mut Vec<(Option<u32>, ToolMass)>),
 ) -> Answer<Vec<(u32, Mechanism, ProgramLoad)>> {
     let mut tools: Vec<(u32, Mechanism, ProgramLoad)> = Vec::new();
     let Some(j) = job.filter(|j| !j.job.tools.is_empty()) else {
@@ -48,13 +51,22 @@ pub(crate) fn numbered_tools(
         }
         let (pose, text) = tool_of(j, tool.length_mm.as_ref(), tool.pose.as_ref())?;
         let load = load(job, Some(tool.load.as_ref().unwrap_or(&j.job.load)), flags)?;
-        all.push(format!("tool {}: {text}", tool.number));
+        let stated = (tool.mass_kg.as_ref(), tool.centre_of_mass_mm.as_ref());
+        let own = tool_mass(j, stated, &pose)?;
+        let mass = own.or(masses.first().filter(|m| m.0.is_none()).map(|m| m.1));
+        let kg = mass.map_or_else(String::new, |m| format!(", {} kg", short(m.mass_kg)));
+        all.push(format!("tool {}: {text}{kg}", tool.number));
+        masses.extend(mass.map(|mass| (Some(tool.number), mass)));
         given.push(ToolGiven {
             number: Some(tool.number),
             pose,
             stated: true,
         });
-        tools.push((tool.number, mechanism.with_tool(&pose), load));
+        let mechanism = match own {
+            Some(own) => carrying(bare, own)?.mechanism.with_tool(&pose),
+            None => mechanism.with_tool(&pose),
+        };
+        tools.push((tool.number, mechanism, load));
     }
     *words = all.join("; ");
     Ok(tools)

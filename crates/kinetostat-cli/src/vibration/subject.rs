@@ -1,22 +1,41 @@
 //! The machine of a question about vibrations.
 
+use std::path::Path;
+
 use kinetostat::number::larger;
 use kinetostat::{Directions, Mechanism, Posture};
 use kinetostat_analysis::vibration::VibratingMachine;
 use kinetostat_dynamics::{Error, Held};
 use kinetostat_machining::{Warning, WarningCode};
-use nalgebra::Matrix3;
+use nalgebra::{Matrix3, Vector3};
 
 use crate::end_condition::holding::list;
 use crate::files::input_files::InputFiles;
-use crate::place::query::{PlaceQuery, place_query};
+use crate::job::tool_mass::{MASSES_KG, ToolMass, carrying};
+use crate::options::vector;
+use crate::place::query::{PlaceQuery, place_query_of};
 use crate::ui::failure::{Answer, Failure};
 use crate::vibration::arguments::VibrationArgs;
 
 /// The place and the load that are asked for.
 pub(crate) fn query(args: &VibrationArgs) -> Answer<PlaceQuery> {
-    place_query(
-        &InputFiles::default(),
+    let (mut read, path) = InputFiles::default().model(&args.model, Path::new(""))?;
+    read.require_stiffness()?;
+    if let Some(mass_kg) = args.tool_mass_kg {
+        if !MASSES_KG.contains(&mass_kg) {
+            return Err(Failure::input(format!(
+                "--tool-mass-kg is {mass_kg}; the mass of a tool is from 0.001 to 5000 kg"
+            )));
+        }
+        let halfway = Vector3::z() * (0.5 * args.tool_length_mm.unwrap_or(0.0));
+        let stated = args.tool_centre_of_mass_mm.as_deref();
+        let centre = stated.map(|c| vector("--tool-centre-of-mass-mm", c));
+        let centre_mm = centre.transpose()?.unwrap_or(halfway);
+        read = carrying(&read, ToolMass { mass_kg, centre_mm })?;
+    }
+    place_query_of(
+        &read,
+        path,
         &args.model,
         &args.place,
         args.tool_length_mm,

@@ -122,10 +122,59 @@ fn the_mass_of_the_tool_is_carried() {
         &arm().replace(platform, &format!("{platform}{carried}")),
     );
     let bare = here(&job, arm());
-    let [of_job, of_model, bare] =
-        [&of_job, &of_model, &bare].map(|here| deflected(here.path(), "").0[0]);
-    assert!((of_job - of_model).abs() < 1e-9, "{of_job} {of_model}");
+    // Of a tool by its number, beside one that is lighter.
+    let numbered = format!("[[tools]]\nnumber = 1\nlength_mm = 180\n{carried}");
+    let numbered = job.replace(
+        "[tool]\nlength_mm = 180\n",
+        &format!("[tool]\nmass_kg = 5\n{numbered}"),
+    );
+    let by_number = here(&numbered, arm());
+    let part = by_number.path().join("part.ngc");
+    let program = std::fs::read_to_string(&part).expect("a program");
+    std::fs::write(&part, format!("T1 M6\n{program}")).expect("written");
+    let [of_job, of_number, of_model, bare] =
+        [&of_job, &by_number, &of_model, &bare].map(|here| deflected(here.path(), "").0[0]);
+    for own in [of_job, of_number] {
+        assert!((own - of_model).abs() < 1e-9, "{own} {of_model}");
+    }
     assert!(of_job > bare + 0.05, "{of_job} {bare}");
+}
+
+/// Vibrations with a tool by its mass are those of a model whose flange carries it.
+#[test]
+fn modes_take_the_mass_of_the_tool() {
+    let platform = "[[platform]]\nname = \"tool\"\n";
+    let carried = "mass_kg = 80\ncentre_of_mass_mm = [10, 0, 70]\n";
+    let model = arm().replace(platform, &format!("{platform}{carried}"));
+    let [carrying, bare] = [here(JOB, &model), here(JOB, arm())];
+    let of = |here: &Path, more: &str| {
+        let line = format!("modes arm.toml --tool-length-mm 180 --json{more}");
+        let json: Value = serde_json::from_str(&said(here, &line).answered().out).expect("JSON");
+        let modes = json["modes"].as_array().expect("modes").iter();
+        let hz = modes.map(|mode| mode["frequency_hz"].as_f64().expect("a figure"));
+        hz.collect::<Vec<f64>>()
+    };
+    let stated = " --tool-mass-kg 80 --tool-centre-of-mass-mm 10 0 70";
+    let [of_model, of_option, without] = [
+        of(carrying.path(), ""),
+        of(bare.path(), stated),
+        of(bare.path(), ""),
+    ];
+    assert_eq!(of_model.len(), 8);
+    for (model, option) in of_model.iter().zip(&of_option) {
+        assert!((model - option).abs() < 1e-6 * model, "{model} {option}");
+    }
+    assert!(
+        of_option[0] < 0.99 * without[0],
+        "{of_option:?} {without:?}"
+    );
+    for (line, word) in [
+        (" --tool-mass-kg 0", "from 0.001 to 5000 kg"),
+        (" --tool-centre-of-mass-mm 0 0 1", "--tool-mass-kg"),
+    ] {
+        let found = said(bare.path(), &format!("modes arm.toml{line}"));
+        assert!(found.code == 1 && found.err.contains(word), "{found:?}");
+    }
 }
 
 /// Own weight and load are told apart at a place, too.

@@ -9,7 +9,7 @@ use crate::making::names::of_part;
 use crate::making::numbers::{angles, coordinates, short};
 use crate::making::parts::parts;
 use crate::making::step::{MadeMotion, Step, Way};
-use crate::making::template::{StatedFrame, Template};
+use crate::making::template::{StatedFrame, StatedTool, Template};
 use crate::model::orientation::OrientationText;
 
 /// The files of a program: the main one first.
@@ -103,6 +103,30 @@ impl Writer<'_> {
         let stated = stated.unwrap_or(&self.template.tool);
         let tool = self.frame(&stated.frame, "TOOL_DATA");
         self.line(&format!("$TOOL={tool}"));
+        if let Some(load) = self.load(stated) {
+            self.line(&format!("$LOAD={load}"));
+        }
+    }
+
+    /// What the flange carries; nothing where the mass of no tool is stated.
+    fn load(&self, tool: &StatedTool) -> Option<String> {
+        let mut all = self.template.tools.values().chain([&self.template.tool]);
+        if all.all(|other| other.mass_kg.is_none()) {
+            return None;
+        }
+        let Some(mass) = tool.mass_kg else {
+            // A mass of -1 stands for the largest load that the robot may carry.
+            let rated = "{M -1,CM {X 0,Y 0,Z 0,A 0,B 0,C 0},J {X 0,Y 0,Z 0}}".to_owned();
+            let of_controller = tool.frame.pose.is_none().then_some(1);
+            let number = tool.frame.number.or(of_controller);
+            return Some(number.map_or(rated, |number| format!("LOAD_DATA[{number}]")));
+        };
+        let turn = tool.axes_of_moment.unwrap_or_default();
+        let centre = self.pose(&tool.centre_of_mass_mm.unwrap_or_default(), &turn, "");
+        let j = tool.inertia_kg_m2.unwrap_or_default();
+        let [x, y, z] = [j.x, j.y, j.z].map(|value| short(value, 9));
+        let mass = short(mass, 6);
+        Some(format!("{{M {mass},CM {centre},J {{X {x},Y {y},Z {z}}}}}"))
     }
 
     fn frame(&self, frame: &StatedFrame, array: &str) -> String {

@@ -219,6 +219,33 @@ fn the_tool_before_the_first_change_keeps_its_tip() {
     }
 }
 
+/// KRL takes the load with the tool, from the controller's list where the mass is not stated; nothing is said where none is.
+#[test]
+fn krl_takes_the_load_with_the_tool() {
+    let mut template = super::cell();
+    template.tool = tip(Some(2), 180.0);
+    template.tool.centre_of_mass_mm = Some(nalgebra::Vector3::new(0.0, 0.0, 60.0));
+    let mut other = tip(Some(4), 120.0);
+    other.mass_kg = None;
+    template.tools.insert(2, other);
+    template.start_joints_deg = Some(vec![0.0, -90.0, 90.0, 0.0, 45.0, 0.0]);
+    let text = text_of(&super::made(TWO_TOOLS, &template, MakeLanguage::Krl), 0);
+    let loads = text.lines().filter(|line| line.starts_with("$LOAD"));
+    let loads: Vec<&str> = loads.collect();
+    let [own, other] = loads.as_slice() else {
+        panic!("{text}");
+    };
+    let begin = "$LOAD={M 2,CM {X 0.000000,Y 0.000000,Z 60.000000,A 0.0";
+    assert!(
+        own.starts_with(begin) && own.ends_with("},J {X 0,Y 0,Z 0}}"),
+        "{own}"
+    );
+    assert_eq!(*other, "$LOAD=LOAD_DATA[4]");
+    template.tool.mass_kg = None;
+    let text = text_of(&super::made(TWO_TOOLS, &template, MakeLanguage::Krl), 0);
+    assert!(!text.contains("$LOAD"), "{text}");
+}
+
 /// Each of them is refused, with its line where it has one.
 #[test]
 fn tools_that_a_template_does_not_tell_are_refused() {
