@@ -48,17 +48,19 @@ def posture_at(
     return native.posture_at_pose(at[None], near)
 
 
-def poses_of(native: _core.Machine, poses: ArrayLike, threads: int | None = None, *, follow: bool = True) -> tuple[Floats, tuple[int, ...]]:
+def poses_of(
+    native: _core.Machine, poses: ArrayLike, threads: int | None = None, *, follow: bool = True, name: str = "poses"
+) -> tuple[Floats, tuple[int, ...]]:
     """Poses (n, 4, 4) from poses or from positions with the orientation at home.
 
     ``follow``: where the tool turns as the machine moves, with the one nearest to that which the machine takes there.
     """
-    given = numbers("poses", poses)
+    given = numbers(name, poses)
     if given.shape[-2:] == (4, 4):
-        return rows("poses", given, (4, 4))
+        return rows(name, given, (4, 4))
     if given.shape[-1:] != (3,):
-        raise ArgumentError(f"poses has shape {given.shape}, expected (..., 4, 4), or positions (..., 3)")
-    places, leading = rows("poses", given, (3,))
+        raise ArgumentError(f"{name} has shape {given.shape}, expected (..., 4, 4), or positions (..., 3)")
+    places, leading = rows(name, given, (3,))
     if follow and native.turns_as_it_moves():
         return _core.poses_following(native, places, threads), leading
     out = np.empty((len(places), 4, 4))

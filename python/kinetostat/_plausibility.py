@@ -71,7 +71,9 @@ def of_many(native: _core.Machine, wrenches: Floats | None, displacement: Any, s
     """Loads, displacements (..., 3) and places of many postures."""
 
     def largest(vectors: Any) -> float:
-        return float(np.linalg.norm(vectors, axis=-1).max(initial=0.0, where=~np.isnan(vectors[..., 0])))
+        # Of numbers so large that their squares are none it is infinite.
+        with np.errstate(over="ignore"):
+            return float(np.linalg.norm(vectors, axis=-1).max(initial=0.0, where=~np.isnan(vectors[..., 0])))
 
     force, moment = (0.0, 0.0) if wrenches is None else (largest(wrenches[..., :3]), largest(wrenches[..., 3:]))
     found = _core.answer_warnings(native, force, moment, 0.0 if displacement is None else largest(displacement))

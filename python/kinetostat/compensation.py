@@ -139,7 +139,7 @@ def compensate(
             "tolerance_um": None if largest is None else 1e6 * largest,
         }
         with arguments(part_origin_mm="part_origin (in mm)", tolerance_um="tolerance (in um)"):
-            answer = commands.compensate(**handed_on(own, {"all_points": True} | options))
+            answer = commands.compensate(**handed_on(own, {"all_points": True, "points": os.path.join(folder, "points.csv")} | options))
     points = answer["points"]
 
     def vectors(key: str) -> Floats:

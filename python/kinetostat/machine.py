@@ -523,7 +523,7 @@ class Machine:
         >>> sorted(round(float(posture.commands[1]), 9) for posture in found)
         [-1.1, 1.1]
         """
-        places, leading = poses_of(self._native, pose)
+        places, leading = poses_of(self._native, pose, name="pose")
         if leading:
             raise ArgumentError(f"pose has shape {(*leading, 4, 4)}, expected (4, 4), or a position (3,)")
         return tuple(Posture(self, found) for found in _core.inverse_solutions(self._native, places))

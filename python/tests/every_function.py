@@ -141,7 +141,7 @@ def arguments(folder: Path) -> dict[str, tuple[Callable[..., Any], dict[str, Any
         "kinetostat.maps.to_vtk": (maps.to_vtk, {"found": MAP, "path": folder / "map.vtu"}),
         "kinetostat.measured.mirror": (
             measured.mirror,
-            {"program": source, "measured": points, "out": out, "register": False, "force_overwrite": True},
+            {"program": source, "measured": points, "out": out, "register": "none", "force_overwrite": True},
         ),
         "kinetostat.Machine.frames": (ARM.frames, {"joints": [[0.0] * 6]}),
         "kinetostat.Machine.inverse_solutions": (ARM.inverse_solutions, {"pose": ARM.home}),
