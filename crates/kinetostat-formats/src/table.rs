@@ -51,9 +51,76 @@ pub(crate) const fn line(
     }
 }
 
-/// Whether a name stands before another one in the order of the alphabet, whatever its case: for tables that are sorted when they
-/// are compiled.
-pub(crate) const fn comes_before(one: &[u8], other: &[u8]) -> bool {
+/// Statements that are treated alike.
+#[derive(Clone, Copy)]
+pub(crate) struct Alike {
+    names: &'static [&'static str],
+    treatment: Treatment,
+    source: &'static str,
+}
+
+/// Statements that are treated alike, and where their meaning is from.
+pub(crate) const fn alike(
+    treatment: Treatment,
+    source: &'static str,
+    names: &'static [&'static str],
+) -> Alike {
+    Alike {
+        names,
+        treatment,
+        source,
+    }
+}
+
+/// How many statements groups have together.
+pub(crate) const fn count(groups: &[Alike]) -> usize {
+    let (mut all, mut group) = (0, 0);
+    while group < groups.len() {
+        all += groups[group].names.len();
+        group += 1;
+    }
+    all
+}
+
+/// A row for each statement of groups, in their order; rows behind them are left for others.
+pub(crate) const fn rows<const N: usize>(groups: &[Alike]) -> [StatementRow; N] {
+    let mut all = [line("", Treatment::Carried, ""); N];
+    let (mut filled, mut group) = (0, 0);
+    while group < groups.len() {
+        let Alike {
+            names,
+            treatment,
+            source,
+        } = groups[group];
+        let mut at = 0;
+        while at < names.len() {
+            all[filled] = line(names[at], treatment, source);
+            filled += 1;
+            at += 1;
+        }
+        group += 1;
+    }
+    all
+}
+
+/// Rows in the order of their names in capitals, sorted when they are compiled.
+pub(crate) const fn sorted<const N: usize>(mut all: [StatementRow; N]) -> [StatementRow; N] {
+    let mut filled = 0;
+    while filled < N {
+        let next = all[filled];
+        let mut at = filled;
+        while at > 0 && comes_before(next.name.as_bytes(), all[at - 1].name.as_bytes()) {
+            all[at] = all[at - 1];
+            at -= 1;
+        }
+        all[at] = next;
+        filled += 1;
+    }
+    all
+}
+
+/// Whether a name stands before another one in the order of the alphabet, whatever its case.
+const fn comes_before(one: &[u8], other: &[u8]) -> bool {
     let mut at = 0;
     while at < one.len() && at < other.len() {
         let (a, b) = (one[at].to_ascii_uppercase(), other[at].to_ascii_uppercase());

@@ -1,7 +1,7 @@
 //! What is done with each statement of Heidenhain's conversational language, as data.
 
 use crate::table::Treatment::{Carried, Refused, Understood};
-use crate::table::{StatementRow, Treatment, line};
+use crate::table::{Alike, StatementRow, Treatment, alike, count, rows};
 
 const PATHS: &str = "HEIDENHAIN, conversational programming: path functions";
 const PROGRAMS: &str = "HEIDENHAIN, conversational programming: fundamentals";
@@ -39,53 +39,34 @@ const TABLES: Treatment = Refused {
 
 /// What is done with each statement of Heidenhain's conversational language. A statement that is not here is refused with its
 /// line. Miscellaneous functions that are not here are the machine builder's: carried, with a remark.
+pub const HEIDENHAIN_STATEMENTS: &[StatementRow] = &rows::<{ count(GROUPS) }>(GROUPS);
+
 #[rustfmt::skip]
-pub const HEIDENHAIN_STATEMENTS: &[StatementRow] = &[
-    line("BEGIN", Understood, PROGRAMS),
-    line("END", Understood, PROGRAMS),
-    line("BLK", Carried, PROGRAMS),
-    line("TOOL", Understood, PROGRAMS),
-    line("STOP", Carried, PROGRAMS),
-    line("L", Understood, PATHS),
-    line("LP", Understood, PATHS),
-    line("LN", Understood, AXES),
-    line("CC", Understood, PATHS),
-    line("C", Understood, PATHS),
-    line("CP", Understood, PATHS),
-    line("CR", Understood, PATHS),
-    line("CT", Understood, PATHS),
-    line("CTP", Understood, PATHS),
-    line("RND", ROUNDED, PATHS),
-    line("CHF", CHAMFERED, PATHS),
-    line("APPR", APPROACH, PATHS),
-    line("DEP", APPROACH, PATHS),
-    line("FPOL", CONTOUR, PATHS),
-    line("FL", CONTOUR, PATHS),
-    line("FLT", CONTOUR, PATHS),
-    line("FC", CONTOUR, PATHS),
-    line("FCT", CONTOUR, PATHS),
-    line("FSELECT", CONTOUR, PATHS),
-    line("SPL", CONTOUR, PATHS),
-    line("LBL", Understood, LABELS),
-    line("CALL", Understood, LABELS),
-    line("SEL", TABLES, LABELS),
-    line("PATTERN", TABLES, CYCLES),
-    line("CONTOUR", CONTOUR, CYCLES),
-    line("FN", Understood, PARAMETERS),
-    line("Q", Understood, PARAMETERS),
-    line("QL", Understood, PARAMETERS),
-    line("QR", Understood, PARAMETERS),
-    line("QS", Carried, PARAMETERS),
-    line("CYCL", Understood, CYCLES),
-    line("CYCLE", Understood, CYCLES),
-    line("TRANS", Understood, CYCLES),
-    line("TCH", PROBED, CYCLES),
-    line("PRESET", TABLES, CYCLES),
-    line("PLANE", Understood, AXES),
-    line("FUNCTION", Understood, AXES),
-    line("M", Understood, MISCELLANEOUS),
-    line("F", Understood, PATHS),
-    line("MB", Carried, MISCELLANEOUS),
+const GROUPS: &[Alike] = &[
+    alike(Understood, PROGRAMS, &["BEGIN", "END"]),
+    alike(Carried, PROGRAMS, &["BLK"]),
+    alike(Understood, PROGRAMS, &["TOOL"]),
+    alike(Carried, PROGRAMS, &["STOP"]),
+    alike(Understood, PATHS, &["L", "LP"]),
+    alike(Understood, AXES, &["LN"]),
+    alike(Understood, PATHS, &["CC", "C", "CP", "CR", "CT", "CTP"]),
+    alike(ROUNDED, PATHS, &["RND"]),
+    alike(CHAMFERED, PATHS, &["CHF"]),
+    alike(APPROACH, PATHS, &["APPR", "DEP"]),
+    alike(CONTOUR, PATHS, &["FPOL", "FL", "FLT", "FC", "FCT", "FSELECT", "SPL"]),
+    alike(Understood, LABELS, &["LBL", "CALL"]),
+    alike(TABLES, LABELS, &["SEL"]),
+    alike(TABLES, CYCLES, &["PATTERN"]),
+    alike(CONTOUR, CYCLES, &["CONTOUR"]),
+    alike(Understood, PARAMETERS, &["FN", "Q", "QL", "QR"]),
+    alike(Carried, PARAMETERS, &["QS"]),
+    alike(Understood, CYCLES, &["CYCL", "CYCLE", "TRANS"]),
+    alike(PROBED, CYCLES, &["TCH"]),
+    alike(TABLES, CYCLES, &["PRESET"]),
+    alike(Understood, AXES, &["PLANE", "FUNCTION"]),
+    alike(Understood, MISCELLANEOUS, &["M"]),
+    alike(Understood, PATHS, &["F"]),
+    alike(Carried, MISCELLANEOUS, &["MB"]),
 ];
 
 /// The row of a statement's first word.

@@ -1,7 +1,7 @@
 //! What is done with each statement of KRL, as data.
 
 use crate::table::Treatment::{Carried, Refused, Understood};
-use crate::table::{StatementRow, Treatment, comes_before, line};
+use crate::table::{Alike, StatementRow, Treatment, alike, count, line, rows, sorted};
 use crate::text::name::Name;
 
 const KSS: &str =
@@ -134,176 +134,56 @@ pub(crate) fn row(name: &Name) -> Option<&'static StatementRow> {
 /// carried with a finding; any other word that begins a line is refused.
 pub const KRL_STATEMENTS: &[StatementRow] = &SORTED;
 
-const COUNT: usize = OTHERS.len() + MOTIONS.len();
+const COUNT: usize = count(OTHERS) + MOTIONS.len();
 
 /// Motions and others in order of their names.
-static SORTED: [StatementRow; COUNT] = sorted();
-
-const fn sorted() -> [StatementRow; COUNT] {
-    let mut all = [OTHERS[0]; COUNT];
-    let mut filled = 0;
-    while filled < COUNT {
-        let next = match filled < OTHERS.len() {
-            true => OTHERS[filled],
-            false => {
-                let motion = MOTIONS[filled - OTHERS.len()];
-                line(motion.name, Understood, motion.source)
-            }
-        };
-        let mut at = filled;
-        while at > 0 && comes_before(next.name.as_bytes(), all[at - 1].name.as_bytes()) {
-            all[at] = all[at - 1];
-            at -= 1;
-        }
-        all[at] = next;
-        filled += 1;
+static SORTED: [StatementRow; COUNT] = {
+    let mut all = rows::<COUNT>(OTHERS);
+    let mut at = 0;
+    while at < MOTIONS.len() {
+        all[count(OTHERS) + at] = line(MOTIONS[at].name, Understood, MOTIONS[at].source);
+        at += 1;
     }
-    all
-}
+    sorted(all)
+};
 
 #[rustfmt::skip]
-const OTHERS: [StatementRow; 140] = [
-    line("DEF", Understood, EXPERT),
-    line("DEFFCT", Understood, EXPERT),
-    line("DEFDAT", Understood, EXPERT),
-    line("END", Understood, EXPERT),
-    line("ENDFCT", Understood, EXPERT),
-    line("ENDDAT", Understood, EXPERT),
-    line("DECL", Understood, EXPERT),
-    line("GLOBAL", Understood, EXPERT),
-    line("CONST", Understood, EXPERT),
-    line("IF", Understood, EXPERT),
-    line("SWITCH", Understood, EXPERT),
-    line("FOR", Understood, EXPERT),
-    line("WHILE", Understood, EXPERT),
-    line("REPEAT", Understood, EXPERT),
-    line("LOOP", Understood, EXPERT),
-    line("GOTO", Understood, EXPERT),
-    line("RETURN", Understood, EXPERT),
-    line("EXIT", Understood, EXPERT),
-    line("=", Understood, EXPERT),
-    line("BAS", Understood, EXPERT),
-    line("INTERRUPT", Understood, EXPERT),
-    line("TRIGGER", Understood, EXPERT),
-    line("STRUC", Carried, EXPERT),
-    line("ENUM", Carried, EXPERT),
-    line("SIGNAL", Carried, EXPERT),
-    line("EXT", Carried, EXPERT),
-    line("EXTFCT", Carried, EXPERT),
-    line("EXTP", Carried, EXPERT),
-    line("EXTFCTP", Carried, EXPERT),
-    line("IMPORT", Carried, EXPERT),
-    line("CONTINUE", Carried, EXPERT),
-    line("HALT", Carried, EXPERT),
-    line("WAIT", Carried, EXPERT),
-    line("PULSE", Carried, EXPERT),
-    line("ANIN", Carried, EXPERT),
-    line("ANOUT", Carried, EXPERT),
-    line("DIGIN", Carried, EXPERT),
-    line("CCLOSE", Carried, EXPERT),
-    line("COPEN", Carried, EXPERT),
-    line("CIOCTL", Carried, EXPERT),
-    line("CREAD", Carried, EXPERT),
-    line("CWRITE", Carried, EXPERT),
-    line("SREAD", Carried, EXPERT),
-    line("SWRITE", Carried, EXPERT),
-    line("CONFIRM", Carried, EXPERT),
-    line("CHANNEL", Carried, EXPERT),
-    line("VARSTATE", Carried, EXPERT),
-    line("RESUME", Refused {
+const OTHERS: &[Alike] = &[
+    alike(Understood, EXPERT, &[
+        "DEF", "DEFFCT", "DEFDAT", "END", "ENDFCT", "ENDDAT", "DECL", "GLOBAL", "CONST", "IF",
+        "SWITCH", "FOR", "WHILE", "REPEAT", "LOOP", "GOTO", "RETURN", "EXIT", "=", "BAS",
+        "INTERRUPT", "TRIGGER",
+    ]),
+    alike(Carried, EXPERT, &[
+        "STRUC", "ENUM", "SIGNAL", "EXT", "EXTFCT", "EXTP", "EXTFCTP", "IMPORT", "CONTINUE", "HALT",
+        "WAIT", "PULSE", "ANIN", "ANOUT", "DIGIN", "CCLOSE", "COPEN", "CIOCTL", "CREAD", "CWRITE",
+        "SREAD", "SWRITE", "CONFIRM", "CHANNEL", "VARSTATE", "BRAKE", "ABS", "SQRT", "SIN", "COS",
+        "TAN", "ACOS", "ATAN2", "INV_POS", "INVERSE", "FORWARD",
+    ]),
+    alike(Refused {
         reason: "it leaves motions before their ends",
         remedy: "take the interrupt that resumes into a program of its own",
-    }, EXPERT),
-    line("BRAKE", Carried, EXPERT),
-    line("PTP_REL", RELATIVE, EXPERT),
-    line("CIRC_REL", RELATIVE, EXPERT),
-    line("SPTP_REL", RELATIVE, KSS),
-    line("SCIRC_REL", RELATIVE, KSS),
-    line("SPLINE", Understood, KSS),
-    line("ENDSPLINE", Understood, KSS),
-    line("PTP_SPLINE", SPLINE, KSS),
-    line("SPL", SPLINE, KSS),
-    line("TIME_BLOCK", TIMES, KSS),
-    line("CONST_VEL", Carried, KSS),
-    line("STOP", Carried, KSS),
-    line("SVEL_CP", Carried, KSS),
-    line("SVEL_JOINT", Carried, KSS),
-    line("SACC_CP", Carried, KSS),
-    line("SACC_JOINT", Carried, KSS),
-    line("STOOL2", Carried, KSS),
-    line("SBASE", Carried, KSS),
-    line("SLOAD", Carried, KSS),
-    line("SIPO_MODE", Carried, KSS),
-    line("SORI_TYP", Understood, KSS),
-    line("SCIRC_TYP", Understood, KSS),
-    line("SCIRC_M", Understood, KSS),
-    line("SAPO", Carried, KSS),
-    line("SAPO_PTP", Carried, KSS),
-    line("SJERK", Carried, KSS),
-    line("SGEAR_JERK", Carried, KSS),
-    line("USE_CM_PRO_VALUES", Carried, KSS),
-    line("ASYPTP", ASYNCHRONOUS, KSS),
-    line("ASYCONT", ASYNCHRONOUS, KSS),
-    line("ASYSTOP", ASYNCHRONOUS, KSS),
-    line("ASYCANCEL", ASYNCHRONOUS, KSS),
-    line("CWRITEAXIS", ASYNCHRONOUS, KSS),
-    line("ABS", Carried, EXPERT),
-    line("SQRT", Carried, EXPERT),
-    line("SIN", Carried, EXPERT),
-    line("COS", Carried, EXPERT),
-    line("TAN", Carried, EXPERT),
-    line("ACOS", Carried, EXPERT),
-    line("ATAN2", Carried, EXPERT),
-    line("INV_POS", Carried, EXPERT),
-    line("INVERSE", Carried, EXPERT),
-    line("FORWARD", Carried, EXPERT),
-    line("ROUND", Carried, KSS),
-    line("CAST_TO", Carried, KSS),
-    line("CAST_FROM", Carried, KSS),
-    line("STRLEN", Carried, KSS),
-    line("STRADD", Carried, KSS),
-    line("STRCLEAR", Carried, KSS),
-    line("STRCOMP", Carried, KSS),
-    line("STRCOPY", Carried, KSS),
-    line("STRDECLLEN", Carried, KSS),
-    line("STRFIND", Carried, KSS),
-    line("GET_SIG_INF", Carried, KSS),
-    line("SET_CD_PARAMS", Carried, KSS),
-    line("SET_KRLMSG", Carried, KSS),
-    line("SET_KRLDLG", Carried, KSS),
-    line("EXISTS_KRLMSG", Carried, KSS),
-    line("EXISTS_KRLDLG", Carried, KSS),
-    line("CLEAR_KRLMSG", Carried, KSS),
-    line("MSGQUIT", Carried, KSS),
-    line("MSGNOTIFY", Carried, KSS),
-    line("MSGSTATE", Carried, KSS),
-    line("MSGLOOP", Carried, KSS),
-    line("MSGDIALOG", Carried, KSS),
-    line("EKI_INIT", Carried, ETHERNET),
-    line("EKI_OPEN", Carried, ETHERNET),
-    line("EKI_CLOSE", Carried, ETHERNET),
-    line("EKI_CLEAR", Carried, ETHERNET),
-    line("EKI_CLEARBUFFER", Carried, ETHERNET),
-    line("EKI_CHECKBUFFER", Carried, ETHERNET),
-    line("EKI_SEND", Carried, ETHERNET),
-    line("EKI_GETBOOL", Carried, ETHERNET),
-    line("EKI_GETINT", Carried, ETHERNET),
-    line("EKI_GETREAL", Carried, ETHERNET),
-    line("EKI_GETSTRING", Carried, ETHERNET),
-    line("EKI_GETFRAME", Carried, ETHERNET),
-    line("EKI_GETBOOLARRAY", Carried, ETHERNET),
-    line("EKI_GETINTARRAY", Carried, ETHERNET),
-    line("EKI_GETREALARRAY", Carried, ETHERNET),
-    line("EKI_SETBOOL", Carried, ETHERNET),
-    line("EKI_SETINT", Carried, ETHERNET),
-    line("EKI_SETREAL", Carried, ETHERNET),
-    line("EKI_SETSTRING", Carried, ETHERNET),
-    line("EKI_SETFRAME", Carried, ETHERNET),
-    line("RSI_CREATE", Carried, SENSOR),
-    line("RSI_DELETE", Carried, SENSOR),
-    line("RSI_ON", AT_RUN_TIME, SENSOR),
-    line("RSI_OFF", Carried, SENSOR),
-    line("RSI_MOVECORR", AT_RUN_TIME, SENSOR),
-    line("ST_ON", AT_RUN_TIME, SENSOR),
-    line("ST_SKIPSENS", AT_RUN_TIME, SENSOR),
+    }, EXPERT, &["RESUME"]),
+    alike(RELATIVE, EXPERT, &["PTP_REL", "CIRC_REL"]),
+    alike(RELATIVE, KSS, &["SPTP_REL", "SCIRC_REL"]),
+    alike(Understood, KSS, &["SPLINE", "ENDSPLINE", "SORI_TYP", "SCIRC_TYP", "SCIRC_M"]),
+    alike(SPLINE, KSS, &["PTP_SPLINE", "SPL"]),
+    alike(TIMES, KSS, &["TIME_BLOCK"]),
+    alike(Carried, KSS, &[
+        "CONST_VEL", "STOP", "SVEL_CP", "SVEL_JOINT", "SACC_CP", "SACC_JOINT", "STOOL2", "SBASE",
+        "SLOAD", "SIPO_MODE", "SAPO", "SAPO_PTP", "SJERK", "SGEAR_JERK", "USE_CM_PRO_VALUES",
+        "ROUND", "CAST_TO", "CAST_FROM", "STRLEN", "STRADD", "STRCLEAR", "STRCOMP", "STRCOPY",
+        "STRDECLLEN", "STRFIND", "GET_SIG_INF", "SET_CD_PARAMS", "SET_KRLMSG", "SET_KRLDLG",
+        "EXISTS_KRLMSG", "EXISTS_KRLDLG", "CLEAR_KRLMSG", "MSGQUIT", "MSGNOTIFY", "MSGSTATE",
+        "MSGLOOP", "MSGDIALOG",
+    ]),
+    alike(ASYNCHRONOUS, KSS, &["ASYPTP", "ASYCONT", "ASYSTOP", "ASYCANCEL", "CWRITEAXIS"]),
+    alike(Carried, ETHERNET, &[
+        "EKI_INIT", "EKI_OPEN", "EKI_CLOSE", "EKI_CLEAR", "EKI_CLEARBUFFER", "EKI_CHECKBUFFER",
+        "EKI_SEND", "EKI_GETBOOL", "EKI_GETINT", "EKI_GETREAL", "EKI_GETSTRING", "EKI_GETFRAME",
+        "EKI_GETBOOLARRAY", "EKI_GETINTARRAY", "EKI_GETREALARRAY", "EKI_SETBOOL", "EKI_SETINT",
+        "EKI_SETREAL", "EKI_SETSTRING", "EKI_SETFRAME",
+    ]),
+    alike(Carried, SENSOR, &["RSI_CREATE", "RSI_DELETE", "RSI_OFF"]),
+    alike(AT_RUN_TIME, SENSOR, &["RSI_ON", "RSI_MOVECORR", "ST_ON", "ST_SKIPSENS"]),
 ];
