@@ -43,6 +43,12 @@ impl ProgramError {
             remedy: remedy.into(),
         }
     }
+
+    /// That a file is larger than so many bytes, if it is.
+    pub(crate) fn too_large(file: &SourceFile, most_bytes: usize) -> Option<Self> {
+        let reason = || format!("the file is larger than {} MiB", most_bytes >> 20);
+        (file.bytes().len() > most_bytes).then(|| Self::at(file, 0..0, reason(), "divide it"))
+    }
 }
 
 impl ProgramError {

@@ -39,6 +39,7 @@
 
 mod apt;
 mod axis_count;
+mod calls;
 mod corner;
 mod document;
 mod error;

@@ -50,7 +50,7 @@ pub(crate) struct Turning<'w> {
 }
 
 /// Where one axis stands, deg.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct StandingAxis {
     pub letter: char,
     pub at: Option<f64>,
@@ -69,12 +69,8 @@ impl StandingAxis {
     pub(crate) fn new(letter: char, shown: CountShown) -> Self {
         Self {
             letter,
-            at: None,
             count: shown.way_of_counting(),
-            shown: CountShown::default(),
-            wound: 0.0,
-            left: false,
-            sent: false,
+            ..Self::default()
         }
     }
 

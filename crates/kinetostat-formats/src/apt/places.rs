@@ -44,16 +44,7 @@ pub(crate) type Frames = BTreeMap<String, Isometry3<f64>>;
 
 /// A tool or the part by its name.
 pub(crate) fn frame_use(frames: &Frames, name: &str) -> FrameUse {
-    let stated = frames.get(&name.to_ascii_uppercase());
-    FrameUse {
-        name: name.to_owned(),
-        frame: match stated {
-            Some(frame) => Frame::Known(*frame),
-            None => Frame::Unknown {
-                reason: "the file does not say it; state it under [robot.frames]".to_owned(),
-            },
-        },
-    }
+    FrameUse::stated(name, frames.get(&name.to_ascii_uppercase()), "the file")
 }
 
 /// The axes of the places: MSYS in the part's, or the part's.

@@ -40,7 +40,7 @@ pub fn read_apt(
     files: Vec<SourceFile>,
     options: &ReadOptions,
 ) -> Result<RobotProgram, Vec<ProgramError>> {
-    parse_apt(files, options).whole()
+    parse_apt(files, options).without_faults()
 }
 
 /// The same, with the motions that could be read beside what is refused.
@@ -56,9 +56,7 @@ pub(crate) fn parse_apt(files: Vec<SourceFile>, options: &ReadOptions) -> Parsed
         motions: Vec::new(),
     };
     for (index, file) in files.iter().enumerate() {
-        if file.bytes().len() > MOST_BYTES {
-            let fault =
-                ProgramError::at(file, 0..0, "the file is larger than 256 MiB", "divide it");
+        if let Some(fault) = ProgramError::too_large(file, MOST_BYTES) {
             program.faults.push(fault);
             continue;
         }
@@ -94,22 +92,11 @@ pub(crate) fn parse_apt(files: Vec<SourceFile>, options: &ReadOptions) -> Parsed
         reader.end_circle();
         reader.raw_text(&statements);
     }
-    let mut faults = program.faults;
-    faults.sort_by_key(|fault: &ProgramError| {
-        let file = files.iter().position(|file| file.name() == fault.file);
-        (file, fault.span.start, fault.line)
-    });
-    let (mut findings, motions) = (program.findings, program.motions);
-    findings.sort_by_key(|finding| (finding.file, finding.line));
-    let program = RobotProgram {
-        language: Language::Apt,
-        files,
+    let Found {
         motions,
         findings,
-        declarations: Vec::new(),
-        outside_calls: Vec::new(),
-        slash_blocks: crate::model::slash_blocks::SlashBlocks::default(),
-        rotary: crate::model::stated_axes::StatedAxes::default(),
-    };
-    Parsed { program, faults }
+        faults,
+        ..
+    } = program;
+    Parsed::of(Language::Apt, files, motions, findings, faults)
 }

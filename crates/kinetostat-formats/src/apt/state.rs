@@ -12,7 +12,7 @@ use crate::model::motion::Speed;
 use crate::text::source::SourceFile;
 
 /// What is in force.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub(crate) struct State {
     /// Where the tool is, mm; none where it is not known.
     pub place: Option<Vector3<f64>>,
@@ -40,21 +40,9 @@ impl State {
     /// Of the beginning of a file.
     pub(crate) fn new() -> Self {
         Self {
-            place: None,
             axis: Vector3::z(),
-            last: None,
-            feed: Speed {
-                mm_per_s: None,
-                text: String::new(),
-            },
-            mm_per_turn: None,
-            spindle: Spindle::default(),
-            rapid: None,
-            circle: None,
-            in_cycle: false,
-            system: None,
             tool: "TOOL".to_owned(),
-            has_ended: false,
+            ..Self::default()
         }
     }
 }

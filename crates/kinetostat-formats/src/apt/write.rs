@@ -4,7 +4,7 @@
 //! `GOTO` alone. A divided arc loses its `CIRCLE`. A `GODLTA` whose end or start changes becomes a `GOTO`. A `GOTO` without an
 //! axis gets one where that is corrected, or the one before it is.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
 use nalgebra::{UnitQuaternion, Vector3};
 
@@ -185,19 +185,6 @@ fn axes(program: &RobotProgram, ends: &BTreeMap<usize, &Piece>) -> Result<(), Wr
 struct AptSyntax;
 
 impl Syntax for AptSyntax {
-    fn names(&self, _program: &RobotProgram) -> BTreeSet<Vec<u8>> {
-        BTreeSet::new()
-    }
-
-    fn free_name(
-        &self,
-        _near: &[u8],
-        _number: &mut usize,
-        _taken: &mut BTreeSet<Vec<u8>>,
-    ) -> Option<Vec<u8>> {
-        None
-    }
-
     fn moved(&self, program: &RobotProgram, motion: &Motion, edits: &mut Edits) {
         if is_step(program, motion) {
             edits.replace(motion.site.keyword.clone(), "GOTO");

@@ -5,8 +5,9 @@ use nalgebra::{Matrix3, Vector3};
 use crate::heidenhain::words::Word;
 
 /// What turns, mirrors or scales the coordinates. One of them at a time is followed.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) enum Bend {
+    #[default]
     None,
     /// Axes that are mirrored.
     Mirror([bool; 3]),
@@ -28,20 +29,13 @@ impl Bend {
 }
 
 /// The coordinates of a program in those of the control's preset: shifted, then bent about the shifted datum.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct Datum {
     pub shift_mm: Vector3<f64>,
     pub bend: Bend,
 }
 
 impl Datum {
-    pub(crate) fn none() -> Self {
-        Self {
-            shift_mm: Vector3::zeros(),
-            bend: Bend::None,
-        }
-    }
-
     fn matrix(&self) -> Matrix3<f64> {
         match self.bend {
             Bend::None => Matrix3::identity(),

@@ -21,8 +21,9 @@ pub(crate) struct RotaryWord {
 }
 
 /// How the feed is stated.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) enum FeedWord {
+    #[default]
     None,
     /// The word, and its number.
     Number(usize, f64),
@@ -35,7 +36,7 @@ pub(crate) enum FeedWord {
 }
 
 /// A path block, taken apart.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct PathWords {
     pub axes: [Option<Coordinate>; 3],
     /// PR, IPR.
@@ -75,20 +76,7 @@ pub(crate) enum Odd {
 impl PathWords {
     /// Of words behind the first, which says the kind of block.
     pub(crate) fn of(words: &[Word]) -> Result<Self, Odd> {
-        let mut found = Self {
-            axes: [None; 3],
-            radius: None,
-            angle: None,
-            circle: None,
-            sense: None,
-            feed: FeedWord::None,
-            aside: false,
-            compensation: None,
-            functions: Vec::new(),
-            rotary: Vec::new(),
-            axis: [None; 3],
-            places: Vec::new(),
-        };
+        let mut found = Self::default();
         let is_circle = words.first().is_some_and(|word| word.is("CR"));
         // Behind some functions stand their own words.
         let mut owned = false;

@@ -17,7 +17,7 @@ pub(crate) struct Pole {
 }
 
 /// What is in force.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub(crate) struct State {
     /// Where the tool is in the programmed axes, mm; none where that is not known.
     pub place: [Option<f64>; 3],
@@ -69,31 +69,11 @@ impl State {
     /// Of the beginning of a file; `standing` are the rotary axes whose words are followed.
     pub(crate) fn new(standing: Standing) -> Self {
         Self {
-            place: [None; 3],
-            unstated: false,
-            unsettled: false,
-            pole: None,
-            radius_mm: None,
-            direction: None,
-            feed: None,
-            feed_text: String::new(),
-            tool_feed: None,
-            per_turn: false,
-            turns_per_minute: None,
-            spindle_on: false,
             tool: "TOOL".to_owned(),
             preset: "PRESET".to_owned(),
-            datum: Datum::none(),
-            last: None,
             axis: Vector3::z(),
-            directed: false,
-            cycle: None,
-            normal: None,
-            calls: false,
-            aside: false,
-            tip: TipControl::default(),
-            shorter: false,
             standing,
+            ..Self::default()
         }
     }
 

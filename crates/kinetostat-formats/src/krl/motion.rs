@@ -102,10 +102,7 @@ pub(crate) fn follow(
         line: file.source.line_of(span.start),
         kind,
         target: end.target,
-        speed: Speed {
-            mm_per_s: None,
-            text: String::new(),
-        },
+        speed: Speed::default(),
         zone: match rest.zone {
             None => Zone::Exact,
             Some(_) => Zone::Unstated,

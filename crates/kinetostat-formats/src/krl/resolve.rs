@@ -1,7 +1,7 @@
 //! What depends on where routines are called from: how often motions run, where they begin, what is in force.
 
+use crate::calls::{Holds, of_calls};
 use crate::error::ProgramError;
-use crate::krl::calls::of_calls;
 use crate::krl::folds::{contradiction, folds_of, text_of};
 use crate::krl::kept::{completed, is_beyond, kept_angles};
 use crate::krl::motion::Followed;

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::fmt::Debug;
 
+use crate::calls::Holds;
 use crate::krl::assigned_frames::Given;
 use crate::krl::values::PointData;
 use crate::model::frame::FrameUse;
@@ -92,7 +93,6 @@ impl Things {
 
 impl State {
     pub(crate) const ENTRY: Self = Self([Slot::Entry; COUNT]);
-    pub(crate) const UNKNOWN: Self = Self([Slot::Unknown; COUNT]);
 
     pub(crate) fn get(&self, thing: Thing) -> Slot {
         self.0[thing as usize]
@@ -100,21 +100,6 @@ impl State {
 
     pub(crate) fn set(&mut self, thing: Thing, slot: Slot) {
         self.0[thing as usize] = slot;
-    }
-
-    /// What is the same in both.
-    pub(crate) fn merged(self, other: Self) -> Self {
-        let same = |index: usize| match (self.0[index], other.0[index]) {
-            (one, other) if one == other => one,
-            // On one way the call alone makes the difference.
-            (lost @ Slot::Lost { before, .. }, kept) | (kept, lost @ Slot::Lost { before, .. })
-                if kept == before.map_or(Slot::Entry, Slot::Is) =>
-            {
-                lost
-            }
-            _ => Slot::Unknown,
-        };
-        Self(std::array::from_fn(same))
     }
 
     /// All that may change is not known.
@@ -130,9 +115,26 @@ impl State {
     pub(crate) fn behind_outside(self, call: usize) -> Self {
         Self(self.0.map(|slot| slot.lost(call)))
     }
+}
 
-    /// As it is where it is called from.
-    pub(crate) fn in_call(self, at: Self) -> Self {
+impl Holds for State {
+    const UNKNOWN: Self = Self([Slot::Unknown; COUNT]);
+
+    fn merged(self, other: Self) -> Self {
+        let same = |index: usize| match (self.0[index], other.0[index]) {
+            (one, other) if one == other => one,
+            // On one way the call alone makes the difference.
+            (lost @ Slot::Lost { before, .. }, kept) | (kept, lost @ Slot::Lost { before, .. })
+                if kept == before.map_or(Slot::Entry, Slot::Is) =>
+            {
+                lost
+            }
+            _ => Slot::Unknown,
+        };
+        Self(std::array::from_fn(same))
+    }
+
+    fn in_call(self, at: Self) -> Self {
         let resolved = |index: usize| match self.0[index] {
             Slot::Entry => at.0[index],
             Slot::Lost { call, before: None } => at.0[index].lost(call),

@@ -9,7 +9,7 @@ use crate::krl::lex::TokenFile;
 use crate::krl::targets::End;
 use crate::krl::values::Reason;
 use crate::model::site::TargetSite;
-use crate::model::target::{Configuration, PoseTarget, Target};
+use crate::model::target::{PoseTarget, Target};
 
 /// `{X 10,Z -5}`: a step along the axes of the base that turns nothing.
 pub(crate) fn step_of(file: &TokenFile<'_>, tokens: &Range<usize>) -> Result<Vector3<f64>, Reason> {
@@ -37,10 +37,8 @@ pub(crate) fn step_of(file: &TokenFile<'_>, tokens: &Range<usize>) -> Result<Vec
 pub(crate) fn by_step() -> End {
     End {
         target: Target::Pose(PoseTarget {
-            position_mm: Vector3::zeros(),
             orientation: UnitQuaternion::identity(),
-            configuration: Configuration::default(),
-            external: Vec::new(),
+            ..PoseTarget::default()
         }),
         site: TargetSite::Fixed("it goes on from where the tool is"),
         open: None,

@@ -5,6 +5,7 @@
 
 use std::collections::BTreeMap;
 
+use crate::calls::Holds;
 use crate::error::ProgramError;
 use crate::krl::motion::Followed;
 use crate::krl::state::{Settings, Slot, State, Thing, Things};

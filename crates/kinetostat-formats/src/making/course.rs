@@ -62,6 +62,7 @@ pub(crate) fn counted_on_lines(lines: &[usize]) -> Vec<usize> {
 }
 
 /// Events and changes of tools by numbers that ascend in the order in which they run.
+#[derive(Default)]
 pub(crate) struct Course {
     /// Of every move; none where the lines are the order.
     pub of_moves: Option<Vec<usize>>,
@@ -110,16 +111,12 @@ impl Course {
         placed.sort_by_key(|(order, _)| *order);
         let changes = path.tool_changes.iter();
         Self {
-            of_moves: None,
             events: placed,
             tools: changes
                 .map(|change| (before(change.line), change.number))
                 .collect(),
             left_out,
-            language: None,
-            configurations: Vec::new(),
-            other_speeds: Vec::new(),
-            lost_speeds: BTreeMap::new(),
+            ..Self::default()
         }
     }
 

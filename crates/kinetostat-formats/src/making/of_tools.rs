@@ -20,6 +20,7 @@ use crate::rapid::loads::tool_loads;
 use crate::text::name::Name;
 
 /// The tools of a made program.
+#[derive(Default)]
 pub(crate) struct MadeTools {
     /// That of a program with one, and before the first change.
     pub tool: StatedTool,
@@ -50,12 +51,7 @@ pub(crate) fn tools_of_source(
     robot: &RobotPath,
     language: MakeLanguage,
 ) -> MadeTools {
-    let mut made = MadeTools {
-        tool: StatedTool::default(),
-        tools: BTreeMap::new(),
-        findings: Vec::new(),
-        faults: Vec::new(),
-    };
+    let mut made = MadeTools::default();
     let all = &robot.tools;
     let is_one = all.len() == 1;
     let loads = loads_of_source(program, language);

@@ -55,9 +55,7 @@ pub(crate) fn course_of(program: &RobotProgram, robot: &RobotPath) -> Course {
         events: placed,
         left_out: by_line.into_values().flatten().collect(),
         language: Some(program.language),
-        configurations: Vec::new(),
-        other_speeds: Vec::new(),
-        lost_speeds: BTreeMap::new(),
+        ..Course::default()
     }
 }
 

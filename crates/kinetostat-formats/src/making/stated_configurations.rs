@@ -23,6 +23,7 @@ pub(crate) fn text_of(language: Language, configuration: &Configuration) -> Opti
 }
 
 /// Where `ConfJ` of RAPID switches what joint motions do with configurations.
+#[derive(Default)]
 pub(crate) struct Switches {
     /// Lines with motions behind `ConfJ\Off`.
     off: BTreeMap<usize, bool>,
@@ -32,10 +33,7 @@ pub(crate) struct Switches {
 
 impl Switches {
     pub(crate) fn of(program: &RobotProgram, file: usize) -> Self {
-        let mut found = Self {
-            off: BTreeMap::new(),
-            somewhere: false,
-        };
+        let mut found = Self::default();
         let source = match program.files.get(file) {
             Some(source) if program.language == Language::Rapid => source,
             _ => return found,

@@ -53,6 +53,7 @@ pub(crate) fn told(
 }
 
 /// The tools of the moves that are written.
+#[derive(Default)]
 struct Used {
     /// By their numbers, with the line from which each is used first.
     numbered: BTreeMap<u32, usize>,
@@ -64,11 +65,7 @@ struct Used {
 
 impl Used {
     fn of(path: &Path, course: &Course) -> Self {
-        let mut used = Self {
-            numbered: BTreeMap::new(),
-            first_unnamed: None,
-            cuts_unnamed: false,
-        };
+        let mut used = Self::default();
         let changes: BTreeMap<u32, usize> = (path.tool_changes.iter().rev())
             .map(|change| (change.number, change.line))
             .collect();

@@ -32,6 +32,17 @@ pub struct FrameUse {
 }
 
 impl FrameUse {
+    /// A frame of which its text says the name alone (`of`: "the file", "the program"), as the caller states it.
+    pub(crate) fn stated(name: &str, frame: Option<&Isometry3<f64>>, of: &str) -> Self {
+        let unknown = || Frame::Unknown {
+            reason: format!("{of} does not say it; state it under [robot.frames]"),
+        };
+        Self {
+            name: name.to_owned(),
+            frame: frame.map_or_else(unknown, |frame| Frame::Known(*frame)),
+        }
+    }
+
     /// Where it is, if known.
     #[must_use]
     pub fn known(&self) -> Option<&Isometry3<f64>> {

@@ -58,7 +58,7 @@ pub enum Runs {
 }
 
 /// The speed of a motion.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct Speed {
     /// Of the tool centre point in mm/s, if the text says it.
     pub mm_per_s: Option<f64>,

@@ -8,6 +8,7 @@ use crate::model::motion::Motion;
 use crate::model::outside_call::OutsideCall;
 use crate::model::program::RobotProgram;
 use crate::model::site::Declaration;
+use crate::model::slash_blocks::SlashBlocks;
 use crate::model::stated_axes::StatedAxes;
 use crate::text::finding::Finding;
 use crate::text::source::SourceFile;
@@ -33,29 +34,32 @@ pub(crate) struct Read {
 }
 
 impl Parsed {
-    /// The program, or all that is refused of it.
-    pub(crate) fn whole(self) -> Result<RobotProgram, Vec<ProgramError>> {
-        match self.faults.is_empty() {
-            true => Ok(self.program),
-            false => Err(self.faults),
-        }
-    }
-
     /// Of files of which nothing can be read.
     pub(crate) fn refused(language: Language, faults: Vec<ProgramError>) -> Self {
-        Self {
-            program: RobotProgram {
-                language,
-                files: Vec::new(),
-                motions: Vec::new(),
-                findings: Vec::new(),
-                declarations: Vec::new(),
-                outside_calls: Vec::new(),
-                slash_blocks: crate::model::slash_blocks::SlashBlocks::default(),
-                rotary: StatedAxes::default(),
-            },
-            faults,
-        }
+        Self::of(language, Vec::new(), Vec::new(), Vec::new(), faults)
+    }
+
+    /// Of what was found in files, with findings and faults in the order of files and lines.
+    pub(crate) fn of(
+        language: Language,
+        files: Vec<SourceFile>,
+        motions: Vec<Motion>,
+        mut findings: Vec<Finding>,
+        mut faults: Vec<ProgramError>,
+    ) -> Self {
+        sort_faults(&mut faults, &files);
+        findings.sort_by_key(|finding| (finding.file, finding.line));
+        let program = RobotProgram {
+            language,
+            files,
+            motions,
+            findings,
+            declarations: Vec::new(),
+            outside_calls: Vec::new(),
+            slash_blocks: SlashBlocks::default(),
+            rotary: StatedAxes::default(),
+        };
+        Self { program, faults }
     }
 
     /// Of what a reader of a robot's language found: with the findings that all languages share, and with findings and
@@ -72,23 +76,14 @@ impl Parsed {
         if !external_axes_may_move {
             faults.extend(moving_axis(&files, &motions, language));
         }
-        sort_faults(&mut faults, &files);
-        faults.dedup();
         findings.extend(named_calls(language, &outside_calls));
         findings.extend(unknown_frames(&motions));
         findings.extend(left_as_written(&motions));
-        findings.sort_by_key(|finding| (finding.file, finding.line));
-        let program = RobotProgram {
-            language,
-            files,
-            motions,
-            findings,
-            declarations,
-            outside_calls,
-            slash_blocks: crate::model::slash_blocks::SlashBlocks::default(),
-            rotary: StatedAxes::default(),
-        };
-        Self { program, faults }
+        let mut parsed = Self::of(language, files, motions, findings, faults);
+        parsed.faults.dedup();
+        parsed.program.declarations = declarations;
+        parsed.program.outside_calls = outside_calls;
+        parsed
     }
 
     /// The program, if nothing is refused.

@@ -12,7 +12,7 @@ pub struct Configuration {
 }
 
 /// A pose of the tool in the axes of the work object.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct PoseTarget {
     /// Place of the tool centre point in mm.
     pub position_mm: Vector3<f64>,

@@ -64,10 +64,7 @@ impl Maker<'_> {
             known,
             words: CoordinateWords {
                 mm_per_unit: 1.0,
-                incremental: false,
-                absolute_centre: false,
-                work_offset_mm: Vector3::zeros(),
-                to_machine: [false; 3],
+                ..CoordinateWords::default()
             },
         }
     }

@@ -89,11 +89,7 @@ fn by_half_a_turn(moves: &[Move]) -> Option<Warning> {
     };
     let mut all = moves.iter().filter(half);
     let first = all.next()?;
-    let more = match all.count() {
-        0 => String::new(),
-        1 => " (and in 1 more motion)".to_owned(),
-        n => format!(" (and in {n} more motions)"),
-    };
+    let more = and_more(all.count(), "motion");
     Some(Warning {
         line: first.line,
         text: format!(
@@ -197,15 +193,20 @@ pub(crate) fn turns_alone(moves: &[Move]) -> Option<Warning> {
     };
     let mut all = moves.iter().filter(alone);
     let first = all.next()?;
-    let more = match all.count() {
-        0 => String::new(),
-        1 => " (and in 1 more block)".to_owned(),
-        n => format!(" (and in {n} more blocks)"),
-    };
+    let more = and_more(all.count(), "block");
     Some(Warning {
         line: first.line,
         text: format!(
             "rotary axes turn alone here{more}: where the block is corrected its pieces keep F, which counts the way of the tip then, so that the axes may turn as fast as they can"
         ),
     })
+}
+
+/// How many more a finding is of, in brackets.
+fn and_more(count: usize, what: &str) -> String {
+    match count {
+        0 => String::new(),
+        1 => format!(" (and in 1 more {what})"),
+        n => format!(" (and in {n} more {what}s)"),
+    }
 }

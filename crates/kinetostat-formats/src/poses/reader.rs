@@ -1,7 +1,7 @@
 //! The reader of lists of poses.
 
 use crate::error::{ProgramError, note};
-use crate::model::frame::{Frame, FrameUse};
+use crate::model::frame::FrameUse;
 use crate::model::language::Language;
 use crate::model::motion::{Motion, MotionKind, Runs, Speed, Zone};
 use crate::model::parsed::Parsed;
@@ -63,7 +63,7 @@ pub fn read_poses(
     files: Vec<SourceFile>,
     options: &ReadOptions,
 ) -> Result<RobotProgram, Vec<ProgramError>> {
-    parse_poses(files, options).whole()
+    parse_poses(files, options).without_faults()
 }
 
 /// The same, with the motions of the rows that could be read beside what is refused.
@@ -75,11 +75,8 @@ pub(crate) fn parse_poses(files: Vec<SourceFile>, options: &ReadOptions) -> Pars
         motions: Vec::new(),
     };
     for (index, file) in files.iter().enumerate() {
-        if file.bytes().len() > MOST_BYTES {
-            let reason = "the file is larger than 256 MiB";
-            reader
-                .faults
-                .push(ProgramError::at(file, 0..0, reason, "divide it"));
+        if let Some(fault) = ProgramError::too_large(file, MOST_BYTES) {
+            reader.faults.push(fault);
             continue;
         }
         if file.bytes().starts_with(PARQUET) {
@@ -99,27 +96,12 @@ pub(crate) fn parse_poses(files: Vec<SourceFile>, options: &ReadOptions) -> Pars
         }
     }
     let Reader {
-        mut faults,
-        mut findings,
-        motions,
-        ..
-    } = reader;
-    faults.sort_by_key(|fault: &ProgramError| {
-        let file = files.iter().position(|file| file.name() == fault.file);
-        (file, fault.span.start, fault.line)
-    });
-    findings.sort_by_key(|finding| (finding.file, finding.line));
-    let program = RobotProgram {
-        language: Language::Poses,
-        files,
         motions,
         findings,
-        declarations: Vec::new(),
-        outside_calls: Vec::new(),
-        slash_blocks: crate::model::slash_blocks::SlashBlocks::default(),
-        rotary: crate::model::stated_axes::StatedAxes::default(),
-    };
-    Parsed { program, faults }
+        faults,
+        ..
+    } = reader;
+    Parsed::of(Language::Poses, files, motions, findings, faults)
 }
 
 struct Reader<'o> {
@@ -271,15 +253,7 @@ impl Reader<'_> {
     fn frame(&self, name: &str) -> FrameUse {
         let mut frames = self.options.frames.iter();
         let stated = frames.find(|(own, _)| own.eq_ignore_ascii_case(name));
-        FrameUse {
-            name: name.to_owned(),
-            frame: match stated {
-                Some((_, frame)) => Frame::Known(*frame),
-                None => Frame::Unknown {
-                    reason: "the file does not say it; state it under [robot.frames]".to_owned(),
-                },
-            },
-        }
+        FrameUse::stated(name, stated.map(|(_, frame)| frame), "the file")
     }
 
     fn motion(

@@ -2,7 +2,6 @@
 //!
 //! A pose before another one is a copy of its row with other numbers. Lengths go back into the unit of the text.
 
-use std::collections::BTreeSet;
 use std::ops::Range;
 
 use crate::error::WriteError;
@@ -72,19 +71,6 @@ fn unit_mm(program: &RobotProgram, file: usize) -> f64 {
 struct PosesSyntax;
 
 impl Syntax for PosesSyntax {
-    fn names(&self, _program: &RobotProgram) -> BTreeSet<Vec<u8>> {
-        BTreeSet::new()
-    }
-
-    fn free_name(
-        &self,
-        _near: &[u8],
-        _number: &mut usize,
-        _taken: &mut BTreeSet<Vec<u8>>,
-    ) -> Option<Vec<u8>> {
-        None
-    }
-
     fn piece(
         &self,
         program: &RobotProgram,
@@ -104,8 +90,6 @@ impl Syntax for PosesSyntax {
         edits.replace(at, speed);
         edits.applied_to(literal)
     }
-
-    fn straighten(&self, _program: &RobotProgram, _motion: &Motion, _edits: &mut Edits) {}
 }
 
 /// The numbers of a row that become others.

@@ -3,9 +3,10 @@
 //! All ways join again at the label: behind it a motion runs as often as before the jump. A jump backward makes a loop of what stands
 //! between, and the order of its routine is not followed.
 
+use crate::calls::Holds;
 use crate::model::motion::Runs;
-use crate::rapid::calls::{Place, merge};
 use crate::rapid::labels::Jump;
+use crate::rapid::place::Place;
 use crate::rapid::walker::Walker;
 use crate::text::name::Name;
 
@@ -24,7 +25,7 @@ impl Walker<'_, '_> {
             let leads_here = Some(jump.label) == label;
             if leads_here {
                 met = Some(met.map_or((jump.at, jump.modes), |(place, modes)| {
-                    (merge(place, jump.at), modes.met(jump.modes))
+                    (place.merged(jump.at), modes.met(jump.modes))
                 }));
             }
             !leads_here

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use crate::rapid::calls::Place;
+use crate::rapid::place::Place;
 use crate::rapid::tree::{Statement, TokenFile};
 use crate::rapid::turning::Modes;
 use crate::text::name::Name;

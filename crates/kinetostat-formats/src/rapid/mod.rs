@@ -2,13 +2,12 @@
 //!
 //! From tokens ([`lex`]) to blocks ([`parser`], [`tree`]), to names and what they are worth ([`symbols`], [`usage`],
 //! [`literals`], [`frames`]), to motions ([`motion`], [`targets`]) in the order in which they run ([`walk`], [`walker`],
-//! [`instructions`], [`calls`], [`labels`], [`jumps`]), with what is in force there ([`turning`], [`modes`]).
+//! [`instructions`], [`place`], [`labels`], [`jumps`]), with what is in force there ([`turning`], [`modes`]).
 //!
 //! Source: ABB, Technical reference manual - RAPID kernel, and - RAPID Instructions, Functions and Data types (3HAC050917).
 
 pub(crate) mod arguments;
 mod assigned_speeds;
-pub(crate) mod calls;
 mod constants;
 pub(crate) mod expression;
 pub(crate) mod frames;
@@ -23,6 +22,7 @@ pub(crate) mod loads;
 mod modes;
 pub(crate) mod motion;
 pub(crate) mod parser;
+mod place;
 pub(crate) mod reader;
 pub(crate) mod symbols;
 pub(crate) mod table;

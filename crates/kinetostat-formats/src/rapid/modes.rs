@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use crate::rapid::calls::Place;
+use crate::rapid::place::Place;
 use crate::rapid::tree::{RoutineKind, Statement};
 use crate::rapid::turning::{Modes, Moment};
 use crate::rapid::walker::Walker;

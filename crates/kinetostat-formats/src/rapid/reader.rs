@@ -54,15 +54,8 @@ pub fn read_rapid(
 
 /// Reads all that can be read of RAPID modules.
 pub(crate) fn parse_rapid(files: Vec<SourceFile>, options: &ReadOptions) -> Parsed {
-    let mut faults = Vec::new();
-    for file in files.iter().filter(|file| file.bytes().len() > MOST_BYTES) {
-        faults.push(ProgramError::at(
-            file,
-            0..0,
-            "the file is larger than 64 MiB",
-            "divide it",
-        ));
-    }
+    let large = |file: &SourceFile| ProgramError::too_large(file, MOST_BYTES);
+    let mut faults: Vec<ProgramError> = files.iter().filter_map(large).collect();
     if !faults.is_empty() {
         return Parsed::refused(Language::Rapid, faults);
     }

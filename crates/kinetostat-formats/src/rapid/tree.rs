@@ -93,7 +93,7 @@ pub(crate) struct Routine {
 }
 
 /// A module of a file.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub(crate) struct Module {
     pub data: Vec<DatumNode>,
     pub routines: Vec<Routine>,

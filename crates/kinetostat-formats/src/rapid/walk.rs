@@ -5,13 +5,14 @@
 
 use std::ops::Range;
 
+use crate::calls::{Call, Holds, Summary, of_calls};
 use crate::error::{ProgramError, note};
 use crate::model::motion::{Motion, Runs};
 use crate::model::outside_call::OutsideCall;
 use crate::options::ReadOptions;
-use crate::rapid::calls::{Call, Place, Summary, merge, of_calls};
 use crate::rapid::frames::Values;
 use crate::rapid::labels::destination;
+use crate::rapid::place::Place;
 use crate::rapid::table::motion_row;
 use crate::rapid::targets::Targets;
 use crate::rapid::tree::{Choice, RoutineKind, Statement};
@@ -113,7 +114,7 @@ impl Walker<'_, '_> {
         }
         let mut place = self.block(&home.routine.body, Place::Entry);
         if let Some((left, modes)) = self.now.left {
-            place = merge(place, left);
+            place = place.merged(left);
             self.now.modes = self.now.modes.met(modes);
         }
         let in_body = self.motions.len();
@@ -203,7 +204,7 @@ impl Walker<'_, '_> {
                 self.has_ended |= self.file().word(tokens.start).eq_ignore_ascii_case(b"EXIT");
                 let modes = self.now.modes;
                 let left = self.now.left.map_or((place, modes), |(left, before)| {
-                    (merge(left, place), before.met(modes))
+                    (left.merged(place), before.met(modes))
                 });
                 self.now.left = Some(left);
                 place
@@ -233,7 +234,7 @@ impl Walker<'_, '_> {
                     };
                     let here = self.now.modes;
                     met = Some(met.map_or(here, |met| met.met(here)));
-                    after = Some(after.map_or(end, |after| merge(after, end)));
+                    after = Some(after.map_or(end, |after| after.merged(end)));
                 }
                 self.now.modes = met.unwrap_or(modes);
                 self.now.runs = runs;
@@ -254,7 +255,7 @@ impl Walker<'_, '_> {
                 self.next_pass(&pass);
                 self.now.depth -= 1;
                 self.now.runs = runs;
-                merge(place, end)
+                place.merged(end)
             }
         }
     }
@@ -308,8 +309,7 @@ impl Walker<'_, '_> {
         self.left_by_error(now.modes, called);
         let summary = &mut self.summaries[called];
         match summary.leaves {
-            Some(Place::Entry) => place,
-            Some(leaves) => leaves,
+            Some(leaves) => leaves.in_call(place),
             None => {
                 summary.recursive = true;
                 Place::Unknown
@@ -321,11 +321,7 @@ impl Walker<'_, '_> {
     fn resolve(mut self, main: Option<usize>) -> Walked {
         let (runs, entry) = of_calls(&self.summaries, &self.finished, main);
         for (motion, (routine, place)) in self.motions.iter_mut().zip(&self.places) {
-            let place = match place {
-                Place::Entry => entry[*routine],
-                place => *place,
-            };
-            motion.follows = match place {
+            motion.follows = match place.in_call(entry[*routine]) {
                 Place::Motion(index) => Some(index),
                 Place::Entry | Place::Unknown => None,
             };

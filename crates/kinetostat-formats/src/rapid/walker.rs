@@ -1,12 +1,13 @@
 //! What a walk knows, and what it found so far.
 
+use crate::calls::Summary;
 use crate::error::ProgramError;
 use crate::model::motion::{Motion, Runs};
 use crate::model::outside_call::OutsideCall;
 use crate::options::{ExternalAxes, UnknownTargets};
-use crate::rapid::calls::{Place, Summary};
 use crate::rapid::frames::Values;
 use crate::rapid::labels::Jump;
+use crate::rapid::place::Place;
 use crate::rapid::table::row;
 use crate::rapid::targets::Targets;
 use crate::rapid::tree::{Statement, TokenFile};
@@ -47,7 +48,7 @@ pub(super) struct Walker<'w, 'p> {
     pub outside_calls: Vec<OutsideCall>,
     /// By routine: a function that may move the tool.
     pub moving_functions: Vec<bool>,
-    pub summaries: Vec<Summary>,
+    pub summaries: Vec<Summary<Place>>,
     /// Callers behind what they call.
     pub finished: Vec<usize>,
     /// Of the routine that is walked: jumps that have not come to their labels.

@@ -10,7 +10,7 @@ use crate::rapid::lex::{Kind, tokens_of};
 use crate::rapid::table::{MotionRow, motion_row};
 use crate::text::edits::Edits;
 use crate::text::name::{LONGEST, Name};
-use crate::writing::syntax::{PieceLiterals, Syntax};
+use crate::writing::syntax::{PieceLiterals, Syntax, replace_word};
 
 /// RAPID.
 pub(crate) struct RapidSyntax;
@@ -110,13 +110,6 @@ fn circular(straight: &str) -> String {
     match straight.rfind('L') {
         Some(at) => format!("{}C{}", &straight[..at], &straight[at + 1..]),
         None => straight.to_owned(),
-    }
-}
-
-/// A word of the same letters stays as it is written.
-fn replace_word(written: &[u8], word: &str, span: &Range<usize>, edits: &mut Edits) {
-    if !written.eq_ignore_ascii_case(word.as_bytes()) {
-        edits.replace(span.clone(), word);
     }
 }
 

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use nalgebra::{Point3, UnitQuaternion, Vector3};
 
-use crate::model::frame::{Frame, FrameUse};
+use crate::model::frame::FrameUse;
 use crate::model::motion::{Motion, MotionKind, Runs, Speed, Zone};
 use crate::model::orientation::OrientationText;
 use crate::model::site::{MotionSite, PoseText, SpeedSite, TargetSite};
@@ -223,15 +223,7 @@ impl Reader<'_> {
 
     fn frame_use(&self, name: &str) -> FrameUse {
         let stated = self.frames.get(&name.to_ascii_uppercase());
-        FrameUse {
-            name: name.to_owned(),
-            frame: match stated {
-                Some(frame) => Frame::Known(*frame),
-                None => Frame::Unknown {
-                    reason: "the program does not say it; state it under [robot.frames]".to_owned(),
-                },
-            },
-        }
+        FrameUse::stated(name, stated, "the program")
     }
 }
 

@@ -7,7 +7,6 @@ use crate::model::program::RobotProgram;
 use crate::options::ReadOptions;
 use crate::siemens::scan::scan;
 use crate::siemens::walker::Scan;
-use crate::text::finding::Finding;
 use crate::text::source::SourceFile;
 
 /// Reads programs of the SINUMERIK 840D and its kin (`.mpf`, `.spf`), each file for itself.
@@ -37,32 +36,20 @@ pub fn read_siemens(
     files: Vec<SourceFile>,
     options: &ReadOptions,
 ) -> Result<RobotProgram, Vec<ProgramError>> {
-    parse_siemens(files, options).whole()
+    parse_siemens(files, options).without_faults()
 }
 
 /// The same, with the motions that could be read beside what is refused.
 pub(crate) fn parse_siemens(files: Vec<SourceFile>, options: &ReadOptions) -> Parsed {
     let Scan {
         motions,
-        mut faults,
-        mut findings,
+        faults,
+        findings,
         rotary,
         ..
     } = scan(&files, options);
-    faults.sort_by_key(|fault: &ProgramError| {
-        let file = files.iter().position(|file| file.name() == fault.file);
-        (file, fault.span.start, fault.line)
-    });
-    findings.sort_by_key(|finding: &Finding| (finding.file, finding.line));
-    let program = RobotProgram {
-        language: Language::Siemens,
-        files,
-        motions,
-        findings,
-        declarations: Vec::new(),
-        outside_calls: Vec::new(),
-        slash_blocks: options.slash_blocks,
-        rotary,
-    };
-    Parsed { program, faults }
+    let mut parsed = Parsed::of(Language::Siemens, files, motions, findings, faults);
+    parsed.program.slash_blocks = options.slash_blocks;
+    parsed.program.rotary = rotary;
+    parsed
 }

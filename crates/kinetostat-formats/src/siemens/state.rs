@@ -8,11 +8,12 @@ use nalgebra::{Isometry3, UnitQuaternion, Vector3};
 use crate::standing::Standing;
 
 /// How the tool goes to the next place.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(crate) enum Code {
     /// G0.
     Rapid,
     /// G1.
+    #[default]
     Line,
     /// G2.
     Clockwise,
@@ -53,9 +54,10 @@ impl Code {
 }
 
 /// What F says.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(crate) enum FeedMode {
     /// G94.
+    #[default]
     PerMinute,
     /// G95, G96.
     PerTurn,
@@ -125,7 +127,7 @@ pub(crate) struct Counted {
 }
 
 /// What is in force.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub(crate) struct State {
     pub code: Code,
     /// Axis across the plane of arcs: 2 for G17.
@@ -185,36 +187,13 @@ impl State {
     /// Of the beginning of a program; `standing` are the rotary axes whose words are followed.
     pub(crate) fn new(standing: Standing) -> Self {
         Self {
-            code: Code::Line,
             normal: 2,
             unit_mm: 1.0,
             feed_unit_mm: 1.0,
-            steps: false,
-            feed_mode: FeedMode::PerMinute,
-            feed: None,
-            spindle: Turning::default(),
-            exact: false,
-            frame: Isometry3::identity(),
             work_object: "PART".to_owned(),
             tool: "TOOL".to_owned(),
-            next_tool: None,
-            edge: None,
-            oriented: false,
-            angles: None,
-            machine_orientation: false,
-            even_axes: None,
-            law_remarked: false,
-            slash_remarked: false,
             standing,
-            direction: None,
-            place: [None; 3],
-            counted: [None; 3],
-            last: None,
-            others: BTreeMap::new(),
-            ended: false,
-            lost: false,
-            code_stated: false,
-            feed_stated: false,
+            ..Self::default()
         }
     }
 

@@ -11,7 +11,7 @@ use nalgebra::{UnitQuaternion, Vector3};
 /// let piece = Piece::to(7, Vector3::new(100.0, 0.0, 0.02));
 /// assert_eq!((piece.motion, piece.speed_factor), (7, 1.0));
 /// ```
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct Piece {
     /// An index of [`crate::RobotProgram::motions`].
     pub motion: usize,
@@ -44,13 +44,8 @@ impl Piece {
         Self {
             motion,
             position_mm,
-            orientation: None,
-            rotary_deg: None,
-            via_mm: None,
-            centre_mm: None,
-            via_orientation: None,
-            share: None,
             speed_factor: 1.0,
+            ..Self::default()
         }
     }
 }

@@ -19,16 +19,20 @@ pub(crate) struct PieceLiterals {
 
 /// What the writer asks of a language.
 pub(crate) trait Syntax {
-    /// All names of the program, as the language compares them.
-    fn names(&self, program: &RobotProgram) -> BTreeSet<Vec<u8>>;
+    /// All names of the program, as the language compares them; none where the language declares nothing.
+    fn names(&self, _program: &RobotProgram) -> BTreeSet<Vec<u8>> {
+        BTreeSet::new()
+    }
 
     /// A name like `near` with a number, from this one on, that is not taken; it is taken then, and the number is the next.
     fn free_name(
         &self,
-        near: &[u8],
-        number: &mut usize,
-        taken: &mut BTreeSet<Vec<u8>>,
-    ) -> Option<Vec<u8>>;
+        _near: &[u8],
+        _number: &mut usize,
+        _taken: &mut BTreeSet<Vec<u8>>,
+    ) -> Option<Vec<u8>> {
+        None
+    }
 
     /// Whether the pieces of a motion to a declared end get declared ends of their own: the statement has no literals.
     fn declares_pieces(&self) -> bool {
@@ -62,7 +66,7 @@ pub(crate) trait Syntax {
     ) -> Option<Vec<u8>>;
 
     /// Makes a circular motion a straight one to the same end.
-    fn straighten(&self, program: &RobotProgram, motion: &Motion, edits: &mut Edits);
+    fn straighten(&self, _program: &RobotProgram, _motion: &Motion, _edits: &mut Edits) {}
 
     /// Where a written speed stays in force for the motions behind: where to restore the speed of before, and how.
     fn restored_speed(
@@ -88,4 +92,11 @@ pub(crate) struct Renamed {
     pub place: Range<usize>,
     /// The further name.
     pub name: Vec<u8>,
+}
+
+/// A word of the same letters stays as it is written.
+pub(crate) fn replace_word(written: &[u8], word: &str, span: &Range<usize>, edits: &mut Edits) {
+    if !written.eq_ignore_ascii_case(word.as_bytes()) {
+        edits.replace(span.clone(), word);
+    }
 }

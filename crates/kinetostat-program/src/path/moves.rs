@@ -24,10 +24,11 @@ pub enum MoveKind {
 }
 
 /// How the F word counts.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum FeedMode {
     /// G94: length in a minute.
+    #[default]
     PerMinute,
     /// G93: blocks in a minute.
     InverseTime,
@@ -109,7 +110,7 @@ pub struct Move {
 }
 
 /// How a block's coordinate words count.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct CoordinateWords {
     /// Millimetres in one unit of the words.
     pub mm_per_unit: f64,
@@ -202,7 +203,7 @@ impl Move {
 }
 
 /// The interpreted program.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct Path {
     /// The motions, in the order of the program; at most one a line.
     pub moves: Vec<Move>,

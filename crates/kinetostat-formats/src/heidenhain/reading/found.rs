@@ -53,6 +53,7 @@ pub(crate) struct PoleThere {
 }
 
 /// What a program says.
+#[derive(Default)]
 pub(crate) struct Found {
     pub faults: Vec<ProgramError>,
     pub findings: Vec<Finding>,

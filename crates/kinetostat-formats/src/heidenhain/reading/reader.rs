@@ -1,6 +1,6 @@
 //! The reader of Heidenhain conversational programs.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 
 use crate::apt::places::Frames;
 use crate::axis_count::{CountShown, shown_by_both};
@@ -48,34 +48,20 @@ pub fn read_heidenhain(
     files: Vec<SourceFile>,
     options: &ReadOptions,
 ) -> Result<RobotProgram, Vec<ProgramError>> {
-    parse_heidenhain(files, options).whole()
+    parse_heidenhain(files, options).without_faults()
 }
 
 /// The same, with the motions that could be read beside what is refused.
 pub(crate) fn parse_heidenhain(files: Vec<SourceFile>, options: &ReadOptions) -> Parsed {
     let found = interpret(&files, options);
-    let mut faults = found.faults;
-    faults.sort_by_key(|fault: &ProgramError| {
-        let file = files.iter().position(|file| file.name() == fault.file);
-        (file, fault.span.start, fault.line)
-    });
-    let mut findings = found.findings;
-    findings.sort_by_key(|finding| (finding.file, finding.line));
-    let program = RobotProgram {
-        language: Language::Heidenhain,
-        files,
-        motions: found.motions,
-        findings,
-        declarations: Vec::new(),
-        outside_calls: Vec::new(),
-        slash_blocks: crate::model::slash_blocks::SlashBlocks::default(),
-        rotary: StatedAxes {
-            letters: options.rotary_axes.clone(),
-            motions: found.axes,
-            ..StatedAxes::default()
-        },
+    let (motions, findings) = (found.motions, found.findings);
+    let mut parsed = Parsed::of(Language::Heidenhain, files, motions, findings, found.faults);
+    parsed.program.rotary = StatedAxes {
+        letters: options.rotary_axes.clone(),
+        motions: found.axes,
+        ..StatedAxes::default()
     };
-    Parsed { program, faults }
+    parsed
 }
 
 /// Reads files, with all that is refused beside what is understood.
@@ -97,24 +83,13 @@ pub(crate) fn interpret(files: &[SourceFile], options: &ReadOptions) -> Found {
 
 /// The same, with what is shown of how rotary axes count.
 fn interpret_once(files: &[SourceFile], options: &ReadOptions, shown: &[CountShown]) -> Found {
-    let mut found = Found {
-        faults: Vec::new(),
-        findings: Vec::new(),
-        motions: Vec::new(),
-        ways: Vec::new(),
-        corners: Vec::new(),
-        polar: Vec::new(),
-        axes: BTreeMap::new(),
-        shown: Vec::new(),
-    };
+    let mut found = Found::default();
     let frames = options.frames.iter();
     let frames: Frames = frames
         .map(|(name, frame)| (name.to_ascii_uppercase(), *frame))
         .collect();
     for (index, file) in files.iter().enumerate() {
-        if file.bytes().len() > MOST_BYTES {
-            let fault =
-                ProgramError::at(file, 0..0, "the file is larger than 256 MiB", "divide it");
+        if let Some(fault) = ProgramError::too_large(file, MOST_BYTES) {
             found.faults.push(fault);
             continue;
         }

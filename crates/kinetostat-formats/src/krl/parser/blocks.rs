@@ -184,21 +184,23 @@ impl Parser<'_, '_> {
     }
 
     pub(super) fn end_branches(&mut self, tokens: &Range<usize>, of_switch: bool) {
-        match self.blocks.pop() {
-            Some(block @ Block::Branches { is_switch, .. }) if is_switch == of_switch => {
-                let statement = finished(block);
-                self.push(statement);
-            }
-            other => {
-                self.blocks.extend(other);
-                self.misplaced(tokens);
-            }
-        }
+        self.end(
+            tokens,
+            |block| matches!(block, Block::Branches { is_switch, .. } if *is_switch == of_switch),
+        );
     }
 
     pub(super) fn end_loop(&mut self, tokens: &Range<usize>, opened: &str) {
+        self.end(
+            tokens,
+            |block| matches!(block, Block::Loop { word, .. } if *word == opened),
+        );
+    }
+
+    /// Ends the last block, if it is the one that is ended here.
+    fn end(&mut self, tokens: &Range<usize>, is_meant: impl Fn(&Block) -> bool) {
         match self.blocks.pop() {
-            Some(block @ Block::Loop { word, .. }) if word == opened => {
+            Some(block) if is_meant(&block) => {
                 let statement = finished(block);
                 self.push(statement);
             }

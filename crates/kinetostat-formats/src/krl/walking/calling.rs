@@ -2,8 +2,8 @@
 
 use std::ops::Range;
 
+use crate::calls::{Call, Holds};
 use crate::error::excerpt;
-use crate::krl::calls::Call;
 use crate::krl::state::{State, Thing};
 use crate::krl::table::{OPERATORS, row};
 use crate::krl::walking::walker::{DEEPEST, Walker};

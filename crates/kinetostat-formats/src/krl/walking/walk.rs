@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use crate::calls::Holds;
 use crate::krl::role::Role;
 use crate::krl::state::{State, Things};
 use crate::krl::table::{OPERATORS, motion_row, row};

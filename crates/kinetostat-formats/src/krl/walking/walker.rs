@@ -2,8 +2,8 @@
 
 use std::ops::Range;
 
+use crate::calls::Summary;
 use crate::error::{ProgramError, note};
-use crate::krl::calls::Summary;
 use crate::krl::lex::TokenFile;
 use crate::krl::motion::Followed;
 use crate::krl::state::{Settings, State};
@@ -44,7 +44,7 @@ pub(crate) struct Walker<'w, 'p> {
     pub touched: Touched,
     pub motions: Vec<Followed>,
     pub findings: Vec<Finding>,
-    pub summaries: Vec<Summary>,
+    pub summaries: Vec<Summary<State>>,
     /// Callers behind what they call.
     pub finished: Vec<usize>,
     pub(super) now: Now,

@@ -1,7 +1,6 @@
 //! What the writer must know of KRL.
 
 use std::collections::BTreeSet;
-use std::ops::Range;
 
 use crate::error::WriteError;
 use crate::krl::lex::{Kind, TokenFile};
@@ -15,7 +14,7 @@ use crate::text::edits::Edits;
 use crate::text::name::Name;
 use crate::writing::motions::write_with;
 use crate::writing::piece::Piece;
-use crate::writing::syntax::{PieceLiterals, Renamed, Syntax};
+use crate::writing::syntax::{PieceLiterals, Renamed, Syntax, replace_word};
 
 /// Most characters of a name.
 const LONGEST: usize = 24;
@@ -151,12 +150,5 @@ impl Syntax for KrlSyntax {
 
     fn renamed(&self, program: &RobotProgram, names: &[Renamed], edits: &mut [Edits]) {
         rename_in_folds(program, names, edits);
-    }
-}
-
-/// A word of the same letters stays as it is written.
-fn replace_word(written: &[u8], word: &str, span: &Range<usize>, edits: &mut Edits) {
-    if !written.eq_ignore_ascii_case(word.as_bytes()) {
-        edits.replace(span.clone(), word);
     }
 }

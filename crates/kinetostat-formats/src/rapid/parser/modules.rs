@@ -38,10 +38,7 @@ pub(crate) fn modules_of(file: &TokenFile<'_>, faults: &mut Vec<ProgramError>) -
 impl Parser<'_, '_> {
     fn module(&mut self) -> Module {
         let start = self.at - 1;
-        let mut module = Module {
-            data: Vec::new(),
-            routines: Vec::new(),
-        };
+        let mut module = Module::default();
         self.name();
         if self.takes_symbol(b'(') {
             while self.kind().is_some() && !self.takes_symbol(b')') {

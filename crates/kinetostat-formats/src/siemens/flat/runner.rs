@@ -44,7 +44,7 @@ pub(super) struct Section {
 }
 
 /// A program that runs.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(super) struct Level {
     pub unit: usize,
     pub line: usize,
@@ -67,20 +67,13 @@ impl Level {
     pub(super) fn of(unit: usize) -> Self {
         Self {
             unit,
-            line: 0,
-            limits: BTreeMap::new(),
-            back_to: BTreeMap::new(),
-            sections: Vec::new(),
-            caller: BTreeMap::new(),
-            back: Vec::new(),
-            again: 0,
-            modes: Modes::default(),
-            frames: Frames::default(),
+            ..Self::default()
         }
     }
 }
 
 /// A program that is run.
+#[derive(Default)]
 pub(super) struct Runner<'r> {
     pub files: &'r [SourceFile],
     pub units: &'r [Unit],
@@ -114,15 +107,7 @@ impl<'r> Runner<'r> {
             units,
             names,
             levels: vec![Level::of(main)],
-            variables: Variables::default(),
-            output: Vec::new(),
-            origins: Vec::new(),
-            modes: Modes::default(),
-            frames: Frames::default(),
-            feed: None,
-            drilling: None,
-            faults: FaultsOfRun::default(),
-            doubts: Doubts::default(),
+            ..Self::default()
         }
     }
 
