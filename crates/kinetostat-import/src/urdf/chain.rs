@@ -456,12 +456,10 @@ impl Plan<'_> {
             Element::Body(BodyElement {
                 body: name,
                 mass_kg: inertial.mass,
-                centre_of_mass_mm: None,
                 centre_of_mass_m: given(centre),
                 inertia_kg_m2: (inertia != Matrix3::zeros())
                     .then(|| [0, 1, 2].map(|i| [0, 1, 2].map(|j| inertia[(i, j)]))),
-                source: None,
-                assumption: None,
+                ..BodyElement::default()
             }),
             "",
         );
@@ -473,17 +471,8 @@ fn link(section: &str, name: Option<String>, vector: [f64; 3]) -> Element {
     Element::Link(LinkElement {
         link: section.to_owned(),
         name,
-        length_mm: None,
-        length_m: None,
-        vector_mm: None,
         vector_m: Some(vector),
-        segments: None,
-        convention: None,
-        density_kg_m3: None,
-        mass_kg_per_m: None,
-        mass_model: None,
-        source: None,
-        assumption: None,
+        ..LinkElement::default()
     })
 }
 

@@ -210,9 +210,7 @@ impl Reader<'_> {
         let mut link = Link {
             at: self.at(node, &element),
             name,
-            inertial: None,
-            has_inertial: false,
-            meshes: Vec::new(),
+            ..Link::default()
         };
         for child in node.children().filter(Node::is_element) {
             if !self.plain(child, &element) {

@@ -34,7 +34,7 @@ pub(crate) struct Inertial {
     pub(crate) inertia: Matrix3<f64>,
 }
 
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct Link {
     pub(crate) at: At,
     pub(crate) name: String,

@@ -4,7 +4,7 @@ use kinetostat::{Mechanism, MotionKind};
 use nalgebra::{DMatrix, DVector};
 
 use crate::elements::quantity::by_kind;
-use crate::elements::quantity::{DEG, MM, ReadResult, choice, forbid, need};
+use crate::elements::quantity::{DEG, MM, ReadResult, choice, choices, forbid, need};
 use crate::findings::{Findings, name};
 use crate::problem::{Finding, KeyPath};
 use crate::schema::{
@@ -304,14 +304,8 @@ fn own(place: &KeyPath, axis: &ControllerAxisTable, kind: MotionKind) -> ReadRes
         place,
         "offset of the zero",
         kind,
-        &[
-            choice("zero_offset_mm", axis.zero_offset_mm, MM),
-            choice("zero_offset_m", axis.zero_offset_m, 1.0),
-        ],
-        &[
-            choice("zero_offset_deg", axis.zero_offset_deg, DEG),
-            choice("zero_offset_rad", axis.zero_offset_rad, 1.0),
-        ],
+        &choices!(axis, (zero_offset_mm, MM), (zero_offset_m, 1.0)),
+        &choices!(axis, (zero_offset_deg, DEG), (zero_offset_rad, 1.0)),
     )?;
     use ControllerUnit::{Deg, M, Mm, Rad};
     let (usual, other, what) = match kind {

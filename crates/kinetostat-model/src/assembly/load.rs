@@ -8,7 +8,7 @@ use nalgebra::Vector3;
 use crate::assembly::platform::platform_index;
 use crate::assembly::template::Template;
 use crate::elements::part::Part;
-use crate::elements::quantity::{MM, ReadResult, choice, need, positive, vector};
+use crate::elements::quantity::{MM, ReadResult, choice, choices, need, positive, vector};
 use crate::findings::{Findings, name};
 use crate::problem::{Finding, KeyPath};
 use crate::schema::load::End;
@@ -241,14 +241,8 @@ fn wrench(
 }
 
 fn spring_law<A>(place: &KeyPath, l: &SpringLoad<A>) -> ReadResult<LengthLaw> {
-    let stiffness = [
-        choice("stiffness_n_per_m", l.stiffness_n_per_m, 1.0),
-        choice("stiffness_n_per_mm", l.stiffness_n_per_mm, 1.0 / MM),
-    ];
-    let free = [
-        choice("free_length_mm", l.free_length_mm, MM),
-        choice("free_length_m", l.free_length_m, 1.0),
-    ];
+    let stiffness = choices!(l, (stiffness_n_per_m, 1.0), (stiffness_n_per_mm, 1.0 / MM));
+    let free = choices!(l, (free_length_mm, MM), (free_length_m, 1.0));
     let free = need(place, "free length", &free)?;
     if free.value < 0.0 {
         return Err(Finding::new(
@@ -265,14 +259,8 @@ fn spring_law<A>(place: &KeyPath, l: &SpringLoad<A>) -> ReadResult<LengthLaw> {
 }
 
 fn gas_law<A>(place: &KeyPath, l: &GasSpringLoad<A>) -> ReadResult<LengthLaw> {
-    let length = [
-        choice("length_mm", l.length_mm, MM),
-        choice("length_m", l.length_m, 1.0),
-    ];
-    let column = [
-        choice("column_mm", l.column_mm, MM),
-        choice("column_m", l.column_m, 1.0),
-    ];
+    let length = choices!(l, (length_mm, MM), (length_m, 1.0));
+    let column = choices!(l, (column_mm, MM), (column_m, 1.0));
     let given = |key, what, value| positive(place, what, &[choice(key, Some(value), 1.0)]);
     Ok(LengthLaw::Gas {
         force: given("force_n", "push", l.force_n)?.value,

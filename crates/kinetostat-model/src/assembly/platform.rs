@@ -6,7 +6,7 @@ use kinetostat::Platform;
 
 use crate::elements::body::{inertia, mass};
 use crate::elements::placement::pose;
-use crate::elements::quantity::{MM, choice, vector};
+use crate::elements::quantity::{MM, choices, vector};
 use crate::findings::{Findings, name};
 use crate::problem::KeyPath;
 use crate::schema::{Document, LimbTable};
@@ -35,10 +35,7 @@ pub(crate) fn platforms(document: &Document, findings: &mut Findings) -> Vec<Pla
                 help,
             );
         }
-        let centre = [
-            choice("centre_of_mass_mm", p.centre_of_mass_mm, MM),
-            choice("centre_of_mass_m", p.centre_of_mass_m, 1.0),
-        ];
+        let centre = choices!(p, (centre_of_mass_mm, MM), (centre_of_mass_m, 1.0));
         let home = findings.keep(pose(&place.key("home"), &p.home));
         let mass = findings.keep(mass(&place, p.mass_kg));
         let centre_of_mass = findings.keep(vector(&place, "centre of mass", &centre));

@@ -3,7 +3,7 @@
 use nalgebra::Matrix3;
 
 use crate::elements::part::Part;
-use crate::elements::quantity::{MM, ReadResult, choice, need, vector};
+use crate::elements::quantity::{MM, ReadResult, choice, choices, need, vector};
 use crate::problem::{Finding, KeyPath};
 use crate::schema::BodyElement;
 
@@ -12,10 +12,7 @@ pub(crate) fn body(place: &KeyPath, e: &BodyElement) -> ReadResult<Part> {
     let centre = vector(
         place,
         "centre of mass",
-        &[
-            choice("centre_of_mass_mm", e.centre_of_mass_mm, MM),
-            choice("centre_of_mass_m", e.centre_of_mass_m, 1.0),
-        ],
+        &choices!(e, (centre_of_mass_mm, MM), (centre_of_mass_m, 1.0)),
     )?;
     let inertia = inertia(place, e.inertia_kg_m2)?;
     Ok(Part::Body(e.body.clone(), mass, centre, inertia))

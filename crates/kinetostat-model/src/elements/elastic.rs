@@ -7,12 +7,13 @@ use nalgebra::{Matrix6, Unit, Vector3};
 
 use crate::elements::elasticity::{Elasticity, elasticity};
 use crate::elements::placement::{direction, frame_along};
-use crate::elements::quantity::{MM, ReadResult, choice, forbid, positive};
+use crate::elements::quantity::{MM, ReadResult, choices, forbid, positive};
 use crate::problem::{Finding, KeyPath};
 use crate::schema::{Document, Spring6, Stiffness};
 use crate::text::hints::unknown;
 
 /// Sections and stiffnesses by name. `None`: described wrongly, and reported already.
+#[derive(Default)]
 pub(crate) struct Elastic {
     sections: BTreeMap<String, Option<Elasticity>>,
     stiffnesses: BTreeMap<String, Option<Matrix6<f64>>>,
@@ -25,10 +26,7 @@ impl Elastic {
         errors: &mut Vec<Finding>,
         warnings: &mut Vec<Finding>,
     ) -> Self {
-        let mut this = Self {
-            sections: BTreeMap::new(),
-            stiffnesses: BTreeMap::new(),
-        };
+        let mut this = Self::default();
         let sections = KeyPath::root().key("section");
         for (name, written) in &document.section {
             let converted = elasticity(&sections.key(name), written, warnings);
@@ -116,18 +114,9 @@ impl Elastic {
     }
 
     fn unturned(&self, place: &KeyPath, s: &Stiffness) -> Result<Matrix6<f64>, Option<Finding>> {
-        let matrices = [
-            choice("matrix_n_m_rad", s.matrix_n_m_rad, 1.0),
-            choice("matrix_n_mm_rad", s.matrix_n_mm_rad, MM),
-        ];
-        let diagonals = [
-            choice("diagonal_n_m_rad", s.diagonal_n_m_rad, 1.0),
-            choice("diagonal_n_mm_rad", s.diagonal_n_mm_rad, MM),
-        ];
-        let lengths = [
-            choice("length_mm", s.length_mm, MM),
-            choice("length_m", s.length_m, 1.0),
-        ];
+        let matrices = choices!(s, (matrix_n_m_rad, 1.0), (matrix_n_mm_rad, MM));
+        let diagonals = choices!(s, (diagonal_n_m_rad, 1.0), (diagonal_n_mm_rad, MM));
+        let lengths = choices!(s, (length_mm, MM), (length_m, 1.0));
         let mut forms = matrices
             .iter()
             .filter(|c| c.value.is_some())

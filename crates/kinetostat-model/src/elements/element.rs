@@ -6,7 +6,7 @@ use crate::elements::joint::{actuator, kind, lead, passive, spring};
 use crate::elements::link::{link, parallelogram};
 use crate::elements::part::Part;
 use crate::elements::placement::{direction, pose};
-use crate::elements::quantity::{DEG, MM, choice, vector};
+use crate::elements::quantity::{DEG, MM, choices, vector};
 use crate::problem::{Finding, KeyPath};
 use crate::schema::{Element, Spring6Element};
 
@@ -56,18 +56,12 @@ fn spring6(
     let translation = vector(
         place,
         "translation at rest",
-        &[
-            choice("rest_translation_mm", e.rest_translation_mm, MM),
-            choice("rest_translation_m", e.rest_translation_m, 1.0),
-        ],
+        &choices!(e, (rest_translation_mm, MM), (rest_translation_m, 1.0)),
     )?;
     let rotation = vector(
         place,
         "rotation at rest",
-        &[
-            choice("rest_rotation_deg", e.rest_rotation_deg, DEG),
-            choice("rest_rotation_rad", e.rest_rotation_rad, 1.0),
-        ],
+        &choices!(e, (rest_rotation_deg, DEG), (rest_rotation_rad, 1.0)),
     )?;
     let (t, r) = (translation, rotation);
     Ok(Part::Spring6(

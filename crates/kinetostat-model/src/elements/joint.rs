@@ -8,7 +8,7 @@ use crate::elements::knee;
 use crate::elements::part::Part;
 use crate::elements::placement::direction;
 use crate::elements::quantity::{
-    Choice, DEG, Given, MM, ReadResult, by_kind, choice, forbid, need,
+    Choice, DEG, Given, MM, ReadResult, by_kind, choice, choices, forbid, need,
 };
 use crate::elements::rotor::rotor;
 use crate::problem::{Finding, KeyPath};
@@ -78,14 +78,8 @@ pub(crate) fn actuator(place: &KeyPath, e: &ActuatorElement) -> ReadResult<Actua
         place,
         "home",
         kind,
-        &[
-            choice("home_mm", e.home_mm, MM),
-            choice("home_m", e.home_m, 1.0),
-        ],
-        &[
-            choice("home_deg", e.home_deg, DEG),
-            choice("home_rad", e.home_rad, 1.0),
-        ],
+        &choices!(e, (home_mm, MM), (home_m, 1.0)),
+        &choices!(e, (home_deg, DEG), (home_rad, 1.0)),
     )?;
     Ok(ActuatorSpec {
         kind,
@@ -131,8 +125,8 @@ fn check_rating(place: &KeyPath, kind: MotionKind, e: &ActuatorElement) -> ReadR
         place,
         "rating",
         kind,
-        &[choice("rated_force_n", e.rated_force_n, 1.0)],
-        &[choice("rated_torque_n_m", e.rated_torque_n_m, 1.0)],
+        &choices!(e, (rated_force_n, 1.0)),
+        &choices!(e, (rated_torque_n_m, 1.0)),
     )?;
     if let Some(Given { key, value }) = rating.filter(|r| r.value <= 0.0) {
         return Err(Finding::new(
@@ -155,14 +149,8 @@ fn limits_around(
         place,
         "limits",
         kind,
-        &[
-            choice("limits_mm", e.limits_mm, MM),
-            choice("limits_m", e.limits_m, 1.0),
-        ],
-        &[
-            choice("limits_deg", e.limits_deg, DEG),
-            choice("limits_rad", e.limits_rad, 1.0),
-        ],
+        &choices!(e, (limits_mm, MM), (limits_m, 1.0)),
+        &choices!(e, (limits_deg, DEG), (limits_rad, 1.0)),
     )?;
     let home_value = home.map_or(0.0, |h| h.value);
     if let Some(Given {
@@ -193,10 +181,7 @@ fn limits_around(
 
 /// Lead of a screw, m per turn; `None` for another actuator.
 pub(crate) fn lead(place: &KeyPath, e: &ActuatorElement) -> ReadResult<Option<f64>> {
-    let leads = [
-        choice("lead_mm_per_turn", e.lead_mm_per_turn, MM),
-        choice("lead_m_per_turn", e.lead_m_per_turn, 1.0),
-    ];
+    let leads = choices!(e, (lead_mm_per_turn, MM), (lead_m_per_turn, 1.0));
     if e.actuator == ActuatorKind::Screw {
         return Ok(Some(need(place, "lead of the screw", &leads)?.value));
     }
@@ -229,14 +214,8 @@ pub(crate) fn passive(place: &KeyPath, name: String, e: &PassiveElement) -> Read
 /// Home of a joint of one degree of freedom, by lengths and by angles.
 fn home_choices(e: &PassiveElement) -> [[Choice<f64>; 2]; 2] {
     [
-        [
-            choice("home_mm", e.home_mm, MM),
-            choice("home_m", e.home_m, 1.0),
-        ],
-        [
-            choice("home_deg", e.home_deg, DEG),
-            choice("home_rad", e.home_rad, 1.0),
-        ],
+        choices!(e, (home_mm, MM), (home_m, 1.0)),
+        choices!(e, (home_deg, DEG), (home_rad, 1.0)),
     ]
 }
 
@@ -399,14 +378,8 @@ pub(crate) fn spring(place: &KeyPath, name: String, e: &SpringElement) -> ReadRe
         place,
         "home",
         kind,
-        &[
-            choice("home_mm", e.home_mm, MM),
-            choice("home_m", e.home_m, 1.0),
-        ],
-        &[
-            choice("home_deg", e.home_deg, DEG),
-            choice("home_rad", e.home_rad, 1.0),
-        ],
+        &choices!(e, (home_mm, MM), (home_m, 1.0)),
+        &choices!(e, (home_deg, DEG), (home_rad, 1.0)),
     )?;
     let home = home.map_or(0.0, |h| h.value);
     let law = match &e.knee {

@@ -6,7 +6,7 @@ use kinetostat::{
 };
 
 use crate::elements::quantity::by_kind;
-use crate::elements::quantity::{Choice, DEG, MM, ReadResult, choice};
+use crate::elements::quantity::{Choice, DEG, MM, ReadResult, choices};
 use crate::problem::{Finding, KeyPath};
 use crate::schema::Knee;
 
@@ -45,25 +45,13 @@ pub(crate) fn law(
     };
     let knee_at = positive(
         "deflection at the knee",
-        &[
-            choice("at_mm", knee.at_mm, MM),
-            choice("at_m", knee.at_m, 1.0),
-        ],
-        &[
-            choice("at_deg", knee.at_deg, DEG),
-            choice("at_rad", knee.at_rad, 1.0),
-        ],
+        &choices!(knee, (at_mm, MM), (at_m, 1.0)),
+        &choices!(knee, (at_deg, DEG), (at_rad, 1.0)),
     )?;
     let beyond = positive(
         "stiffness beyond the knee",
-        &[
-            choice("then_n_per_m", knee.then_n_per_m, 1.0),
-            choice("then_n_per_mm", knee.then_n_per_mm, 1.0 / MM),
-        ],
-        &[
-            choice("then_n_m_per_rad", knee.then_n_m_per_rad, 1.0),
-            choice("then_n_mm_per_rad", knee.then_n_mm_per_rad, MM),
-        ],
+        &choices!(knee, (then_n_per_m, 1.0), (then_n_per_mm, 1.0 / MM)),
+        &choices!(knee, (then_n_m_per_rad, 1.0), (then_n_mm_per_rad, MM)),
     )?;
     Ok(SpringLaw::Bilinear(BilinearLaw {
         stiffness,

@@ -9,7 +9,7 @@ use crate::elements::elastic::{Elastic, along};
 use crate::elements::elasticity::Elasticity;
 use crate::elements::part::Part;
 use crate::elements::placement::frame_along;
-use crate::elements::quantity::{DEG, MM, choice, forbid, pick, positive};
+use crate::elements::quantity::{DEG, MM, choices, forbid, pick, positive};
 use crate::problem::{Finding, KeyPath};
 use crate::schema::{Convention, LinkElement, MassModelWord, ParallelogramElement};
 
@@ -89,14 +89,8 @@ pub(crate) fn link(
 
 /// From the near to the far end of a link, m: along x, or as a vector.
 fn offset(place: &KeyPath, e: &LinkElement) -> Result<Vector3<f64>, Option<Finding>> {
-    let lengths = [
-        choice("length_mm", e.length_mm, MM),
-        choice("length_m", e.length_m, 1.0),
-    ];
-    let vectors = [
-        choice("vector_mm", e.vector_mm, MM),
-        choice("vector_m", e.vector_m, 1.0),
-    ];
+    let lengths = choices!(e, (length_mm, MM), (length_m, 1.0));
+    let vectors = choices!(e, (vector_mm, MM), (vector_m, 1.0));
     Ok(match pick(place, "vector", &vectors)? {
         Some(given) => {
             forbid(
@@ -133,8 +127,8 @@ fn mass(
     e: &LinkElement,
     elasticity: &Elasticity,
 ) -> Result<Option<LinkMass>, Option<Finding>> {
-    let density = [choice("density_kg_m3", e.density_kg_m3, 1.0)];
-    let per_length = [choice("mass_kg_per_m", e.mass_kg_per_m, 1.0)];
+    let density = choices!(e, (density_kg_m3, 1.0));
+    let per_length = choices!(e, (mass_kg_per_m, 1.0));
     let model = match e.mass_model.unwrap_or_default() {
         MassModelWord::AlongTheLink => MassModel::Consistent,
         MassModelWord::HalvesAtEnds => MassModel::HalvesAtEnds,
@@ -214,28 +208,14 @@ pub(crate) fn parallelogram(
     let length = positive(
         place,
         "length",
-        &[
-            choice("length_mm", e.length_mm, MM),
-            choice("length_m", e.length_m, 1.0),
-        ],
+        &choices!(e, (length_mm, MM), (length_m, 1.0)),
     )?
     .value;
-    let width = positive(
-        place,
-        "width",
-        &[
-            choice("width_mm", e.width_mm, MM),
-            choice("width_m", e.width_m, 1.0),
-        ],
-    )?
-    .value;
+    let width = positive(place, "width", &choices!(e, (width_mm, MM), (width_m, 1.0)))?.value;
     let home = pick(
         place,
         "home",
-        &[
-            choice("home_deg", e.home_deg, DEG),
-            choice("home_rad", e.home_rad, 1.0),
-        ],
+        &choices!(e, (home_deg, DEG), (home_rad, 1.0)),
     )?
     .map_or(0.0, |g| g.value);
     let bar = elastic

@@ -3,7 +3,7 @@
 use kinetostat::Pose;
 use nalgebra::{Matrix3, Quaternion, Rotation3, Unit, UnitQuaternion, Vector3};
 
-use crate::elements::quantity::{DEG, Given, MM, ReadResult, choice, pick, vector};
+use crate::elements::quantity::{DEG, Given, MM, ReadResult, choices, pick, vector};
 use crate::problem::{Finding, KeyPath};
 use crate::schema::{Axis, AxisName, Placement};
 
@@ -62,12 +62,13 @@ pub(crate) fn pose(place: &KeyPath, p: &Placement) -> ReadResult<Pose> {
     let translation = vector(
         place,
         "position",
-        &[
-            choice("translation_mm", p.translation_mm, MM),
-            choice("translation_m", p.translation_m, 1.0),
-            choice("position_mm", p.position_mm, MM),
-            choice("position_m", p.position_m, 1.0),
-        ],
+        &choices!(
+            p,
+            (translation_mm, MM),
+            (translation_m, 1.0),
+            (position_mm, MM),
+            (position_m, 1.0)
+        ),
     )?;
     let pose = Pose::from_parts(translation.into(), orientation(place, p)?);
     // Squares of huge rotation vectors overflow.
@@ -86,27 +87,21 @@ fn orientation(place: &KeyPath, p: &Placement) -> ReadResult<UnitQuaternion<f64>
     let angles = pick(
         place,
         "orientation",
-        &[
-            choice("rotation_vector_deg", p.rotation_vector_deg, DEG),
-            choice("rotation_vector_rad", p.rotation_vector_rad, 1.0),
-            choice(
-                "rotation_intrinsic_xyz_deg",
-                p.rotation_intrinsic_xyz_deg,
-                DEG,
-            ),
-            choice("roll_pitch_yaw_urdf_deg", p.roll_pitch_yaw_urdf_deg, DEG),
-            choice("roll_pitch_yaw_urdf_rad", p.roll_pitch_yaw_urdf_rad, 1.0),
-            choice("a_b_c_kuka_deg", p.a_b_c_kuka_deg, DEG),
-            choice("w_p_r_fanuc_deg", p.w_p_r_fanuc_deg, DEG),
-        ],
+        &choices!(
+            p,
+            (rotation_vector_deg, DEG),
+            (rotation_vector_rad, 1.0),
+            (rotation_intrinsic_xyz_deg, DEG),
+            (roll_pitch_yaw_urdf_deg, DEG),
+            (roll_pitch_yaw_urdf_rad, 1.0),
+            (a_b_c_kuka_deg, DEG),
+            (w_p_r_fanuc_deg, DEG)
+        ),
     )?;
     let quaternion = pick(
         place,
         "orientation",
-        &[
-            choice("quaternion_wxyz", p.quaternion_wxyz, 1.0),
-            choice("quaternion_xyzw", p.quaternion_xyzw, 1.0),
-        ],
+        &choices!(p, (quaternion_wxyz, 1.0), (quaternion_xyzw, 1.0)),
     )?;
     let axes = p
         .x_axis

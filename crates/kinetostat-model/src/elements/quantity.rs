@@ -22,6 +22,14 @@ pub(crate) fn choice<T>(key: &'static str, value: Option<T>, factor: f64) -> Cho
     Choice { key, value, factor }
 }
 
+/// The keys of a quantity and the factors of their units, with what a table has under these keys.
+macro_rules! choices {
+    ($table:expr, $(($key:ident, $factor:expr)),+) => {
+        [$($crate::elements::quantity::choice(stringify!($key), $table.$key, $factor)),+]
+    };
+}
+pub(crate) use choices;
+
 /// A value in SI and the key it was written under.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Given<T> {

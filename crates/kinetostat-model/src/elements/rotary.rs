@@ -3,7 +3,7 @@
 use nalgebra::{Unit, Vector3};
 
 use crate::elements::placement::direction;
-use crate::elements::quantity::{MM, ReadResult, choice, pick};
+use crate::elements::quantity::{MM, ReadResult, choices, pick};
 use crate::problem::{Finding, KeyPath};
 use crate::schema::{CarriesWord, Document, RotaryAxisTable};
 
@@ -45,10 +45,7 @@ pub(crate) fn rotary_axes(document: &Document) -> Vec<ReadResult<RotaryAxis>> {
 }
 
 fn axis(place: &KeyPath, table: &RotaryAxisTable) -> ReadResult<RotaryAxis> {
-    let given = [
-        choice("point_mm", table.point_mm, MM),
-        choice("point_m", table.point_m, 1.0),
-    ];
+    let given = choices!(table, (point_mm, MM), (point_m, 1.0));
     let point = pick(place, "point", &given)?;
     if point.is_none() && table.carries == CarriesWord::Part {
         return Err(Finding::new(

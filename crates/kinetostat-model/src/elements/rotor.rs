@@ -6,7 +6,7 @@ use kinetostat::MotionKind;
 use kinetostat::model::DriveRotor;
 use kinetostat::number::short;
 
-use crate::elements::quantity::{MM, ReadResult, by_kind, choice};
+use crate::elements::quantity::{MM, ReadResult, by_kind, choices};
 use crate::problem::{Finding, KeyPath};
 use crate::schema::RotorTable;
 
@@ -33,17 +33,8 @@ pub(crate) fn rotor(
         )),
     };
     let inertia = above_zero("inertia_kg_m2", "the inertia", table.inertia_kg_m2)?;
-    let leads = [
-        choice("lead_mm_per_turn", table.lead_mm_per_turn, MM),
-        choice("lead_m_per_turn", table.lead_m_per_turn, 1.0),
-    ];
-    let given = by_kind(
-        place,
-        "ratio",
-        kind,
-        &leads,
-        &[choice("ratio", table.ratio, 1.0)],
-    )?;
+    let leads = choices!(table, (lead_mm_per_turn, MM), (lead_m_per_turn, 1.0));
+    let given = by_kind(place, "ratio", kind, &leads, &choices!(table, (ratio, 1.0)))?;
     let Some(given) = given else {
         let (reason, remedy) = match kind {
             MotionKind::Prismatic => (
@@ -67,30 +58,16 @@ pub(crate) fn rotor(
         place,
         "stiffness of the servo",
         kind,
-        &[
-            choice(
-                "servo_stiffness_n_per_m",
-                table.servo_stiffness_n_per_m,
-                1.0,
-            ),
-            choice(
-                "servo_stiffness_n_per_mm",
-                table.servo_stiffness_n_per_mm,
-                1.0 / MM,
-            ),
-        ],
-        &[
-            choice(
-                "servo_stiffness_n_m_per_rad",
-                table.servo_stiffness_n_m_per_rad,
-                1.0,
-            ),
-            choice(
-                "servo_stiffness_n_mm_per_rad",
-                table.servo_stiffness_n_mm_per_rad,
-                MM,
-            ),
-        ],
+        &choices!(
+            table,
+            (servo_stiffness_n_per_m, 1.0),
+            (servo_stiffness_n_per_mm, 1.0 / MM)
+        ),
+        &choices!(
+            table,
+            (servo_stiffness_n_m_per_rad, 1.0),
+            (servo_stiffness_n_mm_per_rad, MM)
+        ),
     )?;
     let (unit, key) = match kind {
         MotionKind::Prismatic => ("N/m", "servo_stiffness_n_per_m"),

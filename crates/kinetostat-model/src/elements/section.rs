@@ -3,7 +3,7 @@
 use kinetostat::BeamSection;
 use kinetostat::number::short;
 
-use crate::elements::quantity::{Choice, MM, ReadResult, choice, forbid, pick, positive};
+use crate::elements::quantity::{Choice, MM, ReadResult, choices, forbid, pick, positive};
 use crate::elements::shape::{material_of, root};
 use crate::problem::{Finding, KeyPath};
 use crate::schema::{Rigidities, Section, Values};
@@ -35,17 +35,19 @@ struct Moduli {
 impl Moduli {
     fn new(s: &Section) -> Self {
         Self {
-            young: [
-                choice("youngs_modulus_gpa", s.youngs_modulus_gpa, 1e9),
-                choice("youngs_modulus_mpa", s.youngs_modulus_mpa, 1e6),
-                choice("youngs_modulus_pa", s.youngs_modulus_pa, 1.0),
-            ],
-            shear: [
-                choice("shear_modulus_gpa", s.shear_modulus_gpa, 1e9),
-                choice("shear_modulus_mpa", s.shear_modulus_mpa, 1e6),
-                choice("shear_modulus_pa", s.shear_modulus_pa, 1.0),
-            ],
-            poisson: [choice("poissons_ratio", s.poissons_ratio, 1.0)],
+            young: choices!(
+                s,
+                (youngs_modulus_gpa, 1e9),
+                (youngs_modulus_mpa, 1e6),
+                (youngs_modulus_pa, 1.0)
+            ),
+            shear: choices!(
+                s,
+                (shear_modulus_gpa, 1e9),
+                (shear_modulus_mpa, 1e6),
+                (shear_modulus_pa, 1.0)
+            ),
+            poisson: choices!(s, (poissons_ratio, 1.0)),
         }
     }
 
@@ -147,27 +149,13 @@ fn check_one_shape(place: &KeyPath, s: &Section) -> ReadResult<()> {
 
 /// A section by its rigidities: moduli of one, so that area and second moments are `EA`, `EI` and `GJ`.
 fn by_rigidities(place: &KeyPath, r: &Rigidities) -> ReadResult<BeamSection> {
-    let bending_y = [
-        choice("bending_y_n_mm2", r.bending_y_n_mm2, MM * MM),
-        choice("bending_y_n_m2", r.bending_y_n_m2, 1.0),
-    ];
-    let bending_z = [
-        choice("bending_z_n_mm2", r.bending_z_n_mm2, MM * MM),
-        choice("bending_z_n_m2", r.bending_z_n_m2, 1.0),
-    ];
-    let torsion = [
-        choice("torsion_n_mm2", r.torsion_n_mm2, MM * MM),
-        choice("torsion_n_m2", r.torsion_n_m2, 1.0),
-    ];
+    let bending_y = choices!(r, (bending_y_n_mm2, MM * MM), (bending_y_n_m2, 1.0));
+    let bending_z = choices!(r, (bending_z_n_mm2, MM * MM), (bending_z_n_m2, 1.0));
+    let torsion = choices!(r, (torsion_n_mm2, MM * MM), (torsion_n_m2, 1.0));
     Ok(BeamSection {
         youngs_modulus: 1.0,
         shear_modulus: 1.0,
-        area: positive(
-            place,
-            "axial rigidity",
-            &[choice("axial_n", r.axial_n, 1.0)],
-        )?
-        .value,
+        area: positive(place, "axial rigidity", &choices!(r, (axial_n, 1.0)))?.value,
         second_moment_y: positive(place, "bending rigidity about y", &bending_y)?.value,
         second_moment_z: positive(place, "bending rigidity about z", &bending_z)?.value,
         torsion_constant: positive(place, "torsional rigidity", &torsion)?.value,
@@ -177,14 +165,8 @@ fn by_rigidities(place: &KeyPath, r: &Rigidities) -> ReadResult<BeamSection> {
 fn shape_of(place: &KeyPath, s: &Section, e: f64, g: f64) -> ReadResult<BeamSection> {
     if let Some(t) = &s.tube {
         let place = place.key("tube");
-        let outer = [
-            choice("outer_diameter_mm", t.outer_diameter_mm, MM),
-            choice("outer_diameter_m", t.outer_diameter_m, 1.0),
-        ];
-        let inner = [
-            choice("inner_diameter_mm", t.inner_diameter_mm, MM),
-            choice("inner_diameter_m", t.inner_diameter_m, 1.0),
-        ];
+        let outer = choices!(t, (outer_diameter_mm, MM), (outer_diameter_m, 1.0));
+        let inner = choices!(t, (inner_diameter_mm, MM), (inner_diameter_m, 1.0));
         let outer = positive(&place, "outer diameter", &outer)?.value;
         let inner = positive(&place, "inner diameter", &inner)?;
         if inner.value >= outer {
@@ -201,10 +183,7 @@ fn shape_of(place: &KeyPath, s: &Section, e: f64, g: f64) -> ReadResult<BeamSect
         return Ok(BeamSection::tube(e, g, outer, inner.value));
     }
     if let Some(r) = &s.round {
-        let diameter = [
-            choice("diameter_mm", r.diameter_mm, MM),
-            choice("diameter_m", r.diameter_m, 1.0),
-        ];
+        let diameter = choices!(r, (diameter_mm, MM), (diameter_m, 1.0));
         let diameter = positive(&place.key("round"), "diameter", &diameter)?.value;
         return Ok(BeamSection::tube(e, g, diameter, 0.0));
     }
@@ -232,22 +211,10 @@ fn shape_of(place: &KeyPath, s: &Section, e: f64, g: f64) -> ReadResult<BeamSect
     let v = s.values.as_ref().unwrap_or(&empty);
     let place = place.key("values");
     let (mm2, mm4) = (MM * MM, MM * MM * MM * MM);
-    let area = [
-        choice("area_mm2", v.area_mm2, mm2),
-        choice("area_m2", v.area_m2, 1.0),
-    ];
-    let about_y = [
-        choice("second_moment_y_mm4", v.second_moment_y_mm4, mm4),
-        choice("second_moment_y_m4", v.second_moment_y_m4, 1.0),
-    ];
-    let about_z = [
-        choice("second_moment_z_mm4", v.second_moment_z_mm4, mm4),
-        choice("second_moment_z_m4", v.second_moment_z_m4, 1.0),
-    ];
-    let torsion = [
-        choice("torsion_constant_mm4", v.torsion_constant_mm4, mm4),
-        choice("torsion_constant_m4", v.torsion_constant_m4, 1.0),
-    ];
+    let area = choices!(v, (area_mm2, mm2), (area_m2, 1.0));
+    let about_y = choices!(v, (second_moment_y_mm4, mm4), (second_moment_y_m4, 1.0));
+    let about_z = choices!(v, (second_moment_z_mm4, mm4), (second_moment_z_m4, 1.0));
+    let torsion = choices!(v, (torsion_constant_mm4, mm4), (torsion_constant_m4, 1.0));
     Ok(numbers(
         positive(&place, "area", &area)?.value,
         positive(&place, "second moment about y", &about_y)?.value,

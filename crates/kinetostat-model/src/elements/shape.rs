@@ -5,7 +5,7 @@ use kinetostat::BeamSection;
 use kinetostat_links::{Material, Properties, SectionShape, Shear, cantilever, material};
 use nalgebra::Matrix6;
 
-use crate::elements::quantity::{MM, ReadResult, choice, positive};
+use crate::elements::quantity::{MM, ReadResult, choice, choices, positive};
 use crate::problem::{Finding, KeyPath};
 use crate::schema::{HollowBox, IBeam, Rectangle, Round, Section, Tip, Tube};
 use crate::text::hints::unknown;
@@ -141,37 +141,22 @@ fn one(
 ) -> ReadResult<Option<SectionShape>> {
     let shape = if let Some(t) = tube {
         let place = place.key("tube");
-        let outer = [
-            choice("outer_diameter_mm", t.outer_diameter_mm, MM),
-            choice("outer_diameter_m", t.outer_diameter_m, 1.0),
-        ];
-        let inner = [
-            choice("inner_diameter_mm", t.inner_diameter_mm, MM),
-            choice("inner_diameter_m", t.inner_diameter_m, 1.0),
-        ];
+        let outer = choices!(t, (outer_diameter_mm, MM), (outer_diameter_m, 1.0));
+        let inner = choices!(t, (inner_diameter_mm, MM), (inner_diameter_m, 1.0));
         SectionShape::Tube {
             outer: positive(&place, "outer diameter", &outer)?.value,
             inner: positive(&place, "inner diameter", &inner)?.value,
         }
     } else if let Some(r) = round {
-        let diameter = [
-            choice("diameter_mm", r.diameter_mm, MM),
-            choice("diameter_m", r.diameter_m, 1.0),
-        ];
+        let diameter = choices!(r, (diameter_mm, MM), (diameter_m, 1.0));
         SectionShape::Tube {
             outer: positive(&place.key("round"), "diameter", &diameter)?.value,
             inner: 0.0,
         }
     } else if let Some(r) = rectangle {
         let place = place.key("rectangle");
-        let width = [
-            choice("width_mm", r.width_mm, MM),
-            choice("width_m", r.width_m, 1.0),
-        ];
-        let height = [
-            choice("height_mm", r.height_mm, MM),
-            choice("height_m", r.height_m, 1.0),
-        ];
+        let width = choices!(r, (width_mm, MM), (width_m, 1.0));
+        let height = choices!(r, (height_mm, MM), (height_m, 1.0));
         SectionShape::Rectangle {
             width: positive(&place, "width", &width)?.value,
             height: positive(&place, "height", &height)?.value,
@@ -196,8 +181,8 @@ fn one(
             [choice("wall_mm", b.wall_mm, MM), choice(key, own, MM)]
         };
         SectionShape::HollowBox {
-            width: size("width", &[choice("width_mm", b.width_mm, MM)])?,
-            height: size("height", &[choice("height_mm", b.height_mm, MM)])?,
+            width: size("width", &choices!(b, (width_mm, MM)))?,
+            height: size("height", &choices!(b, (height_mm, MM)))?,
             side_wall: size("wall", &wall("side_wall_mm", b.side_wall_mm))?,
             top_wall: size("wall", &wall("top_wall_mm", b.top_wall_mm))?,
         }

@@ -237,7 +237,7 @@ pub struct Spring6Element {
 }
 
 /// Straight elastic link: the offset, then the spring of its far end.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema, Default)]
 #[serde(deny_unknown_fields)]
 #[schemars(extend("x-word" = "link"))]
 pub struct LinkElement {
@@ -363,7 +363,7 @@ pub struct NodeElement {
 }
 
 /// A mass fixed to the frame reached so far.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema, Default)]
 #[serde(deny_unknown_fields)]
 #[schemars(extend("x-word" = "body"))]
 pub struct BodyElement {
