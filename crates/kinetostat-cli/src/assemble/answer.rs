@@ -13,18 +13,14 @@ use serde::Serialize;
 
 use crate::assemble::query::AssemblyQuery;
 use crate::machine::units::unit_of;
-use crate::place::query::PlaceAnswer;
+use crate::place::query::AnswerHead;
 use crate::ui::failure::Answer;
 
 /// The answer, stable names with units.
 #[derive(Serialize)]
 pub(crate) struct Assembly {
-    pub(crate) schema: u32,
-    pub(crate) kinetostat_version: &'static str,
-    pub(crate) model: String,
-    pub(crate) model_source: String,
-    pub(crate) tool: String,
-    pub(crate) place: PlaceAnswer,
+    #[serde(flatten)]
+    pub(crate) head: AnswerHead,
     pub(crate) force_n: [f64; 3],
     pub(crate) moment_n_m: [f64; 3],
     pub(crate) deviations: Vec<String>,
@@ -140,12 +136,7 @@ pub(crate) fn answer(assembly: &AssemblyQuery) -> Answer<Assembly> {
         ));
     }
     Ok(Assembly {
-        schema: 2,
-        kinetostat_version: env!("CARGO_PKG_VERSION"),
-        model: query.name.clone(),
-        model_source: query.source.clone(),
-        tool: query.tool_words.clone(),
-        place: query.answer(),
+        head: query.head(2),
         force_n: query.wrench.force().into(),
         moment_n_m: query.wrench.moment().into(),
         deviations: query.deviations.clone(),

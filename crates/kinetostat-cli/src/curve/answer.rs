@@ -11,18 +11,14 @@ use crate::curve::query::{CurveQuery, Measure};
 use crate::end_condition::coordinates::CoordinateName;
 use crate::end_condition::holding::Holding;
 use crate::machine::displacement_warnings::{large_reaction, stretches};
-use crate::place::query::PlaceAnswer;
+use crate::place::query::AnswerHead;
 use crate::ui::failure::Failure;
 
 /// The answer, stable names with units.
 #[derive(Serialize)]
 pub(crate) struct CurveAnswer {
-    pub(crate) schema: u32,
-    pub(crate) kinetostat_version: &'static str,
-    pub(crate) model: String,
-    pub(crate) model_source: String,
-    pub(crate) tool: String,
-    pub(crate) place: PlaceAnswer,
+    #[serde(flatten)]
+    pub(crate) head: AnswerHead,
     pub(crate) question: String,
     pub(crate) tool_held: Holding,
     /// What grows: displacement, rotation or load.

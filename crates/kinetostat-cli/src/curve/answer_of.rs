@@ -11,7 +11,7 @@ use crate::curve::followed::Followed;
 use crate::curve::points::View;
 use crate::curve::query::{CurveQuery, Measure};
 use crate::end_condition::subject::Subject;
-use crate::place::query::PlaceAnswer;
+use crate::place::query::{AnswerHead, PlaceAnswer};
 
 /// Displacement along the growing load where the curve starts, from the commanded place, m or rad. The conjugate of a
 /// machine counts from there, that of a chain from the curve's start; so does that of forces on nodes, which have no
@@ -51,8 +51,7 @@ pub(crate) fn answer_of<S: Subject>(
     subject: &S,
     q: &CurveQuery,
     mut followed: Followed<S::Equilibrium>,
-    place: PlaceAnswer,
-    names: [String; 3],
+    head: AnswerHead,
 ) -> CurveAnswer {
     let critical_loads = std::mem::take(&mut followed.critical);
     let mut warnings = std::mem::take(&mut followed.warnings);
@@ -68,7 +67,7 @@ pub(crate) fn answer_of<S: Subject>(
             Measure::Moment(_) if q.by_load() => ContinuousRotation::of(branches, specials),
             _ => ContinuousRotation::none(),
         },
-        at_start: displacement_at_start(q, &followed.branches, &place),
+        at_start: displacement_at_start(q, &followed.branches, &head.place),
     };
     let (named_points, jumps) = view.named();
     let own = branches.first().map_or(&[][..], |b| &b.points);
@@ -76,14 +75,8 @@ pub(crate) fn answer_of<S: Subject>(
     let on_own = specials.iter().filter(|s| s.branches.contains(&0));
     let turns = on_own.map(|s| &s.point);
     let mut points = branches.iter().flat_map(|b| &b.points);
-    let [model, model_source, tool] = names;
     CurveAnswer {
-        schema: 3,
-        kinetostat_version: env!("CARGO_PKG_VERSION"),
-        model,
-        model_source,
-        tool,
-        place,
+        head,
         question: q.words.clone(),
         tool_held: q.holding.clone(),
         grows: grows(q),

@@ -46,19 +46,16 @@ pub(crate) fn run(args: &CurveArgs) -> Answer<()> {
         if is_serial_chain(&query.mechanism) {
             let chain = with_loads(serial_chain(query)?, &args.end)?;
             let q = curve_query(&moves_of(&chain), Some(&chain), args)?;
-            Ok(Box::new(move |place, names, stage| {
+            Ok(Box::new(move |head, stage| {
                 let followed = chain::follow(&chain, &q, stage)?;
-                Ok(answer_of(&chain, &q, followed, place, names).with_plausibility_warnings(size))
+                Ok(answer_of(&chain, &q, followed, head).with_plausibility_warnings(size))
             }))
         } else {
             let machine = CommandedMachine::of(query, &args.end)?;
             let q = curve_query(&machine.moves, None, args)?;
-            Ok(Box::new(move |place, names, stage| {
+            Ok(Box::new(move |head, stage| {
                 let followed = machine::follow(&machine, &q, stage)?;
-                Ok(
-                    answer_of(&machine, &q, followed, place, names)
-                        .with_plausibility_warnings(size),
-                )
+                Ok(answer_of(&machine, &q, followed, head).with_plausibility_warnings(size))
             }))
         }
     };

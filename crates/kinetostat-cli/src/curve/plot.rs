@@ -44,7 +44,7 @@ pub(crate) fn plot(a: &CurveAnswer) -> Plot {
         lines.extend(parts(&branch.points, &specials, a.grows == "load"));
     }
     Plot {
-        title: format!("{}: {}", a.model, title(a)),
+        title: format!("{}: {}", a.head.model, title(a)),
         x_label: label(u.displacement, u.displacement_unit),
         y_label: label(u.load, u.load_unit),
         lines,

@@ -12,17 +12,13 @@ use crate::machine::instability;
 use crate::machine::principal_directions::motion_description;
 use crate::machine::unstable_joints::{UnstableJoint, unstable_joints};
 use crate::place::joints::JointValue;
-use crate::place::query::{PlaceAnswer, PlaceQuery};
+use crate::place::query::{AnswerHead, PlaceQuery};
 
 /// The answer at one place, stable names with units.
 #[derive(Serialize)]
 pub(crate) struct Deflection {
-    pub(crate) schema: u32,
-    pub(crate) kinetostat_version: &'static str,
-    pub(crate) model: String,
-    pub(crate) model_source: String,
-    pub(crate) tool: String,
-    pub(crate) place: PlaceAnswer,
+    #[serde(flatten)]
+    pub(crate) head: AnswerHead,
     pub(crate) force_n: [f64; 3],
     pub(crate) moment_n_m: [f64; 3],
     pub(crate) displacement_mm: [f64; 3],
@@ -151,12 +147,7 @@ pub(crate) fn answer(
     }
     warnings.extend(folds(1e-3 * shift.norm(), query.mechanism.size()));
     Deflection {
-        schema: 3,
-        kinetostat_version: env!("CARGO_PKG_VERSION"),
-        model: query.name.clone(),
-        model_source: query.source.clone(),
-        tool: query.tool_words.clone(),
-        place: query.answer(),
+        head: query.head(3),
         force_n: query.wrench.force().into(),
         moment_n_m: query.wrench.moment().into(),
         displacement_mm: shift.into(),

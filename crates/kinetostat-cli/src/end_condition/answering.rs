@@ -7,7 +7,7 @@ use serde::Serialize;
 use crate::files::answer_files::{AnswerFiles, ClaimedFiles, Shown};
 use crate::files::input_files::InputFiles;
 use crate::place::arguments::PlaceArgs;
-use crate::place::query::{PlaceAnswer, PlaceQuery, place_query};
+use crate::place::query::{AnswerHead, PlaceQuery, place_query};
 use crate::ui::background::{Stage, interruptible};
 use crate::ui::failure::Answer;
 
@@ -19,9 +19,11 @@ pub(crate) struct CommandQuery<'a> {
     pub(crate) outputs: &'a AnswerFiles,
 }
 
-/// The long work: from the place and the names of model, source and tool to the answer.
-pub(crate) type Work<A> =
-    Box<dyn FnOnce(PlaceAnswer, [String; 3], &Stage) -> Answer<A> + Send + 'static>;
+/// The version of what both print as JSON.
+const SCHEMA: u32 = 3;
+
+/// The long work: from what the answer begins with to the answer.
+pub(crate) type Work<A> = Box<dyn FnOnce(AnswerHead, &Stage) -> Answer<A> + Send + 'static>;
 
 /// From the query to the files: reads the model, claims what will be written, works, shows.
 pub(crate) fn answer_query<A: Serialize + Send + 'static>(
@@ -40,13 +42,8 @@ pub(crate) fn answer_query<A: Serialize + Send + 'static>(
     )?;
     let work = work_of(&query)?;
     let targets = ClaimedFiles::claim(command.outputs, &query.inputs)?;
-    let place = query.answer();
-    let names = [
-        query.name.clone(),
-        query.source.clone(),
-        query.tool_words.clone(),
-    ];
-    let mut answer = interruptible(move |stage| work(place, names, stage))?;
+    let head = query.head(SCHEMA);
+    let mut answer = interruptible(move |stage| work(head, stage))?;
     warnings(&mut answer).extend(query.warnings.iter().cloned());
     if is_serial_chain(&query.mechanism) {
         // Of a machine the answer says it itself, as far as it is moved.

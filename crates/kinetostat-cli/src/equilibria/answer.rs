@@ -9,19 +9,15 @@ use serde::Serialize;
 use crate::end_condition::coordinates::CoordinateName;
 use crate::end_condition::holding::Holding;
 use crate::machine::displacement_warnings::{large_reaction, stretches};
-use crate::place::query::PlaceAnswer;
+use crate::place::query::AnswerHead;
 use crate::ui::failure::Failure;
 use crate::ui::numbers::number;
 
 /// The answer, stable names with units.
 #[derive(Serialize)]
 pub(crate) struct EquilibriaAnswer {
-    pub(crate) schema: u32,
-    pub(crate) kinetostat_version: &'static str,
-    pub(crate) model: String,
-    pub(crate) model_source: String,
-    pub(crate) tool: String,
-    pub(crate) place: PlaceAnswer,
+    #[serde(flatten)]
+    pub(crate) head: AnswerHead,
     pub(crate) question: String,
     pub(crate) tool_held: Holding,
     /// Direction of `stiffness_n_per_mm`; null: the principal one with the smallest stiffness.
@@ -91,7 +87,7 @@ impl EquilibriaAnswer {
     /// machine of this size (m) over, or that its springs are stretched; and where to hold the tool takes more force in
     /// every equilibrium than any cut has.
     pub(crate) fn with_plausibility_warnings(mut self, size: f64) -> Self {
-        let commanded = Vector3::from(self.place.position_mm);
+        let commanded = Vector3::from(self.head.place.position_mm);
         let away = |e: &ShapeAnswer| 1e-3 * (Vector3::from(e.position_mm) - commanded).norm();
         let nearest = self.equilibria.iter().map(away).reduce(smaller);
         self.warnings.extend(nearest.and_then(|far| {

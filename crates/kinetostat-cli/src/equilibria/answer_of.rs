@@ -11,26 +11,19 @@ use nalgebra::{Matrix6, Vector3};
 use crate::end_condition::subject::Subject;
 use crate::equilibria::answer::{Coverage, EquilibriaAnswer, ShapeAnswer};
 use crate::equilibria::query::EquilibriaQuery;
-use crate::place::query::PlaceAnswer;
+use crate::place::query::AnswerHead;
 
 pub(crate) fn answer_of<S: Subject>(
     subject: &S,
     q: &EquilibriaQuery,
     (all, mut warnings): (Equilibria<S::Equilibrium>, Vec<Warning>),
-    place: PlaceAnswer,
-    names: [String; 3],
+    head: AnswerHead,
 ) -> EquilibriaAnswer {
-    let [model, model_source, tool] = names;
     warnings.extend(large_load(&q.end.wrench));
     let found = || all.found.iter().map(|f| &f.equilibrium);
     let shapes = all.found.iter().enumerate();
     EquilibriaAnswer {
-        schema: 3,
-        kinetostat_version: env!("CARGO_PKG_VERSION"),
-        model,
-        model_source,
-        tool,
-        place,
+        head,
         question: q.words.clone(),
         tool_held: q.holding.clone(),
         stiffness_along: q.along.map(Into::into),

@@ -38,16 +38,16 @@ pub(crate) fn run(args: &EquilibriaArgs) -> Answer<()> {
         if is_serial_chain(&query.mechanism) {
             let chain = with_loads(serial_chain(query)?, &args.end)?;
             let q = equilibria_query(&moves_of(&chain), args)?;
-            Ok(Box::new(move |place, names, stage| {
+            Ok(Box::new(move |head, stage| {
                 let all = found::of_chain(&chain, &q, stage)?;
-                Ok(answer_of(&chain, &q, all, place, names).with_plausibility_warnings(size))
+                Ok(answer_of(&chain, &q, all, head).with_plausibility_warnings(size))
             }))
         } else {
             let machine = CommandedMachine::of(query, &args.end)?;
             let q = equilibria_query(&machine.moves, args)?;
-            Ok(Box::new(move |place, names, stage| {
+            Ok(Box::new(move |head, stage| {
                 let all = found::of_machine(&machine, &q, stage)?;
-                Ok(answer_of(&machine, &q, all, place, names).with_plausibility_warnings(size))
+                Ok(answer_of(&machine, &q, all, head).with_plausibility_warnings(size))
             }))
         }
     };

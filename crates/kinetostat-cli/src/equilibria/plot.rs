@@ -86,7 +86,7 @@ pub(crate) fn plot(a: &EquilibriaAnswer) -> Plot {
         }
     }
     Plot {
-        title: format!("{}: shapes of equilibrium", a.model),
+        title: format!("{}: shapes of equilibrium", a.head.model),
         x_label: format!("{}, mm", axes[u]),
         y_label: format!("{}, mm", axes[v]),
         lines,

@@ -85,12 +85,7 @@ pub(crate) fn run(args: &FrfArgs) -> Answer<()> {
         warnings.push(doubts::no_real_modes());
     }
     let answer = FrfAnswer {
-        schema: 1,
-        kinetostat_version: env!("CARGO_PKG_VERSION"),
-        model: query.name.clone(),
-        model_source: query.source.clone(),
-        tool: query.tool_words.clone(),
-        place: query.answer(),
+        head: query.head(1),
         force_n: query.wrench.force().into(),
         moment_n_m: query.wrench.moment().into(),
         hold: args.hold.clone(),

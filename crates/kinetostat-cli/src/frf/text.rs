@@ -207,6 +207,6 @@ pub(crate) fn drawn(
     receptance_svg(
         &curves,
         motion,
-        &format!("{}: {} of the tool's tip", a.model, quantity.word()),
+        &format!("{}: {} of the tool's tip", a.head.model, quantity.word()),
     )
 }

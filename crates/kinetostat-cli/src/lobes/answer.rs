@@ -4,16 +4,12 @@ use kinetostat_chatter::{Instability, LobeDiagram};
 use kinetostat_machining::Warning;
 use serde::Serialize;
 
-use crate::place::query::PlaceAnswer;
+use crate::place::query::AnswerHead;
 
 #[derive(Serialize)]
 pub(crate) struct LobesAnswer {
-    pub(crate) schema: u32,
-    pub(crate) kinetostat_version: &'static str,
-    pub(crate) model: String,
-    pub(crate) model_source: String,
-    pub(crate) tool: String,
-    pub(crate) place: PlaceAnswer,
+    #[serde(flatten)]
+    pub(crate) head: AnswerHead,
     pub(crate) force_n: [f64; 3],
     pub(crate) moment_n_m: [f64; 3],
     /// In words.

@@ -84,12 +84,7 @@ pub(crate) fn run(args: &LobesArgs, given: &Given) -> Answer<()> {
     }
     let axis = |k: usize| frame.rotation().column(k).into_owned();
     let answer = LobesAnswer {
-        schema: 1,
-        kinetostat_version: env!("CARGO_PKG_VERSION"),
-        model: query.name.clone(),
-        model_source: query.source.clone(),
-        tool: query.tool_words.clone(),
-        place: query.answer(),
+        head: query.head(1),
         force_n: query.wrench.force().into(),
         moment_n_m: query.wrench.moment().into(),
         damping: words(&damping),

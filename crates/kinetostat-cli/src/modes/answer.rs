@@ -60,12 +60,7 @@ pub(crate) fn answer(
         _ => Some(machine.stable(complex.as_ref())),
     };
     Ok(ModesAnswer {
-        schema: 1,
-        kinetostat_version: env!("CARGO_PKG_VERSION"),
-        model: query.name.clone(),
-        model_source: query.source.clone(),
-        tool: query.tool_words.clone(),
-        place: query.answer(),
+        head: query.head(1),
         force_n: query.wrench.force().into(),
         moment_n_m: query.wrench.moment().into(),
         hold: args.hold.clone(),

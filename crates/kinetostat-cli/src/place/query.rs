@@ -221,18 +221,22 @@ impl PlaceQuery {
         joints::in_controller_coordinates(self.controller.as_ref(), &posture.commands())
     }
 
-    pub(crate) fn answer(&self) -> PlaceAnswer {
-        PlaceAnswer {
-            position_mm: (self.target.translation.vector * 1e3).into(),
-            rotation_vector_deg: self
-                .target
-                .rotation
-                .scaled_axis()
-                .map(f64::to_degrees)
-                .into(),
-            tool_turn_deg: self.followed.as_ref().map(|f| f.turned_deg),
-            axes: "base",
-            reference_point: "tip of the tool",
+    /// What the answer begins with, in a version of its form.
+    pub(crate) fn head(&self, schema: u32) -> AnswerHead {
+        let turn = self.target.rotation.scaled_axis();
+        AnswerHead {
+            schema,
+            kinetostat_version: env!("CARGO_PKG_VERSION"),
+            model: self.name.clone(),
+            model_source: self.source.clone(),
+            tool: self.tool_words.clone(),
+            place: PlaceAnswer {
+                position_mm: (self.target.translation.vector * 1e3).into(),
+                rotation_vector_deg: turn.map(f64::to_degrees).into(),
+                tool_turn_deg: self.followed.as_ref().map(|f| f.turned_deg),
+                axes: "base",
+                reference_point: "tip of the tool",
+            },
         }
     }
 
@@ -266,6 +270,17 @@ impl PlaceQuery {
         out.push('\n');
         out
     }
+}
+
+/// What the answer to a query begins with.
+#[derive(Serialize)]
+pub(crate) struct AnswerHead {
+    schema: u32,
+    kinetostat_version: &'static str,
+    pub(crate) model: String,
+    model_source: String,
+    tool: String,
+    pub(crate) place: PlaceAnswer,
 }
 
 /// The place of a query.

@@ -6,16 +6,12 @@ use kinetostat_analysis::shares::{PartKind, Shares};
 use kinetostat_machining::Warning;
 use serde::Serialize;
 
-use crate::place::query::PlaceAnswer;
+use crate::place::query::AnswerHead;
 
 #[derive(Serialize)]
 pub(crate) struct SharesAnswer {
-    pub(crate) schema: u32,
-    pub(crate) kinetostat_version: &'static str,
-    pub(crate) model: String,
-    pub(crate) model_source: String,
-    pub(crate) tool: String,
-    pub(crate) place: PlaceAnswer,
+    #[serde(flatten)]
+    pub(crate) head: AnswerHead,
     /// In words.
     pub(crate) direction: String,
     /// Unit force (its first three) or moment, base axes, about the tool's tip.
@@ -108,7 +104,7 @@ impl StiffeningAnswer {
     }
 }
 
-#[derive(Serialize)]
+#[derive(Serialize, Default)]
 pub(crate) struct SensitivitiesAnswer {
     /// How derivatives are made.
     pub(crate) method: &'static str,
@@ -187,9 +183,7 @@ impl SensitivitiesAnswer {
             deflection_m_or_rad: found.values.deflection,
             stiffness_n_or_n_m_per_m_or_rad: now,
             share_to_buckling: found.values.share_to_buckling,
-            numbers: Vec::new(),
-            not_differentiated: Vec::new(),
-            without_effect: Vec::new(),
+            ..Self::default()
         };
         for s in &found.list {
             let path = s.parameter.path.clone();

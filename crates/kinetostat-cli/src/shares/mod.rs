@@ -51,12 +51,7 @@ pub(crate) fn run(args: &SharesArgs) -> Answer<()> {
     let shares = shares.map_err(|e| refused(&e))?;
     let (parts, limbs) = parts(&shares);
     let answer = SharesAnswer {
-        schema: 1,
-        kinetostat_version: env!("CARGO_PKG_VERSION"),
-        model: query.name.clone(),
-        model_source: query.source.clone(),
-        tool: query.tool_words.clone(),
-        place: query.answer(),
+        head: query.head(1),
         direction: words,
         direction_components: direction.0.into(),
         loaded,

@@ -187,7 +187,7 @@ pub(crate) fn bars(a: &SharesAnswer) -> Bars {
     Bars {
         title: format!(
             "{}: shares of the deflection under {}",
-            a.model, a.direction
+            a.head.model, a.direction
         ),
         bars: bars.collect(),
     }

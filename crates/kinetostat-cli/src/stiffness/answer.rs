@@ -10,17 +10,13 @@ use serde::Serialize;
 
 use crate::machine::principal_directions::{Principal, principal, uneven};
 use crate::place::joints::{self, JointValue};
-use crate::place::query::{PlaceAnswer, PlaceQuery};
+use crate::place::query::{AnswerHead, PlaceQuery};
 
 /// The answer, stable names with units.
 #[derive(Serialize)]
 pub(crate) struct Stiffness {
-    pub(crate) schema: u32,
-    pub(crate) kinetostat_version: &'static str,
-    pub(crate) model: String,
-    pub(crate) model_source: String,
-    pub(crate) tool: String,
-    pub(crate) place: PlaceAnswer,
+    #[serde(flatten)]
+    pub(crate) head: AnswerHead,
     /// Commands of the actuators there.
     pub(crate) joints: Vec<JointValue>,
     /// What the controller shows, in the order of its axes; empty without a section `controller`.
@@ -137,12 +133,7 @@ pub(crate) fn answer(
     warnings.extend(uneven(&query.mechanism, directions));
     let stiffness = rows(&cartesian.finite_entries(directions));
     Stiffness {
-        schema: 2,
-        kinetostat_version: env!("CARGO_PKG_VERSION"),
-        model: query.name.clone(),
-        model_source: query.source.clone(),
-        tool: query.tool_words.clone(),
-        place: query.answer(),
+        head: query.head(2),
         joints: joints::of_model(&query.mechanism, &posture.commands()),
         on_controller: query.in_controller_coordinates(posture),
         loaded,
