@@ -88,18 +88,8 @@ pub fn html(result: &RunResult) -> Result<String, ReportError> {
     Ok(page::render(&Shown::of_result(result))?)
 }
 
-/// The report of a run, drawn from all of its points: curves and paths hide nothing, however long the
-/// program is.
-///
-/// # Errors
-///
-/// [`ReportError::Template`] if the page template cannot be filled.
-pub fn html_of_run(run: &Run) -> Result<String, ReportError> {
-    Ok(page::render(&Shown::of_run(run))?)
-}
-
-/// The report of a run for which the turn of a round tool about its axis was chosen, as [`html_of_run`] with the picture of that turn
-/// ([`turns_svg`]) in it, and with what was chosen in words; without a choice it is the same.
+/// The report of a run, drawn from all of its points: curves and paths hide nothing, however long the program is. Where the turn of a
+/// round tool about its axis was chosen, with the picture of that turn ([`turns_svg`]) in it, and with what was chosen in words.
 ///
 /// # Errors
 ///

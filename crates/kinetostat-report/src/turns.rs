@@ -109,9 +109,5 @@ fn chosen(choice: &TurnChoice, (low, high): (f64, f64)) -> PlotLine {
         points.push((at, turn - own));
         last = Some((at, turn));
     }
-    PlotLine {
-        name: "chosen".to_owned(),
-        points,
-        ..PlotLine::default()
-    }
+    PlotLine::solid("chosen", 0, points)
 }

@@ -31,6 +31,14 @@ pub(crate) struct Contents {
     pub(crate) plots: Vec<kinetostat_report::Plot>,
 }
 
+impl Contents {
+    /// Numbers without a plot.
+    pub(crate) fn of(items: Vec<Item>) -> Self {
+        let plots = Vec::new();
+        Self { items, plots }
+    }
+}
+
 /// What may go wrong inside an entry.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]

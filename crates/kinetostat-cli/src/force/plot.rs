@@ -56,19 +56,9 @@ fn line(name: &str, colour: usize, a: &ForceAnswer, of: impl Fn(&AtAngle) -> f64
     if let Some(first) = a.revolution.first() {
         points.push((360.0, of(first)));
     }
-    PlotLine {
-        name: name.into(),
-        colour,
-        dashed: false,
-        points,
-    }
+    PlotLine::solid(name, colour, points)
 }
 
 fn level(name: &str, colour: usize, value: f64) -> PlotLine {
-    PlotLine {
-        name: name.into(),
-        colour,
-        dashed: true,
-        points: vec![(0.0, value), (360.0, value)],
-    }
+    PlotLine::dashed(name, colour, vec![(0.0, value), (360.0, value)])
 }

@@ -146,12 +146,7 @@ pub(crate) fn outline(task: &MapTask<'_>, picture: &Picture) -> Vec<PlotLine> {
                 let mm = p * 1e3;
                 (mm[picture.axes[0]], mm[picture.axes[1]])
             });
-            PlotLine {
-                name: "machine with its tool in the middle".to_owned(),
-                dashed: true,
-                points: points.collect(),
-                ..PlotLine::default()
-            }
+            PlotLine::dashed("machine with its tool in the middle", 0, points.collect())
         })
         .collect()
 }

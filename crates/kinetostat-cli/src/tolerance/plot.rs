@@ -41,12 +41,11 @@ pub(crate) fn histogram(
             steps.extend([(left, density), (left + width, density)]);
         }
         steps.push((high, 0.0));
-        lines.push(PlotLine {
-            name: format!("{} machines", known.len()),
-            colour: 0,
-            dashed: false,
-            points: steps,
-        });
+        lines.push(PlotLine::solid(
+            format!("{} machines", known.len()),
+            0,
+            steps,
+        ));
     }
     let peak = 1.0 / (deviation * (2.0 * PI).sqrt());
     // Where the linear scatter is next to nothing beside that of the machines, its needle would hide them.
@@ -55,12 +54,11 @@ pub(crate) fn histogram(
             let z = f64::from(k) / 20.0;
             (nominal + z * deviation, peak * (-0.5 * z * z).exp())
         };
-        lines.push(PlotLine {
-            name: "linear, normal".to_owned(),
-            colour: 1,
-            dashed: true,
-            points: (-80..=80).map(at).collect(),
-        });
+        lines.push(PlotLine::dashed(
+            "linear, normal",
+            1,
+            (-80..=80).map(at).collect(),
+        ));
     }
     Plot {
         title,

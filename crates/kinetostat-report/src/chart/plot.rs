@@ -82,6 +82,28 @@ pub struct PlotLine {
     pub points: Vec<(f64, f64)>,
 }
 
+impl PlotLine {
+    /// A solid line.
+    #[must_use]
+    pub fn solid(name: impl Into<String>, colour: usize, points: Vec<(f64, f64)>) -> Self {
+        Self {
+            name: name.into(),
+            colour,
+            dashed: false,
+            points,
+        }
+    }
+
+    /// A dashed line.
+    #[must_use]
+    pub fn dashed(name: impl Into<String>, colour: usize, points: Vec<(f64, f64)>) -> Self {
+        Self {
+            dashed: true,
+            ..Self::solid(name, colour, points)
+        }
+    }
+}
+
 /// A named point.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PlotMark {

@@ -352,6 +352,7 @@ fn edges(places: &[f64]) -> Option<Span> {
 }
 
 /// Round values that divide the colours.
+#[derive(Default)]
 struct Bands {
     borders: Vec<f64>,
     labels: Vec<String>,
@@ -359,10 +360,7 @@ struct Bands {
 
 impl Bands {
     fn of(values: impl Iterator<Item = f64>, from: Option<f64>) -> Self {
-        let none = Self {
-            borders: Vec::new(),
-            labels: Vec::new(),
-        };
+        let none = Self::default();
         let Some(span) = Span::of(values) else {
             return none;
         };

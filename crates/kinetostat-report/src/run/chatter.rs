@@ -87,11 +87,12 @@ pub(crate) fn draw(program: &str, chatter: &ChatterResult) -> String {
     if chatter.most_shaken.is_none() {
         return depths.svg();
     }
-    let line = |name: &str, colour: usize, of: &dyn Fn(&ChatterPlace) -> Option<f64>| PlotLine {
-        name: name.to_owned(),
-        colour,
-        dashed: false,
-        points: steps(&chatter.places, &|p| of(p).unwrap_or(f64::NAN)),
+    let line = |name: &str, colour: usize, of: &dyn Fn(&ChatterPlace) -> Option<f64>| {
+        PlotLine::solid(
+            name,
+            colour,
+            steps(&chatter.places, &|p| of(p).unwrap_or(f64::NAN)),
+        )
     };
     let vibration = Plot {
         title: "vibration that the passing teeth force, where it does not chatter".to_owned(),
@@ -109,11 +110,8 @@ pub(crate) fn draw(program: &str, chatter: &ChatterResult) -> String {
 
 /// The depth of the program and its limit along the path.
 fn depths(title: &str, chatter: &ChatterResult) -> Plot {
-    let line = |name: &str, colour: usize, of: &dyn Fn(&ChatterPlace) -> f64| PlotLine {
-        name: name.to_owned(),
-        colour,
-        dashed: false,
-        points: steps(&chatter.places, of),
+    let line = |name: &str, colour: usize, of: &dyn Fn(&ChatterPlace) -> f64| {
+        PlotLine::solid(name, colour, steps(&chatter.places, of))
     };
     // Where nothing becomes unstable up to the largest depth that was looked at, that is a bound.
     let limit = |p: &ChatterPlace| match p.chatters {

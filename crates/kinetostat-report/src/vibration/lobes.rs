@@ -84,30 +84,23 @@ fn lines(diagram: &LobeDiagram, depth: impl Fn(f64) -> f64 + Copy) -> Vec<PlotLi
                 points.push((f64::NAN, f64::NAN));
             }
         }
-        all.push(PlotLine {
-            name: name.into(),
-            colour,
-            dashed: false,
-            points,
-        });
+        all.push(PlotLine::solid(name, colour, points));
     }
     let zeroth = diagram.points.iter().map(|point| {
         let limit = point.zeroth_order.map(|limit| limit.depth);
         let shown = limit.filter(|value| *value <= diagram.up_to);
         (point.exact.speed_rpm, shown.map_or(f64::NAN, depth))
     });
-    all.push(PlotLine {
-        name: "zeroth order (no bound)".into(),
-        colour: 5,
-        dashed: true,
-        points: zeroth.collect(),
-    });
-    all.push(PlotLine {
-        name: "stable up to here, the largest depth looked at".into(),
-        colour: 2,
-        dashed: false,
-        points: without_limit(diagram, depth(diagram.up_to)),
-    });
+    all.push(PlotLine::dashed(
+        "zeroth order (no bound)",
+        5,
+        zeroth.collect(),
+    ));
+    all.push(PlotLine::solid(
+        "stable up to here, the largest depth looked at",
+        2,
+        without_limit(diagram, depth(diagram.up_to)),
+    ));
     all.retain(|line| line.points.iter().any(|(_, y)| y.is_finite()));
     all
 }

@@ -17,10 +17,7 @@ pub(crate) fn table_2_1() -> Result<Contents, Cause> {
     items.extend(speed());
     items.extend(rake());
     items.extend(others()?);
-    Ok(Contents {
-        items,
-        plots: Vec::new(),
-    })
+    Ok(Contents::of(items))
 }
 
 /// Milling with a material that was measured in turning.

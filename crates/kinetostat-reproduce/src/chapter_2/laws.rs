@@ -50,11 +50,8 @@ pub(crate) fn eq_2_2() -> Result<Contents, Cause> {
                 "",
             ));
         }
-        let line = |of: &dyn Fn(f64) -> f64| PlotLine {
-            name: printed_name.into(),
-            colour,
-            points: chips().map(|h| (h, of(h))).collect(),
-            ..PlotLine::default()
+        let line = |of: &dyn Fn(f64) -> f64| {
+            PlotLine::solid(printed_name, colour, chips().map(|h| (h, of(h))).collect())
         };
         specific.lines.push(line(&|h| law.specific_n_per_mm2(h)));
         force.lines.push(line(&|h| h * law.specific_n_per_mm2(h)));
@@ -119,11 +116,12 @@ pub(crate) fn eq_2_3() -> Result<Contents, Cause> {
         "%",
         "What three coefficients can follow of a power of the thickness.",
     ));
-    let line = |name: &str, colour, law: &dyn ForceLaw| PlotLine {
-        name: name.into(),
-        colour,
-        points: chips().map(|h| (h, law.edge_force(h).tangential)).collect(),
-        ..PlotLine::default()
+    let line = |name: &str, colour, law: &dyn ForceLaw| {
+        PlotLine::solid(
+            name,
+            colour,
+            chips().map(|h| (h, law.edge_force(h).tangential)).collect(),
+        )
     };
     let plot = Plot {
         title: "Equation 2.3 beside equation 2.2, Al Mg 4.5 Mn".into(),

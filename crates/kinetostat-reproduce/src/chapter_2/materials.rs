@@ -42,8 +42,5 @@ pub(crate) fn table_2_2() -> Result<Contents, Cause> {
             "",
         ));
     }
-    Ok(Contents {
-        items,
-        plots: Vec::new(),
-    })
+    Ok(Contents::of(items))
 }

@@ -78,15 +78,16 @@ fn plot(teeth: &str, revolution: &Revolution) -> Plot {
         "F_y, to its left",
         "F_z, along the axis",
     ];
-    let line = |(i, name): (usize, &&str)| PlotLine {
-        name: (*name).into(),
-        colour: i,
-        points: revolution
-            .turns()
-            .zip(&revolution.forces)
-            .map(|(turn, force)| (turn.to_degrees(), force.force_n[i]))
-            .collect(),
-        ..PlotLine::default()
+    let line = |(i, name): (usize, &&str)| {
+        PlotLine::solid(
+            *name,
+            i,
+            revolution
+                .turns()
+                .zip(&revolution.forces)
+                .map(|(turn, force)| (turn.to_degrees(), force.force_n[i]))
+                .collect(),
+        )
     };
     Plot {
         title: format!(

@@ -26,13 +26,13 @@ pub(crate) fn fig_2_2() -> Result<Contents, Cause> {
         title: "Figure 2.2: cutting force over the cutting speed, by K_V".into(),
         x_label: "cutting speed v_c, m/min".into(),
         y_label: "force as a share of that at 100 m/min".into(),
-        lines: vec![PlotLine {
-            name: "K_V of Table 2.1".into(),
-            points: speeds(10.0, 2000.0)
+        lines: vec![PlotLine::solid(
+            "K_V of Table 2.1",
+            0,
+            speeds(10.0, 2000.0)
                 .map(|v| (v, Correction::of_speed(v) / Correction::of_speed(100.0)))
                 .collect(),
-            ..PlotLine::default()
-        }],
+        )],
         marks: Vec::new(),
     };
     let mut force = Plot {
@@ -49,12 +49,11 @@ pub(crate) fn fig_2_2() -> Result<Contents, Cause> {
         let law = kienzle(name)?;
         let at = |v: f64| 1e-3 * largest_force(&law, CHIP.0, CHIP.1, v);
         // From there on the factor 2 stands for K_V and all others.
-        force.lines.push(PlotLine {
-            name: shown.into(),
+        force.lines.push(PlotLine::solid(
+            shown,
             colour,
-            points: speeds(1000.0, 2000.0).map(|v| (v, at(v))).collect(),
-            ..PlotLine::default()
-        });
+            speeds(1000.0, 2000.0).map(|v| (v, at(v))).collect(),
+        ));
         for (speed, kilonewtons) in [1000.0, 1500.0, 2000.0].into_iter().zip(table) {
             force.marks.push(PlotMark {
                 at: (speed, kilonewtons),

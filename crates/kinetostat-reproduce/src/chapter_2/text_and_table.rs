@@ -62,10 +62,7 @@ pub(crate) fn table_2_3() -> Result<Contents, Cause> {
         "kN",
         "erratum 2.4 and Table 2.3: equation 2.4 leaves out the speed; the table follows from 2 k_c b h v^-0.07, v in m/min.",
     ));
-    Ok(Contents {
-        items,
-        plots: Vec::new(),
-    })
+    Ok(Contents::of(items))
 }
 
 /// Cutting speed, m/min, of a diameter (mm) at so many turns per minute.
@@ -162,8 +159,5 @@ pub(crate) fn text_2_2() -> Result<Contents, Cause> {
             &format!("printed as 0.001 to 0.008 mm, which is of this size: {along}."),
         ),
     ];
-    Ok(Contents {
-        items,
-        plots: Vec::new(),
-    })
+    Ok(Contents::of(items))
 }

@@ -130,10 +130,7 @@ pub(crate) fn eq_3_26() -> Result<Contents, Cause> {
             INPUT,
         ),
     ];
-    Ok(Contents {
-        items,
-        plots: Vec::new(),
-    })
+    Ok(Contents::of(items))
 }
 
 /// A printed factor of an entry: the print, its value, row and column from 1.
@@ -217,10 +214,7 @@ pub(crate) fn table_3_1() -> Result<Contents, Cause> {
         items.extend(factors.map(|factor| of_the_beam(joint, factor, &own, ea, ei)));
         items.push(against_elimination(joint, &own, &beam, &general));
     }
-    Ok(Contents {
-        items,
-        plots: Vec::new(),
-    })
+    Ok(Contents::of(items))
 }
 
 /// The printed formula of the general matrices on the left, for a link of no symmetry; `p` is the eliminated direction.
@@ -359,10 +353,7 @@ fn compare_table(
             INPUT,
         ));
     }
-    Ok(Contents {
-        items,
-        plots: Vec::new(),
-    })
+    Ok(Contents::of(items))
 }
 
 pub(crate) fn table_3_2() -> Result<Contents, Cause> {

@@ -146,10 +146,7 @@ pub(crate) fn eq_3_34() -> Result<Contents, Cause> {
         "erratum 3.34 text: the text names the rotation about the vertical axis only. All legs meet in one apex: x with R_y and y with R_x are free as well, the rank is 3 at home and wherever the platform is only shifted (5 once it is turned).",
     ));
     items.push(Item::unprinted("rank", k.rank() as f64, "", ""));
-    Ok(Contents {
-        items,
-        plots: Vec::new(),
-    })
+    Ok(Contents::of(items))
 }
 
 pub(crate) fn eq_3_35() -> Result<Contents, Cause> {
@@ -174,8 +171,5 @@ pub(crate) fn eq_3_35() -> Result<Contents, Cause> {
         "R = 0.5 m, r = 0.3 m, h = 0.6 m, K11 = 1e6 N/m (chosen); L^2 = d_a^2 + R r + h^2, longer than in case A.",
     );
     items.push(Item::unprinted("rank", k.rank() as f64, "", ""));
-    Ok(Contents {
-        items,
-        plots: Vec::new(),
-    })
+    Ok(Contents::of(items))
 }

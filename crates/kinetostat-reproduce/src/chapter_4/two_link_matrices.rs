@@ -70,10 +70,7 @@ fn tidy(mut items: Vec<Item>, input: &str) -> Contents {
     {
         input.clone_into(&mut first.note);
     }
-    Contents {
-        items,
-        plots: Vec::new(),
-    }
+    Contents::of(items)
 }
 
 pub(crate) fn table_4_1() -> Result<Contents, Cause> {
@@ -315,8 +312,5 @@ pub(crate) fn text_4_4() -> Result<Contents, Cause> {
             note,
         ),
     ];
-    Ok(Contents {
-        items,
-        plots: Vec::new(),
-    })
+    Ok(Contents::of(items))
 }

@@ -100,10 +100,7 @@ pub(crate) fn table_5_2() -> Result<Contents, Cause> {
         }
     }
     items.extend(as_printed);
-    Ok(Contents {
-        items,
-        plots: Vec::new(),
-    })
+    Ok(Contents::of(items))
 }
 
 pub(crate) fn eq_4_31() -> Result<Contents, Cause> {
@@ -130,10 +127,7 @@ pub(crate) fn eq_4_31() -> Result<Contents, Cause> {
             "erratum 4.31, 5.43: +G/2 with G downwards, as F_x and K_x require (energy; statics of one link). 5.43 repeats it.",
         ));
     }
-    Ok(Contents {
-        items,
-        plots: Vec::new(),
-    })
+    Ok(Contents::of(items))
 }
 
 pub(crate) fn eq_4_32() -> Result<Contents, Cause> {
@@ -170,10 +164,7 @@ pub(crate) fn eq_4_32() -> Result<Contents, Cause> {
             "erratum 4.6.1, 5.5.2: K_y = (F_x - (G/2) tan a)/(2 L cos a), zero only when unloaded.",
         ));
     }
-    Ok(Contents {
-        items,
-        plots: Vec::new(),
-    })
+    Ok(Contents::of(items))
 }
 
 pub(crate) fn text_4_6_1() -> Result<Contents, Cause> {
@@ -195,10 +186,7 @@ pub(crate) fn text_4_6_1() -> Result<Contents, Cause> {
             "The print can be read as 4K/(L sin a0): the sine multiplies; a0 = 15 degrees.",
         ),
     ];
-    Ok(Contents {
-        items,
-        plots: Vec::new(),
-    })
+    Ok(Contents::of(items))
 }
 
 fn curve<'c>(chain: &'c Chain, g: f64, upper: bool) -> Result<Curves<'c>, Cause> {

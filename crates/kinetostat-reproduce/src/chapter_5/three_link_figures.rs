@@ -78,18 +78,8 @@ pub(crate) fn fig_5_5() -> Result<Contents, Cause> {
         x_label: "angle q, degrees".into(),
         y_label: "energy E / K".into(),
         lines: vec![
-            PlotLine {
-                name: "elbow up".into(),
-                colour: 0,
-                dashed: false,
-                points: up,
-            },
-            PlotLine {
-                name: "elbow down".into(),
-                colour: 1,
-                dashed: false,
-                points: down,
-            },
+            PlotLine::solid("elbow up", 0, up),
+            PlotLine::solid("elbow down", 1, down),
         ],
         marks: Vec::new(),
     };

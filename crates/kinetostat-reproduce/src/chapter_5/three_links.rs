@@ -247,10 +247,7 @@ pub(crate) fn table_5_1() -> Result<Contents, Cause> {
         ),
     ));
     z_unstable(&mut items, &pushed)?;
-    Ok(Contents {
-        items,
-        plots: Vec::new(),
-    })
+    Ok(Contents::of(items))
 }
 
 /// The cell that cannot be reproduced, beside the two equilibria that exist.
@@ -307,10 +304,7 @@ pub(crate) fn eq_5_32() -> Result<Contents, Cause> {
             "Compression positive here.",
         ));
     }
-    Ok(Contents {
-        items,
-        plots: Vec::new(),
-    })
+    Ok(Contents::of(items))
 }
 
 pub(crate) fn eq_5_33() -> Result<Contents, Cause> {
@@ -335,10 +329,7 @@ pub(crate) fn eq_5_33() -> Result<Contents, Cause> {
             "",
         ));
     }
-    Ok(Contents {
-        items,
-        plots: Vec::new(),
-    })
+    Ok(Contents::of(items))
 }
 
 /// Printed 5.34: q and theta of the zigzag.
@@ -371,10 +362,7 @@ pub(crate) fn eq_5_34() -> Result<Contents, Cause> {
             "",
         ));
     }
-    Ok(Contents {
-        items,
-        plots: Vec::new(),
-    })
+    Ok(Contents::of(items))
 }
 
 /// `J^T J` of a three-link chain at angles, order (th1, th2, q), l = 1.
@@ -414,10 +402,7 @@ pub(crate) fn eq_5_41() -> Result<Contents, Cause> {
         "",
         "",
     ));
-    Ok(Contents {
-        items,
-        plots: Vec::new(),
-    })
+    Ok(Contents::of(items))
 }
 
 pub(crate) fn eq_5_42() -> Result<Contents, Cause> {
@@ -458,10 +443,7 @@ pub(crate) fn eq_5_42() -> Result<Contents, Cause> {
             "",
         ),
     ];
-    Ok(Contents {
-        items,
-        plots: Vec::new(),
-    })
+    Ok(Contents::of(items))
 }
 
 pub(crate) fn text_5_5_1() -> Result<Contents, Cause> {
@@ -533,8 +515,5 @@ pub(crate) fn text_5_5_1() -> Result<Contents, Cause> {
             ));
         }
     }
-    Ok(Contents {
-        items,
-        plots: Vec::new(),
-    })
+    Ok(Contents::of(items))
 }

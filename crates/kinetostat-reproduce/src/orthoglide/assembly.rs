@@ -187,10 +187,7 @@ pub(crate) fn table_6_1() -> Result<Contents, Cause> {
             ));
         }
     }
-    Ok(Contents {
-        items,
-        plots: Vec::new(),
-    })
+    Ok(Contents::of(items))
 }
 
 /// Printed: shift (mm), rotation (deg), moment (N m), joint (deg), spring shift (mm), spring rotation
@@ -349,10 +346,7 @@ pub(crate) fn table_6_2() -> Result<Contents, Cause> {
     }
     items.extend(text(&rows));
     items.extend(exact_items);
-    Ok(Contents {
-        items,
-        plots: Vec::new(),
-    })
+    Ok(Contents::of(items))
 }
 
 /// Numbers of the text after the table. `rows` are Q0 to Q4.

@@ -529,10 +529,7 @@ pub(crate) fn table_5_3() -> Result<Contents, Cause> {
             "0.42 holds for the toggle frame only: with one K_θ it cannot describe all of the table",
         ));
     }
-    Ok(Contents {
-        items,
-        plots: Vec::new(),
-    })
+    Ok(Contents::of(items))
 }
 
 pub(crate) fn fig_5_11() -> Result<Contents, Cause> {

@@ -109,12 +109,7 @@ pub(super) fn closed_paths(title: String, paths: Vec<(&str, Vec<(f64, f64)>)>) -
     let mut lines: Vec<PlotLine> = paths
         .into_iter()
         .enumerate()
-        .map(|(colour, (name, points))| PlotLine {
-            name: name.into(),
-            colour,
-            dashed: false,
-            points,
-        })
+        .map(|(colour, (name, points))| PlotLine::solid(name, colour, points))
         .collect();
     let all = || lines.iter().flat_map(|l| l.points.iter());
     let span = |of: fn(&(f64, f64)) -> f64| {
@@ -154,15 +149,16 @@ fn over_angle(
     let lines = names
         .iter()
         .enumerate()
-        .map(|(k, name)| PlotLine {
-            name: (*name).into(),
-            colour: k,
-            dashed: false,
-            points: circle
-                .points
-                .iter()
-                .map(|p| (p.angle.to_degrees(), of(p)[k]))
-                .collect(),
+        .map(|(k, name)| {
+            PlotLine::solid(
+                *name,
+                k,
+                circle
+                    .points
+                    .iter()
+                    .map(|p| (p.angle.to_degrees(), of(p)[k]))
+                    .collect(),
+            )
         })
         .collect();
     angle_plot(title, y_label, lines)
@@ -353,16 +349,15 @@ fn plots_7_8(locations: &[Location]) -> Result<Vec<Plot>, Cause> {
             .enumerate()
             .map(|(colour, location)| {
                 let circle = location.main()?;
-                Ok(PlotLine {
-                    name: location.name.into(),
+                Ok(PlotLine::solid(
+                    location.name,
                     colour,
-                    dashed: false,
-                    points: circle
+                    circle
                         .points
                         .iter()
                         .map(|p| (p.angle.to_degrees(), of(p)))
                         .collect(),
-                })
+                ))
             })
             .collect::<Result<Vec<PlotLine>, Cause>>()?;
         Ok(angle_plot(title.to_owned(), y_label, lines))

@@ -109,12 +109,7 @@ fn begun(drawn: &Drawn<'_>, dashed: bool, points: Vec<(f64, f64)>) -> PlotLine {
 
 /// The legend's entry for all dashed lines.
 pub(crate) fn unstable_entry(words: &str) -> PlotLine {
-    PlotLine {
-        name: words.to_owned(),
-        colour: 0,
-        dashed: true,
-        points: Vec::new(),
-    }
+    PlotLine::dashed(words, 0, Vec::new())
 }
 
 /// The special point between two neighbours of a branch, or the middle.

@@ -58,24 +58,14 @@ pub(crate) fn drawing(a: &FitAnswer) -> String {
 /// The residuals in the order of their feeds, and the axis that they scatter about.
 fn residual_lines(a: &FitAnswer) -> Vec<PlotLine> {
     let last = a.lines.last().map_or(0.0, |at| at.feed_mm_per_tooth);
-    let zero = PlotLine {
-        points: vec![(0.0, 0.0), (last, 0.0)],
-        colour: 5,
-        dashed: true,
-        name: String::new(),
-    };
+    let zero = PlotLine::dashed(String::new(), 5, vec![(0.0, 0.0), (last, 0.0)]);
     let of = |k: usize| {
         let rows = a.rows.iter();
         let mut points: Vec<(f64, f64)> = rows
             .map(|row| (row.feed_mm_per_tooth, row.residual_n[k]))
             .collect();
         points.sort_by(|a, b| a.0.total_cmp(&b.0));
-        PlotLine {
-            name: ["Fx", "Fy", "Fz"][k].to_owned(),
-            colour: k,
-            dashed: false,
-            points,
-        }
+        PlotLine::solid(["Fx", "Fy", "Fz"][k], k, points)
     };
     (0..3).map(of).chain([zero]).collect()
 }
