@@ -30,7 +30,7 @@ pub use lobes::{LobeDiagram, LobePoint, LobeRequest};
 pub use measured::{
     Fit, FittedMode, MeasuredResponse, ModePair, Motion, Parameter, Scaled, ShapedMode,
     UniversalFile, fit_modes, modal_assurance, pair_modes, read_columns, read_universal,
-    scale_parameters, turning_columns, write_universal,
+    scale_parameters, turning_columns,
 };
 pub use response::{FeedFrame, Mode, ToolResponse};
 pub use stability::{

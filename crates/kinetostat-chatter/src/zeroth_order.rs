@@ -9,7 +9,7 @@ use std::f64::consts::{PI, TAU};
 
 use serde::{Deserialize, Serialize};
 
-use crate::branches::{Branches, Place, grid};
+use crate::branches::{Branches, Place};
 use crate::error::Result;
 use crate::number::{Complex64, smaller};
 use crate::stability::Regeneration;
@@ -102,40 +102,4 @@ fn within(
         }
         turn += 1.0;
     }
-}
-
-/// The smallest limit at any speed, m: the absolute minimum of zeroth order, and its frequency.
-#[must_use]
-pub fn absolute_minimum(regeneration: &Regeneration) -> Option<ZerothOrderLimit> {
-    let branch = of(regeneration);
-    let at = |frequency: f64| {
-        let depths = branch.eigenvalues(frequency).map(depth);
-        depths.into_iter().flatten().reduce(smaller)
-    };
-    let frequencies = grid(branch.response);
-    let mut best: Option<(usize, f64)> = None;
-    for (i, frequency) in frequencies.iter().enumerate() {
-        if let Some(depth) = at(*frequency)
-            && best.is_none_or(|(_, least)| depth < least)
-        {
-            best = Some((i, depth));
-        }
-    }
-    let (i, _) = best?;
-    let (mut low, mut high) = (
-        frequencies[i.saturating_sub(1)],
-        frequencies[(i + 1).min(frequencies.len() - 1)],
-    );
-    // Golden section: the depth has one minimum between neighbours of the least.
-    let share = 0.5 * (5_f64.sqrt() - 1.0);
-    for _ in 0..80 {
-        let (a, b) = (high - share * (high - low), low + share * (high - low));
-        let of = |frequency| at(frequency).unwrap_or(f64::INFINITY);
-        if of(a) < of(b) { high = b } else { low = a }
-    }
-    let frequency = 0.5 * (low + high);
-    at(frequency).map(|depth| ZerothOrderLimit {
-        depth,
-        frequency_hz: frequency / TAU,
-    })
 }

@@ -19,7 +19,7 @@
 //! | which body moves, which spring bends | [`LinearDynamics::kinetic_shares`], [`LinearDynamics::elastic_shares`] |
 //! | dead moments, followers, dampers: flutter or divergence | [`LinearDynamics::complex_modes`] |
 //! | damping | [`Damping`], [`LinearDynamics::damping_ratios`] |
-//! | response between two points | [`ModalResponse`], [`LinearDynamics::direct`], [`LimbResponse`] |
+//! | response between two points | [`ModalResponse`], [`LinearDynamics::direct`] |
 //! | modal data of a cut, for chatter | [`ModalResponse::translational`] |
 //! | rotors behind elastic gears | [`Rotor`], [`LinearDynamics::with_rotors`] |
 //! | a tool that spins | [`LinearDynamics::gyroscopic_matrix`] |
@@ -58,7 +58,6 @@ pub use mass::{MassKind, MassPart};
 pub use modes::complex::{ComplexMode, ComplexModes, Verdict};
 pub use modes::{DirectionCounts, EnergyShare, Mode, ModeKind, Modes};
 pub use reduction::{BoundedFrequency, ReducedLimb};
-pub use response::by_limbs::LimbResponse;
 pub use response::coupled::CoupledDamping;
 pub use response::direct::DirectResponse;
 pub use response::modal::ModalResponse;

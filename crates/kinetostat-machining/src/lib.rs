@@ -61,7 +61,7 @@ pub use free_turn::choice::{
 pub use free_turn::choose::choose_turns;
 pub use free_turn::error::{NoWay, TurnBarrier, TurnError, TurnPart};
 pub use free_turn::task::{
-    TipCompliance, TurnBand, TurnBounds, TurnCriterion, TurnCurve, TurnRate, TurnTask,
+    TipCompliance, TurnBand, TurnBounds, TurnCriterion, TurnCurve, TurnTask,
 };
 pub use free_turn::turned_path::{TurnedPath, with_turns};
 pub use kinetostat::number;

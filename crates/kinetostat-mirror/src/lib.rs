@@ -56,5 +56,5 @@ pub use points::{MeasuredPoint, MeasuredPoints};
 pub use registration::{FreeMotion, Motion, Registration, RegistrationOptions, ToldBy, register};
 pub use trial::{
     Averaging, Convergence, MeasuredFile, MirrorField, MirrorState, Outcome, Repeatability,
-    SumOfFields, Trial, bound_on_relaxation, expected_factor, floor_mm,
+    SumOfFields, Trial, bound_on_relaxation, floor_mm,
 };

@@ -10,7 +10,7 @@ use crate::measured_poses::measurement::{Difference, MeasuredPose, Tolerance, di
 use crate::measured_poses::offset::fitted;
 
 /// The search's answer.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Explained {
     /// All of the smallest number of changes that fit; several where the poses do not decide.
     pub fitting: Vec<Explanation>,
@@ -61,10 +61,7 @@ pub fn explain(
     effort: Effort,
     tolerance: Tolerance,
 ) -> Explained {
-    let mut found = Explained {
-        fitting: Vec::new(),
-        nearest: None,
-    };
+    let mut found = Explained::default();
     let screen = &rows[..rows.len().min(SCREEN)];
     let mut nearest: Option<(f64, Explanation)> = None;
     let mut least = usize::MAX;

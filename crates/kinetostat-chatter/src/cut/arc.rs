@@ -4,7 +4,6 @@
 
 use std::f64::consts::{PI, TAU};
 
-use kinetostat_cutting::{Edge, Engagement};
 use serde::{Deserialize, Serialize};
 
 use crate::error::{ChatterError, ChatterErrorKind, Result};
@@ -87,39 +86,6 @@ impl Arc {
             entry: 0.0,
             exit: PI,
         }
-    }
-
-    /// The arc of an engagement whose side is in contact along one arc at all heights, with a spindle that turns clockwise.
-    ///
-    /// # Errors
-    /// No contact of the side, or arcs that differ from height to height: these cuts have no single arc.
-    pub fn of_engagement(engagement: &Engagement) -> Result<Self> {
-        let mut side = engagement
-            .contacts
-            .iter()
-            .filter(|contact| contact.edge == Edge::Side);
-        let expected = "contact of the side along one arc";
-        let Some(first) = side.next() else {
-            let found = "no contact of the side";
-            return Err(ChatterError::new(
-                ChatterErrorKind::Cut,
-                "engagement",
-                found,
-                expected,
-            ));
-        };
-        let differs = |entry: f64, exit: f64| {
-            (entry - first.entry).abs() > 1e-9 || (exit - first.exit).abs() > 1e-9
-        };
-        if side.any(|contact| differs(contact.entry, contact.exit)) {
-            return Err(ChatterError::new(
-                ChatterErrorKind::Cut,
-                "engagement",
-                "several arcs",
-                expected,
-            ));
-        }
-        Self::new(first.entry, first.exit)
     }
 
     /// Where a tooth comes in, rad.

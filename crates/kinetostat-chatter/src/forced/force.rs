@@ -2,7 +2,6 @@
 
 use std::f64::consts::TAU;
 
-use kinetostat_cutting::Revolution;
 use nalgebra::{Complex, Vector3};
 
 use crate::cut::{MillingCut, checked_depth};
@@ -85,28 +84,6 @@ impl PeriodicForce {
             sum
         };
         Ok(Self::new(per_revolution, (0..=harmonics).map(of).collect()))
-    }
-
-    /// The force of a cut of the project's laws over a revolution, run-out and edge forces included.
-    ///
-    /// ```
-    /// use kinetostat_chatter::PeriodicForce;
-    /// use kinetostat_cutting::{Engagement, Feed, Linear, Milling, Shape, Side, Tool};
-    ///
-    /// let tool = Tool::new(Shape::Flat, 12.0, 4)?.with_helix(38_f64.to_radians())?;
-    /// let law = Linear::new([796.0, 168.0, 222.0], [27.7, 30.8, 1.4])?;
-    /// let climb = Engagement::straight(6.0, 3.97, 1.58, Side::Right)?;
-    /// let cut = Milling::new(&tool, &law, &climb, Feed::level(0.191)?);
-    /// let force = PeriodicForce::of_revolution(&cut.revolution(), 200)?;
-    /// assert!((force.mean().y - 131.25).abs() < 0.02); // N
-    /// # Ok::<(), Box<dyn std::error::Error>>(())
-    /// ```
-    ///
-    /// # Errors
-    /// Too many harmonics for the angles of the revolution.
-    pub fn of_revolution(revolution: &Revolution, harmonics: usize) -> Result<Self> {
-        let samples: Vec<Vector3<f64>> = revolution.forces.iter().map(|f| f.force_n).collect();
-        Self::sampled(1, &samples, harmonics)
     }
 
     /// The force of the chips that the feed alone makes, without edge forces: `F = a D (c, 0, 0)` [D 8], with the depth `a` and

@@ -1,6 +1,6 @@
-//! Measured responses: read, written, fitted, compared with a model, and what of a model's parameters they tell.
+//! Measured responses: read, fitted, compared with a model, and what of a model's parameters they tell.
 //!
-//! `response` is one measured curve; `universal` and `columns` read and write files of it; `fit` finds modes by rational
+//! `response` is one measured curve; `universal` and `columns` read files of it; `fit` finds modes by rational
 //! fraction polynomials; `compare` pairs them with a model's; `scaling` scales parameters of a model to them.
 
 mod columns;
@@ -11,7 +11,6 @@ mod rational;
 mod response;
 mod scaling;
 mod universal;
-mod universal_text;
 
 pub use columns::{read_columns, turning_columns};
 pub use compare::{ModePair, ShapedMode, modal_assurance, pair_modes};
@@ -20,4 +19,3 @@ pub use quantity::Motion;
 pub use response::MeasuredResponse;
 pub use scaling::{Parameter, Scaled, scale_parameters};
 pub use universal::{UniversalFile, read_universal};
-pub use universal_text::write_universal;

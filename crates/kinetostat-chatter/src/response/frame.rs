@@ -70,29 +70,6 @@ impl FeedFrame {
         Self::new(Vector3::new(angle.cos(), angle.sin(), 0.0), Vector3::z())
     }
 
-    /// From a rotation matrix whose columns are the axes of the cut.
-    ///
-    /// # Errors
-    /// Columns that are not of unit length at right angles, and a left-handed frame: it would mirror up and down milling.
-    pub fn from_rotation(rotation: Matrix3<f64>) -> Result<Self> {
-        let fault = (rotation.transpose() * rotation - Matrix3::identity()).norm();
-        let right_handed = rotation.determinant() > 0.0;
-        // Not a number is at fault, too.
-        if fault < TOLERANCE && right_handed {
-            return Ok(Self { rotation });
-        }
-        let found = match fault < TOLERANCE {
-            true => "a left-handed frame".to_owned(),
-            false => format!("columns off unit length or right angles by {fault:.1e}"),
-        };
-        Err(ChatterError::new(
-            ChatterErrorKind::Cut,
-            "frame of the feed",
-            found,
-            "a right-handed frame: feed, left of the feed, tool axis towards the spindle",
-        ))
-    }
-
     /// Columns: feed, left of the feed, tool axis towards the spindle.
     #[must_use]
     pub fn rotation(&self) -> &Matrix3<f64> {

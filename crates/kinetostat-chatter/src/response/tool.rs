@@ -101,15 +101,6 @@ impl ToolResponse {
         Ok(self)
     }
 
-    /// The same with the residual flexibility that makes the static compliance this one, m/N, in the axes of the shapes.
-    ///
-    /// # Errors
-    /// Entries that are not finite.
-    pub fn with_static_compliance(self, compliance: Matrix3<f64>) -> Result<Self> {
-        let of_modes = self.compliance() - self.residual;
-        self.with_residual(compliance - of_modes)
-    }
-
     /// The modes.
     #[must_use]
     pub fn modes(&self) -> &[Mode] {

@@ -3,13 +3,13 @@
 use std::f64::consts::TAU;
 
 use kinetostat_chatter::{
-    Arc, Coefficients, Milled, MillingCut, PeriodicForce, ToolResponse, Vibration,
+    Coefficients, Milled, MillingCut, PeriodicForce, ToolResponse, Vibration,
 };
 use kinetostat_cutting::{Engagement, Feed, Linear, Milling, Shape, Side, Tool, Wall};
 use kinetostat_testing::Worst;
 use nalgebra::{Matrix3, Vector3};
 
-use crate::support::{aluminium, arc, cut, one_direction, regeneration, two_modes};
+use crate::support::{aluminium, arc, arc_of, cut, one_direction, regeneration, two_modes};
 
 const FEED: f64 = 1e-4;
 
@@ -155,7 +155,9 @@ fn regeneration_leaves_equal_teeth_alone_and_feeds_run_out() {
 fn a_stiff_tool_leaves_the_static_surface() {
     // Far below all modes the tool follows the force: the wall shows the deflection at the moment a tooth makes it.
     let compliance = Matrix3::new(2e-7, 3e-8, 0.0, 3e-8, 4e-7, 1e-8, 0.0, 1e-8, 1e-7);
-    let stiff = one_direction().with_static_compliance(compliance).unwrap();
+    let tool = one_direction();
+    let of_modes = tool.compliance() - tool.residual();
+    let stiff = tool.with_residual(compliance - of_modes).unwrap();
     let tool = Tool::new(Shape::Flat, 12.0, 4)
         .unwrap()
         .with_helix(38_f64.to_radians())
@@ -167,9 +169,10 @@ fn a_stiff_tool_leaves_the_static_surface() {
     ] {
         let engagement = Engagement::straight(6.0, 4.0, 8.0, side).unwrap();
         let milling = Milling::new(&tool, &law, &engagement, Feed::level(0.1).unwrap());
-        let force = PeriodicForce::of_revolution(&milling.revolution(), 600).unwrap();
+        let samples: Vec<_> = (milling.revolution().forces.iter().map(|f| f.force_n)).collect();
+        let force = PeriodicForce::sampled(1, &samples, 600).unwrap();
         let vibration = Vibration::new(&stiff, &force, 1.0).unwrap();
-        let arc = Arc::of_engagement(&engagement).unwrap();
+        let arc = arc_of(&engagement);
         let chip = 1e-4 * arc.mean_sine();
         let coefficients = Coefficients::linearised(&law, chip).unwrap().coefficients;
         let cut = MillingCut::of_tool(&tool, arc, coefficients).unwrap();

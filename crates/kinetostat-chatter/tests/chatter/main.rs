@@ -14,4 +14,5 @@ mod support;
 mod swinging;
 mod traps;
 mod universal;
+mod universal_text;
 mod zeroth;

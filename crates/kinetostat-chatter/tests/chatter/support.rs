@@ -138,3 +138,9 @@ pub const TWO_MODES: [(&str, f64, f64, f64, f64, f64); 5] = [
     ("up", 0.5, 9000.0, 1.123476, 1.116571, 644.4278),
     ("down", 0.5, 9000.0, 3.359252, 3.877294, 660.8422),
 ];
+
+/// The arc of a straight cut along the side of a tool.
+pub fn arc_of(engagement: &kinetostat_cutting::Engagement) -> Arc {
+    let contact = &engagement.contacts[0];
+    Arc::new(contact.entry, contact.exit).unwrap()
+}

@@ -8,11 +8,13 @@ use kinetostat_chatter::{
 };
 use kinetostat_cutting::{Engagement, Linear, Side};
 use kinetostat_testing::Worst;
-use nalgebra::{Matrix3, Rotation3, Vector3};
+use nalgebra::{Rotation3, Vector3};
 use proptest::prelude::*;
 
 use crate::semi_discretisation::{Plain, extrapolated, multiplier};
-use crate::support::{X, Y, aluminium, arc, cut, one_direction, one_mode, regeneration, two_modes};
+use crate::support::{
+    X, Y, aluminium, arc, arc_of, cut, one_direction, one_mode, regeneration, two_modes,
+};
 
 fn limit(machine: &Regeneration, speed: f64) -> f64 {
     machine
@@ -189,10 +191,7 @@ fn up_and_down_are_not_mirrored() {
     // The arcs are those of the cutting crate for a part on the left and on the right.
     for (milled, side) in [(Milled::Up, Side::Left), (Milled::Down, Side::Right)] {
         let engagement = Engagement::straight(6.0, 3.0, 2.0, side).unwrap();
-        let (a, b) = (
-            Arc::of_engagement(&engagement).unwrap(),
-            Arc::straight(milled, 0.25).unwrap(),
-        );
+        let (a, b) = (arc_of(&engagement), Arc::straight(milled, 0.25).unwrap());
         assert!((a.entry() - b.entry()).abs() + (a.exit() - b.exit()).abs() < 1e-12);
     }
     // One direction of D5, half immersion: up and down differ by more than three times at 5000 rpm (table).
@@ -208,12 +207,6 @@ fn up_and_down_are_not_mirrored() {
 /// Trap 12: a left-handed frame of the feed would mirror the cut; so would degrees for radians go unseen.
 #[test]
 fn frames_are_right_handed() {
-    let mirrored = Matrix3::from_diagonal(&Vector3::new(1.0, -1.0, 1.0));
-    assert_eq!(
-        FeedFrame::from_rotation(mirrored).unwrap_err().quantity,
-        "frame of the feed"
-    );
-    assert!(FeedFrame::from_rotation(Matrix3::identity() * f64::NAN).is_err());
     assert!(FeedFrame::new(Vector3::z(), Vector3::z()).is_err());
     let frame = FeedFrame::vertical(FRAC_PI_2).unwrap();
     assert!((frame.rotation().determinant() - 1.0).abs() < 1e-12);
@@ -254,7 +247,7 @@ fn coefficients_are_in_si_units() {
     let mean = kinetostat_cutting::Milling::new(&tool, &law, &engagement, feed)
         .mean()
         .force_n;
-    let cut = MillingCut::of_tool(&tool, Arc::of_engagement(&engagement).unwrap(), line).unwrap();
+    let cut = MillingCut::of_tool(&tool, arc_of(&engagement), line).unwrap();
     let ours = kinetostat_chatter::Cut::from(cut).mean_matrix().column(0) * (2e-3 * 1e-4);
     assert!((ours - mean).norm() < 1e-6 * mean.norm(), "{ours} {mean}");
 }
@@ -271,7 +264,7 @@ proptest! {
         let turned: Vec<Mode> = modes.iter().rev().map(|mode| {
             Mode::new(turn * mode.shape(), mode.angular_frequency().powi(2), mode.damping_ratio()).unwrap()
         }).collect();
-        let frame = FeedFrame::from_rotation(turn).unwrap();
+        let frame = FeedFrame::new(turn.column(0).into(), turn.column(2).into()).unwrap();
         let half = cut(3, arc("down", 0.4), Coefficients::new(6e8, 2e8, 1e8).unwrap());
         let a = regeneration(ToolResponse::new(modes).unwrap(), half.clone());
         let b = regeneration(ToolResponse::new(turned).unwrap().in_frame(&frame), half);

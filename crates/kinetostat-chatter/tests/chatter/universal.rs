@@ -3,10 +3,12 @@
 
 use std::process::Command;
 
-use kinetostat_chatter::{MeasuredResponse, Motion, read_columns, read_universal, write_universal};
+use kinetostat_chatter::{MeasuredResponse, Motion, read_columns, read_universal};
 use kinetostat_testing::Worst;
 use nalgebra::Complex;
 use proptest::prelude::*;
+
+use crate::universal_text::write_universal;
 
 /// The two modes of `written_by_pyuff.py`, m/N.
 fn curve(hz: f64) -> Complex<f64> {

@@ -56,7 +56,7 @@ pub enum OutlierTreatment {
 /// assert!((done.report.drift.unwrap().at_end[0] - 9.0).abs() < 0.01);
 /// # Ok::<(), kinetostat_cutting::CutError>(())
 /// ```
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Default)]
 pub struct Conditioning {
     outliers: OutlierTreatment,
     air: Vec<[f64; 2]>,
@@ -79,10 +79,8 @@ impl Conditioning {
     #[must_use]
     pub fn new(window: f64) -> Self {
         Self {
-            outliers: OutlierTreatment::default(),
-            air: Vec::new(),
-            drift: DriftModel::default(),
             window,
+            ..Self::default()
         }
     }
 

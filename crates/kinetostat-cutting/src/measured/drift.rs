@@ -18,7 +18,7 @@ pub enum DriftModel {
 }
 
 /// The drift that was removed.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Default)]
 pub struct DriftRemoved {
     /// Stretches of air that it was taken from.
     pub stretches: usize,
@@ -64,9 +64,7 @@ pub(crate) fn remove(
     let stretches = rows_of(log, air)?;
     let mut removed = DriftRemoved {
         stretches: stretches.len(),
-        at_start: Vec::new(),
-        at_end: Vec::new(),
-        left_n: 0.0,
+        ..DriftRemoved::default()
     };
     let [first, last] = log.range();
     let ForceLog { at, channels, .. } = log;

@@ -14,7 +14,7 @@ const SLIVER_CELLS: f64 = 1.2;
 pub(crate) const FAR_MM: f64 = 1e5;
 
 /// One point of the grid.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub(crate) struct Column {
     /// Top of the material above the stock's bottom, mm; 0 where there is none.
     pub top: f32,
@@ -128,11 +128,9 @@ impl Stock {
         let (cell, points) = settings.grid_for(lengths)?;
         let known = (KNOWN_CELLS * cell) as f32;
         let air = Column {
-            top: 0.0,
             drop: known,
             rise: known,
-            drop_normal: Normal::default(),
-            rise_normal: Normal::default(),
+            ..Column::default()
         };
         Ok(Self {
             columns: vec![air; points[0] * points[1]],

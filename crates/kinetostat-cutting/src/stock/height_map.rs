@@ -57,6 +57,7 @@ impl Stock {
     }
 }
 
+#[derive(Default)]
 struct Map {
     heights: Vec<f64>,
     columns: usize,
@@ -74,11 +75,7 @@ impl Map {
             .flexible(true)
             .trim(csv::Trim::All)
             .from_reader(bytes);
-        let mut map = Self {
-            heights: Vec::new(),
-            columns: 0,
-            rows: 0,
-        };
+        let mut map = Self::default();
         let mut record = csv::StringRecord::new();
         loop {
             let more = reader.read_record(&mut record).map_err(|error| {

@@ -259,23 +259,4 @@ impl Tool {
             },
         }
     }
-
-    /// Height of the envelope above the tip at a radius, mm; `None` outside the tool.
-    #[must_use]
-    pub fn height_at_mm(&self, radius_mm: f64) -> Option<f64> {
-        let beyond = radius_mm - self.end_radius_mm();
-        if beyond <= 0.0 {
-            return Some(0.0);
-        }
-        match self.shape {
-            Shape::Face { lead_angle } => match lead_angle < FRAC_PI_2 {
-                true => Some(beyond * lead_angle.tan()),
-                false => None,
-            },
-            _ => {
-                let corner = self.corner_radius_mm();
-                (beyond <= corner).then(|| corner - (corner * corner - beyond * beyond).sqrt())
-            }
-        }
-    }
 }

@@ -10,6 +10,7 @@ use crate::linear::{LinearDynamics, NamedCoordinate, Place, SpringPart};
 use crate::mass::{MassKind, MassPart};
 
 /// Everything by all coordinates, before conditions are met.
+#[derive(Default)]
 pub(crate) struct Whole {
     pub mass: DMatrix<f64>,
     pub tangent: DMatrix<f64>,
@@ -34,12 +35,7 @@ impl Whole {
             elastic: DMatrix::zeros(n, n),
             units,
             blocks,
-            masses: Vec::new(),
-            springs: Vec::new(),
-            places: Vec::new(),
-            coordinates: Vec::new(),
-            coarse_links: Vec::new(),
-            lumped_links: Vec::new(),
+            ..Self::default()
         }
     }
 
@@ -118,33 +114,6 @@ impl Whole {
             coarse_links: self.coarse_links,
             lumped_links: self.lumped_links,
         })
-    }
-
-    /// All coordinates independent, whether anything has a mass or not.
-    pub fn unconstrained(
-        self,
-        name: &str,
-        tool: usize,
-        length: f64,
-        units: Vec<f64>,
-    ) -> LinearDynamics {
-        LinearDynamics {
-            name: name.to_owned(),
-            mass: self.mass,
-            tangent: self.tangent,
-            elastic: self.elastic,
-            basis: None,
-            units,
-            blocks: self.blocks,
-            masses: self.masses,
-            springs: self.springs,
-            places: self.places,
-            coordinates: self.coordinates,
-            tool,
-            length,
-            coarse_links: self.coarse_links,
-            lumped_links: self.lumped_links,
-        }
     }
 
     /// A platform's mass about its origin, in its six motions.

@@ -17,6 +17,7 @@ const PIVOT: f64 = 1e-13;
 const MASSLESS: f64 = 1e-11;
 
 /// All finite modes of a pencil.
+#[derive(Default)]
 pub(crate) struct Solved {
     /// `w^2`, ascending.
     pub squared: Vec<f64>,
@@ -166,12 +167,9 @@ pub(crate) fn solve(mass: &DMatrix<f64>, tangent: &DMatrix<f64>) -> Option<Solve
     if mass.nrows() == 0 {
         // Everything is held: there is nothing that could vibrate.
         return Some(Solved {
-            squared: Vec::new(),
             shapes: DMatrix::zeros(0, 0),
-            massless: 0,
             neutral: DMatrix::zeros(0, 0),
-            massless_unstable: 0,
-            shift: 0.0,
+            ..Solved::default()
         });
     }
     if let Some(shifted) = Shifted::find(mass, tangent) {

@@ -142,52 +142,6 @@ impl DirectResponse<'_> {
             self.dynamics.name
         ))
     }
-
-    /// Wrench on a point per motion of it while nothing else acts, 6 x 6: the first block of the inverse of
-    /// `[0 B; B^T -(K - H + i w C - w^2 M)]`, as in statics. It exists where the point cannot move in some direction
-    /// (nothing is needed there); of a limb alone it is the dynamic stiffness that a platform feels.
-    ///
-    /// # Errors
-    /// [`Error::NotSolved`] at a resonance of the machine with the point held.
-    pub fn dynamic_stiffness(&self, point: Point, hz: f64) -> Result<Receptance> {
-        let w = hz * std::f64::consts::TAU;
-        let z = self.stiffness(w);
-        let b = self.within(self.dynamics.motions(point));
-        let n = z.nrows();
-        // Units in which coordinates are comparable, so that pivots are.
-        let units: Vec<f64> = (0..n)
-            .map(|i| {
-                let own = z[(i, i)].norm();
-                if own > 0.0 { 1.0 / own.sqrt() } else { 1.0 }
-            })
-            .collect();
-        let rows: Vec<f64> = (0..6)
-            .map(|k| {
-                let size: f64 = (0..n)
-                    .map(|j| (b[(k, j)].re * units[j]).powi(2))
-                    .sum::<f64>()
-                    .sqrt();
-                if size > 0.0 { 1.0 / size } else { 1.0 }
-            })
-            .collect();
-        let mut a = DMatrix::zeros(6 + n, 6 + n);
-        for j in 0..n {
-            for k in 0..6 {
-                let value = b[(k, j)] * (rows[k] * units[j]);
-                a[(k, 6 + j)] = value;
-                a[(6 + j, k)] = value;
-            }
-            for i in 0..n {
-                a[(6 + i, 6 + j)] = -z[(i, j)] * (units[i] * units[j]);
-            }
-        }
-        let mut right = DMatrix::zeros(6 + n, 6);
-        for k in 0..6 {
-            right[(k, k)] = Complex::new(rows[k], 0.0);
-        }
-        let x = a.lu().solve(&right).ok_or_else(|| self.resonance(hz))?;
-        Ok(Matrix6::from_fn(|i, j| x[(i, j)] * rows[i]))
-    }
 }
 
 /// `Z^-1 b` with rows and columns in units of the diagonal.

@@ -1,7 +1,6 @@
 //! Responses to harmonic forces: by the sum of modes with residual flexibility, directly, and by limbs.
 
 pub(crate) mod at_rest;
-pub(crate) mod by_limbs;
 pub(crate) mod coupled;
 pub(crate) mod direct;
 pub(crate) mod modal;

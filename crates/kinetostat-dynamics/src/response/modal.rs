@@ -1,7 +1,7 @@
 //! Response by the sum of modes with residual flexibility: what modes that are left out, and massless coordinates, do at
 //! rest [D 8; MacNeal 1971, Rubin 1975]. At 0 Hz it is the loaded compliance exactly, however few modes are kept.
 
-use nalgebra::{Complex, DMatrix, DVector, Matrix6, Vector3, Vector6};
+use nalgebra::{Complex, DMatrix, DVector, Matrix6, Vector6};
 
 use crate::damping::{Damping, ModalDamping};
 use crate::error::{Error, Result};
@@ -203,33 +203,6 @@ impl ModalResponse {
             residual: self.residual.fixed_view::<3, 3>(0, 0).into_owned(),
             coupling: self.coupling.clone(),
         })
-    }
-
-    /// Share of every mode in the compliance at rest along a direction of force (base axes); together with that of the
-    /// residual, last, they add to one.
-    ///
-    /// # Errors
-    /// [`Error::Question`] for two points, or a direction that is none.
-    pub fn static_shares(&self, direction: &Vector3<f64>) -> Result<Vec<f64>> {
-        let data = self.translational()?;
-        let along = direction.norm();
-        if !(along.is_finite() && along > 0.0) {
-            return Err(Error::Question("the direction has no length".to_owned()));
-        }
-        let n = direction / along;
-        let mut parts: Vec<f64> = (data.shapes.iter().zip(&data.squared))
-            .map(|(shape, squared)| {
-                if *squared == 0.0 {
-                    0.0
-                } else {
-                    n.dot(shape).powi(2) / squared
-                }
-            })
-            .collect();
-        parts.push(n.dot(&(data.residual * n)));
-        let sum: f64 = parts.iter().sum();
-        parts.iter_mut().for_each(|part| *part /= sum);
-        Ok(parts)
     }
 }
 

@@ -4,9 +4,7 @@ use crate::arms::arm6;
 use crate::common::*;
 use crate::platforms::loaded;
 use kinetostat::*;
-use kinetostat_dynamics::{
-    Damping, Held, LimbResponse, LinearDynamics, ModalResponse, Quantity, Receptance,
-};
+use kinetostat_dynamics::{Damping, Held, LinearDynamics, ModalResponse, Quantity, Receptance};
 use kinetostat_testing::Worst;
 use nalgebra::{Complex, DMatrix, Matrix6, Vector3, vector};
 
@@ -199,8 +197,6 @@ fn tool_receptance_of_the_arm() {
             }
         }
         assert!(worst.of(36) < 1e-9, "{worst}");
-        let shares = few.static_shares(&vector![1.0, 2.0, -1.0]).unwrap();
-        assert!((shares.iter().sum::<f64>() - 1.0).abs() < 1e-12 && shares.len() == kept + 1);
     }
     let there = response.over(&[17.0], Quantity::Velocity)[0];
     let acceleration = response.over(&[17.0], Quantity::Acceleration)[0];
@@ -209,7 +205,7 @@ fn tool_receptance_of_the_arm() {
 }
 
 #[test]
-fn three_ways_to_the_response_of_a_loaded_platform() {
+fn two_ways_to_the_response_of_a_loaded_platform() {
     let (machine, force) = loaded();
     let posture = machine.posture(&machine.platforms()[1].home).unwrap();
     let at = posture.deflected_by(&force).unwrap();
@@ -217,15 +213,10 @@ fn three_ways_to_the_response_of_a_loaded_platform() {
     let (modes, tool) = (d.modes().unwrap(), d.tool());
     let modal = ModalResponse::new(&d, &modes, &Damping::Undamped, tool, tool, usize::MAX).unwrap();
     let direct = d.direct(&modes, &Damping::Undamped).unwrap();
-    let limbs = LimbResponse::new(&posture, &at).unwrap();
     for hz in [0.0, 15.0, 33.3] {
-        let (a, b, c) = (
-            modal.at_hz(hz),
-            direct.at_hz(tool, tool, hz).unwrap(),
-            limbs.at_hz(&Damping::Undamped, hz).unwrap(),
-        );
-        println!("{hz}: {:e} {:e}", off(&b, &a), off(&c, &a));
-        assert!(off(&b, &a) < 1e-9 && off(&c, &a) < 1e-9);
+        let (a, b) = (modal.at_hz(hz), direct.at_hz(tool, tool, hz).unwrap());
+        println!("{hz}: {:e}", off(&b, &a));
+        assert!(off(&b, &a) < 1e-9);
     }
     let reference = rows("2.18529183e-06  -5.85334355e-10  -8.56689499e-09  1.10587848e-08  1.02395078e-06  5.59916362e-08
 -5.85334355e-10  2.19039161e-06  5.42798383e-09  -1.05684703e-06  -1.11423558e-08  1.12436063e-07
@@ -244,17 +235,6 @@ fn three_ways_to_the_response_of_a_loaded_platform() {
         let modal = ModalResponse::new(&d, &modes, &damping, tool, tool, usize::MAX).unwrap();
         let direct = d.direct(&modes, &damping).unwrap();
         assert!(off(&direct.at_hz(tool, tool, 36.4).unwrap(), &modal.at_hz(36.4)) < 1e-9);
-    }
-    for damping in [
-        Damping::Rayleigh {
-            mass_per_s: 3.0,
-            stiffness_s: 2e-4,
-        },
-        Damping::Structural { loss_factor: 0.03 },
-    ] {
-        let direct = d.direct(&modes, &damping).unwrap();
-        let by_limbs = limbs.at_hz(&damping, 36.4).unwrap();
-        assert!(off(&by_limbs, &direct.at_hz(tool, tool, 36.4).unwrap()) < 1e-9);
     }
 }
 

@@ -21,7 +21,7 @@ pub(crate) fn heading(tangent: Option<Vector3<f64>>) -> Option<f64> {
 pub(crate) const SHORT_MM: f64 = 0.01;
 
 /// A place of the path with the force of the cut.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Default)]
 pub struct CutStation {
     /// Share of the move's length.
     pub share: f64,
@@ -92,13 +92,7 @@ impl CutStation {
         Self {
             share,
             wrench: Wrench::zero(),
-            torque_n_m: 0.0,
-            depth_mm: 0.0,
-            arc: 0.0,
-            contact: None,
-            chip_mm: 0.0,
-            feed_per_tooth_mm: 0.0,
-            rpm: 0.0,
+            ..Self::default()
         }
     }
 }

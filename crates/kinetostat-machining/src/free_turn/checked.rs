@@ -1,7 +1,7 @@
 //! Tasks that no sensible question asks.
 
 use crate::free_turn::error::TurnError;
-use crate::free_turn::task::{TipCompliance, TurnCriterion, TurnRate, TurnTask};
+use crate::free_turn::task::{TipCompliance, TurnCriterion, TurnTask};
 
 /// Most turns of a band.
 const MOST_TURNS: f64 = 7200.0;
@@ -38,13 +38,10 @@ pub(crate) fn checked(task: &TurnTask<'_>) -> Result<(), TurnError> {
             "the band of turns is divided in steps of {step} deg: a positive number is needed that makes at most {MOST_TURNS} steps"
         ));
     }
-    let (rate, unit) = match task.bounds.rate {
-        TurnRate::PerLength(rate) => (rate, "deg/mm"),
-        TurnRate::PerTime(rate) => (rate, "deg/s"),
-    };
+    let rate = task.bounds.rate_deg_per_mm;
     if !positive(rate) {
         return refused(format!(
-            "the tool may be turned by {rate} {unit}: a positive number is needed (for a turn that stays the same see \
+            "the tool may be turned by {rate} deg/mm: a positive number is needed (for a turn that stays the same see \
              TurnChoice::best_constant)"
         ));
     }

@@ -30,15 +30,6 @@ impl Default for TurnBand {
     }
 }
 
-/// How fast the tool may be turned.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum TurnRate {
-    /// Turn by way along the path, deg/mm.
-    PerLength(f64),
-    /// Turn by time at the programmed feed, deg/s; on rapid moves it is not limited.
-    PerTime(f64),
-}
-
 /// Of which compliance of the tool's tip a sequence of turns is to have little.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum TipCompliance {
@@ -91,7 +82,7 @@ impl TurnCriterion {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TurnBounds {
     /// How fast the tool may be turned.
-    pub rate: TurnRate,
+    pub rate_deg_per_mm: f64,
     /// Joints stay so far inside their limits, deg.
     pub limit_margin_deg: f64,
     /// The smallest singular value of the Jacobian stays above it. Its rows are the velocity of the tip by half the reach of the arm
@@ -112,7 +103,7 @@ pub struct TurnBounds {
 impl Default for TurnBounds {
     fn default() -> Self {
         Self {
-            rate: TurnRate::PerLength(2.0),
+            rate_deg_per_mm: 2.0,
             limit_margin_deg: 1.0,
             least_singular_value: NEAR_SINGULAR,
             joint_step_deg: 20.0,

@@ -17,7 +17,7 @@ const MOST_DEG: f64 = 90.0;
 const SAME_RATE: f64 = 1e-9;
 
 /// A path whose moves state the orientation of the tool with its free turn.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Default)]
 #[non_exhaustive]
 pub struct TurnedPath {
     /// The path. A move on which the rate of turning changes has become several, all with its line: at the stations where it changes.
@@ -61,9 +61,7 @@ pub fn with_turns(task: &TurnTask<'_>, choice: &TurnChoice) -> Result<TurnedPath
     let knots = knots(choice);
     let mut turned = TurnedPath {
         path: task.path.clone(),
-        added: 0,
-        source: Vec::new(),
-        axis_off_deg: 0.0,
+        ..TurnedPath::default()
     };
     let mut moves = Vec::with_capacity(task.path.moves.len());
     let mut side = Side::Before;

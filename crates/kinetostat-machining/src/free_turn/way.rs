@@ -1,11 +1,11 @@
 //! A path as one way: where the tool is after so many millimetres, and where nobody knows how it got there.
 
 use kinetostat::Pose;
-use kinetostat_program::{FeedMode, Knowledge, Move, MoveKind, Path};
+use kinetostat_program::{Knowledge, Move, Path};
 use nalgebra::{Unit, UnitQuaternion, Vector3};
 
 use crate::free_turn::error::TurnError;
-use crate::free_turn::task::{TurnRate, TurnTask};
+use crate::free_turn::task::TurnTask;
 use crate::placement::Placement;
 
 /// A move that turns the tool's axis counts at least so long by degree, mm: it has stations also where it has no length.
@@ -93,7 +93,7 @@ impl<'a> Way<'a> {
             way.sections.push(Section {
                 from: way.length,
                 length,
-                rate: rate(task, motion, length)?,
+                rate: task.bounds.rate_deg_per_mm,
                 turns: turn_deg > 1e-6,
             });
             way.length += length;
@@ -159,35 +159,4 @@ impl<'a> Way<'a> {
 fn turn_deg(motion: &Move) -> f64 {
     let turn = motion.tool_turn.as_ref();
     turn.map_or(0.0, |turn| turn.start.angle_to(&turn.end).to_degrees())
-}
-
-/// The largest turn by way on a move, deg/mm.
-fn rate(task: &TurnTask<'_>, motion: &Move, length: f64) -> Result<f64, TurnError> {
-    let per_second = match task.bounds.rate {
-        TurnRate::PerLength(rate) => return Ok(rate),
-        TurnRate::PerTime(rate) => rate,
-    };
-    if motion.kind == MoveKind::Rapid || motion.known != Knowledge::Whole || length <= 0.0 {
-        return Ok(f64::INFINITY);
-    }
-    let refused = |what: &str| TurnError::Input {
-        what: format!(
-            "line {}: {what}, so a rate of turning in deg/s says nothing here: give it in deg/mm (TurnRate::PerLength)",
-            motion.line
-        ),
-    };
-    let seconds = match motion.feed {
-        Some(feed) if !(feed.value.is_finite() && feed.value > 0.0) => {
-            return Err(refused("the feed is not a positive number"));
-        }
-        Some(feed) => match feed.mode {
-            FeedMode::PerMinute => 60.0 * motion.length_mm() / feed.value,
-            FeedMode::InverseTime => 60.0 / feed.value,
-            FeedMode::PerRevolution => {
-                return Err(refused("the feed counts by turns of the spindle"));
-            }
-        },
-        None => return Err(refused("the move has no feed")),
-    };
-    Ok(per_second * seconds / length)
 }

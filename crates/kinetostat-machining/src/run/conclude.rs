@@ -9,7 +9,6 @@ use crate::checks::unusual::unusual;
 use crate::joints::figures::JointFigures;
 use crate::load::along_path::LoadAlongPath;
 use crate::load::ramp_findings::TooFast;
-use crate::result::assessment::Assessment;
 use crate::result::envelope::Envelope;
 use crate::result::kept_points::KeptPoints;
 use crate::result::point::{PointKind, PointResult};
@@ -17,7 +16,6 @@ use crate::result::program_place::ProgramPlace;
 use crate::result::run_inputs::{ActuatorColumn, RunInputs, ToolAtCorners};
 use crate::result::run_result::{NearSingularPlace, RESULT_SCHEMA, RunResult};
 use crate::result::summary::Summary;
-use crate::result::tolerance::ToleranceResult;
 use crate::run::checked::Checked;
 use crate::run::cutting::cutting_result;
 use crate::run::fast_change::changes_faster_than_stated;
@@ -84,14 +82,9 @@ pub(crate) fn conclude(
     let mut result = RunResult {
         schema: RESULT_SCHEMA,
         kinetostat_version: env!("CARGO_PKG_VERSION").into(),
-        tolerance: ToleranceResult::default(),
-        assessment: Assessment::default(),
         summary,
-        chatter: None,
         cutting: task.cut.map(|forces| cutting_result(forces, task.path())),
         force_band: checked.force_band.clone(),
-        uncertainty: None,
-        features: Vec::new(),
         run_inputs: run_inputs_of(task, load, &points, written.is_some()),
         worst_points: kept.worst_before(),
         worst_points_after: match written {
@@ -101,7 +94,7 @@ pub(crate) fn conclude(
         warnings,
         near_singularity,
         joints,
-        points: Vec::new(),
+        ..RunResult::default()
     };
     result.tolerance = tolerance(
         &result,

@@ -45,6 +45,7 @@ fn sites(
 }
 
 /// A few places of a program, each solved by itself.
+#[derive(Default)]
 pub(crate) struct FirstLook {
     /// Those that have an answer.
     points: Vec<PointResult>,
@@ -92,11 +93,7 @@ impl FirstLook {
     ) -> Result<Self, RunError> {
         let machines = Machines::new(task);
         let frame = MeasuredFrame::of(task, None)?;
-        let mut look = Self {
-            points: Vec::new(),
-            first: None,
-            not_converged: false,
-        };
+        let mut look = Self::default();
         for (index, site) in sites(task, load, spread).enumerate() {
             if watch.cancelled() {
                 return Err(RunError::Cancelled);

@@ -282,8 +282,6 @@ fn point(
         tool_orientation: site.orientation.map(|o| [o.w, o.i, o.j, o.k]),
         error_before_mm,
         error_after_mm,
-        error_if_force_larger_mm: None,
-        error_if_force_smaller_mm: None,
         correction_mm: (site.commanded - site.desired).into(),
         force_n: place.to_part_axes(&site.wrench.force()).into(),
         moment_n_m: place.to_part_axes(&site.wrench.moment()).into(),
@@ -313,13 +311,11 @@ fn point(
             .collect(),
         actuator_force: after.actuator_forces,
         actuator_correction,
-        nearest_limit: None,
-        most_loaded: None,
-        configuration: None,
         smallest_stiffness_n_per_mm: 1e-3 * after.stiffness_against_force,
         share_to_buckling: after.share_to_buckling.filter(|mu| mu.is_finite()),
         stable: after.stable,
         found_by: after.found_by,
+        ..PointResult::default()
     }
 }
 

@@ -49,19 +49,6 @@ pub struct Smoothed {
 }
 
 impl Kernel {
-    /// The share of a wave that it lets through.
-    ///
-    /// ```
-    /// let kernel = kinetostat_mirror::Kernel { length_mm: 5.0 };
-    /// assert!((kernel.transfer(5.336_446 * 5.0) - 0.5).abs() < 1e-6);
-    /// assert!(kernel.transfer(5.0) < 1e-8);
-    /// ```
-    #[must_use]
-    pub fn transfer(&self, wavelength_mm: f64) -> f64 {
-        let angle = std::f64::consts::TAU * self.length_mm / wavelength_mm;
-        (-0.5 * angle * angle).exp()
-    }
-
     /// How much a point counts that is so far away along the path.
     fn value(&self, apart_mm: f64) -> f64 {
         let parts = apart_mm / self.length_mm;

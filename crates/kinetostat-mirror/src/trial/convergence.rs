@@ -23,18 +23,6 @@
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
-/// The share of the error that is left after a trial, of what the kernel lets through whole, where the machine answers to a
-/// correction with `1 + d` times it.
-///
-/// ```
-/// assert!((kinetostat_mirror::expected_factor(1.0, 0.3) - 0.3).abs() < 1e-15);
-/// assert_eq!(kinetostat_mirror::expected_factor(0.5, 0.0), 0.5);
-/// ```
-#[must_use]
-pub fn expected_factor(relaxation: f64, departure: f64) -> f64 {
-    (1.0 - relaxation * (1.0 + departure)).abs()
-}
-
 /// Below which relaxation the error never rises, for a departure of at most this size, symmetric; `None` where it is 1 or more.
 ///
 /// ```

@@ -12,7 +12,7 @@ mod state;
 mod taking;
 mod together;
 
-pub use convergence::{Convergence, bound_on_relaxation, expected_factor};
+pub use convergence::{Convergence, bound_on_relaxation};
 pub use field::{MirrorField, SumOfFields};
 pub use record::{MeasuredFile, Trial};
 pub use repeatability::{Averaging, Repeatability, floor_mm};

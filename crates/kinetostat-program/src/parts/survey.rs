@@ -151,18 +151,6 @@ impl Survey {
     pub fn part_count(&self) -> usize {
         self.parts.len()
     }
-
-    /// Why a program that is read with these options cannot be taken in parts; `None` where it can.
-    #[must_use]
-    pub fn only_as_a_whole(options: &ReadOptions) -> Option<&'static str> {
-        if options.rotary.is_some() {
-            return Some("the machine has rotary axes that turn the tool in the part");
-        }
-        if options.tools.is_some() {
-            return Some("several tools are named");
-        }
-        None
-    }
 }
 
 impl Surveyor {

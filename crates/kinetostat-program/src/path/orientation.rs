@@ -93,12 +93,7 @@ impl Path {
             moves,
             tool_axis,
             stated: [true; 3],
-            warnings: Vec::new(),
-            tool_changes: Vec::new(),
-            spindle_changes: Vec::new(),
-            pauses: Vec::new(),
-            part: None,
-            events: Vec::new(),
+            ..Self::default()
         }
     }
 }

@@ -1,7 +1,5 @@
 //! How the spindle turns while a block is made, and what a feed is in a turn of it.
 
-use std::f64::consts::TAU;
-
 /// Which way the spindle turns, seen from the spindle towards the part.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize)]
 #[serde(rename_all = "snake_case")]
@@ -43,7 +41,7 @@ pub struct Spindle {
 
 impl Spindle {
     /// Turns in a minute, never negative; 0 while it stands still. `None` where the program has given no speed, and with
-    /// G96, where the speed is that of a radius ([`Spindle::rpm_at_radius_mm`]).
+    /// G96, where the speed is that of a radius.
     ///
     /// ```
     /// use kinetostat_program::*;
@@ -62,36 +60,6 @@ impl Spindle {
             (SpindleRotation::Stopped, _) => Some(0.0),
             (_, SpeedMode::Constant) => self.speed,
             (_, SpeedMode::ConstantSurface { .. }) => None,
-        }
-    }
-
-    /// Turns in a minute while the edge cuts at a distance from the spindle's axis, in mm: `v/(2 pi r)` with G96, at most
-    /// the D beside it; what [`Spindle::rpm`] says with G97.
-    ///
-    /// `None` where the program has given no speed, and at the axis itself where it has given no largest one.
-    ///
-    /// ```
-    /// use kinetostat_program::{SpeedMode, Spindle, SpindleRotation};
-    ///
-    /// let mode = SpeedMode::ConstantSurface { most_rpm: Some(2500.0) };
-    /// let spindle = Spindle { rotation: SpindleRotation::Clockwise, mode, speed: Some(200.0) };
-    /// let rpm = spindle.rpm_at_radius_mm(20.0).unwrap(); // 200 m/min on a diameter of 40 mm
-    /// assert!((rpm - 1591.549).abs() < 1e-3);
-    /// assert_eq!(spindle.rpm_at_radius_mm(0.0), Some(2500.0));
-    /// ```
-    #[must_use]
-    pub fn rpm_at_radius_mm(&self, radius_mm: f64) -> Option<f64> {
-        let SpeedMode::ConstantSurface { most_rpm } = self.mode else {
-            return self.rpm();
-        };
-        if self.rotation == SpindleRotation::Stopped {
-            return Some(0.0);
-        }
-        let rpm = 1000.0 * self.speed? / (TAU * radius_mm.abs());
-        match most_rpm {
-            // At the axis a speed of zero over a way of zero is no number: the largest speed holds.
-            Some(most) => Some(if rpm <= most { rpm } else { most }),
-            None => rpm.is_finite().then_some(rpm),
         }
     }
 }

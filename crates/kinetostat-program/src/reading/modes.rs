@@ -7,7 +7,7 @@ use crate::reading::extra::ExtraAxes;
 use crate::reading::options::Units;
 
 /// The modal state of the input.
-#[derive(Clone)]
+#[derive(Clone, Default)]
 pub(crate) struct Modes {
     pub motion: Option<Motion>,
     pub incremental: bool,
@@ -51,23 +51,10 @@ pub(crate) enum DirectionLaw {
 impl Modes {
     pub fn new(units: Option<Units>) -> Self {
         Self {
-            motion: None,
-            incremental: false,
-            absolute_centre: false,
             plane: [0, 1, 2],
-            feed: None,
-            work_offset: 0,
-            extra: ExtraAxes::default(),
-            retract_mode: None,
             units,
             units_are_assumed: units.is_some(),
-            feed_mode: FeedMode::PerMinute,
-            feed_is_stale: false,
-            tool_length_on: [false; 3],
-            tool_centre_point: false,
-            directions: None,
-            axes_in_doubt: false,
-            length_number: None,
+            ..Self::default()
         }
     }
 

@@ -19,7 +19,7 @@ pub(crate) enum Cause {
 }
 
 /// Place and knowledge of the three axes.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub(crate) struct Places {
     /// In mm, part frame.
     pub position: Vector3<f64>,
@@ -40,9 +40,7 @@ impl Places {
             position: start.unwrap_or_default(),
             known: [start.is_some(); 3],
             stated: [start.is_some(); 3],
-            lost: [None; 3],
-            unsure: [false; 3],
-            turned_on: 0,
+            ..Self::default()
         }
     }
 

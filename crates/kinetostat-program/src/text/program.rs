@@ -24,7 +24,7 @@ pub const MAX_READ_LINE_BYTES: usize = 65_536;
 /// The syntax is separate from its meaning: [`Program::read`] finds lines and words and refuses what
 /// this crate cannot follow at all (subroutines, variables, control structure, files that are no
 /// text); [`crate::interpret`] says where the tool goes.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub struct Program {
     bytes: Vec<u8>,
     lines: Vec<Line>,
@@ -262,6 +262,7 @@ pub(crate) struct ReaderState {
 }
 
 /// Divides bytes into lines and words, all of a file or line by line.
+#[derive(Default)]
 pub(crate) struct Reader {
     program: Program,
     tokens: Vec<Spanned>,
@@ -278,18 +279,11 @@ impl Reader {
         Self {
             program: Program {
                 bytes,
-                lines: Vec::new(),
-                words: Vec::new(),
-                mark_line: None,
-                semicolon_comments: false,
                 first_number: 1,
-                part: None,
+                ..Program::default()
             },
-            tokens: Vec::new(),
-            tape_marks: 0,
-            closed: 0,
-            blocks: 0,
             added_ending: b"\n".to_vec(),
+            ..Self::default()
         }
     }
 
@@ -581,6 +575,7 @@ impl Reader {
 }
 
 /// What the comments of a line tell about the program.
+#[derive(Default)]
 struct Comments {
     semicolon: bool,
     mark: bool,
@@ -588,10 +583,7 @@ struct Comments {
 
 impl Comments {
     fn of(text: &[u8], tokens: &[Spanned]) -> Self {
-        let mut found = Self {
-            semicolon: false,
-            mark: false,
-        };
+        let mut found = Self::default();
         for spanned in tokens {
             match spanned.token {
                 Token::Semicolon => found.semicolon = true,

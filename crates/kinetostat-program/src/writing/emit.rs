@@ -393,11 +393,8 @@ impl<'a> Emitter<'a> {
             from,
             to: self.state.position,
             output_line: self.output_line - 1,
-            kept_arc: false,
-            arc: None,
-            circle: None,
             feed: self.state.feed,
-            feed_limited: false,
+            ..AsWritten::default()
         };
         self.account.uncorrected(move_index, &written);
         self.note_rotary(motion, 1.0);

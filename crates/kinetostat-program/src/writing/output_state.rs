@@ -52,7 +52,7 @@ pub(crate) struct FittedCircle {
 }
 
 /// One piece to be written.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct OutputMove {
     pub share_from: f64,
     pub share_to: f64,
@@ -79,15 +79,11 @@ impl OutputMove {
     /// A move in one straight piece.
     pub fn whole(target: Vector3<f64>, tilt: Vector3<f64>, corrected: bool) -> Self {
         Self {
-            share_from: 0.0,
             share_to: 1.0,
             target,
             tilt,
-            corner_step: false,
-            turn: None,
-            arc: None,
-            circle: None,
             corrected,
+            ..Self::default()
         }
     }
 

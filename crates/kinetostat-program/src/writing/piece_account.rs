@@ -15,7 +15,7 @@ use crate::writing::written_arc::WrittenArc;
 use crate::writing::written_circle::WrittenCircle;
 
 /// What was written of a piece.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct AsWritten {
     /// Where it begins as written, in mm.
     pub from: Vector3<f64>,

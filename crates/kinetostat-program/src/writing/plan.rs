@@ -245,12 +245,10 @@ impl<'a> Plan<'a> {
         let (pieces, accounting) = account.finish(bytes.len());
         Corrected {
             bytes,
-            beside: Vec::new(),
             pieces,
             orientations,
-            rotary_deg: Vec::new(),
             accounting,
-            writer: None,
+            ..Corrected::default()
         }
     }
 }

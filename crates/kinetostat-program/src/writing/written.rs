@@ -109,7 +109,7 @@ impl Piece {
 }
 
 /// A written program.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct Corrected {
     /// The program, to be written to a file as it is.
     pub bytes: Vec<u8>,
@@ -188,12 +188,7 @@ impl Corrected {
             moves: moves.collect(),
             tool_axis: original.tool_axis,
             stated: original.stated,
-            warnings: Vec::new(),
-            tool_changes: Vec::new(),
-            spindle_changes: Vec::new(),
-            pauses: Vec::new(),
-            events: Vec::new(),
-            part: None,
+            ..Path::default()
         }
     }
 }

@@ -19,18 +19,6 @@ impl Status {
     pub fn is_solved(self) -> bool {
         self != Self::Unsolved
     }
-
-    /// One sentence.
-    #[must_use]
-    pub fn description(self) -> &'static str {
-        match self {
-            Self::Vectorised => "The posture was solved by the vectorised kernels.",
-            Self::Scalar => "The posture was solved by the general engine, by itself.",
-            Self::Unsolved => {
-                "There is no answer for the posture: it cannot be reached, or has no equilibrium."
-            }
-        }
-    }
 }
 
 /// What about a machine no vectorised kernel knows.

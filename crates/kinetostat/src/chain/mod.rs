@@ -44,6 +44,6 @@ pub use pieces::ChainPieces;
 pub use potential::{is_conservative, load_energy};
 pub use problem::{ChainProblem, EndCondition, Prescribed};
 pub use residual::Residual;
-pub use stability::{ShapeStability, ShapeState};
+pub use stability::ShapeStability;
 pub use stiffness::{ChainStiffness, unloaded_stiffness};
 pub use tangent::ChainTangent;

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use crate::chain::scaling::beyond;
 
 /// Residuals of a system in scaled units (square root of energy).
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Default)]
 pub(crate) struct ResidualNorms {
     pub closure: f64,
     pub torque: f64,

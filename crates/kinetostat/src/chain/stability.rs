@@ -52,20 +52,6 @@ pub struct ShapeStability {
     pub neutral: Vec<String>,
 }
 
-/// What a shape is, in one word.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
-#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
-#[non_exhaustive]
-pub enum ShapeState {
-    /// It holds: every neighbouring shape has more energy.
-    Stable,
-    /// A neighbouring shape has less energy.
-    Unstable,
-    /// At its critical load within rounding: some motion neither stores nor frees energy.
-    Singular,
-}
-
 /// Shares that differ from 1 by less are taken as 1: rounding of a converged equilibrium.
 const AT_CRITICAL: f64 = 1e-9;
 
@@ -78,44 +64,6 @@ impl ShapeStability {
             && self
                 .share_to_buckling
                 .is_some_and(|mu| mu > 1.0 + AT_CRITICAL)
-    }
-
-    /// Stable, unstable, or singular.
-    #[must_use]
-    pub fn state(&self) -> ShapeState {
-        match self.share_to_buckling {
-            Some(mu) if (mu - 1.0).abs() <= AT_CRITICAL => ShapeState::Singular,
-            _ if self.stable => ShapeState::Stable,
-            _ => ShapeState::Unstable,
-        }
-    }
-
-    /// The state and how far it is from changing, for people.
-    #[must_use]
-    pub fn description(&self) -> String {
-        let mu = self.share_to_buckling.unwrap_or(0.0);
-        match self.state() {
-            ShapeState::Singular => "stands at its critical load (mu 1)".into(),
-            ShapeState::Unstable if mu.is_finite() => {
-                format!("does not keep its shape (mu {mu:.4}; it does below 1)")
-            }
-            ShapeState::Unstable => {
-                "does not keep its shape: the load pushes passive joints that nothing holds".into()
-            }
-            ShapeState::Stable if self.share_to_buckling.is_none() => {
-                "keeps its shape: it has no inner freedom".into()
-            }
-            ShapeState::Stable if mu <= 0.0 => {
-                format!("keeps its shape; the load only stiffens it (mu {mu:.4})")
-            }
-            ShapeState::Stable if self.may_flutter() => format!(
-                "does not go away, but may swing with growing amplitude (flutter), which depends on its masses (mu {mu:.4} of the tangent's symmetric part)"
-            ),
-            ShapeState::Stable => format!(
-                "keeps its shape, {:.3} % of the way to buckling (mu {mu:.4})",
-                100.0 * mu
-            ),
-        }
     }
 }
 

@@ -92,15 +92,6 @@ impl Curves<'_> {
         Ok(points_at(&mut self.system()?, &self.branches, value, true))
     }
 
-    /// Equilibria at one value of the conjugate (force along the displacement, or displacement
-    /// along the load pattern), on all branches.
-    ///
-    /// # Errors
-    /// None in practice: the problem was accepted when the curve was followed.
-    pub fn at_conjugate(&self, value: f64) -> Result<Vec<CurvePoint>> {
-        Ok(points_at(&mut self.system()?, &self.branches, value, false))
-    }
-
     /// Where the chain goes from every limit point that a stable part of a branch runs into: stable
     /// equilibria on the computed branches at the same dead load (load limits) or at the same
     /// displacement (displacement limits), nearest first.

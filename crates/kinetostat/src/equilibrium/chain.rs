@@ -193,10 +193,8 @@ fn grow_load(
     };
     let (mut share, mut step, mut iterations) = (0.0_f64, longest.min(0.125), 0);
     let mut last = ResidualNorms {
-        closure: 0.0,
-        torque: 0.0,
         loads: 1.0,
-        rounding: 0.0,
+        ..ResidualNorms::default()
     };
     while share < 1.0 {
         let next = (share + step).min(1.0);

@@ -341,12 +341,7 @@ impl Posture {
         check_state(&self.mechanism, state)?;
         let mut solver = self.solver(state.clone(), Unknowns::Pose);
         solver.wrench = *wrench;
-        let residual = Residual {
-            closure_m: 0.0,
-            torque: 0.0,
-            iterations: 0,
-            rate: None,
-        };
+        let residual = Residual::default();
         conclude(&mut solver, residual)
     }
 }

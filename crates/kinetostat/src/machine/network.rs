@@ -16,6 +16,7 @@ use crate::machine::posture::Posture;
 use crate::spatial::{Twist, Wrench};
 
 /// All limbs of a posture, linear.
+#[derive(Default)]
 pub(crate) struct Network {
     pub limbs: Vec<ChainStiffness>,
     /// `A_i` by the motions of all moving platforms, 6 x 6P each.
@@ -29,10 +30,8 @@ impl Network {
     pub fn new(posture: &Posture) -> Result<Self> {
         let m = &posture.mechanism;
         let mut network = Self {
-            limbs: Vec::new(),
-            motions: Vec::new(),
-            rigid: Vec::new(),
             platforms: m.platforms().len(),
+            ..Self::default()
         };
         for (i, (limb, joints)) in m.limbs().iter().zip(&posture.limbs).enumerate() {
             let base = posture.platforms[limb.from];

@@ -10,7 +10,7 @@ use kinetostat::{
     BeamSection, Chain, ChainProblem, DirectionKind, EndCondition, Equilibrium, Load, MotionKind,
     Pose, PostureRequest, Prescribed, Settings, Twist, Wrench, solve_chain, spatial::moved,
 };
-use kinetostat::{Limb, Mechanism, Platform, chain::ShapeState, machine::LimbPosture};
+use kinetostat::{Limb, Mechanism, Platform, machine::LimbPosture};
 use kinetostat_testing::LargestEntry;
 use nalgebra::{DMatrix, Matrix6, Vector3, vector};
 use proptest::prelude::*;
@@ -183,28 +183,6 @@ fn what_is_neutral_is_taken_out_beside_what_the_load_holds() {
         let s = &e.stability;
         assert_eq!(s.stable, stable, "{share}: {s:?}");
         assert!(!s.neutral.is_empty(), "{share}");
-    }
-}
-
-/// One word and one sentence for every state of a pressed column, up to its critical load and beyond.
-#[test]
-fn a_description_for_every_shape() {
-    let chain = planar_column(3, 1.0, 1.0);
-    let at = |p: f64| {
-        let problem = pressed(&chain, 3.0, p);
-        solve_chain(&problem, &Settings::default())
-            .unwrap()
-            .stability
-    };
-    for (p, state, word) in [
-        (0.25, ShapeState::Stable, "25.000 %"),
-        (-0.5, ShapeState::Stable, "stiffens"),
-        (1.0, ShapeState::Singular, "critical"),
-        (2.0, ShapeState::Unstable, "does not keep"),
-    ] {
-        let s = at(p);
-        assert_eq!(s.state(), state, "{p}: {s:?}");
-        assert!(s.description().contains(word), "{p}: {}", s.description());
     }
 }
 

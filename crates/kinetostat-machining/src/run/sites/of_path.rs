@@ -63,7 +63,6 @@ impl<'a> OfPath<'a> {
         Site {
             line: motion.line,
             move_index: i,
-            output_line: 0,
             kind: kind(motion),
             share,
             path_mm: self.starts[i] + share * motion.known_length_mm(),
@@ -73,10 +72,9 @@ impl<'a> OfPath<'a> {
             commanded: desired,
             orientation: motion.orientation(share),
             commanded_orientation: motion.orientation(share),
-            commanded_deg: None,
             wrench: self.load.wrench(self.placement, i, share),
-            other_wrench: None,
             end,
+            ..Site::default()
         }
     }
 }

@@ -12,7 +12,7 @@ use crate::run::sites::commanded::rotary;
 use crate::task::Task;
 
 /// A place on the path with its load and, for a written program, what is commanded there.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct Site {
     pub line: usize,
     /// Index of its move in the path.

@@ -2,9 +2,7 @@
 
 use std::f64::consts::PI;
 
-use kinetostat_machining::{
-    Placement, TurnBand, TurnError, TurnRate, TurnTask, choose_turns, with_turns,
-};
+use kinetostat_machining::{Placement, TurnBand, TurnError, TurnTask, choose_turns, with_turns};
 use kinetostat_program::irregular;
 use nalgebra::{UnitQuaternion, Vector3};
 
@@ -64,7 +62,7 @@ fn asked(sample: u64) -> Answer {
         to_deg: band.0 + band.1,
         step_deg: band.2,
     };
-    task.bounds.rate = TurnRate::PerLength(rate);
+    task.bounds.rate_deg_per_mm = rate;
     task.bounds.least_singular_value = bound;
     match choose_turns(&task) {
         Ok(choice) => {

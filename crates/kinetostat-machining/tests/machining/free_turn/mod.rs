@@ -14,7 +14,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use kinetostat::linalg::SingularValues;
 use kinetostat::{Mechanism, Pose, PostureRequest};
-use kinetostat_machining::{Placement, TurnRate, TurnTask};
+use kinetostat_machining::{Placement, TurnTask};
 use kinetostat_model::Model;
 use kinetostat_program::{Path, Program, ReadOptions, interpret};
 use nalgebra::{Matrix6, UnitQuaternion, Vector3, vector};
@@ -104,7 +104,7 @@ fn task_around<'a>(mechanism: &'a Mechanism, path: &'a Path, placement: Placemen
     let mut task = TurnTask::new(mechanism, path, placement);
     task.station_mm = 50.0;
     task.band.step_deg = 2.0;
-    task.bounds.rate = TurnRate::PerLength(0.06);
+    task.bounds.rate_deg_per_mm = 0.06;
     task.bounds.least_singular_value = 0.1;
     task
 }

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use kinetostat::{ActuatorSpec, Chain, Mechanism, MotionKind, Pose};
-use kinetostat_machining::{Placement, TurnRate, TurnTask, choose_turns};
+use kinetostat_machining::{Placement, TurnTask, choose_turns};
 use nalgebra::{UnitQuaternion, Vector3, vector};
 use proptest::prelude::*;
 
@@ -74,7 +74,7 @@ proptest! {
             let mut task = TurnTask::new(mechanism, &path, placement);
             task.station_mm = 8.0;
             task.band.step_deg = 10.0;
-            task.bounds.rate = TurnRate::PerLength(2.5);
+            task.bounds.rate_deg_per_mm = 2.5;
             choose_turns(&task).map_err(|error| error.to_string())
         };
         match (choice(&here, own), choice(&there, moved)) {

@@ -4,7 +4,7 @@
 use kinetostat::{Mechanism, PostureRequest};
 use kinetostat_machining::internal::configuration_at;
 use kinetostat_machining::{
-    Placement, TurnBounds, TurnChoice, TurnRate, TurnTask, TurnedPath, choose_turns, with_turns,
+    Placement, TurnBounds, TurnChoice, TurnTask, TurnedPath, choose_turns, with_turns,
 };
 use kinetostat_testing::figure::{at_least, at_most};
 use kinetostat_testing::{Worst, largest};
@@ -82,7 +82,7 @@ fn figure_a_planted_singular_posture_is_gone_around() {
     let (mechanism, path, placement) = across_a_straight_wrist();
     let mut task = TurnTask::new(&mechanism, &path, placement);
     task.bounds = TurnBounds {
-        rate: TurnRate::PerLength(1.5),
+        rate_deg_per_mm: 1.5,
         least_singular_value: 0.1,
         ..TurnBounds::default()
     };
@@ -140,7 +140,7 @@ fn figure_no_step_is_above_the_rate() {
     for (rate, station_mm) in [(0.06, 50.0), (0.045, 60.0), (0.1, 37.0)] {
         let mut task = task_around(&mechanism, &path, placement);
         task.station_mm = station_mm;
-        task.bounds.rate = TurnRate::PerLength(rate);
+        task.bounds.rate_deg_per_mm = rate;
         let choice = choose_turns(&task).expect("a way");
         let turned = with_turns(&task, &choice).expect("a path");
         let (mut fastest, mut steps, mut axis) = (0.0_f64, 0, Worst::new());
@@ -182,30 +182,4 @@ fn figure_no_step_is_above_the_rate() {
     }
     let name = "free turn: fastest turn along the written path, share of the rate allowed";
     assert!(at_most(name, by_rate.value(), 1.001, "1"), "{by_rate:?}");
-}
-
-/// By time: at twice the feed the tool turns half as far on a millimetre.
-#[test]
-fn a_rate_by_time_counts_the_feed() {
-    let (mechanism, _, placement) = across_a_straight_wrist();
-    for feed in [300, 600] {
-        let text = format!("G21 G90\nG0 X0 Y-200 Z0\nG1 Y-100 F{feed}\nG1 Y100\nG1 Y200\n");
-        let path = super::path_of(&text);
-        let mut task = TurnTask::new(&mechanism, &path, placement);
-        task.station_mm = 10.0;
-        // 5 and 10 mm/s: 8 and 4 deg between stations, in steps of 5.
-        task.bounds.rate = TurnRate::PerTime(4.0);
-        match (feed, choose_turns(&task)) {
-            (300, Ok(choice)) => assert!(choice.largest_rate_deg_per_mm <= 0.8 + 1e-9),
-            (600, Err(error)) => {
-                assert!(
-                    error
-                        .to_string()
-                        .contains("at most 4.0000 deg between two stations"),
-                    "{error}"
-                );
-            }
-            (_, other) => panic!("{other:?}"),
-        }
-    }
 }

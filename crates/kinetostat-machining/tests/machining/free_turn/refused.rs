@@ -2,7 +2,7 @@
 
 use kinetostat::{ActuatorSpec, Chain, Mechanism, MotionKind, Pose};
 use kinetostat_machining::{
-    TipCompliance, TurnCriterion, TurnError, TurnRate, TurnTask, choose_turns, with_turns,
+    TipCompliance, TurnCriterion, TurnError, TurnTask, choose_turns, with_turns,
 };
 use kinetostat_model::Model;
 use nalgebra::{Vector3, vector};
@@ -30,19 +30,10 @@ fn absurd_numbers_are_refused_in_words() {
         (|t| t.band.step_deg = 0.0, "in steps of 0 deg"),
         (|t| t.band.step_deg = f64::NAN, "in steps of NaN deg"),
         (|t| t.band.step_deg = 1e-9, "steps"),
-        (|t| t.bounds.rate = TurnRate::PerLength(0.0), "by 0 deg/mm"),
-        (
-            |t| t.bounds.rate = TurnRate::PerTime(f64::NAN),
-            "by NaN deg/s",
-        ),
-        (
-            |t| t.bounds.rate = TurnRate::PerLength(-1.0),
-            "by -1 deg/mm",
-        ),
-        (
-            |t| t.bounds.rate = TurnRate::PerLength(0.01),
-            "could never turn",
-        ),
+        (|t| t.bounds.rate_deg_per_mm = 0.0, "by 0 deg/mm"),
+        (|t| t.bounds.rate_deg_per_mm = f64::NAN, "by NaN deg/mm"),
+        (|t| t.bounds.rate_deg_per_mm = -1.0, "by -1 deg/mm"),
+        (|t| t.bounds.rate_deg_per_mm = 0.01, "could never turn"),
         (|t| t.bounds.least_singular_value = 0.0, "stay above 0"),
         (|t| t.bounds.limit_margin_deg = f64::NAN, "NaN deg inside"),
         (|t| t.bounds.joint_step_deg = 0.0, "turn by 0 deg"),
@@ -92,11 +83,6 @@ fn paths_without_length_or_feed_are_refused() {
             choose_turns(&TurnTask::new(&mechanism, &path, placement)).expect_err("no length");
         assert!(error.to_string().contains("no length"), "{error}");
     }
-    let path = path_of("G21 G90\nG0 X0 Y0 Z0\nG95 G1 X10 F0.1\n");
-    let mut task = TurnTask::new(&mechanism, &path, placement);
-    task.bounds.rate = TurnRate::PerTime(10.0);
-    let error = choose_turns(&task).expect_err("no time is known");
-    assert!(error.to_string().starts_with("line 3:"), "{error}");
 }
 
 #[test]

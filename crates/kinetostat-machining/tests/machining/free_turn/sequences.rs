@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use kinetostat_machining::internal::{TurnPosture, turn_postures};
 use kinetostat_machining::{
-    TipCompliance, TurnBand, TurnCriterion, TurnCurve, TurnRate, TurnTask, choose_turns,
+    TipCompliance, TurnBand, TurnCriterion, TurnCurve, TurnTask, choose_turns,
 };
 use kinetostat_testing::Worst;
 use kinetostat_testing::figure::at_most;
@@ -129,7 +129,7 @@ fn figure_the_choice_is_the_best_of_all_sequences() {
                 of,
             });
         }
-        task.bounds.rate = TurnRate::PerLength(4.0);
+        task.bounds.rate_deg_per_mm = 4.0;
         task.bounds.joint_step_deg = 60.0;
         task.curve = TurnCurve::Steps;
         // One configuration after the other, so that all sequences can be gone.
@@ -180,7 +180,7 @@ fn postures_are_what_they_say() {
     task.band.step_deg = 30.0;
     let (spans, mut looked) = ([185.0, 70.0, 135.0, 350.0, 125.0, 350.0], 0);
     let middles = [0.0, 5.0, 15.0, 0.0, 0.0, 0.0];
-    task.bounds.rate = TurnRate::PerLength(1.0);
+    task.bounds.rate_deg_per_mm = 1.0;
     for (at, postures) in turn_postures(&task).expect("postures") {
         for posture in postures {
             looked += 1;
@@ -220,7 +220,7 @@ fn a_finer_grid_finds_little_more() {
         "G21 G90 G17\nG0 X0 Y-150 Z0\nG1 X120 Y-150 F900\nG3 X200 Y-70 I0 J80\nG1 Y60\nG3 X120 Y140 I-80 J0\nG1 X0\n",
     );
     let mut task = TurnTask::new(&mechanism, &path, downwards(vector![1.35, 0.1, 0.9], 0.0));
-    task.bounds.rate = TurnRate::PerLength(1.0);
+    task.bounds.rate_deg_per_mm = 1.0;
     task.station_mm = 12.0;
     task.band.step_deg = 6.0;
     let coarse = choose_turns(&task).expect("a way");

@@ -3,7 +3,7 @@
 use kinetostat::number::larger;
 use kinetostat_machining::internal::{TurnPosture, turn_postures};
 use kinetostat_machining::{
-    TurnBand, TurnBounds, TurnChoice, TurnCurve, TurnRate, TurnTask, choose_turns, with_turns,
+    TurnBand, TurnBounds, TurnChoice, TurnCurve, TurnTask, choose_turns, with_turns,
 };
 use kinetostat_testing::figure::at_most;
 
@@ -83,7 +83,7 @@ fn figure_it_costs_no_more_than_a_dense_search() {
     let (mechanism, path, placement) = across_a_straight_wrist();
     let mut task = TurnTask::new(&mechanism, &path, placement);
     task.station_mm = 25.0;
-    task.bounds.rate = TurnRate::PerLength(RATE);
+    task.bounds.rate_deg_per_mm = RATE;
     task.bounds.least_singular_value = 0.05;
     task.band = TurnBand {
         from_deg: -100.0,
@@ -132,7 +132,7 @@ fn it_keeps_what_the_steps_keep() {
         downwards(nalgebra::vector![1.35, 0.1, 0.9], 40.0),
     );
     task.bounds = TurnBounds {
-        rate: TurnRate::PerLength(0.7),
+        rate_deg_per_mm: 0.7,
         limit_margin_deg: 5.0,
         ..TurnBounds::default()
     };
@@ -140,9 +140,7 @@ fn it_keeps_what_the_steps_keep() {
     tasks.push(task);
     let mut uneven = 0;
     for task in tasks {
-        let TurnRate::PerLength(rate) = task.bounds.rate else {
-            panic!("a rate by length");
-        };
+        let rate = task.bounds.rate_deg_per_mm;
         let choice = choose_turns(&task).expect("a way");
         let steps = choice.in_steps.expect("steps");
         assert!(choice.cost <= steps.cost && choice.cost > 0.0);

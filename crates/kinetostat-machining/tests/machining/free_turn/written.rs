@@ -1,6 +1,6 @@
 //! The turns in the moves of the path.
 
-use kinetostat_machining::{TurnRate, TurnTask, choose_turns, with_turns};
+use kinetostat_machining::{TurnTask, choose_turns, with_turns};
 use kinetostat_program::{Knowledge, Path, ToolTurn};
 use kinetostat_testing::Worst;
 use nalgebra::{UnitQuaternion, Vector3, vector};
@@ -15,7 +15,7 @@ fn divided_moves_make_the_same_path() {
     let mechanism = milling_arm("heavy_6r");
     let path = path_of(ROUND);
     let mut task = TurnTask::new(&mechanism, &path, downwards(vector![1.35, 0.0, 0.9], 20.0));
-    task.bounds.rate = TurnRate::PerLength(1.5);
+    task.bounds.rate_deg_per_mm = 1.5;
     // Evenness counts nothing.
     task.criteria.pop();
     let choice = choose_turns(&task).expect("a way");

@@ -142,6 +142,7 @@ impl<'p> Beside<'p> {
 }
 
 /// Singular values of one matrix of a posture, falling, and the motion of the last ones.
+#[derive(Default)]
 struct Measure {
     values: Vec<f64>,
     motions: Vec<Vector6<f64>>,
@@ -304,10 +305,7 @@ impl Posture {
 impl Measure {
     /// By the left singular vectors.
     fn of(matrix: DMatrix<f64>, motion: impl Fn(&DVector<f64>) -> Vector6<f64>) -> Self {
-        let mut own = Self {
-            values: Vec::new(),
-            motions: Vec::new(),
-        };
+        let mut own = Self::default();
         if matrix.is_empty() || matrix.iter().any(|x| !x.is_finite()) {
             return own;
         }

@@ -16,7 +16,7 @@ use crate::spatial::{MotionKind, Pose, Wrench};
 const TANGENT_TOLERANCE: f64 = 1e-5;
 
 /// How a load's tangent compares with differences of its wrenches.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Default)]
 #[non_exhaustive]
 pub struct TangentCheck {
     /// Largest difference as a share of the largest change or wrench; moments are divided by the
@@ -67,11 +67,7 @@ pub fn check_tangents(
     load.add_wrenches(chain, &kinematics, 1.0, &mut list);
     let newtons = |w: &Wrench| w.force().norm().max(w.moment().norm() / length);
     let mut size = list.iter().map(|(_, w)| newtons(w)).fold(0.0_f64, larger);
-    let mut worst = TangentCheck {
-        largest: 0.0,
-        node: 0,
-        coordinate: String::new(),
-    };
+    let mut worst = TangentCheck::default();
     for (i, coordinate) in chain.coordinates().iter().enumerate() {
         let unit = match coordinate.kind {
             MotionKind::Prismatic => length,

@@ -2,16 +2,14 @@
 
 use std::fmt::Write as _;
 
-use crate::measured::quantity::Motion;
-use crate::measured::response::MeasuredResponse;
+use kinetostat_chatter::{MeasuredResponse, Motion};
 
 /// Frequencies that differ from even spacing by less than this share of a step are even.
 const EVEN: f64 = 1e-9;
 
 /// Responses as a universal file, SI units, data sets 164 and 58 (function type 4, complex, double precision).
 ///
-/// [`crate::read_universal`] reads it back to twelve decimals, and so do other programs; evenly spaced frequencies are written as such.
-#[must_use]
+/// `read_universal` reads it back to twelve decimals, and so do other programs; evenly spaced frequencies are written as such.
 pub fn write_universal(responses: &[MeasuredResponse]) -> String {
     let mut text = String::new();
     let _ = writeln!(text, "{:>6}\n{:>6}", -1, 164);
