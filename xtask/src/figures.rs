@@ -601,10 +601,15 @@ pub fn tables(figures: &mut Vec<Figure>, program: &[&str]) -> Result<()> {
     if !output.status.success() {
         bail!("{name} failed: {text}");
     }
+    take_printed(figures, &text)
+}
+
+/// Takes the figures that a program printed, and says what else it printed.
+pub fn take_printed(figures: &mut Vec<Figure>, text: &str) -> Result<()> {
     for line in text.lines().filter(|line| !line.starts_with("figure {")) {
         eprintln!("{line}");
     }
-    figures.append(&mut printed(&text)?);
+    figures.append(&mut printed(text)?);
     Ok(())
 }
 

@@ -14,59 +14,24 @@ fn example(what: &str, package: &str, name: &str, words: &[&str]) -> Result<()> 
     step(what, &mut command)
 }
 
-/// Programs with every code, for a twelfth of the time: they are thousands in a second. One case is
-/// repeated with `cargo run --package kinetostat-program --example fuzz_codes -- case SEED`.
-fn codes(minutes: &str, seed: &str) -> Result<()> {
-    let minutes = (minutes.parse::<f64>()? / 12.0).to_string();
-    example(
-        "fuzz of codes",
-        "kinetostat-program",
-        "fuzz_codes",
-        &[&minutes, seed],
-    )
-}
-
-/// Programs with macros, for a twelfth of the time. One case is repeated with
-/// `cargo run --package kinetostat-program --example fuzz_expand -- case SEED`.
-fn macros(minutes: &str, seed: &str) -> Result<()> {
-    let minutes = (minutes.parse::<f64>()? / 12.0).to_string();
-    example(
-        "fuzz of programs with macros",
-        "kinetostat-program",
-        "fuzz_expand",
-        &[&minutes, seed],
-    )
-}
-
-/// Errors of manufacture in pairs, for a twelfth of the time. One case is repeated with
-/// `cargo run --package kinetostat-model --example fuzz_errors -- case SEED`.
-fn errors_in_pairs(minutes: &str, seed: &str) -> Result<()> {
-    let minutes = (minutes.parse::<f64>()? / 12.0).to_string();
-    example(
-        "fuzz of errors in pairs",
-        "kinetostat-model",
-        "fuzz_errors",
-        &[&minutes, seed],
-    )
-}
-
-/// Robot programs, whole and broken, for a twelfth of the time. One case is repeated with
-/// `cargo run --package kinetostat-formats --example fuzz_rapid -- case SEED` (or `fuzz_krl`).
-fn robot_programs(minutes: &str, seed: &str) -> Result<()> {
-    let minutes = (minutes.parse::<f64>()? / 12.0).to_string();
-    for (what, name) in [
-        ("fuzz of RAPID programs", "fuzz_rapid"),
-        ("fuzz of TP programs", "fuzz_ls"),
-        ("fuzz of APT files", "fuzz_apt"),
-        ("fuzz of KRL programs", "fuzz_krl"),
-        ("fuzz of lists of poses", "fuzz_poses"),
-        ("fuzz of SINUMERIK programs", "fuzz_siemens"),
-        ("fuzz of Heidenhain programs", "fuzz_heidenhain"),
-    ] {
-        example(what, "kinetostat-formats", name, &[&minutes, seed])?;
-    }
-    Ok(())
-}
+/// What is run for a twelfth of the time each, by package and example: these are thousands of cases in a second. One case is
+/// repeated with `cargo run --package kinetostat-program --example fuzz_codes -- case SEED`, and so of the others.
+const QUICK: [(&str, &str, &str); 10] = [
+    ("codes", "kinetostat-program", "fuzz_codes"),
+    ("programs with macros", "kinetostat-program", "fuzz_expand"),
+    ("errors in pairs", "kinetostat-model", "fuzz_errors"),
+    ("RAPID programs", "kinetostat-formats", "fuzz_rapid"),
+    ("TP programs", "kinetostat-formats", "fuzz_ls"),
+    ("APT files", "kinetostat-formats", "fuzz_apt"),
+    ("KRL programs", "kinetostat-formats", "fuzz_krl"),
+    ("lists of poses", "kinetostat-formats", "fuzz_poses"),
+    ("SINUMERIK programs", "kinetostat-formats", "fuzz_siemens"),
+    (
+        "Heidenhain programs",
+        "kinetostat-formats",
+        "fuzz_heidenhain",
+    ),
+];
 
 /// `--minutes M` (10 if not given), `--seed N` (1), or `--case N` to repeat one.
 pub fn run(options: &[&str]) -> Result<()> {
@@ -89,12 +54,12 @@ pub fn run(options: &[&str]) -> Result<()> {
     if let Some(case) = case {
         return chains(&["case", case]);
     }
-    codes(minutes, seed)?;
-    macros(minutes, seed)?;
-    errors_in_pairs(minutes, seed)?;
-    robot_programs(minutes, seed)?;
-    // Programs are many more cases in a minute: a sixth of the time does.
     let time: f64 = minutes.parse()?;
+    let twelfth = (time / 12.0).to_string();
+    for (what, package, name) in QUICK {
+        example(&format!("fuzz of {what}"), package, name, &[&twelfth, seed])?;
+    }
+    // Programs are many more cases in a minute: a sixth of the time does.
     maps(&[&(time / 6.0).to_string(), seed])?;
     chains(&[&(time * 5.0 / 6.0).to_string(), seed])?;
     absurd_units()?;

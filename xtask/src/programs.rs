@@ -6,7 +6,7 @@ use std::process::{Command, Stdio};
 use anyhow::{Context, Result, bail};
 use serde_json::Value;
 
-use crate::figures::{Figure, Scratch, golden, measure, printed, tables};
+use crate::figures::{Figure, Scratch, golden, measure, tables, take_printed};
 use crate::root;
 
 /// Those of the tests, of LinuxCNC's interpreter, of the demonstration's groove, and the speed of every language.
@@ -32,10 +32,7 @@ fn linuxcnc(figures: &mut Vec<Figure>) -> Result<()> {
         .output()
         .with_context(|| format!("cannot run {script}"))?;
     let text = String::from_utf8_lossy(&output.stdout);
-    for line in text.lines().filter(|line| !line.starts_with("figure {")) {
-        eprintln!("{line}");
-    }
-    figures.append(&mut printed(&text)?);
+    take_printed(figures, &text)?;
     if !output.status.success() {
         figures.push(Figure::yes(format!("{script} finds no difference"), false));
     }

@@ -8,7 +8,7 @@ use anyhow::{Context, Result, bail};
 use super::environment::{Environment, folder};
 use super::interpreter::ends;
 use super::wheel;
-use crate::figures::{Figure, printed, tables};
+use crate::figures::{Figure, tables, take_printed};
 use crate::{cargo, root, step};
 
 /// Measures them; says why where Python or the package index is missing.
@@ -82,11 +82,7 @@ fn script(
             String::from_utf8_lossy(&output.stderr)
         );
     }
-    for line in text.lines().filter(|line| !line.starts_with("figure {")) {
-        eprintln!("{line}");
-    }
-    figures.append(&mut printed(&text)?);
-    Ok(())
+    take_printed(figures, &text)
 }
 
 fn left_out(why: &str) -> Result<()> {
