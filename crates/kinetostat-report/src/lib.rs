@@ -1,15 +1,15 @@
 //! The report of a run as one self-contained HTML file, or as a PDF to be signed.
 //!
 //! [`html`] turns a [`RunResult`] into a page that opens from disk without any network, prints on A4
-//! and can be filed with the part. [`plot_preview_svg`] draws the same run as one small picture.
-//! Both are pure functions: the same result gives the same bytes, and nothing is read or written.
+//! and can be filed with the part.
+//! It is a pure function: the same result gives the same bytes, and nothing is read or written.
 //!
 //! # How it is made
 //!
 //! - `run`: what a report of a run shows. `meaning` says in plain words what the run means; `facts` collects figures,
 //!   tables and what was requested; `along` draws what changes along the path, `plan` the path itself with
 //!   the deviation
-//!   magnified, `preview` the stand-alone picture; `page` fills the template (minijinja with automatic escaping).
+//!   magnified; `page` fills the template (minijinja with automatic escaping).
 //! - `chart`: `plot` draws curves over any two quantities, `section` a quantity over a plane, `panel` values over the
 //!   length of a path. They share `axis`, `outline`, `label` and `title`.
 //! - `drawing`: a machine in space, as lines on paper.
@@ -48,8 +48,8 @@ mod vibration;
 use kinetostat_chatter::LobeDiagram;
 use kinetostat_machining::{ChatterResult, CuttingResult, Run, RunResult, TurnChoice};
 
+use run::page;
 use run::shown::Shown;
-use run::{page, preview};
 
 pub use chart::bars::{Bar, Bars};
 pub use chart::plot::{Plot, PlotLine, PlotMark};
@@ -113,16 +113,6 @@ pub fn html_of_run_and_turns(
 #[must_use]
 pub fn engagement_svg(cutting: &CuttingResult, map: Option<&Section>, title: &str) -> String {
     run::engagement::draw(cutting, map, title)
-}
-
-/// One picture of the run, 900 by 420, for a README or a slide: the path from above with the deviation
-/// magnified, and the error before and after compensation along the path.
-///
-/// It is a complete SVG document with its own style; it has its own background and looks right on
-/// light and on dark pages.
-#[must_use]
-pub fn plot_preview_svg(result: &RunResult) -> String {
-    preview::draw(&Shown::of_result(result))
 }
 
 /// The turns of a round tool about its own axis that were chosen along a path, as one picture, 760 by 560: every turn of the band over the

@@ -227,8 +227,6 @@ pub(crate) struct Panel {
     pub(crate) title: String,
     pub(crate) y_label: String,
     pub(crate) span: Span,
-    /// Ticks of the vertical axis; round ones if none are given.
-    pub(crate) ticks: Option<Vec<Tick>>,
     /// Below the lines.
     pub(crate) areas: Vec<Area>,
     pub(crate) series: Vec<Series>,
@@ -244,16 +242,8 @@ impl Panel {
 
     /// Room left of the frame for the label and the ticks of the vertical axis.
     pub(crate) fn gutter(&self, height: f64) -> f64 {
-        let computed;
-        let ticks = match &self.ticks {
-            Some(ticks) => ticks,
-            None => {
-                computed = self.ticks(height);
-                &computed
-            }
-        };
+        let ticks = self.ticks(height).into_iter();
         let widest = ticks
-            .iter()
             .map(|tick| text::width(&tick.label, TEXT_SIZE))
             .fold(0.0, f64::max);
         widest + 32.0
@@ -294,15 +284,7 @@ impl Panel {
             0.0,
         );
         svg.path("rapids", &bands(along, &x, &frame));
-        let computed;
-        let y_ticks = match &self.ticks {
-            Some(ticks) => ticks,
-            None => {
-                computed = self.ticks(frame.height);
-                &computed
-            }
-        };
-        for tick in y_ticks {
+        for tick in self.ticks(frame.height) {
             let at = y.at(tick.value);
             svg.line("grid", (frame.x, at), (frame.right(), at));
             svg.text("tick", (frame.x - 7.0, at + 4.2), Anchor::End, &tick.label);

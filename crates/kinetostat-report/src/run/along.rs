@@ -59,7 +59,6 @@ pub(crate) fn stiffness(result: &Shown<'_>, sheet: Sheet) -> String {
             ),
             y_label: "stiffness, N/mm".to_owned(),
             span: span.with_near_zero().widened().padded(0.08, 0.08),
-            ticks: None,
             areas: Vec::new(),
             series: vec![Series {
                 class: "line strong",
@@ -83,7 +82,6 @@ pub(crate) fn stiffness(result: &Shown<'_>, sheet: Sheet) -> String {
             title: format!("Share of the way to buckling: at most {most}"),
             y_label: "share, %".to_owned(),
             span: span.widened().padded(0.08, 0.24),
-            ticks: None,
             areas: Vec::new(),
             series: vec![Series {
                 class: "line strong",
@@ -177,7 +175,6 @@ fn before_panel(result: &Shown<'_>, along: &Along, sheet: Sheet) -> Option<Panel
         }
         .widened()
         .padded(0.0, 0.2),
-        ticks: None,
         areas,
         series: vec![Series {
             class: "line before",
@@ -222,7 +219,6 @@ fn after_panel(result: &Shown<'_>, along: &Along) -> Option<Panel> {
         title: format!("With compensation: at most {most} off"),
         y_label: format!("distance, {unit}"),
         span: span.padded(0.0, 0.22),
-        ticks: None,
         areas: Vec::new(),
         series: vec![Series {
             class: "line after",
@@ -273,7 +269,6 @@ fn actuator_panel(
         title: format!("{name}: {word} up to {most}"),
         y_label: text::shorten(unit, 8),
         span: span.with_near_zero().widened(),
-        ticks: None,
         areas: Vec::new(),
         series: vec![Series {
             class: if word == "correction" {

@@ -225,7 +225,6 @@ fn panel(title: String, y_label: &str, series: Vec<Series>) -> Option<Panel> {
         title,
         y_label: y_label.to_owned(),
         span: span.including(0.0).widened(),
-        ticks: None,
         areas: Vec::new(),
         series,
         limits: Vec::new(),

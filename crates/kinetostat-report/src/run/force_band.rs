@@ -34,7 +34,6 @@ pub(crate) fn panel(result: &Shown<'_>, along: &Along) -> Option<Panel> {
         ),
         y_label: format!("distance, {unit}"),
         span: span.widened().padded(0.0, 0.2),
-        ticks: None,
         areas: vec![area(result, along, factor, ends)],
         series: vec![Series {
             class: "line after",

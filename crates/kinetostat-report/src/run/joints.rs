@@ -59,7 +59,6 @@ fn panel(
         title,
         y_label: unit,
         span: with_limits.widened().padded(0.1, 0.1),
-        ticks: None,
         areas: Vec::new(),
         series: vec![Series {
             class: "line strong",

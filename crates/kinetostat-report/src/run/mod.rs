@@ -14,6 +14,5 @@ pub(crate) mod joints;
 pub(crate) mod meaning;
 pub(crate) mod page;
 pub(crate) mod plan;
-pub(crate) mod preview;
 pub(crate) mod shown;
 pub(crate) mod uncertainty;

@@ -89,14 +89,6 @@ pub(crate) fn views(result: &Shown<'_>, sheet: Sheet) -> String {
     )
 }
 
-/// The view from above alone, in a given frame.
-pub(crate) fn view_from_above(svg: &mut Svg, result: &Shown<'_>, frame: Frame, title: &str) {
-    let magnification = magnification(result);
-    if let Some(extent) = Extent::of(result, ABOVE, magnification) {
-        draw(svg, result, &extent, frame, magnification, title);
-    }
-}
-
 /// What a view has to show.
 struct Extent {
     view: View,
