@@ -44,6 +44,12 @@ impl ProgramError {
         }
     }
 
+    /// A name that is declared twice; `others`: what to give alone.
+    pub(crate) fn twice(file: &SourceFile, span: Range<usize>, others: &str) -> Self {
+        let remedy = format!("give the {others} that run together only, or rename one");
+        Self::at(file, span, "the name is declared twice", remedy)
+    }
+
     /// That a file is larger than so many bytes, if it is.
     pub(crate) fn too_large(file: &SourceFile, most_bytes: usize) -> Option<Self> {
         let reason = || format!("the file is larger than {} MiB", most_bytes >> 20);

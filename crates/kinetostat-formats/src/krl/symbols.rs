@@ -248,10 +248,5 @@ impl<'p> Symbols<'p> {
 
 fn twice(file: &TokenFile<'_>, name_at: usize) -> ProgramError {
     let span = file.span(&(name_at..name_at + 1));
-    ProgramError::at(
-        file.source,
-        span,
-        "the name is declared twice",
-        "give the files that run together only, or rename one",
-    )
+    ProgramError::twice(file.source, span, "files")
 }

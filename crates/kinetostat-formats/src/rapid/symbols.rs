@@ -217,10 +217,5 @@ fn loop_variables(file: &TokenFile<'_>, block: &[Statement], locals: &mut BTreeM
 
 fn twice(file: &TokenFile<'_>, name_at: usize) -> ProgramError {
     let span = file.span(&(name_at..name_at + 1));
-    ProgramError::at(
-        file.source,
-        span,
-        "the name is declared twice",
-        "give the modules that run together only, or rename one",
-    )
+    ProgramError::twice(file.source, span, "modules")
 }

@@ -33,12 +33,16 @@ impl Runner<'_> {
         self.open(frame)
     }
 
+    /// File and line of what a source has: the file that runs, the program, the others.
+    fn in_sources(&self, line: impl Fn(&Source) -> Option<&usize>) -> Option<(usize, usize)> {
+        let files = [self.frame().file, 0].into_iter();
+        let mut files = files.chain(0..self.sources.len());
+        files.find_map(|file| Some((file, *line(&self.sources[file])?)))
+    }
+
     /// Where a subprogram is: in the file that runs, in the program, in a file of its own.
     pub fn find_sub(&mut self, label: &Label) -> Result<(usize, usize), ProgramError> {
-        let known = [self.frame().file, 0].into_iter();
-        let known = known.chain(0..self.sources.len());
-        let sub = |file: usize| Some((file, *self.sources[file].subs.get(label)?));
-        if let Some(found) = known.into_iter().find_map(sub) {
+        if let Some(found) = self.in_sources(|source| source.subs.get(label)) {
             return Ok(found);
         }
         let name = match label {
@@ -172,11 +176,7 @@ impl Runner<'_> {
     }
 
     pub fn find_program(&mut self, number: u32) -> Result<(usize, usize), ProgramError> {
-        let known = [self.frame().file, 0]
-            .into_iter()
-            .chain(0..self.sources.len());
-        let of = |file: usize| Some((file, *self.sources[file].programs.get(&number)?));
-        if let Some(found) = known.into_iter().find_map(of) {
+        if let Some(found) = self.in_sources(|source| source.programs.get(&number)) {
             return Ok(found);
         }
         for name in [
