@@ -56,11 +56,13 @@ class Shapes:
     """Upper bound (95 %) of the chance that one more start would find another."""
     settled: bool
     """The search ended because it found nothing new for long, not because it was stopped."""
+    incomplete: bool
+    """There certainly are more: the energy has a minimum, and none of those found is one."""
     answer: dict[str, Any]
     """What the command prints, with its units in the names."""
 
     def __repr__(self) -> str:
-        end = "settled" if self.settled else "NOT settled"
+        end = "INCOMPLETE" if self.incomplete else "settled" if self.settled else "NOT settled"
         return f"<Shapes: {len(self.energy)} equilibria, {int(self.stable.sum())} stable; search {end}>"
 
 
@@ -144,5 +146,6 @@ def shapes(
         names=tuple(name["name"] for name in names),
         chance_of_more=answer["coverage"]["chance_of_more_at_most"],
         settled=answer["coverage"]["settled"],
+        incomplete=answer["coverage"]["incomplete"],
         answer=answer,
     )

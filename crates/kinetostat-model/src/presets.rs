@@ -90,6 +90,16 @@ const PRESETS: &[Preset] = &[
         "Three rigid links with springy joints, at rest in a Z: buckles at a pitchfork"
     ),
     preset!(
+        Teaching,
+        "two_chains",
+        "Two chains of three links carry one tool, straight at rest: figure 5.2 of the report"
+    ),
+    preset!(
+        Teaching,
+        "two_chains_pressed",
+        "The two chains pressed by 150 mm each: 16 shapes with the tool held, four stable"
+    ),
+    preset!(
         Parallel,
         "puu3",
         "3-PUU: three sliders with struts and universal joints, moves without turning"

@@ -4,7 +4,7 @@ use rayon::prelude::*;
 
 use crate::chapter_3::{passive_joints, stewart_gough};
 use crate::chapter_4::{two_link_matrices, two_links};
-use crate::chapter_5::{elastic_figures, three_link_figures, three_links, toggle};
+use crate::chapter_5::{elastic_figures, three_link_figures, three_links, toggle, two_chains};
 use crate::{Cause, Contents, Entry, ReproduceError, chapter_2, orthoglide};
 
 /// How an entry is computed.
@@ -122,6 +122,11 @@ const ENTRIES: &[(&str, &str, Compute)] = &[
         "fig-4.5",
         "Two elastic links: all shapes",
         elastic_figures::fig_4_5,
+    ),
+    (
+        "fig-5.2",
+        "Two chains of three links with one tool: stable and unstable shapes",
+        two_chains::fig_5_2,
     ),
     (
         "eq-5.32",

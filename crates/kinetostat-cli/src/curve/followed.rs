@@ -137,12 +137,14 @@ impl<E: CurveEquilibrium> Followed<E> {
                         "a branch that crosses at {at} could not be followed: its first step did not converge, and its shapes are missing here"
                     ),
                 )),
-                (_, SpecialKind::StabilityChange) => Some(Warning::new(
-                    WarningCode::MoreBranches,
-                    format!(
-                        "the branch that leaves at {at} is not followed: a limb or a platform moves there while the tool stands still, and the curve of a machine has only the motions of its tool and the load as unknowns. `kinetostat equilibria` searches for its shapes"
-                    ),
-                )),
+                (_, SpecialKind::StabilityChange) if special.branches.len() < 2 => {
+                    Some(Warning::new(
+                        WarningCode::MoreBranches,
+                        format!(
+                            "no branch was found that leaves at {at}, where a limb or a platform loses its stability while the tool stands still. `kinetostat equilibria` searches for its shapes"
+                        ),
+                    ))
+                }
                 _ => None,
             }
         });

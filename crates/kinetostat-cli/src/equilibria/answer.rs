@@ -77,6 +77,26 @@ pub(crate) struct Coverage {
     pub(crate) chance_of_more_at_most: f64,
     #[serde(rename = "settled")]
     pub(crate) exhausted: bool,
+    /// There certainly are more: the energy has a minimum, and none of those found is one.
+    pub(crate) incomplete: bool,
+    /// Equilibria known; more than are listed where there are too many combinations of the limbs' shapes.
+    pub(crate) known: usize,
+    pub(crate) known_stable: usize,
+    /// Of a machine whose tool is held: every combination of its limbs' shapes is an equilibrium.
+    pub(crate) limbs: Vec<LimbCoverage>,
+}
+
+/// Shapes of one limb with the tool held.
+#[derive(Serialize)]
+pub(crate) struct LimbCoverage {
+    pub(crate) name: String,
+    pub(crate) shapes: usize,
+    pub(crate) stable: usize,
+    pub(crate) starts: usize,
+    pub(crate) fruitless: usize,
+    pub(crate) chance_of_more_at_most: f64,
+    #[serde(rename = "settled")]
+    pub(crate) exhausted: bool,
 }
 
 /// Energies below are rounding, J: less than what warmth gives a molecule.

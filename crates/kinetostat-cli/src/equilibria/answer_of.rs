@@ -3,13 +3,13 @@
 use kinetostat::{
     CartesianStiffness, DirectionKind,
     continuation::CurveEquilibrium,
-    equilibrium::{Equilibria, FoundEquilibrium},
+    equilibrium::{Equilibria, FoundEquilibrium, LimbShapes},
 };
 use kinetostat_machining::{Warning, large_load};
 use nalgebra::{Matrix6, Vector3};
 
 use crate::end_condition::subject::Subject;
-use crate::equilibria::answer::{Coverage, EquilibriaAnswer, ShapeAnswer};
+use crate::equilibria::answer::{Coverage, EquilibriaAnswer, LimbCoverage, ShapeAnswer};
 use crate::equilibria::query::EquilibriaQuery;
 use crate::place::query::AnswerHead;
 
@@ -37,6 +37,10 @@ pub(crate) fn answer_of<S: Subject>(
             chance_of_more: all.chance_of_more,
             chance_of_more_at_most: all.chance_of_more_at_most,
             exhausted: all.exhausted,
+            incomplete: all.incomplete,
+            known: all.count(),
+            known_stable: all.stable_count(),
+            limbs: all.limbs.iter().map(limb_coverage).collect(),
         },
         conservative: found().all(CurveEquilibrium::conservative),
         warnings,
@@ -49,6 +53,18 @@ fn along(stiffness: &Matrix6<f64>, d: &Vector3<f64>) -> f64 {
     let parts = (0..3).flat_map(|i| (0..3).map(move |j| (i, j)));
     let parts = parts.filter(|&(i, j)| d[i] != 0.0 && d[j] != 0.0);
     parts.map(|(i, j)| d[i] * stiffness[(i, j)] * d[j]).sum()
+}
+
+fn limb_coverage(own: &LimbShapes) -> LimbCoverage {
+    LimbCoverage {
+        name: own.name.clone(),
+        shapes: own.shapes,
+        stable: own.stable,
+        starts: own.starts,
+        fruitless: own.fruitless,
+        chance_of_more_at_most: own.chance_of_more_at_most,
+        exhausted: own.exhausted,
+    }
 }
 
 fn shape<S: Subject>(

@@ -3,7 +3,7 @@
 use nalgebra::Vector3;
 
 use crate::end_condition::holding::Holding;
-use crate::equilibria::answer::{EquilibriaAnswer, ShapeAnswer};
+use crate::equilibria::answer::{Coverage, EquilibriaAnswer, ShapeAnswer};
 use crate::equilibria::query::MOST_KNOWN;
 use crate::ui::layout::{WIDTH, columns, item, wrapped};
 use crate::ui::numbers::{fixed, number};
@@ -24,9 +24,13 @@ pub(crate) fn answer_text(heading: &str, a: &EquilibriaAnswer) -> String {
         out.push('\n');
         out.push_str(&joints(a));
         if a.equilibria.len() > MOST_SHOWN {
+            let listed = match a.coverage.known > a.equilibria.len() {
+                true => format!("the first {} of them", a.equilibria.len() - MOST_SHOWN),
+                false => "them".to_owned(),
+            };
             out.push_str(&format!(
-                "  and {} more of higher energy; JSON and CSV have them\n",
-                a.equilibria.len() - MOST_SHOWN
+                "  and {} more of higher energy; JSON and CSV have {listed}\n",
+                a.coverage.known - MOST_SHOWN
             ));
         }
         out.push_str(&modes(a));
@@ -48,8 +52,8 @@ fn result_text(a: &EquilibriaAnswer) -> String {
 }
 
 fn found(a: &EquilibriaAnswer) -> String {
-    let stable = a.equilibria.iter().filter(|e| e.stable).count();
-    match a.equilibria.len() {
+    let stable = a.coverage.known_stable;
+    let mut text = match a.coverage.known {
         0 => none_found(&a.tool_held),
         1 if a.equilibria[0].singular => "One equilibrium, and it is degenerate: at a limit or bifurcation point, or one of a family that moves for nothing.".into(),
         1 if stable == 1 => "One equilibrium, and it is stable.".into(),
@@ -65,7 +69,13 @@ fn found(a: &EquilibriaAnswer) -> String {
             };
             format!("{n} equilibria; {of}.")
         }
+    };
+    if a.coverage.incomplete {
+        text.push_str(
+            " The list is INCOMPLETE: the energy has a minimum, and the stable shape there is missing. Search on with more --starts and --fruitless.",
+        );
     }
+    text
 }
 
 /// What may be why, by what holds the tool and by what acts on it.
@@ -211,6 +221,23 @@ fn modes(a: &EquilibriaAnswer) -> String {
     }
 }
 
+/// What the starts say of equilibria that were not found. An estimate of zero is never printed: few starts know little.
+fn chance(c: &Coverage) -> String {
+    let at_most = number(100.0 * c.chance_of_more_at_most, 2);
+    let so_far = match c.chance_of_more > 0.0 {
+        true => format!(
+            "about {} % of further such starts would end at a new one, with 95 % confidence at most {at_most} %",
+            number(100.0 * c.chance_of_more, 2)
+        ),
+        false => format!(
+            "with 95 % confidence at most {at_most} % of further such starts would end at a new one"
+        ),
+    };
+    format!(
+        "{so_far}. This counts starts, not equilibria: one that few starts lead to may be missing"
+    )
+}
+
 fn completeness(a: &EquilibriaAnswer) -> Vec<String> {
     let c = &a.coverage;
     let mut list = Vec::new();
@@ -221,15 +248,27 @@ fn completeness(a: &EquilibriaAnswer) -> Vec<String> {
         .min()
         .unwrap_or(0);
     let machine = a.tool_held.subject == "machine";
-    let spread = match machine {
+    let limbs = !c.limbs.is_empty();
+    let spread = match machine && !limbs {
         true => {
             "from places and orientations of the tool spread around the commanded one (and beyond singular postures nearby), every second one with turned joints"
         }
         false => "evenly spread over all joint angles within 180 deg",
     };
+    if limbs {
+        let counts: Vec<String> = (c.limbs.iter())
+            .map(|own| format!("{} of '{}' ({} stable)", own.shapes, own.name, own.stable))
+            .collect();
+        list.push(format!(
+            "with the tool held the limbs do not feel each other, and every combination of their shapes is an equilibrium: {}",
+            counts.join(", ")
+        ));
+    }
     let mut text = format!(
-        "{} starts, {spread}: {} ended at an equilibrium",
-        c.starts, c.ended_within_bounds
+        "{} starts{}, {spread}: {} ended at an equilibrium",
+        c.starts,
+        if limbs { " of the limbs" } else { "" },
+        c.ended_within_bounds
     );
     if c.ended_outside_bounds > 0 {
         text.push_str(&format!(
@@ -260,12 +299,8 @@ fn completeness(a: &EquilibriaAnswer) -> Vec<String> {
         "the search ended before it was complete: --starts N and --fruitless N let it go on"
             .to_owned()
     });
-    if !a.equilibria.is_empty() {
-        list.push(format!(
-            "the next such start would find a new one with a chance of {} %, and with 95 % confidence of at most {} %",
-            number(100.0 * c.chance_of_more, 2),
-            number(100.0 * c.chance_of_more_at_most, 2)
-        ));
+    if !a.equilibria.is_empty() && !c.incomplete {
+        list.push(chance(c));
     }
     if machine && !a.tool_held.free.is_empty() {
         list.push(

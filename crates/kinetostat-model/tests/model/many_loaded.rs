@@ -22,10 +22,12 @@ fn length(mechanism: &Mechanism) -> f64 {
 
 /// Machines that cannot follow shifts along all three axes: of these no posture is found, and nothing is
 /// compared.
-pub const OUT_OF_REACH: [&str; 8] = [
+pub const OUT_OF_REACH: [&str; 10] = [
     "two_link",
     "three_link_s",
     "three_link_z",
+    "two_chains",
+    "two_chains_pressed",
     "rrr3_planar",
     "prs3",
     "parallel_wrist",

@@ -4,3 +4,4 @@ pub(crate) mod elastic_figures;
 pub(crate) mod three_link_figures;
 pub(crate) mod three_links;
 pub(crate) mod toggle;
+pub(crate) mod two_chains;

@@ -659,3 +659,35 @@ fn the_toggle_frame_of_5_45() {
         holds(&e, &format!("stiffness at rest, {at}"), row[4]);
     }
 }
+
+/// Two chains with one tool: energies by bisection on the condition of equilibrium of each chain, over the angle of its
+/// first link, by hand.
+#[test]
+fn two_chains_with_one_tool_have_sixteen_shapes() {
+    let e = entry("fig-5.2");
+    let (first, second) = (
+        [0.345088007019, 1.071449040000],
+        [0.260292009868, 0.786737136213],
+    );
+    for (name, value) in [
+        ("equilibria", 16.0),
+        ("stable", 4.0),
+        ("both chains stable: energy", first[0] + second[0]),
+        ("both chains stable: shapes", 4.0),
+        ("first chain unstable: energy", first[1] + second[0]),
+        ("second chain unstable: energy", first[0] + second[1]),
+        ("both chains unstable: energy", first[1] + second[1]),
+        ("both chains unstable: shapes", 4.0),
+        (
+            "straight at rest, tool 100 mm between the feet: equilibria",
+            16.0,
+        ),
+        (
+            "straight at rest, tool 100 mm between the feet: stable",
+            4.0,
+        ),
+    ] {
+        let found = computed(&e, name);
+        assert!((found - value).abs() < 1e-9, "{name}: {found}");
+    }
+}

@@ -18,6 +18,7 @@ const ASKED: [&str; 29] = [
     "fig-4.3",
     "fig-4.4",
     "fig-4.5",
+    "fig-5.2",
     "table-4.1",
     "table-4.2",
     "table-5.1",

@@ -14,13 +14,15 @@ use serde::{Deserialize, Serialize};
 use crate::chain::equilibrium::Equilibrium;
 use crate::chain::found_by::FoundBy;
 use crate::chain::potential::load_energy;
-use crate::chain::problem::ChainProblem;
+use crate::chain::problem::{ChainProblem, Prescribed};
 use crate::equilibrium::bounds::Bounds;
 use crate::equilibrium::chain_search::{ChainSearch, Known};
 use crate::equilibrium::found::{Equilibria, FoundEquilibrium};
 use crate::equilibrium::search::{Entry, Limits, search};
 use crate::error::Result;
+use crate::model::chain::{Chain, Coordinate, Role};
 use crate::settings::Settings;
+use crate::spatial::MotionKind;
 
 /// How long to search.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -97,7 +99,16 @@ pub fn equilibria(
     };
     let (known, coverage) = search(&mut system, &limits);
     let found = known.into_iter().map(|entry| of_entry(problem, entry));
-    Ok(Equilibria::of(found.collect(), &coverage))
+    let (loads, wrench) = (&problem.loads, &problem.end.wrench);
+    let held = problem.end.prescribed == [Prescribed::Pose; 6] || wrench.0.amax() == 0.0;
+    let has_minimum = held && (loads.is_empty() || !has_passive_slide(problem.chain));
+    Ok(Equilibria::of(found.collect(), &coverage, has_minimum))
+}
+
+/// True if a passive joint slides: along it, loads may lower the energy without end.
+pub(crate) fn has_passive_slide(chain: &Chain) -> bool {
+    let slides = |c: &Coordinate| c.role == Role::Passive && c.kind == MotionKind::Prismatic;
+    chain.coordinates().iter().any(slides)
 }
 
 fn of_entry(problem: &ChainProblem<'_>, entry: Entry<Known>) -> FoundEquilibrium {

@@ -3,7 +3,9 @@
 use crate::chain::found_by::FoundBy;
 use crate::chain::problem::EndCondition;
 use crate::continuation::machine::tool_conditions::ToolConditions;
+use crate::equilibrium::all_of_chain::{SearchSettings, has_passive_slide};
 use crate::equilibrium::found::{Equilibria, FoundEquilibrium};
+use crate::equilibrium::held_machine::{held_equilibria, is_decoupled};
 use crate::equilibrium::machine_search::{Known, MachineSearch};
 use crate::equilibrium::search::{Entry, Limits, search};
 use crate::error::Result;
@@ -34,11 +36,26 @@ impl Default for SpreadSettings {
     }
 }
 
+/// Starts of one limb per start of a whole machine: they cost less.
+const LIMB_STARTS: usize = 4;
+
+impl SpreadSettings {
+    /// For limbs that are searched one by one.
+    fn of_limbs(self) -> SearchSettings {
+        SearchSettings::default()
+            .with_starts(LIMB_STARTS * self.starts)
+            .with_fruitless(LIMB_STARTS * self.fruitless)
+    }
+}
+
 impl Posture {
     /// Equilibria of the machine as it is commanded: the tool held at `end.pose` in the directions
     /// whose pose is prescribed, under the dead wrench `end.wrench` in the others.
     ///
-    /// The tool is held at places spread evenly and let go down the potential, and Newton is started
+    /// With the tool held in all directions and limbs from the base to the tool, limbs do not feel each other: every
+    /// combination of their own shapes ([`Equilibria::limbs`]) is an equilibrium, found as
+    /// [`equilibria`](crate::equilibria) finds those of a chain. Otherwise
+    /// the tool is held at places spread evenly and let go down the potential, and Newton is started
     /// with joints turned; from the commanded place and from every equilibrium found the tool is driven
     /// along each of its free motions, and every place where that takes no force is looked at; from
     /// unstable ones it is pushed along the motions in which they go away. Those with a slide turned inside out are not
@@ -73,7 +90,14 @@ impl Posture {
         end: &EndCondition,
         settings: &SpreadSettings,
     ) -> Result<Equilibria<MechanismEquilibrium>> {
-        let mut system = MachineSearch::new(ToolConditions::at_displacement(self, end)?);
+        let conditions = ToolConditions::at_displacement(self, end)?;
+        if is_decoupled(&conditions) {
+            return held_equilibria(
+                &conditions,
+                &settings.of_limbs().with_solver(*self.settings()),
+            );
+        }
+        let mut system = MachineSearch::new(conditions);
         let limits = Limits {
             fruitless: settings.fruitless,
             starts: settings.starts,
@@ -81,7 +105,13 @@ impl Posture {
         };
         let (known, coverage) = search(&mut system, &limits);
         let found = known.into_iter().map(of_entry);
-        Ok(Equilibria::of(found.collect(), &coverage))
+        let mechanism = &self.mechanism;
+        let mut limbs = mechanism.limbs().iter();
+        // Weights and loads may lower the energy without end along a passive slide.
+        let has_minimum = end.wrench.0.amax() == 0.0
+            && limbs.all(|limb| !has_passive_slide(&limb.actual))
+            && self.others.is_empty();
+        Ok(Equilibria::of(found.collect(), &coverage, has_minimum))
     }
 }
 

@@ -50,21 +50,99 @@ pub struct Equilibria<E: CurveEquilibrium = Equilibrium> {
     /// True if the search ended because nothing new was found, not because starts ran out or the
     /// largest number was reached.
     pub exhausted: bool,
+    /// Shapes of each limb of a machine whose tool is held: every combination of them is an equilibrium. Empty for
+    /// chains, and for machines whose limbs are searched together.
+    pub limbs: Vec<LimbShapes>,
+    /// True if there certainly are more: the energy has a minimum, and none of those found is one.
+    pub incomplete: bool,
+}
+
+/// Shapes of one limb of a machine whose tool is held, and how sure it is that there are no more.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub struct LimbShapes {
+    /// Name of the limb, as in the model.
+    pub name: String,
+    /// Shapes that were found.
+    pub shapes: usize,
+    /// Those of them that keep their place.
+    pub stable: usize,
+    /// Evenly spread starts made.
+    pub starts: usize,
+    /// Starts since the last new shape.
+    pub fruitless: usize,
+    /// Upper end (95 %) of the chance that one more successful start finds a new one.
+    pub chance_of_more_at_most: f64,
+    /// True if the search ended because nothing new was found.
+    pub exhausted: bool,
+}
+
+impl LimbShapes {
+    pub(crate) fn of(name: &str, own: &Equilibria) -> Self {
+        Self {
+            name: name.to_owned(),
+            shapes: own.found.len(),
+            stable: own.found.iter().filter(|shape| shape.stable).count(),
+            starts: own.starts,
+            fruitless: own.fruitless,
+            chance_of_more_at_most: own.chance_of_more_at_most,
+            exhausted: own.exhausted,
+        }
+    }
 }
 
 impl<E: CurveEquilibrium> Equilibria<E> {
     /// By rising energy.
-    pub(crate) fn of(mut found: Vec<FoundEquilibrium<E>>, coverage: &Coverage) -> Self {
+    /// `has_minimum`: the conditions give the energy a minimum, if all loads have a potential.
+    pub(crate) fn of(
+        mut found: Vec<FoundEquilibrium<E>>,
+        coverage: &Coverage,
+        has_minimum: bool,
+    ) -> Self {
         found.sort_by(|a, b| a.energy().total_cmp(&b.energy()));
+        let none_stays = !found.is_empty()
+            && (found.iter()).all(|f| !f.stable && !f.singular && f.potential.is_some());
+        let incomplete = has_minimum && none_stays;
+        let (chance, at_most) = match incomplete {
+            true => (1.0, 1.0),
+            false => coverage.chance_of_more,
+        };
         Self {
             found,
             starts: coverage.starts,
             hits: coverage.hits,
             outside: coverage.outside,
             fruitless: coverage.fruitless,
-            chance_of_more: coverage.chance_of_more.0,
-            chance_of_more_at_most: coverage.chance_of_more.1,
+            chance_of_more: chance,
+            chance_of_more_at_most: at_most,
             exhausted: coverage.exhausted,
+            limbs: Vec::new(),
+            incomplete,
+        }
+    }
+
+    /// Number of equilibria that are known, those included that are not listed because there are too many.
+    #[must_use]
+    pub fn count(&self) -> usize {
+        self.of_limbs(|limb| limb.shapes, self.found.len())
+    }
+
+    /// Number of those that are stable.
+    #[must_use]
+    pub fn stable_count(&self) -> usize {
+        let listed = self.found.iter().filter(|f| f.stable).count();
+        self.of_limbs(|limb| limb.stable, listed)
+    }
+
+    /// A number of the product of the limbs' shapes, if it is not listed in full.
+    fn of_limbs(&self, number: impl Fn(&LimbShapes) -> usize, listed: usize) -> usize {
+        let of = |number: &dyn Fn(&LimbShapes) -> usize| {
+            let numbers = self.limbs.iter().map(number);
+            numbers.fold(1, usize::saturating_mul)
+        };
+        match !self.limbs.is_empty() && of(&|limb| limb.shapes) > self.found.len() {
+            true => of(&number),
+            false => listed,
         }
     }
 }

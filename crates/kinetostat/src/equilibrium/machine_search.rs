@@ -8,13 +8,16 @@ use nalgebra::{DMatrix, DVector, Vector6};
 use crate::chain::directions::DirectionKind;
 use crate::continuation::machine::tool_conditions::ToolConditions;
 use crate::continuation::settings::CurveSettings;
+use crate::equilibrium::all_of_chain::SearchSettings;
 use crate::equilibrium::bounds::Bounds;
+use crate::equilibrium::limb_shapes::{SHORT, combinations, is_inside_out, limb_shapes, state_of};
 use crate::equilibrium::search::{Entry, SearchOutcome, Searched};
 use crate::machine::equilibrium::{MechanismEquilibrium, conclude};
 use crate::machine::platforms::parts::Unknowns;
 use crate::machine::state::MechanismState;
 use crate::model::chain::Role;
 use crate::model::kinematics::unloaded_tip;
+use crate::model::mechanism::Limb;
 use crate::parallel;
 use crate::spatial::{MotionKind, Pose, Twist, moved, pose_residual};
 
@@ -30,8 +33,19 @@ const FOLLOWED: usize = 24;
 /// How far curves are followed from the target, in sizes of the machine.
 const FOLLOWED_SIZES: f64 = 2.0;
 
-/// A slide that turns inside out goes further than this share of the machine's size.
-const INSIDE_OUT: f64 = 0.25;
+/// Starts in a row without a new shape after which the search at one place ends, see [`limb_shapes`].
+const SHAPE_STARTS: usize = 100;
+
+/// Combinations of the limbs' shapes that are tried at one place of the tool, those of least energy.
+const COMBINATIONS: usize = 100;
+
+/// Where an iteration starts.
+pub(crate) enum Start {
+    /// Number in the sequence of spread places.
+    Spread(usize),
+    /// Every limb in one of the shapes that it has with the tool held.
+    Shapes(Box<MechanismState>),
+}
 
 /// An equilibrium that is known.
 pub(crate) struct Known {
@@ -147,24 +161,32 @@ impl<'p> MachineSearch<'p> {
         path.rest(state, &path.dead)
     }
 
+    /// Every combination of the limbs' own shapes with the tool held at a place, if limbs are short.
+    fn shapes_at(&self, place: &Pose) -> Vec<Start> {
+        let posture = self.conditions.posture;
+        let limbs = posture.mechanism.limbs();
+        // Long limbs would take minutes at every equilibrium.
+        let long = |limb: &Limb| limb.actual.coordinate_count() > SHORT;
+        if posture.mechanism.platforms().len() > 2 || limbs.iter().any(long) {
+            return Vec::new();
+        }
+        let few = SearchSettings::default().with_fruitless(SHAPE_STARTS);
+        let Ok(shapes) = limb_shapes(posture, place, &few) else {
+            return Vec::new();
+        };
+        let list = combinations(&shapes).into_iter().take(COMBINATIONS);
+        let states = list.map(|c| state_of(posture, place, &shapes, &c));
+        states.map(|state| Start::Shapes(Box::new(state))).collect()
+    }
+
     /// Shapes with a drive whose slide is turned inside out do not count, nor do unstable ones far away.
-    ///
-    /// A leg is as long as its command, which no spring turns negative. Other slides count from a zero that anybody may
-    /// set: there a deflection passes it, but by nothing like the size of the machine.
     fn counts(&self, found: &Known) -> bool {
         let posture = self.conditions.posture;
         let (mechanism, e) = (&posture.mechanism, &found.equilibrium);
         let joints = mechanism.limbs().iter().zip(&e.state.coordinates);
-        let drives = joints.clone().zip(&posture.limbs);
-        let far = INSIDE_OUT * mechanism.size();
-        let mut inside_out = drives.flat_map(|((limb, x), own)| {
-            let drives = limb.actual.actuators().iter().zip(&own.commands);
-            drives.map(move |(drive, command)| {
-                let spring = drive
-                    .coordinate
-                    .filter(|_| drive.kind == MotionKind::Prismatic);
-                spring.is_some_and(|own| x[own].abs() > far && (command + x[own]) * command < 0.0)
-            })
+        let mut drives = joints.clone().zip(&posture.limbs);
+        let inside_out = drives.any(|((limb, x), own)| {
+            is_inside_out(&limb.actual, &own.commands, x, mechanism.size())
         });
         let off = pose_residual(&e.tool, &posture.target).linear();
         let near = || {
@@ -174,7 +196,7 @@ impl<'p> MachineSearch<'p> {
                     .zip(&self.bounds)
                     .all(|((limb, x), bounds)| bounds.hold_springs(&limb.actual, x))
         };
-        !inside_out.any(|slide| slide) && (found.stable || near())
+        !inside_out && (found.stable || near())
     }
 
     /// Drives the tool along each of its free motions that was not followed yet, in both directions, from an equilibrium or
@@ -224,23 +246,23 @@ impl<'p> MachineSearch<'p> {
 }
 
 impl Searched for MachineSearch<'_> {
-    /// Its number in the sequence.
-    type Start = usize;
+    type Start = Start;
     type Candidate = Candidate;
     type Known = Known;
 
-    /// They are the first ones of the sequence.
-    fn structured(&mut self) -> Vec<usize> {
-        Vec::new()
+    fn structured(&mut self) -> Vec<Start> {
+        let there = Twist(self.conditions.prescribed_displacement());
+        self.shapes_at(&moved(&self.conditions.posture.target, &there))
     }
 
-    /// What an equilibrium suggests is let go beside it, see [`Self::connected`].
-    fn suggested(&mut self, _known: &Known) -> Vec<usize> {
-        Vec::new()
+    /// Other shapes of the limbs at its place, from which the tool moves on. It is let go beside, too, see
+    /// [`Self::connected`].
+    fn suggested(&mut self, known: &Known) -> Vec<Start> {
+        self.shapes_at(&known.equilibrium.tool)
     }
 
-    fn spread(&mut self, from: usize, count: usize) -> Vec<usize> {
-        (from..from + count).collect()
+    fn spread(&mut self, from: usize, count: usize) -> Vec<Start> {
+        (from..from + count).map(Start::Spread).collect()
     }
 
     fn side_by_side(&self) -> usize {
@@ -251,13 +273,18 @@ impl Searched for MachineSearch<'_> {
         1
     }
 
-    fn solve(&mut self, starts: &[usize]) -> Vec<SearchOutcome<Candidate>> {
-        let ended = parallel::map(starts.to_vec(), |k| self.let_go(k));
+    fn solve(&mut self, starts: &[Start]) -> Vec<SearchOutcome<Candidate>> {
+        let ended = parallel::map(starts.iter().collect(), |start: &Start| match start {
+            Start::Spread(k) => self.let_go(*k),
+            Start::Shapes(state) => {
+                (self.conditions).rest((**state).clone(), &self.conditions.dead)
+            }
+        });
         ended.into_iter().map(Candidate::of).collect()
     }
 
     /// Descents do not repel each other.
-    fn deflated(&mut self, _start: &usize, _known: &[Entry<Known>]) -> SearchOutcome<Candidate> {
+    fn deflated(&mut self, _start: &Start, _known: &[Entry<Known>]) -> SearchOutcome<Candidate> {
         SearchOutcome::Nothing
     }
 
@@ -308,7 +335,7 @@ fn spread(free: &DMatrix<f64>, k: usize, path: &ToolConditions<'_>) -> Vector6<f
 
 impl ToolConditions<'_> {
     /// With its stability and energy.
-    fn described(&self, e: MechanismEquilibrium) -> Known {
+    pub(crate) fn described(&self, e: MechanismEquilibrium) -> Known {
         let k = self.scaled_stiffness(&e);
         let possible = self.possible(&e, &self.free);
         let possible = self.without(&e, &possible, DirectionKind::Free);

@@ -8,6 +8,7 @@ mod ratios;
 mod reach;
 pub mod rod;
 pub mod round;
+pub mod shapes;
 mod struts;
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -50,8 +51,8 @@ impl Outcome {
     }
 }
 
-/// Struts, machines on struts, stiffness ratios, stiff links, rods with platforms between and round rods: what comes
-/// out is known.
+/// Struts, machines on struts, stiffness ratios, stiff links, rods with platforms between, machines of several shapes and
+/// round rods: what comes out is known.
 fn known(seed: u64, stage: &std::cell::Cell<&'static str>) {
     // Numbers of their own, so that the random chains of a seed stay what they were.
     let mut random = Random::new(seed ^ 0x5eed_0000_0000);
@@ -71,6 +72,10 @@ fn known(seed: u64, stage: &std::cell::Cell<&'static str>) {
         1 => {
             stage.set("stiffness behind platforms");
             platforms::case(&mut random);
+        }
+        2 => {
+            stage.set("machines of several shapes");
+            shapes::case(&mut random);
         }
         4 => {
             stage.set("round rods");

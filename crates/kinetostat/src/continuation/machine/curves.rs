@@ -39,8 +39,8 @@ impl Posture {
     ///
     /// Unknowns are the motions of the tool and the load, everything else is condensed: where a limb or another platform
     /// loses its stability while the tool stands still, this is a special point
-    /// ([`crate::continuation::SpecialKind::StabilityChange`]), but the branch that leaves there is not followed. Of the settings
-    /// `largest_turn` and those of the solver do not count.
+    /// ([`crate::continuation::SpecialKind::StabilityChange`]). The branches that leave there are followed if it is a limb
+    /// that buckles, not if it is a platform. Of the settings `largest_turn` and those of the solver do not count.
     ///
     /// ```
     /// # use kinetostat::nalgebra::{Vector3, vector};

@@ -29,10 +29,11 @@ use crate::continuation::machine::tool_stability::{MachineStability, condensed_m
 use crate::continuation::settings::CurveSettings;
 use crate::continuation::tracing::describe::{describe, tangent};
 use crate::continuation::tracing::special_points::NO_RATE;
+use crate::continuation::tracing::state_distance::off_segment;
 use crate::continuation::tracing::system::{Corrected, CurveSystem, Row};
 use crate::error::{Error, Result};
 use crate::linalg::complement::complement;
-use crate::machine::equilibrium::MechanismEquilibrium;
+use crate::machine::equilibrium::{LimbEquilibrium, MechanismEquilibrium};
 use crate::machine::platforms::parts::Guide;
 use crate::machine::state::MechanismState;
 use crate::spatial::{Pose, Twist, Wrench, hat, moved};
@@ -56,6 +57,22 @@ const LARGEST_TURN: f64 = 3.0;
 /// Residual below which a machine with its tool held counts as in equilibrium; equations are in units in which each
 /// one's largest derivative is one.
 const CONVERGED: f64 = 1e-9;
+
+/// Strains that differ by less are the same, rad and shares of the machine's length.
+const SAME_STRAIN: f64 = 1e-5;
+
+/// Distance from a step of a branch beyond which a shape is not on it, as a share of the step's change of strains.
+const OFF_BRANCH: f64 = 0.3;
+
+/// A limb whose share of the way to buckling differs from 1 by less is at its critical load: as exactly as a change of
+/// stability is located.
+const CRITICAL: f64 = 1e-3;
+
+/// Pushes along a limb's critical mode whose largest component is 1 (rad, m), from which its new shape is looked for.
+const PUSHES: [f64; 4] = [0.1, 0.03, 0.3, 0.01];
+
+/// Largest distance of a new shape along the critical mode.
+const FARTHEST_ARM: f64 = 0.7;
 
 /// An equilibrium with its tool held at a state.
 struct Solved {
@@ -307,6 +324,41 @@ impl<'q, 'p> MachineSystem<'q, 'p> {
         Some(describe(self, &c, t.direction))
     }
 
+    /// A limb's shape beside a point at which it becomes critical, to one side along its mode.
+    fn arm(
+        &mut self,
+        at: &CurvePoint<MechanismEquilibrium>,
+        limb: usize,
+        sign: f64,
+    ) -> Option<(DVector<f64>, MechanismEquilibrium)> {
+        let mode = &at.equilibrium.limbs[limb].stability.mode;
+        let longest = self.longest_step(&at.tangent, &self.conditions.settings);
+        let steps = [0.1, 0.4].map(|share| share * longest);
+        for (step, size) in steps.iter().flat_map(|h| PUSHES.map(|size| (*h, size))) {
+            for z in [step, -step].map(|by| &at.z + &at.tangent * by) {
+                self.start_from(&at.equilibrium);
+                self.here.z = DVector::zeros(0);
+                let Some(own) = self.hold(&z).cloned() else {
+                    continue;
+                };
+                let pushed = self.near.0.coordinates[limb].iter_mut().zip(mode);
+                pushed.for_each(|(x, m)| *x += sign * size * m);
+                self.here.z = DVector::zeros(0);
+                let Some(found) = self.hold(&z).cloned() else {
+                    continue;
+                };
+                let (before, after) = (&own.limbs[limb], &found.limbs[limb]);
+                let moved = after.coordinates.iter().zip(&before.coordinates);
+                let along: f64 = moved.zip(mode).map(|((x, y), m)| sign * m * (x - y)).sum();
+                let far = along > FARTHEST_ARM * mode.iter().map(|m| m * m).sum::<f64>();
+                if along > 0.0 && !far && self.condensed_apart(&found, &own, &own) {
+                    return Some((self.place(&found), found));
+                }
+            }
+        }
+        None
+    }
+
     /// Equilibrium near a state under one condition on the motion, or at its load.
     fn converge(&self, z: &DVector<f64>, row: &Row<'_>) -> Result<(MechanismEquilibrium, f64)> {
         let path = self.conditions;
@@ -396,6 +448,36 @@ impl CurveSystem for MachineSystem<'_, '_> {
 
     fn condensed_modes(found: &MechanismEquilibrium) -> usize {
         condensed_modes(found)
+    }
+
+    fn condensed_apart(
+        &self,
+        found: &MechanismEquilibrium,
+        a: &MechanismEquilibrium,
+        b: &MechanismEquilibrium,
+    ) -> bool {
+        let strains =
+            |e: &MechanismEquilibrium| DVector::from_vec(self.conditions.spring_strains(e));
+        let (found, a, b) = (strains(found), strains(a), strains(b));
+        let step = (&b - &a).norm();
+        off_segment(&found, &a, &b, &vec![0.0; a.len()]) > OFF_BRANCH * step + SAME_STRAIN
+    }
+
+    /// A limb at its critical load, pushed along its mode while the tool is held a little before or behind.
+    fn condensed_arms(
+        &mut self,
+        at: &CurvePoint<MechanismEquilibrium>,
+    ) -> Vec<[Option<(DVector<f64>, MechanismEquilibrium)>; 2]> {
+        let critical = |limb: &LimbEquilibrium| {
+            let share = limb.stability.share_to_buckling;
+            !limb.stability.mode.is_empty() && share.is_some_and(|mu| (mu - 1.0).abs() < CRITICAL)
+        };
+        let limbs = at.equilibrium.limbs.iter().enumerate();
+        let limbs: Vec<usize> = limbs.filter(|(_, l)| critical(l)).map(|(i, _)| i).collect();
+        let arms = limbs
+            .into_iter()
+            .map(|i| [1.0, -1.0].map(|sign| self.arm(at, i, sign)));
+        arms.collect()
     }
 
     fn evaluate(&mut self, z: &DVector<f64>) -> (DVector<f64>, ResidualNorms) {

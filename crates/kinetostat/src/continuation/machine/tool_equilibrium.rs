@@ -10,8 +10,12 @@ use crate::linalg::saddle::independent_columns;
 use crate::machine::equilibrium::{MechanismEquilibrium, conclude};
 use crate::machine::platforms::parts::{Guide, Unknowns};
 use crate::machine::state::MechanismState;
+use crate::model::chain::Role;
 use crate::number::largest_size;
-use crate::spatial::{Twist, Wrench, moved, pose_residual};
+use crate::spatial::{MotionKind, Twist, Wrench, moved, pose_residual};
+
+/// Deflections of springs that differ by less are the same, rad and shares of the natural length.
+const SAME_STRAIN: f64 = 1e-6;
 
 impl ToolConditions<'_> {
     /// Where the machine comes to rest from a state, if Newton finds it from there.
@@ -24,8 +28,23 @@ impl ToolConditions<'_> {
         converged.ok().map(|(e, _)| e)
     }
 
+    /// Deflections of all springs, rad and shares of the natural length.
+    pub(crate) fn spring_strains(&self, e: &MechanismEquilibrium) -> Vec<f64> {
+        let limbs = self.posture.mechanism.limbs().iter();
+        let own = limbs.zip(&e.limbs).flat_map(|(limb, own)| {
+            let of_limb = limb.actual.coordinates().iter().zip(&own.coordinates);
+            of_limb.filter(|(c, _)| c.role == Role::Spring)
+        });
+        let scaled = own.map(|(c, x)| match c.kind {
+            MotionKind::Revolute => *x,
+            MotionKind::Prismatic => x / self.length,
+        });
+        scaled.collect()
+    }
+
     /// One equilibrium twice: the same place of the tool, but for motions that cost nothing, and the
-    /// same torques of all springs. Joints that turn for nothing do not count, nor do stresses that
+    /// same torques of all springs, or the same deflections within rounding (of a limb that is stretched out and
+    /// locked, what is left of torques is rounding). Joints that turn for nothing do not count, nor do stresses that
     /// rigid limbs put on each other.
     pub(crate) fn same(&self, a: &MechanismEquilibrium, b: &MechanismEquilibrium) -> bool {
         let torques = |e: &MechanismEquilibrium| -> Vec<f64> {
@@ -36,8 +55,16 @@ impl ToolConditions<'_> {
         let most = largest_size(x.iter().chain(&y));
         let off = self.scaled(&pose_residual(&a.tool, &b.tool).0);
         let costly = self.without(a, &DMatrix::identity(6, 6), DirectionKind::Free);
+        let alike = |a: &[f64], b: &[f64], tolerance: f64| {
+            (a.iter().zip(b)).all(|(x, y)| (x - y).abs() <= tolerance)
+        };
         (costly.transpose() * off).norm() < 1e-6 * self.length
-            && (x.iter().zip(&y)).all(|(x, y)| (x - y).abs() <= 1e-5 * most + 1e-9)
+            && (alike(&x, &y, 1e-5 * most + 1e-9)
+                || alike(
+                    &self.spring_strains(a),
+                    &self.spring_strains(b),
+                    SAME_STRAIN,
+                ))
     }
 
     /// Newton from a state under a wrench; the wrench that is left after it is that of the answer.

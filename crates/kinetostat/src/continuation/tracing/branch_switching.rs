@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use nalgebra::DVector;
 
-use crate::continuation::curve::{Branch, BranchEnd, Stop, join};
+use crate::continuation::curve::{Branch, BranchEnd, SpecialKind, Stop, join};
 use crate::continuation::curve_equilibrium::CurveEquilibrium;
 use crate::continuation::linear::family::Family;
 use crate::continuation::tracing::describe::{describe, tangent};
@@ -56,13 +56,8 @@ impl<S: CurveSystem> Tracer<'_, S> {
         stop: Stop<'_, S::Equilibrium>,
     ) -> Result<bool> {
         let first = self.first_point(z)?;
-        let turns = self.system.full_turns();
         let branches = &mut traced.branches;
-        let on_branch = branches.iter().flat_map(|b| b.points.windows(2)).any(|w| {
-            let step = (&w[1].z - &w[0].z).norm();
-            off_segment(&first.z, &w[0].z, &w[1].z, &turns) < 0.02 * step
-        });
-        if on_branch {
+        if self.is_known(&first, branches) {
             return Ok(false);
         }
         let own = branches.len();
@@ -74,6 +69,20 @@ impl<S: CurveSystem> Tracer<'_, S> {
             next += 1;
         }
         Ok(true)
+    }
+
+    /// True if a point lies on one of the branches.
+    fn is_known(&self, p: &Point<S>, branches: &[BranchOf<S>]) -> bool {
+        let turns = self.system.full_turns();
+        branches.iter().flat_map(|b| b.points.windows(2)).any(|w| {
+            let step = (&w[1].z - &w[0].z).norm();
+            off_segment(&p.z, &w[0].z, &w[1].z, &turns) < 0.02 * step
+                && !(self.system).condensed_apart(
+                    &p.equilibrium,
+                    &w[0].equilibrium,
+                    &w[1].equilibrium,
+                )
+        })
     }
 
     /// The curve through an ordinary point.
@@ -110,6 +119,10 @@ impl<S: CurveSystem> Tracer<'_, S> {
     ) {
         let branches = &mut traced.branches;
         let special = self.specials[index].clone();
+        if special.kind == SpecialKind::StabilityChange {
+            self.condensed_through(&special, index, traced, allowed);
+            return;
+        }
         let mut followed: Vec<(DVector<f64>, Arc<Family>)> = Vec::new();
         for direction in &special.directions {
             // One branch of a family stands for all.
@@ -148,6 +161,47 @@ impl<S: CurveSystem> Tracer<'_, S> {
             }
             self.specials[index].branches.push(branches.len());
             branches.push(branch);
+        }
+    }
+
+    /// Follows the branches that leave where something condensed loses its stability.
+    fn condensed_through(
+        &mut self,
+        special: &SpecialPoint<S>,
+        index: usize,
+        traced: &mut Traced<S::Equilibrium>,
+        allowed: usize,
+    ) {
+        for arms in self.system.condensed_arms(&special.point) {
+            let branch = traced.branches.len();
+            let mut halves = Vec::new();
+            for (z, equilibrium) in arms.into_iter().flatten() {
+                self.system.set_family(None);
+                self.system.start_from(&equilibrium);
+                let Ok(mut second) = self.first_point(&z) else {
+                    self.specials[index].lost_branch = true;
+                    continue;
+                };
+                if self.is_known(&second, &traced.branches) {
+                    continue;
+                }
+                if branch >= allowed {
+                    traced.more |= self.settings.branches > 1;
+                    return;
+                }
+                if second.tangent.dot(&(&second.z - &special.point.z)) < 0.0 {
+                    second.tangent *= -1.0;
+                }
+                halves.push(self.run_from(special.point.clone(), second, branch));
+            }
+            if halves.is_empty() {
+                continue;
+            }
+            if halves.len() == 1 {
+                halves.push((vec![special.point.clone()], BranchEnd::Closed));
+            }
+            self.specials[index].branches.push(branch);
+            traced.branches.push(join(halves, Some(index)));
         }
     }
 

@@ -45,14 +45,19 @@ fn crossings<S: CurveSystem>(
             continue;
         };
         let far = (&c.z - &guess).norm() > (&pair[1].z - &pair[0].z).norm();
-        let known = found
-            .iter()
-            .any(|(_, p)| distance(system, &p.z, &c.z) < 1e-7);
-        if far || known {
+        if far {
             continue;
         }
-        if let Some(t) = tangent(system, &c.matrix, &pair[0].tangent) {
-            found.push((k, describe(system, &c, t.direction)));
+        let Some(t) = tangent(system, &c.matrix, &pair[0].tangent) else {
+            continue;
+        };
+        let next = describe(system, &c, t.direction);
+        let known = found.iter().any(|(_, p)| {
+            let (own, other) = (&next.equilibrium, &p.equilibrium);
+            distance(system, &p.z, &next.z) < 1e-7 && !system.condensed_apart(own, other, other)
+        });
+        if !known {
+            found.push((k, next));
         }
     }
     found

@@ -97,6 +97,25 @@ pub(crate) trait CurveSystem {
         0
     }
 
+    /// True if something condensed has another shape in `found` than on the step from `a` to `b` of a branch, although the
+    /// unknowns may be the same.
+    fn condensed_apart(
+        &self,
+        _found: &Self::Equilibrium,
+        _a: &Self::Equilibrium,
+        _b: &Self::Equilibrium,
+    ) -> bool {
+        false
+    }
+    /// States beside a point at which something condensed loses its stability, on the branches that leave there: both
+    /// arms of each.
+    fn condensed_arms(
+        &mut self,
+        _at: &CurvePoint<Self::Equilibrium>,
+    ) -> Vec<[Option<(DVector<f64>, Self::Equilibrium)>; 2]> {
+        Vec::new()
+    }
+
     /// Evaluates the system at a state; returns the residual and its measure.
     fn evaluate(&mut self, z: &DVector<f64>) -> (DVector<f64>, ResidualNorms);
     /// Whether a residual is small enough.

@@ -325,7 +325,10 @@ impl<'s, S: CurveSystem> Tracer<'s, S> {
             let same = self.specials.iter().position(|s| {
                 let bifurcations = s.kind.is_bifurcation() == special.kind.is_bifurcation();
                 let apart = distance(&self.system, &s.point.z, &special.point.z);
-                bifurcations && apart < (10.0 * (s.accuracy + special.accuracy)).max(1e-7)
+                let (own, other) = (&special.point.equilibrium, &s.point.equilibrium);
+                bifurcations
+                    && apart < (10.0 * (s.accuracy + special.accuracy)).max(1e-7)
+                    && !self.system.condensed_apart(own, other, other)
             });
             match same {
                 Some(i) => {
