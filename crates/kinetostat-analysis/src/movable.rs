@@ -1,6 +1,8 @@
 //! Motions that the end of a chain or the tool of a machine can make.
 
-use kinetostat::{DirectionKind, Posture};
+use kinetostat::{
+    Chain, DirectionKind, MotionKind, Pose, Posture, linalg::SingularValues, model::Kinematics,
+};
 use nalgebra::{DMatrix, DVector, Vector6};
 
 /// Directions in which a tool can be moved.
@@ -13,7 +15,8 @@ pub struct MovableDirections {
 }
 
 impl MovableDirections {
-    /// Of a machine: all directions but those in which it is rigid.
+    /// Of a machine: all directions but those in which it is rigid. Those that only stretched limbs lock count as movable if
+    /// every limb can move that way near the posture: the limbs give way there as a single chain does.
     ///
     /// # Errors
     /// Its stiffness cannot be computed.
@@ -28,10 +31,23 @@ impl MovableDirections {
                 DVector::from_fn(6, |i, _| d.twist.0[i] * unit(i)).normalize()
             })
             .collect();
+        let mut basis = without(&rigid);
+        if let Some(beside) = beside_stretched_limbs(posture, own.length) {
+            basis = Self::near(&[basis, beside], own.length).basis;
+        }
         Ok(Self {
-            basis: without(&rigid),
+            basis,
             length: own.length,
         })
+    }
+
+    /// Of a chain whose tip carries the tool: whatever it can do near a posture, whatever moves. What is missing is rigid
+    /// everywhere: a planar chain does not leave its plane.
+    pub(crate) fn near(steps: &[DMatrix<f64>], length: f64) -> Self {
+        Self {
+            basis: SingularValues::of(&side_by_side(steps)).range(1e-8),
+            length,
+        }
     }
 
     /// The part of a twist (m, rad; base axes) that the tool can make, as a share from 0 to 1.
@@ -45,6 +61,83 @@ impl MovableDirections {
         }
         (self.basis.transpose() * scaled).norm() / size
     }
+}
+
+/// Motions of the tool per unit of each coordinate of a chain, translations as shares of the length, in a posture and in some
+/// beside it. Each coordinate counts alike, in whatever unit it is.
+pub(crate) fn motions_near(
+    chain: &Chain,
+    base: &Pose,
+    posture: &[f64],
+    commands: &[f64],
+    tip_from_tool: &Pose,
+    length: f64,
+) -> Vec<DMatrix<f64>> {
+    let scale = chain.scale().length;
+    let beside = [0.0, 0.4, -0.9, 1.7].into_iter().enumerate();
+    let motions = beside.map(|(k, size)| {
+        let joints = posture.iter().zip(chain.coordinates()).enumerate();
+        let x: Vec<f64> = joints
+            .map(|(i, (x, c))| {
+                let unit = match c.kind {
+                    MotionKind::Revolute => 1.0,
+                    MotionKind::Prismatic => 0.1 * scale,
+                };
+                // Irregular, so that no posture is singular by symmetry.
+                x + size * unit * (0.4 + 0.6 * ((i + k) as f64 * 0.618_034).fract())
+            })
+            .collect();
+        let kinematics = Kinematics::new(chain, base, &x, commands);
+        let arm = kinematics.tip_pose().rotation * tip_from_tool.translation.vector;
+        let mut jacobian = kinematics.jacobian(chain.tip());
+        for mut column in jacobian.column_iter_mut() {
+            let turn = column.fixed_rows::<3>(3).into_owned();
+            let at_tool = (column.fixed_rows::<3>(0) + turn.cross(&arm)) / length;
+            column.fixed_rows_mut::<3>(0).copy_from(&at_tool);
+            let size = column.norm();
+            if size > 0.0 {
+                column.unscale_mut(size);
+            }
+        }
+        DMatrix::from_iterator(6, jacobian.ncols(), jacobian.iter().copied())
+    });
+    motions.collect()
+}
+
+/// What all limbs from the base to the tool can do beside the posture; `None` unless some limb moves the tool in fewer ways
+/// there than beside it.
+fn beside_stretched_limbs(posture: &Posture, length: f64) -> Option<DMatrix<f64>> {
+    let (limbs, tool) = (posture.mechanism().limbs(), posture.mechanism().tool());
+    let (mut stretched, mut locked) = (false, DMatrix::zeros(6, 0));
+    for (limb, joints) in limbs.iter().zip(posture.limbs()) {
+        if limb.from != 0 || limb.to != tool {
+            return None;
+        }
+        let motions = motions_near(
+            &limb.actual,
+            &posture.platforms()[0],
+            &joints.coordinates,
+            &joints.commands,
+            &limb.platform_from_tip.inverse(),
+            length,
+        );
+        let rank = |m: &DMatrix<f64>| SingularValues::of(m).rank(1e-8);
+        stretched |= motions[1..].iter().any(|m| rank(m) > rank(&motions[0]));
+        locked = side_by_side(&[locked, across(&side_by_side(&motions))]);
+    }
+    stretched.then(|| across(&locked))
+}
+
+fn side_by_side(parts: &[DMatrix<f64>]) -> DMatrix<f64> {
+    let columns: Vec<f64> = parts.iter().flatten().copied().collect();
+    DMatrix::from_column_slice(6, columns.len() / 6, &columns)
+}
+
+/// Everything across the columns, orthonormal columns.
+fn across(columns: &DMatrix<f64>) -> DMatrix<f64> {
+    let singular = SingularValues::of(columns);
+    let rank = singular.rank(1e-8);
+    singular.all_left().columns(rank, 6 - rank).into_owned()
 }
 
 /// Everything across some directions (of length one, perhaps dependent), orthonormal columns.

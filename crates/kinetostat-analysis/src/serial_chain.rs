@@ -1,12 +1,8 @@
 //! The chain of a machine with one limb, commanded for a place, with everything that acts on it.
 
-use kinetostat::{
-    Chain, ChainProblem, EndCondition, Load, Mechanism, MotionKind, Parameter, Pose, Posture,
-    linalg::SingularValues, model::Kinematics,
-};
-use nalgebra::DMatrix;
+use kinetostat::{Chain, ChainProblem, EndCondition, Load, Mechanism, Parameter, Pose, Posture};
 
-use crate::movable::MovableDirections;
+use crate::movable::{MovableDirections, motions_near};
 
 /// A serial chain from the base to the tool's tip.
 #[derive(Clone, Debug)]
@@ -94,43 +90,16 @@ impl SerialChain {
     /// planar chain does not leave its plane.
     #[must_use]
     pub fn movable(&self) -> MovableDirections {
-        let n = self.chain.coordinate_count();
         let length = self.chain.scale().length;
-        let sizes = [0.0, 0.4, -0.9, 1.7];
-        let mut all = DMatrix::zeros(6, n * sizes.len());
-        for (k, size) in sizes.into_iter().enumerate() {
-            let x: Vec<f64> = self
-                .posture
-                .iter()
-                .zip(self.chain.coordinates())
-                .enumerate()
-                .map(|(i, (x, c))| {
-                    let unit = match c.kind {
-                        MotionKind::Revolute => 1.0,
-                        MotionKind::Prismatic => 0.1 * length,
-                    };
-                    // Irregular, so that no posture is singular by symmetry.
-                    x + size * unit * (0.4 + 0.6 * ((i + k) as f64 * 0.618_034).fract())
-                })
-                .collect();
-            let kinematics = Kinematics::new(&self.chain, &self.base, &x, &self.commands);
-            let jacobian = kinematics.jacobian(self.chain.tip());
-            for j in 0..n {
-                for i in 0..6 {
-                    let unit = if i < 3 { 1.0 / length } else { 1.0 };
-                    all[(i, k * n + j)] = unit * jacobian[(i, j)];
-                }
-                // Each coordinate counts alike, in whatever unit it is.
-                let size = all.column(k * n + j).norm();
-                if size > 0.0 {
-                    all.column_mut(k * n + j).unscale_mut(size);
-                }
-            }
-        }
-        MovableDirections {
-            basis: SingularValues::of(&all).range(1e-8),
+        let motions = motions_near(
+            &self.chain,
+            &self.base,
+            &self.posture,
+            &self.commands,
+            &Pose::identity(),
             length,
-        }
+        );
+        MovableDirections::near(&motions, length)
     }
 }
 

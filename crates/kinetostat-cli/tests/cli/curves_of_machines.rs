@@ -230,6 +230,17 @@ fn all_equilibria_of_a_truss_and_of_a_machine_near_its_flat_posture() {
     }
 }
 
+/// From straight homes the tool is locked along both chains, and yet it may be held elsewhere, as that of a single chain.
+#[test]
+fn straight_chains_with_one_tool_have_sixteen_shapes() {
+    let here = tempfile::tempdir().expect("a directory");
+    let line = "equilibria two_chains --displaced-mm 50 86.6 0";
+    let answer = json(here.path(), &words(line));
+    assert_eq!(answer["coverage"]["known"], 16);
+    assert_eq!(answer["coverage"]["known_stable"], 4);
+    assert_eq!(answer["coverage"]["incomplete"], false);
+}
+
 #[test]
 fn what_is_for_chains_is_refused_for_machines() {
     let here = truss();
