@@ -58,7 +58,7 @@ impl<E: CurveEquilibrium> Special<E> {
             SpecialKind::Pitchfork => "pitchfork: two mirrored shapes branch off".to_owned(),
             SpecialKind::Transcritical => "two branches cross and both go on".to_owned(),
             SpecialKind::StabilityChange => {
-                "stability changes here in a limb or a platform that moves while the tool stands still; the branch that leaves here is not followed".to_owned()
+                "stability changes here in a limb or a platform that moves while the tool stands still".to_owned()
             }
             SpecialKind::Multiple { modes } => format!("{modes} modes become critical together"),
         };

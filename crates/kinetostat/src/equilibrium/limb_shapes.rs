@@ -16,7 +16,7 @@ use crate::spatial::{MotionKind, Pose, pose_residual};
 pub(crate) const LISTED: usize = 1000;
 
 /// Limbs with more coordinates are not searched one by one: each start costs many times as much, and shapes are many.
-pub(crate) const SHORT: usize = 16;
+pub(crate) const SHORT: usize = 8;
 
 /// Nodes nearer to each other than this share of the machine's size are at one place.
 const SAME_PLACE: f64 = 1e-6;

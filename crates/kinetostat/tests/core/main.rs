@@ -64,6 +64,7 @@ mod platforms_in_series;
 mod report_iteration;
 mod screws_turn_with_their_joints;
 mod shapes_and_their_stability;
+mod shapes_of_limbs;
 mod singular_values;
 mod stewart_gough_3_34_and_3_35;
 mod stiffnesses_behind_platforms;

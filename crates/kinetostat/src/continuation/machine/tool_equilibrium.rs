@@ -14,9 +14,6 @@ use crate::model::chain::Role;
 use crate::number::largest_size;
 use crate::spatial::{MotionKind, Twist, Wrench, moved, pose_residual};
 
-/// Deflections of springs that differ by less are the same, rad and shares of the natural length.
-const SAME_STRAIN: f64 = 1e-6;
-
 impl ToolConditions<'_> {
     /// Where the machine comes to rest from a state, if Newton finds it from there.
     pub(crate) fn rest(
@@ -43,8 +40,7 @@ impl ToolConditions<'_> {
     }
 
     /// One equilibrium twice: the same place of the tool, but for motions that cost nothing, and the
-    /// same torques of all springs, or the same deflections within rounding (of a limb that is stretched out and
-    /// locked, what is left of torques is rounding). Joints that turn for nothing do not count, nor do stresses that
+    /// same torques of all springs. Joints that turn for nothing do not count, nor do stresses that
     /// rigid limbs put on each other.
     pub(crate) fn same(&self, a: &MechanismEquilibrium, b: &MechanismEquilibrium) -> bool {
         let torques = |e: &MechanismEquilibrium| -> Vec<f64> {
@@ -55,16 +51,8 @@ impl ToolConditions<'_> {
         let most = largest_size(x.iter().chain(&y));
         let off = self.scaled(&pose_residual(&a.tool, &b.tool).0);
         let costly = self.without(a, &DMatrix::identity(6, 6), DirectionKind::Free);
-        let alike = |a: &[f64], b: &[f64], tolerance: f64| {
-            (a.iter().zip(b)).all(|(x, y)| (x - y).abs() <= tolerance)
-        };
         (costly.transpose() * off).norm() < 1e-6 * self.length
-            && (alike(&x, &y, 1e-5 * most + 1e-9)
-                || alike(
-                    &self.spring_strains(a),
-                    &self.spring_strains(b),
-                    SAME_STRAIN,
-                ))
+            && (x.iter().zip(&y)).all(|(x, y)| (x - y).abs() <= 1e-5 * most + 1e-9)
     }
 
     /// Newton from a state under a wrench; the wrench that is left after it is that of the answer.
