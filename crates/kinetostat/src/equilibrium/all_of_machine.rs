@@ -5,7 +5,8 @@ use crate::chain::problem::EndCondition;
 use crate::continuation::machine::tool_conditions::ToolConditions;
 use crate::equilibrium::all_of_chain::{SearchSettings, has_passive_slide};
 use crate::equilibrium::found::{Equilibria, FoundEquilibrium};
-use crate::equilibrium::held_machine::{held_equilibria, is_decoupled};
+use crate::equilibrium::held_machine::held_equilibria;
+use crate::equilibrium::limb_shapes::are_searched_one_by_one;
 use crate::equilibrium::machine_search::{Known, MachineSearch};
 use crate::equilibrium::search::{Entry, Limits, search};
 use crate::error::Result;
@@ -52,7 +53,7 @@ impl Posture {
     /// Equilibria of the machine as it is commanded: the tool held at `end.pose` in the directions
     /// whose pose is prescribed, under the dead wrench `end.wrench` in the others.
     ///
-    /// With the tool held in all directions and limbs from the base to the tool, limbs do not feel each other: every
+    /// With the tool held in all directions and short limbs from the base to the tool, limbs do not feel each other: every
     /// combination of their own shapes ([`Equilibria::limbs`]) is an equilibrium, found as
     /// [`equilibria`](crate::equilibria) finds those of a chain. Otherwise
     /// the tool is held at places spread evenly and let go down the potential, and Newton is started
@@ -91,7 +92,7 @@ impl Posture {
         settings: &SpreadSettings,
     ) -> Result<Equilibria<MechanismEquilibrium>> {
         let conditions = ToolConditions::at_displacement(self, end)?;
-        if is_decoupled(&conditions) {
+        if conditions.free.ncols() == 0 && are_searched_one_by_one(self) {
             return held_equilibria(
                 &conditions,
                 &settings.of_limbs().with_solver(*self.settings()),

@@ -6,25 +6,14 @@ use crate::chain::stability::ShapeState;
 use crate::continuation::machine::tool_conditions::ToolConditions;
 use crate::equilibrium::all_of_chain::SearchSettings;
 use crate::equilibrium::found::{Equilibria, FoundEquilibrium, LimbShapes};
-use crate::equilibrium::limb_shapes::{SHORT, combinations, limb_shapes, state_of};
+use crate::equilibrium::limb_shapes::{combinations, limb_shapes, state_of};
 use crate::equilibrium::search::Coverage;
 use crate::error::Result;
 use crate::machine::equilibrium::{MechanismEquilibrium, conclude};
 use crate::machine::platforms::parts::Unknowns;
-use crate::model::mechanism::Limb;
 use crate::number::larger;
 use crate::parallel;
 use crate::spatial::{Twist, moved};
-
-/// True if all limbs go from a held base to a held tool and are short. Long limbs have shapes without number, of energies far
-/// beyond what the machine is made for, and are searched together.
-pub(crate) fn is_decoupled(conditions: &ToolConditions<'_>) -> bool {
-    let mechanism = &conditions.posture.mechanism;
-    let short = |limb: &Limb| limb.actual.coordinate_count() <= SHORT;
-    conditions.free.ncols() == 0
-        && mechanism.platforms().len() == 2
-        && mechanism.limbs().iter().all(short)
-}
 
 /// All equilibria with the tool held, as the product of the limbs' shapes.
 pub(crate) fn held_equilibria(

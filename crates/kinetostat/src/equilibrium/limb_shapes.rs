@@ -1,13 +1,17 @@
 //! Shapes of the limbs of a machine while its tool is held: each limb by itself, as a chain.
 
 use crate::chain::problem::{ChainProblem, EndCondition};
+use crate::chain::scaling::nudged;
 use crate::equilibrium::all_of_chain::{SearchSettings, equilibria};
 use crate::equilibrium::bounds::Bounds;
 use crate::equilibrium::found::{Equilibria, FoundEquilibrium};
 use crate::error::Result;
+use crate::linalg::singular_values::SingularValues;
+use crate::machine::inverse::limb::LimbPosture;
 use crate::machine::posture::Posture;
 use crate::machine::state::MechanismState;
 use crate::model::chain::{Chain, Role};
+use crate::model::kinematics::Kinematics;
 use crate::number::largest_size;
 use crate::parallel;
 use crate::spatial::{MotionKind, Pose, pose_residual};
@@ -16,13 +20,11 @@ use crate::spatial::{MotionKind, Pose, pose_residual};
 pub(crate) const LISTED: usize = 1000;
 
 /// Limbs with more coordinates are not searched one by one: each start costs many times as much, and shapes are many.
-pub(crate) const SHORT: usize = 8;
+const SHORT: usize = 8;
 
-/// Nodes nearer to each other than this share of the machine's size are at one place.
-const SAME_PLACE: f64 = 1e-6;
-
-/// Deflections of springs that differ by less are the same, rad and shares of the machine's size.
-const SAME_STRAIN: f64 = 1e-6;
+/// Shapes are one if no spring's deflection and no node differ by more, rad and shares of the machine's size: where a limb is
+/// stretched out, what closes within 1e-12 leaves its joints within the root of that.
+const SAME: f64 = 1e-5;
 
 /// A slide that turns inside out goes further than this share of the machine's size.
 const INSIDE_OUT: f64 = 0.25;
@@ -32,6 +34,24 @@ const INSIDE_OUT: f64 = 0.25;
 pub(crate) struct Combination {
     pub shapes: Vec<usize>,
     pub energy: f64,
+}
+
+/// True if the limbs go from the base to the tool, are short, and some can take several shapes while the tool is held: it has
+/// more freedoms than it moves its tip in. Long limbs have shapes without number, of energies far beyond what the machine
+/// is made for, and are searched together.
+pub(crate) fn are_searched_one_by_one(posture: &Posture) -> bool {
+    let mechanism = &posture.mechanism;
+    let limbs = || mechanism.limbs().iter().map(|limb| &limb.actual);
+    let mut joints = limbs().zip(&posture.limbs);
+    let gives_way = |(chain, own): (&Chain, &LimbPosture)| {
+        let beside = nudged(chain, &own.coordinates, 0.5);
+        let kinematics = Kinematics::new(chain, &Pose::identity(), &beside, &own.commands);
+        let motions = SingularValues::of(&kinematics.jacobian(chain.tip()));
+        motions.rank(1e-8) < chain.coordinate_count()
+    };
+    mechanism.platforms().len() == 2
+        && limbs().all(|chain| chain.coordinate_count() <= SHORT)
+        && joints.any(gives_way)
 }
 
 /// Shapes of every limb with the tool held at a place, as far as they can be found.
@@ -107,13 +127,13 @@ fn same(chain: &Chain, a: &FoundEquilibrium, b: &FoundEquilibrium, size: f64) ->
         } else {
             size
         };
-        (x - y).abs() <= SAME_STRAIN * unit
+        (x - y).abs() <= SAME * unit
     });
     let most = largest_size(a.spring_torques.iter().chain(&b.spring_torques));
     let mut torques = a.spring_torques.iter().zip(&b.spring_torques);
     let mut nodes = a.nodes.iter().zip(&b.nodes);
     (alike || torques.all(|(x, y)| (x - y).abs() <= 1e-5 * most + 1e-9))
-        && nodes.all(|(p, q)| pose_residual(p, q).linear().norm() <= SAME_PLACE * size)
+        && nodes.all(|(p, q)| pose_residual(p, q).linear().norm() <= SAME * size)
 }
 
 /// The combinations of one shape of each limb, those of least energy, by rising energy.

@@ -10,14 +10,15 @@ use crate::continuation::machine::tool_conditions::ToolConditions;
 use crate::continuation::settings::CurveSettings;
 use crate::equilibrium::all_of_chain::SearchSettings;
 use crate::equilibrium::bounds::Bounds;
-use crate::equilibrium::limb_shapes::{SHORT, combinations, is_inside_out, limb_shapes, state_of};
+use crate::equilibrium::limb_shapes::{
+    are_searched_one_by_one, combinations, is_inside_out, limb_shapes, state_of,
+};
 use crate::equilibrium::search::{Entry, SearchOutcome, Searched};
 use crate::machine::equilibrium::{MechanismEquilibrium, conclude};
 use crate::machine::platforms::parts::Unknowns;
 use crate::machine::state::MechanismState;
 use crate::model::chain::Role;
 use crate::model::kinematics::unloaded_tip;
-use crate::model::mechanism::Limb;
 use crate::parallel;
 use crate::spatial::{MotionKind, Pose, Twist, moved, pose_residual};
 
@@ -38,6 +39,9 @@ const SHAPE_STARTS: usize = 100;
 
 /// Combinations of the limbs' shapes that are tried at one place of the tool, those of least energy.
 const COMBINATIONS: usize = 100;
+
+/// Places of a free tool at which the limbs' shapes are starts.
+const PLACES: usize = 24;
 
 /// Where an iteration starts.
 pub(crate) enum Start {
@@ -164,10 +168,7 @@ impl<'p> MachineSearch<'p> {
     /// Every combination of the limbs' own shapes with the tool held at a place, if limbs are short.
     fn shapes_at(&self, place: &Pose) -> Vec<Start> {
         let posture = self.conditions.posture;
-        let limbs = posture.mechanism.limbs();
-        // Long limbs would take minutes at every equilibrium.
-        let long = |limb: &Limb| limb.actual.coordinate_count() > SHORT;
-        if posture.mechanism.platforms().len() > 2 || limbs.iter().any(long) {
+        if !are_searched_one_by_one(posture) {
             return Vec::new();
         }
         let few = SearchSettings::default().with_fruitless(SHAPE_STARTS);
@@ -250,9 +251,14 @@ impl Searched for MachineSearch<'_> {
     type Candidate = Candidate;
     type Known = Known;
 
+    /// The limbs' shapes at the commanded place and at some around it.
     fn structured(&mut self) -> Vec<Start> {
-        let there = Twist(self.conditions.prescribed_displacement());
-        self.shapes_at(&moved(&self.conditions.posture.target, &there))
+        let path = &self.conditions;
+        let there = Twist(path.prescribed_displacement());
+        let there = moved(&path.posture.target, &there);
+        let motions = (1..PLACES).map(|k| Twist(spread(&self.free, k, path)));
+        let places = motions.map(|motion| moved(&there, &motion)).chain([there]);
+        places.flat_map(|place| self.shapes_at(&place)).collect()
     }
 
     /// Other shapes of the limbs at its place, from which the tool moves on. It is let go beside, too, see

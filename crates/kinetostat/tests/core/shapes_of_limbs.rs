@@ -1,13 +1,13 @@
 //! Machines whose limbs have several shapes each: held, under a load, and along a curve. Against scans of single chains, and
 //! an exhaustive search in absolute angles (Newton on the Lagrangian from random starts, by hand).
 
-use std::f64::consts::{FRAC_PI_2, FRAC_PI_6};
+use std::f64::consts::{FRAC_PI_2, FRAC_PI_6, PI};
 
 use kinetostat::{
-    CurveSettings, EndCondition, Parameter, Pose, PostureRequest, Twist,
+    CurveSettings, EndCondition, Parameter, Pose, PostureRequest, Twist, Wrench,
     equilibrium::SpreadSettings,
 };
-use nalgebra::Vector3;
+use nalgebra::{Vector3, vector};
 
 use crate::fuzz_short::fuzz::shapes::{ThreeLinks, check, machine_of};
 
@@ -26,6 +26,63 @@ fn two_z_chains(pressed: f64) -> [ThreeLinks; 2] {
 #[test]
 fn two_z_chains_have_the_product_of_their_shapes() {
     assert_eq!(check(&two_z_chains(0.2)), Some(8));
+}
+
+/// Figure 5.2 of the report, its tool let go under a force: energies and how many shapes have them.
+#[test]
+fn a_loaded_machine_has_no_shape_twice() {
+    let chains = [([1.0, 1.3], PI), ([0.8, 0.9], -2.0 * FRAC_PI_6)];
+    let (machine, joints) = machine_of(&chains.map(|(stiffness, direction)| ThreeLinks {
+        links: [0.5; 3],
+        stiffness,
+        rest: [0.0; 2],
+        span: 1.35,
+        direction,
+    }));
+    let at = Pose::identity();
+    let posture = machine
+        .posture(PostureRequest::joints(&at, joints))
+        .unwrap();
+    for (force, energies) in [
+        (
+            vector![0.0, -3.0, 0.0],
+            &[
+                (-0.687833679, 1),
+                (4.195236564, 1),
+                (4.287798124, 2),
+                (6.267496170, 4),
+                (6.421341982, 2),
+                (6.803861706, 2),
+            ][..],
+        ),
+        (
+            vector![0.5, 0.5, 0.0],
+            &[
+                (-1.102892921, 1),
+                (0.180825773, 1),
+                (0.924243752, 4),
+                (0.926739592, 2),
+                (1.210616464, 2),
+                (3.535855871, 4),
+                (3.550405731, 2),
+                (4.839747913, 2),
+            ][..],
+        ),
+    ] {
+        let load = EndCondition::wrench(Wrench::new(force, Vector3::zeros()));
+        let all = posture.equilibria(&load, &SpreadSettings::default());
+        let all = all.unwrap();
+        let alike = |energy: f64| {
+            let near = |own: f64| (own - energy).abs() < 1e-7;
+            all.found.iter().filter(|f| near(f.energy())).count()
+        };
+        let found: Vec<_> = energies.iter().map(|&(e, n)| (alike(e), n)).collect();
+        assert!(found.iter().all(|(own, n)| own <= n), "{force}: {found:?}");
+        let listed: usize = found.iter().map(|(own, _)| own).sum();
+        assert_eq!(listed, all.found.len(), "{force}");
+        let stable = all.found.iter().filter(|f| f.stable).count();
+        assert_eq!(stable, if force.x == 0.0 { 1 } else { 2 });
+    }
 }
 
 /// A Z chain leans over at 110.93 mm, its neighbour keeps its shape: a curve has three shapes beyond, as the search.

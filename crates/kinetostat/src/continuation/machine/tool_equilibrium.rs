@@ -7,6 +7,7 @@ use crate::continuation::machine::tool_conditions::ToolConditions;
 use crate::error::Result;
 use crate::linalg::complement::complement;
 use crate::linalg::saddle::independent_columns;
+use crate::machine::directions::without;
 use crate::machine::equilibrium::{MechanismEquilibrium, conclude};
 use crate::machine::platforms::parts::{Guide, Unknowns};
 use crate::machine::state::MechanismState;
@@ -50,7 +51,15 @@ impl ToolConditions<'_> {
         let (x, y) = (torques(a), torques(b));
         let most = largest_size(x.iter().chain(&y));
         let off = self.scaled(&pose_residual(&a.tool, &b.tool).0);
-        let costly = self.without(a, &DMatrix::identity(6, 6), DirectionKind::Free);
+        // Where a limb is stretched out, rounding may be all that holds the tool along a motion.
+        let nothing = 1e-15 * self.posture.mechanism.scale().stiffness;
+        let mut directions = a.directions.clone();
+        let for_nothing = directions
+            .iter_mut()
+            .filter(|d| d.stiffness_n_per_m.abs() < nothing);
+        for_nothing.for_each(|d| d.kind = DirectionKind::Free);
+        let all = DMatrix::identity(6, 6);
+        let costly = without(&directions, DirectionKind::Free, self.length, &all);
         (costly.transpose() * off).norm() < 1e-6 * self.length
             && (x.iter().zip(&y)).all(|(x, y)| (x - y).abs() <= 1e-5 * most + 1e-9)
     }
