@@ -8,7 +8,7 @@ use kinetostat_chatter::{
 };
 use kinetostat_cutting::{Engagement, Linear, Side};
 use kinetostat_testing::Worst;
-use nalgebra::{Rotation3, Vector3};
+use nalgebra::{Matrix3, Rotation3, Vector3};
 use proptest::prelude::*;
 
 use crate::semi_discretisation::{Plain, extrapolated, multiplier};

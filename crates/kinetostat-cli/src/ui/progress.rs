@@ -195,7 +195,7 @@ impl Watch for AsOne<'_> {
     }
 
     fn cancelled(&self) -> bool {
-        self.progress.cancelled()
+        Watch::cancelled(self.progress)
     }
 }
 

@@ -1,6 +1,6 @@
 //! The picture of the free turn of a tool.
 
-use kinetostat_machining::{Placement, TurnChoice, TurnRate, TurnTask, choose_turns};
+use kinetostat_machining::{Placement, TurnChoice, TurnTask, choose_turns};
 use kinetostat_model::Model;
 use kinetostat_program::{Program, ReadOptions, interpret};
 use nalgebra::{UnitQuaternion, vector};
@@ -19,7 +19,7 @@ fn choice(from_deg: f64) -> TurnChoice {
     task.station_mm = 20.0;
     task.band.from_deg = from_deg;
     task.band.to_deg = from_deg + 360.0;
-    task.bounds.rate = TurnRate::PerLength(1.0);
+    task.bounds.rate_deg_per_mm = 1.0;
     choose_turns(&task).expect("a way")
 }
 

@@ -65,6 +65,12 @@ impl ShapeStability {
                 .share_to_buckling
                 .is_some_and(|mu| mu > 1.0 + AT_CRITICAL)
     }
+
+    /// At the critical load within rounding: some motion neither stores nor frees energy.
+    pub(crate) fn is_critical(&self) -> bool {
+        self.share_to_buckling
+            .is_some_and(|mu| (mu - 1.0).abs() <= AT_CRITICAL)
+    }
 }
 
 pub(crate) fn shape_stability(

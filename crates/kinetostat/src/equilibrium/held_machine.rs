@@ -2,7 +2,6 @@
 //! set of equilibria is the product of the limbs' own sets, which the search of a chain finds.
 
 use crate::chain::found_by::FoundBy;
-use crate::chain::stability::ShapeState;
 use crate::continuation::machine::tool_conditions::ToolConditions;
 use crate::equilibrium::all_of_chain::SearchSettings;
 use crate::equilibrium::found::{Equilibria, FoundEquilibrium, LimbShapes};
@@ -74,5 +73,5 @@ pub(crate) fn held_equilibria(
 
 /// True if the shape is at its critical load.
 fn is_critical(shape: &FoundEquilibrium) -> bool {
-    shape.equilibrium.stability.state() == ShapeState::Singular
+    shape.equilibrium.stability.is_critical()
 }

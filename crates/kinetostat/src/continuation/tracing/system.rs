@@ -31,6 +31,9 @@ pub(crate) type BranchOf<S> = Branch<<S as CurveSystem>::Equilibrium>;
 /// Points of a branch in one direction from its start, and why they end.
 pub(crate) type HalfBranch<S> = (Vec<Point<S>>, BranchEnd);
 
+/// The two ends of a branch beside the point at which it leaves: unknowns and state, where there are some.
+pub(crate) type Arms<E> = [Option<(DVector<f64>, E)>; 2];
+
 /// What closes the system of equilibrium along a curve.
 pub(crate) enum Row<'v> {
     /// `normal . z = offset`.
@@ -112,7 +115,7 @@ pub(crate) trait CurveSystem {
     fn condensed_arms(
         &mut self,
         _at: &CurvePoint<Self::Equilibrium>,
-    ) -> Vec<[Option<(DVector<f64>, Self::Equilibrium)>; 2]> {
+    ) -> Vec<Arms<Self::Equilibrium>> {
         Vec::new()
     }
 
