@@ -16,6 +16,10 @@ pub struct Bounds {
     pub ratings: Vec<Option<f64>>,
     /// The tools as they were given; empty where the platform's own point is the tool by construction.
     pub tools: Vec<ToolGiven>,
+    /// Line and radius (mm) of the widest zone at a corner at feed, where a program states zones.
+    pub widest_zone: Option<(usize, f64)>,
+    /// Nobody stated where the part lies.
+    pub is_unplaced: bool,
     /// Where the machine works without its tool: smallest and largest coordinates, base axes, m.
     pub workspace: Option<(Vector3<f64>, Vector3<f64>)>,
 }

@@ -18,6 +18,7 @@ use crate::job::program::{ReadProgram, read_program};
 use crate::job::robot::configuration::other_configuration;
 use crate::job::robot::first_place::of_first_place;
 use crate::job::robot::joint_arm::ArmOfTable;
+use crate::job::robot::read_program::RobotRead;
 use crate::job::setting::Setting;
 use crate::job::turn_arguments::FreeTurnWord;
 use crate::machine::model_warnings::with_model_warning;
@@ -189,6 +190,7 @@ pub(crate) fn with_task<R>(
             run_inputs,
             bounds: Bounds {
                 limits: setting.limits,
+                widest_zone: read.robot().and_then(RobotRead::widest_zone),
                 ..machine.bounds.clone()
             },
             places: match setting.uncertain.is_some() || setting.targets.vtk.is_some() {

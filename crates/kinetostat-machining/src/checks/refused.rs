@@ -34,6 +34,9 @@ pub(crate) fn of_task(task: &Task<'_>) -> Vec<Beyond> {
     }
     exceeded.found.extend(below_base(task));
     exceeded.found.extend(fastest_feed(limits, task.path()));
+    if let Some((line, radius_mm)) = task.bounds.widest_zone {
+        exceeded.above("zone_mm", radius_mm, Some(line), String::new());
+    }
     exceeded.found
 }
 

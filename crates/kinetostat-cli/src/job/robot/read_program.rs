@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use kinetostat::Directions;
 use kinetostat_formats::{
-    Correctable, Language, Motion, ProgramFault, RobotPath, RobotProgram, Target, all_faults,
+    Correctable, Language, Motion, ProgramFault, RobotPath, RobotProgram, Target, Zone, all_faults,
     path_of, read,
 };
 use kinetostat_program::{Move, StatedBy, Warning};
@@ -30,6 +30,19 @@ impl RobotRead<'_> {
     /// What of the tool's pose is corrected.
     pub(crate) fn corrected(&self) -> Directions {
         self.settings.corrected
+    }
+
+    /// Line and radius (mm) of the widest zone between two moves at feed, whose corner it cuts.
+    pub(crate) fn widest_zone(&self) -> Option<(usize, f64)> {
+        let corners = self.path.path.moves.windows(2).zip(&self.path.motions);
+        let zones = corners.filter_map(|(moves, motion)| {
+            let is_cut = moves.iter().all(Move::is_known_feed);
+            match self.program.motions[*motion].zone {
+                Zone::Radius(mm) if is_cut => Some((moves[0].line, mm)),
+                _ => None,
+            }
+        });
+        zones.max_by(|a, b| a.1.total_cmp(&b.1))
     }
 
     /// The tool's axis is not stated, and the language has no convention for it.
