@@ -80,6 +80,8 @@ pub enum WarningCode {
     OddTool,
     /// An uncertain number that several limbs share, so that it scatters in all of them together.
     SharedNumber,
+    /// The question says nothing of the place of the part, in which the machine's base then stands, or beside it.
+    NoPlacement,
     /// A place of the part, or an angle of the job, that looks like one in another unit.
     OddPlacement,
     /// The tool's axis that is stated, or usual, lies along the cut.

@@ -148,6 +148,7 @@ fn findings(files: &InputFiles, path: &Path, flags: &ProgramArgs) -> Answer<JobF
         &machine.mechanism,
         &machine.placement,
         motion,
+        machine.bounds.is_unplaced,
     ));
     let judging = Judging::of_run((&machine, &model), &setting)
         .map_err(|failure| failure.within(&path.display().to_string()))?;

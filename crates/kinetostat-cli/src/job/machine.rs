@@ -222,6 +222,9 @@ pub(crate) fn machine_setup(
                 ratings: model.ratings(),
                 tools: given,
                 workspace: model.workspace(),
+                is_unplaced: flags.part_origin_mm.is_none()
+                    && job.is_none_or(|j| j.job.placement.part_origin_mm.is_none())
+                    && frames.is_none_or(|f| f.converted || !f.states_orientation),
                 ..Bounds::default()
             },
             usual_tolerance: usual_tolerance(&model),

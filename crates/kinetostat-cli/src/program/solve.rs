@@ -329,7 +329,8 @@ pub(crate) fn failure_of(
         return failure;
     }
     // What is no warning without an answer may be the reason why there is none.
-    let failure = match origin_in_metres(&machine.mechanism, &machine.placement, path) {
+    let (place, is_unplaced) = (&machine.placement, machine.bounds.is_unplaced);
+    let failure = match origin_in_metres(&machine.mechanism, place, path, is_unplaced) {
         Some(doubt) => failure.with_reason(&doubt.message),
         None => failure,
     };

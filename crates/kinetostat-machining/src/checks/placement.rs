@@ -18,22 +18,28 @@ const NEAR_MM: f64 = 10.0;
 /// Nearer ones would be nearer than that in metres too, where no large machine works, mm.
 const LEAST_MM: f64 = 0.05;
 
+/// A base that is nearer than this to a part stands beside it, mm.
+const BESIDE_MM: f64 = 200.0;
+
 /// Machines of this size, working as far from the origin of their base, are large, m.
 const LARGE_M: f64 = 0.3;
 
 /// A place of the part that was most likely written in metres: some millimetres from the origin of the base,
-/// so that the base of a large machine stands in the part.
+/// so that the base of a large machine stands in the part. Where nobody stated one, also a base that stands beside it.
 #[must_use]
 pub fn origin_in_metres(
     mechanism: &Mechanism,
     placement: &Placement,
     path: &kinetostat_program::Path,
+    is_unplaced: bool,
 ) -> Option<Warning> {
     let origin = 1e3 * placement.base_from_part.translation.vector;
     let home = mechanism.platforms()[mechanism.tool()].home;
     // Machines whose base has its origin where they work have parts there.
     let away = home.translation.vector.norm().min(mechanism.size());
-    if !(LEAST_MM..NEAR_MM).contains(&origin.amax()) || away <= LARGE_M {
+    let is_unplaced = is_unplaced && origin.amax() == 0.0;
+    let is_near = is_unplaced || (LEAST_MM..NEAR_MM).contains(&origin.amax());
+    if !is_near || away <= LARGE_M {
         return None;
     }
     let places = path
@@ -44,7 +50,14 @@ pub fn origin_in_metres(
     let (low, high) = places
         .map(|p| (p, p))
         .reduce(|a, b| (a.0.inf(&b.0), a.1.sup(&b.1)))?;
-    let inside = (0..3).all(|k| low[k] <= NEAR_MM && high[k] >= -NEAR_MM);
+    let beside = if is_unplaced { BESIDE_MM } else { NEAR_MM };
+    let inside = (0..3).all(|k| low[k] <= beside && high[k] >= -beside);
+    if inside && is_unplaced {
+        return Some(Warning::new(
+            WarningCode::NoPlacement,
+            "no place of the part is given: its zero is that of the machine's base, which stands in the part or beside it. Write --part-origin-mm or, under [placement], part_origin_mm (0 0 0 where it is so)",
+        ));
+    }
     inside.then(|| {
         let [x, y, z] = [0, 1, 2].map(|k| short(origin[k]));
         Warning::new(

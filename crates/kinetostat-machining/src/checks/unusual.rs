@@ -124,6 +124,7 @@ pub(crate) fn unusual(
         task.mechanism,
         &task.placement,
         task.path(),
+        task.bounds.is_unplaced,
     ));
     list.extend(outside_workspace(task, points));
     let limits = &task.bounds.limits;
