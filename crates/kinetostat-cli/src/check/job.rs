@@ -16,6 +16,7 @@ use serde::Serialize;
 use serde_spanned::Spanned;
 
 use crate::convert::for_run::in_other_language;
+use crate::convert::plausible::{is_of_positions, tool_over_part};
 use crate::convert::targets::{Named, in_language};
 use crate::files::input_files::InputFiles;
 use crate::files::outputs::may_be_written;
@@ -153,6 +154,8 @@ fn findings(files: &InputFiles, path: &Path, flags: &ProgramArgs) -> Answer<JobF
     let judging = Judging::of_run((&machine, &model), &setting)
         .map_err(|failure| failure.within(&path.display().to_string()))?;
     let is_placed = setting.free_turn == FreeTurnWord::AsStated;
+    let stands = tool_over_part(&machine, is_of_positions(motion));
+    warnings.extend(stands.map_err(|failure| setting.within(failure))?);
     let check = |task: &Task<'_>| (refused_question(task, is_placed), unusual_question(task));
     let forces = forces_of(&machine, &setting, motion, &Unwatched)?;
     let forces = forces.as_ref();

@@ -65,7 +65,7 @@ fn for_run(
             "the program says itself which tools it takes and where their tips are: leave out [[tools]] in the job file (a load for all of them stands under [load])",
         ));
     }
-    refuse_implausible(&setting, &template, &read)?;
+    let lies = refuse_implausible(&setting, &template, &read)?;
     if !states_orientation {
         complete(&mut template.template, job, machine);
     }
@@ -105,6 +105,7 @@ fn for_run(
     stated.put_into(&mut found.reading.frames, of_robot, &file)?;
     let of_cut = warnings_of_moves(forces.as_ref());
     let mut findings = findings(&setting, &made);
+    findings.extend(lies);
     findings.extend(
         spindle_text(&made)
             .map(|text| Warning::new(WarningCode::SpindleNotStarted, in_source(&setting, &text))),

@@ -9,7 +9,7 @@ pub(crate) mod for_run;
 mod free_turn;
 mod joints;
 pub(crate) mod made;
-mod plausible;
+pub(crate) mod plausible;
 pub(crate) mod targets;
 mod text;
 
@@ -103,7 +103,7 @@ pub(crate) fn run(args: &ConvertArgs) -> Answer<()> {
         &template.template,
     )?;
     let read = read_program(&setting)?;
-    refuse_implausible(&setting, &template, &read)?;
+    let lies = refuse_implausible(&setting, &template, &read)?;
     let turned = match &args.free_turn {
         Some(named) => {
             let (model, _) = files.model(named, Path::new(""))?;
@@ -116,7 +116,7 @@ pub(crate) fn run(args: &ConvertArgs) -> Answer<()> {
         with_all_digits(&mut template.template);
     }
     let mut made = made((&setting, &template), &read, turned.as_ref(), language)?;
-    let mut said = Vec::new();
+    let mut said: Vec<String> = lies.map(|warning| warning.message).into_iter().collect();
     if args.to == TargetWord::Joints {
         let (named, base) = model_named(job.as_ref(), args.model.as_deref())?;
         let (model, _) = files.model(&named, &base)?;

@@ -2,9 +2,13 @@
 
 use kinetostat::Pose;
 use kinetostat_formats::{FrameUse, Template};
-use kinetostat_machining::{Beyond, RunError, ToolGiven, beyond_tool_length, fastest_feed};
+use kinetostat_machining::{
+    Beyond, RunError, ToolGiven, Warning, WarningCode, beyond_tool_length, fastest_feed,
+};
+use kinetostat_program::Path as ToolPath;
 use nalgebra::{Isometry3, UnitQuaternion};
 
+use crate::job::machine::MachineSetup;
 use crate::job::program::ReadProgram;
 use crate::job::robot::frames::in_metres;
 use crate::job::setting::Setting;
@@ -18,12 +22,16 @@ const NO_TURN_DEG: f64 = 1e-6;
 /// Share of the tool's length by which its holder may lie below its tip.
 const LEVEL: f64 = 0.05;
 
-/// Refuses what no cell has: lengths and speeds beyond their limits, angles in radians, a tool that points up.
+/// Share up to which it may lie above its tip where a tool lies on its side: 20 degrees.
+const LYING: f64 = 0.34;
+
+/// Refuses what no cell has: lengths and speeds beyond their limits, angles in radians, a tool that points up. Warns of
+/// one that lies on its side.
 pub(super) fn refuse_implausible(
     setting: &Setting,
     file: &TemplateFile,
     read: &ReadProgram<'_>,
-) -> Answer<()> {
+) -> Answer<Option<Warning>> {
     let template = &file.template;
     let beyond = beyond_limits(setting, template, read);
     if !beyond.is_empty() {
@@ -34,11 +42,18 @@ pub(super) fn refuse_implausible(
         None => failure,
     };
     refuse_radians(template, read).map_err(of_template)?;
-    let states_orientation = (read.path().moves.iter()).any(|motion| motion.tool_turn.is_some());
-    match states_orientation {
-        true => Ok(()),
-        false => refuse_tool_upwards(template).map_err(of_template),
+    let Some(turn) = template
+        .tool_orientation
+        .filter(|_| is_of_positions(read.path()))
+    else {
+        return Ok(None);
+    };
+    let mut tools: Vec<Pose> = (tools(template, &[]).map(|(_, pose)| in_metres(pose))).collect();
+    if tools.is_empty() {
+        // Without a tool its axis is z of the flange, which points away from the arm (ISO 9787).
+        tools.push(Pose::translation(0.0, 0.0, 1.0));
     }
+    over_part(turn, &tools).map_err(of_template)
 }
 
 fn beyond_limits(setting: &Setting, template: &Template, read: &ReadProgram<'_>) -> Vec<Beyond> {
@@ -109,29 +124,42 @@ fn refuse_radians(template: &Template, read: &ReadProgram<'_>) -> Answer<()> {
     }
 }
 
-/// A program of positions has the holder above the tip, along +z of the part.
-fn refuse_tool_upwards(template: &Template) -> Answer<()> {
-    let Some(turn) = template.tool_orientation else {
-        return Ok(());
-    };
-    let stated = tools(template, &[]).map(|(_, pose)| in_metres(pose));
-    // Without a tool its axis is z of the flange, which points away from the arm (ISO 9787).
-    let along_flange = [Pose::translation(0.0, 0.0, 1.0)];
-    let tools: Vec<Pose> = stated.collect();
-    let tools = if tools.is_empty() {
-        &along_flange[..]
-    } else {
-        &tools
-    };
+/// How the tools of a program of positions stand in the part, by the place of their flanges: refused below the tip, warned of where
+/// they lie on their side, as those of horizontal spindles do.
+fn over_part(turn: UnitQuaternion<f64>, tools: &[Pose]) -> Answer<Option<Warning>> {
+    let mut lies = None;
     for tool in tools {
         let to_holder = turn * (tool.inverse().translation.vector);
+        let at = triple((1e3 * to_holder).into(), short);
         if to_holder.z < -LEVEL * to_holder.norm() {
-            let [x, y, z] = (1e3 * to_holder).into();
             return Err(Failure::input(format!(
-                "the tool points up: its flange lies at {} mm from its tip, axes of the part, and parts are cut from above (z above 0). Correct tool_orientation, as in a_b_c_kuka_deg=0,0,180, or the sign of the tool's pose",
-                triple([x, y, z], short)
+                "the tool points up: its flange lies at {at} mm from its tip, axes of the part, and parts are cut from above (z above 0). Correct tool_orientation, as in a_b_c_kuka_deg=0,0,180, or the sign of the tool's pose"
             )));
         }
+        if to_holder.norm() > 0.0 && to_holder.z <= LYING * to_holder.norm() {
+            lies = Some(format!(
+                "the tool lies on its side: its flange lies at {at} mm from its tip, axes of the part; where no horizontal spindle cuts, correct tool_orientation, as in a_b_c_kuka_deg=0,0,180"
+            ));
+        }
     }
-    Ok(())
+    Ok(lies.map(|text| Warning::new(WarningCode::OddToolAxis, text)))
+}
+
+/// How the tool of an arm stands over the part of a program of positions.
+pub(crate) fn tool_over_part(
+    machine: &MachineSetup,
+    is_of_positions: bool,
+) -> Answer<Option<Warning>> {
+    if !(machine.is_arm && is_of_positions) {
+        return Ok(None);
+    }
+    let placement = &machine.placement;
+    let turn = placement.base_from_part.rotation.inverse() * placement.tool_orientation;
+    let tools: Vec<Pose> = (machine.bounds.tools.iter().map(|given| given.pose)).collect();
+    over_part(turn, &tools)
+}
+
+/// The program does not say how its tool stands.
+pub(crate) fn is_of_positions(path: &ToolPath) -> bool {
+    path.moves.iter().all(|motion| motion.tool_turn.is_none())
 }

@@ -57,6 +57,8 @@ pub(crate) struct MachineSetup {
     pub(crate) usual_tolerance: (f64, String),
     /// Of the model's text and deviations.
     pub(crate) fingerprint: u64,
+    /// Its flange's z axis points away from it.
+    pub(crate) is_arm: bool,
 }
 
 /// A model as it was read.
@@ -229,6 +231,7 @@ pub(crate) fn machine_setup(
             },
             usual_tolerance: usual_tolerance(&model),
             fingerprint,
+            is_arm: model.is_arm(),
         },
         model,
     ))

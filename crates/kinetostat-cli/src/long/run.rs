@@ -14,6 +14,7 @@ use kinetostat_program::{
     WrittenSoFar,
 };
 
+use crate::convert::plausible::tool_over_part;
 use crate::files::origin;
 use crate::job::arguments::ProgramArgs;
 use crate::job::machine::MachineSetup;
@@ -230,6 +231,9 @@ impl<'a> LongRun<'a> {
 
     /// The run, from its outputs claimed to its result.
     pub(crate) fn run(self, outputs: &mut RunOutputs) -> Answer<(Run, LongFiles)> {
+        // What turns the tool is run as a whole.
+        let stands = tool_over_part(self.machine, true);
+        let stands = stands.map_err(|failure| self.setting.within(failure))?;
         let progress = Progress::new();
         let mut kept = checkpoint(self.targets);
         let opened = kept.open(&self.manifest(), self.flags.restart);
@@ -262,6 +266,7 @@ impl<'a> LongRun<'a> {
                 .setting
                 .within(Failure::input("the program has no block")));
         };
+        result.warnings.extend(stands);
         let found = too_many_blocks(self.setting, result.summary.blocks_per_second);
         result.warnings.extend(found);
         let (written, allowed_mm) = match self.aim {

@@ -11,6 +11,7 @@ use kinetostat_machining::{
 use kinetostat_model::Model;
 use kinetostat_program::{MachineProgram, Path as ToolPath, WriteError, WriteOptions};
 
+use crate::convert::plausible::{is_of_positions, tool_over_part};
 use crate::job::cut::along::{forces, measured, refuse_what_breaks_the_tool, warnings};
 use crate::job::free_turn::{FreeTurn, chosen, only_tool};
 use crate::job::machine::MachineSetup;
@@ -241,6 +242,8 @@ pub(crate) fn turned(
         read.go_along(turn.path.clone());
     }
     let path = read.path();
+    let stands = tool_over_part(machine, is_of_positions(path));
+    let stands = stands.map_err(|failure| setting.within(failure))?;
     let progress = Progress::new();
     let forces = forces_of(machine, setting, path, &progress)?;
     if aim == Aim::Compensate {
@@ -286,6 +289,7 @@ pub(crate) fn turned(
     if let Some((judging, found)) = judging.as_ref().zip(found.as_ref()) {
         put_chatter(&mut run, found, judging);
     }
+    run.result.warnings.extend(stands);
     run.result.warnings.extend(warnings(forces.as_ref()));
     run.result.warnings.extend(setting.of_expansion());
     if let ReadProgram::Robot(read) = &read {
