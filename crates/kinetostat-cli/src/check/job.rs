@@ -143,7 +143,7 @@ fn findings(files: &InputFiles, path: &Path, flags: &ProgramArgs) -> Answer<JobF
     setting.turned_by(machine.rotary.clone());
     let read = program::read_program(&setting)?;
     let motion = read.path();
-    let mut warnings = run_warnings::of_run(&model, Some(&job));
+    let mut warnings = run_warnings::of_run(&model, Some(&job), flags);
     warnings.extend(kinetostat_machining::of_program(motion, None));
     warnings.extend(kinetostat_machining::origin_in_metres(
         &machine.mechanism,

@@ -75,7 +75,7 @@ pub(crate) fn compensate(
     let (mut run, done) = run.run(&mut outputs)?;
     run.result
         .warnings
-        .extend(run_warnings::of_run(&model, job));
+        .extend(run_warnings::of_run(&model, job, flags));
     done.fill(&mut outputs, (&run.result.run_inputs, &targets))?;
     done.or_kept(outputs.fill_result(&run, &setting))?;
     let paths = done.commit(outputs.files)?;

@@ -232,7 +232,7 @@ fn compensate_whole(files: &InputFiles, args: &CompensateArgs) -> Answer<()> {
     run.result.warnings.extend(findings);
     run.result
         .warnings
-        .extend(run_warnings::of_run(&model, job));
+        .extend(run_warnings::of_run(&model, job, flags));
     run.result.warnings = merged(run.result.warnings);
     outputs.list(flags.all_points, &model);
     if let Some(turn) = &turn {

@@ -113,7 +113,7 @@ fn run_along(
     }
     run.result
         .warnings
-        .extend(run_warnings::of_run(&model, job));
+        .extend(run_warnings::of_run(&model, job, &args.program));
     outputs.list(args.program.all_points, &model);
     outputs.fill(&run, &setting, turn.as_ref())?;
     let note = outputs.note(&run);
@@ -152,7 +152,7 @@ fn part_by_part(
         targets: &targets,
     };
     let (mut run, done) = run.run(&mut outputs)?;
-    let found = run_warnings::of_run(model, job);
+    let found = run_warnings::of_run(model, job, &args.program);
     run.result.warnings.extend(found);
     done.fill(&mut outputs, (&run.result.run_inputs, &targets))?;
     done.or_kept(outputs.fill_result(&run, &setting))?;

@@ -108,7 +108,7 @@ pub(crate) fn run(args: &PlacingArgs, given: &Given) -> Answer<()> {
     let mut warnings = at_best
         .as_ref()
         .map_or_else(Vec::new, |run| run.result.warnings.clone());
-    warnings.extend(run_warnings::of_run(&model, job));
+    warnings.extend(run_warnings::of_run(&model, job, &args.program));
     let part = question.part.as_ref();
     warnings.extend(part.and_then(|part| beside_the_part(part, read.path())));
     let result = at_best.as_ref().map(|run| &run.result);

@@ -127,7 +127,7 @@ pub(crate) fn run(args: &VerifyArgs) -> Answer<()> {
         .run
         .result
         .warnings
-        .extend(run_warnings::of_run(&model, job.as_ref()));
+        .extend(run_warnings::of_run(&model, job.as_ref(), &of_original));
     let mut read = verified.program_files.clone();
     read.extend(found.run.result.run_inputs.files.iter().cloned());
     let names = (
