@@ -76,6 +76,8 @@ pub enum WarningCode {
     SpindleNotStarted,
     /// The question says nothing of a tool.
     NoTool,
+    /// Weight is to be corrected of a machine that has none.
+    NoWeight,
     /// A tool that is very short, or long beside the machine.
     OddTool,
     /// An uncertain number that several limbs share, so that it scatters in all of them together.

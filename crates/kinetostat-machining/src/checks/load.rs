@@ -2,6 +2,7 @@
 
 use kinetostat::Wrench;
 use kinetostat::number::short;
+use kinetostat_program::{Move, SpindleRotation};
 use nalgebra::Vector3;
 
 use crate::checks::exceeded::{Exceeded, ODD};
@@ -11,6 +12,7 @@ use crate::placement::Placement;
 use crate::result::point::{PointKind, PointResult};
 use crate::task::Task;
 use crate::warning::{Warning, WarningCode};
+use crate::weight_correction::WeightCorrection;
 
 /// A cutting load has a moment about the tip of at most its force by a large cutter's radius, m.
 const LEVER: f64 = 0.3;
@@ -146,6 +148,46 @@ pub(crate) fn odd_load(task: &Task<'_>, whose: &str, load: &ProgramLoad) -> Vec<
                 short(-f.z)
             ),
         );
+    }
+    list
+}
+
+/// What a question leaves out: any load, weight of a machine whose weight is to be corrected, the start of a spindle that mills.
+pub(crate) fn left_out(task: &Task<'_>) -> Vec<Warning> {
+    let (all, mut list) = (loads(task), Vec::new());
+    let weighs = task.mechanism.has_own_loads();
+    let corrected = !matches!(
+        task.weight,
+        WeightCorrection::NotStated | WeightCorrection::None
+    );
+    if corrected && !weighs {
+        list.push(Warning::new(
+            WarningCode::NoWeight,
+            "weight is to be corrected, and the model has none: no gravity_m_per_s2, no masses, no loads of its own; state them in the model, or leave weight out",
+        ));
+    }
+    let is_still = all
+        .iter()
+        .all(|(_, load)| load.cutting == CuttingLoad::None);
+    if is_still && !(corrected && weighs) && task.run_inputs.model_deviations.is_empty() {
+        list.push(Warning::new(
+            WarningCode::LoadNeverActs,
+            "no load on the tool is given: the figures are those of a machine that cuts nothing. Write --milling or --force or, in the job, [load] or [material]",
+        ));
+    }
+    let path = task.path();
+    let mills = (all.iter()).any(|(_, load)| matches!(load.cutting, CuttingLoad::Milling { .. }));
+    let stands = |m: &Move| path.spindle_on(m.line).rotation == SpindleRotation::Stopped;
+    let mut cuts = path.moves.iter().filter(|m| m.is_known_feed());
+    let first = cuts.clone().next();
+    // A robot's cell, and a part of a program, may have started it elsewhere.
+    let has_words = !path.spindle_changes.is_empty() && path.part.is_none();
+    if let Some(first) = first.filter(|_| mills && has_words && cuts.all(stands)) {
+        list.push(Warning::at_line(
+            WarningCode::SpindleNotStarted,
+            first.line,
+            "the tool mills, and the program, which has words for the spindle, never starts it: add M3 or M4",
+        ));
     }
     list
 }

@@ -5,7 +5,7 @@ use kinetostat_program::WriteOptions;
 
 use crate::checks::correction::{besides, odd_correction};
 use crate::checks::exceeded::ODD;
-use crate::checks::load::{loads, never_acts, odd_load};
+use crate::checks::load::{left_out, loads, never_acts, odd_load};
 use crate::checks::motion::no_motion;
 use crate::checks::own_weight::by_own_loads;
 use crate::checks::placement::{origin_in_metres, outside_workspace};
@@ -96,7 +96,8 @@ pub fn unusual_question(task: &Task<'_>) -> Vec<Warning> {
 
 fn odd_loads<'t>(task: &'t Task<'_>) -> impl Iterator<Item = Warning> + use<'t> {
     let loads = loads(task).into_iter();
-    loads.flat_map(move |(whose, load)| odd_load(task, &whose, &load))
+    let of_each = loads.flat_map(move |(whose, load)| odd_load(task, &whose, &load));
+    left_out(task).into_iter().chain(of_each)
 }
 
 fn odd_tools<'t>(task: &'t Task<'_>) -> impl Iterator<Item = Warning> + use<'t> {

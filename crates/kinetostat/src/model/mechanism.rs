@@ -347,12 +347,13 @@ impl Mechanism {
         sum / self.limbs().len() as f64
     }
 
-    /// Whether anything acts on it without a load on its tool: gravity, or loads of the model.
+    /// Whether anything acts on it without a load on its tool: gravity on its masses, or loads of the model.
     #[must_use]
     pub fn has_own_loads(&self) -> bool {
         let loads =
             self.parts.loads.iter().map(Vec::len).sum::<usize>() + self.parts.platform_loads.len();
-        self.gravity() != Vector3::zeros() || loads > 0
+        let has_weight = self.gravity() != Vector3::zeros() && self.moving_mass() > 0.0;
+        has_weight || loads > 0
     }
 
     /// The same machine without gravity and without the loads of its model (springs between nodes,
