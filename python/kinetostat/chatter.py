@@ -16,6 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 from kinetostat import _core
 from kinetostat._arguments import flag, of_kind, or_none, told
 from kinetostat._arrays import Floats, finite, one, positive, real, thread_count, whole_number
+from kinetostat._plausibility import issue
 from kinetostat.errors import ArgumentError
 from kinetostat.vibration import ToolModes
 
@@ -84,6 +85,9 @@ def _plausible(coefficients: Floats) -> list[float]:
         raise ArgumentError(
             f"coefficients has a radial one of {others[0]:g} Pa, which looks like a ratio: in Pa it is {others[0] * tangential:g}"
         )
+    if others[0] > tangential:
+        kind = "the radial coefficient is above the tangential one: give the tangential one first"
+        issue([(True, kind, f"{kind} ({others[0]:g} above {tangential:g} Pa; no chip pushes the tooth more than it brakes it)")])
     return [tangential, *others]
 
 

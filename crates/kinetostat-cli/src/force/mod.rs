@@ -11,7 +11,7 @@ mod csv;
 pub(crate) mod cut;
 mod drilling;
 mod findings;
-mod fit;
+pub(crate) mod fit;
 pub(crate) mod fit_arguments;
 mod help;
 mod list;

@@ -4,6 +4,7 @@ use kinetostat_chatter::{Arc, Coefficients};
 use kinetostat_machining::{Warning, WarningCode};
 
 use crate::files::input_files::InputFiles;
+use crate::force::fit::findings::radial_above_tangential;
 use crate::force::material::{Made, applied, material, materials};
 use crate::lobes::arguments::LobesArgs;
 use crate::ui::failure::{Answer, Failure};
@@ -30,7 +31,7 @@ impl CutCoefficients {
                 Ok(Self {
                     law,
                     of_material: None,
-                    warnings: odd_sign(&law, args.helix_deg).into_iter().collect(),
+                    warnings: exchanged(&args.coefficients_n_per_mm2).into_iter().chain(odd_sign(&law, args.helix_deg)).collect(),
                 })
             }
         }
@@ -84,6 +85,13 @@ impl CutCoefficients {
             .map(|value| 1e-6 * value)
             .to_vec()
     }
+}
+
+/// A radial coefficient above the tangential one, as `force --fit` asks.
+fn exchanged(given: &[f64]) -> Option<Warning> {
+    let found = radial_above_tangential([given[1], given[0]], "N/mm^2");
+    let text = format!("{found}: --coefficients-n-per-mm2 takes KT KR KA");
+    (given.get(1) > given.first()).then(|| Warning::new(WarningCode::ImplausibleCoefficient, text))
 }
 
 /// An axial coefficient with a sign that its helix does not make: the rake face presses the chip where the helix carries it, and

@@ -50,6 +50,15 @@ pub(super) fn findings(a: &FitAnswer, diameter_mm: f64) -> Vec<Warning> {
     list
 }
 
+/// What speaks against a radial coefficient above the tangential one.
+pub(crate) fn radial_above_tangential([radial, tangential]: [f64; 2], unit: &str) -> String {
+    format!(
+        "K_rc = {} {unit} is above K_tc = {} {unit}, and no chip pushes the tooth more than it brakes it",
+        number(radial, 3),
+        number(tangential, 3)
+    )
+}
+
 /// Coefficients that no material has, and that exchanged axes make.
 pub(super) fn exchanged_axes(all: &[CoefficientAnswer]) -> Option<String> {
     let of = |symbol: &str| all.iter().find(|c| c.symbol == symbol);
@@ -61,10 +70,8 @@ pub(super) fn exchanged_axes(all: &[CoefficientAnswer]) -> Option<String> {
     let high = |c: &CoefficientAnswer| c.high_95.unwrap_or(c.value);
     if low(radial) > high(tangential) {
         return Some(format!(
-            "K_rc = {} {unit} is above K_tc = {} {unit}, and no chip pushes the tooth more than it brakes it: x (along the feed) and y (to its left) of the forces look exchanged. Exchange fx_n and fy_n with their signs, or correct on which side the part was",
-            number(radial.value, 3),
-            number(tangential.value, 3),
-            unit = radial.unit
+            "{}: x (along the feed) and y (to its left) of the forces look exchanged. Exchange fx_n and fy_n with their signs, or correct on which side the part was",
+            radial_above_tangential([radial.value, tangential.value], radial.unit)
         ));
     }
     None

@@ -6,7 +6,7 @@
 mod answer;
 mod answer_of;
 mod csv;
-mod findings;
+pub(crate) mod findings;
 mod material_file;
 mod plot;
 mod text;
