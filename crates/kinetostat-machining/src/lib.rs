@@ -47,6 +47,7 @@ pub use cut::cutting_tool::CuttingTool;
 pub use cut::engagement_source::EngagementSource;
 pub use cut::failure::CutFailure;
 pub use cut::finding::{CutFinding, CutFindingKind};
+pub use cut::limits::deeper_than_edges;
 pub use cut::measured::{ExpectedForce, MeasuredForces};
 pub use cut::measured_report::{ActsOn, MeasuredAxes, MeasuredReport};
 pub use cut::origin::ForceOrigin;

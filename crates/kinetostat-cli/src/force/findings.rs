@@ -1,7 +1,7 @@
 //! What somebody who cuts like this should know.
 
 use kinetostat_cutting::{Material, SpindleFinding};
-use kinetostat_machining::{Warning, WarningCode};
+use kinetostat_machining::{Warning, WarningCode, deeper_than_edges};
 
 use crate::force::answer::ForceAnswer;
 use crate::force::cut::Cut;
@@ -74,18 +74,9 @@ fn of_tool(answer: &ForceAnswer, tool: &CutTool, cut: &Cut) -> Vec<Warning> {
             ),
         );
     }
-    if tool.flute_length_mm.is_none()
-        && tool.stick_out_mm.is_none()
-        && cut.depth_mm > DEEP * diameter
-    {
-        say(
-            WarningCode::ToolTooShort,
-            format!(
-                "the cut is {} mm deep, {} times the tool's diameter: hardly a tool has such edges (--flute-length-mm says how long they are)",
-                given(cut.depth_mm),
-                given(cut.depth_mm / diameter)
-            ),
-        );
+    let lengths = tool.flute_length_mm.or(tool.stick_out_mm);
+    if let (Some(text), None) = (deeper_than_edges(cut.depth_mm, diameter), lengths) {
+        say(WarningCode::ToolTooShort, text);
     }
     let depth = given(cut.depth_mm);
     if let Some(flutes) = tool.flute_length_mm.filter(|flutes| cut.depth_mm > *flutes) {
@@ -114,9 +105,6 @@ const COARSE: f64 = 0.1;
 
 /// Chips under a flat end that are thinner than this are beyond a law of which no range is known, mm.
 const THINNEST_MM: f64 = 0.005;
-
-/// Cuts deeper than this, in diameters, need a tool that is seldom made.
-const DEEP: f64 = 8.0;
 
 /// A run-out beyond this share of the diameter is a mistake.
 const RUN_OUT: f64 = 0.03;

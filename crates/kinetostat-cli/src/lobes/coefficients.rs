@@ -31,7 +31,10 @@ impl CutCoefficients {
                 Ok(Self {
                     law,
                     of_material: None,
-                    warnings: exchanged(&args.coefficients_n_per_mm2).into_iter().chain(odd_sign(&law, args.helix_deg)).collect(),
+                    warnings: exchanged(&args.coefficients_n_per_mm2)
+                        .into_iter()
+                        .chain(odd_sign(&law, args.helix_deg))
+                        .collect(),
                 })
             }
         }

@@ -19,6 +19,8 @@ pub enum CutFindingKind {
     Spindle,
     /// The cut is deeper than the edges are long.
     ShortEdges,
+    /// The cut is as deep as hardly a tool has edges, whose length nobody stated.
+    DeepCut,
     /// An engagement is stated for lines on which nothing is cut.
     LinesWithoutCut,
     /// The tool goes down into material where its end is, as the whole tool is, in contact: tools that do not cut at the centre

@@ -20,6 +20,22 @@ const FINE: (f64, f64) = (4e-4, 0.002);
 /// Chips under the flat end that are thinner than this are beyond a law of which no range is known, mm.
 const THINNEST_MM: f64 = 0.005;
 
+/// Cuts deeper than this, in diameters, need a tool that is seldom made.
+const DEEP: f64 = 8.0;
+
+/// What speaks against a cut as deep (mm) as hardly a tool of that diameter has edges.
+#[must_use]
+pub fn deeper_than_edges(depth_mm: f64, diameter_mm: f64) -> Option<String> {
+    let diameters = depth_mm / diameter_mm;
+    (diameters > DEEP).then(|| {
+        format!(
+            "the cut is {} mm deep, {} times the tool's diameter: hardly a tool has such edges (--flute-length-mm, or flute_length_mm of the cutter, says how long they are)",
+            short(depth_mm),
+            short(diameters)
+        )
+    })
+}
+
 impl CutQuestion {
     /// What no such cut should be.
     pub(crate) fn look_at(
@@ -72,6 +88,12 @@ impl CutQuestion {
                     "material up to {} mm above the tip; edges or tool are {length} mm long there",
                     short(reach)
                 )
+            });
+        }
+        let deep = deeper_than_edges(engagement.reach_mm(), tool.tool.diameter_mm());
+        if let (Some(text), None) = (deep, tool.flute_length_mm) {
+            findings.add(CutFindingKind::DeepCut, line, engagement.reach_mm(), || {
+                text
             });
         }
         if let Some(curve) = &self.spindle

@@ -127,7 +127,7 @@ fn code(kind: CutFindingKind) -> WarningCode {
         CutFindingKind::ThickChip => WarningCode::ChipOverLimit,
         CutFindingKind::OutsideTheLaw => WarningCode::ChipsOutsideMeasured,
         CutFindingKind::Spindle => WarningCode::SpindleExceeded,
-        CutFindingKind::ShortEdges => WarningCode::ToolTooShort,
+        CutFindingKind::ShortEdges | CutFindingKind::DeepCut => WarningCode::ToolTooShort,
         CutFindingKind::LinesWithoutCut => WarningCode::LoadNeverActs,
         CutFindingKind::Plunge => WarningCode::Plunge,
         CutFindingKind::EndBeyondTheLaw => WarningCode::ChipsOutsideMeasured,
