@@ -466,7 +466,7 @@ class Posture:
         33.3
         """
         # Issues the warnings, too: each way from Python into the core and back takes half a microsecond.
-        return Equilibrium(self, self._native.deflected_by(wrench, self.machine._native), _DEFLECTED)
+        return Equilibrium(self, self.machine._native.deflected(self._native, wrench), _DEFLECTED)
 
     def frames(self) -> dict[tuple[str, str], Floats]:
         """(4, 4) by limb and node: poses of all nodes of the unloaded machine as drawn, base from node, m.

@@ -14,8 +14,10 @@ use numpy::PyArray2;
 use pyo3::prelude::*;
 use sha2::{Digest, Sha256};
 
-use crate::arrays::{Numbers, array, matrix_of, one_pose};
-use crate::errors::{Class, error, of_core, of_model};
+use crate::arrays::{Numbers, array, matrix_of, one_pose, one_wrench};
+use crate::equilibrium::Equilibrium;
+use crate::errors::{Class, error, of_core, of_model, require_stiffness};
+use crate::plausibility::of_figures;
 use crate::posture::Posture;
 use crate::stiffness::json_of;
 
@@ -86,6 +88,27 @@ fn kind(kind: MotionKind) -> &'static str {
 
 #[pymethods]
 impl Machine {
+    /// Equilibrium of a posture of this machine under a wrench (6,) on the tool: force (N), moment (N m), base axes, about its reference point. What is beyond
+    /// a limit is issued as a warning of the line that called the Python method.
+    fn deflected(&self, posture: &Posture, wrench: &Bound<'_, PyAny>) -> PyResult<Equilibrium> {
+        let py = wrench.py();
+        let wrench = one_wrench("wrench", wrench)?;
+        let mechanism = posture.0.mechanism();
+        require_stiffness(mechanism)?;
+        let found = py.detach(|| match self.batch().deflected(&posture.0, &wrench) {
+            Some(found) => Ok(Equilibrium::by_kernels(&posture.0, wrench, found)),
+            None => posture.0.deflected_by(&wrench).map(Equilibrium::of),
+        });
+        let found = found.map_err(|e| of_core(&e))?;
+        let moved = found.moved()?.1.linear().norm();
+        let warnings = of_figures(mechanism, &wrench, moved);
+        if !warnings.is_empty() {
+            let module = py.import("kinetostat._plausibility")?;
+            module.call_method1("issue", (warnings,))?;
+        }
+        Ok(found)
+    }
+
     #[staticmethod]
     fn open(py: Python<'_>, name_or_path: &str) -> PyResult<Self> {
         Self::read(py.detach(|| Model::open(name_or_path)))

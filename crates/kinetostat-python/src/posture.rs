@@ -6,11 +6,9 @@ use kinetostat_report::Placed;
 use numpy::{PyArray1, PyArray2};
 use pyo3::prelude::*;
 
-use crate::arrays::{Numbers, array, matrix_of, one_pose, one_wrench};
+use crate::arrays::{Numbers, array, matrix_of, one_pose};
 use crate::equilibrium::Equilibrium;
 use crate::errors::{of_core, require_stiffness};
-use crate::machine::Machine;
-use crate::plausibility::of_figures;
 use crate::stiffness::{Stiffness, json_of};
 
 /// A machine whose actuators are commanded.
@@ -72,27 +70,6 @@ impl Posture {
     /// Stiffness of every limb as JSON, of an equilibrium of this posture.
     fn limbs_of_equilibrium(&self, found: &Equilibrium) -> PyResult<String> {
         json_of(&found.whole()?.limb_stiffnesses(self.0.mechanism()))
-    }
-
-    /// Equilibrium under a wrench (6,) on the tool: force (N), moment (N m), base axes, about its reference point. What is beyond
-    /// a limit is issued as a warning of the line that called the Python method.
-    fn deflected_by(&self, wrench: &Bound<'_, PyAny>, machine: &Machine) -> PyResult<Equilibrium> {
-        let py = wrench.py();
-        let wrench = one_wrench("wrench", wrench)?;
-        let mechanism = self.0.mechanism();
-        require_stiffness(mechanism)?;
-        let found = py.detach(|| match machine.batch().deflected(&self.0, &wrench) {
-            Some(found) => Ok(Equilibrium::by_kernels(&self.0, wrench, found)),
-            None => self.0.deflected_by(&wrench).map(Equilibrium::of),
-        });
-        let found = found.map_err(|e| of_core(&e))?;
-        let moved = found.moved()?.1.linear().norm();
-        let warnings = of_figures(mechanism, &wrench, moved);
-        if !warnings.is_empty() {
-            let module = py.import("kinetostat._plausibility")?;
-            module.call_method1("issue", (warnings,))?;
-        }
-        Ok(found)
     }
 
     /// Equilibrium with the tool held at a pose (4, 4): the wrench that holds it is part of the answer.

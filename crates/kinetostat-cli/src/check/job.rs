@@ -16,7 +16,6 @@ use serde::Serialize;
 use serde_spanned::Spanned;
 
 use crate::convert::for_run::in_other_language;
-use crate::convert::plausible::{is_of_positions, tool_over_part};
 use crate::convert::targets::{Named, in_language};
 use crate::files::input_files::InputFiles;
 use crate::files::outputs::may_be_written;
@@ -29,6 +28,7 @@ use crate::job::job_file::JobFile;
 use crate::job::machine::{MachineSetup, machine_setup};
 use crate::job::of_model::give_of_model;
 use crate::job::output_paths::OutputPaths;
+use crate::job::over_part::{is_of_positions, tool_over_part};
 use crate::job::setting::{Setting, setting};
 use crate::job::target_word::RobotWord;
 use crate::job::template_file::TemplateFile;

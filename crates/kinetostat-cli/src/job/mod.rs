@@ -28,6 +28,7 @@ pub(crate) mod machine;
 pub(crate) mod model_named;
 pub(crate) mod of_model;
 pub(crate) mod output_paths;
+pub(crate) mod over_part;
 pub(crate) mod place_table;
 mod placement;
 pub(crate) mod program;

@@ -14,11 +14,11 @@ use kinetostat_program::{
     WrittenSoFar,
 };
 
-use crate::convert::plausible::tool_over_part;
 use crate::files::origin;
 use crate::job::arguments::ProgramArgs;
 use crate::job::machine::MachineSetup;
 use crate::job::output_paths::OutputPaths;
+use crate::job::over_part::tool_over_part;
 use crate::job::program::{PartRead, ReadProgram};
 use crate::job::setting::Setting;
 use crate::long::checkpoint::{Checkpoint, Manifest};

@@ -11,10 +11,10 @@ use kinetostat_machining::{
 use kinetostat_model::Model;
 use kinetostat_program::{MachineProgram, Path as ToolPath, WriteError, WriteOptions};
 
-use crate::convert::plausible::{is_of_positions, tool_over_part};
 use crate::job::cut::along::{forces, measured, refuse_what_breaks_the_tool, warnings};
 use crate::job::free_turn::{FreeTurn, chosen, only_tool};
 use crate::job::machine::MachineSetup;
+use crate::job::over_part::{is_of_positions, tool_over_part};
 use crate::job::program::{ReadProgram, read_program};
 use crate::job::robot::configuration::other_configuration;
 use crate::job::robot::first_place::of_first_place;

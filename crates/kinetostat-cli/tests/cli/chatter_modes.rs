@@ -175,7 +175,7 @@ fn a_limit_within_the_spread_of_the_force_is_told() {
         let answer: Value = serde_json::from_str(&read).expect("JSON");
         (text.replace('\n', " "), answer)
     };
-    let (text, near) = of(0.236);
+    let (text, near) = of(0.23);
     let nearest = &near["nearest"];
     let spread = number(nearest, "force_spread_percent");
     assert!(spread > 5.0, "{nearest}");

@@ -311,7 +311,7 @@ fn random_options_end_in_an_answer_or_a_refusal() {
         let mut with: Vec<String> = line.split(' ').map(str::to_owned).collect();
         let options: Vec<clap::Arg> = {
             let words: Vec<&str> = line.split(' ').collect();
-            let all = leaf(&tree, &words[..2]).get_arguments();
+            let all = leaf(&tree, &words[..words.len().min(2)]).get_arguments();
             all.filter(|option| option.get_long().is_some_and(|name| name != "help"))
                 .cloned()
                 .collect()

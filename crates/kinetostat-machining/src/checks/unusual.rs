@@ -6,20 +6,15 @@ use kinetostat_program::WriteOptions;
 use crate::checks::correction::{besides, odd_correction};
 use crate::checks::exceeded::ODD;
 use crate::checks::load::{left_out, loads, never_acts, odd_load};
-use crate::checks::motion::no_motion;
 use crate::checks::own_weight::by_own_loads;
 use crate::checks::placement::{origin_in_metres, outside_workspace};
-use crate::checks::refused::{as_warning, of_task};
 use crate::checks::tool::odd_tool;
 use crate::checks::tool_axis::{at_pole, odd_tool_axis, tip_behind_flange};
 use crate::limits::Limits;
 use crate::result::point::{PointResult, most, size};
 use crate::result::summary::Summary;
-use crate::run::first_look::FirstLook;
-use crate::run::preparation::{load, refuse};
-use crate::task::{RunError, Task};
+use crate::task::Task;
 use crate::warning::{Warning, WarningCode};
-use crate::watch::Unwatched;
 
 /// Softer tools than this are no machines that cut, N/mm.
 const SOFT: f64 = 50.0;
@@ -57,30 +52,6 @@ pub fn odd_tolerances(writing: &WriteOptions) -> Vec<Warning> {
     wide.chain(long)
         .map(|said| Warning::new(WarningCode::WideTolerance, said))
         .collect()
-}
-
-/// What a compensation refuses a question for before anything is solved along the whole program, as warnings, and its first error.
-/// `is_placed`: the tool stands as the task says, and not as it is still to be chosen, so that figures at places count.
-#[must_use]
-pub fn refused_question(task: &Task<'_>, is_placed: bool) -> (Vec<Warning>, Option<RunError>) {
-    let mut errors = Vec::new();
-    errors.extend(refuse(of_task(task)).err());
-    match no_motion(task.path()) {
-        Some(reason) => errors.push(RunError::NoMotion(reason)),
-        None => match FirstLook::new(task, &load(task), &Unwatched) {
-            Err(error) => errors.push(error),
-            Ok(looked) if is_placed => {
-                errors.extend(refuse(looked.beyond(task)).err());
-                errors.extend(looked.beginning_solved().err());
-            }
-            Ok(_) => {}
-        },
-    }
-    let said = errors.iter().flat_map(|error| match error {
-        RunError::BeyondLimits(beyond) => beyond.iter().map(as_warning).collect(),
-        error => vec![Warning::new(WarningCode::Program, error.to_string())],
-    });
-    (said.collect(), errors.into_iter().next())
 }
 
 /// What of a question is allowed and unusual, before anything is solved.

@@ -26,6 +26,7 @@ pub(crate) mod other_load;
 pub(crate) mod places;
 pub(crate) mod points;
 pub(crate) mod preparation;
+pub(crate) mod refused_question;
 pub(crate) mod sites;
 pub(crate) mod summary;
 pub(crate) mod tolerance;

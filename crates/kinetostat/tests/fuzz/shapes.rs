@@ -57,7 +57,7 @@ fn cross(a: &Vector2<f64>, b: &Vector2<f64>) -> f64 {
 impl ThreeLinks {
     pub fn random(random: &mut Random) -> Self {
         let links = [(); 3].map(|()| random.between(0.3, 0.7));
-        let longest = links.iter().copied().fold(0.0, f64::max);
+        let longest = kinetostat_testing::largest(links.iter().copied());
         let all: f64 = links.iter().sum();
         let least = (2.0 * longest - all).max(0.0) + 0.1 * all;
         Self {
@@ -139,7 +139,7 @@ impl ThreeLinks {
                 let second = (before.energy + after.energy - 2.0 * here.energy) / (h * h);
                 let twice = list.iter().any(|own| {
                     let apart = own.angles.iter().zip(&here.angles);
-                    apart.map(|(a, b)| wrapped(a - b).abs()).fold(0.0, f64::max) < 1e-6
+                    kinetostat_testing::largest_size(apart.map(|(a, b)| wrapped(a - b))) < 1e-6
                 });
                 if twice {
                     continue;
