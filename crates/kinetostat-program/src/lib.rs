@@ -104,7 +104,7 @@ pub use reading::faults::faults;
 pub use reading::interpreting::interpret::interpret;
 pub use reading::moment::{Acts, CONTROLLERS, MOMENTS, Moment, Placed};
 pub use reading::options::{BlockDelete, OtherAxes, ReadOptions, ToolCentrePoint, Units};
-pub use text::program::{COMPENSATED_MARK, MAX_READ_LINE_BYTES, Program};
+pub use text::program::{COMPENSATED_MARK, HEADER_PREFIX, MAX_READ_LINE_BYTES, Program};
 pub use writing::accounting::{Accounting, ShortBlocksOfLine};
 pub use writing::directed_moves::DIRECTION_DECIMALS;
 pub use writing::jump::Turn;

@@ -1,15 +1,12 @@
 //! The header of a corrected program: comments in its own language, below the line with which the program begins.
 
-use kinetostat_program::COMPENSATED_MARK;
+use kinetostat_program::{COMPENSATED_MARK, HEADER_PREFIX};
 
 use crate::heidenhain::numbering;
 use crate::ls::write::numbered_again;
 use crate::model::language::Language;
 use crate::text::source::SourceFile;
 use crate::text::source::beginning;
-
-/// Prefix of every header line.
-const PREFIX: &str = "kinetostat: ";
 
 /// Lines in which the mark is looked for.
 const LOOKED_AT: usize = 200;
@@ -56,7 +53,7 @@ fn comments(language: Language) -> Comments {
 
 /// Line of the mark of a corrected program, counted from 1.
 pub(crate) fn mark_line(file: &SourceFile) -> Option<usize> {
-    let mark = COMPENSATED_MARK.as_bytes();
+    let mark = HEADER_PREFIX.as_bytes();
     let holds = |line: &[u8]| line.windows(mark.len()).any(|part| part == mark);
     (1..=file.line_count().min(LOOKED_AT)).find(|number| file.line(*number).is_some_and(holds))
 }
@@ -139,12 +136,12 @@ pub(crate) fn with_header(
         return (numbered_again(&bytes).unwrap_or(bytes), 1);
     }
     let room = max_line_bytes
-        .saturating_sub(opens.len() + PREFIX.len())
+        .saturating_sub(opens.len() + HEADER_PREFIX.len())
         .max(20);
     for text in texts.iter().flat_map(|text| text.lines()) {
         let plain: String = text.chars().map(plain).collect();
         for part in in_lines(&plain, room) {
-            write(&format!("{PREFIX}{part}"));
+            write(&format!("{HEADER_PREFIX}{part}"));
         }
     }
     let bytes = [&bytes[..at], &header, &bytes[at..]].concat();

@@ -11,9 +11,11 @@ use crate::text::line::{Line, LineKind, Word, first_line};
 use crate::text::syntax;
 
 /// First words of the comment that marks a program as compensated.
-///
-/// [`Program::is_marked_compensated`] looks for them at the start of any comment.
 pub const COMPENSATED_MARK: &str = "kinetostat: compensated program";
+
+/// First word of every comment of that header (one that begins with `MSG`, `DEBUG` or `LOG` would be a command to some
+/// controllers). [`Program::is_marked_compensated`] looks for it at the start of any comment: some may have been removed.
+pub const HEADER_PREFIX: &str = "kinetostat: ";
 
 /// Longest line that is read, in bytes without the line ending. Controllers take far less (about
 /// 250); a longer line is no G-code but another kind of file.
@@ -591,7 +593,7 @@ impl Comments {
                 _ => continue,
             }
             let comment = text[spanned.span.start + 1..spanned.span.end].trim_ascii_start();
-            found.mark |= comment.starts_with(COMPENSATED_MARK.as_bytes());
+            found.mark |= comment.starts_with(HEADER_PREFIX.as_bytes());
         }
         found
     }

@@ -1,11 +1,7 @@
 //! The header of a corrected program, in the file's own comment style.
 
 use crate::text::line::LineKind;
-use crate::text::program::{COMPENSATED_MARK, Program};
-
-/// Prefix of every header line: a comment that begins with `MSG`, `DEBUG` or `LOG` would be a command
-/// to some controllers.
-const PREFIX: &str = "kinetostat: ";
+use crate::text::program::{COMPENSATED_MARK, HEADER_PREFIX, Program};
 
 /// Bytes of the header: the mark, then the texts, wrapped to `max_line_bytes`.
 pub(crate) fn header(program: &Program, texts: &[String], max_line_bytes: usize) -> Vec<u8> {
@@ -27,8 +23,8 @@ pub(crate) fn header(program: &Program, texts: &[String], max_line_bytes: usize)
         let plain = plain(text);
         let mut rest = plain.as_str();
         loop {
-            let length = rest.len().min(room - PREFIX.len());
-            write(&format!("{PREFIX}{}", &rest[..length]));
+            let length = rest.len().min(room - HEADER_PREFIX.len());
+            write(&format!("{HEADER_PREFIX}{}", &rest[..length]));
             rest = &rest[length..];
             if rest.is_empty() {
                 break;

@@ -8,8 +8,8 @@ use kinetostat_program::COMPENSATED_MARK;
 
 use crate::ui::failure::{Answer, Failure};
 
-/// What stands between the files of a joined program, in front of their numbers.
-const MARK: &str = "kinetostat: next file of the program,";
+/// What stands between the files of a joined program, in front of their numbers; it is no line of a header.
+const MARK: &str = "kinetostat, next file of the program,";
 
 /// The files of which a program was joined.
 #[derive(Clone, Debug)]
