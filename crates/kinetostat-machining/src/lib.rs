@@ -106,7 +106,7 @@ pub use result::tolerance::{
 pub use result::uncertainty_band::{BandPlace, ScatteredError, UncertainNumber, UncertaintyBand};
 pub use rigid_motion::{nearest_rotation, rigid_motion};
 pub use run::compensate::{analyse, analyse_part, compensate_part, compensate_program};
-pub use run::conclude::{Run, load_description, of_program};
+pub use run::conclude::{Run, load_description, marked_as_compensated, of_program};
 pub use run::cutting::{cut_places, cutting_result};
 pub use run::look_at_part::look_at_part;
 pub use run::merged::MergedRun;

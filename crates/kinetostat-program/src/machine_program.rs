@@ -40,6 +40,9 @@ pub trait MachineProgram: Sync {
     /// Where the tool goes.
     fn path(&self) -> &Path;
 
+    /// Line of the first comment that marks it as compensated, from 1.
+    fn mark_line(&self) -> Option<usize>;
+
     /// The program whose commanded path is its own plus the field's correction.
     ///
     /// # Errors
@@ -84,6 +87,10 @@ impl MachineProgram for Gcode<'_> {
 
     fn path(&self) -> &Path {
         self.path
+    }
+
+    fn mark_line(&self) -> Option<usize> {
+        self.program.mark_line()
     }
 
     fn write(

@@ -7,6 +7,7 @@ mod answer;
 pub(crate) mod arguments;
 mod text;
 
+use kinetostat_machining::marked_as_compensated;
 use kinetostat_report::chatter_svg;
 
 use crate::chatter::answer::ChatterAnswer;
@@ -77,6 +78,7 @@ pub(crate) fn run(args: &ChatterArgs) -> Answer<()> {
     progress.finish();
     let flat = setting.flat.as_ref();
     let mut said = warnings(Some(forces));
+    said.extend(read.with(marked_as_compensated));
     said.extend(setting.of_expansion());
     said.extend(implausible(&judging.damping));
     said.extend(judging.points.clone());

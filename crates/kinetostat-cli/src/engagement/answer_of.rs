@@ -2,22 +2,24 @@
 
 use kinetostat_cutting::Stock;
 use kinetostat_machining::{
-    CuttingTool, EngagementSource, ForceAlongPath, Warning, cutting_result, of_program,
+    CuttingTool, EngagementSource, ForceAlongPath, Warning, cutting_result, marked_as_compensated,
+    of_program,
 };
-use kinetostat_program::Path;
 
 use crate::engagement::answer::{EngagementAnswer, StockAnswer, ToolAnswer};
 use crate::job::cut::CutSetup;
 use crate::job::cut::along::warnings;
+use crate::job::program::ReadProgram;
 use crate::job::setting::Setting;
 use crate::program::flat_lines::of_warnings;
 
 pub(crate) fn answer_of(
     setting: &Setting,
     cut: &CutSetup,
-    (path, forces): (&Path, &ForceAlongPath),
+    (read, forces): (&ReadProgram<'_>, &ForceAlongPath),
     left: Option<&Stock>,
 ) -> EngagementAnswer {
+    let path = read.path();
     let mut files = setting.program_files.clone();
     files.extend(setting.job_file.clone());
     files.extend(cut.files.read.iter().cloned());
@@ -28,6 +30,7 @@ pub(crate) fn answer_of(
         "model, placement and tool lengths of a job play no part: the program is cut where and as large as it is written, with the tool along z; tool and part are rigid".to_owned(),
     );
     let mut warned: Vec<Warning> = warnings(Some(forces));
+    warned.extend(read.with(marked_as_compensated));
     // Every tool has its own cutter here, and nothing is corrected.
     let of_corrections = |w: &Warning| w.message.contains("corrections are made for one tool");
     warned.extend(

@@ -58,7 +58,7 @@ pub(crate) fn run(args: &EngagementArgs) -> Answer<()> {
     let walked = cut.question.along_and_left(path, &progress);
     let (forces, left) = walked.map_err(|failure| stopped_or_within(failure, &setting))?;
     progress.finish();
-    let answer = answer_of(&setting, &cut, (path, &forces), left.as_ref());
+    let answer = answer_of(&setting, &cut, (&read, &forces), left.as_ref());
     let flat = setting.flat.as_ref();
     let mut text = text::answer_text(&answer);
     text.push_str(&listed_under(&text, flat));

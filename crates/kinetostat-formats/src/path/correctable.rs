@@ -337,14 +337,17 @@ impl MachineProgram for Correctable<'_> {
         &self.path.path
     }
 
+    fn mark_line(&self) -> Option<usize> {
+        self.program.files.get(self.path.file).and_then(mark_line)
+    }
+
     fn write(
         &self,
         field: &dyn CorrectionField,
         options: &PathWriteOptions,
         monitor: &dyn Monitor,
     ) -> Result<Corrected, PathWriteError> {
-        let main = self.program.files.get(self.path.file);
-        if let Some(line) = main.and_then(mark_line)
+        if let Some(line) = self.mark_line()
             && !options.again
         {
             return Err(PathWriteError::AlreadyCompensated { line });

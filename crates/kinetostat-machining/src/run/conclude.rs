@@ -2,7 +2,7 @@
 
 use kinetostat::number::{larger, largest, largest_length, smaller};
 use kinetostat::{Directions, Mechanism, MotionKind};
-use kinetostat_program::{Corrected, Path};
+use kinetostat_program::{Corrected, MachineProgram, Path};
 
 use crate::checks::refused::{as_warning, of_points, of_task};
 use crate::checks::unusual::unusual;
@@ -221,6 +221,7 @@ fn warnings(
         ));
     }
     if written.is_none() {
+        warnings.extend(marked_as_compensated(task.program));
         let beyond = of_task(task).into_iter().chain(of_points(task, points));
         warnings.extend(beyond.map(|b| as_warning(&b)));
     }
@@ -259,6 +260,14 @@ pub fn of_program(path: &Path, writing: Option<&[kinetostat_program::Warning]>) 
     );
     warnings.dedup();
     warnings
+}
+
+/// A program with corrections, to a question about the program as it was drawn.
+#[must_use]
+pub fn marked_as_compensated(program: &dyn MachineProgram) -> Option<Warning> {
+    let line = program.mark_line()?;
+    let text = "the program is marked as compensated: every figure here is that of its corrected path, on which the corrections count as if they were drawn; take the original program".to_owned();
+    Some(Warning::at_line(WarningCode::Program, line, text))
 }
 
 /// Where the force changes faster in a cut than the correction may, if that matters beside the tolerance.

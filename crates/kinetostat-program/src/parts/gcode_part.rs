@@ -33,6 +33,12 @@ impl MachineProgram for GcodePart<'_, '_> {
         &self.part.path
     }
 
+    fn mark_line(&self) -> Option<usize> {
+        let own = self.part.program.own_numbers();
+        let found = self.part.program.mark_line();
+        found.filter(|line| own.contains(line))
+    }
+
     fn write(
         &self,
         field: &dyn CorrectionField,
