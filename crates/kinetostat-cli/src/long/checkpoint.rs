@@ -16,6 +16,7 @@ use serde::{Deserialize, Serialize};
 use crate::files::hash::{FNV1A, fnv1a};
 use crate::files::held_folder::{LOCK, hold};
 use crate::files::journal::{Contents, Entry};
+use crate::job::machine::MachineSetup;
 use crate::long::difference::difference;
 use crate::ui::failure::{Answer, Code, Failure};
 use crate::ui::system_error::description;
@@ -25,8 +26,31 @@ use crate::ui::system_error::description;
 pub(crate) struct Manifest(pub(crate) Vec<(String, String)>);
 
 impl Manifest {
+    /// The machine with tool, load and placement; or that there is none.
+    pub(crate) fn of_machine(machine: Option<&MachineSetup>) -> Self {
+        let Some(machine) = machine else {
+            return Self(vec![("the model".to_owned(), "none".to_owned())]);
+        };
+        let inputs = &machine.run_inputs;
+        let model = format!("{} {:016x}", inputs.model, machine.fingerprint);
+        let loads = machine.tools.iter().map(|(number, _, load)| (number, load));
+        // The first file is that of the model, whose comments count for nothing.
+        let of_cut = inputs.files.iter().skip(1).map(|file| &file.sha256);
+        let cut = (&inputs.cut, of_cut.collect::<Vec<_>>());
+        let load = (&machine.load, loads.collect::<Vec<_>>(), cut);
+        let fields = [
+            ("the model", model),
+            ("the load", format!("{load:#?}")),
+            ("the weight", format!("{:?}", machine.weight)),
+            ("the place of the part", format!("{:#?}", machine.placement)),
+            ("the tool", inputs.tool.clone()),
+        ];
+        let fields = fields.map(|(name, value)| (name.to_owned(), value));
+        Self(fields.to_vec())
+    }
+
     /// The first field that another run has otherwise, with what of it differs.
-    fn differs_in(&self, other: &Self) -> Option<String> {
+    pub(crate) fn differs_in(&self, other: &Self) -> Option<String> {
         let both = self.0.iter().zip(&other.0);
         let found = both.into_iter().find(|(a, b)| a != b);
         let longer = || (self.0.len() != other.0.len()).then(|| "the settings".to_owned());

@@ -118,13 +118,6 @@ impl<'a> LongRun<'a> {
             ("the command", format!("{:#?}", self.aim)),
             ("the program", hashes(&s.program_files)),
             (
-                "the model",
-                format!(
-                    "{} {:016x}",
-                    self.machine.run_inputs.model, self.machine.fingerprint
-                ),
-            ),
-            (
                 "the way in which the program is read",
                 format!("{:#?}", s.reading),
             ),
@@ -132,13 +125,6 @@ impl<'a> LongRun<'a> {
                 "a tolerance, or how the program is written",
                 format!("{:#?}", s.writing),
             ),
-            ("the load", format!("{:#?}", self.machine.load)),
-            ("the weight", format!("{:?}", self.machine.weight)),
-            (
-                "the place of the part",
-                format!("{:#?}", self.machine.placement),
-            ),
-            ("the tool", self.machine.run_inputs.tool.clone()),
             ("a limit", format!("{:#?}", s.limits)),
             (
                 "the list of points",
@@ -154,11 +140,10 @@ impl<'a> LongRun<'a> {
                 format!("{own} lines and {beside} beside them")
             }),
         ];
-        Manifest(
-            fields
-                .map(|(name, value)| (name.to_owned(), value))
-                .to_vec(),
-        )
+        let mut manifest = Manifest::of_machine(Some(self.machine));
+        let own = fields.map(|(name, value)| (name.to_owned(), value));
+        manifest.0.extend(own);
+        manifest
     }
 
     /// A part, as a run takes it.

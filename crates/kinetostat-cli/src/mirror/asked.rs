@@ -4,6 +4,7 @@ use std::path::Path;
 
 use kinetostat_mirror::{MeasureSettings, MirrorState, NominalPath, Register, Stations};
 
+use crate::files::hash::sha256;
 use crate::files::input_files::InputFiles;
 use crate::job::arguments::{ProgramArgs, WritingFlags};
 use crate::job::feature_lines::refuse_lines_beyond;
@@ -52,6 +53,15 @@ pub(crate) fn asked(
 /// The job names a model, whose compensation comes first.
 pub(crate) fn names_model(job: Option<&JobFile>) -> bool {
     job.is_some_and(|job| job.job.model.is_some())
+}
+
+/// Of the program with everything that says where it goes: positions may stand in a second file.
+pub(crate) fn hash_of(setting: &Setting) -> String {
+    let Some(robot) = &setting.robot else {
+        return sha256(&setting.program);
+    };
+    let all: Vec<&[u8]> = robot.files.iter().map(|file| file.bytes()).collect();
+    sha256(&all.concat())
 }
 
 pub(crate) fn flags_of(args: &MirrorArgs, program: &Path) -> ProgramArgs {

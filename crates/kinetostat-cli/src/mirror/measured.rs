@@ -11,7 +11,7 @@ use crate::files::input_files::{InputFiles, text_in};
 use crate::job::job_file::JobFile;
 use crate::job::program::read_program;
 use crate::mirror::arguments::MirrorArgs;
-use crate::mirror::asked::asked;
+use crate::mirror::asked::{asked, hash_of};
 use crate::ui::failure::{Answer, Failure};
 
 /// Standard deviations that a measurement of a point can have, um: an interferometer at rest, and a tape measure.
@@ -23,7 +23,7 @@ const COARSEST_UM: f64 = 1e3;
 pub(crate) fn measurements(
     files: &InputFiles,
     (job, args): (Option<&JobFile>, &MirrorArgs),
-    (nominal, settings): (&NominalPath<'_>, &MeasureSettings),
+    (nominal, settings, hash): (&NominalPath<'_>, &MeasureSettings, &str),
     tolerance_mm: f64,
 ) -> Answer<Vec<(MeasuredFile, Measurement)>> {
     let one = |path: &PathBuf| {
@@ -38,6 +38,18 @@ pub(crate) fn measurements(
             false => {
                 let second = asked(files, job, args, path)?;
                 let read = read_program(&second)?;
+                if let Some(line) = read.with(|program| program.mark_line()) {
+                    return Err(Failure::input(format!(
+                        "line {line}: the program is marked as compensated: its path is that of the commands, not of the machine, and its corrections would be mirrored as errors; give measured points, or a program of what was measured"
+                    ))
+                    .within(&name));
+                }
+                if hash_of(&second) == hash {
+                    return Err(Failure::input(
+                        "this is the program itself, which lies on its own path: nothing was measured; give measured points, or a program of what was measured",
+                    )
+                    .within(&name));
+                }
                 MeasuredPoints::along(read.path(), 0.1 * settings.smoothing_mm)
                     .map_err(|error| Failure::from(error).within(&name))?
             }

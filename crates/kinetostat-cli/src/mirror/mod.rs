@@ -23,7 +23,6 @@ use kinetostat_mirror::{
 };
 use kinetostat_program::Accounting;
 
-use crate::files::hash::sha256;
 use crate::files::input_files::InputFiles;
 use crate::files::outputs::{self, Existing, Outputs};
 use crate::job::job_file::JobFile;
@@ -32,9 +31,10 @@ use crate::job::machine::{MachineSetup, machine_setup};
 use crate::job::output_paths::BESIDE;
 use crate::job::program::read_program;
 use crate::job::setting::Setting;
+use crate::long::checkpoint::Manifest;
 use crate::mirror::answer::{MeasurementResult, MirrorAnswer, largest_correction_mm};
 use crate::mirror::arguments::MirrorArgs;
-use crate::mirror::asked::{asked, flags_of, names_model, settings_of};
+use crate::mirror::asked::{asked, flags_of, hash_of, names_model, settings_of};
 use crate::mirror::features::of_features;
 use crate::mirror::measured::{measurements, repeatability};
 use crate::mirror::state_file::{read_state, state_text};
@@ -61,15 +61,26 @@ pub(crate) fn run(args: &MirrorArgs) -> Answer<()> {
     let before = before.map(|path| read_state(&files, path)).transpose()?;
     let settings = settings_of(args, &nominal, before.as_ref())?;
     let hash = hash_of(&setting);
+    let compensation = Manifest::of_machine(machine.as_ref());
     let mut state = match before {
         Some(state) => state,
-        None => MirrorState::new(&nominal, &hash, settings)?,
+        None => MirrorState {
+            compensation: Some(compensation.0.clone()),
+            ..MirrorState::new(&nominal, &hash, settings)?
+        },
     };
-    let of_state = |error: MirrorError| {
+    let of_state = |failure: Failure| {
         let name = args.state.as_ref().map(|path| path.display().to_string());
-        Failure::from(error).within(&name.unwrap_or_default())
+        failure.within(&name.unwrap_or_default())
     };
-    state.fits(&nominal, &hash, &settings).map_err(of_state)?;
+    let fits = state.fits(&nominal, &hash, &settings);
+    fits.map_err(|error| of_state(error.into()))?;
+    let kept = state.compensation.clone().map(Manifest);
+    if let Some(field) = kept.and_then(|kept| kept.differs_in(&compensation)) {
+        return Err(of_state(Failure::input(format!(
+            "its trials were made on top of another compensation by a model, and what differs now is {field}: go on with the same --job, or begin with a new state"
+        ))));
+    }
     let claimed = Claimed::of(args, &setting)?;
 
     let tolerance_mm = setting.writing.tolerance_mm;
@@ -80,7 +91,7 @@ pub(crate) fn run(args: &MirrorArgs) -> Answer<()> {
     let measured = measurements(
         &files,
         (job.as_ref(), args),
-        (&nominal, &settings),
+        (&nominal, &settings, &hash),
         tolerance_mm,
     )?;
     let relaxation = args.relaxation.unwrap_or(1.0);
@@ -90,7 +101,7 @@ pub(crate) fn run(args: &MirrorArgs) -> Answer<()> {
         false => state.take(&nominal, &measured, relaxation, known),
     };
     let outcome = outcome.map_err(Failure::from)?;
-    let field = MirrorField::new(&nominal, &state).map_err(of_state)?;
+    let field = MirrorField::new(&nominal, &state).map_err(|error| of_state(error.into()))?;
     let made = written(machine.as_ref(), (&setting, &read), &field)?;
     refuse_beyond_limits(&setting, &state, &made)?;
 
@@ -142,15 +153,6 @@ fn machine_of_job(
     let (machine, _) = machine_setup(files, job, None, &flags, with)?;
     setting.turned_by(machine.rotary.clone());
     Ok(Some(machine))
-}
-
-/// Of the program with everything that says where it goes: positions may stand in a second file.
-fn hash_of(setting: &Setting) -> String {
-    let Some(robot) = &setting.robot else {
-        return sha256(&setting.program);
-    };
-    let all: Vec<&[u8]> = robot.files.iter().map(|file| file.bytes()).collect();
-    sha256(&all.concat())
 }
 
 /// Outputs that have been found writable.

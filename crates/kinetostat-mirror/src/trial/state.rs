@@ -56,6 +56,9 @@ pub struct MirrorState {
     /// What the points of the last trial say, against which those of the next are held.
     #[serde(default)]
     pub means: Vec<PieceMean>,
+    /// Compensation by a model, or none, on top of which the trials are made, by name and value; absent in earlier versions.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub compensation: Option<Vec<(String, String)>>,
 }
 
 impl MirrorState {
@@ -79,6 +82,7 @@ impl MirrorState {
             deviation_mm: vec![Vector3::zeros(); along_mm.len()],
             along_mm,
             means: Vec::new(),
+            compensation: None,
         })
     }
 
