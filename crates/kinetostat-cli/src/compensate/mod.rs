@@ -182,9 +182,9 @@ fn compensate_whole(files: &InputFiles, args: &CompensateArgs) -> Answer<()> {
     if to.is_none() {
         refuse_other_endings(&setting)?;
     }
+    let names_model = job.is_some_and(|j| j.job.model.is_some());
     if args.no_compensation {
-        let known = args.run.model.is_some() || job.is_some_and(|j| j.job.model.is_some());
-        if known {
+        if args.run.model.is_some() || names_model {
             let named = (job, args.run.model.as_deref());
             setting.turned_by(rotary_of_copy(files, named, flags));
         }
@@ -192,6 +192,11 @@ fn compensate_whole(files: &InputFiles, args: &CompensateArgs) -> Answer<()> {
     }
     let to_screen = args.run.json.as_deref() == Some(Path::new("-"));
     if let Some(map) = &args.map {
+        if names_model {
+            return Err(Failure::input(
+                "--map corrects from a table, and the job names a model, whose corrections would be left out: leave --map out, or give the table a job without model, placement and load (or --program alone)",
+            ));
+        }
         // A table of corrections knows no tools: a second one is warned of.
         setting.reading.tools = None;
         return correction_table::from_map(files, map, &setting, existing, to_screen);
