@@ -13,7 +13,7 @@ use crate::deviation::stations::Stations;
 use crate::deviation::unseen::{Unseen, unseen};
 use crate::error::MirrorError;
 use crate::points::{MeasuredPoint, MeasuredPoints};
-use crate::registration::{Motion, Registration, RegistrationOptions, register};
+use crate::registration::{Motion, Registration, RegistrationOptions, of_the_same_size, register};
 use kinetostat_program::{NominalPath, WhyLeftOut};
 
 /// More points than this share beyond the window, and a motion onto the path is none.
@@ -149,7 +149,10 @@ pub fn measure(
         window_mm: settings.window_mm,
     };
     let registration = match settings.register {
-        Register::None => None,
+        Register::None => {
+            of_the_same_size(nominal, measured, Some(settings.smoothing_mm))?;
+            None
+        }
         _ => Some(register(nominal, measured, options)?),
     };
     let motion = registration

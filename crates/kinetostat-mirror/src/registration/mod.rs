@@ -32,6 +32,7 @@ mod starts;
 mod step;
 
 pub use candidates::ToldBy;
+pub(crate) use extent::of_the_same_size;
 pub use motion::{FreeMotion, Motion};
 pub use options::RegistrationOptions;
 pub use search::{Registration, register};

@@ -88,7 +88,7 @@ pub fn register(
     options: RegistrationOptions,
 ) -> Result<Registration, MirrorError> {
     are_different(points.points())?;
-    of_the_same_size(nominal, points)?;
+    of_the_same_size(nominal, points, None)?;
     let points = points.points();
     let judged = some_of(points, JUDGED);
     let candidates = candidates((nominal, options), points, &judged);
