@@ -2,7 +2,8 @@
 
 use kinetostat::Directions;
 use kinetostat_program::{
-    Gcode, MachineProgram, Part, Path as ToolPath, Program, ProgramError, faults, interpret,
+    Gcode, MachineProgram, Part, Path as ToolPath, Program, ProgramError, ReadOptions, Warning,
+    faults, interpret,
 };
 
 use crate::job::expansion::advice::advice;
@@ -116,6 +117,28 @@ fn without_origin(setting: &Setting, fault: &mut ProgramError) {
     }
 }
 
+/// What is stated of the machine and of its tools, and is used by no block.
+fn without_effect(program: &Program, path: &ToolPath, reading: &ReadOptions) -> Vec<Warning> {
+    let mut found = Vec::new();
+    let [g28, g30] = reading.reference_points_mm;
+    let is_unused = |place: Option<_>, codes: &[f64]| place.is_some() && !program.has_g_code(codes);
+    let of_zero = [10.0, 28.0, 30.0, 53.0];
+    if is_unused(g28, &[28.0])
+        || is_unused(g30, &[30.0])
+        || is_unused(reading.machine_zero_mm, &of_zero)
+    {
+        let text = "a place of the machine (machine_zero_mm, g28_mm, g30_mm) is stated, and no block goes by it (G10, G28, G30, G53): it changes nothing".to_owned();
+        found.push(Warning { line: 1, text });
+    }
+    let first = path.moves.first().map(|motion| motion.line);
+    let named = first.filter(|line| path.tool_on(*line).is_some());
+    if let (Some(line), true, true) = (named, reading.tools.is_some(), reading.tool_before_first) {
+        let text = "the tool is stated twice: the program has named one of [[tools]] before it moves, whose length counts, and that under [tool] is used nowhere; leave length_mm and pose out there".to_owned();
+        found.push(Warning { line, text });
+    }
+    found
+}
+
 /// Reads and interprets a program.
 pub(crate) fn read_program(setting: &Setting) -> Answer<ReadProgram<'_>> {
     if let Some(source) = &setting.robot {
@@ -126,7 +149,7 @@ pub(crate) fn read_program(setting: &Setting) -> Answer<ReadProgram<'_>> {
         let path = interpret(&program, &setting.reading)?;
         Ok((program, path))
     });
-    let (program, path) = read.map_err(|mut error| {
+    let (program, mut path) = read.map_err(|mut error| {
         let mut all = faults(setting.program.clone(), &setting.reading);
         for fault in all.iter_mut().chain([&mut error]) {
             without_origin(setting, fault);
@@ -140,6 +163,11 @@ pub(crate) fn read_program(setting: &Setting) -> Answer<ReadProgram<'_>> {
         let failure = Failure::input(first.unwrap_or_default() + &message);
         setting.within(failure).of_program()
     })?;
+    // A flat program has taken them where it was expanded.
+    if setting.flat.is_none() {
+        path.warnings
+            .extend(without_effect(&program, &path, &setting.reading));
+    }
     let states_none = path.moves.iter().all(|motion| motion.tool_turn.is_none());
     if setting.correct.directions() == Directions::ALL && states_none {
         return Err(Failure::input(

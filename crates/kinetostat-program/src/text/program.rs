@@ -212,6 +212,13 @@ impl Program {
             .collect()
     }
 
+    /// True if one of these G codes is in the program, in a block that is run or not.
+    #[must_use]
+    pub fn has_g_code(&self, codes: &[f64]) -> bool {
+        let mut words = self.lines().iter().flat_map(|line| self.words(line));
+        words.any(|word| word.letter == b'G' && codes.contains(&word.value))
+    }
+
     pub(crate) fn words(&self, line: &Line) -> &[Word] {
         &self.words[line.words.start as usize..line.words.end as usize]
     }
