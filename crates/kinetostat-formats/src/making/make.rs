@@ -40,6 +40,9 @@ pub struct Made {
     pub spindle_not_started: Option<String>,
 }
 
+/// Rapids below this are a speed in another unit, mm/s.
+const SLOWEST_RAPID_MM_PER_S: f64 = 1.0;
+
 /// What stands at the head of made programs.
 const MADE_BY: &str = "made by kinetostat convert";
 
@@ -206,10 +209,13 @@ fn taken_for_granted(
         say(zones(template, language));
         let straight = |motion: &MadeMotion| motion.rapid && motion.way == Way::Line;
         if steps.iter().filter_map(Step::motion).any(straight) {
-            say(format!(
-                "rapids are straight motions at {} mm/s",
-                template.rapid_speed_mm_per_s
-            ));
+            let speed = template.rapid_speed_mm_per_s;
+            say(format!("rapids are straight motions at {speed} mm/s"));
+            if speed < SLOWEST_RAPID_MM_PER_S {
+                say(format!(
+                    "{speed} mm/s is slow for rapids: check the unit of rapid_speed_mm_per_s (mm/s, not m/s)"
+                ));
+            }
         }
     }
     if template.rapids == Rapids::Joint

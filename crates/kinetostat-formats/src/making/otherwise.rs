@@ -21,6 +21,8 @@ pub(crate) struct Otherwise {
     lost: BTreeMap<EventKind, (usize, String)>,
     /// Lines of optional stops that always stop.
     always: Vec<usize>,
+    /// The first block with a speed of the spindle that the statements of the template do not take.
+    pub(crate) dropped_speed: Option<String>,
 }
 
 impl Otherwise {
@@ -82,7 +84,11 @@ impl Otherwise {
             );
             MakeFinding::of(*first, message)
         });
-        followed.chain(lost).chain(always).collect()
+        let dropped = self.dropped_speed.iter().map(|first| {
+            let message = format!("spindle: the speed of the program is left out ({first}): the template's statements have no {{rpm}}, and the spindle turns as they say");
+            MakeFinding::of(None, message)
+        });
+        followed.chain(lost).chain(dropped).chain(always).collect()
     }
 }
 

@@ -202,6 +202,13 @@ impl Planner<'_> {
             let length = event.text.contains("G43") || event.text.contains("G49");
             kind == EventKind::Tool && of_a_machine && self.tool != before && !length
         };
+        let has_speed = |action: &EventAction| matches!(action, EventAction::Spindle { rotation, rpm: Some(_) } if *rotation != SpindleRotation::Stopped);
+        if self.language.is_of_an_arm()
+            && self.template.spindle.leaves_out_speed()
+            && (event.states_speed || event.actions.iter().any(has_speed))
+        {
+            self.otherwise.dropped_speed.get_or_insert(note.clone());
+        }
         let speaks_alone = event.actions.is_empty() && event.rest.is_none();
         lost.extend(event.rest.filter(|kind| !is_taken(*kind)));
         // The speed of a spindle that stands still is written where it starts.

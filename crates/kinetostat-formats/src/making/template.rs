@@ -81,6 +81,12 @@ impl SpindleStatements {
         let rpm = short(rpm.unwrap_or(0.0), 3);
         Some(lines.iter().map(|line| line.replace(RPM, &rpm)).collect())
     }
+
+    /// True if starting the spindle leaves out the speed of the source: a cell with one speed, or a forgotten `{rpm}`.
+    pub(crate) fn leaves_out_speed(&self) -> bool {
+        let starts = [&self.clockwise[..], &self.counter_clockwise].concat();
+        !starts.is_empty() && !starts.iter().any(|line| line.contains(RPM))
+    }
 }
 
 /// The place of the speed in a statement of the spindle.
