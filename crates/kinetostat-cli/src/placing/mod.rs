@@ -12,7 +12,7 @@ mod text;
 
 use std::path::{Path, PathBuf};
 
-use kinetostat_machining::{Task, analyse};
+use kinetostat_machining::{Task, Warning, WarningCode, analyse};
 use kinetostat_placing::{Effort, Placed, Space, place};
 
 use crate::files::input_files::InputFiles;
@@ -34,6 +34,9 @@ use crate::ui::given::Given;
 use crate::ui::json;
 use crate::ui::progress::Progress;
 use crate::ui::threads::in_threads;
+
+/// Figures below this, mm or deg or shares, are none.
+const NOTHING: f64 = 1e-9;
 
 /// Most placements that may fill the ranges.
 const MOST_SAMPLES: usize = 1_000_000;
@@ -111,6 +114,11 @@ pub(crate) fn run(args: &PlacingArgs, given: &Given) -> Answer<()> {
     warnings.extend(run_warnings::of_run(&model, job, &args.program));
     let part = question.part.as_ref();
     warnings.extend(part.and_then(|part| beside_the_part(part, read.path())));
+    let figure = placed.best.as_ref().and_then(|best| best.figure);
+    warnings.extend(figure.filter(|figure| figure.abs() < NOTHING).map(|_| {
+        let text = "there is nothing to minimise: the figure is zero, for no load and no weight that counts is stated; state the load ([load], --force, --milling)";
+        Warning::new(WarningCode::LoadNeverActs, text.to_owned())
+    }));
     let result = at_best.as_ref().map(|run| &run.result);
     let answer = PlaceAnswer {
         schema: 1,

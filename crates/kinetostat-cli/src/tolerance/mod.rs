@@ -16,8 +16,8 @@ use kinetostat_model::Model;
 use kinetostat_report::Plot;
 use kinetostat_tolerance::{
     CONFIDENCE, DependsOnMachine, Draws, Failures, Linear, MOST_DRAWS, OutputAnswer, Quantity,
-    Samples, SobolIndex, TaskError, UncertainMachine, UncertaintyFile, answers, can_be_kept,
-    linearised, monte_carlo, sobol as sobol_of,
+    Samples, SobolIndex, Source, TaskError, UncertainMachine, UncertaintyFile, answers,
+    can_be_kept, linearised, monte_carlo, sobol as sobol_of,
 };
 
 use crate::files::input_files::InputFiles;
@@ -259,7 +259,13 @@ fn answer_of(
     let numbers = &study.file.uncertainties;
     let shared = study.file.shared.iter();
     let shared = shared.map(|s| Warning::new(WarningCode::SharedNumber, s.description()));
-    let warnings = shared.chain(query.warnings.iter().cloned()).collect();
+    let scales = study.file.sources.contains(&Source::LoadFactor);
+    let unloaded = (scales && wrench.0.iter().all(|x| *x == 0.0)).then(|| {
+        let text = "load = \"factor\" is uncertain, and no load acts, so that it changes nothing: give --force or --moment, or leave it out";
+        Warning::new(WarningCode::LoadNeverActs, text.to_owned())
+    });
+    let warnings = shared.chain(unloaded);
+    let warnings = warnings.chain(query.warnings.iter().cloned()).collect();
     ToleranceAnswer {
         schema: 1,
         kinetostat_version: env!("CARGO_PKG_VERSION"),
