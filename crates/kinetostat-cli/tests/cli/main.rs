@@ -7,6 +7,7 @@ mod common;
 
 mod absurd;
 mod absurd_questions;
+mod absurd_states;
 mod assemble;
 mod assessment;
 mod axes_alone;
