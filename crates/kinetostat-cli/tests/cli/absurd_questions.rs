@@ -5,6 +5,7 @@ use std::path::Path;
 
 use crate::absurd::{ARM_JOB, arm, compensated};
 use crate::common::{Said, run, workplace};
+use crate::cut;
 
 const GCODE: &str = "G21 G90\nG0 X0 Y0 Z5\nG1 Z-1 F300\nG1 X40 F600\nG0 Z5\nM2\n";
 
@@ -438,4 +439,158 @@ fn an_error_given_twice_is_refused() {
         ],
     );
     words("leg y:line:1deg about x").answered();
+}
+
+const SLOT: &str = "MODULE Slot\n  PERS tooldata tMill:=[TRUE,[[0,0,180],[1,0,0,0]],[5,[0,0,60],[1,0,0,0],0,0,0]];\n  PERS wobjdata wPart:=[FALSE,TRUE,\"\",[[1800,0,900],[1,0,0,0]],[[0,0,0],[1,0,0,0]]];\n  PROC main()\n    MoveJ [[0,0,20],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v500,z10,tMill\\WObj:=wPart;\n    MoveL [[0,0,-1],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v20,z1,tMill\\WObj:=wPart;\n    MoveL [[60,0,-1],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v20,fine,tMill\\WObj:=wPart;\n  ENDPROC\nENDMODULE\n";
+
+/// What one command refused or warned of, and its siblings answered without a word: the good question says nothing of it.
+#[test]
+fn siblings_ask_the_same_of_an_absurd_question() {
+    let here = workplace();
+    let here = here.path();
+    let put = |name: &str, text: &str| std::fs::write(here.join(name), text).unwrap();
+    put("part.ngc", GCODE);
+    put("on.ngc", &GCODE.replace("G90\n", "G90\nS8000 M3\n"));
+    put("off.ngc", &GCODE.replace("G90\n", "G90\nS8000\n"));
+    put("z1.mod", SLOT);
+    put("z200.mod", &SLOT.replace("v20,z1", "v20,z200"));
+    put("cell.toml", CELL);
+    put(
+        "side.toml",
+        &CELL.replace("[0, 0, 180] }\n[base]", "[0, 90, 0] }\n[base]"),
+    );
+    put("pass.ngc", cut::PASS);
+    let block = |mm: &str| cut::JOB.replace("-20, -12]", &format!("-20, {mm}]"));
+    put("cut.toml", &block("-70"));
+    put("deep.ngc", &cut::PASS.replace("Z-2 ", "Z-60 "));
+
+    let arm = "heavy_6r --tool-length-mm 200 --force-overwrite";
+    let placed = "--part-origin-mm 1200 0 900";
+    let milling = "--milling 215 -10 25 --weight all";
+    let made = format!("compensate --out x.ngc --model {arm} {milling}");
+    let of_part = format!("{made} {placed} --program");
+    let solved = format!("deflect {arm} {placed} {milling} --program");
+    let of_slot = format!("{milling} --force-overwrite --program");
+    let fixed = "compensate --model orthoglide --part-origin-mm 0 0 100 --tool-length-mm 100 --milling 215 -10 25 --program part.ngc --out x.ngc --force-overwrite";
+    let lobes = "lobes heavy_6r --tool-length-mm 150 --damping 0.03 --teeth 2 --rpm 2000 2100 2 --coefficients-n-per-mm2";
+    // What both begin with, the good end, the absurd one, whether that is refused, and what is said of it.
+    let cases: [(&str, &str, &str, bool, &str); 15] = [
+        (
+            &format!("compensate --model heavy_6r --out x.mod {of_slot}"),
+            "z1.mod",
+            "z200.mod",
+            true,
+            "is 200 mm, more than the 5 mm",
+        ),
+        (
+            &format!("deflect heavy_6r {of_slot}"),
+            "z1.mod",
+            "z200.mod",
+            false,
+            "--limit zone_mm=",
+        ),
+        (
+            &format!("verify z1.mod --model heavy_6r {milling} --against"),
+            "z1.mod",
+            "z200.mod",
+            true,
+            "is 200 mm, more than the 5 mm",
+        ),
+        (
+            &format!("{made} --program part.ngc"),
+            placed,
+            "--part-orientation a_b_c_kuka_deg=0,0,0",
+            false,
+            "no place of the part is given",
+        ),
+        (
+            &of_part,
+            "part.ngc",
+            "part.ngc --part-orientation a_b_c_kuka_deg=0,0,180",
+            true,
+            "the tool points up",
+        ),
+        (
+            &solved,
+            "part.ngc",
+            "part.ngc --part-orientation a_b_c_kuka_deg=0,0,180",
+            true,
+            "the tool points up",
+        ),
+        (
+            &of_part,
+            "part.ngc",
+            "part.ngc --tool-orientation a_b_c_kuka_deg=0,90,0",
+            false,
+            "the tool lies on its side",
+        ),
+        (
+            "convert part.ngc --to krl --out x.src --force-overwrite --template",
+            "cell.toml",
+            "side.toml",
+            false,
+            "the tool lies on its side",
+        ),
+        (
+            &of_part,
+            "part.ngc --part-orientation a_b_c_kuka_deg=90,0,0",
+            "part.ngc --part-orientation a_b_c_kuka_deg=1.5708,0,0",
+            false,
+            "a_b_c_kuka_deg: 1.5708 degrees are exactly",
+        ),
+        (
+            fixed,
+            "--decimals 4",
+            "--weight all",
+            false,
+            "the model has none",
+        ),
+        (
+            &format!("deflect {arm} {placed} --program part.ngc --weight"),
+            "all",
+            "none",
+            false,
+            "no load on the tool is given",
+        ),
+        (
+            "deflect orthoglide --part-origin-mm 0 0 100 --program part.ngc",
+            "--force 100 0 0",
+            "--threads 1",
+            false,
+            "no load on the tool is given",
+        ),
+        (
+            lobes,
+            "796 168 222",
+            "168 796 222",
+            false,
+            "K_rc = 796 N/mm^2 is above K_tc = 168 N/mm^2",
+        ),
+        (
+            "engagement cut.toml --program",
+            "pass.ngc",
+            "deep.ngc",
+            false,
+            "10 times the tool's diameter",
+        ),
+        (
+            &of_part,
+            "on.ngc",
+            "off.ngc",
+            false,
+            "never starts it: add M3",
+        ),
+    ];
+    for (line, good, absurd, is_refused, needle) in cases {
+        for (end, is_absurd) in [(good, false), (absurd, true)] {
+            let said = command(here, &format!("{line} {end}"));
+            let text = in_one_line(&format!("{} {}", said.out, said.err));
+            assert_eq!(text.contains(needle), is_absurd, "{line} {end}: {text}");
+            assert_eq!(
+                said.code == 1,
+                is_absurd && is_refused,
+                "{line} {end}: {text}"
+            );
+        }
+    }
 }
