@@ -140,7 +140,13 @@ fn without_noise_the_coefficients_come_back() {
             assert!(number(&component["r_squared"]) > 1.0 - 1e-9);
             assert!(number(&component["residual_rms_n"]) < 1e-9);
         }
-        assert!(warnings(&a).is_empty(), "{:?}", a["warnings"]);
+        // The reference coefficients push the tool up, which their helix does not.
+        let mut codes = warnings(&a).into_iter();
+        assert!(
+            codes.all(|code| code == "implausible_coefficient"),
+            "{:?}",
+            a["warnings"]
+        );
     }
 }
 

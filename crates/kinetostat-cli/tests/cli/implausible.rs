@@ -462,7 +462,8 @@ fn a_check_tells_what_a_compensation_refuses_of_load_and_tool() {
         if let Some(code) = code.filter(|_| !refused) {
             assert!(codes.contains(&code.to_owned()), "{to}: {codes:?}");
         }
-        let said = run(here.path(), &["check", "job.toml", "--json"]).answered();
+        let said = run(here.path(), &["check", "job.toml", "--json"]);
+        assert_eq!(said.code == 1, refused, "{said:?}");
         let found: Value = serde_json::from_str(&said.out).expect("JSON");
         let list = found["warnings"].as_array().expect("a list");
         let codes: Vec<_> = list.iter().filter_map(|w| w["code"].as_str()).collect();

@@ -467,8 +467,10 @@ fn sound_models_raise_no_alarm() {
             "{}",
             preset_.name
         );
+        // Chapter 5 of the report has two chains because they buckle.
+        let buckles = preset_.name.starts_with("two_chains");
         assert!(
-            warnings.is_empty() || singular,
+            warnings.is_empty() || singular || buckles,
             "{}: {warnings:?}",
             preset_.name
         );
