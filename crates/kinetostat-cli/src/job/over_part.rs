@@ -1,7 +1,7 @@
 //! How the tool of an arm stands over the part.
 
 use kinetostat::Pose;
-use kinetostat_machining::{Warning, WarningCode};
+use kinetostat_machining::{Warning, WarningCode, beyond_tool_length};
 use kinetostat_program::Path as ToolPath;
 use nalgebra::UnitQuaternion;
 
@@ -46,7 +46,10 @@ pub(crate) fn tool_over_part(
     }
     let placement = &machine.placement;
     let turn = placement.base_from_part.rotation.inverse() * placement.tool_orientation;
-    let tools: Vec<Pose> = (machine.bounds.tools.iter().map(|given| given.pose)).collect();
+    // One whose length is beyond its limits is refused for that.
+    let tools = (machine.bounds.tools.iter())
+        .filter(|given| beyond_tool_length(&machine.bounds.limits, given).is_none());
+    let tools: Vec<Pose> = tools.map(|given| given.pose).collect();
     over_part(turn, &tools)
 }
 

@@ -22,6 +22,9 @@ pub(crate) const LISTED: usize = 1000;
 /// Limbs with more coordinates are not searched one by one: each start costs many times as much, and shapes are many.
 const SHORT: usize = 8;
 
+/// Limbs of so many coordinates are searched one by one in any case: where nothing is free in them, they still have two elbows.
+const SHORTEST: usize = 4;
+
 /// Shapes are one if no spring's deflection and no node differ by more, rad and shares of the machine's size: where a limb is
 /// stretched out, what closes within 1e-12 leaves its joints within the root of that.
 const SAME: f64 = 1e-5;
@@ -37,7 +40,7 @@ pub(crate) struct Combination {
 }
 
 /// True if the limbs go from the base to the tool, are short, and some can take several shapes while the tool is held: it has
-/// more freedoms than it moves its tip in. Long limbs have shapes without number, of energies far beyond what the machine
+/// more freedoms than it moves its tip in, or all have so few that their elbows are found at once. Long limbs have shapes without number, of energies far beyond what the machine
 /// is made for, and are searched together.
 pub(crate) fn are_searched_one_by_one(posture: &Posture) -> bool {
     let mechanism = &posture.mechanism;
@@ -51,7 +54,7 @@ pub(crate) fn are_searched_one_by_one(posture: &Posture) -> bool {
     };
     mechanism.platforms().len() == 2
         && limbs().all(|chain| chain.coordinate_count() <= SHORT)
-        && joints.any(gives_way)
+        && (limbs().all(|chain| chain.coordinate_count() <= SHORTEST) || joints.any(gives_way))
 }
 
 /// Shapes of every limb with the tool held at a place, as far as they can be found.
