@@ -23,6 +23,8 @@ import every_function  # noqa: E402
 import kinetostat as ks  # noqa: E402
 from kinetostat import commands  # noqa: E402
 
+pytestmark = pytest.mark.filterwarnings("ignore::kinetostat.PlausibilityWarning")
+
 ALL = every_function.public()
 TYPED = sorted(name for name in ALL if not name.startswith("kinetostat.commands.") or name.endswith(".run"))
 COMMANDS = [name for name in commands.__all__ if name not in ("Completed", "run")]

@@ -48,7 +48,7 @@ pub(crate) fn tool_over_part(
     let turn = placement.base_from_part.rotation.inverse() * placement.tool_orientation;
     // One whose length is beyond its limits is refused for that.
     let tools = (machine.bounds.tools.iter())
-        .filter(|given| beyond_tool_length(&machine.bounds.limits, given).is_none());
+        .filter(|given| beyond_tool_length(&machine.bounds.limits, given).is_empty());
     let tools: Vec<Pose> = tools.map(|given| given.pose).collect();
     over_part(turn, &tools)
 }

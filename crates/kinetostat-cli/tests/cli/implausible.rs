@@ -454,7 +454,8 @@ fn a_check_tells_what_a_compensation_refuses_of_load_and_tool() {
         ("path_um = 20", "path_um = 200", Some("wide_tolerance")),
         ("radial_n = 215.0", "radial_n = 216.0", None),
     ] {
-        let job = ARM_JOB.replace(from, to);
+        let job = ARM_JOB.replace("weight = \"all\"\n", "");
+        let job = job.replace(from, to);
         assert_ne!(job, ARM_JOB);
         let (said, codes) = compensated(here.path(), &job, &arm(), &[]);
         let refused = said.code == 1 && said.err.contains("--limit");
@@ -466,7 +467,9 @@ fn a_check_tells_what_a_compensation_refuses_of_load_and_tool() {
         assert_eq!(said.code == 1, refused, "{said:?}");
         let found: Value = serde_json::from_str(&said.out).expect("JSON");
         let list = found["warnings"].as_array().expect("a list");
-        let codes: Vec<_> = list.iter().filter_map(|w| w["code"].as_str()).collect();
+        let mut codes: Vec<_> = list.iter().filter_map(|w| w["code"].as_str()).collect();
+        // A load far beyond its limit takes others with it.
+        codes.dedup();
         assert_eq!(codes, Vec::from_iter(code), "{to}: {said:?}");
     }
 }

@@ -246,7 +246,7 @@ fn cuts_that_nobody_makes_are_told() {
             .collect()
     };
     use CutFindingKind::{
-        BelowTheStock, EndBeyondTheLaw, LeftHandTool, Plunge, ThickChip, ThinFeed,
+        BelowTheStock, DeepCut, EndBeyondTheLaw, LeftHandTool, Plunge, ThickChip, ThinFeed,
     };
     let slot = |m: &str, z: f64, f: f64| {
         format!("G21 G90\nS10000 {m}\nG0 X-10 Y0 Z5\nG0 Z{z}\nG1 X50 F{f}\n")
@@ -254,7 +254,9 @@ fn cuts_that_nobody_makes_are_told() {
     assert_eq!(kinds(&slot("M3", -2.0, 600.0), None), []);
     assert_eq!(kinds(&slot("M3", -2.0, 20.0), None), [ThinFeed]);
     assert_eq!(kinds(&slot("M3", -2.0, 13_000.0), None), [ThickChip]);
-    assert_eq!(kinds(&slot("M3", -60.0, 600.0), None), [BelowTheStock]);
+    // Edges 50 to 60 mm above the tip would cut.
+    let below = kinds(&slot("M3", -60.0, 600.0), None);
+    assert_eq!(below, [DeepCut, BelowTheStock]);
     assert_eq!(kinds(&slot("M4", -2.0, 600.0), None), [LeftHandTool]);
     assert_eq!(
         kinds(&slot("M4", -2.0, 600.0), Some(Rotation::CounterClockwise)),
