@@ -36,12 +36,16 @@ pub(crate) fn over_part(turn: UnitQuaternion<f64>, tools: &[Pose]) -> Answer<Opt
     Ok(lies.map(|text| Warning::new(WarningCode::OddToolAxis, text)))
 }
 
+/// Arms of fewer drives cannot turn their tool: it stands as it is drawn.
+const TURNS_TOOL: usize = 5;
+
 /// How the tool of an arm stands over the part of a program of positions.
 pub(crate) fn tool_over_part(
     machine: &MachineSetup,
     is_of_positions: bool,
 ) -> Answer<Option<Warning>> {
-    if !(machine.is_arm && is_of_positions) {
+    let turns_tool = machine.mechanism.actuator_names().len() >= TURNS_TOOL;
+    if !(machine.is_arm && turns_tool && is_of_positions) {
         return Ok(None);
     }
     let placement = &machine.placement;

@@ -112,7 +112,7 @@ fn points_are_read_back_as_parquet_and_vtk() {
     // The same of a program that was verified.
     let verify = "verify out.ngc --job job.toml --points v.parquet --vtk v.vtk";
     let output = run(at, &verify.split(' ').collect::<Vec<_>>());
-    assert_eq!(output.code, 0, "{output:?}");
+    assert_eq!(output.code, 4, "{output:?}");
     assert!(
         std::fs::read(at.join("v.parquet"))
             .unwrap()
