@@ -207,7 +207,7 @@ def equilibrium_under(
     flat, leading = poses_of(machine._native, commanded)
     loads = _called("model", model, flat, (6,))
     answer, slope = None, np.zeros((len(flat), 6, 6))
-    moving = slope
+    moving: NDArray[np.float64] = slope
 
     def posture_at(at: int) -> Posture:
         return where if isinstance(where, Posture) else machine.posture(pose=flat[at])

@@ -122,7 +122,8 @@ def deflect(
         Milling force instead, N: to the right of the feed, along it, along the part's z
     load_at_corners : Literal["turns", "follows-feed"]
         Load on the steps that are written at sharp corners: it turns evenly while the tool steps,
-        or it follows the feed; the program is the same, the claim about it is not [default: turns]
+        or it follows the feed; the program is the same, the claim about it is not [default: turns,
+        which is an assumption until it is stated]
     below_z_mm : float
         The load acts only below this height of the program, mm
     weight : Literal["touch-off", "all", "none"]

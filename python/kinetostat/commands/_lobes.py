@@ -99,7 +99,9 @@ def lobes(
     depth_mm : float
         Largest depth of cut that is looked at, mm
     coefficients_n_per_mm2 : Sequence[float]
-        Force by area of chip: tangential, radial and axial, N/mm^2 (the radial one is no ratio; a positive axial one pushes the tool towards the spindle: below zero with a helix that lifts the chip)
+        Force by area of chip: tangential, radial and axial, N/mm^2 (the radial one is no ratio; a
+        positive axial one pushes the tool towards the spindle: below zero with a helix that lifts
+        the chip)
     feed_per_tooth_mm : float
         Feed per tooth, mm: the law of --material is taken as a straight line at the mean thickness
         of its chips
