@@ -15,7 +15,8 @@ fn check_deflect_and_compensate_agree_on_programs_without_motion() {
     ] {
         let text = format!("G21 G90\n{program}");
         std::fs::write(here.path().join("part.ngc"), text).expect("a program");
-        let checked = run(here.path(), &["check", "job.toml", "--json"]).answered();
+        let checked = run(here.path(), &["check", "job.toml", "--json"]);
+        assert_eq!(checked.code, 1, "{program:?}: {checked:?}");
         let found: Value = serde_json::from_str(&checked.out).expect("JSON");
         let warnings = found["warnings"].as_array().expect("a list");
         let said = warnings.iter().any(|w| {
