@@ -17,6 +17,8 @@ pytest.importorskip("pyvista")
 pytest.importorskip("sympy")
 matplotlib = pytest.importorskip("matplotlib")
 matplotlib.use("Agg")
+# Every call draws a figure of its own.
+matplotlib.rcParams["figure.max_open_warning"] = 0
 
 import every_function  # noqa: E402
 

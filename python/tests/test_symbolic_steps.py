@@ -219,7 +219,7 @@ PLACEMENTS = [
 @pytest.mark.parametrize("placement", PLACEMENTS, ids=str)
 def test_turned_rigid_parts_start_and_end_against_the_core(placement):
     builder = ks.MachineBuilder("turned")
-    builder.platform("tool", [0.5, 0.2, 0.7])
+    builder.platform("tool", [0.3, 0.1, 0.2])
     limb = builder.limb("arm", to="tool").spring6("root", [1e7, 2e7, 3e7, 4e5, 5e5, 6e5])
     limb.rigid([0.3, 0.1, 0.2]).actuator("q", "prismatic", "z", 1e6).passive("p", "revolute", "x")
     document = builder.machine().to_dict()
