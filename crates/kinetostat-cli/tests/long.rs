@@ -342,7 +342,8 @@ fn a_part_behind_remarks_knows_what_comes_before_them() {
             .spawn()
             .expect("the command starts");
         let (code, said) = end(child);
-        assert_eq!(code, Some(0), "{out}: {said}");
+        // Its corners turn sharply, and nobody said what the load does there.
+        assert_eq!(code, Some(4), "{out}: {said}");
         fs::read(here.join(out)).expect(out)
     });
     assert!(written[0] == written[1], "other programs");

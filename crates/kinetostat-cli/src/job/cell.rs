@@ -62,6 +62,16 @@ impl Cell {
         }
     }
 
+    /// Refuses two masses of the tool: one would be the controller's, the other the model's.
+    pub(crate) fn same_mass(&self, of_job: Option<f64>) -> Answer<()> {
+        match (self.template.tool.mass_kg, of_job) {
+            (Some(own), Some(of_job)) if (own - of_job).abs() > SAME * of_job => {
+                Err(twice("mass_kg under [tool]", "mass_kg under [tool]"))
+            }
+            _ => Ok(()),
+        }
+    }
+
     /// Puts the part where the template has it, and the tool as it stands there.
     pub(crate) fn place(&self, placement: &mut Placement) -> Answer<()> {
         if let Some(own) = self.template.base.pose.as_ref().map(in_metres) {

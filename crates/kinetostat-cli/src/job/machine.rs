@@ -133,6 +133,9 @@ pub(crate) fn machine_setup(
         tool_mass(j, stated, &tool)
     });
     let mass = mass.transpose()?.flatten();
+    if let Some(cell) = &cell {
+        cell.same_mass(mass.map(|mass| mass.mass_kg))?;
+    }
     let mut tool_masses: Vec<_> = mass.map(|mass| (None, mass)).into_iter().collect();
     let bare = with_deviations(named.model, job)?;
     let mut model = bare.clone();
