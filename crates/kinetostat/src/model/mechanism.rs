@@ -318,6 +318,40 @@ impl Mechanism {
         &self.parts.limbs
     }
 
+    /// Index of the platform of this name.
+    ///
+    /// # Errors
+    /// [`Error::UnknownName`] with the names that exist.
+    pub fn platform_named(&self, name: &str) -> Result<usize> {
+        let names = self.platforms().iter().map(|platform| &platform.name);
+        self.index_of("platform", name, names)
+    }
+
+    /// Index of the limb of this name.
+    ///
+    /// # Errors
+    /// [`Error::UnknownName`] with the names that exist.
+    pub fn limb_named(&self, name: &str) -> Result<usize> {
+        let names = self.limbs().iter().map(|limb| &limb.name);
+        self.index_of("limb", name, names)
+    }
+
+    fn index_of<'a>(
+        &self,
+        what: &'static str,
+        name: &str,
+        names: impl Iterator<Item = &'a String>,
+    ) -> Result<usize> {
+        let known: Vec<&str> = names.map(String::as_str).collect();
+        let index = known.iter().position(|known| *known == name);
+        index.ok_or_else(|| Error::UnknownName {
+            place: self.place(),
+            what,
+            name: name.to_owned(),
+            known: known.join(", "),
+        })
+    }
+
     /// To change it; where it is shared, a copy.
     pub(crate) fn parts_mut(&mut self) -> &mut MechanismParts {
         Arc::make_mut(&mut self.parts)
