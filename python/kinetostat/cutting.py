@@ -20,16 +20,16 @@ class MillingForce:
     --------
     >>> found = milling_force(material="AlMg4.5Mn", tool="flat", diameter_mm=12, teeth=4, helix_deg=38, width_mm=4, depth_mm=8,
     ...                       climb=True, feed_per_tooth_mm=0.1, rpm=8000)
-    >>> bool((found.low < found.mean).all() and (found.mean < found.high).all())
+    >>> bool((abs(found.low) < abs(found.mean)).all() and (abs(found.mean) < abs(found.high)).all())
     True
     """
 
     mean: Floats
     """(3,): N, which bends the machine."""
     low: Floats
-    """(3,): N, smallest mean within the spread of the material."""
+    """(3,): N, mean of the smallest force within the spread of the material."""
     high: Floats
-    """(3,): N, largest mean within it."""
+    """(3,): N, mean of the largest one."""
     moment: Floats
     """(3,): mean moment about the tool's tip, N m."""
     peak: Floats
@@ -62,7 +62,7 @@ def milling_force(**cut: Any) -> MillingForce:
     >>> found = milling_force(material="AlMg4.5Mn", tool="flat", diameter_mm=12, teeth=4, helix_deg=38, width_mm=4, depth_mm=8,
     ...                       climb=True, feed_per_tooth_mm=0.1, rpm=8000)
     >>> found.mean.round().tolist(), round(found.power / (found.torque * 8000 * np.pi / 30), 9)
-    ([273.0, 612.0, 163.0], 1.0)
+    ([273.0, 612.0, -163.0], 1.0)
     """
     answer = commands.force(**cut)
     mean = answer["mean"]

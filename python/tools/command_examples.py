@@ -263,7 +263,7 @@ True
         "groove.ngc",
         _PROGRAM,
         """
-        ...     part = {"part_origin_mm": [1500, 0, 600], "x_mm": [1300, 1700]}
+        ...     part = {"part_origin_mm": [1500, 0, 600], "x_mm": [1300, 1700], "weight": "all"}
         ...     found = ks.commands.place(program=file, model="heavy_6r", force=[0, 0, 200], samples=16, **part)
         >>> found["best"]["figure"] < found["centre"]["figure"], len(found["next_best"]) <= 10
         (True, True)

@@ -217,7 +217,7 @@ def place(
     >>> with tempfile.TemporaryDirectory() as folder:
     ...     file = Path(folder, "groove.ngc")
     ...     _ = file.write_text('G21 G90 G54\nG0 X-20 Y0 Z10\nG1 Z-1 F600\nG1 X20\nG0 Z10\nM30\n')
-    ...     part = {"part_origin_mm": [1500, 0, 600], "x_mm": [1300, 1700]}
+    ...     part = {"part_origin_mm": [1500, 0, 600], "x_mm": [1300, 1700], "weight": "all"}
     ...     found = ks.commands.place(program=file, model="heavy_6r", force=[0, 0, 200], samples=16, **part)
     >>> found["best"]["figure"] < found["centre"]["figure"], len(found["next_best"]) <= 10
     (True, True)
