@@ -31,7 +31,7 @@ impl CutCoefficients {
                 Ok(Self {
                     law,
                     of_material: None,
-                    warnings: exchanged(&args.coefficients_n_per_mm2)
+                    warnings: exchanged(&law)
                         .into_iter()
                         .chain(odd_sign(&law, args.helix_deg))
                         .collect(),
@@ -91,10 +91,13 @@ impl CutCoefficients {
 }
 
 /// A radial coefficient above the tangential one, as `force --fit` asks.
-fn exchanged(given: &[f64]) -> Option<Warning> {
-    let found = radial_above_tangential([given[1], given[0]], "N/mm^2");
-    let text = format!("{found}: --coefficients-n-per-mm2 takes KT KR KA");
-    (given.get(1) > given.first()).then(|| Warning::new(WarningCode::ImplausibleCoefficient, text))
+fn exchanged(law: &Coefficients) -> Option<Warning> {
+    let [tangential, radial] = [law.tangential(), law.radial()].map(|pa| 1e-6 * pa);
+    (radial > tangential).then(|| {
+        let found = radial_above_tangential([radial, tangential], "N/mm^2");
+        let text = format!("{found}: --coefficients-n-per-mm2 takes KT KR KA");
+        Warning::new(WarningCode::ImplausibleCoefficient, text)
+    })
 }
 
 /// An axial coefficient with a sign that its helix does not make: the rake face presses the chip where the helix carries it, and

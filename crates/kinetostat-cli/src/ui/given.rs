@@ -33,23 +33,16 @@ impl Given {
 
     /// Refuses every option but these; `why` says what the others are for.
     pub(crate) fn refuse_but(&self, used: &[&str], why: &str) -> Answer<()> {
-        match self
-            .0
-            .iter()
-            .find(|option| !used.contains(&option.as_str()))
-        {
-            Some(option) => Err(Failure::input(format!("{option} {why}"))),
-            None => Ok(()),
-        }
+        self.refuse_first(|option| !used.contains(&option), why)
     }
 
     /// Refuses these options; `why` says what they are for.
     pub(crate) fn refuse(&self, unused: &[&str], why: &str) -> Answer<()> {
-        match self
-            .0
-            .iter()
-            .find(|option| unused.contains(&option.as_str()))
-        {
+        self.refuse_first(|option| unused.contains(&option), why)
+    }
+
+    fn refuse_first(&self, is_unused: impl Fn(&str) -> bool, why: &str) -> Answer<()> {
+        match self.0.iter().find(|option| is_unused(option)) {
             Some(option) => Err(Failure::input(format!("{option} {why}"))),
             None => Ok(()),
         }

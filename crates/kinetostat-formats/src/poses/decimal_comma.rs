@@ -10,23 +10,27 @@ use crate::text::source::{SourceFile, beginning};
 /// The table with points in place of its decimal commas, byte for byte in the same places; none where it has no such commas, or points
 /// too.
 pub(crate) fn with_points(file: &SourceFile) -> Option<SourceFile> {
-    let mut points = file.bytes().to_vec();
-    let mut found = false;
+    let mut commas = Vec::new();
     for cell in cells(file) {
-        let is_mark = |at: &usize| matches!(file.bytes()[*at], b',' | b'.');
-        let Some(mark) = cell.clone().find(is_mark) else {
+        let mut text = file.part(&cell).to_vec();
+        let Some(mark) = text.iter().position(|byte| matches!(byte, b',' | b'.')) else {
             continue;
         };
-        let is_comma = points[mark] == b',';
-        points[mark] = b'.';
-        match (number_of(&points, &cell), is_comma) {
-            (Some(_), true) => found = true,
+        let is_comma = std::mem::replace(&mut text[mark], b'.') == b',';
+        match (number_of(&text, &(0..text.len())), is_comma) {
+            (Some(_), true) => commas.push(cell.start + mark),
             // Whether that point stands before thousandths or behind thousands is not known.
             (Some(_), false) => return None,
-            (None, _) => points[mark] = file.bytes()[mark],
+            (None, _) => {}
         }
     }
-    found.then(|| SourceFile::new(file.name(), points))
+    (!commas.is_empty()).then(|| {
+        let mut points = file.bytes().to_vec();
+        for at in commas {
+            points[at] = b'.';
+        }
+        SourceFile::new(file.name(), points)
+    })
 }
 
 /// A written table with commas in place of the points of its numbers.
