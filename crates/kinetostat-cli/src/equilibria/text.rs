@@ -223,6 +223,9 @@ fn modes(a: &EquilibriaAnswer) -> String {
 
 /// What the starts say of equilibria that were not found. An estimate of zero is never printed: few starts know little.
 fn chance(c: &Coverage) -> String {
+    if c.chance_of_more_at_most >= 1.0 {
+        return "too few of the starts ended at the equilibria listed to say how many are missing: others may well exist. Search on with more --starts and --fruitless".to_owned();
+    }
     let at_most = number(100.0 * c.chance_of_more_at_most, 2);
     let so_far = match c.chance_of_more > 0.0 {
         true => format!(

@@ -562,3 +562,28 @@ fn few_places_are_judged_by_their_worst() {
         text(&few)
     );
 }
+
+/// One pass speaks for those that are alike; but near its limit each is judged by itself, as if there were no others.
+#[test]
+fn passes_near_their_limit_are_judged_by_themselves() {
+    let program = "G21 G90 G17\nT1 M6\nS3000 M3\nG0 X-10 Y-40 Z5\nG1 Z-0.9 F600\nG1 X60\nG1 Y-36\nG1 X-10\nG1 Y-32\nG1 X60\n\
+                   G1 Y-28\nG1 X-10\nG0 Z5\nM30\n";
+    let here = here(program);
+    let alike = answer(here.path());
+    let line = "chatter job.toml --damping 0.03 --every-mm 0.001 --most-places 100000 --json";
+    let alone = said(here.path(), line).answered();
+    let alone: Value = serde_json::from_str(&alone.out).expect("JSON");
+    let mut compared = 0;
+    for place in list(&alike, "places") {
+        let at = |p: &&Value| (number(p, "path_mm") - number(place, "path_mm")).abs() < 1e-9;
+        let own = list(&alone, "places").iter().find(at).expect("the place");
+        assert_eq!(place["verdict"], own["verdict"], "{place} {own}");
+        let Some(limit) = place["limit_mm"].as_f64().filter(|mm| *mm < 0.9 * 1.3) else {
+            continue;
+        };
+        let expected = number(own, "limit_mm");
+        assert!((limit / expected - 1.0).abs() < 1e-9, "{place} {own}");
+        compared += 1;
+    }
+    assert!(compared >= 6, "{compared}");
+}

@@ -388,3 +388,16 @@ fn a_force_on_a_node_of_a_limb_acts_like_one_on_the_pin() {
     let down = HEIGHT - number(&first["position_mm"][2]);
     assert!((force(down) - 50.0).abs() < 1e-6, "{down}");
 }
+
+/// Three starts that found as many equilibria say nothing of those that are missing.
+#[test]
+fn few_starts_promise_nothing() {
+    let here = truss();
+    let line = "equilibria two_chains --force 0 0 -10 --starts 3";
+    let all = json(here.path(), &words(line));
+    assert_eq!(number(&all["coverage"]["chance_of_more_at_most"]), 1.0);
+    let said = run(here.path(), &line.split(' ').collect::<Vec<_>>()).answered();
+    let text = said.out.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(text.contains("too few of the starts"), "{text}");
+    assert!(!text.contains("about 100 %"), "{text}");
+}

@@ -1,8 +1,9 @@
 //! All cuts along a program, judged.
 
-use std::ops::Range;
+use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
+use kinetostat::number::smaller;
 use kinetostat_chatter::LeftOut;
 use kinetostat_machining::{LoadAlongPath, Watch};
 use rayon::prelude::*;
@@ -15,6 +16,8 @@ use crate::vibration::program::stretches::{ChatterStretch, stretches};
 
 /// Share of the work that other spindle speeds are reckoned with: one in so many of the judged cuts.
 const SPEEDS_SHARE: usize = 3;
+/// And that of cuts near their limit: one in so many.
+const NEAR_SHARE: usize = 3;
 
 /// Where a program chatters.
 #[derive(Clone, Debug, PartialEq)]
@@ -46,29 +49,55 @@ impl ChatterQuestion<'_> {
         let load = LoadAlongPath::with_tools(self.task.load, self.task.path(), self.task.tools)
             .with_cut(self.task.cut);
         let (cluster_of, judged) = self.clusters((&all, &tools), &groups, wider);
-        let of_speeds = (judged.len() / SPEEDS_SHARE).max(1);
-        watch.stage("chatter", judged.len() + of_speeds);
-        let done = AtomicUsize::new(0);
-        let found: Vec<Result<JudgedSite, ProgramChatterError>> = judged
-            .par_iter()
-            .map(|group| {
+        let of_near = judged.len().div_ceil(NEAR_SHARE);
+        let of_speeds = judged.len().div_ceil(SPEEDS_SHARE);
+        watch.stage("chatter", judged.len() + of_near + of_speeds);
+        let judge_all = |list: &[usize], from: usize, of: usize| {
+            let done = AtomicUsize::new(0);
+            let each = list.par_iter().map(|group| {
                 if watch.cancelled() {
                     return Err(ProgramChatterError::Cancelled);
                 }
                 let group = SiteGroup::of(&all, groups[*group].clone());
                 let found = self.judge(&load, &group, wider);
-                watch.advance(done.fetch_add(1, Ordering::Relaxed) + 1);
+                watch.advance(from + (done.fetch_add(1, Ordering::Relaxed) + 1) * of / list.len());
                 found
-            })
-            .collect();
-        let found: Vec<JudgedSite> = found.into_iter().collect::<Result<_, _>>()?;
-        let of_group = |(range, cluster): (&Range<usize>, &usize)| {
-            found[*cluster].for_group(SiteGroup::of(&all, range.clone()), *cluster)
+            });
+            // All of them, so that the first error is the first in the order of the program.
+            let found: Vec<Result<JudgedSite, ProgramChatterError>> = each.collect();
+            found.into_iter().collect::<Result<Vec<_>, _>>()
         };
-        let judged_sites: Vec<JudgedSite> = groups.iter().zip(&cluster_of).map(of_group).collect();
+        let mut found = judge_all(&judged, 0, judged.len())?;
+        let line = |i: usize| all[groups[i].start].line;
+        let mut least: BTreeMap<usize, f64> = BTreeMap::new();
+        for (i, cluster) in cluster_of.iter().enumerate() {
+            if let Some(limit_mm) = found[*cluster].limit_mm {
+                let own = least.entry(line(i)).or_insert(limit_mm);
+                *own = smaller(*own, limit_mm);
+            }
+        }
+        let is_apart = |i: &usize| {
+            let alike = &found[cluster_of[*i]];
+            let least_mm = least.get(&line(*i)).copied().unwrap_or_default();
+            judged[cluster_of[*i]] != *i && alike.is_decisive(least_mm)
+        };
+        let apart: Vec<usize> = (0..groups.len()).filter(is_apart).collect();
+        let of_group = |(i, cluster): (usize, &usize)| {
+            found[*cluster].for_group(SiteGroup::of(&all, groups[i].clone()), *cluster)
+        };
+        let mut judged_sites: Vec<JudgedSite> =
+            cluster_of.iter().enumerate().map(of_group).collect();
+        for (i, own) in apart.iter().zip(judge_all(&apart, judged.len(), of_near)?) {
+            let cluster = cluster_of[*i];
+            judged_sites[*i] = JudgedSite { cluster, ..own };
+            // Other speeds are tried at the worst cut of each cluster.
+            if judged_sites[*i].is_worse_than(&found[cluster]) {
+                found[cluster] = judged_sites[*i].clone();
+            }
+        }
         let part = |share: f64| {
             let of_speeds = (share * of_speeds as f64) as usize;
-            watch.advance(judged.len() + of_speeds);
+            watch.advance(judged.len() + of_near + of_speeds);
         };
         let stretches = stretches(
             &OtherSpeeds::new(self, &load, &found),

@@ -11,15 +11,6 @@ use nalgebra::Vector3;
 use crate::vibration::program::question::ChatterQuestion;
 use crate::vibration::program::site::{CutSite, SAME_ANGLE, SiteGroup, is_alike};
 
-/// Share of a depth by which equally deep cuts differ.
-const SAME_DEPTH: f64 = 1e-6;
-
-/// True if a cut (depth in mm, arc in rad) is deeper than another, or as deep with a wider arc.
-fn is_worse([depth, arc]: [f64; 2], [other_depth, other_arc]: [f64; 2]) -> bool {
-    let slack = SAME_DEPTH * other_depth;
-    depth > other_depth + slack || (depth >= other_depth - slack && arc > other_arc)
-}
-
 /// Machine and cut at the deepest place of a group.
 struct Reference<'s> {
     site: &'s CutSite,
@@ -40,25 +31,25 @@ impl ChatterQuestion<'_> {
     ) -> (Vec<usize>, Vec<usize>) {
         let (mut references, mut judged): (Vec<Reference<'_>>, Vec<usize>) =
             (Vec::new(), Vec::new());
-        let mut worst: Vec<[f64; 2]> = Vec::new();
+        let mut worst: Vec<&CutSite> = Vec::new();
         let mut of_group = Vec::with_capacity(groups.len());
         for (i, range) in groups.iter().enumerate() {
             let (site, _) = SiteGroup::of(all, range.clone()).judged(1.0);
             let own = self.reference(site, tools[range.start]);
-            let cut = [site.station.depth_mm, site.station.arc];
+
             let known = references
                 .iter()
                 .position(|known| self.are_alike(&own, known, wider));
             let cluster = known.unwrap_or(references.len());
             match known {
-                Some(known) if is_worse(cut, worst[known]) => {
-                    (worst[known], judged[known]) = (cut, i);
+                Some(known) if site.cuts_more_than(worst[known]) => {
+                    (worst[known], judged[known]) = (site, i);
                 }
                 Some(_) => {}
                 None => {
                     references.push(own);
                     judged.push(i);
-                    worst.push(cut);
+                    worst.push(site);
                 }
             }
             of_group.push(cluster);

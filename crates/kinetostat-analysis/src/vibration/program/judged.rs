@@ -5,6 +5,9 @@ use kinetostat_chatter::{Instability, LeftOut};
 use crate::vibration::program::forced::ForcedVibration;
 use crate::vibration::program::site::{CutSite, SiteGroup};
 
+/// Limits within this factor are near each other: those of cuts that are alike differ by up to 9 %.
+const NEAR: f64 = 1.1;
+
 /// What is said of the cut at a place.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Verdict {
@@ -67,6 +70,18 @@ impl JudgedSite {
         let reached =
             |limit_mm: f64| limit_mm <= self.site.station.depth_mm * (1.0 + self.force_spread);
         self.verdict == Verdict::Stable && self.limit_mm.is_some_and(reached)
+    }
+
+    /// True where what is said hangs on this cut and cuts that are alike may differ: its limit was not found, lies near its depth
+    /// or between this and that which the spread of the force allows, or near the least limit of its line, mm, if it chatters.
+    pub(crate) fn is_decisive(&self, least_mm: f64) -> bool {
+        let depth_mm = self.site.station.depth_mm;
+        let largest_mm = depth_mm * (1.0 + self.force_spread) * NEAR;
+        let decides = |limit_mm: f64| {
+            let is_near = depth_mm <= limit_mm * NEAR && limit_mm <= largest_mm;
+            is_near || (self.verdict == Verdict::Chatters && limit_mm <= least_mm * NEAR)
+        };
+        self.is_open || self.limit_mm.is_some_and(decides)
     }
 
     /// Whether it is worse than another one of the same group: it chatters, or its limit was not found, or is nearer to its

@@ -11,6 +11,9 @@ use nalgebra::Vector3;
 const SAME_SIZE: f64 = 0.05;
 pub(crate) const SAME_ANGLE: f64 = 0.1;
 
+/// Share of a depth by which equally deep cuts differ.
+const SAME_DEPTH: f64 = 1e-6;
+
 /// A place of a program at which the tool cuts.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CutSite {
@@ -26,6 +29,16 @@ pub struct CutSite {
     pub direction: Vector3<f64>,
     /// The cut.
     pub station: CutStation,
+}
+
+impl CutSite {
+    /// True if its cut is deeper than another, or as deep with a wider arc.
+    pub(crate) fn cuts_more_than(&self, other: &Self) -> bool {
+        let (own, other) = (&self.station, &other.station);
+        let slack = SAME_DEPTH * other.depth_mm;
+        own.depth_mm > other.depth_mm + slack
+            || (own.depth_mm >= other.depth_mm - slack && own.arc > other.arc)
+    }
 }
 
 /// All places with a chip, in the order of the path.
@@ -103,15 +116,19 @@ impl<'s> SiteGroup<'s> {
         Self { sites: &all[range] }
     }
 
-    /// The places that are judged for the group. Where its cuts hardly differ, the deepest; where they differ by more
+    /// The places that are judged for the group. Where its cuts hardly differ, the deepest (of equally deep ones the one with the
+    /// widest arc); where they differ by more
     /// (`wider` above 1), the one with the widest arc too, and both ends, where the machine stands otherwise.
     pub fn judged(&self, wider: f64) -> (&'s CutSite, Vec<&'s CutSite>) {
         let width = |site: &CutSite| site.station.contact.map_or(0.0, |c| c.exit - c.entry);
-        let deepest = self.most(|site| site.station.depth_mm);
+        let deepest = self.most(CutSite::cuts_more_than);
         let mut others: Vec<&CutSite> = Vec::new();
         if wider > 1.0 {
             let ends = [&self.sites[0], &self.sites[self.sites.len() - 1]];
-            for site in [self.most(width)].into_iter().chain(ends) {
+            for site in [self.most(|a, b| width(a) > width(b))]
+                .into_iter()
+                .chain(ends)
+            {
                 let mut known = others.iter().copied().chain([deepest]);
                 if !known.any(|known| std::ptr::eq(known, site)) {
                     others.push(site);
@@ -121,10 +138,12 @@ impl<'s> SiteGroup<'s> {
         (deepest, others)
     }
 
-    /// The first place with the largest value.
-    fn most(&self, of: impl Fn(&CutSite) -> f64) -> &'s CutSite {
-        let larger = |a: &'s CutSite, b: &'s CutSite| if of(b) > of(a) { b } else { a };
-        let found = self.sites.iter().reduce(larger);
+    /// The first place that is more than all before it.
+    fn most(&self, is_more: impl Fn(&CutSite, &CutSite) -> bool) -> &'s CutSite {
+        let found = self
+            .sites
+            .iter()
+            .reduce(|a, b| if is_more(b, a) { b } else { a });
         found.unwrap_or(&self.sites[0])
     }
 
