@@ -252,7 +252,11 @@ fn on_motions(
 }
 
 /// Speeds tell cuts from rapids in a program of a robot.
-fn refuse_fast_feeds(setting: &Setting, read: &ReadProgram<'_>, template: &Template) -> Answer<()> {
+pub(crate) fn refuse_fast_feeds(
+    setting: &Setting,
+    read: &ReadProgram<'_>,
+    template: &Template,
+) -> Answer<()> {
     let rapid = template.rapid_speed_mm_per_s;
     let feeds = read
         .path()

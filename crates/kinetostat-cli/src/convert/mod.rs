@@ -19,6 +19,7 @@ use kinetostat_formats::{BetweenRows, Language, Template};
 use kinetostat_report::turns_svg;
 
 use crate::convert::arguments::ConvertArgs;
+use crate::convert::for_run::refuse_fast_feeds;
 use crate::convert::free_turn::free_turn;
 use crate::convert::joints::{Asked, as_joints, with_all_digits};
 use crate::convert::made::made;
@@ -116,6 +117,10 @@ pub(crate) fn run(args: &ConvertArgs) -> Answer<()> {
         with_all_digits(&mut template.template);
     }
     let mut made = made((&setting, &template), &read, turned.as_ref(), language)?;
+    // A robot's own program may not tell cuts from rapids either.
+    if read.robot().is_none() && !matches!(args.to, TargetWord::Apt | TargetWord::Gcode) {
+        refuse_fast_feeds(&setting, &read, &template.template)?;
+    }
     let mut said: Vec<String> = lies.map(|warning| warning.message).into_iter().collect();
     if args.to == TargetWord::Joints {
         let (named, base) = model_named(job.as_ref(), args.model.as_deref())?;

@@ -57,6 +57,10 @@ fn what_contradicts_a_file_or_says_nothing_is_refused_or_told() {
         &format!("{CELL}[spindle]\nclockwise = [\"$ANOUT[1]=0.3\"]\nstop = [\"$OUT[12]=FALSE\"]\n"),
     );
     put("slow.toml", &format!("rapid_speed_mm_per_s = 0.15\n{CELL}"));
+    put(
+        "slow.ngc",
+        &PROGRAM.replace("F300", "F6").replace("F600", "F6"),
+    );
     let turning = PROGRAM.replacen("\nG0", "\nS12000 M3\nG0", 1);
     put("turning.ngc", &turning);
     put(
@@ -165,7 +169,7 @@ fn what_contradicts_a_file_or_says_nothing_is_refused_or_told() {
             &["the speed of the program is left out", "{rpm}"],
         ),
         (
-            "convert part.ngc --to krl --template slow.toml --out slow.src",
+            "convert slow.ngc --to krl --template slow.toml --out slow.src",
             0,
             &["0.15 mm/s is slow for rapids"],
         ),

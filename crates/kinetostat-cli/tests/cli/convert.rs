@@ -302,6 +302,25 @@ fn what_is_wrong_is_named_and_nothing_is_written() {
     assert_eq!(read(here, "part.ngc"), PART);
 }
 
+/// A robot's program tells cuts from rapids by their speed: a cut as fast would be read back as one in air.
+#[test]
+fn a_cut_as_fast_as_rapids_is_refused() {
+    let here = place();
+    let here = here.path();
+    std::fs::write(here.join("part.ngc"), PART.replace("F600", "F9000")).unwrap();
+    for to in ["krl", "rapid", "ls"] {
+        let line = format!("convert part.ngc --to {to} --out new.{to} --template cell.toml");
+        let said = run(here, &words(&line));
+        assert_eq!(said.code, 1, "{said:?}");
+        let text = said.err.split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(
+            text.contains("line 6: the feed, 150 mm/s, is not below"),
+            "{text}"
+        );
+        assert!(!here.join(format!("new.{to}")).exists());
+    }
+}
+
 /// A program that nobody here wrote, for an arm with a model, and compensated there.
 #[test]
 fn an_engraving_becomes_a_program_for_each_robot() {
