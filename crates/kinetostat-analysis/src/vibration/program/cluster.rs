@@ -36,7 +36,6 @@ impl ChatterQuestion<'_> {
         for (i, range) in groups.iter().enumerate() {
             let (site, _) = SiteGroup::of(all, range.clone()).judged(1.0);
             let own = self.reference(site, tools[range.start]);
-
             let known = references
                 .iter()
                 .position(|known| self.are_alike(&own, known, wider));

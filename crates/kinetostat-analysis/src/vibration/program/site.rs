@@ -116,9 +116,9 @@ impl<'s> SiteGroup<'s> {
         Self { sites: &all[range] }
     }
 
-    /// The places that are judged for the group. Where its cuts hardly differ, the deepest (of equally deep ones the one with the
-    /// widest arc); where they differ by more
-    /// (`wider` above 1), the one with the widest arc too, and both ends, where the machine stands otherwise.
+    /// The places that are judged for the group. Where its cuts hardly differ, the deepest (of equally deep ones that with the
+    /// widest arc); where they differ by more (`wider` above 1), the one with the widest arc too, and both ends, where the machine
+    /// stands otherwise.
     pub fn judged(&self, wider: f64) -> (&'s CutSite, Vec<&'s CutSite>) {
         let width = |site: &CutSite| site.station.contact.map_or(0.0, |c| c.exit - c.entry);
         let deepest = self.most(CutSite::cuts_more_than);
