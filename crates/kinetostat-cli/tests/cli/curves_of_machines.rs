@@ -396,7 +396,7 @@ fn few_starts_promise_nothing() {
     let line = "equilibria two_chains --force 0 0 -10 --starts 3";
     let all = json(here.path(), &words(line));
     assert_eq!(number(&all["coverage"]["chance_of_more_at_most"]), 1.0);
-    let said = run(here.path(), &line.split(' ').collect::<Vec<_>>()).answered();
+    let said = run(here.path(), &words(line)).answered();
     let text = said.out.split_whitespace().collect::<Vec<_>>().join(" ");
     assert!(text.contains("too few of the starts"), "{text}");
     assert!(!text.contains("about 100 %"), "{text}");

@@ -16,8 +16,9 @@ const NOT_LINEAR: f64 = 0.02;
 
 /// Two errors together move the tool by their product, too, which is all there is where neither moves it alone to first order
 /// (a leg that is longer along a direction which only the other's tilt makes count). A shift turns a member, and a tilt shifts its
-/// end: by these lengths, m, at least and at most, in the machines above.
-const LENGTHS: [f64; 2] = [0.2, 1.0];
+/// end. The shortest and the longest of these members in the machines above, m.
+const SHORTEST: f64 = 0.2;
+const LONGEST: f64 = 1.0;
 
 /// Shifts that are rounding, m.
 const ROUNDING: f64 = 1e-10;
@@ -83,7 +84,7 @@ fn size(error: &Deviation) -> f64 {
     let moved = error.moved_by.as_ref().and_then(|by| by.translation_mm);
     let shift =
         moved.map_or(0.0, |mm| Vector3::from(mm).norm()) + error.longer_by_mm.unwrap_or(0.0).abs();
-    1e-3 * shift + LENGTHS[1] * error.tilted_by_deg.unwrap_or(0.0).to_radians().abs()
+    1e-3 * shift + LONGEST * error.tilted_by_deg.unwrap_or(0.0).to_radians().abs()
 }
 
 /// Place of the tool without a load, commanded as the machine as drawn.
@@ -128,7 +129,7 @@ pub fn check(seed: u64) -> Result<f64, String> {
     let drawn = place(&model)?;
     let shift = |model: &Model| Ok::<_, String>(place(model)? - drawn);
     let (one, other, together) = (shift(&with_first)?, shift(&with_second)?, shift(&both)?);
-    let product = size(&first) * size(&second) / LENGTHS[0];
+    let product = size(&first) * size(&second) / SHORTEST;
     let allowed = NOT_LINEAR * (one.norm() + other.norm()) + product + ROUNDING;
     let off = (together - one - other).norm() / allowed;
     match off <= 1.0 {

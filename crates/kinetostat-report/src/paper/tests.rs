@@ -199,7 +199,7 @@ fn a_verified_program_has_its_own_verdict() {
         text.contains("In Zeile 14 hat dieses Programm einen anderen Vorschub"),
         "{text}"
     );
-    // What the other reading of the load at its steps makes was solved for it as for a compensated program.
+    // The other reading of the load at its steps is solved for it as for a compensated program.
     assert!(
         text.contains("liegt das Werkzeug dort bis zu 0,0214\u{202f}mm ab"),
         "{text}"

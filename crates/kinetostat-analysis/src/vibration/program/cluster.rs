@@ -1,4 +1,5 @@
-//! Groups of places whose cuts and postures are alike, wherever they lie along the path: one of them is judged for all.
+//! Groups of places whose cuts and postures are alike, wherever they lie along the path: one of them is judged for all, unless what
+//! is said hangs on it.
 //!
 //! The passes of a pocket come back to the same cuts at nearly the same places. Within a group places may lie `every_mm` apart
 //! already; the same tolerances hold between groups.

@@ -49,7 +49,7 @@ pub struct JudgedSite {
     pub lost_coupling: f64,
     /// Nothing is said because its limit was not found: it may chatter.
     pub(crate) is_open: bool,
-    /// Number of the cluster of groups that are judged as one.
+    /// Number of the cluster of groups that are alike.
     pub(crate) cluster: usize,
     /// Places of the program that this one stands for.
     pub places: usize,
