@@ -12,6 +12,7 @@ use kinetostat_report::chatter_svg;
 
 use crate::chatter::answer::ChatterAnswer;
 use crate::chatter::arguments::ChatterArgs;
+use crate::convert::for_run::refuse_unconvertible;
 use crate::files::answer_files::{ClaimedFiles, Shown};
 use crate::files::input_files::InputFiles;
 use crate::job::arguments::{ProgramArgs, WritingFlags};
@@ -60,6 +61,7 @@ pub(crate) fn run(args: &ChatterArgs) -> Answer<()> {
     setting.turned_by(machine.rotary.clone());
     let claimed = ClaimedFiles::claim(&args.outputs, &setting.inputs)?;
     let read = read_program(&setting)?;
+    refuse_unconvertible(&files, (Some(&job), &flags), (&model, &machine))?;
     let progress = Progress::with_lines();
     let as_one = AsOne::new(&progress, "chatter, %", &SHARES);
     let forces = forces_of(&machine, &setting, read.path(), &as_one)?;

@@ -9,13 +9,11 @@ use kinetostat_machining::{
     FlatProgram, LoadAlongPath, Placement, Task, Unwatched, Warning, WarningCode, load_description,
     refused_question, unusual_question,
 };
-use kinetostat_model::Model;
 use kinetostat_program::{Knowledge, Move, MoveKind, Path as ToolPath};
 use nalgebra::Vector3;
 use serde::Serialize;
-use serde_spanned::Spanned;
 
-use crate::convert::for_run::in_other_language;
+use crate::convert::for_run::refuse_unconvertible;
 use crate::convert::targets::{Named, in_language};
 use crate::files::input_files::InputFiles;
 use crate::files::outputs::may_be_written;
@@ -25,12 +23,11 @@ use crate::job::cut::along::{self, refuse_what_breaks_the_tool};
 use crate::job::feature_lines::refuse_lines_beyond;
 use crate::job::file_endings::refuse_other_endings;
 use crate::job::job_file::JobFile;
-use crate::job::machine::{MachineSetup, machine_setup};
+use crate::job::machine::machine_setup;
 use crate::job::of_model::give_of_model;
 use crate::job::output_paths::OutputPaths;
 use crate::job::over_part::{is_of_positions, tool_over_part};
 use crate::job::setting::{Setting, setting};
-use crate::job::target_word::RobotWord;
 use crate::job::template_file::TemplateFile;
 use crate::job::turn_arguments::FreeTurnWord;
 use crate::job::{program, run_warnings};
@@ -163,15 +160,11 @@ fn findings(files: &InputFiles, path: &Path, flags: &ProgramArgs) -> Answer<JobF
         with_task(Aim::Compensate, &machine, &setting, &read, forces, check)?;
     warnings.extend(along::warnings(forces));
     warnings.extend(setting.of_expansion());
-    if let Some(word) = to(&job) {
-        let setting = self::setting(files, Some(&job), flags, &WritingFlags::default())?;
-        warnings.extend(conversion(
-            files,
-            (&job, flags),
-            (setting, word),
-            (&model, &machine),
-        )?);
-    }
+    warnings.extend(refuse_unconvertible(
+        files,
+        (Some(&job), flags),
+        (&model, &machine),
+    )?);
     // The list is cut behind some: what keeps the part from being cut comes first.
     warnings.sort_by_key(|warning| warning.code != WarningCode::SpindleNotStarted);
     let of_tool = refuse_what_breaks_the_tool(forces, &setting).err();
@@ -215,40 +208,6 @@ fn findings(files: &InputFiles, path: &Path, flags: &ProgramArgs) -> Answer<JobF
         warnings: of_warnings(warnings, setting.flat.as_ref()),
         refused: error,
     })
-}
-
-/// The language in which the compensated program is written, where it is another one.
-fn to(job: &JobFile) -> Option<RobotWord> {
-    let table = job.job.robot.as_ref().map(Spanned::get_ref);
-    table.and_then(|table| Some(*table.to.as_ref()?.get_ref()))
-}
-
-/// Warnings of the conversion that a compensation begins with; what it refuses is refused.
-fn conversion(
-    files: &InputFiles,
-    (job, flags): (&JobFile, &ProgramArgs),
-    (mut setting, word): (Setting, RobotWord),
-    (model, machine): (&Model, &MachineSetup),
-) -> Answer<Vec<Warning>> {
-    let mut flags = flags.clone();
-    flags.robot.converted = true;
-    let of = (Some(job), &flags);
-    give_of_model(&mut setting, files, (Some(job), None), &flags)?;
-    setting.turned_by(machine.rotary.clone());
-    let found = in_other_language(
-        files,
-        of,
-        (setting, word, Named::default()),
-        (model, machine),
-    )?;
-    let mut setting = found.setting;
-    let mut frames = setting.robot_frames()?;
-    if let Some(frames) = &mut frames {
-        frames.converted = true;
-    }
-    let with = (frames.as_ref(), &mut setting.inputs);
-    machine_setup(files, Some(job), None, &flags, with)?;
-    Ok(found.findings)
 }
 
 /// All points where a move ends, mm, with their lines.
@@ -301,7 +260,7 @@ fn ends(mechanism: &Mechanism, placement: &Placement, motion: &ToolPath) -> Vec<
 
 /// Where a compensation writes its programs, with the endings of their language.
 fn named_outputs(files: &InputFiles, job: &JobFile, setting: &mut Setting) -> Answer<()> {
-    let Some(word) = to(job) else {
+    let Some(word) = job.to() else {
         return refuse_other_endings(setting);
     };
     let template = TemplateFile::path(Some(job), None);

@@ -279,11 +279,9 @@ fn with_turn_hint(mut failure: Failure, (setting, to): (&Setting, Option<RobotWo
 
 /// The language in which the program is written, where it is another one.
 fn target(job: Option<&JobFile>, args: &CompensateArgs) -> Option<RobotWord> {
-    let table = job.and_then(|j| j.job.robot.as_ref());
-    let in_job = table.and_then(|table| table.get_ref().to.as_ref());
+    let in_job = job.and_then(JobFile::to);
     let runs = args.map.is_none() && !args.no_compensation;
-    args.to
-        .or(in_job.filter(|_| runs).map(|word| *word.get_ref()))
+    args.to.or(in_job.filter(|_| runs))
 }
 
 /// G-code and APT say where the tool goes, not how it is turned; programs of robots say both, and keep how it is turned.

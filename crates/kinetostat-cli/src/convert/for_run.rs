@@ -14,17 +14,18 @@ use crate::convert::plausible::refuse_implausible;
 use crate::convert::targets::{Named, in_language};
 use crate::files::input_files::InputFiles;
 use crate::files::origin;
-use crate::job::arguments::ProgramArgs;
+use crate::job::arguments::{ProgramArgs, WritingFlags};
 use crate::job::cut::along::{refuse_what_breaks_the_tool, warnings_of_moves};
 use crate::job::free_turn::FreeTurn;
 use crate::job::job_file::JobFile;
-use crate::job::machine::MachineSetup;
+use crate::job::machine::{MachineSetup, machine_setup};
+use crate::job::of_model::give_of_model;
 use crate::job::program::{ReadProgram, read_program};
 use crate::job::robot::divided::Divided;
 use crate::job::robot::read_once::Reading;
 use crate::job::robot::settings::{MadeArm, RobotSettings, settings};
 use crate::job::robot::source::RobotSource;
-use crate::job::setting::Setting;
+use crate::job::setting::{Setting, setting};
 use crate::job::target_word::RobotWord;
 use crate::job::template_file::{TemplateAsked, TemplateFile};
 use crate::job::turn_arguments::FreeTurnWord;
@@ -82,7 +83,7 @@ fn for_run(
         }
         FreeTurnWord::AsStated => None,
     };
-    refuse_fast_feeds(&setting, &read, &template.template)?;
+    refuse_fast_feeds(&setting, &read, (&template.template, language))?;
     let forces = forces_of(machine, &setting, read.path(), &Unwatched)?;
     if forces.is_some() {
         refuse_leaning_tool(&template.template)?;
@@ -154,8 +155,9 @@ pub(crate) fn settings_of_made(
     let mut found = settings(None, &flags.robot, (of_robot, axis))?;
     found.axis_is_stated = true;
     found.making.tool_axis = axis;
-    // Straight rapids have this speed, but for the last digit.
-    found.making.rapid_from_mm_per_s = Some(0.999_999 * template.rapid_speed_mm_per_s);
+    // Straight rapids have this speed, but for the last digit; APT has a word for them.
+    found.making.rapid_from_mm_per_s =
+        (of_robot != Language::Apt).then_some(0.999_999 * template.rapid_speed_mm_per_s);
     Ok(found)
 }
 
@@ -192,6 +194,32 @@ pub(crate) fn in_other_language(
         setting.inputs.push(path.clone());
     }
     for_run(job, flags, (setting, template, word), source)
+}
+
+/// Refuses what the compensation of a job refuses of its conversion, whatever is asked of the job; warnings of the conversion.
+pub(crate) fn refuse_unconvertible(
+    files: &InputFiles,
+    (job, flags): (Option<&JobFile>, &ProgramArgs),
+    (model, machine): (&Model, &MachineSetup),
+) -> Answer<Vec<Warning>> {
+    let Some(word) = job.and_then(JobFile::to) else {
+        return Ok(Vec::new());
+    };
+    let mut flags = flags.clone();
+    flags.robot.converted = true;
+    let mut setting = setting(files, job, &flags, &WritingFlags::default())?;
+    give_of_model(&mut setting, files, (job, None), &flags)?;
+    setting.turned_by(machine.rotary.clone());
+    let source = (setting, word, Named::default());
+    let found = in_other_language(files, (job, &flags), source, (model, machine))?;
+    let mut setting = found.setting;
+    let mut frames = setting.robot_frames()?;
+    if let Some(frames) = &mut frames {
+        frames.converted = true;
+    }
+    let with = (frames.as_ref(), &mut setting.inputs);
+    machine_setup(files, job, None, &flags, with)?;
+    Ok(found.findings)
 }
 
 /// The made program in one file.
@@ -251,12 +279,15 @@ fn on_motions(
     Ok(forces.on_parts(&parts))
 }
 
-/// Speeds tell cuts from rapids in a program of a robot.
+/// Speeds tell cuts from rapids in a program of a robot; APT and G-code have a word for rapids.
 pub(crate) fn refuse_fast_feeds(
     setting: &Setting,
     read: &ReadProgram<'_>,
-    template: &Template,
+    (template, language): (&Template, MakeLanguage),
 ) -> Answer<()> {
+    if matches!(language, MakeLanguage::Apt | MakeLanguage::Gcode) {
+        return Ok(());
+    }
     let rapid = template.rapid_speed_mm_per_s;
     let feeds = read
         .path()

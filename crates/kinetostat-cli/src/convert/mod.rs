@@ -19,6 +19,7 @@ use kinetostat_formats::{BetweenRows, Language, Template};
 use kinetostat_report::turns_svg;
 
 use crate::convert::arguments::ConvertArgs;
+use crate::convert::completed::complete;
 use crate::convert::for_run::refuse_fast_feeds;
 use crate::convert::free_turn::free_turn;
 use crate::convert::joints::{Asked, as_joints, with_all_digits};
@@ -30,6 +31,7 @@ use crate::job::arguments::{ProgramArgs, WritingFlags};
 use crate::job::file_endings::{Written, refuse_other_ending};
 use crate::job::job_file::JobFile;
 use crate::job::limits::refuse_limits_but;
+use crate::job::machine::machine_setup;
 use crate::job::model_named::model_named;
 use crate::job::output_paths::FLAT_PROGRAM;
 use crate::job::program::read_program;
@@ -77,6 +79,16 @@ pub(crate) fn run(args: &ConvertArgs) -> Answer<()> {
     if args.stiff_turn {
         setting.free_turn = FreeTurnWord::Stiff;
     }
+    let machine = match job.as_ref().filter(|job| job.job.model.is_some()) {
+        Some(job) => {
+            let with = (None, &mut setting.inputs);
+            Some(machine_setup(&files, Some(job), None, &flags(args), with)?.0)
+        }
+        None => None,
+    };
+    if let Some(machine) = &machine {
+        setting.turned_by(machine.rotary.clone());
+    }
     // Of the source.
     let flat_program = Written {
         what: FLAT_PROGRAM,
@@ -104,6 +116,10 @@ pub(crate) fn run(args: &ConvertArgs) -> Answer<()> {
         &template.template,
     )?;
     let read = read_program(&setting)?;
+    let states_orientation = (read.path().moves.iter()).any(|motion| motion.tool_turn.is_some());
+    if let Some(machine) = machine.filter(|_| !states_orientation) {
+        complete(&mut template.template, job.as_ref(), &machine);
+    }
     let lies = refuse_implausible(&setting, &template, &read)?;
     let turned = match &args.free_turn {
         Some(named) => {
@@ -118,8 +134,8 @@ pub(crate) fn run(args: &ConvertArgs) -> Answer<()> {
     }
     let mut made = made((&setting, &template), &read, turned.as_ref(), language)?;
     // A robot's own program may not tell cuts from rapids either.
-    if read.robot().is_none() && !matches!(args.to, TargetWord::Apt | TargetWord::Gcode) {
-        refuse_fast_feeds(&setting, &read, &template.template)?;
+    if read.robot().is_none() {
+        refuse_fast_feeds(&setting, &read, (&template.template, language))?;
     }
     let mut said: Vec<String> = lies.map(|warning| warning.message).into_iter().collect();
     if args.to == TargetWord::Joints {

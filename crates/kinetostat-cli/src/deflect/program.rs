@@ -4,6 +4,7 @@ use std::path::Path;
 
 use kinetostat_model::Model;
 
+use crate::convert::for_run::refuse_unconvertible;
 use crate::deflect::arguments::DeflectArgs;
 use crate::files::input_files::InputFiles;
 use crate::files::outputs::{self, Existing};
@@ -100,6 +101,7 @@ fn run_along(
     }
     refuse_lines_beyond(job, &setting)?;
     program::read_program(&setting)?;
+    refuse_unconvertible(files, (job, &args.program), (&model, &machine))?;
     let mut outputs = RunOutputs::claim(Aim::Analyse, &chosen, existing, &setting.inputs)?;
     let turn = solve::turn(&machine, &setting)?;
     let mut run = solve::turned(

@@ -8,6 +8,7 @@ use serde_spanned::Spanned;
 use crate::files::input_files::InputFiles;
 use crate::job::format::Job;
 use crate::job::source::Source;
+use crate::job::target_word::RobotWord;
 use crate::ui::failure::{Answer, Failure};
 
 /// A job file that has been read: its text is kept for messages.
@@ -37,6 +38,11 @@ impl JobFile {
             left_out: Vec::new(),
             is_searched: false,
         })
+    }
+
+    /// The language in which the compensated program is written, where it is another one.
+    pub(crate) fn to(&self) -> Option<RobotWord> {
+        Some(*self.job.robot.as_ref()?.get_ref().to.as_ref()?.get_ref())
     }
 
     /// Angles in it that were most likely written in the other unit.

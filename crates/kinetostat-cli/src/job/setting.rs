@@ -348,10 +348,7 @@ pub(crate) fn setting(
         inputs,
     };
     // `check` and `deflect` take the same job.
-    let names_robot = job.is_some_and(|j| {
-        let table = j.job.robot.as_ref();
-        table.is_some_and(|table| table.get_ref().to.is_some())
-    });
+    let names_robot = job.and_then(JobFile::to).is_some();
     if flags.robot.converted || (names_robot && setting.robot.is_none()) {
         setting.correct_what_is_made();
     }

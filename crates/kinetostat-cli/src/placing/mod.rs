@@ -15,6 +15,7 @@ use std::path::{Path, PathBuf};
 use kinetostat_machining::{Task, Warning, WarningCode, analyse};
 use kinetostat_placing::{Effort, Placed, Space, place};
 
+use crate::convert::for_run::refuse_unconvertible;
 use crate::files::input_files::InputFiles;
 use crate::files::outputs::{self, Existing, Outputs};
 use crate::job::arguments::{ProgramArgs, WritingFlags};
@@ -68,6 +69,7 @@ pub(crate) fn run(args: &PlacingArgs, given: &Given) -> Answer<()> {
     let (machine, model) = machine_setup(&files, job, named, &args.program, with)?;
     setting.turned_by(machine.rotary.clone());
     let read = read_program(&setting)?;
+    refuse_unconvertible(&files, (job, &args.program), (&model, &machine))?;
     let states_orientation = read.path().moves.iter().any(|m| m.tool_turn.is_some());
     let space = asked::space(job, args, machine.placement, states_orientation)?;
 

@@ -201,9 +201,16 @@ fn statements_of_another_controller_are_refused() {
         ("krl", "stop = [\"SetDO doRuns, 0;\"]"),
     ] {
         let here = EVERY[1].place(to, &format!("[spindle]\n{statements}\n"));
-        for command in ["check", "compensate"] {
-            let said = run(here.path(), &[command, "job.toml"]);
-            assert_eq!(said.code, 1, "{to} {statements}: {said:?}");
+        for command in [
+            "check job.toml",
+            "compensate job.toml",
+            "deflect job.toml",
+            "place job.toml",
+            "chatter job.toml --damping 0.03",
+        ] {
+            let words: Vec<&str> = command.split(' ').collect();
+            let said = run(here.path(), &words);
+            assert_eq!(said.code, 1, "{command} {to} {statements}: {said:?}");
             let said = text(&said);
             assert!(
                 said.contains("cell.toml: [spindle]:") && !said.contains("report this"),
@@ -228,6 +235,31 @@ fn another_frame_or_tool_than_that_of_the_job_is_found() {
         std::fs::write(here.join("bad.src"), good.replace(line(start), other)).unwrap();
         let said = run(here, &["verify", "bad.src", "--job", "job.toml"]);
         assert_eq!(said.code, 3, "{start} {said:?}");
+    }
+}
+
+/// Part, tool and how it stands are those of the job where the template leaves them open, with `convert` as with `compensate`.
+#[test]
+fn convert_writes_the_cell_that_compensate_writes() {
+    for stated in &EVERY {
+        let here = stated.place("krl", "");
+        let here = here.path();
+        run(here, &["compensate", "job.toml"]).answered();
+        let line = "convert --job job.toml --to krl --template cell.toml --out made.src";
+        run(here, &line.split(' ').collect::<Vec<_>>()).answered();
+        let [one, other] = ["compensated/part.src", "made.src"]
+            .map(|file| std::fs::read_to_string(here.join(file)).unwrap());
+        for start in ["$BASE=", "$TOOL=", "$LOAD="] {
+            let first = |text: &str| {
+                let found = text.lines().find(|line| line.starts_with(start));
+                found.map(str::to_owned)
+            };
+            assert_eq!(first(&one), first(&other), "{start}");
+        }
+        for (start, states) in [("$BASE=", "X 1300."), ("$TOOL=", "X 200.")] {
+            let line = other.lines().find(|line| line.starts_with(start)).unwrap();
+            assert!(line.contains(states), "{line}");
+        }
     }
 }
 
