@@ -50,6 +50,7 @@ mod flat_origins;
 mod heidenhain;
 #[doc(hidden)]
 pub mod internal;
+mod interpreter;
 mod krl;
 mod language;
 mod ls;
@@ -107,8 +108,8 @@ pub use model::slash_blocks::SlashBlocks;
 pub use model::stated_arm::StatedArm;
 pub use model::target::{Configuration, PoseTarget, Target};
 pub use options::{
-    CutterCompensation, ExactStops, ExternalAxes, LengthUnit, ReadOptions, UnknownTargets,
-    WriteOptions,
+    CutterCompensation, ExactStops, ExternalAxes, LengthUnit, ReadOptions, StatedValue,
+    UnknownTargets, WriteOptions,
 };
 pub use path::all_faults::{ProgramFault, all_faults};
 pub use path::axis_turns::TurnAboutAxis;

@@ -47,6 +47,39 @@ pub enum LengthUnit {
     Metre,
 }
 
+/// A value that only the controller knows, as the caller states it.
+#[derive(Debug, Clone, PartialEq)]
+pub enum StatedValue {
+    /// A number.
+    Number(f64),
+    /// TRUE or FALSE.
+    Truth(bool),
+    /// Any other text.
+    Text(String),
+}
+
+impl StatedValue {
+    /// The value that a text states.
+    ///
+    /// ```
+    /// use kinetostat_formats::StatedValue;
+    ///
+    /// assert_eq!(StatedValue::of("1.5"), StatedValue::Number(1.5));
+    /// assert_eq!(StatedValue::of("true"), StatedValue::Truth(true));
+    /// assert_eq!(StatedValue::of("rough"), StatedValue::Text("rough".into()));
+    /// ```
+    #[must_use]
+    pub fn of(text: &str) -> Self {
+        let number = text.parse().ok().filter(|value: &f64| value.is_finite());
+        match (number, text.to_ascii_uppercase().as_str()) {
+            (Some(number), _) => Self::Number(number),
+            (None, "TRUE") => Self::Truth(true),
+            (None, "FALSE") => Self::Truth(false),
+            (None, _) => Self::Text(text.to_owned()),
+        }
+    }
+}
+
 /// How a program is read.
 ///
 /// ```
@@ -65,6 +98,8 @@ pub struct ReadOptions {
     /// Tools (in the flange's axes) and work objects (in the robot's base axes, or the world's where its controller says
     /// so) by name, in mm: they stand in for what the program says or does not say.
     pub frames: BTreeMap<String, Isometry3<f64>>,
+    /// Values of names that only the controller knows: signals, inputs, registers, and the first values of variables.
+    pub values: BTreeMap<String, StatedValue>,
     /// Motions to ends that are not known from the text.
     pub unknown_targets: UnknownTargets,
     /// External axes that move.

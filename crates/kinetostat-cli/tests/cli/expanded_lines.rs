@@ -138,6 +138,10 @@ fn refusals_and_notes_name_lines_of_the_files() {
             }
             // A robot needs to know how the tool stands: what is said of all of the template and of a line.
             source.put(here, ["", ""], "");
+            // A job with a model says how it stands there.
+            let job = std::fs::read_to_string(here.join("job.toml")).unwrap();
+            let lines = job.lines().filter(|line| !line.starts_with("model"));
+            std::fs::write(here.join("job.toml"), lines.collect::<Vec<_>>().join("\n")).unwrap();
             let said = run(
                 here,
                 &words("convert --job job.toml --to rapid --out P.mod"),

@@ -214,7 +214,9 @@ impl Resolver<'_, '_> {
                 declared.and_then(|declared| declared.text.orientation.get(1))
             }
             TargetSite::Partial(text) => text.numbers[4].as_ref(),
-            TargetSite::Offset { .. } | TargetSite::Joints(_) => return false,
+            TargetSite::Offset { .. } | TargetSite::Replaced(_) | TargetSite::Joints(_) => {
+                return false;
+            }
             TargetSite::Fixed(_) => None,
         };
         b.map_or(before, |b| is_beyond(b.value))

@@ -222,6 +222,7 @@ impl Targets {
                 Some(self.declarations[*declaration].text.clone())
             }
             TargetSite::Offset { .. }
+            | TargetSite::Replaced(_)
             | TargetSite::Partial(_)
             | TargetSite::Joints(_)
             | TargetSite::Fixed(_) => None,

@@ -18,7 +18,7 @@ pub(crate) fn not_once(program: &RobotProgram) -> Vec<MakeError> {
             let reason = match motion.runs {
                 Runs::OnCondition => "the motion is in a branch, or behind what may end the program or its routine before: whether it runs is not known",
                 Runs::Elsewhere => "nothing in these files leads to this motion: it never runs (its routine is not called, a jump leaves it out, or the program ends before)",
-                _ => "the motion is in a loop, in a routine with a GOTO that is not followed, or in one that is called more than once",
+                _ => "the motion is in a loop, or in a routine that is called more than once",
             };
             MakeError::at(
                 motion.line,
@@ -28,6 +28,8 @@ pub(crate) fn not_once(program: &RobotProgram) -> Vec<MakeError> {
         })
         .collect();
     faults.sort_by_key(|fault| fault.line);
+    // A statement that runs several times gives several motions.
+    faults.dedup();
     faults
 }
 

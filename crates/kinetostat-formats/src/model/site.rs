@@ -101,6 +101,25 @@ pub(crate) enum OffsetAxes {
     Tool,
 }
 
+/// A part of a target in a statement.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct PartText {
+    pub span: Range<usize>,
+    /// Its numbers; empty where it is a name or computed.
+    pub numbers: Vec<NumberText>,
+}
+
+/// An end that the statement has by names or computes: another one is written in place of its expression.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct ReplacedText {
+    /// The expression.
+    pub span: Range<usize>,
+    /// What it is worth.
+    pub pose: PoseTarget,
+    /// Its place and its orientation, where the statement has both apart.
+    pub parts: Option<[PartText; 2]>,
+}
+
 /// Where the text of a target is.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum TargetSite {
@@ -124,6 +143,8 @@ pub(crate) enum TargetSite {
     },
     /// A literal that leaves something open, in the statement or declared.
     Partial(Box<PartialText>),
+    /// An expression in the statement.
+    Replaced(Box<ReplacedText>),
     /// Joint values in a row of a table.
     Joints(Box<JointsText>),
     /// Nothing to correct, in words why.

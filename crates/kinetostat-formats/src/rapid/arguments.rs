@@ -2,7 +2,8 @@
 
 use std::ops::Range;
 
-use crate::rapid::expression::{Argument, Expression, arguments_of};
+use crate::interpreter::expression::{Argument, Expression};
+use crate::rapid::expression::arguments_of;
 use crate::rapid::tree::TokenFile;
 use crate::text::name::Name;
 

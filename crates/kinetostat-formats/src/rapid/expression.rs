@@ -1,7 +1,10 @@
-//! Expressions as far as they are followed: literals, names, elements of arrays, calls of functions.
+//! Expressions of RAPID from tokens.
+//!
+//! Source of the precedence: ABB, Technical reference manual - RAPID kernel, Priority between operators.
 
 use std::ops::Range;
 
+use crate::interpreter::expression::{Argument, Expression, Node, Operator};
 use crate::rapid::lex::Kind;
 use crate::rapid::tree::TokenFile;
 use crate::text::name::Name;
@@ -9,35 +12,8 @@ use crate::text::name::Name;
 /// Deepest nesting of lists, calls and indices.
 const DEEPEST: usize = 32;
 
-/// What an expression is.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) enum Value {
-    Number(f64),
-    Truth(bool),
-    Text,
-    /// A name without index or component.
-    Word(Name),
-    /// A name with an index: `p{2}`, `p{2,3}`.
-    Element(Name, Vec<Expression>),
-    List(Vec<Expression>),
-    Call(Name, Vec<Argument>),
-    /// Anything that is computed.
-    Other,
-}
-
-/// An expression and its tokens.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Expression {
-    pub value: Value,
-    pub tokens: Range<usize>,
-}
-
-/// An argument of a call: `value`, `\Option` or `\Option:=value`.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Argument {
-    pub option: Option<Name>,
-    pub value: Option<Expression>,
-}
+/// Most operators of one strength in a row: the tree is as deep.
+const MOST_OPERATORS: usize = 100;
 
 /// The arguments of a call between two tokens.
 pub(crate) fn arguments_of(file: &TokenFile<'_>, tokens: Range<usize>) -> Vec<Argument> {
@@ -60,7 +36,7 @@ pub(crate) fn expression_of(file: &TokenFile<'_>, tokens: Range<usize>) -> Expre
     match found.tokens.end == tokens.end {
         true => found,
         false => Expression {
-            value: Value::Other,
+            node: Node::Unreadable,
             tokens,
         },
     }
@@ -126,23 +102,116 @@ impl Reader<'_, '_> {
     /// Up to a comma, a backslash, a closing bracket or the end.
     fn expression(&mut self, depth: usize) -> Expression {
         let start = self.at;
-        let found = (depth < DEEPEST).then(|| self.primary(depth)).flatten();
+        let found = (depth < DEEPEST)
+            .then(|| self.operation(depth, 0))
+            .flatten();
         let over = match self.kind() {
             None => true,
             Some(Kind::Symbol(symbol)) => b",\\)]};".contains(&symbol),
             Some(_) => false,
         };
-        let value = match found {
-            Some(value) if over => value,
+        match found {
+            Some(found) if over => found,
             _ => {
                 self.skip();
-                Value::Other
+                Expression {
+                    node: Node::Unreadable,
+                    tokens: start..self.at,
+                }
             }
+        }
+    }
+
+    /// Operands and the operators between them that bind at least so strongly.
+    fn operation(&mut self, depth: usize, least: u8) -> Option<Expression> {
+        if depth >= DEEPEST {
+            return None;
+        }
+        let start = self.at;
+        let mut left = match self.is_word("NOT") {
+            true => {
+                self.at += 1;
+                let operand = self.operation(depth + 1, 1)?;
+                self.over(start, Node::One(Operator::Not, Box::new(operand)))
+            }
+            false => self.signed(depth)?,
         };
+        let mut count_of_operators = 0;
+        while let Some((operator, strength, count)) = self.operator() {
+            if strength < least {
+                break;
+            }
+            count_of_operators += 1;
+            if count_of_operators > MOST_OPERATORS {
+                return None;
+            }
+            self.at += count;
+            let right = self.operation(depth + 1, strength + 1)?;
+            left = self.over(start, Node::Two(operator, Box::new([left, right])));
+        }
+        Some(left)
+    }
+
+    /// An expression from a token to here.
+    fn over(&self, start: usize, node: Node) -> Expression {
         Expression {
-            value,
+            node,
             tokens: start..self.at,
         }
+    }
+
+    fn is_word(&self, capitals: &str) -> bool {
+        let is_word = self.kind() == Some(Kind::Word);
+        is_word && (self.file.word(self.at)).eq_ignore_ascii_case(capitals.as_bytes())
+    }
+
+    /// The operator that stands here, how strongly it binds, and its tokens.
+    fn operator(&self) -> Option<(Operator, u8, usize)> {
+        let is_next = |symbol| {
+            let next = (self.at + 1 < self.end).then(|| self.file.tokens.get(self.at + 1));
+            next.flatten()
+                .is_some_and(|token| token.kind == Kind::Symbol(symbol))
+        };
+        Some(match self.kind()? {
+            Kind::Word if self.is_word("OR") => (Operator::Or, 0, 1),
+            Kind::Word if self.is_word("XOR") => (Operator::Xor, 0, 1),
+            Kind::Word if self.is_word("AND") => (Operator::And, 1, 1),
+            Kind::Word if self.is_word("DIV") => (Operator::WholeQuotient, 4, 1),
+            Kind::Word if self.is_word("MOD") => (Operator::Remainder, 4, 1),
+            Kind::Symbol(b'<') if is_next(b'>') => (Operator::Unequal, 2, 2),
+            Kind::Symbol(b'<') if is_next(b'=') => (Operator::LessOrEqual, 2, 2),
+            Kind::Symbol(b'>') if is_next(b'=') => (Operator::GreaterOrEqual, 2, 2),
+            Kind::Symbol(b'<') => (Operator::Less, 2, 1),
+            Kind::Symbol(b'>') => (Operator::Greater, 2, 1),
+            Kind::Symbol(b'=') => (Operator::Equal, 2, 1),
+            Kind::Symbol(b'+') => (Operator::Plus, 3, 1),
+            Kind::Symbol(b'-') => (Operator::Minus, 3, 1),
+            Kind::Symbol(b'*') => (Operator::Times, 4, 1),
+            Kind::Symbol(b'/') => (Operator::Over, 4, 1),
+            _ => return None,
+        })
+    }
+
+    /// A primary with its sign; a sign before a number belongs to the number.
+    fn signed(&mut self, depth: usize) -> Option<Expression> {
+        let start = self.at;
+        let Kind::Symbol(sign @ (b'-' | b'+')) = self.kind()? else {
+            return self.primary(depth);
+        };
+        self.at += 1;
+        if let Some(number) = self.number() {
+            let value = match sign {
+                b'-' => -number,
+                _ => number,
+            };
+            return Some(self.over(start, Node::Number(value)));
+        }
+        let operator = match sign {
+            b'-' => Operator::Minus,
+            _ => Operator::Plus,
+        };
+        let operand = self.operation(depth + 1, 5)?;
+        Some(self.over(start, Node::One(operator, Box::new(operand))))
     }
 
     /// To the end of what is computed.
@@ -161,28 +230,38 @@ impl Reader<'_, '_> {
         }
     }
 
-    fn primary(&mut self, depth: usize) -> Option<Value> {
-        match self.kind()? {
-            Kind::Symbol(sign @ (b'-' | b'+')) => {
-                self.at += 1;
-                let number = self.number()?;
-                Some(Value::Number(match sign {
-                    b'-' => -number,
-                    _ => number,
-                }))
-            }
-            Kind::Number => self.number().map(Value::Number),
+    /// An operand with its indices and components.
+    fn primary(&mut self, depth: usize) -> Option<Expression> {
+        let start = self.at;
+        let node = match self.kind()? {
+            Kind::Number => Node::Number(self.number()?),
             Kind::Text => {
                 self.at += 1;
-                Some(Value::Text)
+                Node::Text
             }
             Kind::Symbol(b'[') => {
                 self.at += 1;
-                let list = self.list(depth, b']')?;
-                Some(Value::List(list))
+                Node::List(self.list(depth, b']')?)
             }
-            Kind::Word => self.named(depth),
-            _ => None,
+            Kind::Symbol(b'(') => {
+                self.at += 1;
+                let inner = self.operation(depth + 1, 0)?;
+                self.takes(b')').then_some(inner)?.node
+            }
+            Kind::Word => self.named(depth)?,
+            _ => return None,
+        };
+        let mut found = self.over(start, node);
+        loop {
+            let node = if self.takes(b'{') {
+                let indices = self.list(depth, b'}')?;
+                Node::Element(Box::new(found), indices)
+            } else if self.takes(b'.') {
+                Node::Field(Box::new(found), self.name()?)
+            } else {
+                return Some(found);
+            };
+            found = self.over(start, node);
         }
     }
 
@@ -211,19 +290,15 @@ impl Reader<'_, '_> {
         }
     }
 
-    fn named(&mut self, depth: usize) -> Option<Value> {
+    fn named(&mut self, depth: usize) -> Option<Node> {
         let name = self.name()?;
         if name.is("TRUE") || name.is("FALSE") {
-            return Some(Value::Truth(name.is("TRUE")));
-        }
-        if self.takes(b'{') {
-            let indices = self.list(depth, b'}')?;
-            return Some(Value::Element(name, indices));
+            return Some(Node::Truth(name.is("TRUE")));
         }
         if self.takes(b'(') {
             let arguments = self.arguments(depth + 1);
-            return self.takes(b')').then_some(Value::Call(name, arguments));
+            return self.takes(b')').then_some(Node::Call(name, arguments));
         }
-        Some(Value::Word(name))
+        Some(Node::Word(name))
     }
 }

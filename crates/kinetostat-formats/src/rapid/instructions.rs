@@ -2,18 +2,22 @@
 
 use std::ops::Range;
 
-use crate::error::{ProgramError, note};
+use crate::interpreter::expression::Expression;
+use crate::interpreter::value::Datum;
 use crate::model::outside_call::OutsideCall;
 use crate::options::ExternalAxes;
-use crate::rapid::motion::{Instruction, follow};
-use crate::rapid::place::Place;
+use crate::rapid::control::Flow;
+use crate::rapid::expression::arguments_of;
+use crate::rapid::passing::CHANGE_THEIRS;
+use crate::rapid::run::Run;
 use crate::rapid::table::{EXTERNAL, MotionRow, row};
 use crate::rapid::tree::{Choice, TokenFile};
 use crate::rapid::turning::mode_of;
-use crate::rapid::walker::Walker;
 use crate::table::Treatment;
-use crate::text::finding::Finding;
 use crate::text::name::Name;
+
+/// Most motions of statements that ran before.
+const MOST_REPEATED: usize = 200_000;
 
 /// Statements that leave the path as it is, and change what deflection depends on.
 const EFFECTS: [(&str, &str); 4] = [
@@ -29,121 +33,133 @@ const EFFECTS: [(&str, &str); 4] = [
     ),
 ];
 
-impl Walker<'_, '_> {
+impl Run<'_, '_> {
     /// A motion instruction.
     pub(super) fn motion_by(
         &mut self,
         row: &'static MotionRow,
         tokens: &Range<usize>,
-        (place, choice): (Place, Choice),
-    ) -> Place {
-        let (file, routine) = (self.file(), self.now.routine);
-        let instruction = Instruction {
-            row,
-            routine,
-            tokens,
-        };
-        let followed = follow(&instruction, self.values, self.targets, self.unknown);
-        match followed {
+        choice: Choice,
+    ) {
+        let start = self.file().span(tokens).start;
+        if !self.ran.insert((self.file().index, start)) {
+            self.repeated_motions += 1;
+            if self.repeated_motions > MOST_REPEATED {
+                let reason = "the loops of the program run more than 200000 motions".to_owned();
+                self.fault(tokens, (reason, "read the part that cuts by itself"));
+                return;
+            }
+        }
+        match self.motion(row, tokens) {
             Ok(mut motion) => {
                 if choice == Choice::Compact && motion.site.indivisible.is_none() {
                     motion.site.indivisible =
                         Some("it stands behind IF without THEN, where one statement can stand");
                 }
-                motion.runs = self.now.runs;
-                self.modes.push(self.now.modes);
+                motion.runs = self.runs;
+                motion.follows = self.here;
+                motion.site.turns_otherwise = self.modes.otherwise(&motion);
                 self.motions.push(motion);
-                self.places.push((routine, place));
-                Place::Motion(self.motions.len() - 1)
+                self.here = Some(self.motions.len() - 1);
             }
-            Err((reason, remedy)) => {
-                note(self.faults, || {
-                    ProgramError::at(file.source, file.span(tokens), reason, remedy)
-                });
-                Place::Unknown
+            Err(reason) => {
+                self.fault(tokens, reason);
+                self.here = None;
             }
-        }
-    }
-
-    /// After an expression: a function of these files may move the tool.
-    pub(super) fn behind_functions(&mut self, tokens: Range<usize>, place: Place) -> Place {
-        let (file, symbols) = (self.file(), &self.values.symbols);
-        let moves = |at: usize| {
-            let name = Name::of(file.word(at));
-            let called = name.and_then(|name| symbols.routine(self.now.routine, &name));
-            called.is_some_and(|index| self.moving_functions[index])
-        };
-        match symbols.has_functions && tokens.into_iter().any(moves) {
-            true => Place::Unknown,
-            false => place,
         }
     }
 
     /// An instruction that is no motion, or what is in none of the files.
-    pub(super) fn carried(
-        &mut self,
-        name: Option<Name>,
-        tokens: &Range<usize>,
-        place: Place,
-    ) -> Place {
+    pub(super) fn carried(&mut self, name: Option<Name>, tokens: &Range<usize>) -> Flow {
         let file = self.file();
-        let span = file.span(tokens);
-        match name.as_ref().and_then(row).map(|row| row.treatment) {
+        let Some(row) = name.as_ref().and_then(row) else {
+            self.call_outside(tokens);
+            return Flow::Next;
+        };
+        match row.treatment {
             // The arm stands still, and the user says that nothing else matters.
-            Some(EXTERNAL) if self.external == ExternalAxes::Carried => {
-                match place {
-                    Place::Motion(index) => self.motions[index].site.external_moved_behind = true,
-                    Place::Entry => self.moves_external_at_entry = true,
-                    Place::Unknown => {}
+            EXTERNAL if self.options.external_axes == ExternalAxes::Carried => {
+                match self.here {
+                    Some(index) => self.motions[index].site.external_moved_behind = true,
+                    None => self.moved_external = true,
                 }
-                place
+                return Flow::Next;
             }
-            Some(Treatment::Refused { reason, remedy }) => {
-                note(self.faults, || {
-                    ProgramError::at(file.source, span, reason, remedy)
-                });
-                Place::Unknown
+            Treatment::Refused { reason, remedy } => {
+                self.fault(tokens, (reason.to_owned(), remedy));
+                self.here = None;
+                return Flow::Next;
             }
-            Some(_) => {
-                let name = String::from_utf8_lossy(file.word(tokens.start));
-                if mode_of(file, tokens).is_some() {
-                    let moment = self.next_moment();
-                    self.now.modes = self.now.modes.after(file, tokens, moment);
-                    self.modes_stated += 1;
-                }
-                self.has_ended |= name.eq_ignore_ascii_case("ExitCycle");
-                let effects = EFFECTS
-                    .iter()
-                    .find(|(word, _)| word.eq_ignore_ascii_case(&name));
-                if let Some((word, effect)) = effects {
-                    self.findings.push(Finding {
-                        file: file.index,
-                        line: file.source.line_of(span.start),
-                        message: format!("{word} {effect}: it is carried, and not followed"),
-                    });
-                }
-                place
+            _ => {}
+        }
+        let arguments = self.arguments(tokens);
+        if mode_of(file, tokens).is_some() {
+            self.modes = self.modes.after(file, tokens);
+        }
+        let is = |word: &&str| word.eq_ignore_ascii_case(row.name);
+        if CHANGE_THEIRS.iter().any(is) {
+            self.change(row.name, &arguments.ordered);
+        }
+        if let Some((word, effect)) = EFFECTS.iter().find(|(word, _)| is(word)) {
+            self.find(
+                tokens,
+                format!("{word} {effect}: it is carried, and not followed"),
+            );
+        }
+        match row.name {
+            "ExitCycle" => Flow::Ends,
+            _ => Flow::Next,
+        }
+    }
+
+    /// `Incr n`, `Decr n`, `Clear n`, `Add n, 3`.
+    fn change(&mut self, word: &str, arguments: &[Expression]) {
+        let [to, rest @ ..] = arguments else { return };
+        let before = self.value(to).as_number();
+        let by = rest
+            .first()
+            .map_or(Some(1.0), |by| self.value(by).as_number());
+        let number = match (word, before, by) {
+            ("Clear", ..) => Some(0.0),
+            ("Decr", Some(before), _) => Some(before - 1.0),
+            ("Incr" | "Add", Some(before), Some(by)) => Some(before + by),
+            _ => None,
+        };
+        match (number, self.place(to)) {
+            (Some(number), Some(place)) => self.put(&place, Datum::number(number)),
+            _ => {
+                let reason = self.changed(to);
+                self.lose(to, &reason);
             }
-            None => {
-                let called = crate::error::excerpt(file.word(tokens.start));
-                let is_computed = is_computed(file, tokens);
-                if is_computed {
-                    // It may be any routine of these files.
-                    self.now.modes = self.now.modes.met(self.anywhere);
-                }
-                self.outside_calls.push(OutsideCall {
-                    file: file.index,
-                    line: file.source.line_of(span.start),
-                    name: (!is_computed).then_some(called),
-                    speeds_behind: Vec::new(),
-                });
-                Place::Unknown
-            }
+        }
+    }
+
+    /// A call of what is in none of the files: it is taken not to move the tool, but for one of which the run computes which it is.
+    fn call_outside(&mut self, tokens: &Range<usize>) {
+        let file = self.file();
+        // `%name% a, b;`
+        let mut marks = tokens.clone().filter(|at| file.word(*at) == b"%");
+        let name_end = marks.nth(1).unwrap_or(tokens.start);
+        let arguments = arguments_of(file, name_end + 1..tokens.end);
+        self.lose_arguments(&arguments);
+        let is_computed = is_computed(file, tokens);
+        if is_computed {
+            self.here = None;
+        }
+        let called = crate::error::excerpt(file.word(tokens.start));
+        let call = OutsideCall {
+            file: file.index,
+            line: file.source.line_of(file.span(tokens).start),
+            name: (!is_computed).then_some(called),
+            speeds_behind: Vec::new(),
+        };
+        if !self.outside_calls.contains(&call) {
+            self.outside_calls.push(call);
         }
     }
 }
 
-/// Whether the run computes which routine is called: `%"name"%`, `CallByVar`.
+/// True if the run computes which routine is called: `%"name"%`, `CallByVar`.
 pub(super) fn is_computed(file: &TokenFile<'_>, tokens: &Range<usize>) -> bool {
     let word = file.word(tokens.start);
     word == b"%" || word.eq_ignore_ascii_case(b"CallByVar")

@@ -56,7 +56,6 @@ pub(crate) fn tokens_of(bytes: &[u8]) -> Vec<Token> {
     let mut input = LocatingSlice::new(bytes);
     // What editors put at the beginning of UTF-8.
     let _: Result<_, Nothing> = opt(BYTE_ORDER_MARK).parse_next(&mut input);
-    let _ = header(&mut input);
     // `token` takes at least one byte and matches every byte, so the loop ends with the file.
     while let Ok((kind, span)) = token.with_span().parse_next(&mut input) {
         if let Some(kind) = kind {
@@ -70,18 +69,11 @@ pub(crate) fn tokens_of(bytes: &[u8]) -> Vec<Token> {
     tokens
 }
 
-/// `%%%`, version and language, `%%%`: what controllers put before the first module.
+/// `%%%`, version and language, `%%%`: controllers write it before a module.
 fn header(input: &mut Input<'_>) -> Result<(), Nothing> {
-    let start = *input;
-    let found = (
-        take_while(0.., |byte: u8| byte.is_ascii_whitespace()),
-        "%%%",
-        take_till(0.., b'%'),
-        "%%%",
-    )
+    ("%%%", take_till(0.., b'%'), "%%%")
         .void()
-        .parse_next(input);
-    found.inspect_err(|_: &Nothing| *input = start)
+        .parse_next(input)
 }
 
 /// None for what is skipped.
@@ -93,6 +85,8 @@ fn token(input: &mut Input<'_>) -> Result<Option<Kind>, Nothing> {
         b'0'..=b'9' | b'.' => alt((number.value(Kind::Number), symbol))
             .map(Some)
             .parse_next(input),
+        // Each module has its own header where the files of a program are read as one.
+        b'%' => alt((header.value(None), symbol.map(Some))).parse_next(input),
         b'"' => text.map(Some).parse_next(input),
         b':' => alt((":=".value(Kind::Assign), symbol))
             .map(Some)

@@ -1,130 +1,178 @@
-//! Targets as aggregates of numbers: `[[x,y,z],[q1,q2,q3,q4],[cf1,cf4,cf6,cfx],[eax_a,...]]`.
+//! Targets, frames and joints as aggregates of numbers: `[[x,y,z],[q1,q2,q3,q4],[cf1,cf4,cf6,cfx],[eax_a,...]]`.
 
-use nalgebra::{Isometry3, Translation3, Vector3};
+use std::ops::Range;
 
+use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
+
+use crate::interpreter::value::{Datum, Literal};
 use crate::model::orientation::OrientationText;
 use crate::model::site::PoseText;
 use crate::model::target::{Configuration, PoseTarget};
-use crate::rapid::expression::{Expression, Value};
 use crate::rapid::tree::TokenFile;
 use crate::text::number::{NumberText, Width};
 
 /// From here on an external axis is not stated: 9E9.
 const UNSTATED: f64 = 8e9;
 
-/// The numbers of a list of so many.
-fn numbers<const N: usize>(
-    file: &TokenFile<'_>,
-    expression: &Expression,
-) -> Option<[NumberText; N]> {
-    let Value::List(parts) = &expression.value else {
-        return None;
+/// The pose that a robtarget is, or why it is none. `files` have the text of its configuration.
+pub(crate) fn pose_of(files: &[TokenFile<'_>], datum: &Datum) -> Result<PoseTarget, String> {
+    if let Some(reason) = datum.unknown_reason() {
+        return Err(reason.to_string());
+    }
+    let [position, orientation, configuration, external] = datum.parts() else {
+        return Err(
+            "a robtarget has four parts: place, orientation, configuration, external axes"
+                .to_owned(),
+        );
     };
-    let number = |part: &Expression| match part.value {
-        Value::Number(value) => Some(NumberText {
-            span: file.span(&part.tokens),
-            value,
-        }),
-        _ => None,
-    };
-    let all: Option<Vec<NumberText>> = parts.iter().map(number).collect();
-    all?.try_into().ok()
-}
-
-/// The values of a list of numbers.
-pub(crate) fn values<const N: usize>(expression: &Expression) -> Option<[f64; N]> {
-    let Value::List(parts) = &expression.value else {
-        return None;
-    };
-    let value = |part: &Expression| match part.value {
-        Value::Number(value) => Some(value),
-        _ => None,
-    };
-    let all: Option<Vec<f64>> = parts.iter().map(value).collect();
-    all?.try_into().ok()
-}
-
-/// A robtarget's literal and what it says, or why it is none.
-pub(crate) fn target_of(
-    file: &TokenFile<'_>,
-    expression: &Expression,
-) -> Result<(PoseText, PoseTarget), &'static str> {
-    let Value::List(parts) = &expression.value else {
-        return Err("the target is not written in numbers");
-    };
-    let [position, orientation, configuration, external] = parts.as_slice() else {
-        return Err("a robtarget has four parts: place, orientation, configuration, external axes");
-    };
-    let position = numbers::<3>(file, position).ok_or("its place is not three numbers")?;
-    let orientation =
-        numbers::<4>(file, orientation).ok_or("its orientation is not four numbers")?;
-    let parts = [0, 1, 2, 3].map(|part| orientation[part].value);
-    let rotation = (OrientationText::Quaternion.rotation_of(&parts))
+    let position = (position.as_numbers::<3>()).ok_or("its place is not three numbers")?;
+    let turn = (orientation.as_numbers::<4>()).ok_or("its orientation is not four numbers")?;
+    let orientation = (OrientationText::Quaternion.rotation_of(&turn))
         .ok_or("its quaternion has not the length 1")?;
-    let axes = numbers::<6>(file, external).ok_or("its external axes are not six numbers")?;
-    let configured = (values::<4>(configuration).filter(|all| all.iter().all(is_quarter)))
+    let axes = (external.as_numbers::<6>()).ok_or("its external axes are not six numbers")?;
+    let numbers = (configuration.as_numbers::<4>())
+        .filter(|all| all.iter().all(is_quarter))
         .ok_or("its configuration is not four whole numbers")?;
-    let pose = PoseTarget {
-        position_mm: Vector3::from([0, 1, 2].map(|axis| position[axis].value)),
-        orientation: rotation,
+    let written = configuration.literal.and_then(|literal| {
+        let file = files.get(literal.file)?;
+        Some(String::from_utf8_lossy(file.source.part(&literal.span())).into_owned())
+    });
+    let text = written.unwrap_or_else(|| {
+        let parts = numbers.iter().map(f64::to_string);
+        format!("[{}]", parts.collect::<Vec<String>>().join(","))
+    });
+    Ok(PoseTarget {
+        position_mm: Vector3::from(position),
+        orientation,
         configuration: Configuration {
-            text: String::from_utf8_lossy(file.source.part(&file.span(&configuration.tokens)))
-                .into_owned(),
-            numbers: configured.to_vec(),
+            text,
+            numbers: numbers.to_vec(),
         },
-        external: external_axes(external),
+        external: stated(axes),
+    })
+}
+
+/// A number of a value that stands as a number in these bytes of a file.
+fn number_in(datum: &Datum, file: usize, span: &Range<usize>) -> Option<NumberText> {
+    let literal = datum
+        .literal
+        .filter(|literal| literal.is_within(file, span))?;
+    Some(NumberText {
+        span: literal.span(),
+        value: datum.as_number()?,
+    })
+}
+
+/// All numbers of a list, where they stand as numbers in these bytes of a file.
+pub(crate) fn numbers_in(
+    datum: &Datum,
+    file: usize,
+    span: &Range<usize>,
+) -> Option<Vec<NumberText>> {
+    let parts = datum.parts().iter();
+    parts.map(|part| number_in(part, file, span)).collect()
+}
+
+/// The literal of a robtarget, where all numbers of its place, orientation and external axes stand in it.
+pub(crate) fn text_of(datum: &Datum) -> Option<PoseText> {
+    let Literal { file, .. } = datum.literal?;
+    let whole = datum.literal?.span();
+    let [position, orientation, _, external] = datum.parts() else {
+        return None;
     };
-    let text = PoseText {
-        file: file.index,
-        whole: file.span(&expression.tokens),
-        position,
-        orientation: orientation.to_vec(),
+    let axes = numbers_in(external, file, &whole)?;
+    Some(PoseText {
+        file,
+        position: numbers_in(position, file, &whole)?.try_into().ok()?,
+        orientation: numbers_in(orientation, file, &whole)?,
         convention: OrientationText::Quaternion,
         external: (axes.into_iter())
             .map(|number| is_stated(number.value).then_some(number))
             .collect(),
         width: Width::Free,
-    };
-    Ok((text, pose))
+        whole,
+    })
 }
 
-/// Whether a number counts quarters of a turn, or is a sum of flags.
+/// True if a number counts quarters of a turn, or is a sum of flags.
 fn is_quarter(value: &f64) -> bool {
     value.fract() == 0.0 && value.abs() < 1e10
 }
 
-/// Whether a number is the place of an external axis, and not 9E9.
+/// True if a number is the place of an external axis, and not 9E9.
 fn is_stated(value: f64) -> bool {
     value < UNSTATED
 }
 
-/// Stated external axes; empty where they are no literal.
-fn external_axes(expression: &Expression) -> Vec<Option<f64>> {
-    let axes = values::<6>(expression).map_or_else(Vec::new, |all| all.to_vec());
-    let stated = |value: f64| is_stated(value).then_some(value);
-    axes.into_iter().map(stated).collect()
+fn stated(axes: [f64; 6]) -> Vec<Option<f64>> {
+    axes.map(|value| is_stated(value).then_some(value)).to_vec()
 }
 
 /// A jointtarget: joints in degrees, external axes.
-pub(crate) fn joints_of(expression: &Expression) -> Option<(Vec<f64>, Vec<Option<f64>>)> {
-    let Value::List(parts) = &expression.value else {
+pub(crate) fn joints_of(datum: &Datum) -> Option<(Vec<f64>, Vec<Option<f64>>)> {
+    let [joints, external] = datum.parts() else {
         return None;
     };
-    let [joints, external] = parts.as_slice() else {
-        return None;
-    };
-    Some((values::<6>(joints)?.to_vec(), external_axes(external)))
+    let axes = external.as_numbers::<6>().map_or_else(Vec::new, stated);
+    Some((joints.as_numbers::<6>()?.to_vec(), axes))
+}
+
+/// The rotation of an orient: four numbers.
+pub(crate) fn rotation_of(datum: &Datum) -> Option<UnitQuaternion<f64>> {
+    OrientationText::Quaternion.rotation_of(&datum.as_numbers::<4>()?)
 }
 
 /// A pose: `[[x,y,z],[q1,q2,q3,q4]]`.
-pub(crate) fn frame_of(expression: &Expression) -> Option<Isometry3<f64>> {
-    let Value::List(parts) = &expression.value else {
+pub(crate) fn frame_of(datum: &Datum) -> Option<Isometry3<f64>> {
+    let [place, orientation] = datum.parts() else {
         return None;
     };
-    let [place, orientation] = parts.as_slice() else {
-        return None;
-    };
-    let rotation = OrientationText::Quaternion.rotation_of(&values::<4>(orientation)?)?;
-    let place = Translation3::from(Vector3::from(values::<3>(place)?));
-    Some(Isometry3::from_parts(place, rotation))
+    let place = Translation3::from(Vector3::from(place.as_numbers::<3>()?));
+    Some(Isometry3::from_parts(place, rotation_of(orientation)?))
+}
+
+/// The list of a rotation.
+pub(crate) fn orient_of(rotation: &UnitQuaternion<f64>) -> Datum {
+    Datum::numbers([rotation.w, rotation.i, rotation.j, rotation.k])
+}
+
+/// The list of a pose.
+pub(crate) fn list_of_frame(frame: &Isometry3<f64>) -> Datum {
+    let place = Datum::numbers(frame.translation.vector.iter().copied());
+    Datum::list(vec![place, orient_of(&frame.rotation)])
+}
+
+/// The index of a component in an aggregate of so many parts, by its name.
+///
+/// Source: ABB, RAPID Instructions, Functions and Data types, the pages of the data types.
+pub(crate) fn component(name: &str, parts: usize) -> Option<usize> {
+    const NAMES: [&[&str]; 12] = [
+        &["TRANS", "ROT", "ROBCONF", "EXTAX"],
+        &["ROBAX", "EXTAX"],
+        &["X", "Y", "Z"],
+        &["Q1", "Q2", "Q3", "Q4"],
+        &["CF1", "CF4", "CF6", "CFX"],
+        &["EAX_A", "EAX_B", "EAX_C", "EAX_D", "EAX_E", "EAX_F"],
+        &["RAX_1", "RAX_2", "RAX_3", "RAX_4", "RAX_5", "RAX_6"],
+        &["ROBHOLD", "TFRAME", "TLOAD"],
+        &["ROBHOLD", "UFPROG", "UFMEC", "UFRAME", "OFRAME"],
+        &["V_TCP", "V_ORI", "V_LEAX", "V_REAX"],
+        &["MASS", "COG", "AOM", "IX", "IY", "IZ"],
+        &[
+            "FINEP",
+            "PZONE_TCP",
+            "PZONE_ORI",
+            "PZONE_EAX",
+            "ZONE_ORI",
+            "ZONE_LEAX",
+            "ZONE_REAX",
+        ],
+    ];
+    let place = |names: &&[&str]| names.iter().position(|own| *own == name);
+    let of_size = NAMES.iter().filter(|names| names.len() == parts);
+    let mut found = of_size.filter_map(place);
+    // `pose` has the first two components of a robtarget; a value that is not there yet has any.
+    found
+        .next()
+        .or_else(|| NAMES.iter().find_map(place).filter(|_| parts <= 2))
 }

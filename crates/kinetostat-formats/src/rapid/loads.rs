@@ -5,11 +5,12 @@ use std::collections::btree_map::Entry;
 
 use nalgebra::{Isometry3, Vector3};
 
-use crate::model::orientation::OrientationText;
+use crate::interpreter::value::Datum;
 use crate::model::tool_load::ToolLoad;
-use crate::rapid::expression::{Expression, Value, expression_of};
+use crate::rapid::evaluate::{LiteralsOnly, evaluate};
+use crate::rapid::expression::expression_of;
 use crate::rapid::lex::tokens_of;
-use crate::rapid::literals::{frame_of, values};
+use crate::rapid::literals::{frame_of, rotation_of};
 use crate::rapid::parser::modules::modules_of;
 use crate::rapid::tree::{DatumNode, TokenFile};
 use crate::text::name::Name;
@@ -61,12 +62,16 @@ fn literals<T: PartialEq>(
         .collect()
 }
 
+/// The first value of a declaration, in literals alone.
+fn initial(file: &TokenFile<'_>, node: &DatumNode) -> Option<Datum> {
+    let expression = expression_of(file, node.initial.clone()?);
+    Some(evaluate(file, &expression, &mut LiteralsOnly))
+}
+
 /// `[robhold, ufprog, ufmec, uframe, oframe]`.
 fn frames_of(file: &TokenFile<'_>, node: &DatumNode) -> Option<[Isometry3<f64>; 2]> {
-    let Value::List(parts) = expression_of(file, node.initial.clone()?).value else {
-        return None;
-    };
-    let [_, _, _, user, object] = parts.as_slice() else {
+    let object = initial(file, node)?;
+    let [_, _, _, user, object] = object.parts() else {
         return None;
     };
     let frames = [frame_of(user)?, frame_of(object)?];
@@ -76,26 +81,18 @@ fn frames_of(file: &TokenFile<'_>, node: &DatumNode) -> Option<[Isometry3<f64>; 
 
 /// `[robhold, tframe, [mass, cog, aom, ix, iy, iz]]`.
 fn load_of(file: &TokenFile<'_>, node: &DatumNode) -> Option<ToolLoad> {
-    let list = |expression: &Expression| match &expression.value {
-        Value::List(parts) => Some(parts.clone()),
-        _ => None,
-    };
-    let number = |expression: &Expression| match expression.value {
-        Value::Number(value) => Some(value),
-        _ => None,
-    };
-    let tool = list(&expression_of(file, node.initial.clone()?))?;
-    let [_, _, load] = tool.as_slice() else {
+    let tool = initial(file, node)?;
+    let [_, _, load] = tool.parts() else {
         return None;
     };
-    let load = list(load)?;
-    let [mass, centre, axes, ix, iy, iz] = load.as_slice() else {
+    let [mass, centre, axes, ix, iy, iz] = load.parts() else {
         return None;
     };
+    let inertia = Vector3::new(ix.as_number()?, iy.as_number()?, iz.as_number()?);
     Some(ToolLoad {
-        mass_kg: number(mass)?,
-        centre_of_mass_mm: Vector3::from(values::<3>(centre)?),
-        axes_of_moment: OrientationText::Quaternion.rotation_of(&values::<4>(axes)?)?,
-        inertia_kg_m2: Vector3::new(number(ix)?, number(iy)?, number(iz)?),
+        mass_kg: mass.as_number()?,
+        centre_of_mass_mm: Vector3::from(centre.as_numbers::<3>()?),
+        axes_of_moment: rotation_of(axes)?,
+        inertia_kg_m2: inertia,
     })
 }

@@ -5,14 +5,11 @@ use crate::model::language::Language;
 use crate::model::parsed::{Parsed, Read};
 use crate::model::program::RobotProgram;
 use crate::options::{ExternalAxes, ReadOptions};
-use crate::rapid::frames::Values;
 use crate::rapid::lex::tokens_of;
 use crate::rapid::parser::modules::modules_of;
+use crate::rapid::run::Run;
 use crate::rapid::symbols::Symbols;
-use crate::rapid::targets::Targets;
 use crate::rapid::tree::{Module, TokenFile};
-use crate::rapid::usage::note_usage;
-use crate::rapid::walk::walk;
 use crate::text::source::SourceFile;
 
 /// Most bytes of a file; the memory needed is some twenty times as much.
@@ -20,9 +17,11 @@ const MOST_BYTES: usize = 1 << 26;
 
 /// Reads RAPID modules (`.mod`, `.modx`, `.prg`, `.sys`) together: those that run together, with the data they use.
 ///
-/// Motions in branches, loops and routines that are called more than once are taken where target, tool, work object and
-/// speed are the same at each run; [`crate::Motion::runs`] says so. What a displacement, a search, a sensor, a moving work
-/// object or a target computed at run time decides is refused, as are external axes that move unless the options carry them.
+/// The program is run as the controller runs it: loops, branches and calls with the values that the files state. A statement that runs
+/// several times gives as many motions; [`crate::Motion::runs`] says so. A branch on a value that only the controller knows is passed
+/// over where its arms neither move the tool nor change modal state, and refused with its line otherwise. Displacements, searches,
+/// sensors, moving work objects and targets that only the controller knows are refused, as are external axes that move unless the
+/// options carry them.
 ///
 /// ```
 /// use kinetostat_formats::{MotionKind, ReadOptions, SourceFile, Zone, read_rapid};
@@ -79,16 +78,14 @@ pub(crate) fn parse_rapid(files: Vec<SourceFile>, options: &ReadOptions) -> Pars
         }
         modules.extend(found.into_iter().map(|module| (file.index, module)));
     }
-    let mut symbols = Symbols::of(&token_files, &modules, &mut faults);
-    note_usage(&token_files, &mut symbols);
-    let mut values = Values::new(&token_files, symbols, options);
-    let mut targets = Targets::default();
-    let walked = walk(&mut values, &mut targets, options, &mut faults);
+    let symbols = Symbols::of(&token_files, &modules, &mut faults);
+    let run = Run::new(&token_files, &symbols, options).whole();
+    faults.extend(run.faults);
     let read = Read {
-        motions: walked.motions,
-        declarations: targets.declarations,
-        findings: [targets.findings, walked.findings].concat(),
-        outside_calls: walked.outside_calls,
+        motions: run.motions,
+        declarations: run.targets.declarations,
+        findings: run.findings,
+        outside_calls: run.outside_calls,
         faults,
         external_axes_may_move: options.external_axes != ExternalAxes::Refused,
     };

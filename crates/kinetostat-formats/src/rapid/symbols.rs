@@ -3,9 +3,7 @@
 use std::collections::BTreeMap;
 
 use crate::error::{ProgramError, note};
-use crate::rapid::tree::{
-    Change, DatumNode, Module, Routine, RoutineKind, Sight, Statement, TokenFile,
-};
+use crate::rapid::tree::{DatumNode, Module, Routine, Sight, Statement, TokenFile};
 use crate::text::name::Name;
 
 /// Where a name stands.
@@ -25,16 +23,6 @@ pub(crate) struct Datum<'p> {
     pub file: usize,
     /// Where it is declared.
     pub scope: Scope,
-    /// File and line of an assignment, or of a call that may change it.
-    pub assigned: Option<(usize, usize)>,
-    /// The routine whose statements alone assign it; none where there are several.
-    pub assigned_in: Option<usize>,
-    /// Something else than an assignment, or a trap at any time, may change it.
-    pub is_changed_otherwise: bool,
-    /// More of a speed than that of the tip (`s.v_tcp:=20;`) is assigned.
-    pub is_assigned_beside_tip: bool,
-    /// Something else than the motions that end there rests on its value.
-    pub keeps_value: bool,
 }
 
 /// What a name means in a routine.
@@ -63,11 +51,11 @@ pub(crate) struct Symbols<'p> {
     pub routines: Vec<Home<'p>>,
     everywhere: BTreeMap<Name, usize>,
     in_module: Vec<BTreeMap<Name, usize>>,
+    /// Files of the modules.
+    files: Vec<usize>,
     in_routine: Vec<BTreeMap<Name, Meaning>>,
     routines_everywhere: BTreeMap<Name, usize>,
     routines_in_module: Vec<BTreeMap<Name, usize>>,
-    /// There is a function among the routines.
-    pub has_functions: bool,
 }
 
 impl<'p> Symbols<'p> {
@@ -79,6 +67,7 @@ impl<'p> Symbols<'p> {
     ) -> Self {
         let mut all = Self::default();
         for (module, (file, content)) in modules.iter().enumerate() {
+            all.files.push(*file);
             let mut own = BTreeMap::new();
             for node in &content.data {
                 let index = all.add(*file, node, Scope::Module(module));
@@ -93,7 +82,6 @@ impl<'p> Symbols<'p> {
             all.in_module.push(own);
             let mut own = BTreeMap::new();
             for routine in &content.routines {
-                all.has_functions |= routine.kind == RoutineKind::Function;
                 let index = all.routines.len();
                 all.routines.push(Home {
                     file: *file,
@@ -128,16 +116,7 @@ impl<'p> Symbols<'p> {
     }
 
     fn add(&mut self, file: usize, node: &'p DatumNode, scope: Scope) -> usize {
-        self.data.push(Datum {
-            node,
-            file,
-            scope,
-            assigned: None,
-            assigned_in: None,
-            is_changed_otherwise: false,
-            is_assigned_beside_tip: false,
-            keeps_value: false,
-        });
+        self.data.push(Datum { node, file, scope });
         self.data.len() - 1
     }
 
@@ -163,14 +142,6 @@ impl<'p> Symbols<'p> {
         }
     }
 
-    /// Something rests on all data of this name.
-    pub(crate) fn keep_everywhere(&mut self, name: &Name) {
-        let own = self.in_module.iter().filter_map(|names| names.get(name));
-        for index in own.chain(self.everywhere.get(name)) {
-            self.data[*index].keeps_value = true;
-        }
-    }
-
     /// The routine that a name means in a routine.
     pub(crate) fn routine(&self, from: usize, name: &Name) -> Option<usize> {
         let module = self.routines_in_module.get(self.routines[from].module)?;
@@ -180,16 +151,15 @@ impl<'p> Symbols<'p> {
         found.copied()
     }
 
+    /// The file of a module.
+    pub(crate) fn file_of_module(&self, module: usize) -> usize {
+        self.files.get(module).copied().unwrap_or_default()
+    }
+
     /// The routine with which the program begins.
     pub(crate) fn main(&self) -> Option<usize> {
         let name = Name::of(b"main")?;
         self.routines_everywhere.get(&name).copied()
-    }
-
-    /// Whether a datum has one value for the whole program.
-    pub(crate) fn is_fixed(&self, index: usize) -> bool {
-        let datum = &self.data[index];
-        datum.node.change == Change::Constant || datum.assigned.is_none()
     }
 }
 

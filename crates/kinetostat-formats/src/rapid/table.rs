@@ -176,7 +176,7 @@ const OTHERS: &[Alike] = &[
     ]),
     alike(Understood, INSTRUCTIONS, &["Offs", "RelTool", "CirPathMode", "SingArea"]),
     alike(Carried, INSTRUCTIONS, &[
-        "AccSet", "AliasIO", "AliasIOReset", "BitClear", "BitSet", "BookErrNo", "Break",
+        "AccSet", "Add", "AliasIO", "AliasIOReset", "BitClear", "BitSet", "BookErrNo", "Break",
         "CheckProgRef", "Clear", "ClearIOBuff", "ClearRawBytes", "ClkReset", "ClkStart", "ClkStop",
         "Close", "CloseDir", "ConfJ", "ConfL", "CONNECT", "CopyFile", "CopyRawBytes",
         "DeactEventBuffer", "Decr", "EraseModule", "ErrLog", "ErrWrite", "ExitCycle", "GripLoad",

@@ -58,14 +58,18 @@ pub(crate) struct DatumNode {
     pub tokens: Range<usize>,
     /// Of its first value.
     pub initial: Option<Range<usize>>,
+    /// Of the sizes of an array, in its braces.
+    pub dimensions: Option<Range<usize>>,
 }
 
 /// A parameter of a routine.
 #[derive(Debug, Clone)]
 pub(crate) struct Parameter {
     pub name: Name,
-    /// Whether the routine may change what is given (INOUT, VAR, PERS).
+    /// True if the routine may change its argument (INOUT, VAR, PERS).
     pub changes: bool,
+    /// Named by an option of the call.
+    pub is_optional: bool,
 }
 
 /// What kind of routine.
@@ -88,8 +92,15 @@ pub(crate) struct Routine {
     pub body: Vec<Statement>,
     /// ERROR, UNDO and BACKWARD.
     pub handlers: Vec<Statement>,
-    /// It has a GOTO that leads backward: its order is not that of its lines.
-    pub jumps: bool,
+}
+
+impl Routine {
+    /// Sees the tokens of all statements, conditions and headers.
+    pub(crate) fn each_part(&self, see: &mut dyn FnMut(&Range<usize>)) {
+        for statement in self.body.iter().chain(&self.handlers) {
+            statement.each_part(see);
+        }
+    }
 }
 
 /// A module of a file.
@@ -134,4 +145,37 @@ pub(crate) enum Statement {
     Label { at: usize },
     /// RETURN, EXIT, RAISE, RETRY, TRYNEXT, GOTO: what follows does not run.
     Leaves { tokens: Range<usize> },
+}
+
+impl Statement {
+    /// The tokens of the statement, or of its first part.
+    pub(crate) fn tokens(&self) -> Option<Range<usize>> {
+        let mut found = None;
+        self.each_part(&mut |tokens| found = found.take().or_else(|| Some(tokens.clone())));
+        found
+    }
+
+    /// Sees the tokens of the statement, or of its conditions and of the statements in it.
+    pub(crate) fn each_part(&self, see: &mut dyn FnMut(&Range<usize>)) {
+        match self {
+            Self::Assignment { tokens, .. } | Self::Call { tokens } | Self::Leaves { tokens } => {
+                see(tokens);
+            }
+            Self::Branches {
+                conditions, blocks, ..
+            } => {
+                conditions.iter().for_each(&mut *see);
+                for statement in blocks.iter().flatten() {
+                    statement.each_part(see);
+                }
+            }
+            Self::Loop { header, block } => {
+                see(header);
+                for statement in block {
+                    statement.each_part(see);
+                }
+            }
+            Self::Label { .. } => {}
+        }
+    }
 }

@@ -5,11 +5,15 @@ use std::ops::Range;
 
 use crate::model::motion::{Motion, Zone};
 use crate::model::program::RobotProgram;
+use crate::model::site::ReplacedText;
 use crate::options::{ExactStops, WriteOptions};
 use crate::rapid::lex::{Kind, tokens_of};
 use crate::rapid::table::{MotionRow, motion_row};
 use crate::text::edits::Edits;
 use crate::text::name::{LONGEST, Name};
+use crate::text::number::Width;
+use crate::text::source::SourceFile;
+use crate::writing::literal::{Wanted, put};
 use crate::writing::syntax::{PieceLiterals, Syntax, replace_word};
 
 /// RAPID.
@@ -92,6 +96,61 @@ impl Syntax for RapidSyntax {
             edits.replace(zone.clone(), "z0");
         }
         edits.applied_to_part(file.bytes(), &motion.span)
+    }
+
+    fn replaced(
+        &self,
+        file: &SourceFile,
+        text: &ReplacedText,
+        wanted: &Wanted<'_>,
+        options: &WriteOptions,
+    ) -> Option<Vec<u8>> {
+        let rotation = wanted.orientation.unwrap_or(text.pose.orientation);
+        let turn = [rotation.w, rotation.i, rotation.j, rotation.k];
+        let place = wanted.position_mm.as_slice();
+        let list = |values: &[f64], decimals: usize| {
+            let values = values.iter().map(|value| format!("{value:.decimals$}"));
+            format!("[{}]", values.collect::<Vec<String>>().join(","))
+        };
+        let decimals = [options.position_decimals, options.quaternion_decimals];
+        // Names in the aggregate stay.
+        if let Some(parts) = &text.parts {
+            let mut edits = Edits::default();
+            let same_sign = match parts[1]
+                .numbers
+                .iter()
+                .zip(turn)
+                .map(|(n, t)| n.value * t)
+                .sum::<f64>()
+                < 0.0
+            {
+                true => turn.map(|part| -part),
+                false => turn,
+            };
+            let turns = wanted.orientation.is_some();
+            let values = [(place, true), (&same_sign[..], turns)];
+            for ((part, (values, is_wanted)), decimals) in parts.iter().zip(values).zip(decimals) {
+                if !is_wanted {
+                    continue;
+                }
+                if part.numbers.is_empty() {
+                    edits.replace(part.span.clone(), list(values, decimals));
+                }
+                for (number, value) in part.numbers.iter().zip(values) {
+                    put(file, number, *value, decimals, Width::Free, &mut edits);
+                }
+            }
+            return edits.applied_to_part(file.bytes(), &text.span);
+        }
+        let external = |axis: usize| {
+            let wanted = wanted.external.get(axis).copied().flatten();
+            let value = wanted.or_else(|| text.pose.external.get(axis).copied().flatten());
+            value.map_or_else(|| "9E9".to_owned(), |value| value.to_string())
+        };
+        let axes = [0, 1, 2, 3, 4, 5].map(external).join(",");
+        let configuration = &text.pose.configuration.text;
+        let [place, turn] = [list(place, decimals[0]), list(&turn, decimals[1])];
+        Some(format!("[{place},{turn},{configuration},[{axes}]]").into_bytes())
     }
 
     fn straighten(&self, program: &RobotProgram, motion: &Motion, edits: &mut Edits) {

@@ -37,6 +37,11 @@ impl Writer<'_> {
             let file = &self.program.files[motion.file];
             return row_of_joints(file, text, (wanted, end.orientation)).ok_or(NO_JOINTS);
         }
+        if let TargetSite::Replaced(text) = site {
+            let file = &self.program.files[motion.file];
+            let literal = self.syntax.replaced(file, text, wanted, self.options);
+            return literal.ok_or(NO_END);
+        }
         let text = text_of(self.program, site).ok_or(NO_END)?;
         let home = &self.program.files[text.file];
         let literal = literal_of(home, text, wanted, self.options).ok_or(NO_END)?;
@@ -113,6 +118,10 @@ impl Writer<'_> {
                 for (number, value) in arguments.iter().zip(by.iter()) {
                     put(file, number, *value, least, Width::Free, edits);
                 }
+            }
+            (TargetSite::Replaced(text), Some(wanted)) => {
+                let literal = self.syntax.replaced(file, text, &wanted, self.options);
+                edits.replace(text.span.clone(), literal.ok_or(NO_END)?);
             }
             // What KRL leaves open is stated before.
             (TargetSite::Partial(_), Some(_)) => return Err(NO_END),

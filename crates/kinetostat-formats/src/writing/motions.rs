@@ -4,7 +4,9 @@ use std::collections::BTreeMap;
 
 use crate::error::WriteError;
 use crate::model::external::ways_of_external_axes;
+use crate::model::motion::Motion;
 use crate::model::program::RobotProgram;
+use crate::model::target::Target;
 use crate::options::WriteOptions;
 use crate::text::edits::Edits;
 use crate::writing::declared::{Demands, Names};
@@ -12,9 +14,40 @@ use crate::writing::ends::Writer;
 use crate::writing::external_axes::{AxesOfPiece, shared_axes};
 use crate::writing::line_length::check_lines;
 use crate::writing::piece::Piece;
+use crate::writing::refusals::{REPEATED, SAME_MM, SAME_RAD};
 use crate::writing::refused::Refused;
 use crate::writing::syntax::Syntax;
 use crate::writing::target_texts::text_of;
+
+/// True if two runs of one statement take the same pieces: its numbers stand once.
+fn is_same_way(
+    (first, pieces): (&Motion, &[&Piece]),
+    (again, others): (&Motion, &[&Piece]),
+) -> bool {
+    let near = |one: &Piece, other: &Piece| {
+        let turn = match (one.orientation, other.orientation) {
+            (Some(one), Some(other)) => one.angle_to(&other) <= SAME_RAD,
+            (one, other) => one == other,
+        };
+        let via = match (one.via_mm, other.via_mm) {
+            (Some(one), Some(other)) => (one - other).norm() <= SAME_MM,
+            (one, other) => one == other,
+        };
+        let speed = (one.speed_factor - other.speed_factor).abs() <= SAME_MM;
+        turn && via && speed && (one.position_mm - other.position_mm).norm() <= SAME_MM
+    };
+    let mut pairs = pieces.iter().zip(others);
+    let is_same_end = match (&first.target, &again.target) {
+        (Target::Pose(one), Target::Pose(other)) => {
+            (one.position_mm - other.position_mm).norm() <= SAME_MM
+                && one.orientation.angle_to(&other.orientation) <= SAME_RAD
+        }
+        (one, other) => one == other,
+    };
+    pieces.len() == others.len()
+        && pairs.all(|(one, other)| near(one, other))
+        && (pieces.is_empty() || is_same_end)
+}
 
 /// The files of a program with the pieces in place of its motions.
 pub(crate) fn write_with(
@@ -43,8 +76,17 @@ pub(crate) fn write_with(
     };
     let ways = ways_of_external_axes(program);
     let mut refused = Refused::default();
+    let mut first_runs: BTreeMap<(usize, usize), usize> = BTreeMap::new();
     for ((index, motion), ways) in program.motions.iter().enumerate().zip(&ways) {
         let pieces = of_motion.get(&index).map_or(&[][..], Vec::as_slice);
+        let first = *(first_runs.entry((motion.file, motion.span.start))).or_insert(index);
+        if first != index {
+            let before = of_motion.get(&first).map_or(&[][..], Vec::as_slice);
+            if !is_same_way((&program.motions[first], before), (motion, pieces)) {
+                refused.add(motion, REPEATED);
+            }
+            continue;
+        }
         let text = text_of(program, &motion.site.target);
         let axes = shared_axes(program, motion, ways, (text, pieces))?;
         let pieces: Vec<(&Piece, &AxesOfPiece)> = pieces.iter().copied().zip(&axes).collect();

@@ -25,6 +25,15 @@ pub(super) const NO_NAME: Reason = (
     "give fewer pieces, or divide the program",
 );
 
+pub(super) const REPEATED: Reason = (
+    "the statement runs several times, and needs another correction each time",
+    "write its runs one after the other",
+);
+
+/// Corrections of two runs of one statement that are the same, mm and rad: less than the last digit that is written.
+pub(super) const SAME_MM: f64 = 1e-4;
+pub(super) const SAME_RAD: f64 = 1e-7;
+
 /// Farther than any robot reaches, mm.
 pub(crate) const FARTHEST_MM: f64 = 1e6;
 

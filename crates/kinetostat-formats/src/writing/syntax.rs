@@ -5,9 +5,11 @@ use std::ops::Range;
 
 use crate::model::motion::Motion;
 use crate::model::program::RobotProgram;
-use crate::model::site::Declaration;
+use crate::model::site::{Declaration, ReplacedText};
 use crate::options::WriteOptions;
 use crate::text::edits::Edits;
+use crate::text::source::SourceFile;
+use crate::writing::literal::Wanted;
 
 /// The poses of a piece as they are written.
 #[derive(Debug, Clone, PartialEq)]
@@ -64,6 +66,17 @@ pub(crate) trait Syntax {
         speed: Option<&[u8]>,
         options: &WriteOptions,
     ) -> Option<Vec<u8>>;
+
+    /// The text of an end that the statement has by names or computes, with another pose.
+    fn replaced(
+        &self,
+        _file: &SourceFile,
+        _text: &ReplacedText,
+        _wanted: &Wanted<'_>,
+        _options: &WriteOptions,
+    ) -> Option<Vec<u8>> {
+        None
+    }
 
     /// Makes a circular motion a straight one to the same end.
     fn straighten(&self, _program: &RobotProgram, _motion: &Motion, _edits: &mut Edits) {}

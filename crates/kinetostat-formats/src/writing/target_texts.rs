@@ -13,7 +13,10 @@ pub(super) fn text_of<'s>(program: &'s RobotProgram, site: &'s TargetSite) -> Op
             Some(&program.declarations.get(*declaration)?.text)
         }
         TargetSite::Offset { literal, .. } => Some(literal),
-        TargetSite::Partial(_) | TargetSite::Joints(_) | TargetSite::Fixed(_) => None,
+        TargetSite::Partial(_)
+        | TargetSite::Replaced(_)
+        | TargetSite::Joints(_)
+        | TargetSite::Fixed(_) => None,
     }
 }
 
@@ -23,6 +26,7 @@ pub(super) fn span_of(site: &TargetSite) -> Range<usize> {
         TargetSite::Literal(text) => text.whole.clone(),
         TargetSite::Declared { name, .. } => name.clone(),
         TargetSite::Offset { call, .. } => call.clone(),
+        TargetSite::Replaced(text) => text.span.clone(),
         TargetSite::Partial(_) | TargetSite::Joints(_) | TargetSite::Fixed(_) => 0..0,
     }
 }

@@ -328,8 +328,8 @@ fn circles_through_a_place_that_is_not_known_stay_circles() {
         (
             Language::Rapid,
             "MODULE M\nPROC main()\nMoveL [[0,0,0],[0,1,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v20,fine,tool0;\n\
-             MoveC CRobT(),[[100,0,0],[0,1,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v20,fine,tool0;\nENDPROC\nENDMODULE\n",
-            "MoveC CRobT(),",
+             MoveC OwnPlace(),[[100,0,0],[0,1,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v20,fine,tool0;\nENDPROC\nENDMODULE\n",
+            "MoveC OwnPlace(),",
         ),
         (
             Language::Krl,

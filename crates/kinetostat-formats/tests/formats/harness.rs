@@ -3,6 +3,8 @@
 //! Whatever the bytes are, they are read or refused with a line; what is read comes back byte for byte, and with corrections
 //! is read again with those corrections; divided, it goes through all places in their order.
 
+use std::collections::BTreeMap;
+
 use kinetostat_formats::*;
 use kinetostat_testing::Worst;
 use nalgebra::{Isometry3, UnitQuaternion, Vector3};
@@ -75,8 +77,19 @@ fn frame_of(frame: &FrameUse) -> (&str, Option<&Isometry3<f64>>) {
 
 /// Corrections by chance for the motions of a program.
 pub fn corrections(chance: &mut Chance, program: &RobotProgram, kind: &Kind) -> Vec<Piece> {
-    let mut pieces = Vec::new();
+    let mut pieces: Vec<Piece> = Vec::new();
+    let mut first_runs = BTreeMap::new();
     for (index, motion) in program.motions.iter().enumerate() {
+        // A statement that runs several times has one correction for all of them.
+        let first = *(first_runs.entry((motion.file, motion.span.start))).or_insert(index);
+        if first != index {
+            let same = pieces.iter().find(|piece| piece.motion == first);
+            pieces.extend(same.cloned().map(|piece| Piece {
+                motion: index,
+                ..piece
+            }));
+            continue;
+        }
         let Some(end) = motion.target.pose().filter(|_| chance.below(3) > 0) else {
             continue;
         };
@@ -209,9 +222,20 @@ pub fn divide_and_read(
 ) -> Result<(), String> {
     let mut pieces = Vec::new();
     let mut places = Vec::new();
+    let mut first_runs: BTreeMap<(usize, usize), Vec<Vector3<f64>>> = BTreeMap::new();
     for (index, motion) in program.motions.iter().enumerate() {
+        let statement = (motion.file, motion.span.start);
+        if let Some(own) = first_runs.get(&statement) {
+            pieces.extend(own.iter().map(|place| Piece::to(index, *place)));
+            places.extend(match own.is_empty() {
+                true => vec![motion.target.pose().map(|end| end.position_mm)],
+                false => own.iter().copied().map(Some).collect(),
+            });
+            continue;
+        }
         let Some(end) = (motion.target.pose()).filter(|end| end.position_mm.norm() < 9e5) else {
             places.push(None);
+            first_runs.insert(statement, Vec::new());
             continue;
         };
         let halves = [
@@ -231,6 +255,7 @@ pub fn divide_and_read(
         if count > 0 {
             pieces.extend(own.iter().map(|place| Piece::to(index, *place)));
         }
+        first_runs.insert(statement, if count > 0 { own.clone() } else { Vec::new() });
         places.extend(own.into_iter().map(Some));
     }
     let files =

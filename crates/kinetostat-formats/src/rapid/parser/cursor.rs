@@ -8,43 +8,12 @@ use crate::rapid::tree::TokenFile;
 use crate::text::name::Name;
 
 /// Words that begin a statement or end a block: a statement before them has no semicolon.
+#[rustfmt::skip]
 const KEYWORDS: [&str; 36] = [
-    "BACKWARD",
-    "CASE",
-    "CONST",
-    "DEFAULT",
-    "ELSE",
-    "ELSEIF",
-    "ENDFOR",
-    "ENDFUNC",
-    "ENDIF",
-    "ENDMODULE",
-    "ENDPROC",
-    "ENDRECORD",
-    "ENDTEST",
-    "ENDTRAP",
-    "ENDWHILE",
-    "ERROR",
-    "EXIT",
-    "FOR",
-    "FUNC",
-    "GOTO",
-    "IF",
-    "LOCAL",
-    "MODULE",
-    "PERS",
-    "PROC",
-    "RAISE",
-    "RECORD",
-    "RETRY",
-    "RETURN",
-    "TASK",
-    "TEST",
-    "TRAP",
-    "TRYNEXT",
-    "UNDO",
-    "VAR",
-    "WHILE",
+    "BACKWARD", "CASE", "CONST", "DEFAULT", "ELSE", "ELSEIF", "ENDFOR", "ENDFUNC", "ENDIF", "ENDMODULE",
+    "ENDPROC", "ENDRECORD", "ENDTEST", "ENDTRAP", "ENDWHILE", "ERROR", "EXIT", "FOR", "FUNC", "GOTO", "IF",
+    "LOCAL", "MODULE", "PERS", "PROC", "RAISE", "RECORD", "RETRY", "RETURN", "TASK", "TEST", "TRAP",
+    "TRYNEXT", "UNDO", "VAR", "WHILE",
 ];
 
 /// Where it reads, and what is wrong so far.
@@ -52,8 +21,6 @@ pub(super) struct Parser<'f, 'a> {
     pub(super) file: &'f TokenFile<'a>,
     pub(super) at: usize,
     pub(super) faults: &'f mut Vec<ProgramError>,
-    /// The routine has a GOTO.
-    pub(super) jumps: bool,
     /// The end of the file was noted where the end of a block was missing.
     pub(super) cut_off: bool,
 }

@@ -33,7 +33,7 @@ impl Parser<'_, '_> {
         };
         if !dimensions.is_empty() && self.file.word(open) != b"{" {
             self.fault(
-                dimensions,
+                dimensions.clone(),
                 "it does not belong into a declaration",
                 "write the type, the name, and := value",
             );
@@ -45,6 +45,7 @@ impl Parser<'_, '_> {
             type_name,
             name,
             name_at,
+            dimensions: (dimensions.len() > 2).then(|| dimensions.start + 1..dimensions.end - 1),
             initial: assigned.then(|| first..tokens.end.saturating_sub(1).max(first)),
             tokens,
         }))
@@ -53,7 +54,7 @@ impl Parser<'_, '_> {
     /// To behind the closing parenthesis.
     pub(super) fn parameters(&mut self) -> Vec<Parameter> {
         let mut found = Vec::new();
-        let mut changes = false;
+        let (mut changes, mut is_optional) = (false, false);
         let mut last = None;
         while let Some(kind) = self.kind() {
             match kind {
@@ -62,8 +63,17 @@ impl Parser<'_, '_> {
                 }
                 Kind::Word => last = Name::of(self.file.word(self.at)),
                 Kind::Symbol(b',' | b'|' | b'\\' | b')') => {
-                    found.extend(last.take().map(|name| Parameter { name, changes }));
+                    found.extend(last.take().map(|name| Parameter {
+                        name,
+                        changes,
+                        is_optional,
+                    }));
                     changes = false;
+                    // Alternatives (`\switch a | switch b`) are options as the first one is.
+                    is_optional = match kind {
+                        Kind::Symbol(b'|') => is_optional,
+                        _ => kind == Kind::Symbol(b'\\'),
+                    };
                 }
                 Kind::Symbol(b';') => break,
                 _ => {}

@@ -1,9 +1,6 @@
 //! Modules and their routines.
 
-use std::collections::BTreeSet;
-
 use crate::error::ProgramError;
-use crate::rapid::labels::lead_forward;
 use crate::rapid::parser::cursor::Parser;
 use crate::rapid::tree::{Module, Routine, RoutineKind, Sight, TokenFile};
 
@@ -13,7 +10,6 @@ pub(crate) fn modules_of(file: &TokenFile<'_>, faults: &mut Vec<ProgramError>) -
         file,
         at: 0,
         faults,
-        jumps: false,
         cut_off: false,
     };
     let mut modules = Vec::new();
@@ -109,7 +105,6 @@ impl Parser<'_, '_> {
             true => self.parameters(),
             false => Vec::new(),
         };
-        self.jumps = false;
         let mut routine_data = Vec::new();
         let mut body = Vec::new();
         let mut handlers = Vec::new();
@@ -176,8 +171,6 @@ impl Parser<'_, '_> {
             self.at += 1;
         }
         let (name, name_at) = name?;
-        let forward = |block| lead_forward(self.file, block, &mut BTreeSet::new());
-        let jumps = self.jumps && !(forward(&body) && forward(&handlers));
         Some(Routine {
             kind,
             sight,
@@ -187,7 +180,6 @@ impl Parser<'_, '_> {
             data: routine_data,
             body,
             handlers,
-            jumps,
         })
     }
 }

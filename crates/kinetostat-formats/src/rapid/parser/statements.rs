@@ -57,7 +57,6 @@ impl Parser<'_, '_> {
             .iter()
             .any(|word| self.is(word))
         {
-            self.jumps |= self.is("GOTO");
             self.at += 1;
             let tokens = self.rest_of_statement(start);
             statements.push(Statement::Leaves { tokens });

@@ -55,7 +55,7 @@ fn calls_of_krl_that_begin_like_declarations() {
     );
 }
 
-/// Behind a routine that is not known a motion begins nobody knows where: it goes to its end all the same, and an arc is refused.
+/// Behind a routine that the run chooses a motion begins nobody knows where: it goes to its end all the same, and an arc is refused.
 #[test]
 fn motions_behind_unknown_routines_are_there() {
     let text = format!(
@@ -67,7 +67,7 @@ fn motions_behind_unknown_routines_are_there() {
         assert_eq!(made.kept.motions, 3, "{into:?}: {}", text_of(&made, 0));
     }
     let arc = format!("MoveC [[3,4,50],{POSE},[[9,0,50],{POSE},v20,z1,tool0;");
-    let text = text.replacen("Elsewhere;", &format!("Elsewhere;\n{arc}"), 1);
+    let text = text.replacen("Elsewhere;", &format!("%name%;\n{arc}"), 1);
     let files = vec![SourceFile::new("m.mod", text)];
     let program = read_rapid(files, &ReadOptions::default()).unwrap();
     let robot = path_of(&program, &PathOptions::default()).unwrap();

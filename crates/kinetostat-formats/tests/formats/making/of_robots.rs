@@ -113,7 +113,7 @@ fn what_does_not_run_once_is_refused() {
         [Some(8), Some(9)]
     );
     assert!(found[0].to_string().starts_with(
-        "line 8: the motion is in a loop, in a routine with a GOTO that is not followed, or in one that is called more than once; write"
+        "line 8: the motion is in a loop, or in a routine that is called more than once; write"
     ));
 }
 

@@ -25,7 +25,12 @@ fn motions(routines: &str) -> Vec<(f64, Runs, Option<f64>)> {
     .collect()
 }
 
-use Runs::{Elsewhere, OnCondition, Once, Repeatedly};
+use Runs::{Elsewhere, Once, Repeatedly};
+
+/// Where the motions go, in the order of the run.
+fn places(routines: &str) -> Vec<f64> {
+    motions(routines).iter().map(|(x, ..)| *x).collect()
+}
 
 #[test]
 fn calls_are_followed_in_their_order() {
@@ -42,72 +47,128 @@ fn calls_are_followed_in_their_order() {
 }
 
 #[test]
-fn a_routine_called_twice_begins_where_its_calls_agree() {
+fn a_routine_runs_at_each_call() {
     let twice = "PROC main() move; part; move; part; ENDPROC PROC part() move; move; ENDPROC";
-    let found = motions(twice);
-    assert_eq!(
-        found,
-        [
-            (1.0, Once, None),
-            (3.0, Repeatedly, None),
-            (4.0, Repeatedly, Some(3.0)),
-            (2.0, Once, Some(4.0))
-        ]
-    );
-    // Once from main through a routine without motions.
+    assert_eq!(places(twice), [1.0, 3.0, 4.0, 2.0, 3.0, 4.0]);
+    let runs: Vec<Runs> = motions(twice).iter().map(|(_, runs, _)| *runs).collect();
+    assert_eq!(runs[..2], [Once, Repeatedly]);
     let through = "PROC main() move; middle; ENDPROC PROC middle() part; ENDPROC PROC part() Set do1; move; ENDPROC";
     assert_eq!(motions(through)[1], (2.0, Once, Some(1.0)));
+    let recursive =
+        "PROC main() part 1; ENDPROC PROC part(num n) move; IF n<3 part n+1; move; ENDPROC";
+    assert_eq!(places(recursive), [1.0, 1.0, 1.0, 2.0, 2.0, 2.0]);
 }
 
 #[test]
-fn branches_meet_only_where_they_agree() {
-    let found = motions("PROC main() move; IF di=1 THEN move; ENDIF move; ENDPROC");
-    assert_eq!(
-        found,
-        [
-            (1.0, Once, None),
-            (2.0, OnCondition, Some(1.0)),
-            (3.0, Once, None)
-        ]
+fn branches_are_taken_by_their_values() {
+    let found = |condition: &str| {
+        places(&format!(
+            "VAR num n:=2; VAR bool ok; PROC main() move; IF {condition} THEN move; ELSE move; ENDIF move; ENDPROC"
+        ))
+    };
+    for (condition, taken) in [
+        ("n=2", 2.0),
+        ("n<>2", 3.0),
+        ("NOT ok", 2.0),
+        ("n>1 AND n<=2", 2.0),
+        ("n DIV 2 = 1 AND 7 MOD 4 = 3", 2.0),
+        ("ok OR (n-2)*3 >= 1", 3.0),
+        ("ok XOR n*n=4", 2.0),
+        ("Abs(-n)=2", 2.0),
+        ("2+n*3=8", 2.0),
+        ("-n+2=0", 2.0),
+    ] {
+        assert_eq!(found(condition), [1.0, taken, 4.0], "{condition}");
+    }
+    let cases = "VAR num n:=5; PROC main() TEST n CASE 1,2: move; CASE 4 TO 6: move; DEFAULT: move; ENDTEST ENDPROC";
+    assert_eq!(places(cases), [2.0]);
+    let default = cases.replace("n:=5", "n:=9");
+    assert_eq!(places(&default), [3.0]);
+    // A value that only the controller knows is passed over where its arms do nothing to the way.
+    let open = "PROC main() move; IF di=1 THEN Set do1; ELSE Reset do1; ENDIF move; ENDPROC";
+    assert_eq!(motions(open)[1], (2.0, Once, Some(1.0)));
+    for open in [
+        "IF di=1 THEN move; ENDIF",
+        "IF di=1 RETURN;",
+        "IF di=1 GOTO on;",
+        "WHILE di=1 DO move; ENDWHILE",
+        "FOR i FROM 1 TO di DO move; ENDFOR",
+        "TEST di CASE 1: part; ENDTEST",
+        "IF di=1 SingArea\\Wrist;",
+    ] {
+        let text = format!(
+            "MODULE A\nPROC main()\n{open}\non:\nENDPROC\nPROC part()\nmove;\nENDPROC\nENDMODULE"
+        )
+        .replace(
+            "move;",
+            "MoveL [[1,0,0],[1,0,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v10,z1,tool0;",
+        );
+        let faults = read_rapid(
+            vec![SourceFile::new("a.mod", text)],
+            &ReadOptions::default(),
+        )
+        .unwrap_err();
+        assert_eq!((faults.len(), faults[0].line), (1, 3), "{open}: {faults:?}");
+        assert!(
+            faults[0].reason.contains("no `di` is declared"),
+            "{open}: {}",
+            faults[0]
+        );
+    }
+}
+
+/// What an arm that may run assigns is not known behind it.
+#[test]
+fn values_behind_an_open_branch_are_not_known() {
+    let text = "MODULE A\nVAR num n:=1;\nPROC main()\nIF di=1 n:=2;\nIF n=1 THEN\nMoveL [[1,0,0],[1,0,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v10,z1,tool0;\nENDIF\nENDPROC\nENDMODULE";
+    let faults = read_rapid(
+        vec![SourceFile::new("a.mod", text)],
+        &ReadOptions::default(),
+    )
+    .unwrap_err();
+    assert_eq!((faults.len(), faults[0].line), (1, 5), "{faults:?}");
+    assert!(
+        faults[0]
+            .reason
+            .contains("`n` is changed while the program runs (line 4)")
     );
-    let found =
-        motions("PROC main() move; IF di=1 THEN Set do1; ELSE Reset do1; ENDIF move; ENDPROC");
-    assert_eq!(found[1], (2.0, Once, Some(1.0)));
-    let found =
-        motions("PROC main() move; TEST n CASE 1: move; DEFAULT: move; ENDTEST move; ENDPROC");
-    assert_eq!(
-        found[2..],
-        [(3.0, OnCondition, Some(1.0)), (4.0, Once, None)]
-    );
-    let found = motions("PROC main() move; IF di=1 RETURN; move; ENDPROC");
-    assert_eq!(found[1], (2.0, OnCondition, Some(1.0)));
 }
 
 #[test]
-fn loops_begin_at_an_unknown_place() {
-    let found = motions("PROC main() move; FOR i FROM 1 TO 4 DO move; move; ENDFOR move; ENDPROC");
-    let expected = [
-        (1.0, Once, None),
-        (2.0, Repeatedly, None),
-        (3.0, Repeatedly, Some(2.0)),
-        (4.0, Once, None),
-    ];
-    assert_eq!(found, expected);
+fn loops_run_as_often_as_they_say() {
+    let found = places("PROC main() move; FOR i FROM 1 TO 3 DO move; move; ENDFOR move; ENDPROC");
+    assert_eq!(found, [1.0, 2.0, 3.0, 2.0, 3.0, 2.0, 3.0, 4.0]);
+    let down = "PROC main() FOR i FROM 3 TO 1 STEP -2 DO move; ENDFOR FOR i FROM 2 TO 1 STEP 1 DO move; ENDFOR ENDPROC";
+    assert_eq!(places(down), [1.0, 1.0]);
+    let counted = "VAR num n; PROC main() WHILE n<2 DO Incr n; move; ENDWHILE ENDPROC";
+    assert_eq!(places(counted), [1.0, 1.0]);
     let found = motions("PROC main() move; WHILE di=0 DO WaitTime 1; ENDWHILE move; ENDPROC");
     assert_eq!(found[1], (2.0, Once, Some(1.0)));
+    // A program that never ends is read for one pass, and one that ends too late is refused.
+    let endless = "PROC main() WHILE TRUE DO move; ENDWHILE ENDPROC";
+    assert_eq!(places(endless), [1.0]);
+    let text =
+        "MODULE A\nVAR num n;\nPROC main()\nWHILE n<1 DO\nn:=0;\nENDWHILE\nENDPROC\nENDMODULE";
+    let faults = read_rapid(
+        vec![SourceFile::new("a.mod", text)],
+        &ReadOptions::default(),
+    )
+    .unwrap_err();
+    assert!(
+        faults[0].reason.contains("more than 5 million statements"),
+        "{}",
+        faults[0]
+    );
 }
 
 #[test]
-fn what_is_not_in_the_files_leaves_the_place_unknown() {
-    assert_eq!(
-        motions("PROC main() move; elsewhere; move; ENDPROC")[1],
-        (2.0, Once, None)
-    );
+fn what_is_not_in_the_files_is_taken_not_to_move() {
+    let outside = "PROC main() move; elsewhere; move; ENDPROC";
+    assert_eq!(motions(outside)[1], (2.0, Once, Some(1.0)));
+    let computed = "PROC main() move; %name%; move; ENDPROC";
+    assert_eq!(motions(computed)[1], (2.0, Once, None));
     let function = "FUNC num f() move; RETURN 1; ENDFUNC PROC main() move; n:=f(); move; ENDPROC";
-    assert_eq!(
-        motions(function),
-        [(2.0, Once, None), (3.0, Once, None), (1.0, Elsewhere, None)]
-    );
+    assert_eq!(places(function), [2.0, 1.0, 3.0]);
 }
 
 #[test]
@@ -124,17 +185,23 @@ fn what_nothing_calls_comes_last() {
 }
 
 #[test]
-fn recursion_and_error_handlers_are_never_sure() {
-    let found = motions("PROC main() part; ENDPROC PROC part() move; IF n<3 part; move; ENDPROC");
-    assert_eq!(found, [(1.0, Repeatedly, None), (2.0, Repeatedly, None)]);
-    let found = motions("PROC main() move; move; ERROR move; RETRY; ENDPROC");
-    assert_eq!(
-        found,
-        [
-            (1.0, Once, None),
-            (2.0, Once, None),
-            (3.0, OnCondition, None)
-        ]
+fn error_handlers_do_not_run() {
+    let program = super::main_with(
+        "",
+        &format!(
+            "{0}\nERROR\n{0}\nRETRY;",
+            "MoveL [[1,0,0],[1,0,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v10,z1,tool0;"
+        ),
+    );
+    assert_eq!(program.motions.len(), 1);
+    assert_eq!(program.findings.len(), 1);
+    let said = &program.findings[0];
+    assert!(
+        said.line == 6
+            && said
+                .message
+                .contains("does not come to the motions on line 6"),
+        "{said:?}"
     );
 }
 

@@ -118,7 +118,7 @@ fn what_cannot_be_divided_says_why() {
             "a joint motion cannot be divided",
         ),
         (
-            "IF di1=1 MoveL p1,v20,fine,tool0;",
+            "IF TRUE MoveL p1,v20,fine,tool0;",
             "it stands behind IF without THEN",
         ),
         ("MoveL p1,v20\\T:=3,fine,tool0;", "its time is stated"),

@@ -7,9 +7,13 @@ use nalgebra::UnitQuaternion;
 use crate::harness::{Chance, Kind, PLACE_MM, broken};
 
 pub fn kind() -> Kind {
+    let mut options = ReadOptions::default();
+    options
+        .values
+        .insert("di1".into(), StatedValue::Number(1.0));
     Kind {
         language: Language::Rapid,
-        options: ReadOptions::default(),
+        options,
         turns: true,
         speeds: true,
         words: &[
@@ -107,21 +111,21 @@ fn motion(chance: &mut Chance) -> String {
     format!("{word} {via}{}, {speed}, {between}{rest}\n", end(chance))
 }
 
-fn statements(chance: &mut Chance, depth: usize) -> String {
+fn statements(chance: &mut Chance, depth: usize, calls: bool) -> String {
     let mut text = String::new();
     for _ in 0..chance.below(6) {
         text += &match chance.below(10) {
             0 if depth < 3 => format!(
                 "IF di1=1 THEN\n{}ELSE\n{}ENDIF\n",
-                statements(chance, depth + 1),
-                statements(chance, depth + 1)
+                statements(chance, depth + 1, calls),
+                statements(chance, depth + 1, calls)
             ),
             1 if depth < 3 => format!(
                 "FOR i FROM 1 TO 3 DO\n{}ENDFOR\n",
-                statements(chance, depth + 1)
+                statements(chance, depth + 1, calls)
             ),
             2 => "Set do1; WaitTime 0.5;\n".to_owned(),
-            3 => "part;\n".to_owned(),
+            3 if calls => "part;\n".to_owned(),
             _ => motion(chance),
         };
     }
@@ -147,7 +151,7 @@ pub fn program(chance: &mut Chance) -> String {
         let inner = target(chance);
         text += &format!(
             "PROC {name}()\nCONST robtarget inner:={inner};\n{}ENDPROC\n",
-            statements(chance, depth)
+            statements(chance, depth, name == "main")
         );
     }
     text += "ENDMODULE\n";

@@ -7,7 +7,9 @@ const EVERYTHING: &str = include_str!("../fixtures/everything.mod");
 
 fn read_text(bytes: &[u8]) -> RobotProgram {
     let files = vec![SourceFile::new("everything.mod", bytes)];
-    read_rapid(files, &ReadOptions::default()).unwrap_or_else(|errors| panic!("{errors:#?}"))
+    let mut options = ReadOptions::default();
+    (options.values).insert("diReady".into(), StatedValue::Number(1.0));
+    read_rapid(files, &options).unwrap_or_else(|errors| panic!("{errors:#?}"))
 }
 
 #[test]
@@ -23,6 +25,12 @@ fn every_byte_comes_back_with_any_line_ending_and_any_coding() {
         EVERYTHING.replace('\n', "\r\n").into_bytes(),
         EVERYTHING.trim_end().as_bytes().to_vec(),
         [EVERYTHING.as_bytes(), b"\r\n\t! \xff\xfe after the end"].concat(),
+        // A second module in the same file, with its own header.
+        [
+            EVERYTHING.as_bytes(),
+            b"\n%%%\n  VERSION:1\n%%%\nMODULE second\nENDMODULE\n",
+        ]
+        .concat(),
         [b"\xef\xbb\xbf", EVERYTHING.as_bytes(), b"\x1a"].concat(),
         latin,
     ];
@@ -48,7 +56,7 @@ fn ends_that_do_not_change_change_no_byte() {
         }
         pieces.push(piece);
     }
-    assert_eq!(pieces.len(), 14);
+    assert_eq!(pieces.len(), 16);
     assert_eq!(super::written(&program, &pieces), EVERYTHING);
 }
 
@@ -68,7 +76,7 @@ fn every_motion_is_found_with_what_it_says() {
         .collect();
     let words: Vec<&str> = lines.iter().map(|(_, word)| *word).collect();
     let expected = "MoveAbsJ MoveAbsJ movej MoveL MoveL MoveL MoveC MoveL ArcLStart ArcL ArcLEnd TriggL MoveLDO MoveL MoveL \
-                    MoveL";
+                    MoveL MoveL MoveL";
     assert_eq!(words, expected.split(' ').collect::<Vec<_>>());
     let place = |index: usize| program.motions[index].target.pose().unwrap().position_mm;
     let expected = [
@@ -80,7 +88,8 @@ fn every_motion_is_found_with_what_it_says() {
         (7, [5.0, 5.0, 5.0]),
         (10, [11.0, 1.0, 1.0]),
         (13, [0.5, -0.25, 13.0]),
-        (15, [1.0, 1.0, 1.0]),
+        (14, [1.0, 1.0, 1.0]),
+        (17, [1.0, 1.0, 1.0]),
     ];
     for (index, place_mm) in expected {
         assert_eq!(place(index), Vector3::from(place_mm), "motion {index}");
@@ -150,21 +159,23 @@ fn every_motion_is_found_with_what_it_says() {
 fn runs_and_findings_are_said() {
     let program = read_text(EVERYTHING.as_bytes());
     let runs: Vec<Runs> = program.motions.iter().map(|motion| motion.runs).collect();
-    // Its GOTO leads forward; two motions stand in branches, and one in a routine that a loop calls.
-    let mut wanted = [Runs::Once; 16];
-    (wanted[13], wanted[14]) = (Runs::OnCondition, Runs::OnCondition);
-    wanted[15] = Runs::Repeatedly;
+    // One motion in a routine that a loop calls four times.
+    let mut wanted = [Runs::Once; 18];
+    wanted[14..].fill(Runs::Repeatedly);
     assert_eq!(runs, wanted);
     let follows: Vec<Option<usize>> = program.motions.iter().map(|m| m.follows).collect();
-    let mut wanted: Vec<Option<usize>> = (0..16_usize).map(|at| at.checked_sub(1)).collect();
-    // Behind a branch with a motion, and in a loop.
-    (wanted[14], wanted[15]) = (None, None);
+    let wanted: Vec<Option<usize>> = (0..18_usize).map(|at| at.checked_sub(1)).collect();
     assert_eq!(follows, wanted);
     let messages: Vec<&str> = program
         .findings
         .iter()
         .map(|f| f.message.as_str())
         .collect();
-    assert_eq!(messages.len(), 1, "{messages:?}");
-    assert!(messages[0].starts_with("what is called is computed"));
+    assert_eq!(messages.len(), 2, "{messages:?}");
+    // Of a condition that does not hold.
+    assert!(
+        messages[0].contains("does not come to the motions on line 62"),
+        "{messages:?}"
+    );
+    assert!(messages[1].starts_with("what is called is computed"));
 }

@@ -1,0 +1,59 @@
+//! Expressions as trees, for all languages.
+
+use std::ops::Range;
+
+use crate::text::name::Name;
+
+/// Operators with one or two operands.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Operator {
+    Or,
+    Xor,
+    And,
+    Not,
+    Equal,
+    Unequal,
+    Less,
+    LessOrEqual,
+    Greater,
+    GreaterOrEqual,
+    Plus,
+    Minus,
+    Times,
+    Over,
+    WholeQuotient,
+    Remainder,
+}
+
+/// One node of an expression.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum Node {
+    Number(f64),
+    Truth(bool),
+    Text,
+    Word(Name),
+    /// `p{2}`, `p{2,3}`.
+    Element(Box<Expression>, Vec<Expression>),
+    /// `p.trans`.
+    Field(Box<Expression>, Name),
+    List(Vec<Expression>),
+    Call(Name, Vec<Argument>),
+    One(Operator, Box<Expression>),
+    Two(Operator, Box<[Expression; 2]>),
+    /// Text that the language does not have as an expression.
+    Unreadable,
+}
+
+/// An expression and its tokens.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Expression {
+    pub node: Node,
+    pub tokens: Range<usize>,
+}
+
+/// An argument of a call: `value`, `\Option` or `\Option:=value`.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Argument {
+    pub option: Option<Name>,
+    pub value: Option<Expression>,
+}

@@ -1,0 +1,142 @@
+//! Operators on values.
+
+use nalgebra::{Quaternion, Vector3};
+
+use crate::interpreter::expression::Operator;
+use crate::interpreter::value::{Datum, Value};
+
+/// The result of an operator with one operand.
+pub(crate) fn one(operator: Operator, operand: &Datum) -> Datum {
+    match (operator, &operand.value) {
+        (Operator::Not, Value::Truth(value)) => Datum::truth(!value),
+        (Operator::Plus, Value::Number(_) | Value::List(_)) => Datum::of(operand.value.clone()),
+        (Operator::Minus, Value::Number(value)) => Datum::number(-value),
+        (Operator::Minus, Value::List(_)) => match operand.as_numbers::<3>() {
+            Some(own) => Datum::numbers(own.map(|part| -part)),
+            None => not_computed(&[operand]),
+        },
+        _ => not_computed(&[operand]),
+    }
+}
+
+/// The result of an operator with two operands. A truth that one operand decides is known although the other is not.
+pub(crate) fn two(operator: Operator, left: &Datum, right: &Datum) -> Datum {
+    use Operator::{And, Equal, Or, Unequal, Xor};
+    match (operator, left.as_truth(), right.as_truth()) {
+        (And, Some(false), _) | (And, _, Some(false)) => return Datum::truth(false),
+        (Or, Some(true), _) | (Or, _, Some(true)) => return Datum::truth(true),
+        (And, Some(left), Some(right)) => return Datum::truth(left && right),
+        (Or, Some(left), Some(right)) => return Datum::truth(left || right),
+        (Xor, Some(left), Some(right)) => return Datum::truth(left != right),
+        _ => {}
+    }
+    if left.unknown_reason().is_some() || right.unknown_reason().is_some() {
+        return not_computed(&[left, right]);
+    }
+    match (operator, &left.value, &right.value) {
+        (Equal, left, right) => Datum::truth(same(left, right)),
+        (Unequal, left, right) => Datum::truth(!same(left, right)),
+        (_, Value::Number(left), Value::Number(right)) => of_numbers(operator, *left, *right),
+        (_, Value::List(_), _) | (_, _, Value::List(_)) => {
+            of_lists(operator, left, right).unwrap_or_else(|| not_computed(&[left, right]))
+        }
+        _ => not_computed(&[left, right]),
+    }
+}
+
+/// True if two values are equal, whatever literals state them.
+pub(crate) fn same(left: &Value, right: &Value) -> bool {
+    match (left, right) {
+        (Value::List(left), Value::List(right)) => {
+            let mut pairs = left.iter().zip(right.iter());
+            left.len() == right.len() && pairs.all(|(left, right)| same(&left.value, &right.value))
+        }
+        (left, right) => left == right,
+    }
+}
+
+fn of_numbers(operator: Operator, left: f64, right: f64) -> Datum {
+    let number = match operator {
+        Operator::Less => return Datum::truth(left < right),
+        Operator::LessOrEqual => return Datum::truth(left <= right),
+        Operator::Greater => return Datum::truth(left > right),
+        Operator::GreaterOrEqual => return Datum::truth(left >= right),
+        Operator::Plus => left + right,
+        Operator::Minus => left - right,
+        Operator::Times => left * right,
+        Operator::Over => left / right,
+        Operator::WholeQuotient => (left / right).trunc(),
+        Operator::Remainder => left % right,
+        _ => f64::NAN,
+    };
+    match number.is_finite() {
+        true => Datum::number(number),
+        false => Datum::unknown("it divides by zero, or is larger than a number can be"),
+    }
+}
+
+/// Sums, differences and products of places, and products of quaternions.
+fn of_lists(operator: Operator, left: &Datum, right: &Datum) -> Option<Datum> {
+    if let (Operator::Times, Some([w, i, j, k]), Some(by)) =
+        (operator, left.as_numbers::<4>(), right.as_numbers::<4>())
+    {
+        let product = Quaternion::new(w, i, j, k) * Quaternion::new(by[0], by[1], by[2], by[3]);
+        return Some(Datum::numbers([product.w, product.i, product.j, product.k]));
+    }
+    let place = |of: &Datum| of.as_numbers::<3>().map(Vector3::from);
+    let found = match (operator, place(left), place(right)) {
+        (Operator::Plus, Some(left), Some(right)) => left + right,
+        (Operator::Minus, Some(left), Some(right)) => left - right,
+        (Operator::Times, Some(left), Some(right)) => left.cross(&right),
+        (Operator::Times, Some(place), None) => place * right.as_number()?,
+        (Operator::Times, None, Some(place)) => place * left.as_number()?,
+        (Operator::Over, Some(place), None) => place / right.as_number()?,
+        _ => return None,
+    };
+    Some(Datum::numbers(found.iter().copied()))
+}
+
+fn not_computed(operands: &[&Datum]) -> Datum {
+    let reason = operands.iter().find_map(|operand| operand.unknown_reason());
+    match reason {
+        Some(reason) => Datum::unknown(reason.clone()),
+        None => Datum::unknown("its operands are of kinds that do not go together"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn places_and_quaternions_are_computed_with() {
+        let place = Datum::numbers([1.0, 2.0, 3.0]);
+        let twice = two(Operator::Times, &place, &Datum::number(2.0));
+        assert_eq!(twice.as_numbers(), Some([2.0, 4.0, 6.0]));
+        let cross = two(
+            Operator::Times,
+            &Datum::numbers([1.0, 0.0, 0.0]),
+            &Datum::numbers([0.0, 1.0, 0.0]),
+        );
+        assert_eq!(cross.as_numbers(), Some([0.0, 0.0, 1.0]));
+        let half_turn = Datum::numbers([0.0, 0.0, 0.0, 1.0]);
+        let whole = two(Operator::Times, &half_turn, &half_turn);
+        assert_eq!(whole.as_numbers(), Some([-1.0, 0.0, 0.0, 0.0]));
+    }
+
+    #[test]
+    fn one_operand_may_decide_a_truth() {
+        let unknown = Datum::unknown("a signal");
+        for (operator, own) in [(Operator::And, false), (Operator::Or, true)] {
+            let found = two(operator, &unknown, &Datum::truth(own));
+            assert_eq!(found.as_truth(), Some(own));
+        }
+        let open = two(Operator::And, &unknown, &Datum::truth(true));
+        assert_eq!(
+            open.unknown_reason().map(|reason| &**reason),
+            Some("a signal")
+        );
+        let zero = two(Operator::Over, &Datum::number(1.0), &Datum::number(0.0));
+        assert!(zero.unknown_reason().is_some());
+    }
+}

@@ -1,0 +1,143 @@
+//! Values while a program runs.
+
+use std::ops::Range;
+use std::rc::Rc;
+
+/// The literal in a file that states a value.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Literal {
+    /// An index of the files.
+    pub file: usize,
+    start: u32,
+    end: u32,
+}
+
+impl Literal {
+    /// Bytes of a file that is shorter than 4 GiB.
+    pub(crate) fn new(file: usize, span: &Range<usize>) -> Self {
+        Self {
+            file,
+            start: span.start as u32,
+            end: span.end as u32,
+        }
+    }
+
+    /// Bytes of its file.
+    pub(crate) fn span(&self) -> Range<usize> {
+        self.start as usize..self.end as usize
+    }
+
+    /// True if it lies in these bytes of a file.
+    pub(crate) fn is_within(&self, file: usize, span: &Range<usize>) -> bool {
+        let own = self.span();
+        self.file == file && span.start <= own.start && own.end <= span.end
+    }
+}
+
+/// A value, without its place in a text.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum Value {
+    Number(f64),
+    Truth(bool),
+    Text(Rc<str>),
+    /// An aggregate or an array.
+    List(Rc<Vec<Datum>>),
+    /// Known to the controller alone, with the reason.
+    Unknown(Rc<str>),
+}
+
+/// A value with the literal that states it, where one does.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Datum {
+    pub value: Value,
+    pub literal: Option<Literal>,
+}
+
+impl Datum {
+    /// A computed value.
+    pub(crate) fn of(value: Value) -> Self {
+        Self {
+            value,
+            literal: None,
+        }
+    }
+
+    pub(crate) fn number(value: f64) -> Self {
+        Self::of(Value::Number(value))
+    }
+
+    pub(crate) fn truth(value: bool) -> Self {
+        Self::of(Value::Truth(value))
+    }
+
+    /// A list of computed numbers.
+    pub(crate) fn numbers(values: impl IntoIterator<Item = f64>) -> Self {
+        Self::list(values.into_iter().map(Self::number).collect())
+    }
+
+    pub(crate) fn list(parts: Vec<Self>) -> Self {
+        Self::of(Value::List(Rc::new(parts)))
+    }
+
+    /// A value that only the controller knows.
+    pub(crate) fn unknown(reason: impl Into<Rc<str>>) -> Self {
+        Self::of(Value::Unknown(reason.into()))
+    }
+
+    pub(crate) fn as_number(&self) -> Option<f64> {
+        match self.value {
+            Value::Number(value) => Some(value),
+            _ => None,
+        }
+    }
+
+    pub(crate) fn as_truth(&self) -> Option<bool> {
+        match self.value {
+            Value::Truth(value) => Some(value),
+            _ => None,
+        }
+    }
+
+    /// Parts of a list; none of another value.
+    pub(crate) fn parts(&self) -> &[Self] {
+        match &self.value {
+            Value::List(parts) => parts,
+            _ => &[],
+        }
+    }
+
+    /// The numbers of a list of so many.
+    pub(crate) fn as_numbers<const N: usize>(&self) -> Option<[f64; N]> {
+        let all: Option<Vec<f64>> = self.parts().iter().map(Self::as_number).collect();
+        all?.try_into().ok()
+    }
+
+    /// The reason of the first part that only the controller knows.
+    pub(crate) fn unknown_reason(&self) -> Option<&Rc<str>> {
+        match &self.value {
+            Value::Unknown(reason) => Some(reason),
+            Value::List(parts) => parts.iter().find_map(Self::unknown_reason),
+            _ => None,
+        }
+    }
+
+    /// The part at a path of indices from 0; none where there is no such part.
+    pub(crate) fn part(&self, path: &[usize]) -> Option<&Self> {
+        path.iter()
+            .try_fold(self, |own, index| own.parts().get(*index))
+    }
+
+    /// Puts a value at a path of indices from 0. A part of what only the controller knows leaves the whole unknown.
+    pub(crate) fn put(&mut self, path: &[usize], value: Self) {
+        let Some((index, rest)) = path.split_first() else {
+            *self = value;
+            return;
+        };
+        if let Value::List(parts) = &mut self.value {
+            self.literal = None;
+            if let Some(part) = Rc::make_mut(parts).get_mut(*index) {
+                part.put(rest, value);
+            }
+        }
+    }
+}

@@ -1,0 +1,110 @@
+//! Values of expressions.
+
+use crate::interpreter::expression::{Argument, Expression, Node};
+use crate::interpreter::operation::{one, two};
+use crate::interpreter::value::{Datum, Literal, Value};
+use crate::rapid::literals::component;
+use crate::rapid::tree::TokenFile;
+use crate::text::name::Name;
+
+/// Values of names and results of functions.
+pub(crate) trait Names {
+    /// The value of a name.
+    fn word(&mut self, name: &Name, whole: &Expression) -> Datum;
+
+    /// The result of a function.
+    fn call(&mut self, name: &Name, arguments: &[Argument], whole: &Expression) -> Datum;
+}
+
+/// Declarations that are read without a run: no name has a value.
+pub(crate) struct LiteralsOnly;
+
+impl Names for LiteralsOnly {
+    fn word(&mut self, _: &Name, _: &Expression) -> Datum {
+        Datum::unknown("it is a name")
+    }
+
+    fn call(&mut self, _: &Name, _: &[Argument], _: &Expression) -> Datum {
+        Datum::unknown("it is computed")
+    }
+}
+
+/// The value of an expression of a file.
+pub(crate) fn evaluate(
+    file: &TokenFile<'_>,
+    expression: &Expression,
+    names: &mut dyn Names,
+) -> Datum {
+    let literal = |value: Value| Datum {
+        value,
+        literal: Some(Literal::new(file.index, &file.span(&expression.tokens))),
+    };
+    let shown = |of: &Expression| {
+        String::from_utf8_lossy(file.source.part(&file.span(&of.tokens))).into_owned()
+    };
+    match &expression.node {
+        Node::Number(value) => literal(Value::Number(*value)),
+        Node::Truth(value) => literal(Value::Truth(*value)),
+        Node::Text => {
+            let text = file.word(expression.tokens.start);
+            let text = String::from_utf8_lossy(text);
+            literal(Value::Text(text.trim_matches('"').into()))
+        }
+        Node::List(parts) => {
+            let parts = parts.iter().map(|part| evaluate(file, part, names));
+            literal(Value::List(parts.collect::<Vec<_>>().into()))
+        }
+        Node::Word(name) => names.word(name, expression),
+        Node::Call(name, arguments) => names.call(name, arguments, expression),
+        Node::Field(inner, name) => {
+            let of = evaluate(file, inner, names);
+            let index = component_of(&of, name);
+            let part = index.and_then(|index| of.part(&[index]).cloned());
+            part.unwrap_or_else(|| {
+                not_a_part(&of, || format!("`{}` has no such component", shown(inner)))
+            })
+        }
+        Node::Element(inner, indices) => {
+            let of = evaluate(file, inner, names);
+            let at: Vec<Datum> = indices
+                .iter()
+                .map(|index| evaluate(file, index, names))
+                .collect();
+            if let Some(reason) = at.iter().find_map(Datum::unknown_reason) {
+                return Datum::unknown(reason.clone());
+            }
+            let path: Option<Vec<usize>> = at.iter().map(index_of).collect();
+            let part = path.and_then(|path| of.part(&path).cloned());
+            part.unwrap_or_else(|| {
+                not_a_part(&of, || format!("`{}` has no such element", shown(inner)))
+            })
+        }
+        Node::One(operator, operand) => one(*operator, &evaluate(file, operand, names)),
+        Node::Two(operator, operands) => {
+            let [left, right] = &**operands;
+            let left = evaluate(file, left, names);
+            two(*operator, &left, &evaluate(file, right, names))
+        }
+        Node::Unreadable => Datum::unknown("it is no expression that is understood here"),
+    }
+}
+
+/// Where a component stands in a value.
+pub(crate) fn component_of(of: &Datum, name: &Name) -> Option<usize> {
+    let letters = std::str::from_utf8(name.letters()).ok()?;
+    component(letters, of.parts().len())
+}
+
+/// An index from 0 for one from 1.
+pub(crate) fn index_of(datum: &Datum) -> Option<usize> {
+    let value = datum.as_number()?;
+    let is_index = (1.0..1e7).contains(&value) && value.fract() == 0.0;
+    is_index.then(|| value as usize - 1)
+}
+
+fn not_a_part(of: &Datum, reason: impl FnOnce() -> String) -> Datum {
+    match &of.value {
+        Value::Unknown(reason) => Datum::unknown(reason.clone()),
+        _ => Datum::unknown(reason()),
+    }
+}

@@ -1,0 +1,235 @@
+//! Branches and loops on values that only the controller knows: passed over where they neither move the tool nor change modal state.
+
+use std::collections::BTreeSet;
+use std::ops::Range;
+
+use crate::interpreter::expression::{Argument, Expression, Node};
+use crate::interpreter::value::Datum;
+use crate::options::ExternalAxes;
+use crate::rapid::expression::{arguments_of, expression_of};
+use crate::rapid::functions::leaves_arguments;
+use crate::rapid::instructions::is_computed;
+use crate::rapid::run::{Place, Root, Run};
+use crate::rapid::symbols::{Meaning, Scope};
+use crate::rapid::table::{EXTERNAL, motion_row, row};
+use crate::rapid::tree::{Statement, TokenFile};
+use crate::rapid::turning::mode_of;
+use crate::table::Treatment;
+use crate::text::name::Name;
+
+/// Instructions that are carried and change the numbers that they are given.
+pub(super) const CHANGE_THEIRS: [&str; 4] = ["Add", "Clear", "Decr", "Incr"];
+
+impl Run<'_, '_> {
+    /// Passes over blocks of which only the controller knows whether they run: what they assign is unknown behind them. A block that moves the
+    /// tool, changes modal state or leaves its routine is a fault at the condition.
+    pub(super) fn pass_over(
+        &mut self,
+        blocks: &[&[Statement]],
+        condition: &Range<usize>,
+        value: &Datum,
+    ) {
+        let Scope::Routine(routine) = self.scope else {
+            return;
+        };
+        let mut seen = BTreeSet::new();
+        let acts = |own: &Self, seen: &mut BTreeSet<usize>| {
+            let mut all = blocks.iter().copied().flatten();
+            all.any(|statement| own.acts(routine, statement, seen))
+        };
+        if acts(self, &mut seen) {
+            let why = value
+                .unknown_reason()
+                .map_or("it is no truth", |reason| reason);
+            let reason = format!("which way the program goes here is not known: {why}");
+            self.fault(condition, (reason, SET_IT));
+            return;
+        }
+        for statement in blocks.iter().copied().flatten() {
+            for root in self.assigned_in(routine, std::slice::from_ref(statement)) {
+                let name = match root {
+                    Root::Module(index) => self.shown(index),
+                    Root::Routine(_, name) => String::from_utf8_lossy(name.letters()).into_owned(),
+                };
+                let file = self.file();
+                let line = file.source.line_of(file.span(condition).start);
+                let reason = format!("`{name}` is changed while the program runs (line {line})");
+                let value = self.stated_value(root);
+                let value = value.unwrap_or_else(|| Datum::unknown(reason));
+                let path = Vec::new();
+                self.put(&Place { root, path }, value);
+            }
+        }
+    }
+
+    /// True if a statement moves the tool, changes modal state, or leaves its block.
+    fn acts(&self, routine: usize, statement: &Statement, seen: &mut BTreeSet<usize>) -> bool {
+        let file = &self.files[self.symbols.routines[routine].file];
+        let calls_what_acts = |tokens: &Range<usize>, seen: &mut BTreeSet<usize>| {
+            let names = tokens.clone().filter_map(|at| Name::of(file.word(at)));
+            let called: Vec<usize> = names
+                .filter_map(|name| self.symbols.routine(routine, &name))
+                .collect();
+            called.into_iter().any(|called| {
+                let body = &self.symbols.routines[called].routine.body;
+                seen.insert(called)
+                    && body.iter().any(|inner| match inner {
+                        // A routine that returns leaves itself alone.
+                        Statement::Leaves { tokens } => {
+                            !file_word(self, called, tokens.start, "RETURN")
+                        }
+                        _ => self.acts(called, inner, seen),
+                    })
+            })
+        };
+        match statement {
+            Statement::Label { .. } => false,
+            Statement::Assignment { tokens, .. } => calls_what_acts(tokens, seen),
+            Statement::Leaves { tokens } => {
+                // A program that ends here does not cut what follows: it is taken to go on.
+                let ends = ["EXIT", "RAISE"];
+                !ends
+                    .iter()
+                    .any(|word| file_word(self, routine, tokens.start, word))
+            }
+            Statement::Call { tokens } => {
+                self.instruction_acts(file, tokens) || calls_what_acts(tokens, seen)
+            }
+            Statement::Branches {
+                conditions, blocks, ..
+            } => {
+                conditions.iter().any(|part| calls_what_acts(part, seen))
+                    || blocks
+                        .iter()
+                        .flatten()
+                        .any(|inner| self.acts(routine, inner, seen))
+            }
+            Statement::Loop { header, block } => {
+                calls_what_acts(header, seen)
+                    || block.iter().any(|inner| self.acts(routine, inner, seen))
+            }
+        }
+    }
+
+    fn instruction_acts(&self, file: &TokenFile<'_>, tokens: &Range<usize>) -> bool {
+        let Some(name) = Name::of(file.word(tokens.start)) else {
+            return true;
+        };
+        if motion_row(&name).is_some() || mode_of(file, tokens).is_some() {
+            return true;
+        }
+        match row(&name).map(|row| row.treatment) {
+            Some(EXTERNAL) => self.options.external_axes != ExternalAxes::Carried,
+            Some(Treatment::Refused { .. }) => true,
+            Some(_) => name.is("EXITCYCLE"),
+            None => is_computed(file, tokens),
+        }
+    }
+
+    /// Data that statements of a routine assign, or give to what may change them.
+    pub(super) fn assigned_in(&self, routine: usize, statements: &[Statement]) -> Vec<Root> {
+        let file = &self.files[self.symbols.routines[routine].file];
+        let mut found = Vec::new();
+        let mut names = Vec::new();
+        for statement in statements {
+            statement.each_part(&mut |tokens| {
+                changed_in(
+                    file,
+                    tokens,
+                    &|name| self.symbols.routine(routine, name).is_some(),
+                    &mut names,
+                );
+            });
+        }
+        for name in names {
+            match self.symbols.meaning(routine, &name) {
+                Some(Meaning::Datum(index))
+                    if matches!(self.symbols.data[index].scope, Scope::Module(_)) =>
+                {
+                    found.push(Root::Module(index));
+                }
+                Some(_) if !self.calls.is_empty() => {
+                    found.push(Root::Routine(self.calls.len() - 1, name));
+                }
+                _ => {}
+            }
+        }
+        found
+    }
+}
+
+pub(super) const SET_IT: &str = "state the value of what decides it (--set NAME=VALUE, [values] in a job), or write the motions without the branch";
+
+fn file_word(run: &Run<'_, '_>, routine: usize, at: usize, word: &str) -> bool {
+    let file = &run.files[run.symbols.routines[routine].file];
+    file.word(at).eq_ignore_ascii_case(word.as_bytes())
+}
+
+/// Names that a statement assigns, and those that it gives to a routine or an instruction that may change them.
+fn changed_in(
+    file: &TokenFile<'_>,
+    tokens: &Range<usize>,
+    is_own: &dyn Fn(&Name) -> bool,
+    names: &mut Vec<Name>,
+) {
+    let Some(first) = Name::of(file.word(tokens.start)) else {
+        return;
+    };
+    let assign = tokens.clone().find(|at| file.word(*at) == b":=");
+    let is_option = |at: usize| at >= 2 && file.word(at - 2) == b"\\";
+    if let Some(at) = assign.filter(|at| !is_option(*at)) {
+        names.push(first);
+        let value = expression_of(file, at + 1..tokens.end.saturating_sub(1).max(at + 1));
+        given_away(&value, is_own, names);
+        return;
+    }
+    let changes = is_own(&first) || row(&first).is_none_or(|row| CHANGE_THEIRS.contains(&row.name));
+    for argument in arguments_of(file, tokens.start + 1..tokens.end) {
+        if let Some(value) = argument.value {
+            match (changes, root_name(&value)) {
+                (true, Some(name)) => names.push(name),
+                _ => given_away(&value, is_own, names),
+            }
+        }
+    }
+}
+
+/// Names that an expression gives to functions which may change them.
+fn given_away(expression: &Expression, is_own: &dyn Fn(&Name) -> bool, names: &mut Vec<Name>) {
+    match &expression.node {
+        Node::Call(name, arguments) => {
+            let changes = is_own(name) || !leaves_arguments(name);
+            for Argument { value, .. } in arguments {
+                let Some(value) = value else { continue };
+                match (changes, root_name(value)) {
+                    (true, Some(name)) => names.push(name),
+                    _ => given_away(value, is_own, names),
+                }
+            }
+        }
+        Node::List(parts) => parts
+            .iter()
+            .for_each(|part| given_away(part, is_own, names)),
+        Node::One(_, operand) => given_away(operand, is_own, names),
+        Node::Two(_, operands) => operands
+            .iter()
+            .for_each(|part| given_away(part, is_own, names)),
+        Node::Field(of, _) => given_away(of, is_own, names),
+        Node::Element(of, indices) => {
+            given_away(of, is_own, names);
+            indices
+                .iter()
+                .for_each(|part| given_away(part, is_own, names));
+        }
+        Node::Number(_) | Node::Truth(_) | Node::Text | Node::Word(_) | Node::Unreadable => {}
+    }
+}
+
+/// The name with which a place begins.
+fn root_name(expression: &Expression) -> Option<Name> {
+    match &expression.node {
+        Node::Word(name) => Some(*name),
+        Node::Field(of, _) | Node::Element(of, _) => root_name(of),
+        _ => None,
+    }
+}

@@ -1,0 +1,272 @@
+//! A run of a program: its data, the routine that runs, and the motions so far.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::ops::Range;
+
+use nalgebra::Isometry3;
+
+use crate::error::{ProgramError, note};
+use crate::interpreter::value::{Datum, Value};
+use crate::model::motion::{Motion, Runs};
+use crate::model::outside_call::OutsideCall;
+use crate::options::{ReadOptions, StatedValue};
+use crate::rapid::symbols::{Scope, Symbols};
+use crate::rapid::table::motion_row;
+use crate::rapid::targets::Targets;
+use crate::rapid::tree::{RoutineKind, TokenFile};
+use crate::rapid::turning::Modes;
+use crate::text::finding::Finding;
+use crate::text::line_words::in_words;
+use crate::text::name::Name;
+
+/// The reason why something is refused, and the remedy.
+pub(crate) type Reason = (String, &'static str);
+
+/// Deepest nesting of calls and blocks together.
+pub(super) const DEEPEST: usize = 200;
+
+/// A place of data: where it is stored, and the path of indices to a part of it.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Place {
+    pub root: Root,
+    pub path: Vec<usize>,
+}
+
+/// Where data are stored.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Root {
+    /// An index of [`Symbols::data`], of a module.
+    Module(usize),
+    /// A name of a routine that runs: its depth among the calls.
+    Routine(usize, Name),
+}
+
+/// A datum or a parameter of a routine that runs.
+#[derive(Debug, Clone)]
+pub(super) enum Slot {
+    Own(Datum),
+    /// A parameter that stands for data of the caller.
+    Of(Place),
+}
+
+/// A call that runs.
+#[derive(Debug)]
+pub(super) struct Called {
+    pub routine: usize,
+    pub slots: BTreeMap<Name, Slot>,
+}
+
+/// A run of a program.
+pub(crate) struct Run<'r, 'p> {
+    pub(super) files: &'p [TokenFile<'p>],
+    pub(super) symbols: &'r Symbols<'p>,
+    pub(super) options: &'r ReadOptions,
+    /// Frames that the caller states.
+    pub(super) stated: BTreeMap<Name, Isometry3<f64>>,
+    /// Values that the caller states.
+    pub(super) values: BTreeMap<Name, Datum>,
+    /// Values of the data of modules, once they are asked for.
+    pub(super) data: BTreeMap<usize, Datum>,
+    /// Data that interrupts change at any time.
+    pub(super) volatile: BTreeSet<usize>,
+    pub(super) calls: Vec<Called>,
+    /// Where the expression stands that is evaluated.
+    pub(super) scope: Scope,
+    /// Nesting of declarations that rest on others.
+    pub(super) depth_of_data: usize,
+    /// Nesting of blocks and calls.
+    pub(super) depth: usize,
+    pub(super) modes: Modes,
+    pub(super) runs: Runs,
+    /// The motion at whose end the tool is.
+    pub(super) here: Option<usize>,
+    /// External axes moved alone since the last motion.
+    pub(super) moved_external: bool,
+    pub(super) targets: Targets,
+    pub(super) motions: Vec<Motion>,
+    /// Begins of the statements of motions that ran, by file.
+    pub(super) ran: BTreeSet<(usize, usize)>,
+    pub(super) findings: Vec<Finding>,
+    pub(super) outside_calls: Vec<OutsideCall>,
+    pub(super) faults: Vec<ProgramError>,
+    /// Places of faults and findings that were noted: a statement in a loop has one.
+    pub(super) noted: BTreeSet<(usize, usize, &'static str)>,
+    pub(super) statements: usize,
+    pub(super) repeated_motions: usize,
+}
+
+impl<'r, 'p> Run<'r, 'p> {
+    pub(super) fn new(
+        files: &'p [TokenFile<'p>],
+        symbols: &'r Symbols<'p>,
+        options: &'r ReadOptions,
+    ) -> Self {
+        let stated = options.frames.iter();
+        let stated = stated.filter_map(|(name, frame)| Some((Name::of(name.as_bytes())?, *frame)));
+        let values = options.values.iter().filter_map(|(name, value)| {
+            let value = match value {
+                StatedValue::Number(number) => Value::Number(*number),
+                StatedValue::Truth(truth) => Value::Truth(*truth),
+                StatedValue::Text(text) => Value::Text(text.as_str().into()),
+            };
+            Some((Name::of(name.as_bytes())?, Datum::of(value)))
+        });
+        Self {
+            files,
+            symbols,
+            options,
+            stated: stated.collect(),
+            values: values.collect(),
+            data: BTreeMap::new(),
+            volatile: BTreeSet::new(),
+            calls: Vec::new(),
+            scope: Scope::Module(0),
+            depth_of_data: 0,
+            depth: 0,
+            modes: Modes::BASIC,
+            runs: Runs::Once,
+            here: None,
+            moved_external: false,
+            targets: Targets::default(),
+            motions: Vec::new(),
+            ran: BTreeSet::new(),
+            findings: Vec::new(),
+            outside_calls: Vec::new(),
+            faults: Vec::new(),
+            noted: BTreeSet::new(),
+            statements: 0,
+            repeated_motions: 0,
+        }
+    }
+
+    /// Runs `main`, then each procedure that nothing calls as a program of its own.
+    pub(super) fn whole(mut self) -> Self {
+        self.note_volatile();
+        let main = self.symbols.main();
+        let called = self.called_by_name();
+        let others = (0..self.symbols.routines.len()).filter(|index| {
+            let kind = self.symbols.routines[*index].routine.kind;
+            Some(*index) != main && kind == RoutineKind::Procedure && !called.contains(index)
+        });
+        let roots: Vec<usize> = main.into_iter().chain(others).collect();
+        for root in roots {
+            self.here = None;
+            self.modes = Modes::BASIC;
+            self.runs = match Some(root) == main {
+                true => Runs::Once,
+                false => Runs::Elsewhere,
+            };
+            self.data.clear();
+            self.call(root, BTreeMap::new());
+        }
+        self.say_of_unreached();
+        self.mark_repeated();
+        let targets = std::mem::take(&mut self.targets);
+        self.targets = targets.with_other_uses(self.files, self.symbols);
+        self
+    }
+
+    /// Routines that a statement of the files names.
+    fn called_by_name(&self) -> BTreeSet<usize> {
+        let mut called = BTreeSet::new();
+        for (index, home) in self.symbols.routines.iter().enumerate() {
+            let file = &self.files[home.file];
+            let mut see = |tokens: &Range<usize>| {
+                let names = tokens.clone().filter_map(|at| Name::of(file.word(at)));
+                called.extend(names.filter_map(|name| self.symbols.routine(index, &name)));
+            };
+            home.routine.each_part(&mut see);
+        }
+        called
+    }
+
+    /// Data that routines of interrupts assign may change between any two statements.
+    fn note_volatile(&mut self) {
+        for (index, home) in self.symbols.routines.iter().enumerate() {
+            if home.routine.kind == RoutineKind::Trap {
+                let volatile = self.assigned_in(index, &home.routine.body);
+                let modules = volatile.into_iter().filter_map(|root| match root {
+                    Root::Module(datum) => Some(datum),
+                    Root::Routine(..) => None,
+                });
+                self.volatile.extend(modules);
+            }
+        }
+    }
+
+    /// Motions that the run does not come to: of arms that are not taken, behind the end of the program, of error handlers and interrupts.
+    fn say_of_unreached(&mut self) {
+        let mut unreached: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+        for home in &self.symbols.routines {
+            let file = &self.files[home.file];
+            home.routine.each_part(&mut |tokens| {
+                let name = Name::of(file.word(tokens.start));
+                let is_motion = name.is_some_and(|name| motion_row(&name).is_some());
+                let start = file.span(tokens).start;
+                if is_motion && !self.ran.contains(&(file.index, start)) {
+                    let lines = unreached.entry(file.index).or_default();
+                    lines.push(file.source.line_of(start));
+                }
+            });
+        }
+        let all = unreached.into_iter().map(|(file, mut lines)| {
+            lines.sort_unstable();
+            lines.dedup();
+            let named = in_words(&lines);
+            Finding {
+                file,
+                line: lines.first().copied().unwrap_or(1),
+                message: format!(
+                    "the run of the program does not come to the motions on {named}: they stay as they are written"
+                ),
+            }
+        });
+        self.findings.extend(all);
+    }
+
+    /// Statements that ran several times say so at each of their motions.
+    fn mark_repeated(&mut self) {
+        let mut count: BTreeMap<(usize, usize), usize> = BTreeMap::new();
+        for motion in &self.motions {
+            *count.entry((motion.file, motion.span.start)).or_default() += 1;
+        }
+        for motion in &mut self.motions {
+            let runs = count.get(&(motion.file, motion.span.start));
+            if runs.is_some_and(|runs| *runs > 1) {
+                motion.runs = motion.runs.max(Runs::Repeatedly);
+            }
+        }
+    }
+
+    /// The file of the scope.
+    pub(super) fn file(&self) -> &'p TokenFile<'p> {
+        &self.files[match self.scope {
+            Scope::Routine(routine) => self.symbols.routines[routine].file,
+            Scope::Module(module) => self.symbols.file_of_module(module),
+        }]
+    }
+
+    /// Notes a fault once.
+    pub(super) fn fault(&mut self, tokens: &Range<usize>, (reason, remedy): Reason) {
+        let file = self.file();
+        let span = file.span(tokens);
+        if self.noted.insert((file.index, span.start, "fault")) {
+            note(&mut self.faults, || {
+                ProgramError::at(file.source, span, reason, remedy)
+            });
+        }
+    }
+
+    /// Notes a finding once.
+    pub(super) fn find(&mut self, tokens: &Range<usize>, message: String) {
+        let file = self.file();
+        let start = file.span(tokens).start;
+        if self.noted.insert((file.index, start, "finding")) {
+            self.findings.push(Finding {
+                file: file.index,
+                line: file.source.line_of(start),
+                message,
+            });
+        }
+    }
+}
