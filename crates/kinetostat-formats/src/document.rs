@@ -19,6 +19,7 @@ use crate::model::program::RobotProgram;
 use crate::options::{ReadOptions, WriteOptions};
 use crate::poses::reader::read_poses;
 use crate::poses::write::write_poses;
+use crate::rapid::flat::expand_rapid;
 use crate::rapid::reader::read_rapid;
 use crate::rapid::write::RapidSyntax;
 use crate::refused_run::RefusedRun;
@@ -86,6 +87,7 @@ pub fn expand(
         Language::Heidenhain => run_heidenhain(&files, options),
         Language::Siemens => run_siemens(&files, options),
         Language::Apt => expand_apt(&files).map_err(RefusedRun::from),
+        Language::Rapid => expand_rapid(&files, options).map_err(RefusedRun::from),
         _ => return Ok(None),
     };
     done.map(Some).map_err(|refused| {

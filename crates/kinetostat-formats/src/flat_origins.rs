@@ -56,7 +56,7 @@ fn is_block(language: Language, text: &[u8]) -> bool {
             first.is_empty() || first.starts_with(b"*") || ends || text.ends_with(b"~")
         }
         // `;` begins no comment there.
-        Language::Apt => true,
+        Language::Apt | Language::Rapid => true,
         _ => text.is_empty() || text.starts_with(b"%"),
     };
     !own && text.len() <= LONGEST && !text.contains(&b';')

@@ -35,6 +35,7 @@ impl Run<'_, '_> {
     pub(super) fn call(&mut self, routine: usize, slots: BTreeMap<Name, Slot>) -> Flow {
         let outer = std::mem::replace(&mut self.scope, Scope::Routine(routine));
         self.calls.push(Called { routine, slots });
+        self.called.insert(routine);
         self.depth += 1;
         let body = &self.symbols.routines[routine].routine.body;
         let flow = self.block(body);
@@ -150,6 +151,7 @@ impl Run<'_, '_> {
                 conditions,
                 choice,
                 blocks,
+                whole,
             } => {
                 self.depth += 1;
                 let flow = match conditions.len() > blocks.len() {
@@ -157,12 +159,18 @@ impl Run<'_, '_> {
                     false => self.branch(conditions, *choice, blocks),
                 };
                 self.depth -= 1;
+                self.log_passed_over(whole);
                 flow
             }
-            Statement::Loop { header, block } => {
+            Statement::Loop {
+                header,
+                block,
+                whole,
+            } => {
                 self.depth += 1;
                 let flow = self.repeat(header, block);
                 self.depth -= 1;
+                self.log_passed_over(whole);
                 flow
             }
         }
@@ -177,6 +185,7 @@ impl Run<'_, '_> {
             assign + 1..tokens.end.saturating_sub(1).max(assign + 1),
         );
         let value = self.value(&value);
+        self.log_assignment(tokens, assign);
         match self.place(&to) {
             Some(place) => self.put(&place, value),
             None => {
@@ -201,7 +210,10 @@ impl Run<'_, '_> {
                     .map(|value| self.value(&value));
                 Flow::Returns(value)
             }
-            _ => Flow::Ends,
+            _ => {
+                self.log_instruction(tokens);
+                Flow::Ends
+            }
         }
     }
 
@@ -393,6 +405,7 @@ impl Run<'_, '_> {
         let name = Name::of(file.word(tokens.start));
         if let Some(row) = name.as_ref().and_then(motion_row) {
             self.motion_by(row, tokens, choice);
+            self.log_motion(row, tokens);
             return Flow::Next;
         }
         if let (Some(name), Scope::Routine(from)) = (&name, self.scope)
@@ -404,6 +417,7 @@ impl Run<'_, '_> {
                 _ => Flow::Next,
             };
         }
+        self.log_instruction(tokens);
         self.carried(name, tokens)
     }
 

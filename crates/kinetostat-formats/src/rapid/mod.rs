@@ -10,6 +10,7 @@ pub(crate) mod arguments;
 mod control;
 mod evaluate;
 pub(crate) mod expression;
+pub(crate) mod flat;
 mod frames;
 mod functions;
 mod instructions;

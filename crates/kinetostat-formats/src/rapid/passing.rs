@@ -45,8 +45,12 @@ impl Run<'_, '_> {
             self.fault(condition, (reason, SET_IT));
             return;
         }
+        self.passed_over = true;
         for statement in blocks.iter().copied().flatten() {
             for root in self.assigned_in(routine, std::slice::from_ref(statement)) {
+                if self.is_constant(root) {
+                    continue;
+                }
                 let name = match root {
                     Root::Module(index) => self.shown(index),
                     Root::Routine(_, name) => String::from_utf8_lossy(name.letters()).into_owned(),
@@ -104,7 +108,7 @@ impl Run<'_, '_> {
                         .flatten()
                         .any(|inner| self.acts(routine, inner, seen))
             }
-            Statement::Loop { header, block } => {
+            Statement::Loop { header, block, .. } => {
                 calls_what_acts(header, seen)
                     || block.iter().any(|inner| self.acts(routine, inner, seen))
             }

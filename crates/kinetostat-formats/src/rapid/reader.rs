@@ -58,26 +58,8 @@ pub(crate) fn parse_rapid(files: Vec<SourceFile>, options: &ReadOptions) -> Pars
     if !faults.is_empty() {
         return Parsed::refused(Language::Rapid, faults);
     }
-    let token_files: Vec<TokenFile<'_>> = (files.iter().enumerate())
-        .map(|(index, source)| TokenFile {
-            index,
-            source,
-            tokens: tokens_of(source.bytes()),
-        })
-        .collect();
-    let mut modules: Vec<(usize, Module)> = Vec::new();
-    for file in &token_files {
-        let found = modules_of(file, &mut faults);
-        if found.is_empty() && faults.is_empty() {
-            faults.push(ProgramError::at(
-                file.source,
-                0..0,
-                "there is no MODULE in the file",
-                "give a RAPID module as the controller saves it",
-            ));
-        }
-        modules.extend(found.into_iter().map(|module| (file.index, module)));
-    }
+    let token_files = tokens_of_files(&files);
+    let modules = modules_of_files(&token_files, &mut faults);
     let symbols = Symbols::of(&token_files, &modules, &mut faults);
     let run = Run::new(&token_files, &symbols, options).whole();
     faults.extend(run.faults);
@@ -90,4 +72,35 @@ pub(crate) fn parse_rapid(files: Vec<SourceFile>, options: &ReadOptions) -> Pars
         external_axes_may_move: options.external_axes != ExternalAxes::Refused,
     };
     Parsed::of_robot(Language::Rapid, files, read)
+}
+
+/// Tokens of files.
+pub(super) fn tokens_of_files(files: &[SourceFile]) -> Vec<TokenFile<'_>> {
+    let all = files.iter().enumerate().map(|(index, source)| TokenFile {
+        index,
+        source,
+        tokens: tokens_of(source.bytes()),
+    });
+    all.collect()
+}
+
+/// Modules of files, each with the index of its file.
+pub(super) fn modules_of_files(
+    files: &[TokenFile<'_>],
+    faults: &mut Vec<ProgramError>,
+) -> Vec<(usize, Module)> {
+    let mut modules = Vec::new();
+    for file in files {
+        let found = modules_of(file, faults);
+        if found.is_empty() && faults.is_empty() {
+            faults.push(ProgramError::at(
+                file.source,
+                0..0,
+                "there is no MODULE in the file",
+                "give a RAPID module as the controller saves it",
+            ));
+        }
+        modules.extend(found.into_iter().map(|module| (file.index, module)));
+    }
+    modules
 }

@@ -10,6 +10,7 @@ use crate::interpreter::value::{Datum, Value};
 use crate::model::motion::{Motion, Runs};
 use crate::model::outside_call::OutsideCall;
 use crate::options::{ReadOptions, StatedValue};
+use crate::rapid::flat::Logged;
 use crate::rapid::symbols::{Scope, Symbols};
 use crate::rapid::table::motion_row;
 use crate::rapid::targets::Targets;
@@ -92,6 +93,12 @@ pub(crate) struct Run<'r, 'p> {
     /// Places of faults and findings that were noted: a statement in a loop has one.
     pub(super) noted: BTreeSet<(usize, usize, &'static str)>,
     pub(super) statements: usize,
+    /// The branch or the loop that ran last was passed over.
+    pub(super) passed_over: bool,
+    /// Statements that ran, where the program is to be written flat.
+    pub(super) log: Option<Vec<Logged>>,
+    /// Routines that ran.
+    pub(super) called: BTreeSet<usize>,
     pub(super) repeated_motions: usize,
 }
 
@@ -135,6 +142,9 @@ impl<'r, 'p> Run<'r, 'p> {
             faults: Vec::new(),
             noted: BTreeSet::new(),
             statements: 0,
+            passed_over: false,
+            log: None,
+            called: BTreeSet::new(),
             repeated_motions: 0,
         }
     }
@@ -157,7 +167,9 @@ impl<'r, 'p> Run<'r, 'p> {
                 false => Runs::Elsewhere,
             };
             self.data.clear();
-            self.call(root, BTreeMap::new());
+            if self.log.is_none() || Some(root) == main {
+                self.call(root, BTreeMap::new());
+            }
         }
         self.say_of_unreached();
         self.mark_repeated();

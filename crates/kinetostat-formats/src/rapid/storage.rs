@@ -231,7 +231,9 @@ impl Run<'_, '_> {
         }
         // Of an element that only the controller knows, the whole array.
         let place = self.place(expression).or_else(|| self.place(whole));
-        let Some(place) = place else { return };
+        let Some(place) = place.filter(|place| !self.is_constant(place.root)) else {
+            return;
+        };
         let stated = match place.path.is_empty() {
             true => self.stated_value(place.root),
             false => None,
@@ -240,6 +242,15 @@ impl Run<'_, '_> {
             &place,
             stated.unwrap_or_else(|| Datum::unknown(reason.clone())),
         );
+    }
+
+    /// True for constants, which nothing changes.
+    pub(super) fn is_constant(&self, root: Root) -> bool {
+        let index = match root {
+            Root::Module(index) => Some(index),
+            Root::Routine(_, name) => self.local_datum(&name),
+        };
+        index.is_some_and(|index| self.symbols.data[index].node.change == Change::Constant)
     }
 
     /// The value that the caller states for data that only the controller knows.

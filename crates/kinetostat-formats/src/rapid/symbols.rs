@@ -167,7 +167,7 @@ impl<'p> Symbols<'p> {
 fn loop_variables(file: &TokenFile<'_>, block: &[Statement], locals: &mut BTreeMap<Name, Meaning>) {
     for statement in block {
         match statement {
-            Statement::Loop { header, block } => {
+            Statement::Loop { header, block, .. } => {
                 let second = file.word(header.start + 1);
                 if header.len() > 1 && second.eq_ignore_ascii_case(b"FROM") {
                     let name = Name::of(file.word(header.start));

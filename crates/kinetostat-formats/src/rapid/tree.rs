@@ -92,6 +92,10 @@ pub(crate) struct Routine {
     pub body: Vec<Statement>,
     /// ERROR, UNDO and BACKWARD.
     pub handlers: Vec<Statement>,
+    /// From PROC, FUNC or TRAP to its end.
+    pub whole: Range<usize>,
+    /// Of the statements before the handlers.
+    pub statements: Range<usize>,
 }
 
 impl Routine {
@@ -136,10 +140,14 @@ pub(crate) enum Statement {
         conditions: Vec<Range<usize>>,
         choice: Choice,
         blocks: Vec<Vec<Statement>>,
+        /// From IF or TEST to its end.
+        whole: Range<usize>,
     },
     Loop {
         header: Range<usize>,
         block: Vec<Statement>,
+        /// From FOR or WHILE to its end.
+        whole: Range<usize>,
     },
     /// `name:`, the token of the name.
     Label { at: usize },
@@ -169,7 +177,7 @@ impl Statement {
                     statement.each_part(see);
                 }
             }
-            Self::Loop { header, block } => {
+            Self::Loop { header, block, .. } => {
                 see(header);
                 for statement in block {
                     statement.each_part(see);

@@ -44,7 +44,10 @@ fn is_same_way(
         }
         (one, other) => one == other,
     };
+    let is_same_speed = first.speed.mm_per_s == again.speed.mm_per_s
+        || pieces.iter().all(|piece| piece.speed_factor == 1.0);
     pieces.len() == others.len()
+        && is_same_speed
         && pairs.all(|(one, other)| near(one, other))
         && (pieces.is_empty() || is_same_end)
 }

@@ -27,7 +27,7 @@ pub(super) const NO_NAME: Reason = (
 
 pub(super) const REPEATED: Reason = (
     "the statement runs several times, and needs another correction each time",
-    "write its runs one after the other",
+    "run the program once and go on with its flat form (--expand, [expand] in a job)",
 );
 
 /// Corrections of two runs of one statement that are the same, mm and rad: less than the last digit that is written.

@@ -107,6 +107,7 @@ impl Parser<'_, '_> {
         };
         let mut routine_data = Vec::new();
         let mut body = Vec::new();
+        let mut statements = None;
         let mut handlers = Vec::new();
         let end = match kind {
             RoutineKind::Procedure => "ENDPROC",
@@ -120,6 +121,7 @@ impl Parser<'_, '_> {
                 continue;
             }
             self.block(&mut body, 0);
+            statements.get_or_insert(begin..self.at);
             if ["ERROR", "UNDO", "BACKWARD"]
                 .iter()
                 .any(|word| self.takes(word))
@@ -180,6 +182,8 @@ impl Parser<'_, '_> {
             data: routine_data,
             body,
             handlers,
+            whole: start..self.at,
+            statements: statements.unwrap_or(start..start),
         })
     }
 }

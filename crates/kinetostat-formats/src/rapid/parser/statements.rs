@@ -107,6 +107,7 @@ impl Parser<'_, '_> {
         Statement::Loop {
             header: header.unwrap_or(start..start),
             block,
+            whole: start..self.at,
         }
     }
 
@@ -147,6 +148,7 @@ impl Parser<'_, '_> {
             conditions,
             choice,
             blocks,
+            whole: start..self.at,
         }
     }
 
@@ -170,6 +172,7 @@ impl Parser<'_, '_> {
                 conditions,
                 choice: Choice::Compact,
                 blocks: vec![block],
+                whole: start..self.at,
             });
         }
         let mut blocks = Vec::new();
@@ -199,6 +202,7 @@ impl Parser<'_, '_> {
             conditions,
             choice,
             blocks,
+            whole: start..self.at,
         })
     }
 

@@ -3,6 +3,7 @@
 mod assigned;
 mod broken;
 mod corrections;
+mod flat;
 mod frames;
 mod jumps;
 mod order;

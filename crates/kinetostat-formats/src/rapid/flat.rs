@@ -1,0 +1,338 @@
+//! A program that was run once and written flat: the statements of its run, one after the other, in place of those of `main`.
+//!
+//! Names that mean something in the routine of a statement alone (parameters, own data, variables of loops) are replaced by their
+//! values, and computed ends of motions by their numbers. Routines that ran are left out.
+
+use std::collections::BTreeSet;
+use std::ops::Range;
+
+use crate::error::ProgramError;
+use crate::interpreter::expression::{Argument, Expression, Node};
+use crate::interpreter::value::{Datum, Value};
+use crate::model::site::TargetSite;
+use crate::options::ReadOptions;
+use crate::rapid::arguments::Arguments;
+use crate::rapid::expression::{arguments_of, expression_of};
+use crate::rapid::reader::{modules_of_files, tokens_of_files};
+use crate::rapid::run::{Root, Run};
+use crate::rapid::symbols::{Meaning, Scope, Symbols};
+use crate::rapid::table::{Ends, MotionRow};
+use crate::rapid::tree::RoutineKind;
+use crate::text::edits::Edits;
+use crate::text::flat::FlatText;
+use crate::text::name::Name;
+use crate::text::source::SourceFile;
+
+/// A statement that ran.
+#[derive(Debug)]
+pub(super) struct Logged {
+    file: usize,
+    /// The place of the statement.
+    at: usize,
+    text: Vec<u8>,
+}
+
+impl Run<'_, '_> {
+    /// A motion that ran.
+    pub(super) fn log_motion(&mut self, row: &MotionRow, tokens: &Range<usize>) {
+        if self.log.is_none() || self.here.is_none() {
+            return;
+        }
+        let file = self.file();
+        let arguments = Arguments::of(file, tokens.start + 1..tokens.end);
+        let ends = if row.ends == Ends::Circular { 2 } else { 1 };
+        let mut edits = Edits::default();
+        for (index, expression) in arguments.ordered.iter().enumerate() {
+            let is_computed = match self.motions.last() {
+                Some(motion) if index + 1 == ends => is_replaced(&motion.site.target),
+                Some(motion) if index == 0 && ends == 2 => motion
+                    .site
+                    .via
+                    .as_ref()
+                    .is_some_and(|(_, site)| is_replaced(site)),
+                _ => false,
+            };
+            let is_list = matches!(expression.node, Node::List(_));
+            self.put_value(expression, is_computed && !is_list, &mut edits);
+        }
+        for expression in arguments
+            .options
+            .iter()
+            .filter_map(|(_, value)| value.as_ref())
+        {
+            self.put_value(expression, false, &mut edits);
+        }
+        self.log_with(tokens, edits);
+    }
+
+    /// An instruction that ran.
+    pub(super) fn log_instruction(&mut self, tokens: &Range<usize>) {
+        if self.log.is_none() {
+            return;
+        }
+        let mut edits = Edits::default();
+        for Argument { value, .. } in arguments_of(self.file(), tokens.start + 1..tokens.end) {
+            if let Some(value) = value {
+                self.put_value(&value, false, &mut edits);
+            }
+        }
+        self.log_with(tokens, edits);
+    }
+
+    /// An assignment that ran; of data of a routine nothing remains but their values.
+    pub(super) fn log_assignment(&mut self, tokens: &Range<usize>, assign: usize) {
+        if self.log.is_none() {
+            return;
+        }
+        let file = self.file();
+        let to = expression_of(file, tokens.start..assign);
+        let place = self.place(&to);
+        if !place.is_some_and(|place| matches!(place.root, Root::Module(_))) {
+            return;
+        }
+        let mut edits = Edits::default();
+        if self.is_own(&to) {
+            self.cannot_be_flat(tokens, "it assigns what its routine was given");
+        }
+        let end = tokens.end.saturating_sub(1).max(assign + 1);
+        self.put_value(&expression_of(file, assign + 1..end), false, &mut edits);
+        self.log_with(tokens, edits);
+    }
+
+    /// A branch or a loop that the controller decides.
+    pub(super) fn log_passed_over(&mut self, whole: &Range<usize>) {
+        if !std::mem::take(&mut self.passed_over) || self.log.is_none() {
+            return;
+        }
+        let file = self.file();
+        let names = whole.clone().filter_map(|at| Name::of(file.word(at)));
+        if names
+            .into_iter()
+            .any(|name| self.means_another_in_main(&name))
+        {
+            self.cannot_be_flat(whole, "it uses data of its routine");
+        }
+        self.log_with(whole, Edits::default());
+    }
+
+    fn cannot_be_flat(&mut self, tokens: &Range<usize>, why: &str) {
+        let reason =
+            format!("the program cannot be written flat: {why}, and the controller decides it");
+        self.fault(tokens, (reason, "read the program without expanding it"));
+    }
+
+    fn log_with(&mut self, tokens: &Range<usize>, edits: Edits) {
+        let file = self.file();
+        let span = file.span(tokens);
+        let text = edits.applied_to_part(file.source.bytes(), &span);
+        if let (Some(log), Some(text)) = (&mut self.log, text) {
+            log.push(Logged {
+                file: file.index,
+                at: span.start,
+                text,
+            });
+        }
+    }
+
+    /// Puts the value in place of an expression that means something in its routine alone.
+    fn put_value(&mut self, expression: &Expression, is_computed: bool, edits: &mut Edits) {
+        if !is_computed && !self.is_own(expression) {
+            return;
+        }
+        match &expression.node {
+            Node::Call(_, arguments) if !is_computed => {
+                let values = arguments
+                    .iter()
+                    .filter_map(|argument| argument.value.as_ref());
+                values.for_each(|value| self.put_value(value, false, edits));
+                return;
+            }
+            Node::List(parts) => {
+                parts
+                    .iter()
+                    .for_each(|part| self.put_value(part, false, edits));
+                return;
+            }
+            _ => {}
+        }
+        let span = self.file().span(&expression.tokens);
+        match printed(&self.value(expression)) {
+            Some(text) => edits.replace(span, text),
+            None => self.cannot_be_flat(&expression.tokens, "it uses data of its routine"),
+        }
+    }
+
+    /// True for an expression with a name that means something else, or nothing, in `main`.
+    fn is_own(&self, expression: &Expression) -> bool {
+        match &expression.node {
+            Node::Word(name) => self.means_another_in_main(name),
+            Node::Field(of, _) | Node::One(_, of) => self.is_own(of),
+            Node::Element(of, indices) => {
+                self.is_own(of) || indices.iter().any(|part| self.is_own(part))
+            }
+            Node::List(parts) => parts.iter().any(|part| self.is_own(part)),
+            Node::Two(_, operands) => operands.iter().any(|part| self.is_own(part)),
+            Node::Call(_, arguments) => (arguments.iter())
+                .filter_map(|argument| argument.value.as_ref())
+                .any(|part| self.is_own(part)),
+            Node::Number(_) | Node::Truth(_) | Node::Text | Node::Unreadable => false,
+        }
+    }
+
+    fn means_another_in_main(&self, name: &Name) -> bool {
+        let here = self.symbols.meaning_in(self.scope, name);
+        let main = self
+            .symbols
+            .main()
+            .and_then(|main| self.symbols.meaning(main, name));
+        let is_of_module = match here {
+            Some(Meaning::Datum(index)) => {
+                matches!(self.symbols.data[index].scope, Scope::Module(_))
+            }
+            Some(Meaning::Parameter) => false,
+            None => true,
+        };
+        !is_of_module || here != main
+    }
+}
+
+fn is_replaced(site: &TargetSite) -> bool {
+    matches!(site, TargetSite::Replaced(_))
+}
+
+/// A value as RAPID writes it; none where a part of it is not known.
+fn printed(datum: &Datum) -> Option<String> {
+    Some(match &datum.value {
+        Value::Number(value) if value.abs() >= 8e9 => "9E9".to_owned(),
+        Value::Number(value) => value.to_string(),
+        Value::Truth(value) => if *value { "TRUE" } else { "FALSE" }.to_owned(),
+        Value::Text(text) => format!("\"{text}\""),
+        Value::List(parts) => {
+            let parts: Option<Vec<String>> = parts.iter().map(printed).collect();
+            format!("[{}]", parts?.join(","))
+        }
+        Value::Unknown(_) => return None,
+    })
+}
+
+/// Runs a program once and writes it flat.
+pub(crate) fn expand_rapid(
+    files: &[SourceFile],
+    options: &ReadOptions,
+) -> Result<FlatText, Vec<ProgramError>> {
+    let token_files = tokens_of_files(files);
+    let mut faults = Vec::new();
+    let modules = modules_of_files(&token_files, &mut faults);
+    let symbols = Symbols::of(&token_files, &modules, &mut faults);
+    let mut run = Run::new(&token_files, &symbols, options);
+    run.log = Some(Vec::new());
+    let run = run.whole();
+    faults.extend(run.faults);
+    let Some(main) = symbols.main() else {
+        let file = &files[0];
+        let reason =
+            "there is no PROC main in these files: which routine is to be run is not known";
+        faults.push(ProgramError::at(
+            file,
+            0..0,
+            reason,
+            "name the one that cuts main",
+        ));
+        return Err(faults);
+    };
+    if !faults.is_empty() {
+        return Err(faults);
+    }
+    let log = run.log.unwrap_or_default();
+    // Routines that a statement of the flat program still names stay.
+    let text: Vec<&[u8]> = log.iter().map(|logged| logged.text.as_slice()).collect();
+    let named: BTreeSet<Name> = text
+        .iter()
+        .flat_map(|text| text.split(|byte| !byte.is_ascii_alphanumeric() && *byte != b'_'))
+        .filter_map(Name::of)
+        .collect();
+    let left_out = |index: usize| {
+        let routine = symbols.routines[index].routine;
+        index != main
+            && routine.kind == RoutineKind::Procedure
+            && run.called.contains(&index)
+            && !named.contains(&routine.name)
+    };
+    let mut out = Flat::default();
+    for file in &token_files {
+        let mut cuts: Vec<(Range<usize>, bool)> = Vec::new();
+        for (index, home) in symbols.routines.iter().enumerate() {
+            if home.file == file.index && index == main {
+                cuts.push((file.span(&home.routine.statements), true));
+            } else if home.file == file.index && left_out(index) {
+                cuts.push((file.span(&home.routine.whole), false));
+            }
+        }
+        cuts.sort_by_key(|(span, _)| span.start);
+        let mut at = 0;
+        for (span, is_main) in cuts {
+            out.copy(file.source, at..span.start, file.index);
+            if is_main {
+                let indentation = file.source.indentation_before(span.start).to_vec();
+                for (number, logged) in log.iter().enumerate() {
+                    if number > 0 {
+                        out.bytes.extend_from_slice(file.source.line_ending());
+                        out.from(logged.file, files[logged.file].line_of(logged.at));
+                        out.bytes.extend_from_slice(&indentation);
+                    }
+                    out.state(logged, files);
+                }
+            }
+            at = span.end.max(at);
+        }
+        out.copy(file.source, at..file.source.bytes().len(), file.index);
+    }
+    let changed = out.bytes != files[0].bytes();
+    Ok(FlatText {
+        file: SourceFile::new(files[0].name(), out.bytes),
+        origins: out.origins,
+        changed,
+        findings: run.findings,
+    })
+}
+
+/// Text of a flat program and the lines that it is from.
+#[derive(Default)]
+struct Flat {
+    bytes: Vec<u8>,
+    /// Of all lines that have begun.
+    origins: Vec<(usize, usize)>,
+}
+
+impl Flat {
+    /// Notes the origin of the line that is written, which has none yet.
+    fn from(&mut self, file: usize, line: usize) {
+        let begins = self.bytes.last().is_none_or(|byte| *byte == b'\n');
+        if begins {
+            self.origins.push((file, line));
+        }
+    }
+
+    /// Adds bytes of a file.
+    fn copy(&mut self, source: &SourceFile, span: Range<usize>, file: usize) {
+        let mut at = span.start;
+        for line in source.part(&span).split_inclusive(|byte| *byte == b'\n') {
+            self.from(file, source.line_of(at));
+            self.bytes.extend_from_slice(line);
+            at += line.len();
+        }
+    }
+
+    /// Adds a statement.
+    fn state(&mut self, logged: &Logged, files: &[SourceFile]) {
+        let first = files[logged.file].line_of(logged.at);
+        for (number, line) in logged
+            .text
+            .split_inclusive(|byte| *byte == b'\n')
+            .enumerate()
+        {
+            self.from(logged.file, first + number);
+            self.bytes.extend_from_slice(line);
+        }
+    }
+}
