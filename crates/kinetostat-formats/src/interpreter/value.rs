@@ -108,8 +108,12 @@ impl Datum {
 
     /// The numbers of a list of so many.
     pub(crate) fn as_numbers<const N: usize>(&self) -> Option<[f64; N]> {
-        let all: Option<Vec<f64>> = self.parts().iter().map(Self::as_number).collect();
-        all?.try_into().ok()
+        let parts: &[Self; N] = self.parts().try_into().ok()?;
+        let mut numbers = [0.0; N];
+        for (number, part) in numbers.iter_mut().zip(parts) {
+            *number = part.as_number()?;
+        }
+        Some(numbers)
     }
 
     /// The reason of the first part that only the controller knows.

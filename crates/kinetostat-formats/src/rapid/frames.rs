@@ -1,5 +1,7 @@
 //! Tools and work objects of motions.
 
+use std::rc::Rc;
+
 use nalgebra::Isometry3;
 
 use crate::interpreter::expression::{Expression, Node};
@@ -23,6 +25,10 @@ impl Run<'_, '_> {
         expression: &Expression,
     ) -> Result<FrameUse, Reason> {
         let mut name = self.text(expression);
+        if let Node::Call(..) | Node::One(..) | Node::Two(..) | Node::Unreadable = expression.node {
+            let reason = format!("`{name}` is no tool and no work object");
+            return Err((reason, "write its name, or its numbers"));
+        }
         if let Node::Word(word) = &expression.node {
             if let Some(frame) = self.stated.get(word) {
                 let frame = Frame::Known(*frame);
@@ -46,6 +52,21 @@ impl Run<'_, '_> {
             }
         }
         let value = self.value(expression);
+        let key = match &expression.node {
+            Node::Word(word) => Some((role == Role::Tool, *word)),
+            _ => None,
+        };
+        let list = match &value.value {
+            Value::List(list) => Some(list),
+            _ => None,
+        };
+        // Most motions have the tool of the one before.
+        if let (Some(key), Some(list)) = (&key, list)
+            && let Some((known, frame)) = self.frames.get(key)
+            && Rc::ptr_eq(known, list)
+        {
+            return Ok(frame.clone());
+        }
         let frame = match &value.value {
             Value::Unknown(reason) if self.has_first_value(expression) => {
                 return Err((reason.to_string(), STATE_IT));
@@ -55,7 +76,11 @@ impl Run<'_, '_> {
             },
             _ => literal(role, &value)?,
         };
-        Ok(FrameUse { name, frame })
+        let frame = FrameUse { name, frame };
+        if let (Some(key), Some(list)) = (key, list) {
+            self.frames.insert(key, (Rc::clone(list), frame.clone()));
+        }
+        Ok(frame)
     }
 }
 

@@ -2,15 +2,18 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
+use std::rc::Rc;
 
 use nalgebra::Isometry3;
 
 use crate::error::{ProgramError, note};
 use crate::interpreter::value::{Datum, Value};
+use crate::model::frame::FrameUse;
 use crate::model::motion::{Motion, Runs};
 use crate::model::outside_call::OutsideCall;
 use crate::options::{ReadOptions, StatedValue};
 use crate::rapid::flat::Logged;
+use crate::rapid::lex::Kind;
 use crate::rapid::symbols::{Scope, Symbols};
 use crate::rapid::table::motion_row;
 use crate::rapid::targets::Targets;
@@ -66,6 +69,10 @@ pub(crate) struct Run<'r, 'p> {
     pub(super) stated: BTreeMap<Name, Isometry3<f64>>,
     /// Values that the caller states.
     pub(super) values: BTreeMap<Name, Datum>,
+    /// Data of every controller, once they are asked for.
+    pub(super) predefined: BTreeMap<Name, Datum>,
+    /// Frames of tools and work objects by the values that they were read from.
+    pub(super) frames: BTreeMap<(bool, Name), (Rc<Vec<Datum>>, FrameUse)>,
     /// Values of the data of modules, once they are asked for.
     pub(super) data: BTreeMap<usize, Datum>,
     /// Data that interrupts change at any time.
@@ -124,6 +131,8 @@ impl<'r, 'p> Run<'r, 'p> {
             options,
             stated: stated.collect(),
             values: values.collect(),
+            predefined: BTreeMap::new(),
+            frames: BTreeMap::new(),
             data: BTreeMap::new(),
             volatile: BTreeSet::new(),
             calls: Vec::new(),
@@ -181,10 +190,15 @@ impl<'r, 'p> Run<'r, 'p> {
     /// Routines that a statement of the files names.
     fn called_by_name(&self) -> BTreeSet<usize> {
         let mut called = BTreeSet::new();
+        if self.symbols.routines.len() < 2 {
+            return called;
+        }
         for (index, home) in self.symbols.routines.iter().enumerate() {
             let file = &self.files[home.file];
             let mut see = |tokens: &Range<usize>| {
-                let names = tokens.clone().filter_map(|at| Name::of(file.word(at)));
+                let is_word = |at: &usize| file.tokens[*at].kind == Kind::Word;
+                let words = tokens.clone().filter(is_word);
+                let names = words.filter_map(|at| Name::of(file.word(at)));
                 called.extend(names.filter_map(|name| self.symbols.routine(index, &name)));
             };
             home.routine.each_part(&mut see);
@@ -212,10 +226,12 @@ impl<'r, 'p> Run<'r, 'p> {
         for home in &self.symbols.routines {
             let file = &self.files[home.file];
             home.routine.each_part(&mut |tokens| {
-                let name = Name::of(file.word(tokens.start));
-                let is_motion = name.is_some_and(|name| motion_row(&name).is_some());
                 let start = file.span(tokens).start;
-                if is_motion && !self.ran.contains(&(file.index, start)) {
+                let is_motion = || {
+                    let name = Name::of(file.word(tokens.start));
+                    name.is_some_and(|name| motion_row(&name).is_some())
+                };
+                if !self.ran.contains(&(file.index, start)) && is_motion() {
                     let lines = unreached.entry(file.index).or_default();
                     lines.push(file.source.line_of(start));
                 }

@@ -367,9 +367,14 @@ impl Names for Run<'_, '_> {
                 shown()
             )),
             None => {
-                (self.values.get(name).cloned().or_else(|| predefined(name))).unwrap_or_else(|| {
-                    Datum::unknown(format!("no `{}` is declared in these files", shown()))
-                })
+                let known = self.values.get(name).or_else(|| self.predefined.get(name));
+                if let Some(known) = known {
+                    return known.clone();
+                }
+                match predefined(name) {
+                    Some(datum) => self.predefined.entry(*name).or_insert(datum).clone(),
+                    None => Datum::unknown(format!("no `{}` is declared in these files", shown())),
+                }
             }
         }
     }
