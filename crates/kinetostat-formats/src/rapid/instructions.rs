@@ -8,6 +8,7 @@ use crate::model::outside_call::OutsideCall;
 use crate::options::ExternalAxes;
 use crate::rapid::control::Flow;
 use crate::rapid::expression::arguments_of;
+use crate::rapid::literals::frame_of;
 use crate::rapid::passing::CHANGE_THEIRS;
 use crate::rapid::run::Run;
 use crate::rapid::table::{EXTERNAL, MotionRow, row};
@@ -107,9 +108,30 @@ impl Run<'_, '_> {
             );
         }
         match row.name {
-            "ExitCycle" => Flow::Ends,
-            _ => Flow::Next,
+            "ExitCycle" => return Flow::Ends,
+            "PDispOff" => self.displacement = None,
+            "PDispSet" => self.displace(tokens, &arguments.ordered),
+            _ => {}
         }
+        Flow::Next
+    }
+
+    /// `PDispSet frame`: the places of all motions behind it are in this frame of the work object.
+    ///
+    /// Source: ABB, RAPID Instructions, Functions and Data types, PDispSet: the displacement is in the axes of the work object.
+    fn displace(&mut self, tokens: &Range<usize>, arguments: &[Expression]) {
+        let value = arguments.first().map(|frame| self.value(frame));
+        let Some(frame) = value.as_ref().and_then(frame_of) else {
+            let why = value.as_ref().and_then(Datum::unknown_reason);
+            let why = why.map_or_else(String::new, |why| format!(": {why}"));
+            let reason = format!("the displacement of all motions behind it is not known{why}");
+            self.fault(
+                tokens,
+                (reason, "write it as a pose: [[x,y,z],[q1,q2,q3,q4]]"),
+            );
+            return;
+        };
+        self.displacement = Some(frame);
     }
 
     /// `Incr n`, `Decr n`, `Clear n`, `Add n, 3`.

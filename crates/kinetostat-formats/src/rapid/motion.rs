@@ -68,13 +68,21 @@ impl Run<'_, '_> {
         let (speed, speed_site, other_speeds) = self.speed(&arguments, ends);
         let zone = self.zone(&arguments, tool_at - 1);
         let tool = self.frame(Role::Tool, &arguments.ordered[tool_at])?;
-        let work_object = match arguments.option("WOBJ").flatten() {
+        let mut work_object = match arguments.option("WOBJ").flatten() {
             Some(named) => self.frame(Role::WorkObject, named)?,
             None => FrameUse {
                 name: "wobj0".to_owned(),
                 frame: Frame::Known(Isometry3::identity()),
             },
         };
+        if let Some(by) = self.displacement
+            && row.ends != Ends::AbsoluteJoint
+        {
+            work_object.name += " displaced";
+            if let Frame::Known(frame) = &mut work_object.frame {
+                *frame *= by;
+            }
+        }
         let indivisible = match row.straight {
             None => Some("this instruction cannot be divided"),
             Some(_) if is_given(&"T") => Some("its time is stated, not its speed"),

@@ -125,7 +125,9 @@ impl Run<'_, '_> {
         match row(&name).map(|row| row.treatment) {
             Some(EXTERNAL) => self.options.external_axes != ExternalAxes::Carried,
             Some(Treatment::Refused { .. }) => true,
-            Some(_) => name.is("EXITCYCLE"),
+            Some(_) => ["EXITCYCLE", "PDISPSET", "PDISPOFF"]
+                .iter()
+                .any(|word| name.is(word)),
             None => is_computed(file, tokens),
         }
     }

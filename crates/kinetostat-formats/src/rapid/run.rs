@@ -85,6 +85,8 @@ pub(crate) struct Run<'r, 'p> {
     /// Nesting of blocks and calls.
     pub(super) depth: usize,
     pub(super) modes: Modes,
+    /// Program displacement, in the axes of the work object, mm.
+    pub(super) displacement: Option<Isometry3<f64>>,
     pub(super) runs: Runs,
     /// The motion at whose end the tool is.
     pub(super) here: Option<usize>,
@@ -140,6 +142,7 @@ impl<'r, 'p> Run<'r, 'p> {
             depth_of_data: 0,
             depth: 0,
             modes: Modes::BASIC,
+            displacement: None,
             runs: Runs::Once,
             here: None,
             moved_external: false,
@@ -171,6 +174,7 @@ impl<'r, 'p> Run<'r, 'p> {
         for root in roots {
             self.here = None;
             self.modes = Modes::BASIC;
+            self.displacement = None;
             self.runs = match Some(root) == main {
                 true => Runs::Once,
                 false => Runs::Elsewhere,

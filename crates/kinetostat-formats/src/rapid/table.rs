@@ -174,7 +174,7 @@ const OTHERS: &[Alike] = &[
         "TEST", "GOTO", "RETURN", "EXIT", "RAISE", "RETRY", "TRYNEXT", "ERROR", "UNDO", "BACKWARD",
         ":=",
     ]),
-    alike(Understood, INSTRUCTIONS, &["Offs", "RelTool", "CirPathMode", "SingArea"]),
+    alike(Understood, INSTRUCTIONS, &["Offs", "RelTool", "CirPathMode", "SingArea", "PDispSet", "PDispOff"]),
     alike(Carried, INSTRUCTIONS, &[
         "AccSet", "Add", "AliasIO", "AliasIOReset", "BitClear", "BitSet", "BookErrNo", "Break",
         "CheckProgRef", "Clear", "ClearIOBuff", "ClearRawBytes", "ClkReset", "ClkStart", "ClkStop",
@@ -192,7 +192,7 @@ const OTHERS: &[Alike] = &[
         "WaitLoad", "WaitTestAndSet", "WaitTime", "WaitUntil", "WarmStart", "WaitRob",
         "WorldAccLim", "Write", "WriteBin", "WriteStrBin", "WriteAnyBin", "WriteVar", "Stop",
         "TriggIO", "TriggEquip", "TriggInt", "TriggSpeed", "TriggCheckIO", "TriggRampAO",
-        "ActEventBuffer", "EOffsOff", "PDispOff", "CorrClear", "RestoPath", "StorePath",
+        "ActEventBuffer", "EOffsOff", "CorrClear", "RestoPath", "StorePath",
         "StartMove", "StopMove", "StartMoveRetry", "ActUnit", "DeactUnit",
     ]),
     alike(Carried, ARC, &["ArcRefresh"]),
@@ -209,7 +209,7 @@ const OTHERS: &[Alike] = &[
         remedy: "take the event routine that steps back into a module of its own",
     }, INSTRUCTIONS, &["StepBwdPath"]),
     alike(SEARCHED, INSTRUCTIONS, &["SearchL", "SearchC", "SearchJ", "SearchExtJ"]),
-    alike(DISPLACED, INSTRUCTIONS, &["PDispOn", "PDispSet", "EOffsOn", "EOffsSet"]),
+    alike(DISPLACED, INSTRUCTIONS, &["PDispOn", "EOffsOn", "EOffsSet"]),
     alike(AT_RUN_TIME, INSTRUCTIONS, &[
         "CorrCon", "CorrWrite", "CorrDiscon", "EGMRunJoint", "EGMRunPose", "EGMMoveL", "EGMMoveC",
         "SoftAct", "FCAct", "FCPress1LStart", "FCPressL", "FCPressC", "FCPressEnd",

@@ -134,3 +134,44 @@ fn unknown_targets_are_left_when_asked() {
     .unwrap_err();
     assert!(error.to_string().contains("no pose"));
 }
+
+/// A program displacement moves the frame of the motions behind it; their numbers stay.
+#[test]
+fn displacements_of_the_program_are_followed() {
+    let statements = format!(
+        "MoveL {TARGET},v10,z1,tool0;\nPDispSet [[0,0,5],[0.7071068,0,0,0.7071068]];\nMoveL {TARGET},v10,z1,tool0;\nPDispOff;\nMoveL {TARGET},v10,z1,tool0;"
+    );
+    let program = read_with("", &statements, &ReadOptions::default()).unwrap();
+    let place = |index: usize| {
+        program.motions[index]
+            .base_pose()
+            .unwrap()
+            .translation
+            .vector
+    };
+    let own = program.motions[0].target.pose().unwrap().position_mm;
+    assert_eq!(place(0), own);
+    // A quarter turn about z, then 5 mm up.
+    assert!(
+        (place(1) - Vector3::new(-own.y, own.x, own.z + 5.0)).norm() < 1e-4,
+        "{}",
+        place(1)
+    );
+    assert_eq!(place(2), own);
+    // A correction is written in the frame of the statement.
+    let piece = Piece::to(1, own + Vector3::new(0.0, 0.0, 0.25));
+    let files = write(&program, &[piece], &WriteOptions::default()).unwrap();
+    let text = String::from_utf8(files[0].1.clone()).unwrap();
+    assert_eq!(
+        text.matches(&format!("{:.3}", own.z + 0.25)).count(),
+        1,
+        "{text}"
+    );
+    let unknown = format!("PDispSet shift;\nMoveL {TARGET},v10,z1,tool0;");
+    let errors = read_with("", &unknown, &ReadOptions::default()).unwrap_err();
+    assert!(
+        errors[0].to_string().contains("no `shift` is declared"),
+        "{}",
+        errors[0]
+    );
+}
