@@ -33,6 +33,21 @@ impl Log {
         self.files.len() - 1
     }
 
+    /// The command that expands a xacro file, by its index.
+    pub(crate) fn expansion(&self, file: usize) -> String {
+        let name = self
+            .files
+            .get(file)
+            .map_or("FILE.urdf.xacro", |(name, _)| name);
+        let stem = name.strip_suffix(".xacro").unwrap_or(name);
+        let stem = stem.strip_suffix(".urdf").unwrap_or(stem);
+        let expanded = match name.ends_with(".xacro") {
+            true => format!("{stem}.urdf"),
+            false => format!("{stem}_expanded.urdf"),
+        };
+        format!("expand it first: xacro {name} > {expanded}")
+    }
+
     fn problem(&self, severity: Severity, at: &At, message: String, help: String) -> Problem {
         let (name, text) = &self.files[at.file];
         // The excerpt shows a line; the message says which element that is.

@@ -459,6 +459,9 @@ impl Plan<'_> {
                 centre_of_mass_m: given(centre),
                 inertia_kg_m2: (inertia != Matrix3::zeros())
                     .then(|| [0, 1, 2].map(|i| [0, 1, 2].map(|j| inertia[(i, j)]))),
+                assumption: inertial.left_out.then(|| {
+                    "the inertia of the URDF has a moment below zero and is left out".to_owned()
+                }),
                 ..BodyElement::default()
             }),
             "",

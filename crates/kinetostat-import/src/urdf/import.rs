@@ -21,7 +21,7 @@ use crate::urdf::request::{
     closed, closings, ends, followers, homes, known_stiffnesses, used, variables,
 };
 use crate::urdf::robot::Robot;
-use crate::urdf::tree::{Tree, TreeStep, tree};
+use crate::urdf::tree::{Tree, TreeStep, doubts, tree};
 use crate::urdf::write::{Parts, text};
 use crate::urdf::{inertial, read, xml};
 
@@ -124,6 +124,7 @@ fn read_all(
     let document = xml::parse(urdf, file, index, log)?;
     let mut robot = read::read(&document, index, log);
     log.stop()?;
+    robot.add_missing_links();
     let loops = match &options.loops {
         Some(written) => loops::read(written, &mut robot, log),
         None => Loops::default(),
@@ -156,6 +157,8 @@ impl AtHome {
     ) -> Result<Self, ModelError> {
         let tree = stopped(tree(robot, log), log)?;
         let (base, tip) = ends(robot, &tree, options, file)?;
+        doubts(robot, &tree, [base, tip], log);
+        log.stop()?;
         let mut variables = variables(robot, options, loops, log);
         let closings = closings(robot, log);
         log.stop()?;

@@ -36,6 +36,12 @@ const SKIPPED: [&str; 15] = [
     "self_collision_checking",
 ];
 
+/// Principal moments may be off by this share of the largest where they were rounded.
+const ROUNDING: f64 = 1e-6;
+
+/// An inertia of less than this share of the mass is none: that of a body of a micrometre, m^2.
+const NO_SIZE_M2: f64 = 1e-12;
+
 pub(crate) fn read(document: &Document<'_>, file: usize, log: &mut Log) -> Robot {
     let mut reader = Reader {
         log,
@@ -144,7 +150,7 @@ impl Reader<'_> {
             self.log.error(
                 &at,
                 "this is a xacro file: macros are not expanded here",
-                "expand it first: xacro FILE > robot.urdf",
+                self.log.expansion(self.file),
             );
         }
         !macros
@@ -152,6 +158,9 @@ impl Reader<'_> {
 
     /// An element without meaning here: skipped, or refused where it looks like a slip of the pen.
     fn unread(&mut self, node: Node<'_, '_>, tag: &str, element: &str, words: &[&str]) {
+        if !self.plain(node, element) {
+            return;
+        }
         if !SKIPPED.contains(&tag) {
             let near = words
                 .iter()
@@ -275,7 +284,7 @@ impl Reader<'_> {
             );
             return None;
         }
-        let mut inertia = Some(Matrix3::zeros());
+        let mut inertia = Some((Matrix3::zeros(), false));
         match only(node, "inertia") {
             Some(inertia_node) => {
                 let keys = ["ixx", "ixy", "ixz", "iyy", "iyz", "izz"];
@@ -291,7 +300,7 @@ impl Reader<'_> {
                 inertia = match numbers[..] {
                     [Some(xx), Some(xy), Some(xz), Some(yy), Some(yz), Some(zz)] => {
                         let m = Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz);
-                        self.sound_inertia(inertia_node, &m, &element).then_some(m)
+                        self.sound_inertia(inertia_node, (mass?, &m), &element)
                     }
                     _ => None,
                 };
@@ -302,16 +311,24 @@ impl Reader<'_> {
                 "statics does not need it; it is zero in the model",
             ),
         }
+        let (inertia, left_out) = inertia?;
         Some(Inertial {
             at,
             mass: mass?,
             origin: origin?,
-            inertia: inertia?,
+            inertia,
+            left_out,
         })
     }
 
-    /// Refuses what no body can have; notices what no rigid body can have.
-    fn sound_inertia(&mut self, node: Node<'_, '_>, m: &Matrix3<f64>, element: &str) -> bool {
+    /// The inertia for the model, and whether that of the file is left out; none where its size is refused. Statics does not use
+    /// it, so that what no body can have is noticed; a model has no moments below zero, and goes without.
+    fn sound_inertia(
+        &mut self,
+        node: Node<'_, '_>,
+        (mass, m): (f64, &Matrix3<f64>),
+        element: &str,
+    ) -> Option<(Matrix3<f64>, bool)> {
         let at = self.at(node, element);
         let most = m.amax();
         if most > 1e12 {
@@ -320,35 +337,40 @@ impl Reader<'_> {
                 format!("a moment of inertia is {} kg m^2", short(most)),
                 "check the unit: kg m^2",
             );
-            return false;
+            return None;
+        }
+        if most <= NO_SIZE_M2 * mass {
+            return Some((Matrix3::zeros(), false));
         }
         // Scaled first: extreme numbers can keep the iteration busy.
-        let unit = most.max(1e-300);
-        let eigenvalues = (m / unit).symmetric_eigenvalues() * unit;
+        let eigenvalues = (m / most).symmetric_eigenvalues() * most;
         let mut principal: Vec<f64> = eigenvalues.iter().copied().collect();
         principal.sort_by(f64::total_cmp);
-        if principal[0] < -1e-9 * most.max(1e-12) {
-            self.log.error(
+        let rounding = ROUNDING * principal[2].abs();
+        let shown = || {
+            let [least, middle, largest] = [0, 1, 2].map(|k| short(principal[k]));
+            format!("{least}, {middle} and {largest} kg m^2")
+        };
+        if principal[0] < -rounding {
+            self.log.notice(
                 &at,
-                format!(
-                    "the inertia has the principal moment {:.4} kg m^2, below zero",
-                    principal[0]
-                ),
-                "check its signs and the order ixx ixy ixz iyy iyz izz",
+                format!("no body has this inertia: its principal moments are {}, and one is below zero", shown()),
+                "statics does not use it, and the model is written without it; check its signs and the order ixx ixy ixz iyy iyz izz before the file is used for motion",
             );
-            return false;
+            return Some((Matrix3::zeros(), true));
         }
-        if principal[0] + principal[1] < principal[2] * (1.0 - 1e-3) {
+        if principal[0] + principal[1] < principal[2] - rounding {
             self.log.notice(
                 &at,
                 format!(
-                    "no rigid body has this inertia: its principal moments are {:.4}, {:.4} and {:.4} kg m^2, and the largest is above the sum of the others",
-                    principal[0], principal[1], principal[2]
+                    "no rigid body has this inertia: its principal moments are {}, and the largest is above the sum of the others",
+                    shown()
                 ),
                 "statics does not use it; correct it before the file is used for motion",
             );
         }
-        true
+        // A moment that was rounded below zero is zero.
+        Some((m - Matrix3::identity() * principal[0].min(0.0), false))
     }
 
     fn joint(&mut self, node: Node<'_, '_>) -> Option<Joint> {
@@ -484,8 +506,18 @@ impl Reader<'_> {
             );
             return Some((None, None));
         }
-        let low = self.number(limit, "lower", Some(0.0), &element)?;
-        let high = self.number(limit, "upper", Some(0.0), &element)?;
+        let low = self.bound(limit, "lower", &element)?;
+        let high = self.bound(limit, "upper", &element)?;
+        if low.is_infinite() || high.is_infinite() {
+            if low.is_finite() || high.is_finite() {
+                self.log.notice(
+                    &at,
+                    format!("the limits {low} .. {high} end on one side only"),
+                    "the joint is without limits in the model; write both",
+                );
+            }
+            return Some((None, None));
+        }
         if low > high {
             self.log.error(
                 &at,

@@ -206,6 +206,9 @@ pub(crate) fn followers(robot: &Robot, tree: &Tree, variables: &mut [Variable], 
         else {
             continue;
         };
+        if !variables[v].moves {
+            continue;
+        }
         let of = |x: f64| (x - follow.offset) / follow.ratio;
         let (low, high) = (of(low).min(of(high)), of(low).max(of(high)));
         let own = variables[v]

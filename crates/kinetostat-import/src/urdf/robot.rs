@@ -3,7 +3,7 @@
 use kinetostat::{MotionKind, Pose};
 use nalgebra::{Isometry3, Matrix3, Translation3, UnitQuaternion, Vector3};
 
-use crate::log::At;
+use crate::log::{At, suggestion};
 
 /// `<origin>`: translation (m), then roll, pitch, yaw (rad): Rz(yaw) Ry(pitch) Rx(roll).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -32,6 +32,8 @@ pub(crate) struct Inertial {
     pub(crate) origin: Origin,
     /// About the centre, axes of `origin`, kg m^2.
     pub(crate) inertia: Matrix3<f64>,
+    /// The file has an inertia that no model can have, and zero stands for it.
+    pub(crate) left_out: bool,
 }
 
 #[derive(Clone, Debug, Default)]
@@ -116,4 +118,44 @@ pub(crate) struct Robot {
     pub(crate) links: Vec<Link>,
     pub(crate) joints: Vec<Joint>,
     pub(crate) constraints: Vec<Constraint>,
+    /// Links that joints name and nothing describes; they are among `links`.
+    pub(crate) missing: Vec<Missing>,
+}
+
+/// A link that a joint names and nothing describes.
+#[derive(Clone, Debug)]
+pub(crate) struct Missing {
+    pub(crate) at: At,
+    /// Index of the joint.
+    pub(crate) joint: usize,
+    pub(crate) name: String,
+    /// What may be meant.
+    pub(crate) help: String,
+}
+
+impl Robot {
+    /// Adds the links that are missing, without a mass: beside the chain that is asked for they do not matter.
+    pub(crate) fn add_missing_links(&mut self) {
+        let known: Vec<String> = self.links.iter().map(|link| link.name.clone()).collect();
+        for (joint, found) in self.joints.iter().enumerate() {
+            for (at, name) in [&found.parent, &found.child] {
+                if known.contains(name) {
+                    continue;
+                }
+                self.missing.push(Missing {
+                    at: at.clone(),
+                    joint,
+                    name: name.clone(),
+                    help: suggestion(name, known.iter().map(String::as_str)),
+                });
+                if !self.links.iter().any(|link| link.name == *name) {
+                    self.links.push(Link {
+                        at: at.clone(),
+                        name: name.clone(),
+                        ..Link::default()
+                    });
+                }
+            }
+        }
+    }
 }

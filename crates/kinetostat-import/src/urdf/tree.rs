@@ -117,6 +117,17 @@ pub(crate) struct Tree {
     /// Number of joints up to the root.
     depth: Vec<usize>,
     pub(crate) follows: Vec<Follow>,
+    /// What is wrong with joints, which counts only where they lie between base and tip.
+    doubts: Vec<Doubt>,
+}
+
+/// Something wrong with a joint.
+#[derive(Clone, Debug)]
+struct Doubt {
+    joint: usize,
+    at: At,
+    message: String,
+    help: String,
 }
 
 impl Tree {
@@ -198,19 +209,8 @@ pub(crate) fn tree(robot: &Robot, log: &mut Log) -> Option<Tree> {
     let mut above: Vec<Option<usize>> = vec![None; robot.links.len()];
     let mut ends = Vec::with_capacity(robot.joints.len());
     for (i, joint) in robot.joints.iter().enumerate() {
-        let mut find = |(at, name): &(At, String)| {
-            let found = links.get(name.as_str()).copied();
-            if found.is_none() {
-                log.error(
-                    at,
-                    format!("there is no link '{name}'"),
-                    suggestion(name, links.keys().copied()),
-                );
-            }
-            found
-        };
-        let (parent, child) = (find(&joint.parent), find(&joint.child));
-        let (Some(parent), Some(child)) = (parent, child) else {
+        let find = |(_, name): &(At, String)| links.get(name.as_str()).copied();
+        let (Some(parent), Some(child)) = (find(&joint.parent), find(&joint.child)) else {
             continue;
         };
         ends.push((parent, child));
@@ -238,14 +238,45 @@ pub(crate) fn tree(robot: &Robot, log: &mut Log) -> Option<Tree> {
     }
     let depth = depths(robot, &above, &ends, log)?;
     let root = one_root(robot, &above, log)?;
-    let follows = follows(robot, &joints, log)?;
+    let mut doubts = Vec::new();
+    for missing in &robot.missing {
+        doubts.push(Doubt {
+            joint: missing.joint,
+            at: missing.at.clone(),
+            message: format!("there is no link '{}'", missing.name),
+            help: missing.help.clone(),
+        });
+    }
+    let follows = follows(robot, &joints, &mut doubts, log)?;
     Some(Tree {
         root,
         ends,
         above,
         depth,
         follows,
+        doubts,
     })
+}
+
+/// Refuses what is wrong with joints between base and tip; of others it says that they stand still.
+pub(crate) fn doubts(robot: &Robot, tree: &Tree, [base, tip]: [usize; 2], log: &mut Log) {
+    let steps = tree.steps(robot, base, tip);
+    let lies_between = |name: &str| {
+        // Loops may go anywhere.
+        !robot.constraints.is_empty()
+            || (steps.iter())
+                .any(|step| matches!(step, TreeStep::Offset { joint, .. } if joint == name))
+    };
+    for doubt in &tree.doubts {
+        match lies_between(&robot.joints[doubt.joint].name) {
+            true => log.error(&doubt.at, &doubt.message, &doubt.help),
+            false => log.notice(
+                &doubt.at,
+                &doubt.message,
+                "the joint is beside the way from base to tip and stands still in the model; nothing has to be done",
+            ),
+        }
+    }
 }
 
 fn names<'r>(
@@ -318,6 +349,16 @@ fn one_root(robot: &Robot, above: &[Option<usize>], log: &mut Log) -> Option<usi
         .map(|r| robot.links[*r].name.as_str())
         .collect();
     let second = roots.get(1).copied().unwrap_or(0);
+    for missing in &robot.missing {
+        log.error(
+            &missing.at,
+            format!("there is no link '{}'", missing.name),
+            &missing.help,
+        );
+    }
+    if log.any_errors() {
+        return None;
+    }
     log.error(
         &robot.links[second].at,
         format!(
@@ -331,7 +372,12 @@ fn one_root(robot: &Robot, above: &[Option<usize>], log: &mut Log) -> Option<usi
 }
 
 /// Mimic joints resolved to the joints that move by themselves.
-fn follows(robot: &Robot, joints: &BTreeMap<&str, usize>, log: &mut Log) -> Option<Vec<Follow>> {
+fn follows(
+    robot: &Robot,
+    joints: &BTreeMap<&str, usize>,
+    doubts: &mut Vec<Doubt>,
+    log: &mut Log,
+) -> Option<Vec<Follow>> {
     let mut follows = Vec::with_capacity(robot.joints.len());
     for (i, joint) in robot.joints.iter().enumerate() {
         if joint.kind == JointType::Fixed {
@@ -341,6 +387,15 @@ fn follows(robot: &Robot, joints: &BTreeMap<&str, usize>, log: &mut Log) -> Opti
         let (mut ratio, mut offset) = (1.0, 0.0);
         let mut at = i;
         let mut length = 0;
+        let mut doubt = |at: &At, message: String, help: String| {
+            let at = at.clone();
+            doubts.push(Doubt {
+                joint: i,
+                at,
+                message,
+                help,
+            });
+        };
         let follow = loop {
             let here = &robot.joints[at];
             let Some(mimic) = &here.mimic else {
@@ -348,15 +403,15 @@ fn follows(robot: &Robot, joints: &BTreeMap<&str, usize>, log: &mut Log) -> Opti
             };
             length += 1;
             if length > robot.joints.len() {
-                log.error(
+                doubt(
                     &mimic.at,
-                    "the joints follow each other in a circle",
-                    "let one of them move by itself",
+                    "the joints follow each other in a circle".to_owned(),
+                    "let one of them move by itself".to_owned(),
                 );
-                return None;
+                break None;
             }
             let Some(&source) = joints.get(mimic.joint.as_str()) else {
-                log.error(
+                doubt(
                     &mimic.at,
                     format!("there is no joint '{}'", mimic.joint),
                     suggestion(&mimic.joint, joints.keys().copied()),
@@ -364,10 +419,10 @@ fn follows(robot: &Robot, joints: &BTreeMap<&str, usize>, log: &mut Log) -> Opti
                 break None;
             };
             if source == at {
-                log.error(
+                doubt(
                     &mimic.at,
-                    "the joint follows itself",
-                    "name the joint that it follows, or remove <mimic>",
+                    "the joint follows itself".to_owned(),
+                    "name the joint that it follows, or remove <mimic>".to_owned(),
                 );
                 break None;
             }
@@ -375,12 +430,12 @@ fn follows(robot: &Robot, joints: &BTreeMap<&str, usize>, log: &mut Log) -> Opti
             ratio *= mimic.multiplier;
             at = source;
             if at == i {
-                log.error(
+                doubt(
                     &mimic.at,
-                    "the joints follow each other in a circle",
-                    "let one of them move by itself",
+                    "the joints follow each other in a circle".to_owned(),
+                    "let one of them move by itself".to_owned(),
                 );
-                return None;
+                break None;
             }
         };
         follows.push(follow.unwrap_or(Follow::STILL));

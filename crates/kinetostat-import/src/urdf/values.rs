@@ -8,6 +8,9 @@ use crate::log::{At, Log};
 use crate::urdf::robot::Origin;
 use kinetostat::number::largest_size;
 
+/// Limits beyond this are none, rad or m.
+const NO_LIMIT: f64 = 1e9;
+
 impl Reader<'_> {
     pub(crate) fn at(&self, node: Node<'_, '_>, element: &str) -> At {
         // The opening tag, without what it holds.
@@ -99,7 +102,10 @@ impl Reader<'_> {
 
     pub(crate) fn word(&mut self, text: &str, at: &At) -> Option<f64> {
         let help = if text.contains("${") || text.contains("$(") {
-            "this is a xacro expression; expand the file first: xacro FILE > robot.urdf"
+            &format!(
+                "this is a xacro expression; {}",
+                self.log.expansion(self.file)
+            )
         } else if text.contains(',') {
             "write numbers with a point and spaces between them"
         } else {
@@ -116,6 +122,20 @@ impl Reader<'_> {
                 self.log.error(at, format!("'{shown}' is no number"), help);
                 None
             }
+        }
+    }
+
+    /// A limit; infinite where it is one that nothing reaches, whose sign counts.
+    pub(crate) fn bound(
+        &mut self,
+        node: Node<'_, '_>,
+        attribute: &str,
+        element: &str,
+    ) -> Option<f64> {
+        let text = node.attribute(attribute).map(str::trim).unwrap_or("0");
+        match text.parse::<f64>() {
+            Ok(x) if x.abs() > NO_LIMIT => Some(x.signum() * f64::INFINITY),
+            _ => self.number(node, attribute, Some(0.0), element),
         }
     }
 

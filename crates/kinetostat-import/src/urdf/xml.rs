@@ -121,7 +121,7 @@ pub(crate) fn parse<'a>(
         log.error(
             &at(0, 1),
             "this is no XML, which begins with '<'",
-            "name a URDF file (a xacro file must be expanded first)",
+            "name a URDF file (a xacro file must be expanded first: xacro FILE.urdf.xacro > FILE.urdf)",
         );
         log.stop()?;
     }
@@ -134,6 +134,7 @@ pub(crate) fn parse<'a>(
         nodes_limit: MOST_NODES,
         ..ParsingOptions::default()
     };
+    let expansion = log.expansion(file);
     Document::parse_with_options(text, options).map_err(|e| {
         use roxmltree::Error as E;
         let (message, help) = match &e {
@@ -163,7 +164,7 @@ pub(crate) fn parse<'a>(
             ),
             E::UnknownNamespace(prefix, _) => (
                 format!("the prefix '{prefix}:' is not declared"),
-                "a xacro file must be expanded first: xacro FILE > robot.urdf",
+                expansion.as_str(),
             ),
             other => (
                 format!("this is not well-formed XML: {other}"),

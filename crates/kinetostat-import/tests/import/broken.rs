@@ -131,8 +131,6 @@ const EDITS: &[(&str, &str, &str, usize)] = &[
         12,
     ),
     ("ixx=\"0.1\"", "ixx=\"nan\"", "the value is NaN", 5),
-    ("iyy=\"1\"", "iyy=\"-1\"", "below zero", 5),
-    ("ixy=\"0\"", "ixy=\"7\"", "below zero", 5),
     ("izz=\"1\"", "", "the attribute 'izz' is missing", 5),
     ("value=\"12\"", "value=\"-12\"", "the mass is -12 kg", 5),
     ("value=\"12\"", "value=\"inf\"", "the value is inf", 5),
@@ -252,8 +250,14 @@ const EDITS: &[(&str, &str, &str, usize)] = &[
     (
         "<robot name=\"r\">",
         "<robot name=\"r\"><xacro:include filename=\"a\"/>",
-        "expanded first",
+        "expand it first: xacro broken.urdf > broken_expanded.urdf",
         2,
+    ),
+    (
+        "<link name=\"tool\"/>",
+        "<link name=\"tool\"><xacro:mass xmlns:xacro=\"http://www.ros.org/wiki/xacro\"/></link>",
+        "this is a xacro file",
+        7,
     ),
     (
         "<robot name=\"r\">",
@@ -319,6 +323,31 @@ fn mimic_joints_that_follow_each_other_are_refused() {
         );
     let said = refused(&wrong);
     assert!(said.contains("follow each other in a circle"), "{said}");
+}
+
+#[test]
+fn a_xacro_file_is_refused_with_the_command_that_expands_it() {
+    let text = GOOD.replace(
+        "<robot name=\"r\">",
+        "<robot name=\"r\" xmlns:xacro=\"http://ros.org/wiki/xacro\"><xacro:include filename=\"a.xacro\"/>",
+    );
+    for (file, command) in [
+        ("arm.urdf.xacro", "xacro arm.urdf.xacro > arm.urdf"),
+        ("arm.xacro", "xacro arm.xacro > arm.urdf"),
+        ("arm.urdf", "xacro arm.urdf > arm_expanded.urdf"),
+    ] {
+        for text in [
+            text.clone(),
+            GOOD.replace("value=\"12\"", "value=\"${mass}\""),
+        ] {
+            let refused = import_urdf(&text, file, &between("base", "tool"));
+            let said = refused.unwrap_err().to_string();
+            assert!(said.contains(command), "{said}");
+        }
+    }
+    // The name of the space alone, as files have it that were expanded.
+    let plain = text.replace("<xacro:include filename=\"a.xacro\"/>", "");
+    assert!(import_urdf(&plain, "arm.urdf", &between("base", "tool")).is_ok());
 }
 
 #[test]

@@ -51,6 +51,19 @@ fn inertials_that_were_never_meant() {
             inertial(20.0, 0.4).replace("izz='0.4'", "izz='4'"),
             "no rigid body has this inertia",
         ),
+        // A ten-thousandth too large.
+        (
+            inertial(20.0, 0.4).replace("izz='0.4'", "izz='0.80008'"),
+            "no rigid body has this inertia",
+        ),
+        (
+            inertial(20.0, 0.4).replace("izz='0.4'", "izz='-0.4'"),
+            "one is below zero",
+        ),
+        (
+            inertial(20.0, 0.4).replace("ixy='0'", "ixy='7'"),
+            "the model is written without it",
+        ),
         (
             "<inertial><mass value='20'/></inertial>".into(),
             "the inertia is missing",
@@ -151,4 +164,121 @@ fn limits_of_followers_hold_for_their_leaders() {
         (low + 0.15).abs() < 1e-12 && (high - 0.45).abs() < 1e-12,
         "{low} {high}"
     );
+}
+
+/// Noise of programs that compute: no inertia at all, moments a hair below zero, a hair above the sum of the others.
+#[test]
+fn inertias_that_were_rounded_are_not_judged() {
+    for (ixx, ixz, izz) in [
+        ("0", "1.35525e-20", "0"),
+        ("-3e-7", "0", "0.4"),
+        ("0.4", "0", "0.8000004"),
+    ] {
+        let noisy = inertial(20.0, 0.4)
+            .replace("ixx='0.4'", &format!("ixx='{ixx}'"))
+            .replace("ixz='0'", &format!("ixz='{ixz}'"))
+            .replace("izz='0.4'", &format!("izz='{izz}'"));
+        let noisy = match ixz {
+            "0" => noisy,
+            _ => noisy.replace("iyy='0.4'", "iyy='0'"),
+        };
+        let imported = import(&arm([&noisy, "", ""]), &between("l0", "l3"));
+        let said = notices(&imported);
+        assert!(!said.contains("has this inertia"), "{said}");
+        assert!(!said.contains("that of no body"), "{said}");
+        let has = imported.toml.contains("inertia_kg_m2 = ");
+        assert_eq!(has, ixz == "0", "{}", imported.toml);
+    }
+    // What is left out is an assumption of the model.
+    let wrong = inertial(20.0, 0.4).replace("izz='0.4'", "izz='-0.4'");
+    let imported = import(&arm([&wrong, "", ""]), &between("l0", "l3"));
+    assert!(
+        imported
+            .toml
+            .contains("assumption = \"the inertia of the URDF"),
+        "{}",
+        imported.toml
+    );
+}
+
+#[test]
+fn limits_that_nothing_reaches_are_none() {
+    let text = arm(["", "", ""]);
+    let limits = |from: &str, to: &str| {
+        let written = format!("lower='{from}' upper='{to}'");
+        let imported = import(
+            &text.replacen("lower='-1' upper='1'", &written, 1),
+            &between("l0", "l3"),
+        );
+        let limits = imported.model.mechanism.limbs()[0].nominal.actuators()[0].limits;
+        (limits, notices(&imported))
+    };
+    for (from, to) in [
+        ("-1e+16", "1e16"),
+        ("-inf", "inf"),
+        ("-1.8e308", "INF"),
+        ("-2e9", "2e9"),
+    ] {
+        let (limits, said) = limits(from, to);
+        assert_eq!(limits, None);
+        assert!(!said.contains("degrees"), "{said}");
+    }
+    let (one_sided, said) = limits("-1", "1e12");
+    assert_eq!(one_sided, None);
+    assert!(said.contains("end on one side only"), "{said}");
+    assert!(limits("-180", "180").0.is_some());
+}
+
+/// What hangs beside the way from base to tip does not stop the import, whatever is wrong with it.
+#[test]
+fn side_branches_do_not_matter() {
+    let text = arm(["", "", ""]);
+    let limit = "<axis xyz='1 0 0'/><limit lower='0' upper='0.8' effort='1' velocity='1'/>";
+    let finger = |name: &str, child: &str, rest: &str| {
+        format!(
+            "<link name='{child}'/><joint name='{name}' type='revolute'><parent link='l3'/><child link='{child}'/>{limit}{rest}</joint>"
+        )
+    };
+    let lead = finger("finger", "g1", "");
+    for (follower, said) in [
+        // The limits of the two have nothing in common but zero.
+        (
+            finger("inner", "g2", "<mimic joint='finger' multiplier='-1'/>"),
+            "",
+        ),
+        (
+            finger("inner", "g2", "<mimic joint='fingr'/>"),
+            "there is no joint 'fingr'",
+        ),
+        (
+            finger("inner", "g2", "<mimic joint='inner'/>"),
+            "follows itself",
+        ),
+        (
+            finger("inner", "g2", "").replace("<link name='g2'/>", ""),
+            "there is no link 'g2'",
+        ),
+    ] {
+        let whole = text.replace("</robot>", &format!("{lead}{follower}</robot>"));
+        let imported = import(&whole, &between("l0", "l3"));
+        assert_eq!(imported.actuators, ["j1", "j2", "j3"]);
+        let found = notices(&imported);
+        assert!(found.contains(said), "{said}: {found}");
+        assert_eq!(
+            found.contains("stands still in the model"),
+            !said.is_empty(),
+            "{found}"
+        );
+    }
+    // On the way it is refused.
+    let whole = text.replace(
+        "</robot>",
+        &format!(
+            "{lead}{}</robot>",
+            finger("inner", "g2", "<mimic joint='fingr'/>")
+        ),
+    );
+    let refused = kinetostat_import::import_urdf(&whole, "r.urdf", &between("l0", "g2"));
+    let said = refused.unwrap_err().to_string();
+    assert!(said.contains("there is no joint 'fingr'"), "{said}");
 }
