@@ -180,10 +180,12 @@ fn the_program_is_read_as_options_say() {
     let options = format!("{MATERIAL} {TOOL} {BLOCK}");
     let here = place(&SLOT.replace("G21 ", ""));
     let line = format!("engagement slot.ngc {options}");
-    let said = refused(here.path(), &line);
-    assert!(said.contains("--units"), "{said}");
-    let a = answer(here.path(), &format!("{line} --units mm"));
-    close(number(&a["stock"]["removed_mm3"]), 480.0, 5e-3);
+    let assumed = "taken for millimetres";
+    for (line, is_said) in [(line.clone(), true), (format!("{line} --units mm"), false)] {
+        let a = answer(here.path(), &line);
+        close(number(&a["stock"]["removed_mm3"]), 480.0, 5e-3);
+        assert_eq!(a["warnings"].to_string().contains(assumed), is_said, "{a}");
+    }
     // Half an inch of the program are 12.7 mm.
     std::fs::write(
         here.path().join("slot.ngc"),

@@ -31,8 +31,8 @@ pub(crate) struct ArcFrame {
     pub tolerance_mm: f64,
 }
 
-/// The arc of a block with R or with centre words.
-pub(crate) fn read(block: &Block<'_>, frame: &ArcFrame) -> Result<Arc, ProgramError> {
+/// The arc of a block with R or with centre words, and whether a full circle may be meant by it.
+pub(crate) fn read(block: &Block<'_>, frame: &ArcFrame) -> Result<(Arc, bool), ProgramError> {
     // Also where the P is meant for another code of the block: LinuxCNC gives it to both.
     if let Some(word) = block.words.iter().find(|word| word.letter == b'P') {
         return Err(block.refuse(
@@ -166,7 +166,11 @@ fn digit_mm(block: &Block<'_>, frame: &ArcFrame) -> f64 {
     }
 }
 
-fn arc_about(block: &Block<'_>, frame: &ArcFrame, centre: [f64; 2]) -> Result<Arc, ProgramError> {
+fn arc_about(
+    block: &Block<'_>,
+    frame: &ArcFrame,
+    centre: [f64; 2],
+) -> Result<(Arc, bool), ProgramError> {
     let start = in_plane(frame, &frame.start);
     let end = in_plane(frame, &frame.end);
     let to_start = [start[0] - centre[0], start[1] - centre[1]];
@@ -199,14 +203,17 @@ fn arc_about(block: &Block<'_>, frame: &ArcFrame, centre: [f64; 2]) -> Result<Ar
         true => -1.0,
         false => 1.0,
     };
-    let angle = angle_about(to_start, to_end, sense, digit_mm(block, frame)).map_err(|nearly| {
+    let found = angle_about(to_start, to_end, sense, digit_mm(block, frame));
+    let is_doubtful = found.is_err();
+    let angle = found.or_else(|nearly| {
         let reason = nearly.to_string();
-        block.refuse(ProgramErrorKind::Arc, None, &reason, NearlyClosed::REMEDY)
+        let refused = || block.refuse(ProgramErrorKind::Arc, None, &reason, NearlyClosed::REMEDY);
+        nearly.short.ok_or_else(refused)
     })?;
 
     let unit = |axis: usize| Vector3::ith(axis, 1.0);
     let [first, second, normal] = frame.axes;
-    Ok(Arc {
+    let arc = Arc {
         centre: unit(first) * centre[0] + unit(second) * centre[1] + unit(normal) * start[2],
         first: unit(first),
         second: unit(second),
@@ -216,5 +223,6 @@ fn arc_about(block: &Block<'_>, frame: &ArcFrame, centre: [f64; 2]) -> Result<Ar
         start_radius,
         end_radius,
         rise: end[2] - start[2],
-    })
+    };
+    Ok((arc, is_doubtful))
 }

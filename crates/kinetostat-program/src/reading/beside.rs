@@ -110,6 +110,25 @@ pub(crate) fn check_codes_beside_motion(
     Ok(())
 }
 
+/// A place beside a setting of look-ahead or precision: some controllers take it for a parameter, some move there.
+pub(crate) fn refuse_beside_look_ahead(
+    block: &Block<'_>,
+    has_axis_words: bool,
+) -> Result<(), ProgramError> {
+    let is_axis =
+        |word: &Word| COORDINATES.contains(&word.letter) || OTHER_AXES.contains(&word.letter);
+    let moves = block.codes.motion.is_some() && block.words.iter().any(is_axis);
+    match block.codes.looks_ahead && (has_axis_words || moves) {
+        true => Err(block.refuse(
+            ProgramErrorKind::Ambiguous,
+            None,
+            "a place stands beside a setting of look-ahead or precision (G5, G5.1, G103, G187)",
+            "write the setting in a block of its own",
+        )),
+        false => Ok(()),
+    }
+}
+
 /// Words of axes that turn or shift the part or the head, of which there is no model here.
 pub(crate) fn refuse_other_axes(
     block: &Block<'_>,

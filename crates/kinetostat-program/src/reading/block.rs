@@ -16,6 +16,8 @@ pub(crate) struct Codes {
     pub arc_distance: Option<u32>,
     pub feed_mode: Option<u32>,
     pub work_offset: Option<u32>,
+    /// G5, G5.1, G103, G187: how far the control looks ahead, and how exactly it follows the path.
+    pub looks_ahead: bool,
     pub tool_length: Option<u32>,
     /// G43.4 and G43.5: a G43 with tool centre point control.
     pub tool_centre_point: bool,
@@ -38,6 +40,14 @@ pub(crate) struct Codes {
     /// G10.
     pub sets: bool,
     pub ends: bool,
+}
+
+impl Codes {
+    /// Notes a code of motion; true where another stands beside it.
+    fn moves(&mut self, motion: Motion) -> bool {
+        let before = self.motion.replace(motion);
+        before.is_some_and(|before| before != Motion::Off)
+    }
 }
 
 /// A block: its codes and its other words.
@@ -176,6 +186,15 @@ impl<'p> Block<'p> {
             ));
         }
         let tenths = whole as u32;
+        let of_word = |wanted: u8| self.words.iter().find(|w| w.letter == wanted);
+        let value = |wanted: u8| of_word(wanted).map(|w| w.value);
+        if letter == 'G' && looks_ahead(tenths, value) {
+            let twice = std::mem::replace(&mut self.codes.looks_ahead, true);
+            return match twice {
+                true => Err(self.meets_its_like(word)),
+                false => Ok(()),
+            };
+        }
         match code.map(|code| (code.meaning, code.treatment)) {
             Some((meaning, Treatment::Refused { reason, remedy })) => {
                 return Err(self.refuse(
@@ -198,17 +217,21 @@ impl<'p> Block<'p> {
         }
         let codes = &mut self.codes;
         let twice = match (letter, tenths) {
-            ('G', 0) => codes.motion.replace(Motion::Rapid).is_some(),
-            ('G', 10) => codes.motion.replace(Motion::Feed).is_some(),
-            ('G', 20) => codes.motion.replace(Motion::Clockwise).is_some(),
-            ('G', 30) => codes.motion.replace(Motion::CounterClockwise).is_some(),
-            ('G', 800) => codes.motion.replace(Motion::Off).is_some(),
+            ('G', 0) => codes.moves(Motion::Rapid),
+            ('G', 10) => codes.moves(Motion::Feed),
+            ('G', 20) => codes.moves(Motion::Clockwise),
+            ('G', 30) => codes.moves(Motion::CounterClockwise),
+            // Beside another code of motion it is nothing (LinuxCNC); on Fanuc's controls it is of a group of its own.
+            ('G', 800) => {
+                codes.motion.get_or_insert(Motion::Off);
+                false
+            }
             ('G', 170 | 180 | 190) => codes.plane.replace(tenths).is_some(),
             ('G', 200 | 210) => codes.units.replace(tenths).is_some(),
             ('G', 900 | 910) => codes.distance.replace(tenths).is_some(),
             ('G', 901 | 911) => codes.arc_distance.replace(tenths).is_some(),
             ('G', 930 | 940 | 950) => codes.feed_mode.replace(tenths).is_some(),
-            ('G', 540..=593) => codes.work_offset.replace(tenths).is_some(),
+            ('G', 540..=593 | 1540) => codes.work_offset.replace(tenths).is_some(),
             ('G', 434 | 435) => {
                 codes.tool_centre_point = true;
                 codes.by_direction = tenths == 435;
@@ -237,17 +260,19 @@ impl<'p> Block<'p> {
             _ => false,
         };
         if twice {
-            return Err(self.refuse(
-                ProgramErrorKind::Malformed,
-                Some(word),
-                &format!(
-                    "{} meets another code of its group in the same block",
-                    shown()
-                ),
-                "write the two codes in two blocks",
-            ));
+            return Err(self.meets_its_like(word));
         }
         Ok(())
+    }
+
+    fn meets_its_like(&self, word: &Word) -> ProgramError {
+        let code = format!("{}{}", char::from(word.letter), word.value);
+        self.refuse(
+            ProgramErrorKind::Malformed,
+            Some(word),
+            &format!("{code} meets another code of its group in the same block"),
+            "write the two codes in two blocks",
+        )
     }
 
     /// `G4 P1 G0 X5`, or `G4 P1 X5` behind a G0: the time is P, so the axis words are those of the straight move that follows in
@@ -292,6 +317,16 @@ impl<'p> Block<'p> {
         if takes(b'G', |code| code == 64) {
             dropped.extend(b"PQ");
         }
+        if self.codes.looks_ahead {
+            dropped.extend(b"PQER");
+            let is_contour = |word: &Word| word.letter == b'G' && word.tenths() == 51;
+            if self.words.iter().any(is_contour) {
+                dropped.extend(b"XYZABCUVW");
+            }
+        }
+        if matches!(self.codes.work_offset, Some(541 | 1540)) {
+            dropped.push(b'P');
+        }
         if takes(b'M', |code| matches!(code, 62..=68)) {
             dropped.extend(b"PELQ");
         }
@@ -304,5 +339,21 @@ impl<'p> Block<'p> {
         for letter in dropped {
             self.values[usize::from(letter - b'A')] = None;
         }
+    }
+}
+
+/// Whether a code with these words sets how far the control looks ahead, or how exactly it follows the path, and moves nothing:
+/// `G5 P0`, `P2` and `P10000` and `G5.1 Q1` (Fanuc; `G5.1 Q3 X0 Y0 Z0` names axes), G103 and G187 (Haas). With places they are
+/// splines, and G5 with other numbers runs a cycle that lies in the control.
+pub(crate) fn looks_ahead(tenths: u32, value: impl Fn(u8) -> Option<f64>) -> bool {
+    let has = |letters: &[u8]| letters.iter().any(|letter| value(*letter).is_some());
+    let stays = b"XYZABCUVW"
+        .iter()
+        .all(|l| value(*l).is_none_or(|v| v == 0.0));
+    match tenths {
+        50 => !has(b"XYZABCUVWIJKQRL") && [0.0, 2.0, 10_000.0].map(Some).contains(&value(b'P')),
+        51 => value(b'Q').is_some() && stays && !has(b"IJK"),
+        1030 | 1870 => true,
+        _ => false,
     }
 }

@@ -67,8 +67,11 @@ pub const CODES: &[Code] = &[
     g(&[40], "dwell", Carried),
     g(
         &[50, 51, 52, 53],
-        "spline or high-precision mode",
-        refused("splines and contour modes are not followed", WRITE_MOVES),
+        "spline; G5 P0, P2, P10000 and G5.1 Q without a place set the look-ahead (Fanuc) and are carried",
+        refused(
+            "splines, and cycles in the control's memory, are not followed",
+            WRITE_MOVES,
+        ),
     ),
     g(
         &[70],
@@ -86,6 +89,7 @@ pub const CODES: &[Code] = &[
             "set the offsets at the machine and give work offsets (--work-offset, or work_offset_mm under [reading] in the job file)",
         ),
     ),
+    g(&[1030], "blocks read ahead (Haas)", Carried),
     g(
         &[120, 130],
         "pocket cycles",
@@ -186,10 +190,11 @@ pub const CODES: &[Code] = &[
     ),
     g(&[530], "machine coordinates in this block", Understood),
     g(
-        &[540, 541, 550, 560, 570, 580, 590, 591, 592, 593],
-        "work coordinate systems",
+        &[540, 541, 550, 560, 570, 580, 590, 591, 592, 593, 1540],
+        "work coordinate systems (G54.1 P1 to P300, G154 P1 to P99: additional ones of Fanuc and Haas)",
         Understood,
     ),
+    g(&[1870], "how exactly the path is followed (Haas)", Carried),
     g(
         &[600],
         "approach from one side",

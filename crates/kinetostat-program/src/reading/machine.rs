@@ -11,7 +11,7 @@ use crate::path::moves::Motion;
 use crate::reading::block::Block;
 use crate::reading::extra::ExtraAxes;
 use crate::reading::modes::Modes;
-use crate::reading::options::ReadOptions;
+use crate::reading::options::{ReadOptions, Units};
 use crate::text::lex::{Spanned, Token, tokens_of};
 
 const COORDINATES: [u8; 3] = *b"XYZ";
@@ -33,7 +33,7 @@ pub(crate) fn machine_place(
     modes: &Modes,
     options: &ReadOptions,
 ) -> Result<Option<MachinePlace>, ProgramError> {
-    check(block, modes)?;
+    check(block)?;
     let named = COORDINATES.map(|letter| block.value(letter).is_some());
     let others = ExtraAxes::LETTERS;
     let any = named != [false; 3] || others.iter().any(|letter| block.value(*letter).is_some());
@@ -61,7 +61,10 @@ pub(crate) fn machine_place(
     for axis in (0..3).filter(|axis| axes[*axis] && !modes.has_tool_length(*axis)) {
         let at = match is_g53 {
             true => match (block.value(COORDINATES[axis]), zero) {
-                (Some(value), Some(_)) => Some(value * modes.mm_per_unit(block)?),
+                // Without units it is zero.
+                (Some(value), Some(_)) => {
+                    Some(value * modes.units().map_or(1.0, Units::mm_per_unit))
+                }
                 _ => None,
             },
             // Which axes a printer homes by `G28 X` is its own matter.
@@ -79,7 +82,7 @@ pub(crate) fn machine_place(
 }
 
 /// What must not stand beside these codes.
-fn check(block: &Block<'_>, modes: &Modes) -> Result<(), ProgramError> {
+fn check(block: &Block<'_>) -> Result<(), ProgramError> {
     let codes = &block.codes;
     let (is_g53, name) = match codes.machine {
         Some(530) => (true, "G53"),
@@ -98,15 +101,6 @@ fn check(block: &Block<'_>, modes: &Modes) -> Result<(), ProgramError> {
             &format!("{name} and another code that may take the axis words are in one block"),
             "write them in two blocks",
         )),
-        false
-            if !is_g53
-                && modes.units().is_none()
-                && COORDINATES
-                    .iter()
-                    .any(|letter| block.value(*letter).is_some_and(|value| value != 0.0)) =>
-        {
-            modes.mm_per_unit(block).map(|_| ())
-        }
         false => Ok(()),
     }
 }

@@ -16,7 +16,7 @@ pub(crate) struct Modes {
     /// Axes of the plane and its normal.
     pub plane: [usize; 3],
     pub feed: Option<Feed>,
-    /// Index of the work coordinate system, 0 for G54.
+    /// Index of the work coordinate system: 0 for G54, from 9 on additional ones.
     pub work_offset: usize,
     pub extra: ExtraAxes,
     /// G98 or G99, in tenths; none before the program says it.
@@ -24,6 +24,8 @@ pub(crate) struct Modes {
     units: Option<Units>,
     /// The units are those of the options: the program has named none and nothing has moved.
     units_are_assumed: bool,
+    /// The program has given lengths before any unit, which were taken for millimetres.
+    units_by_default: bool,
     feed_mode: FeedMode,
     /// The units changed after the F in force was given, or in its block.
     feed_is_stale: bool,
@@ -38,6 +40,12 @@ pub(crate) struct Modes {
     /// H of the G43 in force, where it names one.
     length_number: Option<f64>,
 }
+
+/// Index of the first work coordinate system behind G59.3: G54.1 P1.
+const FIRST_ADDITIONAL: usize = 9;
+
+/// Index of G154 P1, which is behind all of G54.1.
+const FIRST_OF_HAAS: usize = 1000;
 
 /// How rotary axes turn the tool from one direction to the next.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -71,6 +79,15 @@ impl Modes {
         if let Some(code) = codes.feed_mode {
             self.set_feed_mode(code);
         }
+        if codes.units == Some(200) && self.units_by_default {
+            return Err(block.refuse(
+                ProgramErrorKind::Ambiguous,
+                None,
+                "G20 follows lengths that were given before any unit, and that were taken for millimetres",
+                "begin the program with G20 or G21, or give the units (--units, or units under [reading] in the job file)",
+            ));
+        }
+        self.units_by_default &= codes.units.is_none();
         let units_changed = codes.units.is_some_and(|code| self.set_units(code));
         if let Some(value) = block.value(b'F') {
             self.set_feed(block, value, units_changed)?;
@@ -166,12 +183,22 @@ impl Modes {
             }
             591..=593 => code as usize - 591 + 6,
             _ => {
-                return Err(block.refuse(
-                    ProgramErrorKind::UnknownCode,
-                    block.word(b'P'),
-                    "an extended work coordinate system is not known here",
-                    "use G54 to G59.3",
-                ));
+                let mut words = block.words.iter();
+                let word = words.find(|word| word.letter == b'P');
+                let (name, first, most) = match code {
+                    1540 => ("G154", FIRST_OF_HAAS, 99),
+                    _ => ("G54.1", FIRST_ADDITIONAL, 300),
+                };
+                let number = (1..=most).find(|n| word.map(|p| p.value) == Some(*n as f64));
+                let Some(number) = number.filter(|_| matches!(code, 541 | 1540)) else {
+                    return Err(block.refuse(
+                        ProgramErrorKind::UnknownCode,
+                        word,
+                        "P names no additional work coordinate system",
+                        &format!("write {name} P1 to {name} P{most}, or G54 to G59.3"),
+                    ));
+                };
+                first + number - 1
             }
         };
         Ok(())
@@ -220,6 +247,17 @@ impl Modes {
         self.units.get_or_insert(Units::Millimetres);
         self.motion.get_or_insert(Motion::Feed);
         self.feed_is_stale = false;
+    }
+
+    /// Takes millimetres where the program gives lengths before any unit; false where it has named one.
+    pub fn assume_units(&mut self) -> bool {
+        let assumed = self.units.is_none();
+        if assumed {
+            self.units = Some(Units::Millimetres);
+            self.units_by_default = true;
+            self.feed_is_stale = false;
+        }
+        assumed
     }
 
     /// Something moved, or was placed: the units in force were used.

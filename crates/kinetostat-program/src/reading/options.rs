@@ -70,8 +70,8 @@ pub enum ToolCentrePoint {
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct ReadOptions {
-    /// Units in force before the first G20 or G21. `None` (the default) refuses a program that
-    /// moves before it has named its units. A program that names its units before anything moves is read in its own.
+    /// Units in force before the first G20 or G21. With `None` (the default) a program that moves before it has named its units
+    /// is read in millimetres, with a warning. A program that names its units before anything moves is read in its own.
     pub units: Option<Units>,
     /// Origins of G54, G55, G56, G57, G58, G59, G59.1, G59.2, G59.3 in the part frame, in mm; those that
     /// are not stated are zero: the program's coordinates are the part's. A program that uses one of them beside stated

@@ -101,7 +101,7 @@ impl Interpreter<'_> {
         })
     }
 
-    /// Index of the work coordinate system, 0 for G54.
+    /// Index of the work coordinate system: 0 for G54, from 9 on additional ones.
     pub(crate) fn work_system(&self) -> usize {
         self.modes.work_offset
     }
@@ -172,7 +172,7 @@ impl Interpreter<'_> {
     pub(crate) fn numbered_state(&self, number: u32) -> Option<Result<f64, String>> {
         match number {
             PLACE..=5422 => Some(self.coordinate((number - PLACE) as usize)),
-            5220 => Some(Ok(1.0 + self.modes.work_offset as f64)),
+            5220 if self.modes.work_offset < 9 => Some(Ok(1.0 + self.modes.work_offset as f64)),
             5161..=5390 | 5400..=5428 => Some(self.kept(number).ok_or_else(|| format!(
                 "#{number} is kept by the controller, and its value is not known here: give it as a parameter, or with the machine's zero and work offsets"
             ))),

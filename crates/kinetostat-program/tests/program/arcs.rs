@@ -259,3 +259,57 @@ fn nearly_full_circles_and_short_arcs_are_what_they_say() {
         assert!((found - wanted).abs() < 1e-8, "{block}: {found}");
     }
 }
+
+/// LinuxCNC and grbl turn by the angle between the ends, where that is above 1e-6 rad.
+#[test]
+fn arcs_no_longer_than_their_words_are_rounded_are_short_arcs_and_it_is_said() {
+    for (begin, block, wanted) in [
+        (
+            "G17 G0 X24.3929 Y104.2273",
+            "G3 X24.3928 Y104.2273 I0.1128 J-0.4871",
+            1.948e-4,
+        ),
+        (
+            "G17 G0 X24.3928 Y104.2273",
+            "G2 X24.3929 Y104.2273 I0.1129 J-0.4871",
+            -1.948e-4,
+        ),
+        ("G17 G0 X20 Y0", "G3 X20 Y0.0001 I-20", 5e-6),
+        ("G17 G0 X20 Y0", "G2 X20.001 Y-0.002 I-20", -1e-4),
+        ("G17 G0 X20 Y0", "G3 X20 Y0.001 Z-2 I-20", 5e-5),
+        ("G18 G0 X20 Z0", "G2 X20 Z0.001 I-20", -5e-5),
+        ("G19 G0 Y20 Z0", "G3 Y20 Z0.001 J-20", 5e-5),
+    ] {
+        let text = format!("G21 G90 F600\nG0 X0 Y0 Z0\n{begin}\n{block}\nM2\n");
+        let program = Program::read(text.as_str()).unwrap();
+        let path = interpret(&program, &ReadOptions::default()).unwrap();
+        let Curve::Arc(arc) = path.moves[2].curve else {
+            panic!("{block} is no arc");
+        };
+        assert!(
+            (arc.sweep - wanted).abs() < 0.02 * wanted.abs(),
+            "{block}: {}",
+            arc.sweep
+        );
+        let mut said = path
+            .warnings
+            .iter()
+            .filter(|w| w.text.contains("short arc between them"));
+        assert_eq!(said.next().map(|w| w.line), Some(4), "{block}");
+        // Bent by a correction, it is no full circle either: the ends are two points, or the piece is straight.
+        for arcs in [Arcs::Lines, Arcs::Fit] {
+            let field = |request: &Request| Ok(request.position_mm * 2e-3);
+            let mut writing = WriteOptions::default();
+            writing.arcs = arcs;
+            let written = write_corrected(&program, &path, &field, &writing, &Unwatched).unwrap();
+            let reading = ReadOptions::default();
+            let verified = verify_written(&program, &path, &written, &reading, &writing);
+            let output = String::from_utf8_lossy(&written.bytes).into_owned();
+            verified.unwrap_or_else(|error| panic!("{error}\n{output}"));
+            let again = interpret(&Program::read(output.as_str()).unwrap(), &reading).unwrap();
+            let cuts = again.moves.iter().filter(|one| one.kind == MoveKind::Feed);
+            let length: f64 = cuts.map(Move::length_mm).sum();
+            assert!(length < 2.5, "{output}");
+        }
+    }
+}

@@ -104,7 +104,8 @@ impl<'o> Coordinates<'o> {
             (rest, None) => radius.block(rest, origin, flat),
             (rest, Some(_)) => {
                 let refused = |code: &&u32| {
-                    REFUSED.contains(code) || (540..=593).contains(*code) && !self.map.only_shifts()
+                    REFUSED.contains(code)
+                        || matches!(**code, 540..=593 | 1540) && !self.map.only_shifts()
                 };
                 if let Some(code) = block.codes.iter().find(refused) {
                     return wrong(

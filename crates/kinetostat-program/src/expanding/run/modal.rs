@@ -202,7 +202,10 @@ impl Saved {
             FeedMode::PerRevolution => "G95",
         };
         code(mode_differs, feed_mode);
-        code(self.system != now.system, SYSTEMS[self.system]);
+        let system = SYSTEMS.get(self.system).copied();
+        let system =
+            system.ok_or("the work coordinate system before M70 or M73 is none of G54 to G59.3")?;
+        code(self.system != now.system, system);
         code(
             self.tool_length != now.tool_length,
             either(self.tool_length, ["G43", "G49"]),

@@ -14,7 +14,7 @@ impl Runner<'_> {
         let goes_on = block.motion.is_none() && !block.wants_axes;
         let has_words = block.has_place() || block.value(b'P').is_some();
         match (block.motion, &self.spline) {
-            // G5.1 Q1 and G5 P10000 are contour modes of Fanuc: the reader refuses them.
+            // G5.1 Q1 and G5 P10000 are contour modes of Fanuc: the reader carries them.
             (Some(_), _) if self.options.dialect == Dialect::Fanuc => None,
             (Some(code @ (50 | 51)), _) => block.has_place().then_some(code),
             (Some(code), _) => Some(code).filter(|code| is_spline(*code)),

@@ -12,7 +12,7 @@ use crate::expanding::run::saves::SavingBlock;
 use crate::expanding::run::system_variables::STOP;
 use crate::expanding::source::statement::{Piece, Statement};
 use crate::expanding::translate::blanks::without_blanks_in_numbers;
-use crate::expanding::translate::block::{MotionBlock, Polar, without_cancel};
+use crate::expanding::translate::block::{MotionBlock, Polar};
 use crate::expanding::translate::cycle::is_cycle;
 use crate::expanding::translate::turns::counts_turns;
 use crate::reading::options::BlockDelete;
@@ -221,11 +221,6 @@ impl Runner<'_> {
                 self.add(text.as_bytes())?;
             }
             return self.after_block();
-        }
-        if let (Dialect::Fanuc, Some(rest)) = (self.options.dialect, without_cancel(text)) {
-            self.cycle = None;
-            self.add(b"G80")?;
-            return self.emit(&rest, polar);
         }
         let block = MotionBlock::of(text, polar);
         if let Some(what) = &block.twice {

@@ -1,6 +1,7 @@
 //! The words of a block that is translated, and the rest of it, which is run before them.
 
 use crate::expanding::number::number;
+use crate::reading::block::looks_ahead;
 use crate::text::lex::{Spanned, Token, tokens_of};
 use crate::text::line::tenths;
 
@@ -69,14 +70,47 @@ impl MotionBlock {
                 _ => block.before.extend_from_slice(piece),
             }
         }
+        block.take_own_words(&tokens);
         block
+    }
+
+    /// P, Q and R of a work coordinate system and of a setting of the control are none of a motion, and stay with their code.
+    fn take_own_words(&mut self, tokens: &[Spanned]) {
+        let has = |wanted: &[u32]| {
+            tokens
+                .iter()
+                .any(|one| one.g_code().is_some_and(|code| wanted.contains(&code)))
+        };
+        let sets = self
+            .motion
+            .filter(|code| looks_ahead(*code, |letter| self.value(letter)));
+        let letters: &[u8] = match sets {
+            Some(_) => b"XYZABCUVWPQR",
+            None if has(&[541, 1030, 1540, 1870]) => b"PQ",
+            None => return,
+        };
+        let mut own = String::new();
+        if let Some(code) = sets {
+            self.motion = None;
+            own.push_str(&format!("G{} ", f64::from(code) / 10.0));
+        }
+        for letter in letters {
+            if let Some(value) = self.values[usize::from(letter - b'A')].take() {
+                own.push_str(&format!("{}{} ", char::from(*letter), number(value)));
+            }
+        }
+        // In front of comments, which may go to the end of the line.
+        self.before.splice(0..0, own.into_bytes());
     }
 
     fn word(&mut self, letter: u8, value: f64, piece: &[u8]) {
         match (letter, tenths(value)) {
             (b'N', _) => self.head.extend_from_slice(piece),
+            // G80 beside a move ends the cycle and no more.
+            (b'G', 800) if self.motion.is_some_and(is_move) => {}
             (b'G', code) if is_motion(code) => {
-                if self.motion.replace(code).is_some() {
+                let before = self.motion.replace(code);
+                if before.is_some_and(|before| before != 800 || !is_move(code)) {
                     self.twice = Some(format!(
                         "G{value} meets another code of its group in the same block"
                     ));
@@ -166,21 +200,9 @@ impl MotionBlock {
     }
 }
 
-/// A block with G80 and with G0, G1, G2 or G3, the G80 taken out; none where the block is another.
-pub(crate) fn without_cancel(text: &[u8]) -> Option<Vec<u8>> {
-    let mut tokens: Vec<Spanned> = Vec::new();
-    tokens_of(text, &mut tokens);
-    let codes: Vec<u32> = tokens.iter().filter_map(Spanned::g_code).collect();
-    let has = |wanted: &[u32]| codes.iter().any(|code| wanted.contains(code));
-    if !has(&[800]) || !has(&[0, 10, 20, 30]) {
-        return None;
-    }
-    let rest = tokens.iter().filter(|one| one.g_code() != Some(800));
-    let rest: Vec<u8> = rest.fold(Vec::new(), |mut rest, one| {
-        rest.extend_from_slice(&text[one.span.clone()]);
-        rest
-    });
-    Some(rest.trim_ascii_end().to_vec())
+/// G0 to G3.
+fn is_move(tenths: u32) -> bool {
+    matches!(tenths, 0 | 10 | 20 | 30)
 }
 
 fn is_motion(tenths: u32) -> bool {

@@ -3,8 +3,8 @@
 use crate::error::{ProgramError, ProgramErrorKind};
 use crate::path::moves::{Motion, Path};
 use crate::reading::beside::{
-    COORDINATES, refuse_dwell_with_arc, refuse_dwell_with_motion, refuse_negative_dwell,
-    refuse_other_axes, refuse_parameters_of_calls,
+    COORDINATES, refuse_beside_look_ahead, refuse_dwell_with_arc, refuse_dwell_with_motion,
+    refuse_negative_dwell, refuse_other_axes, refuse_parameters_of_calls,
 };
 use crate::reading::block::Block;
 use crate::reading::directions::states_direction;
@@ -20,7 +20,7 @@ use crate::text::program::Program;
 ///
 /// Modal state before the first word that sets it: absolute coordinates (G90), incremental arc
 /// centres (G91.1), plane XY (G17), feed per minute (G94), the first work coordinate system (G54), no
-/// motion word. Units must be named. Once M82 or M83 was met they alone decide about E words, before
+/// motion word, millimetres (with a warning). Once M82 or M83 was met they alone decide about E words, before
 /// that G90 and G91 do.
 ///
 /// # Errors
@@ -73,14 +73,19 @@ impl Interpreter<'_> {
             ));
         }
         refuse_other_axes(block, self.options)?;
+        refuse_beside_look_ahead(block, has_axis_words)?;
         if self.modes.overrides_options(block) {
             self.warn(block.line_number, "the program names its units before it moves: they hold, and not those given (--units, or units under [reading] in the job file)");
         }
         self.modes.set(block)?;
+        if has_axis_words || self.is_centre_only(block) {
+            self.assume_units(block);
+        }
+        self.warn_of_look_ahead(block);
         refuse_dwell_with_arc(block, self.modes.motion)?;
         self.modes
             .extra
-            .count_from(self.rotary_origins[self.modes.work_offset]);
+            .count_from(self.rotary_origin(self.modes.work_offset));
         self.rotary.set_tool_centre_point(block, &mut self.modes)?;
         self.rotary.refuse_lean(block, &self.modes)?;
         if block.codes.tool_centre_point {

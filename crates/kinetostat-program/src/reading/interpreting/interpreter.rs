@@ -199,6 +199,12 @@ impl<'o> Interpreter<'o> {
     }
 
     pub(in crate::reading) fn work_offset_mm(&self) -> Vector3<f64> {
-        self.origins_mm[self.modes.work_offset].unwrap_or_default()
+        let origin = self.origins_mm.get(self.modes.work_offset);
+        origin.copied().flatten().unwrap_or_default()
+    }
+
+    /// Where A, B and C count from in a work coordinate system.
+    pub(super) fn rotary_origin(&self, system: usize) -> [f64; 3] {
+        self.rotary_origins.get(system).copied().unwrap_or_default()
     }
 }

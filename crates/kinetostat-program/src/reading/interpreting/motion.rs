@@ -172,7 +172,7 @@ impl Interpreter<'_> {
 
     /// The way of a move: a line, or an arc from a place that the program has stated.
     fn curve_of_move(
-        &self,
+        &mut self,
         block: &Block<'_>,
         (motion, mm_per_unit): (Motion, f64),
         (start, end): (Vector3<f64>, Vector3<f64>),
@@ -193,7 +193,7 @@ impl Interpreter<'_> {
                         "move there with G0 first, or give the start position (--start-position-mm, or start_position_mm under [reading] in the job file)",
                     ));
                 }
-                Ok(Curve::Arc(arc::read(
+                let (arc, is_doubtful) = arc::read(
                     block,
                     &ArcFrame {
                         start,
@@ -205,7 +205,11 @@ impl Interpreter<'_> {
                         offset_mm: self.work_offset_mm() + self.offset.active_mm,
                         tolerance_mm: self.options.arc_tolerance_mm,
                     },
-                )?))
+                )?;
+                if is_doubtful {
+                    self.repeated.note(block.line_number, "the ends of an arc are no further apart than its words are rounded: it is taken for the short arc between them, as LinuxCNC and grbl take it, and not for a full circle, which a control with coarser places may make of it. End a full circle exactly where it starts");
+                }
+                Ok(Curve::Arc(arc))
             }
             _ => Ok(Curve::Line),
         }

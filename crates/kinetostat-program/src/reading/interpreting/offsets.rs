@@ -41,7 +41,7 @@ impl Interpreter<'_> {
             }
         }
         let now = self.modes.work_offset;
-        self.modes.extra.count_from(self.rotary_origins[now]);
+        self.modes.extra.count_from(self.rotary_origin(now));
     }
 
     pub(super) fn set_position_offset(

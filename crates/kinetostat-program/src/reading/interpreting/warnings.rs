@@ -1,7 +1,7 @@
 //! What is read as it stands, and may surprise.
 
 use crate::path::moves::ExtraMode;
-use crate::reading::beside::OTHER_AXES;
+use crate::reading::beside::{COORDINATES, OTHER_AXES};
 use crate::reading::block::Block;
 use crate::reading::interpreting::interpreter::Interpreter;
 use crate::reading::options::{OtherAxes, Units};
@@ -26,6 +26,22 @@ impl Interpreter<'_> {
         }
     }
 
+    /// Settings of the control that round corners, or look ahead.
+    pub(super) fn warn_of_look_ahead(&mut self, block: &Block<'_>) {
+        if block.codes.looks_ahead {
+            self.repeated.note(block.line_number, "a setting of look-ahead or precision (G5, G5.1, G103, G187) is carried as it is written: how far the control may leave the path under it is in no figure");
+        }
+    }
+
+    /// Lengths without a unit are millimetres, but where they are zero on the way to a place of the machine.
+    pub(super) fn assume_units(&mut self, block: &Block<'_>) {
+        let any = |letter: &u8| block.value(*letter).is_some_and(|value| value != 0.0);
+        let states_a_length = block.codes.machine.is_none() || COORDINATES.iter().any(any);
+        if states_a_length && self.modes.assume_units() {
+            self.warn(block.line_number, "no G20 or G21 stands before the first motion: the lengths are taken for millimetres; if they are others, give the units (--units, or units under [reading] in the job file)");
+        }
+    }
+
     pub(super) fn warn_block_delete(&mut self, line: usize) {
         self.repeated.note(line, "blocks marked with / are taken as run; the output is right only with the machine's block delete switch off (--block-delete skip leaves them out)");
     }
@@ -44,14 +60,21 @@ impl Interpreter<'_> {
         let now = self.modes.work_offset;
         let first = *self.first_system.get_or_insert(now);
         let offsets = &self.origins_mm;
-        let origin = |system: usize| offsets[system].unwrap_or_default();
-        if offsets[now].is_none() && offsets.iter().any(Option::is_some) {
-            self.repeated.note(line, "the origin of this work coordinate system is not stated, that of another is: it is taken to be the part's; state it (--work-offset, or work_offset_mm under [reading] in the job file), or these blocks are corrected for the wrong place");
+        let stated = |system: usize| offsets.get(system).copied().flatten();
+        let origin = |system: usize| stated(system).unwrap_or_default();
+        let how = match now.max(first) < offsets.len() {
+            true => "--work-offset, or work_offset_mm under [reading] in the job file",
+            false => {
+                "--work-offset, with G54 to G59.3 in place of G54.1 and G154, whose origins cannot be stated here"
+            }
+        };
+        if stated(now).is_none() && offsets.iter().any(Option::is_some) {
+            self.repeated.note(line, &format!("the origin of this work coordinate system is not stated, that of another is: it is taken to be the part's; state it ({how}), or these blocks are corrected for the wrong place"));
         } else if now != first
             && origin(now) == origin(first)
-            && self.rotary_origins[now] == self.rotary_origins[first]
+            && self.rotary_origin(now) == self.rotary_origin(first)
         {
-            self.repeated.note(line, "a second work coordinate system is used, but both have the same origin here: state where they are in the part (--work-offset, or work_offset_mm under [reading] in the job file), or these blocks are corrected for the wrong place");
+            self.repeated.note(line, &format!("a second work coordinate system is used, but both have the same origin here: state where they are in the part ({how}), or these blocks are corrected for the wrong place"));
         }
     }
 

@@ -74,12 +74,26 @@ fn g80_and_a_move_in_one_block() {
     for block in ["G0 G80 Z50.", "G80 G0 Z50.", "N7 G0 G80 Z50. M9"] {
         let made = fanuc(&format!("{begin}{block}\nX5.\n"));
         assert_eq!(made.matches("G1 Z-3").count(), 1, "{made}");
-        assert!(made.contains("G0 Z1\nG80\n"), "{made}");
         assert!(made.ends_with("\nX5.\n"), "{made}");
         let last = made.lines().rev().nth(1).unwrap();
         assert!(last.contains("G0") && last.contains("Z50."), "{made}");
     }
-    assert!(run("G0 G80 Z50.\n", Dialect::LinuxCnc).is_err());
+    // LinuxCNC lets G80 stand beside any code of motion, and takes the other one.
+    for dialect in [Dialect::LinuxCnc, Dialect::Undecided] {
+        let made = run(&format!("{begin}G80 G0 Z50.\nX5.\n"), dialect).unwrap();
+        assert!(made.ends_with("\nG80 G0 Z50.\nX5.\n"), "{made}");
+        assert_eq!(made.matches("G1 Z-3").count(), 1, "{made}");
+    }
+    for block in [
+        "G80 G81 X1. Z-3. R1.",
+        "G81 G80 X1. Z-3. R1.",
+        "G0 G80 G1 Z50.",
+    ] {
+        assert!(
+            run(&format!("G99 F100\n{block}\n"), Dialect::Fanuc).is_err(),
+            "{block}"
+        );
+    }
 }
 
 #[test]
@@ -171,4 +185,26 @@ fn fanuc_bores_from_the_back_by_g87() {
     let error = run("G98 M3 S500\nG87 X1. Z-3. R-8. Q1. F100\n", Dialect::Fanuc).unwrap_err();
     assert!(error.reason.contains("bores from the back"), "{error}");
     assert!(!error.remedy.contains("correct R"), "{error}");
+}
+
+/// Settings of the control and work coordinate systems have words of their own, which are none of the cycle.
+#[test]
+fn settings_and_additional_systems_beside_a_cycle() {
+    let begin = "G99 G81 X1. Z-3. R1. F100\n";
+    for dialect in [Dialect::Fanuc, Dialect::Undecided] {
+        for setting in [
+            "G5.1 Q1",
+            "G05 P10000",
+            "G103 P1",
+            "G187 P3",
+            "G54.1 P2",
+            "G154 P2",
+        ] {
+            let made = run(&format!("{begin}{setting}\nX5.\n"), dialect).unwrap();
+            assert!(made.contains(&format!("\n{setting}\n")), "{made}");
+            assert_eq!(made.matches("G1 Z-3").count(), 2, "{made}");
+        }
+        let made = run(&format!("{begin}G54.1 P2 X5. (there)\n"), dialect).unwrap();
+        assert!(made.contains("P2 G54.1 (there)\nG0 X5\n"), "{made}");
+    }
 }

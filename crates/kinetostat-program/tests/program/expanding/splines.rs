@@ -85,7 +85,6 @@ fn splines_that_cannot_be_run_are_refused() {
         ("G5.2 X1 P1\n", 3, "X and Y"),
         ("G5.2 X1 Y1\n", 3, "weight"),
         ("G5.2 X1 Y1 P1 L200\n", 3, "order"),
-        ("G5.1 Q1\n", 3, "G5.1"),
         ("G41.1 D1\nG5.1 X9 Y1 I1 J1\n", 4, "radius compensation"),
         ("G5.1 X1 Y1 I1 J1\nX3 Y3 I1 J1\n", 4, "in each block"),
         ("G93 F1\nG5.1 X1 Y1 I1 J1\n", 4, "inverse time"),

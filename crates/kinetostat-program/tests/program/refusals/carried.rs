@@ -23,6 +23,105 @@ fn harmless_words_of_vendors_pass_byte_for_byte() {
     assert_eq!(String::from_utf8(written.bytes).unwrap(), expected);
 }
 
+fn read(text: &str) -> Path {
+    interpret(&Program::read(text).unwrap(), &ReadOptions::default()).unwrap()
+}
+
+fn warned(path: &Path, part: &str) -> Vec<usize> {
+    let warnings = path.warnings.iter();
+    let found = warnings.filter(|warning| warning.text.contains(part));
+    found.map(|warning| warning.line).collect()
+}
+
+/// LinuxCNC, `interp_read.cc`: G80 gives way to another code of its group in the block, wherever it stands.
+#[test]
+fn g80_beside_a_move_is_the_move() {
+    let path =
+        read("G21\nG0 G17 G40 G49 G80 G90\nX1 Y2 Z3\nG80 G1 X9 F100\nY5\nG3 G80 X11 I1\nM30\n");
+    let kinds: Vec<(MoveKind, bool)> = path
+        .moves
+        .iter()
+        .map(|one| (one.kind, one.curve == Curve::Line))
+        .collect();
+    let (rapid, feed) = (MoveKind::Rapid, MoveKind::Feed);
+    assert_eq!(
+        kinds,
+        [(rapid, true), (feed, true), (feed, true), (feed, false)]
+    );
+    assert_eq!(path.moves[3].end, Vector3::new(11.0, 5.0, 3.0));
+}
+
+#[test]
+fn settings_of_look_ahead_are_carried_and_move_nothing() {
+    let text = "G21 G90 G17\nG05.1 Q1\nG5.1 Q3 X0 Y0 Z0\nG05 P10000\nG187 P3 E0.05\nG103 P1\nG0 X0 Y0 Z10\nG1 X9 F100\nG103\nG05 P0\nG5.1 Q0\nM30\n";
+    let path = read(text);
+    let lines: Vec<usize> = path.moves.iter().map(|one| one.line).collect();
+    assert_eq!(lines, [7, 8]);
+    assert_eq!(warned(&path, "setting of look-ahead"), [2]);
+    let program = Program::read(text).unwrap();
+    let field = |_: &Request| Ok(Vector3::new(0.0, 0.0, 0.1));
+    let mut writing = WriteOptions::default();
+    writing.header = None;
+    let written = write_corrected(&program, &path, &field, &writing, &Unwatched).unwrap();
+    let output = String::from_utf8(written.bytes).unwrap();
+    assert!(
+        output.starts_with(
+            "G21 G90 G17\nG05.1 Q1\nG5.1 Q3 X0 Y0 Z0\nG05 P10000\nG187 P3 E0.05\nG103 P1\n"
+        ),
+        "{output}"
+    );
+    assert!(output.ends_with("G103\nG05 P0\nG5.1 Q0\nM30\n"), "{output}");
+}
+
+#[test]
+fn additional_work_systems_are_others_and_are_said_to_be_at_one_place() {
+    let second = "a second work coordinate system";
+    for (first, other) in [
+        ("G54", "G54.1 P1"),
+        ("G54.1 P1", "G54.1 P2"),
+        ("G54.1 P7", "G154 P7"),
+        ("G154 P1", "G154 P99"),
+    ] {
+        let path = read(&format!(
+            "G21 G90\n{first} G0 X1 Y1 Z1\n{other}\nX2\n{first}\nX3\n"
+        ));
+        assert_eq!(path.moves[1].end.x, 2.0);
+        assert_eq!(warned(&path, second), [4], "{first} {other}");
+    }
+    for one in ["G54.1 P300", "G154 P5"] {
+        let path = read(&format!("G21 G90\n{one} G0 X1 Y1 Z1\n{one}\nX2\n"));
+        assert!(path.warnings.is_empty(), "{:?}", path.warnings);
+    }
+    // With an origin for another one.
+    let mut reading = ReadOptions::default();
+    reading.work_offsets_mm[0] = Some(Vector3::new(100.0, 0.0, 0.0));
+    let program = Program::read("G21 G90\nG0 X1 Y1 Z1\nG54.1 P2 X1\n").unwrap();
+    let path = interpret(&program, &reading).unwrap();
+    assert_eq!([path.moves[0].end.x, path.moves[1].end.x], [101.0, 1.0]);
+    assert_eq!(warned(&path, "is not stated, that of another is"), [3]);
+}
+
+#[test]
+fn lengths_before_any_unit_are_millimetres_and_it_is_said() {
+    let part = "taken for millimetres";
+    let path = read("G90\nG0 X1 Y2 Z3\nG1 X9 F100\nX12\nM30\n");
+    assert_eq!(warned(&path, part), [2]);
+    assert_eq!(path.moves[1].feed.unwrap().value, 100.0);
+    assert_eq!(path.moves[2].end, Vector3::new(12.0, 2.0, 3.0));
+    // F before the first motion, and a unit that says the same behind it.
+    let path = read("F100\nG1 X9\nG21\nX12\nG20\nG0 X1\n");
+    assert_eq!(warned(&path, part), [2]);
+    assert_eq!(path.moves[2].end.x, 25.4);
+    // Zero is zero in all units.
+    for named in [
+        "G21\nG0 X1\n",
+        "G28 Z0\nG20\nG0 X1\n",
+        "G53 G0 Z0\nG20\nG0 X1\n",
+    ] {
+        assert!(warned(&read(named), part).is_empty(), "{named}");
+    }
+}
+
 /// Behind the closing tape mark, wherever it stands, every block that a controller could run is refused, and
 /// text for people is carried and said.
 #[test]

@@ -71,7 +71,6 @@ pub const CODES_NOT_FOLLOWED: &[Refused] = &[
         "G30 and another code that may take the axis words",
         "two blocks",
     ),
-    ("G28 X5", 1, "before it names its units", "G21 (mm)"),
     (
         "G21\nG28 G30 Z0",
         2,
@@ -160,9 +159,30 @@ pub const CODES_NOT_FOLLOWED: &[Refused] = &[
         "with G0 or G1",
     ),
     (
-        "G21\nG54.1 P3",
+        "G21\nG54.1",
         2,
-        "an extended work coordinate system",
-        "G54 to G59.3",
+        "P names no additional work coordinate system",
+        "G54.1 P1 to G54.1 P300, or G54 to G59.3",
+    ),
+    (
+        "G21\nG154 P100",
+        2,
+        "P names no additional work coordinate system",
+        "G154 P1 to G154 P99",
+    ),
+    // A spline, a cycle in the control's memory.
+    ("G21\nG5.1 Q1 X5 Y5", 2, "G5.1 (spline", "G0 and G1 to G3"),
+    ("G21\nG05 P10001 L1", 2, "G5 (spline", "G0 and G1 to G3"),
+    (
+        "G21\nG0 X0\nG187 P3 X5",
+        3,
+        "a place stands beside a setting of look-ahead",
+        "a block of its own",
+    ),
+    (
+        "G21\nG1 G5.1 Q3 X0 F100",
+        2,
+        "a place stands beside a setting of look-ahead",
+        "a block of its own",
     ),
 ];

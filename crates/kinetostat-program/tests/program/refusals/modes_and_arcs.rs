@@ -5,10 +5,10 @@ use crate::refusals::Refused;
 pub const MODES_AND_ARCS: &[Refused] = &[
     // Modes and words that do not fit.
     (
-        "G1 X1 F100",
-        1,
-        "before it names its units",
-        "G21 (mm) or G20 (inch)",
+        "G1 X1 F100\nG20",
+        2,
+        "lengths that were given before any unit",
+        "begin the program with G20 or G21",
     ),
     (
         "G21\nX1",
@@ -21,6 +21,13 @@ pub const MODES_AND_ARCS: &[Refused] = &[
         4,
         "without a motion word",
         "after G80",
+    ),
+    ("G21\nG80 X5", 2, "without a motion word", "after G80"),
+    (
+        "G21\nG0 G80 G1 X1",
+        2,
+        "meets another code of its group",
+        "two blocks",
     ),
     (
         "G21\nG0 G1 X1",
@@ -247,47 +254,11 @@ pub const MODES_AND_ARCS: &[Refused] = &[
         "controllers disagree whether this is a full circle",
         "write a straight move",
     ),
-    // Full circles whose ends were rounded apart: along the circle, across it, in all planes, as helices, in inches.
-    (
-        "G21\nG0 X20 Y0\nG3 X20 Y0.0001 I-20 F100",
-        3,
-        "the arc's ends are only 0.0001000 mm apart: controllers disagree whether this is a full circle",
-        "end the circle exactly where it starts, or write a straight move",
-    ),
+    // Beside its start, without an angle between them.
     (
         "G21\nG0 X20 Y0\nG3 X20.003 Y0 I-20 F100",
         3,
-        "only 0.0030000 mm apart",
-        "exactly where it starts",
-    ),
-    (
-        "G21\nG0 X20 Y0\nG2 X20.001 Y-0.002 I-20 F100",
-        3,
-        "only 0.0022361 mm apart",
-        "exactly where it starts",
-    ),
-    (
-        "G21\nG0 X20 Y0 Z0\nG3 X20 Y0.001 Z-2 I-20 F100",
-        3,
-        "only 0.0010000 mm apart",
-        "exactly where it starts",
-    ),
-    (
-        "G21 G18\nG0 X20 Y0 Z0\nG2 X20 Z0.001 I-20 F100",
-        3,
-        "only 0.0010000 mm apart",
-        "exactly where it starts",
-    ),
-    (
-        "G21 G19\nG0 X0 Y20 Z0\nG3 Y20 Z0.001 J-20 F100",
-        3,
-        "only 0.0010000 mm apart",
-        "exactly where it starts",
-    ),
-    (
-        "G20\nG0 X1 Y0\nG3 X1 Y0.0001 I-1 F10",
-        3,
-        "only 0.0025400 mm apart",
-        "exactly where it starts",
+        "the arc's ends are only 0.0030000 mm apart: controllers disagree whether this is a full circle",
+        "end the circle exactly where it starts, or write a straight move",
     ),
 ];
