@@ -50,6 +50,19 @@ impl ProgramError {
         Self::at(file, span, "the name is declared twice", remedy)
     }
 
+    /// Two programs that a call names alike, each with its file and its first block.
+    pub(crate) fn named_alike(
+        (file, begin): (&SourceFile, Range<usize>),
+        (other, other_begin): (&SourceFile, Range<usize>),
+    ) -> Self {
+        let reason = format!(
+            "a call cannot tell this program from that of the same name in {}, line {}",
+            other.name(),
+            other.line_of(other_begin.start)
+        );
+        Self::at(file, begin, reason, "give one of them alone, or rename one")
+    }
+
     /// That a file is larger than so many bytes, if it is.
     pub(crate) fn too_large(file: &SourceFile, most_bytes: usize) -> Option<Self> {
         let reason = || format!("the file is larger than {} MiB", most_bytes >> 20);

@@ -130,6 +130,16 @@ fn programs_of_controls_find_their_subprograms_in_folders() {
             std::fs::read_to_string(here.path().join(name)).unwrap(),
             subprogram
         );
+        // Another one of the same name is not left out in silence.
+        let other = subprogram.replace("F100", "F200");
+        std::fs::write(here.path().join("parts").join(name), other).unwrap();
+        let said = expand(&["--subprograms", "parts"]);
+        assert_eq!(said.code, 1, "{said:?}");
+        let both = [
+            format!("{name}', line 1, and 'parts/{name}', line 1"),
+            "rename one".to_owned(),
+        ];
+        assert!(both.iter().all(|part| said.err.contains(part)), "{said:?}");
         let said = expand(&["--subprograms", "nowhere"]);
         assert!(
             said.err.contains("--subprograms: 'nowhere' is no folder"),

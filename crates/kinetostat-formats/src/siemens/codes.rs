@@ -110,6 +110,7 @@ impl Reader<'_> {
             60 => state.exact = true,
             64 | 641..=645 => state.exact = false,
             70 | 71 | 700 | 710 => {
+                state.unit_stated = true;
                 let inches = matches!(number, 70 | 700);
                 state.unit_mm = match inches {
                     true => 25.4,

@@ -148,6 +148,7 @@ impl Reader<'_> {
                 held.replace((item.span.clone(), written)).is_some()
             }
             _ => {
+                self.unit_assumed(item, words);
                 let unit_mm = self.state.unit_mm;
                 let made = coordinate_of(item, written, unit_mm, step);
                 let held = match group {
@@ -161,6 +162,20 @@ impl Reader<'_> {
         if twice {
             self.fault(&item.span, "the word stands twice in the block", "keep one");
         }
+    }
+
+    /// Says once that the unit is assumed to be mm: without G70, G71, G700 or G710 it is that of the machine's basic setting (SINUMERIK 840D sl,
+    /// Programming Manual, Fundamentals, "Inch or metric dimensions"; machine data 10240).
+    fn unit_assumed(&mut self, item: &Item, words: &Words) {
+        if self.state.unit_stated || words.purpose == Purpose::Machine {
+            return;
+        }
+        self.state.unit_stated = true;
+        self.finding(
+            &item.span,
+            "no G70, G71, G700 or G710 states the unit up to here: it is assumed to be mm"
+                .to_owned(),
+        );
     }
 
     /// Words that are neither variables nor coordinates.

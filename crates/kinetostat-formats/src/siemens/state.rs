@@ -134,6 +134,8 @@ pub(crate) struct State {
     pub normal: usize,
     /// Length of the unit of coordinates, mm.
     pub unit_mm: f64,
+    /// G70, G71, G700 or G710 was read, or it was remarked that none is stated.
+    pub unit_stated: bool,
     /// Length of the unit of the feed, mm.
     pub feed_unit_mm: f64,
     /// G91.

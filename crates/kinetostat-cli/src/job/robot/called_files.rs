@@ -9,7 +9,7 @@ use crate::files::input_files::InputFiles;
 use crate::files::origin;
 use crate::job::robot::folder::Folder;
 use crate::job::robot::source::RobotSource;
-use crate::ui::failure::Answer;
+use crate::ui::failure::{Answer, Failure};
 
 /// Most files of one program.
 const MOST_FILES: usize = 1000;
@@ -41,10 +41,20 @@ pub(crate) fn with_called_files(
             if source.files.iter().any(known) {
                 continue;
             }
-            let Some(path) = folders.iter().find_map(|folder| folder.file(&name)) else {
+            let mut found = folders.iter().filter_map(|folder| folder.file(&name));
+            let Some(path) = found.next() else {
                 continue;
             };
             let bytes = inputs.bytes("subprogram", &path)?;
+            for other in found {
+                if inputs.bytes("subprogram", &other)? != bytes {
+                    return Err(Failure::input(format!(
+                        "two different subprograms have one name: '{}', line 1, and '{}', line 1; leave out the folder of one, or rename one",
+                        path.display(),
+                        other.display()
+                    )));
+                }
+            }
             let name = path.file_name().unwrap_or_default().to_string_lossy();
             source.files.push(SourceFile::new(name, bytes.as_slice()));
             read.push((path.clone(), origin::file("subprogram", &path, &bytes)));

@@ -61,19 +61,7 @@ impl<'r> Runner<'r> {
         let times = match rest {
             [] => 1,
             [item] => match (&item.what, name(item).as_slice()) {
-                (What::Value { value, .. }, b"P") => {
-                    let times = self.number(value)?.round();
-                    (0.0..1e6)
-                        .contains(&times)
-                        .then_some(times as u32)
-                        .ok_or_else(|| {
-                            self.fault(
-                                &item.span,
-                                "the count of runs is none",
-                                "write P from 1 to 9999",
-                            )
-                        })?
-                }
+                (What::Value { value, .. }, b"P") => self.runs(&item.span, value)?,
                 _ => return Err(self.not_alone(item)),
             },
             [item, ..] => return Err(self.not_alone(item)),

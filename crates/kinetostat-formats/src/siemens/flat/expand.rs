@@ -1,6 +1,8 @@
 //! Whether a program needs to be run, and its run.
 
 use std::collections::BTreeMap;
+use std::collections::btree_map::Entry;
+use std::ops::Range;
 
 use crate::error::ProgramError;
 use crate::model::slash_blocks::SlashBlocks;
@@ -77,11 +79,21 @@ fn run_within(
             findings: Vec::new(),
         });
     };
-    let names: BTreeMap<Vec<u8>, usize> = (files.iter().enumerate())
-        .filter(|(index, _)| *index != main)
-        .map(|(index, file)| (program_name(file.name()), index))
-        .collect();
-    let mut faults = Vec::new();
+    let (mut names, mut faults) = (BTreeMap::new(), Vec::new());
+    for (index, other) in files.iter().enumerate().filter(|(index, _)| *index != main) {
+        match names.entry(program_name(other.name())) {
+            Entry::Vacant(free) => {
+                free.insert(index);
+            }
+            Entry::Occupied(held) => faults.push(ProgramError::named_alike(
+                (other, begin_of(other)),
+                (&files[*held.get()], begin_of(&files[*held.get()])),
+            )),
+        }
+    }
+    if !faults.is_empty() {
+        return Err(faults.into());
+    }
     if !files.iter().all(|file| whole_file(file, &mut faults)) {
         return Err(faults.into());
     }
@@ -121,6 +133,16 @@ fn run_within(
         findings,
     };
     with_corners(flat, faults, |flat| written_out(flat, files))
+}
+
+/// The first line of a subprogram that says something: PROC, as a rule.
+fn begin_of(file: &SourceFile) -> Range<usize> {
+    let mut lines = (1..=file.line_count()).map(|line| file.range_of(line));
+    let says = |line: &Range<usize>| {
+        let text = file.part(line).trim_ascii_start();
+        !matches!(text.first(), None | Some(b';' | b'%'))
+    };
+    lines.find(says).unwrap_or(0..0)
 }
 
 /// Whether the control flow of a program is not straight on.

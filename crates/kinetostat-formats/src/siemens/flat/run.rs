@@ -255,8 +255,8 @@ impl<'r> Runner<'r> {
             return Ok(());
         };
         let count = match count {
-            Some(count) => self.number(count)?,
-            None => 1.0,
+            Some(count) => self.runs(&self.span(), count)?,
+            None => 1,
         };
         let label = |name: &Range<usize>| {
             let name = self.file().part(name).to_ascii_uppercase();
@@ -292,7 +292,6 @@ impl<'r> Runner<'r> {
                 "mend its labels",
             ));
         }
-        let times = count.round();
         let Some(level) = self.levels.last_mut() else {
             return Ok(());
         };
@@ -303,14 +302,10 @@ impl<'r> Runner<'r> {
                 "write them as loops",
             ));
         }
-        if !(1.0..1e7).contains(&times) {
-            self.arrive(line + 1, false);
-            return Ok(());
-        }
         level.sections.push(Section {
             from: start,
             end,
-            left: times as u32 - 1,
+            left: count - 1,
             behind: line + 1,
         });
         level.line = start;

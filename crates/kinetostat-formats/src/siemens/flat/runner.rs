@@ -13,7 +13,7 @@ use crate::siemens::flat::drilling::Drilling;
 use crate::siemens::flat::frames::Frames;
 use crate::siemens::flat::modes::Modes;
 use crate::siemens::flat::structure::Unit;
-use crate::siemens::values::{Value, Variable, Variables};
+use crate::siemens::values::{Value, Variable, Variables, whole};
 use crate::text::finding::Finding;
 use crate::text::source::SourceFile;
 
@@ -132,6 +132,18 @@ impl<'r> Runner<'r> {
         remedy: &str,
     ) -> Fault {
         Box::new(ProgramError::at(self.file(), span.clone(), reason, remedy))
+    }
+
+    /// How often a subprogram or a section runs, P: SINUMERIK 840D sl, Programming Manual, Fundamentals, "Subprogram repetitions
+    /// (P)": 1 to 9999.
+    pub(super) fn runs(&self, span: &Range<usize>, value: &Expression) -> Result<u32, Fault> {
+        let count = self.number(value)?;
+        let runs = whole(count).filter(|runs| (1..=9999).contains(runs));
+        runs.ok_or_else(|| {
+            let reason =
+                format!("it is to run {count} times, and that is no whole number from 1 to 9999");
+            self.fault(span, reason, "write P from 1 to 9999")
+        })
     }
 
     pub(super) fn number(&self, value: &Expression) -> Result<f64, Fault> {

@@ -35,7 +35,7 @@ pub(super) fn jump(cursor: &mut Cursor<'_>) -> Result<Jump, Broken> {
             to: token.span.clone(),
             number: None,
         }),
-        (Kind::Number(number), true) => Ok(Jump {
+        (Kind::Number(number), true) if number.fract() == 0.0 && number >= 0.0 => Ok(Jump {
             way,
             to: token.span.clone(),
             number: Some(number as u64),

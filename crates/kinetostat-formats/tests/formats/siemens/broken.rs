@@ -212,7 +212,7 @@ fn where_the_tool_is_must_be_known_at_the_cut() {
     );
     let mut options = ReadOptions::default();
     options.unknown_targets = UnknownTargets::LeftAsWritten;
-    let program = read_with(b"G0 X0 Y0\nG1 X5 F100\nZ5\n", &options).unwrap();
+    let program = read_with(b"G71 G0 X0 Y0\nG1 X5 F100\nZ5\n", &options).unwrap();
     assert_eq!(program.motions.len(), 3);
     assert!(
         program.findings[0]

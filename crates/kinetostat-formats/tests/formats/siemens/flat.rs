@@ -272,6 +272,20 @@ fn what_cannot_be_run_is_refused_by_line() {
             "variables of axes and frames are not followed",
         ),
         ("GOTOS\n", "it is not followed"),
+        (
+            "AA: X1\nREPEAT AA P=10000000\n",
+            "line 2: `REPEAT AA P=10000000`: it is to run 10000000 times, and that is no whole number from 1 to 9999",
+        ),
+        ("AA: X1\nREPEAT AA P=4e9\n", "line 2"),
+        ("AA: X1\nREPEAT AA P=10000\n", "from 1 to 9999"),
+        ("AA: X1\nREPEAT AA P=0\n", "it is to run 0 times"),
+        ("AA: X1\nREPEATB AA P=-1\n", "it is to run -1 times"),
+        ("AA: X1\nREPEAT AA P=2.5\n", "it is to run 2.5 times"),
+        (
+            "R1=0\nAA: X1\nREPEAT AA P=R1\n",
+            "line 3: `REPEAT AA P=R1`: it is to run 0 times",
+        ),
+        ("N10 X1\nGOTOF N20.5\nN20 X2\n", "line 2"),
         ("REPEAT AA P=2\n", "the label of the section is not there"),
         ("X1 GOTOF AA\nAA:\n", "it does not stand alone in its block"),
     ];
@@ -348,4 +362,38 @@ fn doubts_of_deep_holes_are_noted_by_line() {
     ] {
         assert_eq!(notes(&format!("{begun}{certain}")), [], "{certain}");
     }
+}
+
+#[test]
+fn a_subprogram_runs_a_whole_number_of_times() {
+    let runs = |count: &str| {
+        let main = format!("G0 X1\nHOLE {count}\nM30\n");
+        let files = [("m.mpf", main.as_str()), ("hole.spf", "X2\nM17\n")];
+        expand_siemens(&files.map(|(name, text)| SourceFile::new(name, text)))
+    };
+    assert_eq!(
+        runs("P3").unwrap().file.bytes(),
+        b"G0 X1\nX2\nX2\nX2\nM30\n"
+    );
+    for count in ["P0", "P=-1", "P=2.5", "P10000"] {
+        let found = runs(count).unwrap_err();
+        assert_eq!((found.len(), found[0].line), (1, 2), "{count}: {found:?}");
+        assert!(
+            found[0].reason.contains("no whole number from 1 to 9999"),
+            "{found:?}"
+        );
+    }
+}
+
+#[test]
+fn of_two_subprograms_of_one_name_none_is_taken() {
+    let files = [
+        ("m.mpf", "G0 X1\nHOLE\nM30\n"),
+        ("a/hole.spf", "; a\nPROC HOLE\nX2\nM17\n"),
+        ("b/HOLE.SPF", "PROC HOLE\nX3\nM17\n"),
+    ];
+    let found = expand_siemens(&files.map(|(name, text)| SourceFile::new(name, text))).unwrap_err();
+    assert_eq!(found.len(), 1, "{found:?}");
+    let both = "b/HOLE.SPF, line 1: `PROC HOLE`: a call cannot tell this program from that of the same name in a/hole.spf, line 2; give one of them alone";
+    assert!(found[0].to_string().contains(both), "{found:?}");
 }

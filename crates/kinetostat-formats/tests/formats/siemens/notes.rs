@@ -45,3 +45,19 @@ fn steps_behind_a_frame_name_the_setting() {
     assert_eq!(found.len(), 1);
     assert!(found[0].1.ends_with("(lines 9, 13)"), "{found:?}");
 }
+
+#[test]
+fn a_unit_that_is_not_stated_is_said_to_be_assumed() {
+    let assumed = "no G70, G71, G700 or G710 states the unit up to here: it is assumed to be mm";
+    let begun = BEGUN.replace(" G71", "");
+    let found = notes(&format!("{begun}X120\nM30\n"));
+    assert_eq!(found, [(4, assumed.to_owned())]);
+    // A place of the machine says nothing of the part's unit, and what is stated behind the first place comes late.
+    let found = notes(&format!("G0 SUPA Z0\n{BEGUN}M30\n"));
+    assert_eq!(found, []);
+    let found = notes(&format!("{begun}G71\nX120\nM30\n"));
+    assert_eq!(found, [(4, assumed.to_owned())]);
+    for unit in ["G70", "G71", "G700", "G710"] {
+        assert_eq!(notes(&BEGUN.replace("G71", unit)), [], "{unit}");
+    }
+}
