@@ -5,13 +5,16 @@ use nalgebra::Vector2;
 
 use crate::heidenhain::arcs::{AGAIN, Arc, Turned, about, by_radius, polar, tangential};
 use crate::heidenhain::path_words::{Coordinate, PathWords};
-use crate::heidenhain::state::State;
+use crate::heidenhain::plane::Plane;
+use crate::heidenhain::state::{Pole, State};
 use crate::heidenhain::words::Word;
 
 /// Where a block ends in the programmed axes, mm, and its way.
 pub(crate) struct Went {
     pub end: [Option<f64>; 3],
     pub shape: Shape,
+    /// The plane of its arc.
+    pub plane: Plane,
     pub arc: Option<Arc>,
 }
 
@@ -73,12 +76,22 @@ impl Ends<'_> {
                 "write LP or CP",
             ));
         }
+        let working = self.state.plane;
+        let by_pole = is_polar || kind.is("C");
+        let pole = self.state.pole.filter(|_| by_pole);
+        let plane = pole.map_or(working, |pole| pole.plane);
+        if kind.is("C") && plane != working && parsed.axes[plane.0].is_some() {
+            return Err((
+                "the circle states an axis across the plane of its CC".to_owned(),
+                "state CC by the two axes of the circle before it",
+            ));
+        }
         let whole = parsed.radius.is_some_and(|c| !c.step) && parsed.angle.is_some_and(|c| !c.step);
         let mut turned = None;
         if is_polar {
-            let (x, y, angle) = self.polar_end(kind.is("CP"), parsed)?;
-            end[0] = Some(x);
-            end[1] = Some(y);
+            let (place, angle) = self.polar_end(kind.is("CP"), parsed)?;
+            let [u, v] = plane.axes();
+            (end[u], end[v]) = (Some(place.x), Some(place.y));
             turned = Some(angle);
         }
         let (shape, arc) = match kind.letters() {
@@ -86,15 +99,15 @@ impl Ends<'_> {
             b"LP" => (Shape::Polar { whole }, None),
             b"C" | b"CP" | b"CR" => (
                 Shape::Arc,
-                self.circle(kind.is("CR"), parsed, &end, turned)?,
+                self.circle(kind.is("CR"), parsed, (plane, &end), turned)?,
             ),
             b"CT" | b"CTP" => {
-                let from = self.state.in_plane();
-                let to = end[0].zip(end[1]).map(|(x, y)| Vector2::new(x, y));
+                let (from, to) = (self.state.in_plane(plane), plane.known(end));
                 let (Some(from), Some(to)) = (from, to) else {
                     return Err(("where its arc begins is not known".to_owned(), STATE_PLACE));
                 };
-                let Some(direction) = self.state.direction else {
+                let way = self.state.direction.map(|way| plane.flat(&way));
+                let Some(direction) = way.and_then(|way| way.try_normalize(1e-9)) else {
                     return Err((
                         "the direction in which the block before ends is not known".to_owned(),
                         "write the arc with CC and C",
@@ -111,21 +124,27 @@ impl Ends<'_> {
                 ));
             }
         };
-        Ok(Went { end, shape, arc })
+        Ok(Went {
+            end,
+            shape,
+            plane,
+            arc,
+        })
     }
 
-    /// X and Y of a polar end, and its angle or the angle turned, degrees.
+    /// A polar end in the plane of the pole, and its angle or the angle turned, degrees.
     fn polar_end(
         &mut self,
         is_circle: bool,
         parsed: &PathWords,
-    ) -> Result<(f64, f64, f64), Reason> {
-        let pole = self.state.pole.map(|pole| pole.at);
-        let pole = pole.ok_or((
+    ) -> Result<(Vector2<f64>, f64), Reason> {
+        let Pole {
+            plane, at: pole, ..
+        } = self.state.pole.ok_or((
             "the pole is not known".to_owned(),
             "state it before: CC X.. Y..",
         ))?;
-        let arm = self.state.in_plane().map(|here| here - pole);
+        let arm = self.state.in_plane(plane).map(|here| here - pole);
         let unknown = || ("where its way begins is not known".to_owned(), STATE_PLACE);
         let now = || arm.map(|arm| arm.y.atan2(arm.x).to_degrees());
         let unit = self.unit_mm;
@@ -182,23 +201,21 @@ impl Ends<'_> {
         if !is_circle {
             self.state.radius_mm = Some(radius);
         }
-        let place = polar(&pole, radius, angle);
-        Ok((place.x, place.y, turned))
+        Ok((polar(&pole, radius, angle), turned))
     }
 
     fn circle(
         &mut self,
         by_size: bool,
         parsed: &PathWords,
-        end: &[Option<f64>; 3],
+        (plane, end): (Plane, &[Option<f64>; 3]),
         turned: Option<f64>,
     ) -> Result<Option<Arc>, Reason> {
         let sense = parsed.sense.ok_or((
             "the sense of the circle is not stated".to_owned(),
             "state DR+ or DR-",
         ))?;
-        let from = self.state.in_plane();
-        let to = end[0].zip(end[1]).map(|(x, y)| Vector2::new(x, y));
+        let (from, to) = (self.state.in_plane(plane), plane.known(*end));
         let (Some(from), Some(to)) = (from, to) else {
             return Err(("where its arc begins is not known".to_owned(), STATE_PLACE));
         };

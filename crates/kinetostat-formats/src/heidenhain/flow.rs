@@ -20,12 +20,20 @@ pub(crate) fn label_name(bytes: &[u8], word: &Word) -> Option<String> {
     }
 }
 
-/// What is said of a second label of one name, and what to do.
-pub(crate) const LABEL_TWICE: &str = "there is a label of this name above";
+/// What is said of a second label of one name, by the line of the first, and what to do.
+pub(crate) fn label_twice(line: usize) -> String {
+    format!("there is a label of this name above, in line {line}")
+}
 pub(crate) const NAME_IT: &str = "name it otherwise";
 
-/// The labels of a file, and blocks that state one a second time.
-pub(crate) fn labels_of(bytes: &[u8], blocks: &[Block]) -> (Labels, Vec<usize>) {
+/// What is said of words behind a label, and what to do.
+pub(crate) const NOT_ALONE: (&str, &str) = (
+    "more stands behind the label",
+    "write it as a block of its own",
+);
+
+/// The labels of a file, and blocks that state one a second time, each behind that of before.
+pub(crate) fn labels_of(bytes: &[u8], blocks: &[Block]) -> (Labels, Vec<[usize; 2]>) {
     let (mut labels, mut twice) = (Labels::new(), Vec::new());
     for (index, block) in blocks.iter().enumerate() {
         // Most blocks begin with another letter.
@@ -39,9 +47,9 @@ pub(crate) fn labels_of(bytes: &[u8], blocks: &[Block]) -> (Labels, Vec<usize>) 
             .filter(|word| word.is("LBL"))
             .and_then(|word| label_name(bytes, word));
         if let Some(name) = name.filter(|name| name != "0")
-            && labels.insert(name, index).is_some()
+            && let Some(first) = labels.insert(name, index)
         {
-            twice.push(index);
+            twice.push([first, index]);
         }
     }
     (labels, twice)

@@ -1,8 +1,12 @@
 //! What is in force between two blocks.
 
+use std::collections::BTreeMap;
+
 use nalgebra::{Vector2, Vector3};
 
 use crate::heidenhain::datum::{Bend, Datum};
+use crate::heidenhain::plane::Plane;
+use crate::heidenhain::reading::found::Aside;
 use crate::heidenhain::tip_control::TipControl;
 use crate::model::motion::Speed;
 use crate::standing::Standing;
@@ -10,7 +14,8 @@ use crate::standing::Standing;
 /// The pole of polar coordinates and the centre of circles.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Pole {
-    /// In the programmed axes, mm.
+    pub plane: Plane,
+    /// In it, in the programmed axes, mm.
     pub at: Vector2<f64>,
     /// It was stated from where the tool was.
     pub relative: bool,
@@ -25,11 +30,13 @@ pub(crate) struct State {
     pub unstated: bool,
     /// A rotation began or ended, and X and Y were not stated since: where a block with one of them goes is not known.
     pub unsettled: bool,
+    /// The working plane, across the tool's axis of the last TOOL CALL.
+    pub plane: Plane,
     pub pole: Option<Pole>,
     /// The last polar radius about this pole, mm.
     pub radius_mm: Option<f64>,
-    /// Direction in the plane in which the last block ended.
-    pub direction: Option<Vector2<f64>>,
+    /// Direction in which the last block ended.
+    pub direction: Option<Vector3<f64>>,
     /// As programmed.
     pub feed: Option<f64>,
     pub feed_text: String,
@@ -57,7 +64,10 @@ pub(crate) struct State {
     /// M89 is on.
     pub calls: bool,
     /// The path is moved aside by the tool's radius.
-    pub aside: bool,
+    pub aside: Option<Aside>,
+    /// Radii of TOOL DEF by the tool, and that of the tool in force with DR of TOOL CALL, mm.
+    pub cutters_mm: BTreeMap<String, f64>,
+    pub cutter_mm: Option<f64>,
     pub tip: TipControl,
     /// M126: rotary axes turn the shorter way.
     pub shorter: bool,
@@ -77,10 +87,9 @@ impl State {
         }
     }
 
-    /// Where it is in the plane, as far as words count from there.
-    pub(crate) fn in_plane(&self) -> Option<Vector2<f64>> {
-        let [x, y, _] = self.counts_from();
-        Some(Vector2::new(x?, y?))
+    /// Where it is in a plane, as far as words count from there.
+    pub(crate) fn in_plane(&self, plane: Plane) -> Option<Vector2<f64>> {
+        plane.known(self.counts_from())
     }
 
     /// The place that words of a block count from.

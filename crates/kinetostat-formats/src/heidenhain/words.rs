@@ -56,6 +56,23 @@ impl Word {
     }
 }
 
+/// What is said of a number with an exponent, and what to do.
+pub(crate) const EXPONENT: (&str, &str) = (
+    "a number with an exponent, which the control does not read",
+    "write the number out: X+100.5",
+);
+
+/// The `e20` of a number `1e20` among the words of a block that names no program.
+pub(crate) fn exponent(words: &[Word]) -> Option<&Word> {
+    if words.iter().any(|word| word.is("PGM")) {
+        return None;
+    }
+    let pair = words.windows(2).find(|pair| {
+        pair[1].is("E") && pair[0].number().is_some() && pair[0].span.end == pair[1].span.start
+    })?;
+    Some(&pair[1])
+}
+
 /// Larger than any length, feed or angle of a program.
 const LARGEST: f64 = 1e9;
 

@@ -177,8 +177,8 @@ impl Run<'_> {
             strokes.map_err(|reason| self.fault(at, reason, "mend the cycle's values"))?;
         for stroke in strokes {
             let (letters, value, feed) = match stroke {
-                Stroke::To(to, feed) => ("Z", to, feed),
-                Stroke::By(by, feed) => ("IZ", by, feed),
+                Stroke::To(to, feed) => (self.axis.to_owned(), to, feed),
+                Stroke::By(by, feed) => (format!("I{}", self.axis), by, feed),
                 Stroke::Dwell(seconds) => {
                     self.write(b"CYCL DEF 9.0 DWELL TIME", at)?;
                     let text = format!("CYCL DEF 9.1 DWELL {}", trimmed(seconds, 3));

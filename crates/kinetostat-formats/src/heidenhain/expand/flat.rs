@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use crate::error::ProgramError;
+use crate::heidenhain::expand::aside::led_aside;
 use crate::heidenhain::expand::corners::written_out;
 use crate::heidenhain::expand::program::Program;
 use crate::heidenhain::expand::run::Run;
@@ -18,7 +19,8 @@ const MOST_BLOCKS: usize = 5_000_000;
 
 /// Runs a Heidenhain program once and writes it flat: labels that are called and repeated, other programs (given behind the first
 /// one), jumps and Q parameters, drilling by cycles 200, 201, 203 and 1, corners that are rounded (RND, between two lines or a line and an
-/// arc about a pole) or broken (CHF, between two lines, whose number is how much it takes of each). Each line says where it is from. A program
+/// arc about a pole) or broken (CHF, between two lines, whose number is how much it takes of each), contours with RL or RR whose tool has its radius in `TOOL DEF` (outside
+/// corners become arcs, inside corners end where the tool touches both sides). Each line says where it is from. A program
 /// without anything of that comes back byte for byte.
 ///
 /// Coordinates that parameters say are written with 4 decimals in mm (5 in inches), as the control resolves them. Holes become
@@ -69,7 +71,10 @@ fn run_within(
     options: &ReadOptions,
     most_blocks: usize,
 ) -> Result<FlatText, RefusedRun> {
-    let out = |flat| written_out(flat, files, options);
+    let out = |flat| {
+        let flat = written_out(flat, files, options)?;
+        led_aside(flat, files, options)
+    };
     let programs: Vec<Program<'_>> = files.iter().map(Program::of).collect();
     let Some(main) = programs.first() else {
         let none = SourceFile::new("", "");
@@ -95,6 +100,7 @@ fn run_within(
         origins: Vec::new(),
         cycle: None,
         pecking: [None; 6],
+        axis: "Z",
         rapid_out: false,
         modal: false,
         feed: None,

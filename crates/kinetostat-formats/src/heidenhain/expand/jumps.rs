@@ -1,9 +1,11 @@
 //! Where the run goes on: labels, repeats, other programs, jumps.
 
+use crate::error::ProgramError;
 use crate::heidenhain::expand::expression::value_of;
-use crate::heidenhain::expand::program::called_name;
+use crate::heidenhain::expand::program::{Program, called_name};
 use crate::heidenhain::expand::run::{Fault, Frame, Next, Run};
 use crate::heidenhain::flow::label_name;
+use crate::heidenhain::title::other_end;
 use crate::heidenhain::words::Word;
 
 impl Run<'_> {
@@ -61,7 +63,10 @@ impl Run<'_> {
             self.enter(at, Frame::Sub { caller: at.1 })?;
             return Ok(Next::At(at.0, to));
         };
-        let text = self.programs[at.0].file.part(&again.span).to_vec();
+        // To the end of the block; of `REP 2/2` the second number is how often it is still to run.
+        let end = words.last().map_or(again.span.end, |word| word.span.end);
+        let text = self.programs[at.0].file.part(&(again.span.start..end));
+        let text = text.split(|byte| *byte == b'/').next().unwrap_or_default();
         let count = match again.is("REP") {
             true => value_of(&text[3.min(text.len())..], &self.parameters).ok(),
             false => None,
@@ -105,6 +110,18 @@ impl Run<'_> {
         if let Some(fault) = self.programs[found].equal_labels().next() {
             return Err(fault);
         }
+        let mut others = self.programs.iter().skip(found + 1);
+        if let Some(other) = others.find(|other| other.is_named(&name)) {
+            let begin = |program: &Program<'_>| {
+                let block = program.begin.map(|begin| &program.blocks[begin]);
+                block.map_or(0..0, |block| block.text.clone())
+            };
+            let held = &self.programs[found];
+            return Err(ProgramError::named_alike(
+                (other.file, begin(other)),
+                (held.file, begin(held)),
+            ));
+        }
         let Some(begin) = self.programs[found].begin else {
             return Err(self.fault(
                 at,
@@ -112,6 +129,10 @@ impl Run<'_> {
                 "give a program",
             ));
         };
+        let called = &self.programs[found];
+        if let Some(fault) = other_end(called.file, &called.blocks, begin) {
+            return Err(fault);
+        }
         self.may_enter(at)?;
         let local = self.parameters.called();
         self.frames.push(Frame::Program {

@@ -2,8 +2,10 @@
 //!
 //! From the files ([`program`]), the values of Q parameters ([`values`], [`expression`]) and the blocks of drilling cycles ([`hole`], [`drill`])
 //! to the [`run`]: its [`steps`] go through the blocks, [`jumps`] say where it goes on, [`parameters`] what a block says,
-//! [`cycles`] and [`path_block`] what is drilled, [`corners`] what is rounded, [`refused_lines`] how it goes on behind what is refused. The way in is [`flat`].
+//! [`cycles`] and [`path_block`] what is drilled, [`corners`] what is rounded, [`aside`] and [`centre_line`] where the tool goes beside a contour (RL, RR), [`refused_lines`] how it goes on behind what is refused. The way in is [`flat`].
 
+pub(crate) mod aside;
+pub(crate) mod centre_line;
 pub(crate) mod corners;
 pub(crate) mod cycles;
 pub(crate) mod drill;

@@ -13,6 +13,12 @@ impl Run<'_> {
         let Some(kind) = words.get(1) else {
             return;
         };
+        let named = |axis: &&str| {
+            words
+                .iter()
+                .any(|word| word.is(axis) && word.value == Value::None)
+        };
+        self.axis = ["X", "Y", "Z"].into_iter().find(named).unwrap_or(self.axis);
         if kind.is("CALL")
             && let Some(word) = words.iter().find(|word| word.is("F"))
         {

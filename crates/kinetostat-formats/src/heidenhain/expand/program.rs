@@ -2,7 +2,7 @@
 
 use crate::error::ProgramError;
 use crate::heidenhain::blocks::{Block, blocks_of};
-use crate::heidenhain::flow::{LABEL_TWICE, Labels, NAME_IT, labels_of, order, step_of};
+use crate::heidenhain::flow::{Labels, NAME_IT, label_twice, labels_of, order, step_of};
 use crate::heidenhain::words::{Value, Word};
 use crate::text::source::SourceFile;
 
@@ -11,8 +11,8 @@ pub(crate) struct Program<'f> {
     pub file: &'f SourceFile,
     pub blocks: Vec<Block>,
     pub labels: Labels,
-    /// Blocks that state a label a second time.
-    pub twice: Vec<usize>,
+    /// Blocks that state a label a second time, each behind that of before.
+    pub twice: Vec<[usize; 2]>,
     /// The block BEGIN PGM.
     pub begin: Option<usize>,
 }
@@ -57,9 +57,10 @@ impl<'f> Program<'f> {
 
     /// What is said of labels that are stated a second time.
     pub(crate) fn equal_labels(&self) -> impl Iterator<Item = ProgramError> + '_ {
-        let fault = |index: &usize| {
+        let fault = |[first, index]: &[usize; 2]| {
             let text = self.blocks[*index].text.clone();
-            ProgramError::at(self.file, text, LABEL_TWICE, NAME_IT)
+            let line = self.file.line_of(self.blocks[*first].text.start);
+            ProgramError::at(self.file, text, label_twice(line), NAME_IT)
         };
         self.twice.iter().map(fault)
     }

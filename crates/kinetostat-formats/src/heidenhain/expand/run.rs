@@ -44,6 +44,8 @@ pub(crate) struct Run<'p> {
     pub cycle: Option<u32>,
     /// Numbers of cycle 1 by their lines.
     pub pecking: [Option<f64>; 6],
+    /// The tool's axis.
+    pub axis: &'static str,
     /// Q208 is MAX.
     pub rapid_out: bool,
     /// M89 is on.

@@ -3,7 +3,8 @@
 use crate::heidenhain::blocks::{Block, STRAY, STRAY_REMEDY};
 use crate::heidenhain::expand::run::{Fault, Frame, Next, Run};
 use crate::heidenhain::expand::values::begins_value;
-use crate::heidenhain::words::{Value, Word};
+use crate::heidenhain::flow::NOT_ALONE;
+use crate::heidenhain::words::{EXPONENT, Value, Word, exponent};
 use crate::refused_run::Behind;
 
 /// Most blocks that run one after another without one that is written.
@@ -81,7 +82,13 @@ impl Run<'_> {
                 .first()
                 .is_some_and(|word| word.is("END"))
         };
-        if let Some(end) = main.blocks.iter().rposition(|block| is_end(&block)) {
+        if let Some(end) = main
+            .blocks
+            .iter()
+            .skip(begin)
+            .position(|block| is_end(&block))
+        {
+            let end = begin + end;
             self.write(main.file.part(&main.blocks[end].text), (0, end))?;
         }
         Ok(())
@@ -105,6 +112,9 @@ impl Run<'_> {
                 "take the sign `/` away, or the block out",
             ));
         }
+        if exponent(&words).is_some() {
+            return Err(self.fault(at, EXPONENT.0, EXPONENT.1));
+        }
         match first.letters.letters() {
             b"BEGIN" if at.0 == 0 => self.write(file.part(&block.text), at)?,
             b"BEGIN" => {
@@ -117,6 +127,9 @@ impl Run<'_> {
                 }
             }
             b"END" => return self.program_ends(at),
+            b"LBL" if words.len() > 1 => {
+                return Err(self.fault(at, NOT_ALONE.0, NOT_ALONE.1));
+            }
             b"LBL" => {
                 let is_end = first.value() == Some(0.0);
                 let sub = self

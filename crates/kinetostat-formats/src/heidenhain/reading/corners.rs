@@ -9,6 +9,7 @@ use nalgebra::Vector3;
 
 use crate::corner::{Corner, Cut};
 use crate::heidenhain::blocks::Block;
+use crate::heidenhain::plane::{Plane, XY};
 use crate::heidenhain::reading::rounded::{AS_ARC, AS_LINE, Line, Pending, Rounded};
 use crate::heidenhain::reading::walker::Reader;
 use crate::heidenhain::words::Word;
@@ -62,16 +63,25 @@ impl Reader<'_> {
         &mut self,
         (block, words): (&Block, &[Word]),
         (start, to, arc): ([Option<f64>; 3], Vector3<f64>, Option<Beside>),
-        rapid: bool,
+        (plane, rapid): (Plane, bool),
     ) {
         if words[0].is("LP") && !self.found.corners.is_empty() {
             let polar = (block.clone(), to.xy(), self.unit_mm);
-            self.found.polar.push(polar);
+            match plane == XY {
+                true => self.found.polar.push(polar),
+                false => {
+                    let why = "a polar block behind a corner is in another plane than X and Y";
+                    self.found
+                        .corners
+                        .push(Err((block.text.clone(), why.to_owned(), AS_ARC)));
+                }
+            }
         }
         let [Some(x), Some(y), Some(z)] = start else {
             return;
         };
         let known = match arc {
+            _ if self.state.plane != XY || arc.is_some() && plane != XY => false,
             None => words[0].is("L") || words[0].is("LP"),
             // More than a turn has no end of its own.
             Some(arc) => {

@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use crate::heidenhain::blocks::{Block, STRAY, STRAY_REMEDY};
 use crate::heidenhain::datum::{Bend, Change, PARAMETER, change};
+use crate::heidenhain::plane::XY;
 use crate::heidenhain::reading::walker::{Reader, TILTED, TILTED_REMEDY};
 use crate::heidenhain::words::{Value, Word};
 
@@ -121,6 +122,11 @@ impl Reader<'_> {
                     state.shift(axis, to);
                 }
             }
+            Change::Bend(Bend::Rotation(_)) if state.plane != XY => self.fault(
+                span,
+                "the coordinates are turned about the tool's axis, which is not Z",
+                "let the CAM system write the places as they are",
+            ),
             Change::Bend(bend) => {
                 let other =
                     std::mem::discriminant(&bend) != std::mem::discriminant(&state.datum.bend);

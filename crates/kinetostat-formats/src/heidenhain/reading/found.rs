@@ -9,7 +9,9 @@ use crate::error::ProgramError;
 use crate::heidenhain::blocks::Block;
 use crate::heidenhain::datum::Datum;
 use crate::heidenhain::ends::Shape;
+use crate::heidenhain::plane::Plane;
 use crate::heidenhain::reading::rounded::{Rounded, Unrounded};
+use crate::heidenhain::state::Pole;
 use crate::model::motion::Motion;
 use crate::model::stated_axes::AxesStated;
 use crate::text::finding::Finding;
@@ -26,6 +28,11 @@ pub(crate) struct Way {
     pub unit_mm: f64,
     /// In force, as programmed; none in rapid traverse or where it is not known.
     pub feed: Option<f64>,
+    /// The plane of its arc, or of its pole; and that of the tool's axis.
+    pub plane: Plane,
+    pub working: Plane,
+    /// RL or RR in force, and the tool's radius where the program states it, mm.
+    pub aside: Option<(Aside, Option<f64>)>,
     /// Sense of its arc in the programmed axes, 1 anticlockwise; 0 of what is straight.
     pub turns: f64,
     /// Surface normals at its start and its end, where blocks state them, as programmed.
@@ -40,11 +47,20 @@ pub(crate) struct Way {
     pub pole_from: Option<usize>,
 }
 
+/// The side of the contour on which the tool goes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Aside {
+    /// RL.
+    Left,
+    /// RR.
+    Right,
+}
+
 /// The pole at a motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct PoleThere {
-    /// In force, in the programmed axes, mm.
-    pub at: Option<Vector2<f64>>,
+    /// In force.
+    pub at: Option<Pole>,
     /// The block counts from it.
     pub used: bool,
     /// How many CC blocks ran before, in all and up to the last that needs no pole from before.

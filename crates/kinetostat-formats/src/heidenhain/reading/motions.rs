@@ -189,10 +189,16 @@ impl Reader<'_> {
             unit_mm: self.unit_mm,
             feed: self.state.feed.filter(|_| known),
             turns,
+            plane: match (words[0].letters.letters(), self.state.pole) {
+                (b"C" | b"CP" | b"CTP" | b"LP", Some(pole)) => pole.plane,
+                _ => self.state.plane,
+            },
+            working: self.state.plane,
+            aside: self.state.aside.map(|side| (side, self.state.cutter_mm)),
             directed: self.state.directed,
             normals,
             pole: PoleThere {
-                at: self.state.pole.map(|pole| pole.at),
+                at: self.state.pole,
                 used: matches!(words[0].letters.letters(), b"C" | b"CP" | b"CTP" | b"LP"),
                 count: self.poles[0],
                 whole: self.poles[1],

@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use crate::heidenhain::blocks::Block;
 use crate::heidenhain::path_words::{FeedWord, Odd, PathWords};
+use crate::heidenhain::reading::found::Aside;
 use crate::heidenhain::reading::walker::{BY_PARAMETER, EXPAND, Reader};
 use crate::heidenhain::reading::ways::Acts;
 use crate::heidenhain::table::{Function, function};
@@ -35,11 +36,6 @@ impl Reader<'_> {
             Err(odd) => {
                 let (at, reason, remedy) = match odd {
                     Odd::Parameter(at) => (at, BY_PARAMETER, EXPAND),
-                    Odd::Unknown(at) if is_exponent(words, at) => (
-                        at,
-                        "a number with an exponent, which the control does not read",
-                        "write the number out: X+100.5",
-                    ),
                     Odd::Unknown(at) => (
                         at,
                         "the word is not known here, or has no number",
@@ -70,16 +66,20 @@ impl Reader<'_> {
         }
         if parsed.aside
             && self.options.cutter_compensation == CutterCompensation::Refused
-            && !self.state.aside
+            && self.state.aside.is_none()
         {
             self.fault(
                 span,
                 "the control moves the path aside by the tool's radius",
-                "if the places are those of the tool's centre, say so (cutter_compensation = \"centre_path\" under [robot] in a job file)",
+                "state the tool's radius in the program (TOOL DEF 1 L+0 R+5) and write it flat first (--expand), or say so if the places are those of the tool's centre (cutter_compensation = \"centre_path\" under [robot] in a job file)",
             );
         }
         if let Some(at) = parsed.compensation {
-            self.state.aside = !words[at].is("R");
+            self.state.aside = match () {
+                () if words[at].is("RL") => Some(Aside::Left),
+                () if words[at].is("RR") => Some(Aside::Right),
+                () => None,
+            };
         }
         let turns = self.turn_axes(words, &parsed, span, acts.machine);
         self.moved(block, words, (&parsed, turns), span, &acts);
@@ -128,12 +128,4 @@ impl Reader<'_> {
         }
         acts
     }
-}
-
-/// Whether a word is the `e20` of `X+1e20`.
-fn is_exponent(words: &[Word], at: usize) -> bool {
-    let before = at.checked_sub(1).and_then(|before| words.get(before));
-    let stands_against = before
-        .is_some_and(|before| before.number().is_some() && before.span.end == words[at].span.start);
-    words[at].is("E") && stands_against
 }

@@ -4,13 +4,14 @@ use std::collections::BTreeSet;
 
 use crate::apt::places::Frames;
 use crate::axis_count::{CountShown, shown_by_both};
-use crate::error::ProgramError;
+use crate::error::{ProgramError, note};
 use crate::heidenhain::blocks::{Block, blocks_of};
-use crate::heidenhain::flow::{LABEL_TWICE, NAME_IT, Step, labels_of, order, step_of};
+use crate::heidenhain::flow::{NAME_IT, Step, label_twice, labels_of, order, step_of};
 use crate::heidenhain::reading::found::Found;
 use crate::heidenhain::reading::rounded::has_corners;
 use crate::heidenhain::reading::walker::{EXPAND, Reader};
 use crate::heidenhain::state::State;
+use crate::heidenhain::title::other_end;
 use crate::model::language::Language;
 use crate::model::parsed::Parsed;
 use crate::model::program::RobotProgram;
@@ -136,9 +137,13 @@ impl Reader<'_> {
             );
         };
         let (labels, twice) = labels_of(bytes, &blocks);
-        for index in twice {
+        for [first, index] in twice {
+            let line = self.file.line_of(blocks[first].text.start);
             let text = blocks[index].text.clone();
-            self.fault(&text, LABEL_TWICE, NAME_IT);
+            self.fault(&text, label_twice(line), NAME_IT);
+        }
+        if let Some(fault) = other_end(self.file, &blocks, first) {
+            note(&mut self.found.faults, || fault);
         }
         let calls = |block: &Block| {
             let is_call = bytes.get(block.text.start).map(u8::to_ascii_uppercase) == Some(b'C');

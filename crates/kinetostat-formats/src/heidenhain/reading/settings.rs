@@ -5,6 +5,7 @@ use std::ops::Range;
 use nalgebra::Vector2;
 
 use crate::heidenhain::datum::axis_of;
+use crate::heidenhain::plane::Plane;
 use crate::heidenhain::reading::walker::{BY_PARAMETER, EXPAND, Reader};
 use crate::heidenhain::state::Pole;
 use crate::heidenhain::words::{Value, Word};
@@ -37,8 +38,7 @@ impl Reader<'_> {
         self.not_below_zero(&words[1..], &["CALL", "DEF"], "the number of the tool");
         self.not_below_zero(&words[1..], &["S"], "the speed of the spindle");
         let Some(call) = words.get(1).filter(|word| word.is("CALL")) else {
-            // TOOL DEF.
-            return;
+            return self.tool_definition(words);
         };
         if words[1..]
             .iter()
@@ -46,13 +46,13 @@ impl Reader<'_> {
         {
             return self.fault(span, BY_PARAMETER, EXPAND);
         }
-        let side = |word: &&Word| (word.is("X") || word.is("Y")) && word.value == Value::None;
-        if let Some(side) = words[2..].iter().find(side) {
-            return self.fault(
-                &side.span.clone(),
-                "the tool's axis is not Z",
-                "let the CAM system write the program with the tool's axis Z",
-            );
+        let side =
+            |word: &&Word| word.value == Value::None && matches!(axis_of(word), Some((_, false)));
+        let side = words[2..].iter().find(side).and_then(axis_of);
+        if let Some((axis, _)) = side.filter(|(axis, _)| *axis != self.state.plane.0) {
+            self.state.plane = Plane(axis);
+            self.state.axis = self.state.plane.across();
+            self.state.lost();
         }
         if let Some(feed) = words.iter().find(|word| word.is("F")).and_then(Word::value) {
             self.state.tool_feed = Some(feed);
@@ -63,18 +63,42 @@ impl Reader<'_> {
             self.state.turns_per_minute = Some(speed).filter(|speed| *speed > 0.0);
         }
         // Without a number the tool stays, and may become longer all the same.
-        let name = match &call.value {
+        let name = self.tool_name(call);
+        let longer = words[2..].iter().any(|word| word.is("DL") || word.is("DR"));
+        let own = self.state.cutters_mm.get(&name);
+        let own = own.map(|radius| radius + larger_by(words) * self.unit_mm);
+        self.state.cutter_mm = own.filter(|radius| *radius > 0.0);
+        if name != self.state.tool || longer {
+            self.state.tool = name;
+            self.state.lost();
+        }
+    }
+
+    /// The tool that a word names; that in force where it names none.
+    fn tool_name(&self, word: &Word) -> String {
+        match &word.value {
             Value::Number(number) => format!("TOOL:{}", number.value),
             Value::Text(text) => {
                 format!("TOOL:{}", String::from_utf8_lossy(self.file.part(text)))
             }
             _ => self.state.tool.clone(),
-        };
-        let longer = words[2..].iter().any(|word| word.is("DL") || word.is("DR"));
-        if name != self.state.tool || longer {
-            self.state.tool = name;
-            self.state.lost();
         }
+    }
+
+    /// TOOL DEF: the radius of a tool.
+    fn tool_definition(&mut self, words: &[Word]) {
+        let Some(tool) = words
+            .get(1)
+            .filter(|word| word.is("DEF") && word.value != Value::None)
+        else {
+            return;
+        };
+        let name = self.tool_name(tool);
+        let radius = words.iter().find(|word| word.is("R")).and_then(Word::value);
+        match radius.filter(|radius| *radius > 0.0) {
+            Some(radius) => self.state.cutters_mm.insert(name, radius * self.unit_mm),
+            None => self.state.cutters_mm.remove(&name),
+        };
     }
 
     /// Refuses words of these names, or all, with numbers below zero.
@@ -88,19 +112,16 @@ impl Reader<'_> {
     }
 
     pub(crate) fn pole(&mut self, words: &[Word], span: &Range<usize>) {
-        let mut at = self.state.pole.map(|pole| pole.at);
-        let here = self.state.in_plane();
+        let here = self.state.counts_from();
+        let before = self.state.pole;
         let mut relative = words.len() == 1;
-        if relative {
-            at = here;
-        }
-        let mut stated = [None; 2];
+        let mut stated = [None; 3];
         for word in &words[1..] {
             let value = match (axis_of(word), &word.value) {
-                (Some((axis @ 0..=1, step)), Value::Number(number)) => {
+                (Some((axis, step)), Value::Number(number)) => {
                     relative |= step;
                     let from = match step {
-                        true => here.map(|here| here[axis]),
+                        true => here[axis],
                         false => Some(0.0),
                     };
                     Some((axis, from.map(|from| from + number.value * self.unit_mm)))
@@ -111,32 +132,64 @@ impl Reader<'_> {
                 }
                 _ => None,
             };
-            match value {
-                Some((axis, value)) => stated[axis] = value,
+            match value.filter(|(axis, _)| stated[*axis].is_none()) {
+                Some((axis, value)) => stated[axis] = Some(value),
                 None => {
                     self.state.pole = None;
                     return self.fault(
                         span,
-                        "the pole is not stated by X and Y",
-                        "circles in other planes are not followed: let the CAM system write L blocks",
+                        "the pole is not stated by two of X, Y and Z",
+                        "state the two axes of the circle: CC X+0 Y+0",
                     );
                 }
             }
         }
+        let count = stated.iter().flatten().count();
+        // Two axes say the plane; where one is stated or none, it is the working plane.
+        let plane = match stated.iter().position(Option::is_none) {
+            Some(across) if count == 2 => Plane(across),
+            _ => self.state.plane,
+        };
+        if count == 3 || stated[plane.0].is_some() {
+            self.state.pole = None;
+            return self.fault(
+                span,
+                "the pole is stated by other axes than two of a plane",
+                "state the two axes of the circle: CC X+0 Y+0",
+            );
+        }
         self.poles[0] += 1;
-        if words.len() == 1 || stated.iter().all(Option::is_some) {
+        if count != 1 {
             self.poles[1] = self.poles[0];
         }
-        let x = stated[0].or(at.map(|at| at.x));
-        let y = stated[1].or(at.map(|at| at.y));
+        // The word that is missing is that of before.
+        let kept = before.filter(|pole| pole.plane == plane && count == 1);
+        let kept = kept.map(|pole| [pole.at.x, pole.at.y]);
+        let [u, v] = [0, 1].map(|at| match (stated[plane.axes()[at]], count) {
+            (Some(value), _) => value,
+            (None, 0) => here[plane.axes()[at]],
+            (None, _) => kept.map(|kept| kept[at]),
+        });
         self.state.radius_mm = None;
         self.pole_from = self.state.last.filter(|_| relative);
-        self.state.pole = match (x, y) {
-            (Some(x), Some(y)) => Some(Pole {
-                at: Vector2::new(x, y),
-                relative,
-            }),
-            _ => None,
-        };
+        self.state.pole = u.zip(v).map(|(u, v)| Pole {
+            plane,
+            at: Vector2::new(u, v),
+            relative,
+        });
+    }
+}
+
+/// DR of TOOL CALL: by how much the radius is larger. Its sign is a word of its own, as that of a turn.
+fn larger_by(words: &[Word]) -> f64 {
+    let Some(at) = words.iter().position(|word| word.is("DR")) else {
+        return 0.0;
+    };
+    let behind = words
+        .get(at + 1)
+        .filter(|word| word.letters.letters().is_empty());
+    match words[at].value {
+        Value::Sign(sign) => sign * behind.and_then(Word::value).unwrap_or(f64::NAN),
+        _ => words[at].value().unwrap_or(f64::NAN),
     }
 }

@@ -3,10 +3,10 @@
 use std::ops::Range;
 
 use crate::heidenhain::blocks::Block;
-use crate::heidenhain::flow::label_name;
+use crate::heidenhain::flow::{NOT_ALONE, label_name};
 use crate::heidenhain::reading::walker::{EXPAND, Reader, TILTED, TILTED_REMEDY};
 use crate::heidenhain::table::row;
-use crate::heidenhain::words::{Value, Word};
+use crate::heidenhain::words::{EXPONENT, Value, Word, exponent};
 use crate::table::Treatment;
 
 impl Reader<'_> {
@@ -23,6 +23,11 @@ impl Reader<'_> {
                 "the block is skipped or not, as a switch of the machine says",
                 "take the sign `/` away, or the block out",
             );
+        }
+        if let Some(word) = exponent(&words) {
+            self.fault(&word.span, EXPONENT.0, EXPONENT.1);
+            self.state.lost();
+            return false;
         }
         if self.has_corners {
             if first.is("RND") || first.is("CHF") {
@@ -55,6 +60,7 @@ impl Reader<'_> {
             b"PLANE" => self.plane(words, span),
             b"FUNCTION" => self.function(words, span),
             b"CALL" => self.call(words, span),
+            b"LBL" if words.len() > 1 => self.fault(span, NOT_ALONE.0, NOT_ALONE.1),
             b"FN" => self.parameter_function(first, span),
             b"X" | b"Y" | b"Z" | b"IX" | b"IY" | b"IZ" => {
                 self.fault(
@@ -122,6 +128,8 @@ impl Reader<'_> {
             Some(word) if word.is("LBL") => {
                 if words.get(2).is_some_and(|word| word.is("REP")) {
                     self.fault(span, "it runs a part of the program again", EXPAND);
+                } else if words.len() > 2 {
+                    self.fault(span, NOT_ALONE.0, NOT_ALONE.1);
                 } else if label_name(self.file.bytes(), word).is_none() {
                     self.fault(span, "the label has no number and no name", "state it");
                 }

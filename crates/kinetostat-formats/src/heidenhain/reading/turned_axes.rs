@@ -96,7 +96,7 @@ impl Reader<'_> {
             }
         }
         if turns && self.state.tip.on {
-            self.state.axis = nalgebra::Vector3::z();
+            self.state.axis = self.state.plane.across();
             self.turns_otherwise(words, parsed, span);
         }
         turns

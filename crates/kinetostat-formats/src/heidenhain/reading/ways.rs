@@ -2,11 +2,12 @@
 
 use std::ops::Range;
 
-use nalgebra::{UnitQuaternion, Vector2, Vector3};
+use nalgebra::{UnitQuaternion, Vector3};
 
 use crate::heidenhain::blocks::Block;
 use crate::heidenhain::ends::{Ends, Went};
 use crate::heidenhain::path_words::{FeedWord, PathWords};
+use crate::heidenhain::plane::XY;
 use crate::heidenhain::reading::motions::{Carried, UNSTATED};
 use crate::heidenhain::reading::walker::Reader;
 use crate::heidenhain::words::Word;
@@ -45,8 +46,8 @@ impl Reader<'_> {
                 "the tool goes back along its axis",
                 Carried::Yes,
             );
-            self.state.place[2] = None;
-            for axis in 0..2 {
+            self.state.place[self.state.plane.0] = None;
+            for axis in 0..3 {
                 if parsed.axes[axis].is_some() {
                     self.state.place[axis] = None;
                 }
@@ -131,7 +132,8 @@ impl Reader<'_> {
         let [x, y, z] = went.end;
         let whole = x.zip(y).zip(z).map(|((x, y), z)| Vector3::new(x, y, z));
         let is_arc = went.arc.is_some();
-        let Some(place) = whole.filter(|_| !is_arc || start[2].is_some()) else {
+        let plane = went.plane;
+        let Some(place) = whole.filter(|_| !is_arc || start[plane.0].is_some()) else {
             let reason = match self.state.unstated {
                 true => UNSTATED,
                 false => "where the tool is, is not wholly known here",
@@ -151,21 +153,23 @@ impl Reader<'_> {
         let datum = self.state.datum;
         let kind = match &went.arc {
             Some(arc) => MotionKind::Arc {
-                centre_mm: datum.preset(&Vector3::new(
-                    arc.centre.x,
-                    arc.centre.y,
-                    start[2].unwrap_or(place.z),
-                )),
-                axis: datum.direction(&Vector3::z()),
+                centre_mm: datum
+                    .preset(&plane.place(arc.centre, start[plane.0].unwrap_or(place[plane.0]))),
+                axis: datum.direction(&plane.across()),
                 angle_rad: arc.angle * datum.sense(),
             },
             None => MotionKind::Linear,
         };
-        let flat = Vector2::new(place.x, place.y);
-        let came = self.state.in_plane().map(|from| flat - from);
+        let from = start.map(|at| at.unwrap_or(f64::NAN));
         self.state.direction = match &went.arc {
-            Some(arc) => arc.last_direction(&flat),
-            None => came.and_then(|way| way.try_normalize(1e-9)),
+            Some(arc) => arc.last_direction(&plane.flat(&place)).map(|way| {
+                let rise = place[plane.0] - from[plane.0];
+                plane.place(
+                    way * (plane.flat(&place) - arc.centre).norm() * arc.angle.abs(),
+                    rise,
+                )
+            }),
+            None => Some(place - Vector3::from(from)),
         };
         let axis = datum.direction(&self.state.axis);
         let orientation = OrientationText::Axis.rotation_of(axis.as_slice());
@@ -179,6 +183,7 @@ impl Reader<'_> {
             orientation: Vec::new(),
             convention: match self.state.directed {
                 true => OrientationText::Axis,
+                false if self.state.plane != XY => OrientationText::Axis,
                 false => OrientationText::Unstated,
             },
             external: Vec::new(),
@@ -203,7 +208,7 @@ impl Reader<'_> {
                 centre: arc.centre,
                 angle: arc.angle,
             });
-            self.line_went((block, words), (start, place, arc), rapid);
+            self.line_went((block, words), (start, place, arc), (plane, rapid));
         }
         self.state.place = went.end;
     }

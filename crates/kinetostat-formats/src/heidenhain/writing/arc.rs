@@ -1,6 +1,6 @@
 //! A block that becomes an arc about a centre of its own: CC before it, and C or, where it rises, CP.
 
-use nalgebra::{Vector2, Vector3};
+use nalgebra::Vector2;
 
 use crate::heidenhain::reading::found::Way;
 use crate::heidenhain::words::Word;
@@ -35,9 +35,9 @@ impl Writer<'_> {
     ) -> Option<Block> {
         let centre = way.datum.programmed(&piece.centre_mm?);
         let wanted = way.datum.programmed(&piece.position_mm);
-        let (Some(x), Some(y), Some(z)) = (place[0], place[1], place[2]) else {
-            return None;
-        };
+        let plane = way.plane;
+        let [u, v] = plane.axes();
+        let (from, z) = (plane.known(*place)?, place[plane.0]?);
         let (decimals, half) = (self.decimals(way), self.half_mm(way));
         let signs = self.signs[motion.file];
         let text = |axis: usize, mm: f64| word_text(axis, mm / way.unit_mm, decimals, signs);
@@ -45,11 +45,11 @@ impl Writer<'_> {
             let digits = text.get(1..).unwrap_or_default();
             parsed(digits.as_bytes()).map(|value| value * way.unit_mm)
         };
-        let to = [text(0, wanted.x), text(1, wanted.y)];
+        let to = [text(u, wanted[u]), text(v, wanted[v])];
         let arc = ToPrint {
-            from: Vector2::new(x, y),
+            from,
             to: Vector2::new(says(&to[0])?, says(&to[1])?),
-            centre: centre.xy(),
+            centre: plane.flat(&centre),
             sense: way.turns,
             digit_mm: 2.0 * half,
         };
@@ -57,12 +57,13 @@ impl Writer<'_> {
             true => "DR-",
             false => "DR+",
         };
-        let rise = text(2, wanted.z - z);
-        let rises = (wanted.z - z).abs() > half;
+        let up = wanted[plane.0] - z;
+        let rise = text(plane.0, up);
+        let rises = up.abs() > half;
         let (centre, end, keyword, own) = match rises {
             false => (
                 arc.printed_circle()?,
-                Vector3::new(arc.to.x, arc.to.y, z),
+                plane.place(arc.to, z),
                 "C",
                 format!(" {} {} {turn}", to[0], to[1]),
             ),
@@ -75,7 +76,7 @@ impl Writer<'_> {
                 let digits = ANGLE_DECIMALS;
                 (
                     turned.centre,
-                    Vector3::new(turned.end.x, turned.end.y, z + says(&rise)?),
+                    plane.place(turned.end, z + says(&rise)?),
                     "CP",
                     format!(" IPA{sign}{:.digits$} I{rise} {turn}", turned.degrees),
                 )
@@ -94,8 +95,8 @@ impl Writer<'_> {
         self.write_feed(way, words, piece.speed_factor, &mut edits);
         *place = [Some(end.x), Some(end.y), Some(end.z)];
         let before = self.own_pole(way, centre).then(|| {
-            let [x, y] = [text(0, centre.x), text(1, centre.y)];
-            format!("CC {x} {y}")
+            let [first, second] = [text(u, centre.x), text(v, centre.y)];
+            format!("CC {first} {second}")
         });
         Some(Block { before, edits })
     }

@@ -60,7 +60,7 @@ impl Writer<'_> {
                 (word, _) => {
                     let same = started[axis].is_some_and(|at| (at - wanted[axis]).abs() <= half);
                     // Arcs and polar blocks state X and Y, for the eye.
-                    let stays = same && word.is_none() && (straight || axis == 2);
+                    let stays = same && word.is_none() && (straight || axis == way.plane.0);
                     let text = match stays {
                         true => String::new(),
                         false => word_text(axis, value, decimals, self.signs[motion.file]),

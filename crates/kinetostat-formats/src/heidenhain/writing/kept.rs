@@ -112,7 +112,7 @@ impl Writer<'_> {
     ) -> Result<(), Reason> {
         let off = way.datum.step(&self.off);
         // Its height alone need not be known for that.
-        let begins_off = off.xy().amax() > NOT_WORTH * self.half_mm(way);
+        let begins_off = way.plane.flat(&off).amax() > NOT_WORTH * self.half_mm(way);
         let is_arc = words
             .first()
             .is_some_and(|word| ARCS.iter().any(|name| word.is(name)));

@@ -2,6 +2,7 @@
 
 use nalgebra::Vector2;
 
+use crate::heidenhain::plane::Plane;
 use crate::heidenhain::reading::found::Way;
 use crate::heidenhain::writing::words::word_text;
 use crate::heidenhain::writing::writer::{OwnPole, Writer};
@@ -17,14 +18,20 @@ impl Writer<'_> {
     /// Puts a pole of its own in force; whether a CC block is needed for it.
     pub(crate) fn own_pole(&mut self, way: &Way, at: Vector2<f64>) -> bool {
         let in_force = match self.pole.filter(|own| way.pole.whole <= own.count) {
-            Some(own) if own.count == way.pole.count => Some(own.at),
+            Some(own) if own.count == way.pole.count => Some((own.plane, own.at)),
             Some(_) => None,
-            None => way.pole.at.filter(|_| way.pole_from.is_none()),
+            None => {
+                (way.pole.at.filter(|_| way.pole_from.is_none())).map(|pole| (pole.plane, pole.at))
+            }
         };
-        if in_force.is_some_and(|pole| (pole - at).norm() < SAME_POLE_MM) {
+        let is_same = |(plane, pole): (Plane, Vector2<f64>)| {
+            plane == way.plane && (pole - at).norm() < SAME_POLE_MM
+        };
+        if in_force.is_some_and(is_same) {
             return false;
         }
         self.pole = Some(OwnPole {
+            plane: way.plane,
             at,
             count: way.pole.count,
         });
@@ -49,12 +56,13 @@ impl Writer<'_> {
         let file = &self.program.files[motion.file];
         let signs = self.signs[motion.file];
         let text = [0, 1].map(|axis| {
-            let value = pole[axis] / way.unit_mm;
+            let value = pole.at[axis] / way.unit_mm;
             let is_exact = |digits: &usize| {
                 let fine = 10.0_f64.powi(*digits as i32);
                 ((value * fine).round() / fine - value).abs() < SAME_POLE_MM
             };
             let digits = (0..MOST_DIGITS).find(is_exact);
+            let axis = pole.plane.axes()[axis];
             word_text(axis, value, digits.unwrap_or(MOST_DIGITS), signs)
         });
         let mut inserted = file

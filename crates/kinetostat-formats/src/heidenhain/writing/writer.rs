@@ -4,6 +4,7 @@ use nalgebra::{Vector2, Vector3};
 
 use crate::axis_count::CountShown;
 use crate::heidenhain::digits::decimals;
+use crate::heidenhain::plane::Plane;
 use crate::heidenhain::reading::found::Way;
 use crate::heidenhain::writing::words::Stated;
 use crate::model::program::RobotProgram;
@@ -16,7 +17,8 @@ pub(crate) type Reason = (String, &'static str);
 /// A pole of the writer's own.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct OwnPole {
-    /// In the programmed axes, mm.
+    pub plane: Plane,
+    /// In it, in the programmed axes, mm.
     pub at: Vector2<f64>,
     /// How many CC blocks of the program ran before it.
     pub count: usize,

@@ -58,7 +58,7 @@ fn blocks_that_move_the_tool_otherwise_are_refused_by_line() {
         ("FL X+10 AN45", "the control computes the contour by itself"),
         (
             "L X+5 RL F100",
-            "the control moves the path aside by the tool's radius; if the places are those of the tool's centre, say so",
+            "the control moves the path aside by the tool's radius; state the tool's radius in the program (TOOL DEF 1 L+0 R+5) and write it flat first (--expand), or say so",
         ),
         (
             "L A+30 FMAX",
@@ -90,7 +90,6 @@ fn blocks_that_move_the_tool_otherwise_are_refused_by_line() {
             "TCH PROBE 413 DATUM",
             "it moves until a probe touches; take it into a program of its own",
         ),
-        ("TOOL CALL 3 Y S100", "the tool's axis is not Z"),
         ("TOOL CALL Q5 Z", "a Q parameter says its value"),
         (
             "C X+5 Y+5 DR+",
@@ -105,8 +104,8 @@ fn blocks_that_move_the_tool_otherwise_are_refused_by_line() {
             "the circle has radius 3.7417 mm at its start and 7.0711 mm at its end",
         ),
         (
-            "CC X+0 Z+0",
-            "the pole is not stated by X and Y; circles in other planes are not followed",
+            "CC X+0 B+0",
+            "the pole is not stated by two of X, Y and Z; state the two axes of the circle",
         ),
         ("CC XQ1", "a Q parameter says its value"),
         (
@@ -164,7 +163,7 @@ fn blocks_that_move_the_tool_otherwise_are_refused_by_line() {
         ),
         (
             "LBL 1\nLBL 1",
-            "there is a label of this name above; name it otherwise",
+            "there is a label of this name above, in line 4; name it otherwise",
         ),
         ("CALL LBL", "the label has no number and no name"),
         ("LN X+1 TX0 TY0 TZ2", "the tool's axis has not the length 1"),
@@ -292,4 +291,57 @@ fn statements_stand_once_in_their_table() {
     let mut names: Vec<&str> = HEIDENHAIN_STATEMENTS.iter().map(|row| row.name).collect();
     names.sort_unstable();
     assert!(names.windows(2).all(|pair| pair[0] != pair[1]));
+}
+
+#[test]
+fn the_end_of_another_program_is_refused() {
+    let text = |begin: &str, end: &str| {
+        format!("BEGIN PGM {begin}\nL X+1 Y+1 Z+1 FMAX\nL X+5 F100 M30\n{end}\n")
+    };
+    for (end, part) in [
+        (
+            "END PGM B INCH",
+            "the program ends as B and begins as A in line 1",
+        ),
+        (
+            "END PGM A INCH",
+            "the program ends as INCH and begins as MM in line 1",
+        ),
+        ("END PGM B MM", "give one whole program"),
+    ] {
+        let found = errors(&text("A MM", end));
+        assert_eq!(found.len(), 1, "{found:?}");
+        assert_eq!(found[0].0, 4);
+        assert!(found[0].1.contains(part), "{found:?}");
+    }
+    // What is not stated says nothing else.
+    let named = "BEGIN PGM 5E3 MM\nL X+1 Y+1 Z+1 FMAX\nEND PGM 5E3 MM\n";
+    assert!(read_with(named.as_bytes(), &ReadOptions::default()).is_ok());
+    for end in ["END PGM a MM ; done", "END PGM A", "END PGM MM", "END PGM"] {
+        assert!(
+            read_with(text("A MM", end).as_bytes(), &ReadOptions::default()).is_ok(),
+            "{end}"
+        );
+    }
+}
+
+#[test]
+fn numbers_with_an_exponent_are_refused_in_every_block() {
+    for block in [
+        "TOOL CALL 1 Z S1e3",
+        "LBL 1e3",
+        "L X+1e2 F100",
+        "M3 F1E3",
+        "CYCL DEF 7.1 X+1e2",
+    ] {
+        let found = errors(&format!(
+            "BEGIN PGM A MM\nL X+1 Y+1 Z+1 FMAX\n{block}\nL X+1 Y+1 Z+1 FMAX\nEND PGM A MM\n"
+        ));
+        assert_eq!(found.len(), 1, "{block}: {found:?}");
+        assert_eq!(found[0].0, 3, "{block}: {found:?}");
+        assert!(
+            found[0].1.contains("a number with an exponent"),
+            "{block}: {found:?}"
+        );
+    }
 }

@@ -128,7 +128,11 @@ fn a_program_that_is_called_is_whole() {
         ),
         (
             "BEGIN PGM SUB MM\nLBL 1\nLBL 1\nEND PGM SUB MM\n",
-            "line 3: `LBL 1`: there is a label of this name above",
+            "line 3: `LBL 1`: there is a label of this name above, in line 2;",
+        ),
+        (
+            "BEGIN PGM SUB MM\nL X+1\nEND PGM OTHER MM\n",
+            "line 3: `END PGM OTHER MM`: the program ends as OTHER and begins as SUB in line 1",
         ),
     ] {
         let files = vec![SourceFile::new("m.h", main), SourceFile::new("sub.h", sub)];
@@ -136,6 +140,15 @@ fn a_program_that_is_called_is_whole() {
         assert_eq!(found[0].file, "sub.h");
         assert!(found[0].to_string().contains(part), "{found:?}");
     }
+    // Nor are there two of its name.
+    let sub = "BEGIN PGM SUB MM\nL X+1\nEND PGM SUB MM\n";
+    let files = [("m.h", main), ("a/sub.h", sub), ("b/SUB.H", sub)];
+    let files = files
+        .map(|(name, text)| SourceFile::new(name, text))
+        .to_vec();
+    let found = expand_heidenhain(files, &ReadOptions::default()).unwrap_err();
+    let both = "b/SUB.H, line 1: `BEGIN PGM SUB MM`: a call cannot tell this program from that of the same name in a/sub.h, line 1";
+    assert!(found[0].to_string().contains(both), "{found:?}");
 }
 
 #[test]
@@ -263,6 +276,18 @@ fn runs_are_bounded_and_faults_name_their_line() {
             "not a whole number from 1 to 65534",
         ),
         (
+            "LBL 1\nL IX+1\nCALL LBL 1 REP 1e3\n",
+            "line 4: `CALL LBL 1 REP 1e3`: a number with an exponent",
+        ),
+        (
+            "LBL 1\nL IX+1\nCALL LBL 1 REP 2 M8\n",
+            "not a whole number from 1 to 65534",
+        ),
+        (
+            "LBL 1 L X+5\nL IX+1 M99\n",
+            "line 2: `LBL 1 L X+5`: more stands behind the label",
+        ),
+        (
             "L X+Q7\n",
             "line 2: `L X+Q7`: Q7 has no value that the program states; state it before: FN 0: Q1 = +5",
         ),
@@ -286,7 +311,7 @@ fn runs_are_bounded_and_faults_name_their_line() {
         ("L X+1 M99\n", "no cycle is defined"),
         (
             "LBL 1\nL X+1\nLBL 1\nCALL LBL 1 REP 2\n",
-            "line 4: `LBL 1`: there is a label of this name above; name it otherwise",
+            "line 4: `LBL 1`: there is a label of this name above, in line 2; name it otherwise",
         ),
         (
             "CYCL DEF 207 RIGID TAPPING ~\n Q200=+2 ~\n Q201=-10\nL X+1 M99\n",

@@ -6,10 +6,12 @@ mod broken_forms;
 mod corrections;
 mod expanding;
 mod paths;
+mod planes;
 mod properties;
 mod random;
 mod real;
 mod refused_words;
+mod sides;
 mod tool_axes;
 mod zero_change;
 

@@ -1,0 +1,35 @@
+//! Name and unit that the first and the last block of a program state.
+
+use crate::error::ProgramError;
+use crate::heidenhain::blocks::Block;
+use crate::text::source::SourceFile;
+
+/// What BEGIN PGM and END PGM state: the name, and MM or INCH; empty where it is missing.
+fn stated(file: &SourceFile, block: &Block) -> [String; 2] {
+    let mut parts = file.part(&block.text).split(|byte| *byte == b';');
+    let text = String::from_utf8_lossy(parts.next().unwrap_or_default()).to_uppercase();
+    let mut words: Vec<&str> = text.split_whitespace().skip(2).collect();
+    let unit = words.pop_if(|word| *word == "MM" || *word == "INCH");
+    [words.join(" "), unit.unwrap_or_default().to_owned()]
+}
+
+/// That the END PGM of a program states another name or unit than its BEGIN PGM, if it does.
+///
+/// The control writes both from one name and one unit: HEIDENHAIN, TNC 640, user's manual, Klartext programming, "Creating and
+/// writing programs". So the end is that of another program.
+pub(crate) fn other_end(file: &SourceFile, blocks: &[Block], begin: usize) -> Option<ProgramError> {
+    let is_end = |block: &&Block| {
+        let words = block.words(file.bytes());
+        words.first().is_some_and(|word| word.is("END"))
+    };
+    let end = blocks.get(begin..)?.iter().find(is_end)?;
+    let (first, last) = (stated(file, &blocks[begin]), stated(file, end));
+    let differ =
+        |(first, last): &(&String, &String)| first != last && !first.is_empty() && !last.is_empty();
+    let (first, last) = first.iter().zip(&last).find(differ)?;
+    let line = file.line_of(blocks[begin].text.start);
+    let reason = format!("the program ends as {last} and begins as {first} in line {line}");
+    let remedy =
+        "give one whole program, with one name and one unit in its first and its last block";
+    Some(ProgramError::at(file, end.text.clone(), reason, remedy))
+}
