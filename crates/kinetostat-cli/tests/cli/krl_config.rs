@@ -48,6 +48,22 @@ fn compensated(here: &Path, program: &str) -> (String, String) {
     (said, text)
 }
 
+/// `PTP XHOME` goes to where the data say; without them it is left as it is written, which is said.
+#[test]
+fn home_positions_are_taken_from_the_data_or_left() {
+    let frame = |place: &str| format!("{{{place},A 0,B 0,C 0}}");
+    let program = (PROGRAM.replace("PTP {", "PTP XHOME\nPTP {"))
+        .replace("BASE_DATA[2]", &frame("X 1700,Y 12.5,Z 900"))
+        .replace("TOOL_DATA[3]", &frame("X 0,Y 0,Z 180"));
+    for (config, is_left) in [(Some(("$config.dat", CONFIG)), false), (None, true)] {
+        let here = place("part.src", config);
+        std::fs::write(here.path().join("part.src"), &program).unwrap();
+        let (said, text) = compensated(here.path(), "part.src");
+        assert!(text.contains("PTP XHOME\n"), "{text}");
+        assert_eq!(said.contains("no `XHOME` is declared"), is_left, "{said}");
+    }
+}
+
 #[test]
 fn tools_and_bases_are_taken_from_the_controllers_data() {
     let in_program = PROGRAM.replace(

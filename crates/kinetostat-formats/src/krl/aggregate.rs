@@ -29,9 +29,9 @@ pub(crate) fn aggregate_of(file: &TokenFile<'_>, tokens: &Range<usize>) -> Optio
         let name = file.name(at)?;
         let is_text = file.is(at + 1, b'[') && file.is(at + 2, b']');
         let value = at + 1 + 2 * usize::from(is_text)..end;
-        // Without a blank between them another number could grow into the name.
-        let name_end = file.span(&(at..value.start)).end;
-        if value.is_empty() || file.span(&value).start == name_end {
+        // Without a blank between them another number could grow into the name; digits in quotation marks are no name.
+        let touches = file.span(&value).start == file.span(&(at..value.start)).end;
+        if value.is_empty() || (touches && file.tokens[value.start].kind != Kind::Bits) {
             return None;
         }
         members.push((name, value));
@@ -84,7 +84,7 @@ pub(crate) fn number_of(file: &TokenFile<'_>, tokens: &Range<usize>) -> Option<f
 }
 
 /// What a position in braces states.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct Position {
     /// The whole literal in its file.
     pub whole: Range<usize>,
@@ -113,53 +113,71 @@ pub(crate) fn position_of(
     let aggregate = aggregate_of(file, tokens).ok_or("it is no position in braces")?;
     let mut position = Position {
         whole: file.span(tokens),
-        numbers: Default::default(),
-        configuration: Configuration::default(),
-        external: vec![const { None }; 6],
-        axes: [None; 6],
+        ..Position::default()
     };
-    for (name, value_tokens) in &aggregate.members {
-        let number = number_of(file, value_tokens)
-            .ok_or("its numbers are computed while the program runs")?;
-        if number.abs() > LARGEST {
-            return Err("its numbers are larger than any robot needs");
-        }
-        let text = |value: f64| NumberText {
-            span: file.span(value_tokens),
-            value,
-        };
+    for (name, value) in &aggregate.members {
         let of_this_name = |other: &&(Name, Range<usize>)| other.0 == *name;
         if aggregate.members.iter().filter(of_this_name).count() > 1 {
             return Err("it states a component twice");
         }
-        let slot = |names: [&str; 6]| names.iter().position(|capitals| name.is(capitals));
-        if let Some(index) = slot(PLACE) {
-            position.numbers[index] = Some(text(number));
-        } else if let Some(index) = slot(AXES) {
-            position.axes[index] = Some(number);
-        } else if let Some(index) = slot(EXTERNAL) {
-            position.external[index] = Some(text(number));
-        } else if name.is("S") || name.is("T") {
-            if number.fract() != 0.0 || number < 0.0 {
-                return Err("its S and T are not whole numbers of 0 and above");
-            }
-            let written = &mut position.configuration.text;
-            if !written.is_empty() {
-                written.push(',');
-            }
-            written.push_str(&file.text(&(value_tokens.start - 1..value_tokens.end)));
-            position.configuration.numbers.push(number);
-        } else {
-            return Err("it has a member that no position has");
-        }
-    }
-    if position.external.iter().all(Option::is_none) {
-        position.external.clear();
+        position.set(file, name, value)?;
     }
     Ok(position)
 }
 
 impl Position {
+    /// Gives a member the number that tokens are.
+    pub(crate) fn set(
+        &mut self,
+        file: &TokenFile<'_>,
+        name: &Name,
+        value: &Range<usize>,
+    ) -> Result<(), &'static str> {
+        let number =
+            number_of(file, value).ok_or("its numbers are computed while the program runs")?;
+        if number.abs() > LARGEST {
+            return Err("its numbers are larger than any robot needs");
+        }
+        let text = NumberText {
+            span: file.span(value),
+            value: number,
+        };
+        let slot = |names: [&str; 6]| names.iter().position(|capitals| name.is(capitals));
+        if let Some(index) = slot(PLACE) {
+            self.numbers[index] = Some(text);
+        } else if let Some(index) = slot(AXES) {
+            self.axes[index] = Some(number);
+        } else if let Some(index) = slot(EXTERNAL) {
+            self.external.resize(EXTERNAL.len(), None);
+            self.external[index] = Some(text);
+        } else if name.is("S") || name.is("T") {
+            if number.fract() != 0.0 || number < 0.0 {
+                return Err("its S and T are not whole numbers of 0 and above");
+            }
+            let written = &mut self.configuration.text;
+            if !written.is_empty() {
+                written.push(',');
+            }
+            written.push_str(&file.text(&(value.start - 1..value.end)));
+            self.configuration.numbers.push(number);
+        } else {
+            return Err("it has a member that no position has");
+        }
+        Ok(())
+    }
+
+    /// Without some of its members.
+    pub(crate) fn without(mut self, members: &[Name]) -> Self {
+        let is_left = |capitals: &str| !members.iter().any(|name| name.is(capitals));
+        for index in 0..PLACE.len() {
+            self.numbers[index].take_if(|_| !is_left(PLACE[index]));
+            self.axes[index].take_if(|_| !is_left(AXES[index]));
+        }
+        for (name, value) in EXTERNAL.iter().zip(&mut self.external) {
+            value.take_if(|_| !is_left(name));
+        }
+        self
+    }
     /// What it says of X, Y, Z, A, B, C.
     pub(crate) fn values(&self) -> [Option<f64>; 6] {
         self.numbers

@@ -6,6 +6,7 @@ use std::ops::Range;
 
 use nalgebra::Isometry3;
 
+use crate::krl::aggregate::Position;
 use crate::krl::role::Role;
 
 /// What the program gave frames for certain, as far as it was walked.
@@ -21,12 +22,21 @@ pub(crate) struct Given {
     pub at: (usize, usize),
     /// The statement that is walked may run several times.
     pub is_repeated: bool,
-    /// Data of the program by their index: the value that the last statement gave; none where it is not in numbers, or may not have run.
-    pub data: BTreeMap<usize, Option<Isometry3<f64>>>,
-    /// The same of values in braces, of frames and other ends of motions: the routine and the tokens of the value.
-    pub ends: BTreeMap<usize, Option<(usize, Range<usize>)>>,
+    /// Data of the program by their index: what statements gave them; none where it is not in numbers, or may not have run.
+    pub ends: BTreeMap<usize, Option<GivenEnd>>,
     /// The statement that is walked runs once, on no condition: the values above are those that it finds.
     pub is_certain: bool,
+}
+
+/// What statements gave a datum, a frame or another end of a motion.
+#[derive(Debug, Clone)]
+pub(crate) struct GivenEnd {
+    /// Where the last of them stands.
+    pub routine: usize,
+    pub line: usize,
+    /// How many they are.
+    pub count: usize,
+    pub position: Position,
 }
 
 /// Statements by role and number; none where the index is no literal number.

@@ -19,6 +19,8 @@ pub(crate) struct Rest {
     /// Place of the words of rounding.
     pub zone: Option<Range<usize>>,
     pub rounding: Option<Thing>,
+    /// A step is in the axes of the tool, not of the base.
+    pub in_tool: bool,
     /// What follows WITH.
     pub with: Range<usize>,
 }
@@ -33,12 +35,14 @@ pub(crate) fn rest_of(
     let mut rest = Rest {
         zone: None,
         rounding: None,
+        in_tool: false,
         with: tokens.end..tokens.end,
     };
     let mut at = tokens.start;
     while at < tokens.end {
         if is_step && file.is(at, b'#') {
-            at = behind_axes(file, at)?;
+            rest.in_tool = is_of_tool(file, at)?;
+            at += 2;
             continue;
         }
         let Some(name) = file.name(at) else {
@@ -81,14 +85,16 @@ pub(crate) fn rest_of(
     Ok(rest)
 }
 
-/// Behind the word that says in whose axes a step is: those of the base without a word.
-fn behind_axes(file: &TokenFile<'_>, at: usize) -> Result<usize, Reason> {
-    match file.name(at + 1).is_some_and(|name| name.is("BASE")) {
-        true => Ok(at + 2),
-        false => Err((
-            "its steps are in the axes of the tool".to_owned(),
-            "write the end with LIN and all its numbers",
+/// Whether a step is in the axes of the tool: without a word it is in those of the base.
+fn is_of_tool(file: &TokenFile<'_>, at: usize) -> Result<bool, Reason> {
+    let name = file.name(at + 1);
+    let is = |word: &str| name.is_some_and(|name| name.is(word));
+    match (is("BASE"), is("TOOL")) {
+        (false, false) => Err((
+            "its steps are in axes that are not known".to_owned(),
+            "write #BASE or #TOOL",
         )),
+        (_, is_tool) => Ok(is_tool),
     }
 }
 

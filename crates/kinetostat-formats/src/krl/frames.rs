@@ -5,7 +5,7 @@ use std::ops::Range;
 use nalgebra::{Isometry3, Translation3};
 
 use crate::krl::aggregate::{Position, literal_index, position_of};
-use crate::krl::assigned_frames::{Assignment, Given, Standing, of_element};
+use crate::krl::assigned_frames::{Assignment, Given, GivenEnd, Standing, of_element};
 use crate::krl::lex::TokenFile;
 use crate::krl::role::Role;
 use crate::krl::symbols::Meaning;
@@ -230,22 +230,71 @@ impl Values<'_> {
         (tokens.len() == 1 && is_own).then_some(index)
     }
 
-    /// What the program gave a datum before, in numbers and for certain.
-    fn held(&self, routine: usize, tokens: &Range<usize>, given: &Given) -> Option<Isometry3<f64>> {
-        let index = self.own_datum(routine, tokens)?;
-        *given.data.get(&index).filter(|_| given.is_certain)?
-    }
-
-    /// The value in braces that a statement of the same routine gave a datum before, for certain: nothing else may change it.
-    pub(crate) fn assigned_end(
+    /// What statements gave a datum before, in numbers and for certain: those of the same routine, or all that there are.
+    pub(crate) fn assigned_end<'g>(
         &self,
         routine: usize,
         tokens: &Range<usize>,
-        given: &Given,
-    ) -> Option<Range<usize>> {
+        given: &'g Given,
+    ) -> Option<&'g GivenEnd> {
         let index = self.own_datum(routine, tokens)?;
-        let (home, value) = given.ends.get(&index)?.clone()?;
-        (home == routine && given.is_certain).then_some(value)
+        let end = given.ends.get(&index)?.as_ref()?;
+        let is_here = end.routine == routine && given.is_certain;
+        (is_here || end.count == self.symbols.data[index].assignments).then_some(end)
+    }
+
+    /// What a datum is behind a statement that gives it a value (`P1={X 1,Y 2}`, `P1=P2`), or a member of it one (`P1.X=10`).
+    pub(crate) fn given_end(
+        &self,
+        (routine, datum): (usize, usize),
+        (tokens, equals): (&Range<usize>, usize),
+        given: &Given,
+    ) -> Option<GivenEnd> {
+        let file = self.file(routine);
+        let value = equals + 1..tokens.end;
+        let before = given.ends.get(&datum).cloned().flatten();
+        let count = 1 + before.as_ref().map_or(0, |before| before.count);
+        let position = if file.is(tokens.start + 1, b'.') && equals == tokens.start + 3 {
+            let mut position = match given.ends.contains_key(&datum) {
+                true => before.filter(|before| before.routine == routine)?.position,
+                false => self.kept_members(datum)?,
+            };
+            let member = file.name(equals - 1)?;
+            // What is written of S and T stands beside their names.
+            let is_number = !member.is("S") && !member.is("T");
+            position
+                .set(file, &member, &value)
+                .ok()
+                .filter(|()| is_number)?;
+            position
+        } else if equals != tokens.start + 1 {
+            return None;
+        } else if file.is(value.start, b'{') {
+            position_of(file, &value).ok()?
+        } else if let Some(other) = self.assigned_end(routine, &value, given) {
+            other.position.clone()
+        } else {
+            let (other, stated) = self.datum(routine, &value).ok()?;
+            position_of(&self.files[other.file], &stated.value).ok()?
+        };
+        Some(GivenEnd {
+            routine,
+            line: given.at.1,
+            count,
+            position,
+        })
+    }
+
+    /// What is stated of a datum without the members that statements change: a controller keeps what the last run left there.
+    fn kept_members(&self, datum: usize) -> Option<Position> {
+        let datum = &self.symbols.data[datum];
+        let stated = match datum.stated.get(&0) {
+            Some(stated) if datum.parts_assigned.len() == datum.assignments => {
+                position_of(&self.files[datum.file], &stated.value).ok()?
+            }
+            _ => Position::default(),
+        };
+        Some(stated.without(&datum.parts_assigned))
     }
 
     /// The name of a frame that is not known: with its line, where a datum gets several values and each use may be another frame.
@@ -303,8 +352,8 @@ impl Values<'_> {
         if let Some(stated) = self.stated.get(&key(&file.text(tokens))) {
             return Ok(*stated);
         }
-        if let Some(frame) = self.held(routine, tokens, given) {
-            return Ok(frame);
+        if let Some(end) = self.assigned_end(routine, tokens, given) {
+            return whole(&end.position).ok_or_else(|| "its numbers are not all stated".to_owned());
         }
         let (datum, stated) = self.datum(routine, tokens).map_err(|(reason, _)| reason)?;
         let position =

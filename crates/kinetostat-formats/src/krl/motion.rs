@@ -2,13 +2,11 @@
 
 use std::ops::Range;
 
-use nalgebra::Vector3;
-
 use crate::krl::behind_ends::rest_of;
 use crate::krl::lex::TokenFile;
 use crate::krl::speed_place::SpeedPlace;
 use crate::krl::state::{Settings, State, Thing};
-use crate::krl::steps::{by_step, step_of};
+use crate::krl::steps::{Step, by_step, step_of};
 use crate::krl::table::{Ends, MotionRow};
 use crate::krl::targets::{End, Targets};
 use crate::krl::usage::ends_of;
@@ -29,8 +27,8 @@ pub(crate) struct Followed {
     /// Which rounding it asks for.
     pub rounding: Option<Thing>,
     pub speed_place: SpeedPlace,
-    /// By how much its end is off the pose before, in the axes of the base, mm.
-    pub step_mm: Option<Vector3<f64>>,
+    /// By how much its end is off where the tool is before.
+    pub step: Option<Step>,
     /// Members that its end leaves open, and those of the pose on its circle.
     pub open: Option<[Option<f64>; 6]>,
     pub via_open: Option<[Option<f64>; 6]>,
@@ -65,22 +63,29 @@ pub(crate) fn follow(
     let end_tokens = ends.last().cloned().unwrap_or(tokens.end..tokens.end);
     are_apart(file, (row, tokens), &ends, &end_tokens)?;
     let behind = behind_end(file, end_tokens.end);
-    let rest = rest_of(file, behind..tokens.end, row.ends == Ends::Step)?;
+    let rest = rest_of(file, behind..tokens.end, row.ends.are_steps())?;
     with((values, settings, routine), &rest.with, &mut state)?;
     let speed_place = SpeedPlace::of(file, &end_tokens, &rest.with, in_block);
-    let (step_mm, end) = match row.ends {
-        Ends::Step => {
-            let step = step_of(file, &end_tokens)?;
+    let joint = matches!(row.ends, Ends::Joint | Ends::JointStep);
+    let (step, end) = match row.ends {
+        Ends::Step | Ends::JointStep => {
+            let step = step_of(file, &end_tokens, (joint, rest.in_tool))?;
             (Some(step), by_step())
         }
         _ => {
             let found = targets.find(values, (routine, &settings.given), &end_tokens);
-            (None, left(found, unknown)?)
+            // Joint motions are not corrected: what goes on from there says whether it must be known.
+            let is_left = joint && values.is_elsewhere(routine, &end_tokens);
+            let left_as_written = UnknownTargets::LeftAsWritten;
+            (
+                None,
+                left(found, if is_left { left_as_written } else { unknown })?,
+            )
         }
     };
     let (kind, via, via_open) = match row.ends {
         Ends::Linear | Ends::Step => (MotionKind::Linear, None, None),
-        Ends::Joint => (MotionKind::Joint, None, None),
+        Ends::Joint | Ends::JointStep => (MotionKind::Joint, None, None),
         Ends::Circular => {
             let via = left(
                 targets.find(values, (routine, &settings.given), &ends[0]),
@@ -96,7 +101,6 @@ pub(crate) fn follow(
         }
     };
     let span = file.span(tokens);
-    let joint = row.ends == Ends::Joint;
     let motion = Motion {
         file: file.index,
         line: file.source.line_of(span.start),
@@ -132,7 +136,7 @@ pub(crate) fn follow(
         state,
         rounding: rest.rounding,
         speed_place,
-        step_mm,
+        step,
         open: end.open,
         via_open,
     })

@@ -7,6 +7,7 @@ use crate::krl::kept::{completed, is_beyond, kept_angles};
 use crate::krl::motion::Followed;
 use crate::krl::role::Role;
 use crate::krl::state::{Settings, Slot, State, Thing};
+use crate::krl::turning::{KEPT, turned};
 use crate::krl::unsettled::Unsettled;
 use crate::krl::values::{Reason, Values};
 use crate::krl::walking::walker::Walker;
@@ -104,7 +105,7 @@ impl Resolver<'_, '_> {
             mut motion,
             rounding,
             speed_place,
-            step_mm,
+            step,
             open,
             via_open,
             ..
@@ -139,28 +140,19 @@ impl Resolver<'_, '_> {
                 _ => Zone::Percent(*number),
             };
         }
-        let before = motion
-            .follows
-            .and_then(|index| self.before(index, &motion).cloned());
+        let from = (motion.follows).and_then(|index| self.before(index, &motion));
+        let before = from.and_then(Target::pose).cloned();
         let mut fault = None;
         let lost_place = self.lost_place(state.get(Thing::Place));
-        if let (Some(step_mm), Target::Pose(pose)) = (step_mm, &mut motion.target) {
-            match (&before, self.unknown) {
-                (Some(before), _) => {
-                    *pose = before.clone();
-                    pose.position_mm += step_mm;
+        if let Some(step) = step {
+            let reason = || lost_place.clone().unwrap_or_else(|| STEP.to_owned());
+            let is_left = motion.kind == MotionKind::Joint;
+            match (from.and_then(|from| step.from(from)), self.unknown) {
+                (Some(end), _) => motion.target = end,
+                (None, UnknownTargets::Refused) if !is_left => {
+                    fault = Some((reason(), "write the end with LIN and all its numbers"));
                 }
-                (None, UnknownTargets::LeftAsWritten) => {
-                    motion.target = Target::Unknown {
-                        reason: lost_place.clone().unwrap_or_else(|| STEP.to_owned()),
-                    }
-                }
-                (None, UnknownTargets::Refused) => {
-                    fault = Some((
-                        lost_place.clone().unwrap_or_else(|| STEP.to_owned()),
-                        "write the end with LIN and all its numbers",
-                    ));
-                }
+                (None, _) => motion.target = Target::Unknown { reason: reason() },
             }
         }
         // A routine may follow a motion that stands behind it in the file, and is not known yet.
@@ -200,6 +192,14 @@ impl Resolver<'_, '_> {
             let placed = via_open.filter(|open| open[..3].iter().any(Option::is_none));
             fill(via, placed);
         }
+        if motion.kind != MotionKind::Joint
+            && self
+                .settings
+                .keeps_orientation(state.get(Thing::Orientation))
+        {
+            motion.site.turns_otherwise = Some(KEPT);
+            fault = fault.or_else(|| turned(before.as_ref(), motion.target.pose()));
+        }
         self.beyond.push(self.ends_beyond(&motion, beyond));
         self.done.push(motion);
         fault.map_or(Ok(()), Err)
@@ -222,11 +222,11 @@ impl Resolver<'_, '_> {
         b.map_or(before, |b| is_beyond(b.value))
     }
 
-    /// The pose before, where it is in the same axes and of the same tool.
-    fn before(&self, index: usize, motion: &Motion) -> Option<&PoseTarget> {
+    /// The end before, where it is in the same axes and of the same tool.
+    fn before(&self, index: usize, motion: &Motion) -> Option<&Target> {
         let before = self.done.get(index)?;
         let same = before.tool == motion.tool && before.work_object == motion.work_object;
-        same.then(|| before.target.pose())?
+        same.then_some(&before.target)
     }
 
     /// The frame in force at a motion of a file.

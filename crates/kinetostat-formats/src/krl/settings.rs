@@ -39,7 +39,8 @@ pub(crate) fn touched(file: &TokenFile<'_>, at: usize) -> Things {
         b"$VEL" => one(Thing::Speed),
         b"$APO" => Things::of(&[Thing::Distance, Thing::Percent, Thing::VelocityPercent]),
         b"FDAT_ACT" => one(Thing::PointData),
-        b"LDAT_ACT" => one(Thing::LinearData),
+        b"LDAT_ACT" => Things::of(&[Thing::LinearData, Thing::Orientation]),
+        b"$ORI_TYPE" => one(Thing::Orientation),
         b"PDAT_ACT" => one(Thing::JointData),
         _ => Things::default(),
     }
@@ -128,7 +129,10 @@ impl Setter<'_, '_> {
             ),
             b"$IPO_MODE" if called.is_some() => self.mode_of_point(&argument)?,
             b"$ORI_TYPE" | b"$CIRC_TYPE" => {
-                turns_as_followed(self.values, self.routine, (&name, tokens, &value))?;
+                let kept = turns_as_followed(self.values, self.routine, (&name, tokens, &value))?;
+                if name.is("$ORI_TYPE") {
+                    self.orientation(kept, state);
+                }
             }
             b"$SINGUL_STRATEGY" => {
                 keeps_its_orientation(self.values.number(self.routine, &value))?;
@@ -146,12 +150,18 @@ impl Setter<'_, '_> {
                     false => Thing::JointData,
                 };
                 state.set(thing, slot);
-                if thing == Thing::LinearData && whole {
-                    data_turn_as_followed(self.values, self.routine, (tokens, &value))?;
+                let kept = if thing == Thing::LinearData && whole {
+                    data_turn_as_followed(self.values, self.routine, (tokens, &value))?
                 } else if thing == Thing::LinearData
                     && part.is_some_and(|part| part.is("ORI_TYP") || part.is("CIRC_TYP"))
                 {
-                    turns_as_followed(self.values, self.routine, (&name, tokens, &value))?;
+                    turns_as_followed(self.values, self.routine, (&name, tokens, &value))?
+                } else {
+                    false
+                };
+                // Other data do not take it back before BAS puts them in force.
+                if kept {
+                    self.orientation(true, state);
                 }
             }
             b"$CIRC_MODE" => {
@@ -164,6 +174,12 @@ impl Setter<'_, '_> {
             _ => moves_no_points(file, (&name, tokens, &value))?,
         }
         Ok(())
+    }
+
+    fn orientation(&mut self, kept: bool, state: &mut State) {
+        self.settings.may_keep_orientation |= kept;
+        let slot = self.number(Some(f64::from(u8::from(kept))));
+        state.set(Thing::Orientation, slot);
     }
 
     /// `$IPO_MODE=SIPO_MODE(FP1.IPO_FRAME)`.
@@ -280,7 +296,12 @@ impl Setter<'_, '_> {
             }
             b"PTP_DAT" => state.set(Thing::Percent, state.get(Thing::JointData)),
             b"VEL_PTP" | b"ACC_CP" | b"ACC_PTP" | b"OUT_SYNC" | b"OUT_ASYNC" | b"GROUP" => {}
-            _ => *state = state.without(Things::of(&BAS)),
+            _ => {
+                *state = state.without(Things::of(&BAS));
+                if command.is("INITMOV") {
+                    self.orientation(false, state);
+                }
+            }
         }
         Ok(())
     }

@@ -58,10 +58,12 @@ pub(crate) enum Thing {
     PointData,
     LinearData,
     JointData,
+    /// $ORI_TYPE.
+    Orientation,
 }
 
 /// How many there are.
-const COUNT: usize = 10;
+const COUNT: usize = 11;
 
 /// All of them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -199,4 +201,22 @@ pub(crate) struct Settings {
     pub before_calls: Vec<State>,
     /// Tools and bases to which the program gave values up to here.
     pub given: Given,
+    /// A statement lets the tool keep its orientation (`$ORI_TYPE=#CONSTANT`): where another does not is in [`Thing::Orientation`].
+    pub may_keep_orientation: bool,
+}
+
+impl Settings {
+    /// Whether the tool keeps its orientation, or may do so, as the slot of [`Thing::Orientation`] says.
+    pub(crate) fn keeps_orientation(&self, slot: Slot) -> bool {
+        let stated = match slot {
+            Slot::Is(index)
+            | Slot::Lost {
+                before: Some(index),
+                ..
+            } => Slot::Is(index),
+            Slot::Entry | Slot::Lost { before: None, .. } => return false,
+            Slot::Unknown => return self.may_keep_orientation,
+        };
+        self.numbers.get(stated).is_none_or(|kept| *kept != 0.0)
+    }
 }

@@ -9,27 +9,70 @@ use crate::krl::lex::TokenFile;
 use crate::krl::targets::End;
 use crate::krl::values::Reason;
 use crate::model::site::TargetSite;
-use crate::model::target::{PoseTarget, Target};
+use crate::model::target::{Configuration, PoseTarget, Target};
 
-/// `{X 10,Z -5}`: a step along the axes of the base that turns nothing.
-pub(crate) fn step_of(file: &TokenFile<'_>, tokens: &Range<usize>) -> Result<Vector3<f64>, Reason> {
-    let remedy = "write the end with LIN and all its numbers";
+/// A step from where the tool is.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Step {
+    /// Along the axes of the base, or of the tool, mm.
+    Along {
+        step_mm: Vector3<f64>,
+        in_tool: bool,
+    },
+    /// Of the joints, degrees.
+    Joints([f64; 6]),
+}
+
+impl Step {
+    /// The target behind it; none where what it goes on from does not say it.
+    pub(crate) fn from(self, before: &Target) -> Option<Target> {
+        match (self, before) {
+            (Self::Along { step_mm, in_tool }, Target::Pose(before)) => {
+                let mut pose = before.clone();
+                // How the arm reaches it is not said.
+                pose.configuration = Configuration::default();
+                pose.position_mm += match in_tool {
+                    true => before.orientation * step_mm,
+                    false => step_mm,
+                };
+                Some(Target::Pose(pose))
+            }
+            (Self::Joints(by), Target::Joints { values_deg }) if values_deg.len() == by.len() => {
+                let values = values_deg.iter().zip(by).map(|(value, by)| value + by);
+                Some(Target::Joints {
+                    values_deg: values.collect(),
+                })
+            }
+            _ => None,
+        }
+    }
+}
+
+/// `{X 10,Z -5}`, a step that turns nothing, and of joints (`is_joint`) `{A1 10}`.
+pub(crate) fn step_of(
+    file: &TokenFile<'_>,
+    tokens: &Range<usize>,
+    (is_joint, in_tool): (bool, bool),
+) -> Result<Step, Reason> {
+    let remedy = "write the end with LIN, or PTP, and all its numbers";
     let position =
         position_of(file, tokens).map_err(|reason| (format!("its step: {reason}"), remedy))?;
     let values = position.values().map(Option::unwrap_or_default);
     let turns = values[3..].iter().any(|angle| *angle != 0.0);
-    let moves_others = position
-        .external
-        .iter()
-        .flatten()
-        .any(|step| step.value != 0.0)
-        || position.axes.iter().any(Option::is_some);
-    match turns || moves_others {
+    let external = position.external.iter().flatten();
+    let moves_external = external.into_iter().any(|step| step.value != 0.0);
+    let has_axes = position.axes.iter().any(Option::is_some);
+    let is_of_axes = is_joint && position.numbers.iter().all(Option::is_none);
+    match turns || moves_external || (has_axes && !is_of_axes) {
         true => Err((
             "it goes on from where the tool is, and turns it or moves axes".to_owned(),
             remedy,
         )),
-        false => Ok(Vector3::new(values[0], values[1], values[2])),
+        false if has_axes => Ok(Step::Joints(position.axes.map(Option::unwrap_or_default))),
+        false => Ok(Step::Along {
+            step_mm: Vector3::new(values[0], values[1], values[2]),
+            in_tool,
+        }),
     }
 }
 

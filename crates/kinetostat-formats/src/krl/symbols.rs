@@ -39,7 +39,10 @@ pub(crate) struct Datum {
     pub assigned: Option<(usize, usize)>,
     /// How many statements give it, or a part of it, a value.
     pub assignments: usize,
-    /// A routine to which it is given, or a loop, may change it.
+    /// The members to which they give one, and the routine of the first.
+    pub parts_assigned: Vec<Name>,
+    pub assigned_in: Option<usize>,
+    /// A routine to which it is given, a loop, or a second routine may change it.
     pub is_changed_by_calls: bool,
     /// Where elements without a stated value are assigned.
     pub elements_assigned: BTreeMap<u32, (usize, usize)>,
@@ -132,6 +135,8 @@ impl<'p> Symbols<'p> {
                             stated: BTreeMap::new(),
                             assigned: None,
                             assignments: 0,
+                            parts_assigned: Vec::new(),
+                            assigned_in: None,
                             is_changed_by_calls: false,
                             elements_assigned: BTreeMap::new(),
                         });
@@ -214,6 +219,8 @@ impl<'p> Symbols<'p> {
             stated: stated.map(|stated| (0, stated)).into_iter().collect(),
             assigned: None,
             assignments: 0,
+            parts_assigned: Vec::new(),
+            assigned_in: None,
             is_changed_by_calls: false,
             elements_assigned: BTreeMap::new(),
         });

@@ -11,17 +11,18 @@ pub const KRL_CONFIG: &str = "$config.dat";
 /// Largest file of which they are taken.
 const MOST_BYTES: usize = 1 << 24;
 
-/// What names tools and bases by numbers: the arrays, the data of inline forms, and the arguments of BAS.
-const NAMING: [&[u8]; 6] = [
+/// What names tools and bases by numbers: the arrays, the data of inline forms, and the arguments of BAS; and the home position.
+const NAMING: [&[u8]; 7] = [
     b"TOOL_DATA",
     b"BASE_DATA",
     b"TOOL_NO",
     b"BASE_NO",
     b"#TOOL",
     b"#BASE",
+    b"XHOME",
 ];
 
-/// Whether files name tools or bases by numbers and none of them is a `$config.dat`.
+/// Whether files name tools or bases by numbers, or the home position of the controller, and none of them is a `$config.dat`.
 ///
 /// ```
 /// use kinetostat_formats::{SourceFile, krl_needs_config};
@@ -44,13 +45,13 @@ pub fn krl_needs_config(files: &[SourceFile]) -> bool {
 fn names_frames(bytes: &[u8]) -> bool {
     let mut all = bytes.iter().enumerate();
     all.any(|(at, byte)| {
-        matches!(byte, b'T' | b't' | b'B' | b'b' | b'#')
+        matches!(byte, b'T' | b't' | b'B' | b'b' | b'#' | b'X' | b'x')
             && NAMING.iter().any(|word| begins(&bytes[at..], word))
     })
 }
 
-/// The tools and bases of a `$config.dat` and nothing else of it, in their lines: `TOOL_DATA[n]={...}` and `BASE_DATA[n]={...}` with
-/// the number written. None where it holds none, or is larger than 16 MiB.
+/// The tools, bases and positions of a `$config.dat` and nothing else of it, in their lines: `TOOL_DATA[n]={...}` and `BASE_DATA[n]={...}`
+/// with the number written, and what is declared with its value (`DECL E6AXIS XHOME={...}`, `DECL FDAT FHOME={...}`). None where it holds none, or is larger than 16 MiB.
 ///
 /// ```
 /// use kinetostat_formats::{SourceFile, krl_frames_of_config};
@@ -74,7 +75,7 @@ pub fn krl_frames_of_config(config: &SourceFile) -> Option<SourceFile> {
             kept.extend_from_slice(b"DEFDAT $CONFIG PUBLIC");
         } else if begins(line, b"ENDDAT") {
             kept.extend_from_slice(b"ENDDAT");
-        } else if is_frame(line) {
+        } else if is_frame(line) || is_declared(line) {
             found = true;
             kept.extend_from_slice(line);
         }
@@ -87,6 +88,22 @@ pub fn krl_frames_of_config(config: &SourceFile) -> Option<SourceFile> {
 fn begins(line: &[u8], word: &[u8]) -> bool {
     line.get(..word.len())
         .is_some_and(|start| start.eq_ignore_ascii_case(word))
+}
+
+/// Types of positions, and of the data of inline forms that go with them.
+const TYPES: [&[u8]; 8] = [
+    b"FRAME", b"POS", b"E3POS", b"E6POS", b"AXIS", b"E3AXIS", b"E6AXIS", b"FDAT",
+];
+
+/// Whether a line declares a position, or the tool and base of one, with its value.
+fn is_declared(line: &[u8]) -> bool {
+    let mut parts = line.splitn(2, |byte| *byte == b'=');
+    let (Some(head), Some(value)) = (parts.next(), parts.next()) else {
+        return false;
+    };
+    let mut words = head.split(u8::is_ascii_whitespace);
+    let is_of_type = |word: &[u8]| TYPES.iter().any(|name| word.eq_ignore_ascii_case(name));
+    !line.starts_with(b";") && words.any(is_of_type) && value.trim_ascii_start().starts_with(b"{")
 }
 
 /// Whether a line gives an element of TOOL_DATA or BASE_DATA a frame in numbers.

@@ -37,8 +37,16 @@ pub(crate) enum Ends {
     Joint,
     Linear,
     Circular,
-    /// By steps from where the tool is.
+    /// By steps from where the tool is, straight or by its joints.
     Step,
+    JointStep,
+}
+
+impl Ends {
+    /// Whether they go on from where the tool is.
+    pub(crate) fn are_steps(self) -> bool {
+        matches!(self, Self::Step | Self::JointStep)
+    }
 }
 
 /// A motion that is understood.
@@ -107,12 +115,14 @@ const fn motion(
 }
 
 /// All motions that are understood.
-pub(crate) const MOTIONS: [MotionRow; 8] = [
+pub(crate) const MOTIONS: [MotionRow; 10] = [
     motion("PTP", Ends::Joint, None, "C_PTP", EXPERT),
     motion("LIN", Ends::Linear, Some("LIN"), "C_DIS", EXPERT),
     motion("CIRC", Ends::Circular, Some("LIN"), "C_DIS", EXPERT),
     motion("LIN_REL", Ends::Step, Some("LIN"), "C_DIS", EXPERT),
+    motion("PTP_REL", Ends::JointStep, None, "C_PTP", EXPERT),
     motion("SPTP", Ends::Joint, None, "C_SPL", KSS),
+    motion("SPTP_REL", Ends::JointStep, None, "C_SPL", KSS),
     motion("SLIN", Ends::Linear, Some("SLIN"), "C_SPL", KSS),
     motion("SLIN_REL", Ends::Step, Some("SLIN"), "C_SPL", KSS),
     motion("SCIRC", Ends::Circular, Some("SLIN"), "C_SPL", KSS),
@@ -164,8 +174,8 @@ const OTHERS: &[Alike] = &[
         reason: "it leaves motions before their ends",
         remedy: "take the interrupt that resumes into a program of its own",
     }, EXPERT, &["RESUME"]),
-    alike(RELATIVE, EXPERT, &["PTP_REL", "CIRC_REL"]),
-    alike(RELATIVE, KSS, &["SPTP_REL", "SCIRC_REL"]),
+    alike(RELATIVE, EXPERT, &["CIRC_REL"]),
+    alike(RELATIVE, KSS, &["SCIRC_REL"]),
     alike(Understood, KSS, &["SPLINE", "ENDSPLINE", "SORI_TYP", "SCIRC_TYP", "SCIRC_M"]),
     alike(SPLINE, KSS, &["PTP_SPLINE", "SPL"]),
     alike(TIMES, KSS, &["TIME_BLOCK"]),

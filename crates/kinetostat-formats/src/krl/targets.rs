@@ -6,7 +6,7 @@ use std::ops::Range;
 use nalgebra::{Isometry3, Translation3};
 
 use crate::krl::aggregate::{Position, position_of};
-use crate::krl::assigned_frames::Given;
+use crate::krl::assigned_frames::{Given, GivenEnd};
 use crate::krl::frames::isometry;
 use crate::krl::symbols::Datum;
 use crate::krl::values::{Reason, Values, WRITE_IT};
@@ -117,8 +117,8 @@ impl Targets {
                 external,
             });
         }
-        if let Some(value) = values.assigned_end(routine, tokens, given) {
-            return assigned(values, routine, (tokens, &value));
+        if let Some(given) = values.assigned_end(routine, tokens, given) {
+            return assigned(&file.text(tokens), given);
         }
         let (datum, stated) = values.datum(routine, tokens)?;
         let home = &values.files[datum.file];
@@ -251,26 +251,16 @@ impl Targets {
     }
 }
 
-/// The end that a statement before gave to a name, in numbers.
-fn assigned(
-    values: &Values<'_>,
-    routine: usize,
-    (tokens, value): (&Range<usize>, &Range<usize>),
-) -> Result<End, Reason> {
-    let file = values.file(routine);
-    let position = position_of(file, value)
-        .map_err(|reason| (format!("`{}`: {reason}", file.text(tokens)), WRITE_IT))?;
-    if let Some(values_deg) = joints_of(&position)? {
-        return Ok(joints(values_deg, &position));
+/// The end that statements before gave to a name, in numbers.
+fn assigned(name: &str, given: &GivenEnd) -> Result<End, Reason> {
+    let GivenEnd { line, position, .. } = given;
+    if let Some(values_deg) = joints_of(position)? {
+        return Ok(joints(values_deg, position));
     }
-    let (pose, open) = pose_of(&position);
+    let (pose, open) = pose_of(position);
     if open.is_some() {
-        let line = file.source.line_of(file.span(value).start);
         return Err((
-            format!(
-                "`{}` gets only some of X, Y, Z, A, B and C in line {line}",
-                file.text(tokens)
-            ),
+            format!("`{name}` gets only some of X, Y, Z, A, B and C in line {line}"),
             "write all of them there",
         ));
     }

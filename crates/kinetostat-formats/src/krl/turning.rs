@@ -4,14 +4,37 @@ use std::ops::Range;
 
 use crate::error::excerpt;
 use crate::krl::values::{Reason, Values};
+use crate::model::site::TurnsOtherwise;
+use crate::model::target::PoseTarget;
+use crate::path::turning_faults::not_evenly;
 use crate::text::name::Name;
 
-/// Refuses what lets the tool turn otherwise than from the orientation of one point to that of the next.
+/// How motions turn that keep the orientation with which they begin.
+pub(crate) const KEPT: TurnsOtherwise = TurnsOtherwise {
+    reason: "$ORI_TYPE=#CONSTANT keeps the orientation with which it begins",
+    remedy: "write $ORI_TYPE=#VAR, with the orientations that the tool has",
+    evenly: None,
+};
+
+/// Why the end of such a motion is not the one that is written.
+pub(crate) fn turned(before: Option<&PoseTarget>, end: Option<&PoseTarget>) -> Option<Reason> {
+    let turn_rad = match (before, end?) {
+        (Some(before), end) => before.orientation.angle_to(&end.orientation),
+        (None, _) => {
+            let reason = "$ORI_TYPE=#CONSTANT keeps the orientation with which it begins, and that is not known from the text in these axes";
+            return Some((reason.to_owned(), KEPT.remedy));
+        }
+    };
+    Some((not_evenly("the tool turns", turn_rad, KEPT)?, KEPT.remedy))
+}
+
+/// Refuses what lets the tool turn otherwise than from the orientation of one point to that of the next; whether it keeps that of the
+/// first.
 pub(crate) fn turns_as_followed(
     values: &Values<'_>,
     routine: usize,
     (name, tokens, value): (&Name, &Range<usize>, &Range<usize>),
-) -> Result<(), Reason> {
+) -> Result<bool, Reason> {
     let file = values.file(routine);
     // A member of LDAT_ACT stands behind a point.
     let stated = file.name(tokens.start + 2).filter(|_| name.is("LDAT_ACT"));
@@ -37,24 +60,27 @@ pub(crate) fn turns_as_followed(
     is_followed(word, &choice, &shown, place == "here")
 }
 
-/// Refuses data of inline forms, which BAS puts in force for the motions behind it, as [`turns_as_followed`] refuses words.
+/// Refuses data of inline forms, which BAS puts in force for the motions behind it, as [`turns_as_followed`] refuses words; whether they
+/// keep the orientation.
 pub(crate) fn data_turn_as_followed(
     values: &Values<'_>,
     routine: usize,
     (tokens, value): (&Range<usize>, &Range<usize>),
-) -> Result<(), Reason> {
+) -> Result<bool, Reason> {
+    let mut kept = false;
     let shown = excerpt(values.file(routine).text(tokens).as_bytes());
     for word in ["ORI_TYP", "CIRC_TYP"] {
         // Data that are in none of the files say nothing of speed or rounding, either: what needs them says so.
         if let Ok(Some(choice)) = values.choice(routine, value, word) {
-            is_followed(word, &choice, &shown, false)?;
+            kept |= is_followed(word, &choice, &shown, false)?;
         }
     }
-    Ok(())
+    Ok(kept)
 }
 
-fn is_followed(word: &str, choice: &str, shown: &str, here: bool) -> Result<(), Reason> {
+fn is_followed(word: &str, choice: &str, shown: &str, here: bool) -> Result<bool, Reason> {
     match word {
+        "ORI_TYP" if choice.trim().trim_start_matches('#') == "CONSTANT" => Ok(true),
         "ORI_TYP" if !choice.contains("VAR") => Err((
             format!("`{shown}`: the tool does not turn evenly to the orientation of the point"),
             match here {
@@ -73,7 +99,7 @@ fn is_followed(word: &str, choice: &str, shown: &str, here: bool) -> Result<(), 
                 }
             },
         )),
-        _ => Ok(()),
+        _ => Ok(false),
     }
 }
 

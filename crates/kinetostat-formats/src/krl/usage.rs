@@ -41,7 +41,7 @@ pub(crate) fn ends_of(
 ) -> Vec<Range<usize>> {
     let count = match ends {
         Ends::Circular => 2,
-        Ends::Joint | Ends::Linear | Ends::Step => 1,
+        Ends::Joint | Ends::Linear | Ends::Step | Ends::JointStep => 1,
     };
     let mut found = Vec::with_capacity(count);
     let mut start = tokens.start + 1;
@@ -160,7 +160,11 @@ impl Notes<'_, '_, '_, '_> {
         let (place, element) = place_of(self.file, at, end);
         let datum = &mut self.symbols.data[index];
         datum.assignments += 1;
-        datum.is_changed_by_calls |= by_call;
+        let first = *datum.assigned_in.get_or_insert(self.routine);
+        datum.is_changed_by_calls |= by_call || first != self.routine;
+        if self.file.is(at + 1, b'.') && end == at + 3 {
+            datum.parts_assigned.extend(self.file.name(at + 2));
+        }
         match element {
             Some(element) if place.len() > 1 => {
                 match datum.stated.get_mut(&element) {

@@ -10,6 +10,7 @@ use crate::krl::lex::TokenFile;
 use crate::krl::symbols::{Datum, Meaning, Stated, Symbols};
 use crate::krl::usage::place_of;
 use crate::options::ReadOptions;
+use crate::text::name::Name;
 
 /// Why something is refused, and what to do.
 pub(crate) type Reason = (String, &'static str);
@@ -132,20 +133,35 @@ impl<'p> Values<'p> {
         }
     }
 
-    /// The members of a datum.
+    /// Whether a name is declared in none of the files, as home positions of the controller are: its `$config.dat` has XHOME.
+    pub(crate) fn is_elsewhere(&self, routine: usize, tokens: &Range<usize>) -> bool {
+        let name = self.file(routine).name(tokens.start);
+        let name = name.filter(|_| tokens.len() == 1);
+        let is_own = |name: &Name| !name.letters().starts_with(b"$") || name.is("$H_POS");
+        name.is_some_and(|name| is_own(&name) && self.symbols.meaning(routine, &name).is_none())
+    }
+
+    /// The members of a value in braces, or of a datum.
     fn members(
         &self,
         routine: usize,
         tokens: &Range<usize>,
-    ) -> Option<(&TokenFile<'p>, Aggregate)> {
-        let (datum, stated) = self.datum(routine, tokens).ok()?;
-        let file = &self.files[datum.file];
-        Some((file, aggregate_of(file, &stated.value)?))
+    ) -> Result<(&TokenFile<'p>, Option<Aggregate>), Reason> {
+        let own = self.file(routine);
+        let (file, value) = match own.is(tokens.start, b'{') {
+            true => (own, tokens),
+            false => {
+                let (datum, stated) = self.datum(routine, tokens)?;
+                (&self.files[datum.file], &stated.value)
+            }
+        };
+        Ok((file, aggregate_of(file, value)))
     }
 
     /// What a FDAT states.
     pub(crate) fn point_data(&self, routine: usize, tokens: &Range<usize>) -> Option<PointData> {
-        let (file, members) = self.members(routine, tokens)?;
+        let (file, members) = self.members(routine, tokens).ok()?;
+        let members = members?;
         let number = |name: &str| {
             let value = members.number(file, name)?;
             ((0.0..1e6).contains(&value) && value.fract() == 0.0).then_some(value as u32)
@@ -165,9 +181,7 @@ impl<'p> Values<'p> {
         tokens: &Range<usize>,
         capitals: &str,
     ) -> Result<Option<String>, Reason> {
-        let (datum, stated) = self.datum(routine, tokens)?;
-        let file = &self.files[datum.file];
-        let members = aggregate_of(file, &stated.value);
+        let (file, members) = self.members(routine, tokens)?;
         let member = members.and_then(|members| members.member(capitals).cloned());
         let text = member.map(|tokens| file.text(&tokens).to_uppercase());
         Ok(text.map(|text| text.trim_start_matches('#').trim().to_owned()))
@@ -180,8 +194,8 @@ impl<'p> Values<'p> {
         tokens: &Range<usize>,
         capitals: &str,
     ) -> Option<f64> {
-        let (file, members) = self.members(routine, tokens)?;
-        members.number(file, capitals)
+        let (file, members) = self.members(routine, tokens).ok()?;
+        members?.number(file, capitals)
     }
 
     /// A number, a quotient of numbers, or a constant of that name.

@@ -50,7 +50,11 @@ pub(crate) fn with_system_frames(
     let names = frames.bytes().split(|byte| *byte == b'\n');
     let names = names.filter_map(|line| {
         let (name, _) = std::str::from_utf8(line).ok()?.split_once('=')?;
-        Some(in_capitals(name))
+        let declared = name.trim().rsplit(char::is_whitespace).next();
+        Some(in_capitals(match name.contains('[') {
+            true => name,
+            false => declared?,
+        }))
     });
     source.system_frames = Some(SystemFrames {
         path: path.clone(),
@@ -101,7 +105,9 @@ pub(crate) fn taken(source: &RobotSource, program: &RobotProgram) -> Option<Warn
         .map(|(line, frame)| (line, in_capitals(&frame.name)))
         .filter(|(_, name)| !stated.contains(name))
         .collect();
-    let of = |name: &&String| used.iter().find(|(_, used)| used.contains(name.as_str()));
+    // A base may be a sum of frames.
+    let is_of = |used: &str, name: &str| used.split(':').any(|part| part == name);
+    let of = |name: &&String| used.iter().find(|(_, used)| is_of(used, name));
     let names: Vec<&String> = found
         .names
         .iter()

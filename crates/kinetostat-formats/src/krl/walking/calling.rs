@@ -13,13 +13,14 @@ use crate::table::Treatment;
 use crate::text::name::Name;
 
 /// What motions go by, with the names that programs have for it.
-const IN_FORCE: [(Thing, &str); 6] = [
+const IN_FORCE: [(Thing, &str); 7] = [
     (Thing::Base, "$BASE"),
     (Thing::Tool, "$TOOL"),
     (Thing::Speed, "$VEL"),
     (Thing::Distance, "$APO"),
     (Thing::PointData, "FDAT_ACT"),
     (Thing::LinearData, "LDAT_ACT"),
+    (Thing::Orientation, "$ORI_TYPE"),
 ];
 
 impl Walker<'_, '_> {

@@ -45,16 +45,13 @@ impl Walker<'_, '_> {
         let routine = self.now.routine;
         let first = tokens.start..tokens.start + 1;
         if let Some(datum) = self.values.own_datum(routine, &first) {
-            let value = equals + 1..tokens.end;
-            let is_whole = first.end == equals && self.file().is(value.start, b'{');
-            let frame = match is_whole && self.is_certain() {
-                true => self.values.literal_frame(routine, &value),
+            let statement = ((routine, datum), (tokens, equals));
+            let given = &self.settings.given;
+            let end = match self.is_certain() {
+                true => self.values.given_end(statement.0, statement.1, given),
                 false => None,
             };
-            let end = (is_whole && self.is_certain()).then_some((routine, value));
-            let given = &mut self.settings.given;
-            given.data.insert(datum, frame);
-            given.ends.insert(datum, end);
+            self.settings.given.ends.insert(datum, end);
         }
         let Some(role) = Role::of_array(name) else {
             return;

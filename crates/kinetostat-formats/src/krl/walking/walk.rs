@@ -15,6 +15,8 @@ impl<'p> Walker<'_, 'p> {
     pub(crate) fn walk(&mut self, main: Option<usize>) {
         for routine in main.into_iter().chain(0..self.summaries.len()) {
             if !self.summaries[routine].begun {
+                // What no routine here calls may run before what was walked.
+                self.settings.given.ends.clear();
                 self.routine(routine, 0);
             }
         }

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use crate::krl::kept::kept_angles;
-use crate::krl::table::{Ends, motion_row};
+use crate::krl::table::motion_row;
 use crate::model::motion::Motion;
 use crate::model::program::RobotProgram;
 use crate::model::target::PoseTarget;
@@ -17,7 +17,9 @@ pub(super) const MEMBERS: [&str; 6] = ["X", "Y", "Z", "A", "B", "C"];
 pub(super) fn step_of(program: &RobotProgram, motion: &Motion) -> Option<&'static str> {
     let word = program.files[motion.file].part(&motion.site.keyword);
     let row = motion_row(&Name::of(word)?)?;
-    (row.ends == Ends::Step).then_some(row.straight.unwrap_or("LIN"))
+    row.name
+        .strip_suffix("_REL")
+        .filter(|_| row.ends.are_steps())
 }
 
 /// Writes the end of a step in place of the step.

@@ -121,6 +121,7 @@ fn declared_frames_are_followed() {
         (format!("{one}\n$TOOL=TC\n{HERE}"), 150.0),
         (format!("{one}\n{two}\n$TOOL=TC\n{HERE}"), 160.0),
         (format!("{one}\n$TOOL=TC\n{two}\n{HERE}"), 150.0),
+        (format!("{one}\nTC.Z=7\n$TOOL=TC\n{HERE}"), 7.0),
         (
             format!("{one}\n$TOOL=TC:{{X 0,Y 0,Z 1,A 0,B 0,C 0}}\n{HERE}"),
             151.0,
@@ -131,7 +132,7 @@ fn declared_frames_are_followed() {
     }
     for statements in [
         format!("$TOOL=TC\n{one}\n{HERE}"),
-        format!("{one}\nTC.Z=7\n$TOOL=TC\n{HERE}"),
+        format!("{one}\nTC.Z=OTHER.Z\n$TOOL=TC\n{HERE}"),
         format!("{one}\nTC=OTHER\n$TOOL=TC\n{HERE}"),
         format!("{one}\nIF ready THEN\n{two}\nENDIF\n$TOOL=TC\n{HERE}"),
         format!("{one}\nLOOP\n$TOOL=TC\n{HERE}\n{two}\nENDLOOP"),
@@ -264,7 +265,7 @@ fn ends_that_are_assigned_before_are_followed() {
     for statements in [
         format!("PTP HOME\nHOME={home}"),
         format!("IF ready THEN\nHOME={home}\nENDIF\nPTP HOME"),
-        format!("HOME={home}\nHOME.A1=7\nPTP HOME"),
+        format!("HOME={home}\nHOME.A1=HOME.A1+7\nPTP HOME"),
         format!("HOME={home}\nLOOP\nPTP HOME\nHOME.A1=HOME.A1+7\nENDLOOP"),
         format!("HOME={home}\nsub(HOME)\nPTP HOME"),
         "P1={X 10}\nLIN P1".to_owned(),
@@ -297,4 +298,70 @@ fn motions_to_where_the_arm_is_go_nowhere() {
         "DEF part()\nPTP $AXIS_ACT_MEAS\nEND\n",
     )];
     assert!(read_krl(files, &ReadOptions::default()).is_err());
+}
+
+/// Members that are given (`P1.X=10`), copies (`P1=P2`), and what other routines or later runs may have left there.
+#[test]
+fn members_and_copies_that_are_assigned_are_followed() {
+    let places = |statements: &str| {
+        let files = vec![
+            SourceFile::new(
+                "part.src",
+                format!(
+                    "DEF part()\nDECL E6POS own\n$TOOL=$NULLFRAME\n$BASE=$NULLFRAME\n{statements}\nEND\n"
+                ),
+            ),
+            SourceFile::new(
+                "part.dat",
+                "DEFDAT part\nDECL E6POS P1={X 1,Y 2,Z 3,A 0,B 0,C 0,S 2,T 35}\nDECL E6POS P2={X 4,Y 5,Z 6,A 0,B 0,C 0}\nENDDAT\n",
+            ),
+        ];
+        read_krl(files, &ReadOptions::default()).map(|program| {
+            let all = program
+                .motions
+                .iter()
+                .filter_map(|motion| motion.target.pose());
+            all.map(|pose| <[f64; 3]>::from(pose.position_mm))
+                .collect::<Vec<_>>()
+        })
+    };
+    let six = "own.X=1\nown.Y=2\nown.Z=-3\nown.A=0\nown.B=0\nown.C=180";
+    assert_eq!(
+        places(&format!("{six}\nLIN own\nown.Z=9\nLIN own")),
+        Ok(vec![[1.0, 2.0, -3.0], [1.0, 2.0, 9.0]])
+    );
+    assert_eq!(
+        places("own=P2\nLIN own\nown.X=7\nLIN own"),
+        Ok(vec![[4.0, 5.0, 6.0], [7.0, 5.0, 6.0]])
+    );
+    assert_eq!(
+        places("P2.X=8\nLIN P2\nP2.X=9\nLIN P2"),
+        Ok(vec![[8.0, 5.0, 6.0], [9.0, 5.0, 6.0]])
+    );
+    // Behind all statements that give it a value it is the same on every way.
+    assert_eq!(
+        places("own=P2\nIF $IN[1] THEN\nLIN own\nENDIF"),
+        Ok(vec![[4.0, 5.0, 6.0]])
+    );
+    // In a routine that is called behind them, too.
+    assert_eq!(
+        places("P2={X 1,Y 1,Z 1,A 0,B 0,C 0}\nsub()\nEND\nDEF sub()\nLIN P2"),
+        Ok(vec![[1.0, 1.0, 1.0]])
+    );
+    for statements in [
+        "P2={X 1,Y 1,Z 1,A 0,B 0,C 0}\nEND\nDEF late()\nLIN P2",
+        // The last run left its 9 in Y.
+        "P2.X=8\nLIN P2\nP2.Y=9",
+        "P2.X=8\nLIN P2\nP2={X 1,Y 1,Z 1,A 0,B 0,C 0}",
+        "own.X=1\nLIN own",
+        "own=P2\nown.X=own.Y\nLIN own",
+        "own=P2\nown.Q=1\nLIN own",
+        "own=P2:{X 1,Y 0,Z 0,A 0,B 0,C 0}\nLIN own",
+        "IF $IN[1] THEN\nown=P2\nENDIF\nLIN own",
+        "own=P2\nLOOP\nLIN own\nown.X=7\nENDLOOP",
+        "other()\nP1={X 1,Y 1,Z 1,A 0,B 0,C 0}\nother()\nLIN P1\nEND\nDEF other()\nP1.X=50",
+        "P1={X 1,Y 1,Z 1,A 0,B 0,C 0}\nsub()\nP1={X 2,Y 1,Z 1,A 0,B 0,C 0}\nsub()\nEND\nDEF sub()\nLIN P1",
+    ] {
+        assert!(places(statements).is_err(), "{statements}");
+    }
 }

@@ -40,11 +40,15 @@ fn statements_that_move_the_tool_otherwise_are_refused_by_line() {
         ),
         (
             "LIN_REL {X 10} C_DIS #TOOL",
-            "its steps are in the axes of the tool",
+            "it goes on from where the tool is, and that is not known",
         ),
         (
-            "LIN_REL {X 10} #TOOL",
-            "its steps are in the axes of the tool",
+            "PTP XHOME\nLIN_REL {X 10}",
+            "it goes on from where the tool is, and that is not known",
+        ),
+        (
+            "LIN <T>\nLIN_REL {A1 10}",
+            "it goes on from where the tool is, and turns it or moves axes",
         ),
         (
             "SPLINE\nLIN XP1\nENDSPLINE",
@@ -58,7 +62,7 @@ fn statements_that_move_the_tool_otherwise_are_refused_by_line() {
             "SPLINE\nTIME_BLOCK START\nENDSPLINE",
             "it shares out the time of a spline block",
         ),
-        ("PTP_REL {A1 10}", "it goes on from where the tool is"),
+        ("PTP_REL {A1 10,X 3}", "it goes on from where the tool is"),
         (
             "CIRC_REL {X 10},{X 20}",
             "it goes on from where the tool is",

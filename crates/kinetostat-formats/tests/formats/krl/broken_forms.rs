@@ -7,7 +7,7 @@ const DATA: &str = "DEFDAT a\n\
     DECL FDAT FP1={TOOL_NO 1,BASE_NO 1,IPO_FRAME #BASE,POINT2[] \" \"}\n\
     DECL FDAT FP2={TOOL_NO 1,BASE_NO 1,IPO_FRAME #TCP,POINT2[] \" \"}\n\
     DECL LDAT LCPDAT1={VEL 2.0,ACC 100.0,APO_DIST 5.0,ORI_TYP #VAR,CIRC_TYP #BASE}\n\
-    DECL LDAT LCPDAT2={VEL 2.0,ACC 100.0,APO_DIST 5.0,ORI_TYP #CONSTANT,CIRC_TYP #PATH}\n";
+    DECL LDAT LCPDAT2={VEL 2.0,ACC 100.0,APO_DIST 5.0,ORI_TYP #JOINT,CIRC_TYP #PATH}\n";
 
 fn refused(source: &str, data: &str) -> Vec<(String, usize, String)> {
     let files = vec![
@@ -139,8 +139,11 @@ fn steps_and_values_in_braces_that_are_none() {
     each_is_refused(&[
         ("LIN_REL {X 5,B 3}", &[(3, "turns it or moves axes")]),
         (
-            "SLIN_REL {X 5} #TOOL",
-            &[(3, "its steps are in the axes of the tool")],
+            "SLIN_REL {X 5} #WORLD",
+            &[(
+                3,
+                "its steps are in axes that are not known; write #BASE or #TOOL",
+            )],
         ),
         (
             "LIN_REL {X d}",

@@ -7,6 +7,7 @@ mod corrections;
 mod folds;
 mod frames;
 mod order;
+mod ordinary;
 mod outside_calls;
 mod own_speeds;
 mod partial;

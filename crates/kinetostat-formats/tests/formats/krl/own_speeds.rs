@@ -206,7 +206,7 @@ fn lists_with_what_may_move_the_tool_are_refused() {
             "the robot holds the part",
         ),
         ("$IPO_MODE=mode", "is computed while the program runs"),
-        ("$ORI_TYPE=#CONSTANT", "does not turn evenly"),
+        ("$ORI_TYPE=#JOINT", "does not turn evenly"),
         ("$EX_AX_IGNORE='B000001'", "external axes do not go"),
         (
             "$ROBROOT={X 1,Y 0,Z 0,A 0,B 0,C 0}",

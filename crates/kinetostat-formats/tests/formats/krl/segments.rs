@@ -104,3 +104,49 @@ fn programs_with_segments_and_steps_are_corrected_along_their_paths() {
         assert_eq!(found, Ok(motions));
     }
 }
+
+/// `#TOOL`: along the axes of the tool as it stands; joints by their angles. [KSS, LIN_REL and PTP_REL]
+#[test]
+fn steps_go_along_the_axes_of_the_tool_and_of_joints() {
+    // A turn of 90 degrees about z: x of the tool is y of the base, y of the tool is -x.
+    let program = main_with(
+        "",
+        "LIN {X 10,Y 20,Z 5,A 90,B 0,C 0}\nLIN_REL {X 3,Y 1} #TOOL\nPTP_REL {Z 7}\nSPTP_REL {Y 2} C_SPL #TOOL\nLIN_REL {X 1}",
+    );
+    let places = program
+        .motions
+        .iter()
+        .map(|motion| motion.target.pose().unwrap().position_mm);
+    let wanted = [
+        [10.0, 20.0, 5.0],
+        [9.0, 23.0, 5.0],
+        [9.0, 23.0, 12.0],
+        [7.0, 23.0, 12.0],
+        [8.0, 23.0, 12.0],
+    ];
+    for (place, wanted) in places.zip(wanted) {
+        assert!(
+            (place - Vector3::from(wanted)).norm() < 1e-9,
+            "{place} {wanted:?}"
+        );
+    }
+    assert_eq!(program.motions[2].kind, MotionKind::Joint);
+    // Behind a corrected end they state where they went.
+    let text = written(&program, &[Piece::to(1, Vector3::new(9.0, 23.0, 5.25))]);
+    assert!(
+        text.contains(
+            "LIN {X 9,Y 23,Z 5.250,A 90,B 0,C 0}\nPTP {X 9,Y 23,Z 12,A 90,B 0,C 0}\nSPTP_REL"
+        ),
+        "{text}"
+    );
+    let program = main_with(
+        "",
+        "PTP {A1 1,A2 -90,A3 90,A4 0,A5 45,A6 0}\nPTP_REL {A1 10,A6 -5}\nLIN {X 1,Y 2,Z 3,A 0,B 0,C 0}\nPTP_REL {A1 3}",
+    );
+    let Target::Joints { values_deg } = &program.motions[1].target else {
+        panic!("{:?}", program.motions[1]);
+    };
+    assert_eq!(values_deg, &[11.0, -90.0, 90.0, 0.0, 45.0, -5.0]);
+    // Which angles the joints have at a pose the text does not say: the end is left, and nothing goes on from it.
+    assert!(matches!(program.motions[3].target, Target::Unknown { .. }));
+}
