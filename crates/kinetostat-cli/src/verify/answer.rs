@@ -72,16 +72,10 @@ impl VerifyAnswer {
         let matched = &verified.matched;
         let whole =
             matched.uncut.is_empty() && matched.rapids.is_empty() && matched.extra_cuts.is_empty();
-        let mut conditions = matched.conditions.iter();
-        let is_same = !conditions.any(|other| conditions::is_fault(other, forces_from_cut))
-            && other_words.iter().all(|word| word.fault.is_none());
+        let is_same =
+            matched.conditions.is_empty() && other_words.iter().all(|word| word.fault.is_none());
         let mut warnings = result.warnings.clone();
-        warnings.extend(conditions::warnings(
-            &matched.conditions,
-            &other_words,
-            forces_from_cut,
-            |line| source_of(flat_original.as_ref(), line),
-        ));
+        warnings.extend(conditions::warnings(&other_words));
         Self {
             schema: 1,
             kinetostat_version: env!("CARGO_PKG_VERSION"),

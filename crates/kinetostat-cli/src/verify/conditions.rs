@@ -5,20 +5,10 @@ use kinetostat_machining::{Condition, OtherCondition, Warning, WarningCode};
 use crate::verify::other_language::SPINDLE;
 use crate::verify::other_word::{FaultKind, OtherWord};
 
-/// Whether the program must not run so: no cut is made with a spindle that stands still or turns the other way round, forces from the cut
-/// are others with another feed or speed, and another tool that both name is of another length.
-pub(crate) fn is_fault(other: &OtherCondition, forces_from_cut: bool) -> bool {
-    match other.condition {
-        Condition::Feed | Condition::Spindle => forces_from_cut,
-        Condition::Rotation => true,
-        Condition::Tool => other.tools_named,
-    }
-}
-
 /// What differs, as a sentence; `source` says where the line of the original came from.
 pub(crate) fn said(other: &OtherCondition, forces_from_cut: bool, source: &str) -> String {
     let what = match other.condition {
-        Condition::Feed => "ANOTHER FEED",
+        Condition::Feed => FaultKind::Feed.words(),
         Condition::Spindle => FaultKind::Spindle.words(),
         Condition::Rotation => FaultKind::Rotation.words(),
         Condition::Tool => FaultKind::Tool.words(),
@@ -42,19 +32,7 @@ pub(crate) fn said(other: &OtherCondition, forces_from_cut: bool, source: &str) 
 }
 
 /// What differs and is no fault.
-pub(crate) fn warnings(
-    conditions: &[OtherCondition],
-    words: &[OtherWord],
-    forces_from_cut: bool,
-    source: impl Fn(usize) -> String,
-) -> Vec<Warning> {
-    let conditions = conditions
-        .iter()
-        .filter(|other| !is_fault(other, forces_from_cut))
-        .map(|other| {
-            let text = said(other, forces_from_cut, &source(other.line_of_original));
-            Warning::new(WarningCode::OtherThanOriginal, text.trim_end_matches('.'))
-        });
+pub(crate) fn warnings(words: &[OtherWord]) -> Vec<Warning> {
     let words = words.iter().filter(|word| word.fault.is_none());
     let words = words.map(|word| {
         let code = match word.word == SPINDLE {
@@ -63,5 +41,5 @@ pub(crate) fn warnings(
         };
         Warning::new(code, word.text.clone())
     });
-    conditions.chain(words).collect()
+    words.collect()
 }

@@ -1,124 +1,23 @@
-//! Tools, spindle speeds and path modes of SINUMERIK programs, and of Heidenhain's what a call adds to a tool, by what is in force at
-//! each cut.
-
-use std::collections::BTreeSet;
+//! Words of SINUMERIK and Heidenhain programs beside their places, and the tools of APT.
 
 use kinetostat_formats::Language;
 
 use crate::job::robot::read_program::RobotRead;
-use crate::verify::in_force::InForce;
-use crate::verify::other_word::{FaultKind, Lines, OTHER_PATH_MODE, OtherWord};
+use crate::verify::words::{Kind, NOTHING_ADDED, STANDS, Word};
 
-/// Words of which the last one is in force.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Kind {
-    Tool,
-    Edge,
-    Speed,
-    Rotation,
-    PathMode,
-}
-
-const KINDS: [Kind; 5] = [
-    Kind::Tool,
-    Kind::Edge,
-    Kind::Speed,
-    Kind::Rotation,
-    Kind::PathMode,
-];
-
-/// At the start, and behind a change of tools, which stops the spindle.
-const STANDS: &str = "no M3 or M4 since the change of tools";
-
-impl Kind {
-    fn fault(self, forces_from_cut: bool) -> Option<FaultKind> {
-        match self {
-            Self::Tool | Self::Edge => Some(FaultKind::Tool),
-            Self::Speed => forces_from_cut.then_some(FaultKind::Spindle),
-            Self::Rotation => Some(FaultKind::Rotation),
-            Self::PathMode => None,
-        }
-    }
-
-    /// Whether a cut may be made with one word for another: with a spindle of which the original says nothing.
-    fn may_be(self, of_original: &str) -> bool {
-        self == Self::Rotation && !matches!(of_original, "M3" | "M4")
-    }
-
-    fn follows(self) -> String {
-        match self {
-            Self::PathMode => format!(": {OTHER_PATH_MODE}"),
-            _ => String::new(),
-        }
-    }
-}
-
-/// Words that only one of both programs has, and cuts that are made with others; `cut_lines` are lines of the program verified and
-/// of the original.
-pub(crate) fn control_words(
-    original: &RobotRead<'_>,
-    verified: &RobotRead<'_>,
-    (cut_lines, forces_from_cut): (&[[usize; 2]], bool),
-) -> Vec<OtherWord> {
-    let [own, of_original] = [verified, original].map(all_words);
-    let mut found = Vec::new();
-    for kind in KINDS {
-        let fault = kind.fault(forces_from_cut);
-        // What the spindle does where nothing is cut is no fault.
-        let fault_of_word = fault.filter(|_| kind != Kind::Rotation);
-        let follows = kind.follows();
-        let of_kind = |all: &[(usize, Kind, String)]| -> Vec<(usize, String)> {
-            let own = all.iter().filter(|(_, of, _)| *of == kind);
-            own.map(|(line, _, word)| (*line, word.clone())).collect()
-        };
-        let [own, of_original] = [&own, &of_original].map(|all| of_kind(all));
-        let in_force = |all: &[(usize, String)]| InForce::new("none", all.iter().cloned());
-        let may_be = |_: &str, wanted: &str| kind.may_be(wanted);
-        let elsewhere = in_force(&own).elsewhere(&in_force(&of_original), cut_lines, may_be);
-        let is_said = |word: &str| {
-            let mut said = elsewhere.iter();
-            said.any(|found| found.word == word || found.of_original == word)
-        };
-        let mut only =
-            |ours: &[(usize, String)], theirs: &[(usize, String)], lines: fn(usize) -> Lines| {
-                let known: BTreeSet<&str> = theirs.iter().map(|(_, word)| word.as_str()).collect();
-                let mut seen: BTreeSet<&str> = BTreeSet::new();
-                for (line, word) in ours {
-                    if known.contains(word.as_str()) || is_said(word) || !seen.insert(word) {
-                        continue;
-                    }
-                    let text = format!("{}{follows}", OtherWord::only_in_one(word, lines(*line)));
-                    found.push(OtherWord::new(
-                        word.as_str(),
-                        fault_of_word,
-                        lines(*line),
-                        text,
-                    ));
-                }
-            };
-        only(&own, &of_original, |line| [Some(line), None]);
-        only(&of_original, &own, |line| [None, Some(line)]);
-        found.extend(elsewhere.into_iter().map(|found| {
-            let stands = found.word == "S0";
-            let fault = fault.or_else(|| stands.then_some(FaultKind::Rotation));
-            found.other_word(fault, &follows)
-        }));
-    }
-    found
-}
-
-fn all_words(read: &RobotRead<'_>) -> Vec<(usize, Kind, String)> {
+/// Words of a program, by its lines.
+pub(crate) fn control_words(read: &RobotRead<'_>) -> Vec<Word> {
     let of_line: fn(&str) -> Vec<(Kind, String)> = match read.program.language {
         Language::Siemens => of_siemens,
         Language::Heidenhain => of_heidenhain,
+        Language::Apt => of_apt,
         _ => return Vec::new(),
     };
     let words = read.lines_in_capitals().flat_map(|(line, text)| {
         let found = with_one_path_mode(of_line(&text)).into_iter();
-        found.map(move |(kind, word)| (line, kind, word))
+        found.map(move |(kind, text)| Word { line, kind, text })
     });
-    let at_start = (0, Kind::Rotation, STANDS.to_owned());
-    std::iter::once(at_start).chain(words).collect()
+    words.collect()
 }
 
 /// What a line says of the path mode is one word, in whatever order it says it.
@@ -134,8 +33,50 @@ fn with_one_path_mode(words: Vec<(Kind, String)>) -> Vec<(Kind, String)> {
     found
 }
 
-/// `TOOL CALL 1 Z S5000 DL+0.1`: what it adds to the tool, and its speed; M3 to M5 anywhere; `CYCL DEF 32.1 T0.5`: by how much corners may
-/// be left.
+/// `LOADTL/2` and `TURRET/2`, without what is said of the tool; speeds of the spindle are compared along the path.
+fn of_apt(line: &str) -> Vec<(Kind, String)> {
+    let text = line.split("$$").next().unwrap_or_default();
+    let text: String = text.chars().filter(|c| !c.is_whitespace()).collect();
+    let tool = text.split_once('/').and_then(|(word, tool)| {
+        let tool = tool.split(',').next().unwrap_or_default();
+        matches!(word, "LOADTL" | "TURRET").then(|| format!("{word}/{}", number(tool)))
+    });
+    tool.map(|tool| (Kind::Tool, tool)).into_iter().collect()
+}
+
+/// A number without leading zeros; else as it is.
+fn number(text: &str) -> String {
+    text.parse::<f64>()
+        .map_or(text.to_owned(), |number| number.to_string())
+}
+
+/// What the spindle does behind a word with M.
+fn rotation(number: &str) -> Option<&'static str> {
+    Some(match number {
+        "3" | "13" => "M3",
+        "4" | "14" => "M4",
+        "5" => "M5",
+        "6" => STANDS,
+        "19" => "M19",
+        "70" => "M70",
+        _ => return None,
+    })
+}
+
+/// A word with M, which may turn or stop the spindle or end the program.
+fn of_m(number: &str) -> impl Iterator<Item = (Kind, String)> {
+    let kind = match number {
+        "2" | "17" | "30" => Kind::End,
+        _ => Kind::Other,
+    };
+    let rotation = rotation(number).map(|word| (Kind::Rotation, word.to_owned()));
+    rotation
+        .into_iter()
+        .chain(std::iter::once((kind, format!("M{number}"))))
+}
+
+/// `TOOL CALL 1 Z S5000 DL+0.1`: the tool, what it adds to that, and its speed; words with M and `STOP` anywhere; `CYCL DEF 32.1 T0.5`: by how
+/// much corners may be left; `CYCL DEF 9.1 DWELL 2`.
 fn of_heidenhain(line: &str) -> Vec<(Kind, String)> {
     let text = line.split(';').next().unwrap_or_default();
     let words: Vec<&str> = text.split_whitespace().collect();
@@ -146,19 +87,19 @@ fn of_heidenhain(line: &str) -> Vec<(Kind, String)> {
     }
     let call = words.windows(2).position(|pair| pair == ["TOOL", "CALL"]);
     let called = call.and_then(|call| words.get(call + 2));
-    if called.is_some_and(|word| !matches!(*word, "X" | "Y" | "Z") && !word.starts_with('S')) {
+    let is_tool = |word: &&&str| !matches!(**word, "X" | "Y" | "Z") && !word.starts_with('S');
+    if let Some(tool) = called.filter(is_tool) {
+        found.push((Kind::Tool, format!("TOOL CALL {}", number(tool))));
         found.push((Kind::Rotation, STANDS.to_owned()));
     }
-    for word in &words {
-        let rotation = match *word {
-            "M3" | "M03" | "M13" => "M3",
-            "M4" | "M04" | "M14" => "M4",
-            "M5" | "M05" => "M5",
-            "M19" => "M19",
-            "M6" | "M06" => STANDS,
-            _ => continue,
-        };
-        found.push((Kind::Rotation, rotation.to_owned()));
+    for (index, word) in words.iter().enumerate() {
+        let m = word.strip_prefix('M').map(str::parse::<u32>);
+        match (*word, m) {
+            ("STOP", _) => found.push((Kind::Other, "STOP".to_owned())),
+            ("DWELL" | "V.ZEIT", _) => found.push((Kind::Other, words[index..].join(" "))),
+            (_, Some(Ok(m))) => found.extend(of_m(&m.to_string())),
+            _ => {}
+        }
     }
     if call.is_some() {
         let mut added: Vec<String> = Vec::new();
@@ -174,7 +115,7 @@ fn of_heidenhain(line: &str) -> Vec<(Kind, String)> {
         }
         added.sort();
         let added = match added.is_empty() {
-            true => "no DL and DR".to_owned(),
+            true => NOTHING_ADDED.to_owned(),
             false => added.join(" "),
         };
         found.push((Kind::Edge, added));
@@ -182,18 +123,28 @@ fn of_heidenhain(line: &str) -> Vec<(Kind, String)> {
     found
 }
 
-/// `T="MILL"`, `D1`, `S6000`, `M3`, `G642 ADIS=1`, `CYCLE832(0.5, 1)`.
+/// `T="MILL"`, `D1`, `S6000`, `M3`, `G55`, `G642 ADIS=1`, `CYCLE832(0.5, 1)`, `G4 F2`.
 fn of_siemens(line: &str) -> Vec<(Kind, String)> {
     let mut found = Vec::new();
-    for (name, value) in words_of(line) {
+    let words = words_of(line);
+    let waits = words
+        .iter()
+        .any(|(name, value)| name == "G" && value == "4");
+    for (name, value) in words {
         let word = match (name.as_str(), value.as_str()) {
+            ("F" | "S", value) if waits => (Kind::Other, format!("G4 {name}{value}")),
             ("T", value) => (Kind::Tool, format!("T{}", value.trim_start_matches('='))),
             ("D", value) => (Kind::Edge, format!("D{}", value.trim_start_matches('='))),
             ("S" | "S1", value) => (Kind::Speed, format!("S{}", value.trim_start_matches('='))),
-            ("M", "3" | "4" | "5") => (Kind::Rotation, format!("M{value}")),
-            ("M", "6") => (Kind::Rotation, STANDS.to_owned()),
-            ("M", "19" | "70") => (Kind::Rotation, format!("M{value}")),
+            ("M", value) => {
+                found.extend(of_m(value));
+                continue;
+            }
             ("SPOS" | "SPOSA", _) => (Kind::Rotation, name.clone()),
+            ("G", "54" | "55" | "56" | "57" | "500") => (Kind::Frame, format!("G{value}")),
+            ("G", number) if number.len() == 3 && number.starts_with('5') => {
+                (Kind::Frame, format!("G{value}"))
+            }
             ("G", "60" | "64" | "601" | "602" | "603" | "641" | "642" | "643" | "644" | "645") => {
                 (Kind::PathMode, format!("G{value}"))
             }
@@ -280,12 +231,12 @@ mod tests {
         let said = |line: &str| -> Vec<String> {
             of_siemens(line).into_iter().map(|(_, word)| word).collect()
         };
-        assert_eq!(said("N10G0X10Y5S6000M03"), ["S6000", "M3"]);
+        assert_eq!(said("N10G0X10Y5S6000M03"), ["S6000", "M3", "M3"]);
         assert_eq!(
             said("T=\"END MILL\" M6 D1"),
-            ["T\"END MILL\"", STANDS, "D1"]
+            ["T\"END MILL\"", STANDS, "M6", "D1"]
         );
-        assert_eq!(said("T = \"MILL\"M6"), ["T\"MILL\"", STANDS]);
+        assert_eq!(said("T = \"MILL\"M6"), ["T\"MILL\"", STANDS, "M6"]);
         assert_eq!(
             said("S1=3000 M1=3 G642 ADIS=0.5 ; S1"),
             ["S3000", "G642", "ADIS=0.5"]

@@ -1,6 +1,6 @@
 //! What keeps a verified program from being as it should be.
 
-use kinetostat_machining::{FeatureResult, OtherCondition};
+use kinetostat_machining::FeatureResult;
 
 use crate::verify::answer::VerifyAnswer;
 use crate::verify::conditions;
@@ -69,17 +69,12 @@ impl VerifyAnswer {
         faults
     }
 
-    /// What of cuts is otherwise than in the original, where that is a fault.
-    pub(crate) fn faulty_conditions(&self) -> impl Iterator<Item = &OtherCondition> {
-        let all = self.matched.conditions.iter();
-        all.filter(|other| conditions::is_fault(other, self.forces_from_cut))
-    }
-
     /// Feeds, spindles, tools, frames and statements of the program that are faults, a sentence each.
     pub(crate) fn faults_of_words(&self) -> Vec<String> {
-        let conditions = self.faulty_conditions();
-        let conditions = conditions
-            .map(|other| conditions::said(other, true, &self.source(other.line_of_original)));
+        let conditions = self.matched.conditions.iter().map(|other| {
+            let source = self.source(other.line_of_original);
+            conditions::said(other, self.forces_from_cut, &source)
+        });
         let words = self.other_words.iter().filter_map(OtherWord::fault_text);
         conditions.chain(words).collect()
     }

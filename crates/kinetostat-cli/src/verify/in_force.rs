@@ -42,8 +42,7 @@ impl InForce {
         last.map_or(self.usual, String::as_str)
     }
 
-    /// Where cuts are made with another word than in the original, if both programs have words of this kind: `cut_lines` are lines of
-    /// this program and of the original.
+    /// Where cuts are made with another word than in the original: `cut_lines` are lines of this program and of the original.
     pub(crate) fn elsewhere(
         &self,
         of_original: &Self,
@@ -51,9 +50,6 @@ impl InForce {
         same: impl Fn(&str, &str) -> bool,
     ) -> Vec<Elsewhere> {
         let mut found: Vec<Elsewhere> = Vec::new();
-        if self.changes.is_empty() || of_original.changes.is_empty() {
-            return found;
-        }
         let mut goes_on = false;
         for [line, there] in cut_lines {
             let (word, wanted) = (self.on(*line), of_original.on(*there));

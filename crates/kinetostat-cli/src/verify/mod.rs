@@ -4,13 +4,12 @@
 
 mod answer;
 pub(crate) mod arguments;
-mod called_tools;
 mod conditions;
 mod control_words;
 mod cut_lines;
 mod ending;
 mod faults;
-mod frames;
+mod gcode_words;
 mod in_force;
 mod on_paper;
 mod other_language;
@@ -20,6 +19,7 @@ mod statements;
 mod text;
 mod tilted;
 mod unseen_motions;
+mod words;
 mod written;
 
 use std::path::Path;
@@ -51,7 +51,7 @@ use crate::ui::threads::in_threads;
 use crate::verify::answer::VerifyAnswer;
 use crate::verify::arguments::VerifyArgs;
 use crate::verify::ending::{ends_in_cut, is_cut};
-use crate::verify::frames::other_words;
+use crate::verify::gcode_words::other_words;
 use crate::verify::other_language::{fitting, language, read_as_made, template, words_of_cell};
 use crate::verify::other_word::OtherWord;
 use crate::verify::robot_words::robot_words;
@@ -253,7 +253,7 @@ fn solved(
             let conditions = &mut found.matched.conditions;
             conditions.retain(|other| other.condition != Condition::Tool);
             let cuts = found.matched.cut_lines.as_slice();
-            robot_words(of_original, of_verified, (cuts, forces.is_some()))
+            robot_words(of_original, of_verified, cuts)
         }
         ((Some(_), None), (None, Some(_))) => {
             // A robot has no words for spindle and tools of G-code: those of its cell are compared.

@@ -6,7 +6,7 @@
 use std::path::Path;
 
 use kinetostat::Pose;
-use kinetostat_formats::{Language, Template, language_of};
+use kinetostat_formats::{Language, SpindleStatements, Template, language_of};
 use kinetostat_program::{Path as ToolPath, SpindleRotation};
 use nalgebra::Vector3;
 
@@ -164,6 +164,8 @@ pub(crate) fn words_of_cell(
             "{SPINDLE_NOT_STARTED}: the original cuts with a spindle that turns (line {line} there), and no statement of this program is known to start it; state the cell's statements under [spindle] in the template"
         );
         found.push(OtherWord::new(SPINDLE, None, [None, Some(line)], text));
+    } else if let (Some(template), true) = (template, is_of_arm) {
+        found.extend(spindle_of_cell(&template.spindle, verified, original));
     }
     Ok(found)
 }
@@ -196,6 +198,41 @@ fn leaning(machine: &MachineSetup, own: &ReadProgram<'_>) -> Option<OtherWord> {
             text,
         )
     })
+}
+
+/// The first speed or direction of the spindle at a cut of the original for which a statement of the template is missing.
+fn spindle_of_cell(
+    statements: &SpindleStatements,
+    verified: &Setting,
+    original: &ToolPath,
+) -> Option<OtherWord> {
+    let program = String::from_utf8_lossy(&verified.program);
+    let cuts = original.moves.iter().filter(|m| m.is_known_feed());
+    let mut states: Vec<_> = cuts
+        .map(|m| (m.line, original.spindle_on(m.line)))
+        .collect();
+    states.dedup_by_key(|(_, spindle)| *spindle);
+    let turning = states
+        .into_iter()
+        .filter(|(_, spindle)| spindle.rotation != SpindleRotation::Stopped);
+    let mut missing = turning.filter_map(|(line, spindle)| {
+        let all = statements.lines(spindle.rotation, spindle.speed)?;
+        let missing = all
+            .into_iter()
+            .find(|said| !program.contains(said.trim()))?;
+        Some((line, missing))
+    });
+    let (line, said) = missing.next()?;
+    let text = format!(
+        "`{said}`, by which the template has the spindle turn as at line {line} of the original, stands nowhere in this program"
+    );
+    let lines = [None, Some(line)];
+    Some(OtherWord::new(
+        "spindle of the cell",
+        Some(FaultKind::Spindle),
+        lines,
+        text,
+    ))
 }
 
 /// Whether a statement of the template that starts the spindle stands in the program.

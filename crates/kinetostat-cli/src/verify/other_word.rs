@@ -26,6 +26,8 @@ pub(crate) enum FaultKind {
     Tool,
     Spindle,
     Rotation,
+    Feed,
+    PathMode,
     /// Which motions are made.
     Course,
 }
@@ -38,13 +40,15 @@ impl FaultKind {
             Self::Tool => "ANOTHER TOOL",
             Self::Spindle => "ANOTHER SPEED OF THE SPINDLE",
             Self::Rotation => "THE SPINDLE DOES NOT TURN AS IN THE ORIGINAL",
+            Self::Feed => "ANOTHER FEED",
+            Self::PathMode => "ANOTHER PATH MODE",
             Self::Course => "ANOTHER COURSE OF THE PROGRAM",
         }
     }
 }
 
 /// What follows from another path mode.
-pub(crate) const OTHER_PATH_MODE: &str = "the control follows the path otherwise, and leaves its corners by what that allows; nothing here has that in it";
+pub(crate) const OTHER_PATH_MODE: &str = ": the control follows the path otherwise, and leaves its corners by what that allows; nothing here has that in it";
 
 /// Line of the program and of the original; none of the one that does not have the word.
 pub(crate) type Lines = [Option<usize>; 2];

@@ -3,17 +3,17 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use kinetostat_formats::{FrameUse, Motion, Target, Zone};
+use kinetostat_formats::{FrameUse, Language, Motion, Runs, Target, Zone};
 use nalgebra::Vector3;
 
 use crate::job::robot::frame_distance::distance;
 use crate::job::robot::read_program::RobotRead;
 use crate::ui::numbers::{number, short, triple};
-use crate::verify::called_tools::called_tools;
 use crate::verify::control_words::control_words;
 use crate::verify::other_word::{FaultKind, OtherWord};
 use crate::verify::statements::statements;
 use crate::verify::unseen_motions::unseen_motions;
+use crate::verify::words::{Kind, Words, compared};
 
 /// Frames nearer to each other than this are one: more digits than controllers write, mm and rad.
 const SAME_MM: f64 = 1e-3;
@@ -22,11 +22,11 @@ const SAME_RAD: f64 = 5e-6;
 /// The radius of RAPID's z0, with which steps are passed, mm.
 const PASSED_MM: f64 = 0.3;
 
-/// What differs between both programs; speeds of the spindle are a fault where forces come from the cut.
+/// What differs between both programs; `cut_lines` are lines of the program verified and of the original.
 pub(crate) fn robot_words(
     original: &RobotRead<'_>,
     verified: &RobotRead<'_>,
-    (cut_lines, forces_from_cut): (&[[usize; 2]], bool),
+    cut_lines: &[[usize; 2]],
 ) -> Vec<OtherWord> {
     let mut found = Vec::new();
     found.extend(work_objects(original, verified));
@@ -36,16 +36,31 @@ pub(crate) fn robot_words(
         found.extend(tool_at_cuts(original, verified, cut_lines));
     }
     found.extend(of_tools);
-    found.extend(called_tools(original, verified));
-    let with = (cut_lines, forces_from_cut);
-    found.extend(control_words(original, verified, with));
-    found.extend(statements(original, verified, cut_lines));
+    let calls = called_outside(original, verified);
+    let [mut own, of_original] = [verified, original].map(words);
+    let is_said = |line: usize| calls.iter().any(|call| call.line == Some(line));
+    own.all
+        .retain(|word| word.kind != Kind::Other || !is_said(word.line));
+    found.extend(compared(&own, &of_original, cut_lines, &|_| false));
+    found.extend(calls);
     found.extend(unseen_motions(original, verified, cut_lines));
-    found.extend(called_outside(original, verified));
-    found.extend(exact_stops(original, verified));
-    found.extend(radii(original, verified));
+    let stops = fewer_stops(original, verified);
+    found.extend(radii(original, verified, stops.is_some()));
+    found.extend(stops);
     found.extend(configurations(original, verified));
     found
+}
+
+fn words(read: &RobotRead<'_>) -> Words {
+    let mut all = control_words(read);
+    all.extend(statements(read));
+    all.sort_by_key(|word| word.line);
+    let motions = &read.program.motions;
+    Words {
+        all,
+        move_lines: motions.iter().map(|motion| motion.line).collect(),
+        has_loops: motions.iter().any(|motion| motion.runs == Runs::Repeatedly),
+    }
 }
 
 fn first_line(read: &RobotRead<'_>) -> Option<usize> {
@@ -197,23 +212,45 @@ fn called_outside(original: &RobotRead<'_>, verified: &RobotRead<'_>) -> Vec<Oth
     .collect()
 }
 
-/// Ends of straight and circular motions at which the tool stopped.
-fn exact_stops(original: &RobotRead<'_>, verified: &RobotRead<'_>) -> Option<OtherWord> {
-    let count = |read: &RobotRead<'_>| {
+/// How far an end may be passed, in its unit; none where that is not known.
+fn width(zone: Zone) -> Option<f64> {
+    match zone {
+        Zone::Exact => Some(0.0),
+        Zone::Radius(width) | Zone::Percent(width) => Some(width),
+        Zone::Unstated => None,
+    }
+}
+
+/// Ends at which the tool stopped, or that it passed more nearly.
+fn fewer_stops(original: &RobotRead<'_>, verified: &RobotRead<'_>) -> Option<OtherWord> {
+    let widths = |read: &RobotRead<'_>| -> Vec<f64> {
         let motions = read.program.motions.iter();
-        motions.filter(|m| m.zone == Zone::Exact).count()
+        let mut all: Vec<f64> = motions.filter_map(|m| width(m.zone)).collect();
+        all.sort_by(f64::total_cmp);
+        all
     };
-    let [own, of_original] = [verified, original].map(count);
-    (own < of_original).then(|| {
-        let text = format!(
-            "{of_original} motions of the original stop at their ends, and {own} of this program: corners are left by what the control allows, and no figure has that in it"
-        );
-        OtherWord::new("exact stop", None, [None, None], text)
-    })
+    let [own, of_original] = [verified, original].map(widths);
+    let count = |all: &[f64], most: f64| all.iter().filter(|width| **width <= most).count();
+    let fewer = |most: &&f64| count(&own, **most) < count(&of_original, **most);
+    let most = *of_original.iter().find(fewer)?;
+    let [own, of_original] = [&own, &of_original].map(|all| count(all, most));
+    let ends = match most > 0.0 {
+        true => format!("pass their ends by no more than zone {}", short(most)),
+        false => "stop at their ends".to_owned(),
+    };
+    let text = format!(
+        "{of_original} motions of the original {ends}, and {own} of this program: corners are left by what the control allows, and no figure has that in it"
+    );
+    let fault = Some(FaultKind::PathMode);
+    Some(OtherWord::new("exact stop", fault, [None, None], text))
 }
 
 /// Ends that are passed at a larger distance.
-fn radii(original: &RobotRead<'_>, verified: &RobotRead<'_>) -> Option<OtherWord> {
+fn radii(
+    original: &RobotRead<'_>,
+    verified: &RobotRead<'_>,
+    stops_less: bool,
+) -> Option<OtherWord> {
     let largest = |read: &RobotRead<'_>| {
         let motions = read.program.motions.iter();
         let radii = motions.filter_map(|m| match m.zone {
@@ -224,13 +261,17 @@ fn radii(original: &RobotRead<'_>, verified: &RobotRead<'_>) -> Option<OtherWord
     };
     let (mm, line) = largest(verified)?;
     let of_original = largest(original).map_or(0.0, |(mm, _)| mm);
+    // Pieces of a motion of KRL that stops pass their ends within the distance in force.
+    let may_be_pieces =
+        verified.program.language == Language::Krl && of_original == 0.0 && !stops_less;
+    let fault = (!may_be_pieces).then_some(FaultKind::PathMode);
     (mm > PASSED_MM && mm > of_original).then(|| {
         let text = format!(
             "the end of the motion at line {line} is passed at up to {} mm, those of the original at {}: no figure has that in it",
             short(mm),
             short(of_original)
         );
-        OtherWord::new("zone", None, [Some(line), None], text)
+        OtherWord::new("zone", fault, [Some(line), None], text)
     })
 }
 

@@ -1,12 +1,9 @@
-//! Statements of robots' programs that end them, leave parts of them out or change how fast they run.
-
-use std::collections::BTreeSet;
+//! Statements of robots' and APT programs beside their motions.
 
 use kinetostat_formats::Language;
 
 use crate::job::robot::read_program::RobotRead;
-use crate::verify::cut_lines::{CutLines, Left};
-use crate::verify::other_word::{FaultKind, OtherWord};
+use crate::verify::words::{Kind, Word};
 
 /// Statements of a language that this looks at.
 struct Words {
@@ -14,8 +11,10 @@ struct Words {
     ends: &'static [&'static str],
     /// Those that make motions behind them under a condition, or again.
     branches: &'static [&'static str],
-    /// Those that say how fast all motions run, or that call what is not read here.
-    others: &'static [&'static str],
+    /// Those that say how fast all motions run.
+    overrides: &'static [&'static str],
+    /// Beginnings of those that are compared otherwise or say nothing to the machine; none where only the kinds above are looked at.
+    compared: Option<&'static [&'static str]>,
 }
 
 impl Words {
@@ -32,118 +31,124 @@ impl Words {
                     "RAISE",
                 ],
                 branches: &["IF", "ELSEIF", "ELSE", "TEST", "CASE", "FOR", "WHILE"],
-                others: &["VELSET", "ACCSET", "SPEEDREFRESH"],
+                overrides: &["VELSET", "SPEEDREFRESH"],
+                compared: Some(&[
+                    "MODULE", "PROC", "FUNC", "TRAP", "RECORD", "CONST", "PERS", "VAR", "LOCAL",
+                    "TASK", "END", "VERSION", "LANGUAGE",
+                ]),
             },
             Language::Krl => Self {
                 ends: &["EXIT", "RETURN", "HALT", "GOTO"],
                 branches: &[
                     "IF", "ELSE", "SWITCH", "CASE", "FOR", "WHILE", "LOOP", "REPEAT",
                 ],
-                others: &["$OV_PRO", "$OV_ROB"],
+                overrides: &["$OV_PRO", "$OV_ROB"],
+                compared: Some(&[
+                    "&", "DEF", "GLOBAL", "DECL", "INT ", "REAL ", "BOOL ", "CHAR ", "E6", "POS ",
+                    "FRAME ", "AXIS ", "EXT", "IMPORT", "END", "BAS", "PDAT_ACT", "FDAT_ACT",
+                    "LDAT_ACT", "$VEL", "$BASE", "$TOOL", "$LOAD",
+                ]),
             },
             Language::FanucLs => Self {
                 ends: &["END", "ABORT", "JMP", "PAUSE"],
                 branches: &["IF", "ELSE", "SELECT", "FOR"],
-                others: &["OVERRIDE", "CALL", "RUN"],
+                overrides: &["OVERRIDE"],
+                compared: Some(&["LBL", "UFRAME_NUM", "UTOOL_NUM", "PR[", "END"]),
             },
             Language::Apt => Self {
                 ends: &["FINI", "END", "JUMPTO", "STOP"],
                 branches: &["IF", "LOOPST"],
-                others: &[],
+                overrides: &[],
+                compared: Some(&[
+                    "PARTNO", "UNITS", "GO", "FROM", "RAPID", "FEDRAT", "SPINDL", "LOADTL",
+                    "TURRET", "CUTTER", "MULTAX", "INTOL", "OUTTOL", "INDIRV", "CIRCLE", "MOVARC",
+                    "PPRINT", "REMARK",
+                ]),
             },
             Language::Siemens => Self {
-                ends: &[
-                    "M2", "M02", "M30", "M17", "RET", "GOTO", "GOTOF", "GOTOB", "GOTOS",
-                ],
+                ends: &["RET", "GOTO", "GOTOF", "GOTOB", "GOTOS"],
                 branches: &["IF", "ELSE", "CASE", "FOR", "WHILE", "LOOP", "REPEAT"],
-                others: &["OVR", "OVRRAP"],
+                overrides: &["OVR", "OVRRAP"],
+                compared: None,
             },
             _ => Self {
                 ends: &[],
                 branches: &[],
-                others: &[],
+                overrides: &[],
+                compared: None,
             },
         }
     }
 }
 
-/// A statement: where it stands, what it says, and behind which cut, as a line of the original (zero before all cuts).
-struct Statement {
-    line: usize,
-    text: String,
-    behind: usize,
-}
-
-/// Statements of these kinds that the original does not have behind the same cut; `cut_lines` are lines of the program verified and of the
-/// original.
-pub(crate) fn statements(
-    original: &RobotRead<'_>,
-    verified: &RobotRead<'_>,
-    cut_lines: &[[usize; 2]],
-) -> Vec<OtherWord> {
-    let language = verified.program.language;
-    let words = Words::of(language);
-    let cuts = CutLines::of(cut_lines);
-    let own = all_statements(verified, |line| cuts.before_own(line));
-    let of_original = all_statements(original, |line| cuts.before(line));
-    let of_statement = |statement: &Statement| (statement.text.clone(), statement.behind);
-    let mut left = Left::of(of_original.iter().map(of_statement));
-    let last_motion = verified.program.motions.iter().map(|m| m.line).max();
-    let mut found = Vec::new();
-    let mut seen: BTreeSet<&str> = BTreeSet::new();
-    for statement in &own {
-        let Statement { line, text, .. } = statement;
-        if left.take(&of_statement(statement)) || !seen.insert(text) {
-            continue;
-        }
-        let lines = [Some(*line), None];
-        let is_elsewhere = of_original.iter().any(|other| other.text == *text);
-        let what = match is_elsewhere {
-            true => format!("{text} at line {line} stands elsewhere in the original"),
-            false => OtherWord::only_in_one(text, lines),
-        };
-        let lies_before = last_motion.is_some_and(|last| *line < last);
-        let leads_on = begins_with(text, words.branches);
-        if (is_end(text, (language, &words)) || leads_on) && lies_before {
-            let text = match leads_on {
-                true => format!("{what}: motions behind it may not be made, or more than once"),
-                false => format!("{what}: motions behind it may not be made"),
-            };
-            found.push(OtherWord::new("end", Some(FaultKind::Course), lines, text));
-        } else if begins_with(text, words.others) {
-            let text =
-                format!("{what}, and what it does to speeds or motions is not in these figures");
-            found.push(OtherWord::new("statement", None, lines, text));
-        }
-    }
-    found
-}
-
-/// Statements that this looks at.
-fn all_statements(read: &RobotRead<'_>, behind: impl Fn(usize) -> usize) -> Vec<Statement> {
+/// Statements of a program beside its motions, in the order of their lines.
+pub(crate) fn statements(read: &RobotRead<'_>) -> Vec<Word> {
     let language = read.program.language;
     let words = Words::of(language);
     let mut found = Vec::new();
-    for (line, text) in read.lines_in_capitals() {
-        let parts = code(&text, language).split(match language {
-            Language::Rapid => ';',
-            // There is one on a line.
-            _ => '\n',
-        });
-        for part in parts.map(str::trim) {
-            let is_word = [words.others, words.branches]
-                .iter()
-                .any(|words| begins_with(part, words));
-            if is_word || is_end(part, (language, &words)) {
-                found.push(Statement {
-                    line,
-                    text: part.split_whitespace().collect::<Vec<_>>().join(" "),
-                    behind: behind(line),
+    let text = besides_motions(read);
+    // Positions of FANUC's programs stand behind their statements, and what describes the file before them.
+    let mut is_head = language == Language::FanucLs;
+    for (line, text) in (1..).zip(text.lines()) {
+        match text.trim() {
+            "/MN" => is_head = false,
+            "/POS" => break,
+            _ if is_head => {}
+            text => {
+                let parts = code(text, language).split(match language {
+                    Language::Rapid => ';',
+                    // There is one on a line.
+                    _ => '\n',
                 });
+                let parts = parts.map(|part| part.split_whitespace().collect::<Vec<_>>().join(" "));
+                found.extend(parts.filter_map(|text| {
+                    let kind = words.kind(&text, language)?;
+                    Some(Word { line, kind, text })
+                }));
             }
         }
     }
     found
+}
+
+/// The file with the motions in capitals, with blanks for these.
+fn besides_motions(read: &RobotRead<'_>) -> String {
+    let mut bytes = read.program.files[read.path.file].bytes().to_vec();
+    for motion in &read.program.motions {
+        if motion.file == read.path.file
+            && let Some(part) = bytes.get_mut(motion.span.clone())
+        {
+            part.iter_mut()
+                .filter(|byte| **byte != b'\n')
+                .for_each(|byte| *byte = b' ');
+        }
+    }
+    String::from_utf8_lossy(&bytes).to_ascii_uppercase()
+}
+
+impl Words {
+    /// The kind of a statement; none of what is not looked at.
+    fn kind(&self, text: &str, language: Language) -> Option<Kind> {
+        let is_frame = language == Language::Krl && text.replace(' ', "").contains("={");
+        let begins = |with: &&str| text.starts_with(with);
+        if is_end(text, (language, self)) {
+            Some(Kind::End)
+        } else if begins_with(text, self.branches) {
+            Some(Kind::Branch)
+        } else if begins_with(text, self.overrides) {
+            Some(Kind::Override)
+        } else if text.starts_with(|c: char| c.is_ascii_alphabetic() || matches!(c, '$' | '%'))
+            && !is_frame
+            && self.compared.is_some_and(|all| !all.iter().any(begins))
+        {
+            match text.contains("SPIND") {
+                true => Some(Kind::Spindle),
+                false => Some(Kind::Other),
+            }
+        } else {
+            None
+        }
+    }
 }
 
 /// Whether motions behind a statement may not be made; `IF` has its statement behind itself in RAPID.

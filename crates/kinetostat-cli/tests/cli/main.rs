@@ -94,6 +94,7 @@ mod verify_ends;
 mod verify_in_force;
 mod verify_others;
 mod verify_robot;
+mod verify_words;
 mod vibration;
 mod weight;
 mod without_motion;

@@ -178,6 +178,13 @@ fn a_spindle_that_is_not_started_is_in_every_headline() {
             }
             let written = std::fs::read_to_string(here.join(&out)).unwrap();
             assert_eq!(written.contains(line), !spindle.is_empty(), "{written}");
+            if !spindle.is_empty() {
+                let slow = format!("slow.{ending}");
+                std::fs::write(here.join(&slow), written.replace("8000", "4000")).unwrap();
+                let said = run(here, &["verify", &slow, "--job", "job.toml"]);
+                assert_eq!(said.code, 3, "{said:?}");
+                assert!(text(&said).contains("ANOTHER SPEED OF THE SPINDLE"));
+            }
             // The end of the source stops the spindle, and that of a robot's program does not.
             let stops = written.contains("\nRUNS=FALSE\n");
             assert_eq!(stops, spindle == statements, "{written}");

@@ -136,7 +136,7 @@ fn the_paper_of_a_verification_says_what_is_otherwise_than_in_the_original() {
     assert_eq!(run(here.path(), &words).code, 0);
     let text = std::fs::read_to_string(here.path().join("out.ngc")).unwrap();
     for (from, to, code, says) in [
-        ("S12000", "S9000", 0, "ANOTHERSPEEDOFTHESPINDLE"),
+        ("S12000", "S9000", 3, "ANOTHERSPEEDOFTHESPINDLE"),
         ("M3", "M4", 3, "THESPINDLEDOESNOTTURNASINTHEORIGINAL"),
     ] {
         std::fs::write(here.path().join("other.ngc"), text.replace(from, to)).unwrap();

@@ -54,7 +54,7 @@ fn frames_and_lengths_are_compared_at_every_cut() {
             (
                 "G54\nG61\n",
                 "G54\n",
-                0,
+                3,
                 "with G64 P0.01, the original with G61",
             ),
             ("\nG1 ", "\n/G1 ", 0, "/ begins line"),
@@ -100,7 +100,7 @@ fn tools_of_robots_are_compared_at_every_cut() {
             (
                 " $VEL.CP=0.02\n",
                 " $VEL.CP=0.02\n $OV_PRO=30\n",
-                0,
+                3,
                 "$OV_PRO=30 at line",
             ),
         ],
@@ -122,12 +122,12 @@ fn words_of_a_sinumerik_are_compared_at_every_cut() {
                 "with T\"MILL\", the original with T\"DRILL\"",
             ),
             ("\nD1", "\nD2", 3, "with D2, the original with D1"),
-            ("S2000", "S6000", 0, "with S6000, the original with S2000"),
+            ("S2000", "S6000", 3, "with S6000, the original with S2000"),
             ("S2000 M3", "S2000 M4", 3, "with M4, the original with M3"),
             (
                 "G17 G90",
                 "G642 ADIS=1 G17 G90",
-                0,
+                3,
                 "the control follows the path otherwise",
             ),
         ],
@@ -145,7 +145,7 @@ fn a_spindle_that_stands_still_is_a_fault() {
         ("S5000 M3", "S5000", 3, what),
         ("S5000 M3", "S5000 M4", 3, what),
         ("S5000 M3", "S0 M3", 3, what),
-        ("S5000 M3", "S4000 M3", 0, "ANOTHER SPEED OF THE SPINDLE"),
+        ("S5000 M3", "S4000 M3", 3, "ANOTHER SPEED OF THE SPINDLE"),
     ];
     changes("part.ngc", two, &with, &changed);
     let stands = "with no M3 or M4 since the change of tools, the original with M3 (line 13 there)";

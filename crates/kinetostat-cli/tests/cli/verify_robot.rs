@@ -140,8 +140,8 @@ fn frames_and_tools_of_a_robot_are_those_of_the_original() {
                 3,
                 "goes by joint values",
             ),
-            ("v20,fine", "v20,z50", 0, "stop at their ends"),
-            ("v20,fine", "v20,z50", 0, "is passed at up to 50 mm"),
+            ("v20,fine", "v20,z50", 3, "stop at their ends"),
+            ("v20,fine", "v20,z50", 3, "is passed at up to 50 mm"),
             (
                 "[0,0,0,0],[9E9",
                 "[0,0,0,1],[9E9",
@@ -202,7 +202,7 @@ fn calls_for_tools_and_shifts_are_compared() {
                 "TOOL CALL 1 Z",
                 "TOOL CALL 2 Z",
                 3,
-                "ANOTHER TOOL: TOOL CALL 2 at line",
+                "cut with TOOL CALL 2, the original with TOOL CALL 1",
             ),
             (
                 "TOOL CALL 1 Z S5000",
@@ -210,7 +210,7 @@ fn calls_for_tools_and_shifts_are_compared() {
                 3,
                 "cut with DL+1, the original with no DL and DR",
             ),
-            ("S5000", "S500", 0, "cut with S500, the original with S5000"),
+            ("S5000", "S500", 3, "cut with S500, the original with S5000"),
             ("FMAX M3", "FMAX M4", 3, "cut with M4, the original with M3"),
         ],
     );
@@ -218,7 +218,12 @@ fn calls_for_tools_and_shifts_are_compared() {
         "part.apt",
         APT,
         &with,
-        &[("LOADTL/1", "LOADTL/2", 3, "ANOTHER TOOL: LOADTL/2 at line")],
+        &[(
+            "LOADTL/1",
+            "LOADTL/2",
+            3,
+            "cut with LOADTL/2, the original with LOADTL/1",
+        )],
     );
     changes(
         "part.ngc",
@@ -228,7 +233,7 @@ fn calls_for_tools_and_shifts_are_compared() {
             "G92 X0 Y0 Z30\n",
             "",
             3,
-            "ANOTHER FRAME: G92 at line 4 of the original is not in this program",
+            "cut with no G92 before the first place, the original with G92",
         )],
     );
 }

@@ -68,7 +68,8 @@ pub struct SpindleStatements {
 
 impl SpindleStatements {
     /// The lines for a rotation at a speed; `None` where the cell states none, or where they need a speed that is not known.
-    pub(crate) fn lines(&self, rotation: SpindleRotation, rpm: Option<f64>) -> Option<Vec<String>> {
+    #[must_use]
+    pub fn lines(&self, rotation: SpindleRotation, rpm: Option<f64>) -> Option<Vec<String>> {
         let lines = match rotation {
             SpindleRotation::Clockwise => &self.clockwise,
             SpindleRotation::CounterClockwise => &self.counter_clockwise,
