@@ -430,3 +430,39 @@ fn a_program_that_states_the_turn_of_its_tool_keeps_it() {
     );
     assert!(!text.contains("no words"), "{said:?}");
 }
+
+/// Speeds and places that are written in another unit, most likely.
+#[test]
+fn speeds_and_extents_in_a_wrong_unit_are_warned_of() {
+    let part = "DEF part()\n $BASE={X 1300,Y 50,Z 900,A 0,B 0,C 0}\n $TOOL={X 0,Y 0,Z 150,A 0,B 0,C 0}\n $VEL.CP=0.2\n\
+        LIN {X 0,Y 0,Z 30,A 0,B 0,C 180}\n $VEL.CP=0.02\n LIN {X 0,Y 0,Z 0,A 0,B 0,C 180}\n LIN {X 120,Y 0,Z 0,A 0,B 0,C 180}\nEND\n";
+    let in_metres = part.replace("X 120", "X 0.12").replace("Z 30", "Z 0.03");
+    for (program, rapid_from, said) in [
+        (
+            part.replace("CP=0.2\n", "CP=20\n"),
+            "150",
+            "a speed of 20000 mm/s is unusual",
+        ),
+        (
+            part.replace("CP=0.02", "CP=0.00002"),
+            "150",
+            "a speed of 0.02 mm/s is unusual",
+        ),
+        (
+            part.replace("CP=0.02", "CP=1.2"),
+            "2000",
+            "a speed of 1200 mm/s is unusual",
+        ),
+        (in_metres, "150", "are its lengths in metres or centimetres"),
+    ] {
+        let here = crate::common::workplace();
+        std::fs::write(here.path().join("part.src"), program).unwrap();
+        let line = format!(
+            "compensate --program part.src --out out.src --model heavy_6r --weight all --force 200 -150 300 --rapid-from-mm-per-s {rapid_from}"
+        );
+        let found = crate::common::run(here.path(), &line.split(' ').collect::<Vec<_>>());
+        let text = format!("{}{}", found.out, found.err);
+        let text = text.split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(text.contains(said), "{said}: {text}");
+    }
+}

@@ -20,6 +20,15 @@ const SEVERAL: usize = 8;
 /// ... as one of 3 m in metres is where its lengths are taken for millimetres.
 const METRES_AS_MM: f64 = 3.0;
 
+/// Fewer places say so where they are as near to each other as no part is large, mm.
+const NO_PART_MM: f64 = 0.5;
+
+/// Slower and faster cuts are mostly in another unit, mm/s: robots cut with 1 to 300 mm/s.
+const USUAL_CUTS: [f64; 2] = [0.1, 1000.0];
+
+/// `$VEL.CP` of KRL takes no more, mm/s.
+const MOST_OF_KRL: f64 = 3000.0;
+
 /// Turns that are nearer to half a turn are one but for the last digits of quaternions with four decimals, rad (0.01 deg).
 const NEAR_HALF_A_TURN: f64 = 1.75e-4;
 
@@ -63,9 +72,10 @@ pub(crate) fn warnings_of(
     if let Some(line) = tiny(program, place) {
         warnings.push(Warning {
             line,
-            text: "all places of the program lie within 3 mm of each other: are its lengths in metres? They are taken for millimetres".to_owned(),
+            text: "all places of the program lie within 3 mm of each other: are its lengths in metres or centimetres? They are taken for millimetres".to_owned(),
         });
     }
+    warnings.extend(odd_speed(program, moves));
     if in_base {
         warnings.push(Warning {
             line: 1,
@@ -127,7 +137,34 @@ fn tiny(program: &RobotProgram, place: impl Fn(usize) -> Option<Vector3<f64>>) -
         (low, high) = (low.inf(&place), high.sup(&place));
     }
     let spread = (high - low).amax();
-    first.filter(|_| count >= SEVERAL && spread > 0.0 && spread < METRES_AS_MM)
+    let most = match count {
+        0..3 => 0.0,
+        3..SEVERAL => NO_PART_MM,
+        _ => METRES_AS_MM,
+    };
+    first.filter(|_| spread > 0.0 && spread < most)
+}
+
+/// The fastest cut, if it is so slow or so fast that its unit is most likely wrong; of KRL every motion that is faster than it can be.
+fn odd_speed(program: &RobotProgram, moves: &[Move]) -> Option<Warning> {
+    let cuts = moves.iter().filter(|motion| motion.is_known_feed());
+    let cuts = cuts.filter_map(|m| Some((m.line, m.feed_mm_per_minute(f64::NAN)? / 60.0)));
+    let known = cuts.filter(|(_, speed)| speed.is_finite());
+    let fastest = known.max_by(|a, b| a.1.total_cmp(&b.1));
+    let is_odd = |(_, speed): &(usize, f64)| !(USUAL_CUTS[0]..=USUAL_CUTS[1]).contains(speed);
+    let too_fast = || {
+        let mut motions = program.motions.iter();
+        let motion = motions.find(|m| m.speed.mm_per_s.is_some_and(|v| v > MOST_OF_KRL))?;
+        (program.language == Language::Krl).then_some((motion.line, motion.speed.mm_per_s?))
+    };
+    let (line, speed) = fastest.filter(is_odd).or_else(too_fast)?;
+    Some(Warning {
+        line,
+        text: format!(
+            "a speed of {} mm/s is unusual: robots cut with 1 to 300 mm/s and move with up to 2000 mm/s; check its unit ($VEL.CP of KRL is in m/s, speeds of RAPID in mm/s, those of tables as their column says)",
+            (1e4 * speed).round() / 1e4
+        ),
+    })
 }
 
 /// By which rule the tool is turned about its axis, at the first motion where that matters; and where the axis itself is not stated.
