@@ -1,6 +1,6 @@
 //! What the caller states about reading and writing.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use nalgebra::Isometry3;
 
@@ -115,6 +115,9 @@ pub struct ReadOptions {
     pub rotary_axes: Vec<char>,
     /// The arm of a table of joint values; without it such values are read, and not corrected.
     pub arm: Option<TableArm>,
+    /// Names of what the program calls, none of its files holds, and moves the tool: such calls are refused with their lines. Others are
+    /// taken to leave the tool where it is, and speed, tool and frame in force, with a finding.
+    pub moving_calls: BTreeSet<String>,
 }
 
 impl ReadOptions {

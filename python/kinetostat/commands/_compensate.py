@@ -44,6 +44,7 @@ def compensate(
     rapid_from_mm_per_s: float | None = None,
     tool_axis: Literal["x", "y", "z", "-x", "-y", "-z"] | None = None,
     joint_rows: Literal["joint", "linear"] | None = None,
+    call: str | float | Sequence[str | float] | None = None,
     free_turn: bool = False,
     stiff_turn: bool = False,
     turn_plot: _Path | None = None,
@@ -162,6 +163,10 @@ def compensate(
         Axis of the tool from its tip to its holder, in axes of its frame [default: -z]
     joint_rows : Literal["joint", "linear"]
         How the controller moves between the rows of a table of joint values
+    call : str | float | Sequence[str | float]
+        What the program calls by this name, and none of its files holds, moves the tool: NAME=moves
+        (repeat for more). Such a call is refused by line; others are taken not to move the tool and
+        not to change speed, tool or frame
     free_turn : bool
         Turn a round tool about its axis along the path of an arm: inside the limits of the joints,
         away from singular postures, in one configuration
@@ -310,6 +315,7 @@ def compensate(
         ("--rapid-from-mm-per-s", rapid_from_mm_per_s),
         ("--tool-axis", tool_axis),
         ("--joint-rows", joint_rows),
+        ("--call", call),
         ("--free-turn", free_turn),
         ("--stiff-turn", stiff_turn),
         ("--turn-plot", turn_plot),

@@ -41,6 +41,7 @@ def mirror(
     rapid_from_mm_per_s: float | None = None,
     tool_axis: Literal["x", "y", "z", "-x", "-y", "-z"] | None = None,
     joint_rows: Literal["joint", "linear"] | None = None,
+    call: str | float | Sequence[str | float] | None = None,
     tolerance_um: float | None = None,
     decimals: str | float | None = None,
     out: _Path | None = None,
@@ -122,6 +123,10 @@ def mirror(
         Axis of the tool from its tip to its holder, in axes of its frame [default: -z]
     joint_rows : Literal["joint", "linear"]
         How the controller moves between the rows of a table of joint values
+    call : str | float | Sequence[str | float]
+        What the program calls by this name, and none of its files holds, moves the tool: NAME=moves
+        (repeat for more). Such a call is refused by line; others are taken not to move the tool and
+        not to change speed, tool or frame
     tolerance_um : float
         How far the straight pieces may leave the corrected path, micrometres [default: 0.5]
     decimals : str | float
@@ -184,6 +189,7 @@ def mirror(
         ("--rapid-from-mm-per-s", rapid_from_mm_per_s),
         ("--tool-axis", tool_axis),
         ("--joint-rows", joint_rows),
+        ("--call", call),
         ("--tolerance-um", tolerance_um),
         ("--decimals", decimals),
         ("--out", out),

@@ -53,6 +53,7 @@ def place(
     rapid_from_mm_per_s: float | None = None,
     tool_axis: Literal["x", "y", "z", "-x", "-y", "-z"] | None = None,
     joint_rows: Literal["joint", "linear"] | None = None,
+    call: str | float | Sequence[str | float] | None = None,
     expand: bool = False,
     subprograms: _Path | Sequence[_Path] | None = None,
     tool_diameter_mm: str | float | Sequence[str | float] | None = None,
@@ -168,6 +169,10 @@ def place(
         Axis of the tool from its tip to its holder, in axes of its frame [default: -z]
     joint_rows : Literal["joint", "linear"]
         How the controller moves between the rows of a table of joint values
+    call : str | float | Sequence[str | float]
+        What the program calls by this name, and none of its files holds, moves the tool: NAME=moves
+        (repeat for more). Such a call is refused by line; others are taken not to move the tool and
+        not to change speed, tool or frame
     expand : bool
         Run the program once and go on with its flat form: subprograms, variables, cycles, G41 and
         G42 as plain blocks (`kinetostat expand` shows them)
@@ -262,6 +267,7 @@ def place(
         ("--rapid-from-mm-per-s", rapid_from_mm_per_s),
         ("--tool-axis", tool_axis),
         ("--joint-rows", joint_rows),
+        ("--call", call),
         ("--expand", expand),
         ("--subprograms", subprograms),
         ("--tool-diameter-mm", tool_diameter_mm),

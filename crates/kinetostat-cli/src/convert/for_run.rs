@@ -24,6 +24,7 @@ use crate::job::program::{ReadProgram, read_program};
 use crate::job::robot::divided::Divided;
 use crate::job::robot::read_once::Reading;
 use crate::job::robot::settings::{MadeArm, RobotSettings, settings};
+use crate::job::robot_arguments::RobotArgs;
 use crate::job::robot::source::RobotSource;
 use crate::job::setting::{Setting, setting};
 use crate::job::target_word::RobotWord;
@@ -152,7 +153,12 @@ pub(crate) fn settings_of_made(
     template: &Template,
     (of_robot, axis): (Language, Vector3<f64>),
 ) -> Answer<RobotSettings> {
-    let mut found = settings(None, &flags.robot, (of_robot, axis))?;
+    // What is called was refused, or is a note here.
+    let flags = RobotArgs {
+        moving_calls: Vec::new(),
+        ..flags.robot.clone()
+    };
+    let mut found = settings(None, &flags, (of_robot, axis))?;
     found.axis_is_stated = true;
     found.making.tool_axis = axis;
     // Straight rapids have this speed, but for the last digit; APT has a word for them.

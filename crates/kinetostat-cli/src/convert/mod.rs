@@ -219,6 +219,7 @@ fn flags(args: &ConvertArgs) -> ProgramArgs {
             tool_axis: args.tool_axis,
             rapid_from_mm_per_s: args.rapid_from_mm_per_s,
             joint_rows: args.joint_rows.filter(|_| args.to != TargetWord::Joints),
+            moving_calls: Vec::new(),
             converted: false,
             template: None,
         },

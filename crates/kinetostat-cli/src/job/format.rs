@@ -15,7 +15,7 @@ use crate::job::cut_tables::{
 use crate::job::expand_table::ExpandTable;
 use crate::job::feature_table::FeatureTable;
 use crate::job::place_table::PlaceTable;
-use crate::job::robot_table::RobotTable;
+use crate::job::robot_table::{CallWord, RobotTable};
 use crate::job::source::Source;
 use crate::job::uncertain_table::UncertainTable;
 use crate::job::units_word::UnitsWord;
@@ -62,6 +62,9 @@ pub(crate) struct Job {
     pub reading: ReadingTable,
     /// What a program of a robot does not say itself.
     pub robot: Option<Spanned<RobotTable>>,
+    /// What a program of a robot calls by these names and none of its files holds.
+    #[serde(default)]
+    pub calls: BTreeMap<Spanned<String>, CallWord>,
     /// The program is run once and written flat.
     pub expand: Option<Spanned<ExpandTable>>,
     /// What is uncertain about machine and load.

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use clap::{Args, ValueEnum};
+use clap::{ArgAction, Args, ValueEnum};
 use kinetostat::Directions;
 use kinetostat_formats::BetweenRows;
 use serde::Deserialize;
@@ -75,12 +75,24 @@ pub(crate) struct RobotArgs {
     /// How the controller moves between the rows of a table of joint values
     #[arg(long, value_enum, value_name = "WAY", help_heading = "Robot programs")]
     pub(crate) joint_rows: Option<JointRowsWord>,
+    /// What the program calls by this name, and none of its files holds, moves the tool: NAME=moves (repeat for more). Such a call is
+    /// refused by line; others are taken not to move the tool and not to change speed, tool or frame
+    #[arg(long = "call", value_name = "NAME=moves", action = ArgAction::Append, help_heading = "Robot programs", value_parser = moving_call)]
+    pub(crate) moving_calls: Vec<String>,
     /// The program is converted into the language of a robot before it is run.
     #[arg(skip)]
     pub(crate) converted: bool,
     /// Template of the cell, in place of the job's.
     #[arg(skip)]
     pub(crate) template: Option<PathBuf>,
+}
+
+/// The name in `NAME=moves`.
+fn moving_call(text: &str) -> Result<String, String> {
+    match text.split_once('=') {
+        Some((name, "moves")) if !name.trim().is_empty() => Ok(name.trim().to_owned()),
+        _ => Err("write NAME=moves, as in SPINDLE_ON=moves".to_owned()),
+    }
 }
 
 impl CorrectWord {
@@ -100,6 +112,7 @@ impl RobotArgs {
             ("--rapid-from-mm-per-s", self.rapid_from_mm_per_s.is_some()),
             ("--tool-axis", self.tool_axis.is_some()),
             ("--joint-rows", self.joint_rows.is_some()),
+            ("--call", !self.moving_calls.is_empty()),
         ];
         let mut given = all.into_iter().filter(|(_, given)| *given);
         given.next().map(|(name, _)| name)

@@ -90,6 +90,14 @@ pub(crate) enum LengthUnitWord {
     M,
 }
 
+/// What a call does that none of the files holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub(crate) enum CallWord {
+    /// It moves the tool: it is refused by line.
+    Moves,
+}
+
 /// External axes that move.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "snake_case")]

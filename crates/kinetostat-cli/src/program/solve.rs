@@ -293,6 +293,9 @@ pub(crate) fn turned(
     run.result.warnings.extend(warnings(forces.as_ref()));
     run.result.warnings.extend(setting.of_expansion());
     if let ReadProgram::Robot(read) = &read {
+        if let Some(assumed) = read.assumed_of_calls() {
+            run.result.assume(assumed);
+        }
         let arm = ArmOfTable::of(model, &Pose::identity());
         let other = other_configuration(read, arm.as_ref(), &run.points);
         run.result.warnings.extend(other);

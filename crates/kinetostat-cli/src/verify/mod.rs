@@ -36,6 +36,7 @@ use crate::job::job_file::JobFile;
 use crate::job::machine::{MachineSetup, machine_setup};
 use crate::job::of_model::give_of_model;
 use crate::job::program::read_program;
+use crate::job::robot::read_program::RobotRead;
 use crate::job::run_warnings;
 use crate::job::setting::{Setting, program_path, setting};
 use crate::long::which::say_as_a_whole;
@@ -237,6 +238,9 @@ fn solved(
         };
         of.within(Failure::from(error))
     })?;
+    if let Some(assumed) = read.robot().and_then(RobotRead::assumed_of_calls) {
+        found.run.result.assume(assumed);
+    }
     let cuts = read.path().moves.iter().filter(|m| m.is_known_feed());
     let left_out = |line: &usize| {
         let mut all = found.matched.uncut.iter();

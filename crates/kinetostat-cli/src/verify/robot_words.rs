@@ -19,6 +19,9 @@ use crate::verify::words::{Kind, Words, compared};
 const SAME_MM: f64 = 1e-3;
 const SAME_RAD: f64 = 5e-6;
 
+/// A call without a name.
+const COMPUTED: &str = "a call that is computed";
+
 /// The radius of RAPID's z0, with which steps are passed, mm.
 const PASSED_MM: f64 = 0.3;
 
@@ -184,17 +187,18 @@ fn tool_at_cuts(
     Some(OtherWord::new(own.name.as_str(), fault, lines, text))
 }
 
-/// What only the program verified calls and none of its files holds: the motion behind it begins nobody knows where.
+/// What only the program verified calls and none of its files holds, or computes.
 fn called_outside(original: &RobotRead<'_>, verified: &RobotRead<'_>) -> Vec<OtherWord> {
     let calls = |read: &RobotRead<'_>| -> Vec<(usize, String)> {
         let findings = read.program.findings.iter();
         let calls = findings.filter_map(|finding| {
-            let (what, _) = finding.message.split_once(": it is carried")?;
-            let name = what.split_once(" is in none").map(|(name, _)| name);
-            Some((
-                finding.line,
-                name.unwrap_or("a call that is computed").to_owned(),
-            ))
+            let message = &finding.message;
+            let name = match message.split_once(" is in none of the files") {
+                Some((name, _)) => name,
+                None if message.starts_with("what is called is computed") => COMPUTED,
+                None => return None,
+            };
+            Some((finding.line, name.to_owned()))
         });
         calls.collect()
     };
@@ -204,9 +208,13 @@ fn called_outside(original: &RobotRead<'_>, verified: &RobotRead<'_>) -> Vec<Oth
     own.map(|(line, name)| {
         let lines = [Some(line), None];
         let what = OtherWord::only_in_one(&name, lines);
-        let text = format!(
-            "{what}, and none of these files says what it does: if it moves the tool, that is not seen, and a motion behind it is taken for no cut"
-        );
+        let follows = match name == COMPUTED {
+            true => {
+                "if it moves the tool, that is not seen, and a motion behind it is taken for no cut"
+            }
+            false => "it is taken not to move the tool and not to change speed, tool or frame",
+        };
+        let text = format!("{what}, and none of these files says what it does: {follows}");
         OtherWord::new(name, None, lines, text)
     })
     .collect()

@@ -68,6 +68,7 @@ mod mirror_state;
 mod named_at_once;
 mod one_reading;
 mod other_language;
+mod outside_calls;
 mod paper;
 mod places_by_position;
 mod placing;

@@ -71,8 +71,8 @@ fn calls_of_what_is_not_there_are_named_by_line() {
     let said = run(here, &words("convert part.src --to rapid --out a.mod")).answered();
     let said = flat(&said.out);
     for part in [
-        "line 10: `SUB1` is in none of these files: it is a note here, and if it moves the tool, or states how motions behind it go (`$ORI_TYPE`, `$CIRC_TYPE`, `$ACC`, `$APO`), that is not seen (lines 10, 12)",
-        "line 11: `SUB2` is in none of these files: it is a note here, and if it moves the tool, or states how motions behind it go (`$ORI_TYPE`, `$CIRC_TYPE`, `$ACC`, `$APO`), that is not seen",
+        "line 10: `SUB1` is in none of the files: it is a note here, and taken not to move the tool and not to change speed, tool or frame, or how motions behind it go (`$ORI_TYPE`, `$CIRC_TYPE`, `$ACC`, `$APO`); state it under [calls] if it moves, or give its file (lines 10, 12)",
+        "line 11: `SUB2` is in none of the files: it is a note here, and taken not to move the tool",
     ] {
         assert!(said.contains(part), "{part}: {said}");
     }

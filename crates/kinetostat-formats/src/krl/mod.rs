@@ -3,7 +3,7 @@
 //! From lines of tokens ([`lex`]) to blocks ([`parser`], [`tree`]), to names and what they are worth ([`symbols`], [`usage`],
 //! [`aggregate`], [`values`], [`frames`], [`role`], [`assigned_frames`], [`system_frames`]), to what is in force ([`state`], [`settings`], [`turning`], [`moving_settings`], [`touched`]),
 //! to motions ([`motion`], [`targets`], [`steps`], [`kept`], [`behind_ends`], [`speed_place`], [`with_list`]) in the order in which they run ([`walking`],
-//! [`resolve`], [`unsettled`]). [`loads`] reads what tools weigh, [`folds`] compares what the pendant shows with what runs, and [`writing`] writes.
+//! [`resolve`]). [`loads`] reads what tools weigh, [`folds`] compares what the pendant shows with what runs, and [`writing`] writes.
 //!
 //! Source: KUKA, Expert Programming KR C2 / KR C3 (KSS 5.x), and KUKA System Software 8.x, Operating and Programming
 //! Instructions for System Integrators.
@@ -33,7 +33,6 @@ pub(crate) mod targets;
 pub(crate) mod touched;
 pub(crate) mod tree;
 pub(crate) mod turning;
-pub(crate) mod unsettled;
 pub(crate) mod usage;
 pub(crate) mod values;
 pub(crate) mod walking;

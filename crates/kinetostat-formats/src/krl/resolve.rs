@@ -8,10 +8,9 @@ use crate::krl::motion::Followed;
 use crate::krl::role::Role;
 use crate::krl::state::{Settings, Slot, State, Thing};
 use crate::krl::turning::{KEPT, turned};
-use crate::krl::unsettled::Unsettled;
 use crate::krl::values::{Reason, Values};
 use crate::krl::walking::walker::Walker;
-use crate::model::frame::{Frame, FrameUse};
+use crate::model::frame::FrameUse;
 use crate::model::motion::{Motion, MotionKind, Runs, Zone};
 use crate::model::outside_call::OutsideCall;
 use crate::model::site::{Declaration, TargetSite};
@@ -40,13 +39,9 @@ pub(crate) fn resolve(walker: Walker<'_, '_>, main: Option<usize>) -> Resolved {
         targets,
         ..
     } = walker;
-    let mut settings = settings;
-    let unsettled = Unsettled::of(&motions, &entry, (values, &mut settings));
-    faults.extend(unsettled.faults(values, &settings));
     let mut resolver = Resolver {
         values,
         settings,
-        is_refused: unsettled.is_refused(),
         unknown,
         findings,
         declarations: &targets.declarations,
@@ -89,8 +84,6 @@ pub(crate) fn resolve(walker: Walker<'_, '_>, main: Option<usize>) -> Resolved {
 struct Resolver<'v, 'p> {
     values: &'v Values<'p>,
     settings: Settings,
-    /// Calls are refused for what they may have changed: the rest is looked at as if they had not.
-    is_refused: bool,
     unknown: UnknownTargets,
     findings: Vec<Finding>,
     declarations: &'v [Declaration],
@@ -113,14 +106,10 @@ impl Resolver<'_, '_> {
         motion.runs = often.max(motion.runs);
         motion.follows = match state.get(Thing::Place) {
             Slot::Is(index) => Some(index),
-            Slot::Entry | Slot::Unknown | Slot::Lost { .. } => None,
+            Slot::Entry | Slot::Unknown => None,
         };
-        motion.tool = self.frame(
-            (state.get(Thing::Tool), motion.file),
-            Role::Tool,
-            motion.tool,
-        );
-        let base = (state.get(Thing::Base), motion.file);
+        motion.tool = self.frame(state.get(Thing::Tool), Role::Tool, motion.tool);
+        let base = state.get(Thing::Base);
         motion.work_object = self.frame(base, Role::Base, motion.work_object);
         if motion.kind != MotionKind::Joint
             && let Some(speed) = self.settings.speeds.get(state.get(Thing::Speed))
@@ -143,16 +132,20 @@ impl Resolver<'_, '_> {
         let from = (motion.follows).and_then(|index| self.before(index, &motion));
         let before = from.and_then(Target::pose).cloned();
         let mut fault = None;
-        let lost_place = self.lost_place(state.get(Thing::Place));
         if let Some(step) = step {
-            let reason = || lost_place.clone().unwrap_or_else(|| STEP.to_owned());
             let is_left = motion.kind == MotionKind::Joint;
             match (from.and_then(|from| step.from(from)), self.unknown) {
                 (Some(end), _) => motion.target = end,
                 (None, UnknownTargets::Refused) if !is_left => {
-                    fault = Some((reason(), "write the end with LIN and all its numbers"));
+                    fault = Some((
+                        STEP.to_owned(),
+                        "write the end with LIN and all its numbers",
+                    ));
                 }
-                (None, _) => motion.target = Target::Unknown { reason: reason() },
+                (None, _) => {
+                    let reason = STEP.to_owned();
+                    motion.target = Target::Unknown { reason };
+                }
             }
         }
         // A routine may follow a motion that stands behind it in the file, and is not known yet.
@@ -169,7 +162,7 @@ impl Resolver<'_, '_> {
                 .and_then(|before| completed(&open, before, is_beyond(before)));
             let why = match before {
                 Some(_) => BEYOND,
-                None => lost_place.as_deref().unwrap_or(OPEN),
+                None => OPEN,
             };
             match (filled, self.unknown) {
                 (Some((position_mm, orientation)), _) => {
@@ -230,61 +223,11 @@ impl Resolver<'_, '_> {
     }
 
     /// The frame in force at a motion of a file.
-    fn frame(&self, (slot, file): (Slot, usize), role: Role, none: FrameUse) -> FrameUse {
-        let slot = match slot {
-            Slot::Lost { before, .. } if self.is_refused => before.map_or(Slot::Unknown, Slot::Is),
-            slot => slot,
-        };
+    fn frame(&self, slot: Slot, role: Role, none: FrameUse) -> FrameUse {
         let found = self.settings.frames.get(slot).cloned();
         found
             .or_else(|| self.values.stated(role.variable()))
-            .or_else(|| self.lost(slot, file, role))
             .unwrap_or(none)
-    }
-
-    /// A frame that was known before a call of what is in none of the files.
-    fn lost(&self, slot: Slot, file: usize, role: Role) -> Option<FrameUse> {
-        let Slot::Lost { mut call, .. } = slot else {
-            return None;
-        };
-        let thing = match role {
-            Role::Base => Thing::Base,
-            Role::Tool => Thing::Tool,
-        };
-        // The first of several calls.
-        while let Some(Slot::Lost { call: before, .. }) =
-            (self.settings.before_calls.get(call)).map(|before| before.get(thing))
-        {
-            call = before;
-        }
-        let call = self.settings.calls.get(call)?;
-        let home = match call.file == file {
-            true => String::new(),
-            false => format!(" of {}", self.values.files[call.file].source.name()),
-        };
-        let reason = format!(
-            "since line {}{home} calls `{}`, which is in none of these files and may set another: give its file as well, set {} behind the call, or state it",
-            call.line,
-            call.name.as_deref().unwrap_or_default(),
-            role.variable()
-        );
-        Some(FrameUse {
-            name: role.variable().to_owned(),
-            frame: Frame::Unknown { reason },
-        })
-    }
-
-    /// Why an end that needs the place before it is not known, behind a call of what is in none of the files.
-    fn lost_place(&self, slot: Slot) -> Option<String> {
-        let Slot::Lost { call, .. } = slot else {
-            return None;
-        };
-        let call = self.settings.calls.get(call)?;
-        Some(format!(
-            "its end depends on where the tool is, and `{}`, which line {} calls and none of these files holds, may move it",
-            call.name.as_deref().unwrap_or_default(),
-            call.line
-        ))
     }
 
     fn compare_fold(&mut self, around: &[Option<usize>]) {

@@ -19,26 +19,6 @@ pub(crate) enum Slot {
     Is(usize),
     /// Not the same on every way, or not known from the text.
     Unknown,
-    /// Not known since a call of what is in none of the files, an entry of [`Settings::calls`]; what it was before, None for as where
-    /// the routine was called.
-    Lost { call: usize, before: Option<usize> },
-}
-
-impl Slot {
-    /// Behind a call of what is in none of the files.
-    fn lost(self, call: usize) -> Self {
-        match self {
-            Self::Entry => Self::Lost { call, before: None },
-            Self::Is(index) => Self::Lost {
-                call,
-                before: Some(index),
-            },
-            // The last call is noted: [`Settings::before_calls`] has those before it.
-            Self::Lost { before, .. } => Self::Lost { call, before },
-            // What was not known before is not lost by the call.
-            Self::Unknown => self,
-        }
-    }
 }
 
 /// Which thing.
@@ -112,11 +92,6 @@ impl State {
         };
         Self(std::array::from_fn(kept))
     }
-
-    /// Behind a call of what is in none of the files, an entry of [`Settings::calls`].
-    pub(crate) fn behind_outside(self, call: usize) -> Self {
-        Self(self.0.map(|slot| slot.lost(call)))
-    }
 }
 
 impl Holds for State {
@@ -125,12 +100,6 @@ impl Holds for State {
     fn merged(self, other: Self) -> Self {
         let same = |index: usize| match (self.0[index], other.0[index]) {
             (one, other) if one == other => one,
-            // On one way the call alone makes the difference.
-            (lost @ Slot::Lost { before, .. }, kept) | (kept, lost @ Slot::Lost { before, .. })
-                if kept == before.map_or(Slot::Entry, Slot::Is) =>
-            {
-                lost
-            }
             _ => Slot::Unknown,
         };
         Self(std::array::from_fn(same))
@@ -139,7 +108,6 @@ impl Holds for State {
     fn in_call(self, at: Self) -> Self {
         let resolved = |index: usize| match self.0[index] {
             Slot::Entry => at.0[index],
-            Slot::Lost { call, before: None } => at.0[index].lost(call),
             slot => slot,
         };
         Self(std::array::from_fn(resolved))
@@ -183,7 +151,7 @@ impl<T: Debug> Pool<T> {
     pub(crate) fn get(&self, slot: Slot) -> Option<&T> {
         match slot {
             Slot::Is(index) => self.values.get(index),
-            Slot::Entry | Slot::Unknown | Slot::Lost { .. } => None,
+            Slot::Entry | Slot::Unknown => None,
         }
     }
 }
@@ -197,8 +165,6 @@ pub(crate) struct Settings {
     pub points: Pool<PointData>,
     /// Calls of what is in none of the files.
     pub calls: Vec<OutsideCall>,
-    /// What was in force before each of these calls: what one before it had lost stays lost by both.
-    pub before_calls: Vec<State>,
     /// Tools and bases to which the program gave values up to here.
     pub given: Given,
     /// A statement lets the tool keep its orientation (`$ORI_TYPE=#CONSTANT`): where another does not is in [`Thing::Orientation`].
@@ -209,12 +175,8 @@ impl Settings {
     /// Whether the tool keeps its orientation, or may do so, as the slot of [`Thing::Orientation`] says.
     pub(crate) fn keeps_orientation(&self, slot: Slot) -> bool {
         let stated = match slot {
-            Slot::Is(index)
-            | Slot::Lost {
-                before: Some(index),
-                ..
-            } => Slot::Is(index),
-            Slot::Entry | Slot::Lost { before: None, .. } => return false,
+            Slot::Is(index) => Slot::Is(index),
+            Slot::Entry => return false,
             Slot::Unknown => return self.may_keep_orientation,
         };
         self.numbers.get(stated).is_none_or(|kept| *kept != 0.0)

@@ -3,7 +3,7 @@
 use crate::krl::lex::TokenFile;
 use crate::krl::settings::{BAS, touched};
 use crate::krl::state::{Thing, Things};
-use crate::krl::table::{OPERATORS, motion_row, row};
+use crate::krl::table::{motion_row, row};
 use crate::krl::tree::Statement;
 use crate::krl::values::Values;
 use crate::table::Treatment;
@@ -103,9 +103,9 @@ fn of_line(
             match (values.symbols.routine(routine, &name), row(&name)) {
                 (Some(called), _) => calls.push(called),
                 (None, Some(row)) if !refused(row.treatment) => {}
-                (None, None) if is_first && !file.is(at + 1, b'(') => {}
-                (None, None) if OPERATORS.iter().any(|word| name.is(word)) => {}
-                _ => things = Things::ALL,
+                // What is in none of the files is taken to change nothing.
+                (None, None) => {}
+                (None, Some(_)) => things = Things::ALL,
             }
         }
     }

@@ -1,6 +1,6 @@
 //! Where motions end: positions with the frames in force, registers, frames by number.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use nalgebra::Isometry3;
 
@@ -8,6 +8,7 @@ use crate::ls::flow::{InForce, State};
 use crate::ls::lines::Line;
 use crate::ls::motion::End;
 use crate::ls::positions::{Held, Positions};
+use crate::ls::registers::{Place, Registers};
 use crate::model::frame::{Frame, FrameUse};
 use crate::model::site::{Declaration, TargetSite};
 use crate::model::target::Target;
@@ -22,6 +23,7 @@ pub(crate) struct MotionPlace<'a> {
     pub positions: &'a Positions,
     pub declarations: &'a [Declaration],
     pub before: Option<State>,
+    pub registers: &'a Registers,
 }
 
 /// An end: what it is, where it stands, frame and tool, external axes.
@@ -37,7 +39,9 @@ pub(crate) struct EndFound {
 pub(crate) struct Ends<'o> {
     options: &'o ReadOptions,
     /// The options' frames by name in capitals.
-    frames: BTreeMap<String, Isometry3<f64>>,
+    pub frames: BTreeMap<String, Isometry3<f64>>,
+    /// Frames and tools to which the programs give values.
+    pub given: BTreeSet<Place>,
 }
 
 impl<'o> Ends<'o> {
@@ -46,14 +50,29 @@ impl<'o> Ends<'o> {
         let named = options.frames.iter();
         Self {
             options,
+            given: BTreeSet::new(),
             frames: named
                 .map(|(name, frame)| (name.to_ascii_uppercase(), *frame))
                 .collect(),
         }
     }
 
-    /// A frame or tool by its number.
-    pub(crate) fn frame_use(&self, letters: &str, number: Option<u32>) -> FrameUse {
+    /// Whether the program gives a frame or tool values, and which one it has the run decides.
+    pub(crate) fn is_open(&self, letters: &str, number: Option<u32>, now: &Registers) -> bool {
+        number.is_some_and(|number| {
+            let place = place_of(letters, number);
+            let is_stated = self.frames.contains_key(&format!("{letters}:{number}"));
+            self.given.contains(&place) && !is_stated && now.pose(place).is_none()
+        })
+    }
+
+    /// A frame or tool by its number: as the caller states it, else with the value that the program gives it.
+    pub(crate) fn frame_use(
+        &self,
+        letters: &str,
+        number: Option<u32>,
+        now: &Registers,
+    ) -> FrameUse {
         let Some(number) = number else {
             return FrameUse {
                 name: letters.to_owned(),
@@ -63,10 +82,10 @@ impl<'o> Ends<'o> {
             };
         };
         let name = format!("{letters}:{number}");
-        let frame = match (self.frames.get(&name), number) {
-            (Some(frame), _) => Frame::Known(*frame),
-            (None, 0) => Frame::Known(Isometry3::identity()),
-            (None, _) => Frame::Unknown {
+        let stated = self.frames.get(&name).copied();
+        let frame = match stated.or_else(|| now.pose(place_of(letters, number))) {
+            Some(frame) => Frame::Known(frame),
+            None => Frame::Unknown {
                 reason: "the controller holds it; state it under [robot.frames]".to_owned(),
             },
         };
@@ -149,6 +168,14 @@ impl<'o> Ends<'o> {
             tool: position.tool.or(tool_in_force),
             external: position.external.clone(),
         })
+    }
+}
+
+/// `UF` and `UT` with their numbers.
+fn place_of(letters: &str, number: u32) -> Place {
+    match letters {
+        "UF" => Place::Frame(number),
+        _ => Place::Tool(number),
     }
 }
 

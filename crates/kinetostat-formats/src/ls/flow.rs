@@ -5,7 +5,10 @@
 
 use std::collections::BTreeMap;
 
+use nalgebra::Isometry3;
+
 use crate::ls::program::{Place, Program};
+use crate::ls::registers::{Pool, Registers};
 use crate::ls::step::{Number, Step};
 
 /// Where the tool is.
@@ -69,6 +72,8 @@ pub(crate) struct State {
     pub frame: InForce,
     pub tool: InForce,
     pub last: Last,
+    /// What registers hold, an entry of the pool.
+    pub registers: usize,
 }
 
 impl State {
@@ -77,10 +82,12 @@ impl State {
         frame: InForce::Unset,
         tool: InForce::Unset,
         last: Last::Unknown,
+        registers: 0,
     };
 
-    fn merged(self, other: Self) -> Self {
+    fn merged(self, other: Self, pool: &mut Pool) -> Self {
         Self {
+            registers: pool.merged(self.registers, other.registers),
             frame: self.frame.merged(other.frame),
             tool: self.tool.merged(other.tool),
             last: match self.last == other.last {
@@ -105,18 +112,20 @@ pub(crate) struct Flow<'p> {
     pub before: Vec<Vec<Option<State>>>,
     /// Where the tool is as a program is called.
     pub entry: Vec<Option<Last>>,
+    pool: Pool,
     exits: BTreeMap<(usize, State), Option<State>>,
     entries: Vec<usize>,
     depth: usize,
 }
 
 impl<'p> Flow<'p> {
-    /// Follows the first program, and then those that it does not reach.
-    pub(crate) fn of(programs: &'p [Program]) -> Self {
+    /// Follows the first program, and then those that it does not reach; with the frames that the caller states.
+    pub(crate) fn of(programs: &'p [Program], frames: &BTreeMap<String, Isometry3<f64>>) -> Self {
         let mut flow = Self {
             programs,
             before: programs.iter().map(|p| vec![None; p.steps.len()]).collect(),
             entry: vec![None; programs.len()],
+            pool: Pool::of(frames),
             exits: BTreeMap::new(),
             entries: vec![0; programs.len()],
             depth: 0,
@@ -128,6 +137,23 @@ impl<'p> Flow<'p> {
             }
         }
         flow
+    }
+
+    /// What registers hold before an instruction.
+    pub(crate) fn registers(&self, before: Option<State>) -> &Registers {
+        self.pool.get(before.map_or(0, |state| state.registers))
+    }
+
+    fn join(&mut self, one: Option<State>, other: State) -> Option<State> {
+        Some(one.map_or(other, |one| one.merged(other, &mut self.pool)))
+    }
+
+    /// A state with other registers.
+    fn with(&mut self, state: State, change: impl FnOnce(&mut Registers)) -> State {
+        State {
+            registers: self.pool.changed(state.registers, change),
+            ..state
+        }
     }
 
     /// What is in force behind a program that is entered in a state.
@@ -170,7 +196,7 @@ impl<'p> Flow<'p> {
                 };
                 let (next, jumped) = self.step(index, at, state, &mut exit);
                 if let Some(next) = next {
-                    before[at + 1] = join(before[at + 1], next);
+                    before[at + 1] = self.join(before[at + 1], next);
                 }
                 let Some(jumped) = jumped else {
                     continue;
@@ -180,7 +206,7 @@ impl<'p> Flow<'p> {
                         true => jumped,
                         false => State::OPEN,
                     };
-                    let joined = join(before[*to], jumped);
+                    let joined = self.join(before[*to], jumped);
                     again |= joined != before[*to] && *to <= at;
                     before[*to] = joined;
                 }
@@ -189,13 +215,13 @@ impl<'p> Flow<'p> {
                 break;
             }
         }
-        for (all, now) in self.before[index].iter_mut().zip(&before) {
+        for (at, now) in before[..count].iter().enumerate() {
             if let Some(now) = now {
-                *all = join(*all, *now);
+                self.before[index][at] = self.join(self.before[index][at], *now);
             }
         }
         match (before[count], exit) {
-            (Some(last), exit) => join(exit, last),
+            (Some(last), exit) => self.join(exit, last),
             (None, exit) => exit,
         }
     }
@@ -216,7 +242,7 @@ impl<'p> Flow<'p> {
                 Step::Jump(_) => (Some(state), Some(state)),
                 step => {
                     let done = self.effect(program, at, step, state, exit);
-                    (join(done, state), None)
+                    (self.join(done, state), None)
                 }
             },
             step => (self.effect(program, at, step, state, exit), None),
@@ -244,7 +270,7 @@ impl<'p> Flow<'p> {
                 tool: to.into(),
                 ..state
             }),
-            Step::Call(_) => match self.programs[program].called.get(&at) {
+            Step::Call(name) => match self.programs[program].called.get(&at) {
                 Some(called) if self.depth < DEEPEST => {
                     let called = *called;
                     // What a caller does not know itself is not known.
@@ -256,7 +282,9 @@ impl<'p> Flow<'p> {
                         Some(before) if before != last => Some(Last::Unknown),
                         _ => Some(last),
                     };
+                    let state = self.with(state, Registers::without_conditions);
                     let left = self.program(called, state)?;
+                    let left = self.with(left, Registers::without_conditions);
                     Some(State {
                         last: match left.last {
                             Last::Entry => state.last,
@@ -265,18 +293,21 @@ impl<'p> Flow<'p> {
                         ..left
                     })
                 }
+                // What is in none of the files is taken not to move the tool; it may compute registers.
+                None if name.is_some() => Some(self.with(state, Registers::forget)),
                 _ => Some(State::OPEN),
             },
             Step::End => {
-                *exit = join(*exit, state);
+                *exit = self.join(*exit, state);
                 None
             }
             Step::Abort => None,
+            Step::Run => Some(self.with(state, Registers::forget)),
+            Step::Give(given) => {
+                let positions = &self.programs[program].positions;
+                Some(self.with(state, |registers| registers.give(given, positions)))
+            }
             _ => Some(state),
         }
     }
-}
-
-fn join(one: Option<State>, other: State) -> Option<State> {
-    Some(one.map_or(other, |one| one.merged(other)))
 }

@@ -5,8 +5,9 @@ use std::collections::BTreeSet;
 use crate::ls::found::Reader;
 use crate::ls::lines::Layout;
 use crate::ls::motion::End;
-use crate::ls::positions::{Held, Positions};
+use crate::ls::positions::{Held, Position, Positions};
 use crate::ls::program::Program;
+use crate::ls::registers::Value;
 use crate::ls::step::{Step, positions_read, step_of};
 use crate::text::source::SourceFile;
 
@@ -37,6 +38,18 @@ impl Reader<'_> {
             );
         }
         layout
+    }
+
+    /// X, Y, Z, W, P, R of a position.
+    fn value_of(&self, position: &Position) -> Option<Value> {
+        let Held::Pose(declaration) = position.held else {
+            return None;
+        };
+        let text = &self.declarations.get(declaration)?.text;
+        let [x, y, z] = text.position.each_ref().map(|number| number.value);
+        let angles: Vec<f64> = text.orientation.iter().map(|number| number.value).collect();
+        let [w, p, r] = angles.try_into().ok()?;
+        Some(Value::of([x, y, z, w, p, r]))
     }
 
     /// The instructions of a file; positions that are read besides motions keep their values.
@@ -85,7 +98,10 @@ impl Reader<'_> {
                 self.declarations[*declaration].keeps_value = true;
             }
         }
-        let program = Program::of(steps);
+        let mut program = Program::of(steps);
+        program.positions = (positions.all.iter())
+            .filter_map(|(number, position)| Some((*number, self.value_of(position)?)))
+            .collect();
         for (at, reason, remedy) in &program.faults {
             self.fault(file, layout.lines[*at].whole.clone(), *reason, *remedy);
         }

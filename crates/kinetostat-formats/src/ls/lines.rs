@@ -104,7 +104,8 @@ impl Layout {
                 self.positions = Some(next..next);
                 Section::Positions
             }
-            b"/END" => {
+            // Some printers end it with a point.
+            b"/END" | b"/END." => {
                 self.has_end = true;
                 Section::Other
             }

@@ -45,7 +45,6 @@ impl Reader<'_> {
                         file: index,
                         line: file.line_of(line.whole.start),
                         name: name.map(crate::error::excerpt),
-                        speeds_behind: Vec::new(),
                     });
                 };
                 let known = |name: &[u8]| names.get(&name.to_ascii_uppercase());

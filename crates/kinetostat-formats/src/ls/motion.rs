@@ -2,10 +2,10 @@
 
 use std::ops::Range;
 
-use crate::ls::table::{Effect, Follows, MOTION_OPTIONS};
+use crate::ls::table::{Effect, Follows, MOTION_OPTIONS, OFFSET};
 use crate::ls::words::{Kind, Word, index_of, words_of};
 use crate::model::motion::{Speed, Zone};
-use crate::model::site::SpeedSite;
+use crate::model::site::{OffsetAxes, SpeedSite};
 
 /// On which way.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -39,6 +39,8 @@ pub(crate) struct MotionText {
     pub zone_span: Option<Range<usize>>,
     /// Why the end is not where its position says.
     pub displaced: Option<&'static str>,
+    /// A register offsets it; none for that of the condition in force.
+    pub offset: Option<(OffsetAxes, Option<u32>)>,
     pub indivisible: Option<&'static str>,
     pub turns_otherwise: Option<Reason>,
 }
@@ -89,6 +91,7 @@ pub(crate) fn motion_of(bytes: &[u8], text: &Range<usize>) -> Result<MotionText,
         zone,
         zone_span: Some(zone_span),
         displaced: None,
+        offset: None,
         indivisible: is_duration.then_some("its speed is a time, which each piece would take"),
         turns_otherwise: None,
     };
@@ -243,6 +246,7 @@ impl Reader<'_> {
                 ));
             };
             self.at += 1;
+            let mut register = None;
             match row.follows {
                 Follows::Nothing => {
                     // COORD[LDR], CNT's own.
@@ -258,7 +262,9 @@ impl Reader<'_> {
                 Follows::Register => {
                     if self.takes(Kind::Symbol(b',')) {
                         self.letters().ok_or(FORM)?;
-                        self.next(Kind::Bracket).ok_or(FORM)?;
+                        let bracket = self.next(Kind::Bracket).ok_or(FORM)?;
+                        let number = index_of(self.bytes, &bracket);
+                        register = Some(number.map(|(number, _)| number));
                     }
                 }
                 Follows::Event => {
@@ -274,9 +280,12 @@ impl Reader<'_> {
                     motion.turns_otherwise = Some((reason, remedy));
                 }
                 Effect::Displaced(reason) => motion.displaced = Some(reason),
-                Effect::Refused(reason) => {
-                    return Err((reason, "take this motion into a program of its own"));
-                }
+                Effect::Offset(axes) => match (motion.offset, register) {
+                    (None, None) => motion.offset = Some((axes, None)),
+                    (None, Some(Some(register))) => motion.offset = Some((axes, Some(register))),
+                    _ => motion.displaced = Some(OFFSET),
+                },
+                Effect::Refused(reason, remedy) => return Err((reason, remedy)),
             }
         }
         Ok(())

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use crate::ls::registers::Value;
 use crate::ls::step::{Number, Step};
 use crate::model::motion::Runs;
 
@@ -18,6 +19,8 @@ pub(crate) struct Program {
     labels: BTreeMap<u32, usize>,
     /// How often each runs in one run of the program.
     pub runs: Vec<Runs>,
+    /// Its positions that are poses, by number.
+    pub positions: BTreeMap<u32, Value>,
     /// Instructions that fit nothing: where, why, what to do.
     pub faults: Vec<(usize, &'static str, &'static str)>,
 }
@@ -30,6 +33,7 @@ impl Program {
             leads: BTreeMap::new(),
             labels: BTreeMap::new(),
             runs: vec![Runs::Once; steps.len()],
+            positions: BTreeMap::new(),
             faults: Vec::new(),
             steps,
         };

@@ -14,14 +14,15 @@ use crate::model::language::Language;
 use crate::model::motion::Runs;
 use crate::model::parsed::{Parsed, Read};
 use crate::model::program::RobotProgram;
-use crate::options::{ExternalAxes, ReadOptions};
+use crate::options::ReadOptions;
 use crate::text::source::SourceFile;
 
 /// Reads FANUC TP programs as text (`.ls`): one, or the first and those that it calls.
 ///
 /// The frames and tools of positions are checked against `UFRAME_NUM` and `UTOOL_NUM` where these are known from the
-/// text; what they are, the options say (`UF:2`, `UT:1`; `UF:0` and `UT:0` are the world and the flange). Motions to
-/// position registers, offset by registers or ended by signals are refused, or stay as written with
+/// text; what they are, the options say (`UF:2`, `UT:1`; `UF:0` and `UT:0` are the world and the flange), or the program, where it
+/// gives them values that are known from its text (`UTOOL[1]=PR[9]`). Motions to position registers, offset by registers whose values
+/// are not known, or ended by signals are refused, or stay as written with
 /// [`crate::UnknownTargets::LeftAsWritten`]; coordinated motion is refused.
 ///
 /// ```
@@ -75,7 +76,8 @@ pub(crate) fn parse_ls(files: Vec<SourceFile>, options: &ReadOptions) -> Parsed 
         positions.push(found);
     }
     reader.link_calls(&files, &layouts, &mut programs);
-    let flow = Flow::of(&programs);
+    let flow = Flow::of(&programs, &reader.ends.frames);
+    reader.given_frames(&files, &layouts, (&programs, &flow));
     let order = Order::of(&programs);
     let mut indices: BTreeMap<Place, usize> = BTreeMap::new();
     for (program, at) in &order.motions {
@@ -90,6 +92,7 @@ pub(crate) fn parse_ls(files: Vec<SourceFile>, options: &ReadOptions) -> Parsed 
             line: &layouts[*program].lines[*at],
             positions: &positions[*program],
             before: flow.before[*program][*at],
+            registers: flow.registers(flow.before[*program][*at]),
         };
         let found = reader.motion_of(motion, &site);
         let before = site.before;
@@ -124,7 +127,7 @@ fn finish(reader: Reader<'_>, files: Vec<SourceFile>) -> Parsed {
         findings: reader.findings,
         outside_calls: reader.outside_calls,
         faults: reader.faults,
-        external_axes_may_move: reader.options.external_axes != ExternalAxes::Refused,
+        options: reader.options,
     };
     Parsed::of_robot(Language::FanucLs, files, read)
 }

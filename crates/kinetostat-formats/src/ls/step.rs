@@ -3,6 +3,7 @@
 use std::ops::Range;
 
 use crate::ls::motion::{MotionText, Reason, motion_of};
+use crate::ls::registers::{Given, given_by};
 use crate::ls::table::row;
 use crate::ls::words::{Kind, index_of, words_of};
 use crate::table::Treatment;
@@ -39,6 +40,8 @@ pub(crate) enum Step {
     Abort,
     /// Another task is started.
     Run,
+    /// A register, frame or tool gets a value.
+    Give(Given),
     Carried,
     Refused(Reason),
 }
@@ -101,10 +104,22 @@ fn inner(bytes: &[u8], span: Range<usize>, depth: usize) -> Step {
         ("END", _) => Step::End,
         ("ABORT", _) => Step::Abort,
         ("RUN", _) => Step::Run,
+        ("PR" | "OFFSET CONDITION" | "TOOL_OFFSET CONDITION", _) => {
+            Step::Give(given_by(bytes, &span).unwrap_or(Given::AnyRegister))
+        }
+        ("UFRAME" | "UTOOL", _) => {
+            given_by(bytes, &span).map_or(Step::Refused(FRAME_DATA), Step::Give)
+        }
         ("$", _) if sets_frame(text) => Step::Refused(FRAME_OF_SYSTEM),
         _ => Step::Carried,
     }
 }
+
+/// Of a frame or tool whose value is not known.
+pub(crate) const FRAME_DATA: Reason = (
+    "it says which frame a number means while the program runs, and its value is not in the text",
+    "give the register all six numbers before (PR[9,1]=0 to PR[9,6]=0, PR[9]=P[2]), state the frame under [robot.frames], or set it on the controller and take this statement into a program of its own",
+);
 
 const FRAME_OF_SYSTEM: Reason = (
     "a system variable moves a frame or a tool, and all points with it",

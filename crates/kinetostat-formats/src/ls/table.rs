@@ -1,5 +1,6 @@
 //! What is done with each statement of FANUC TP programs, and with each option of a motion, as data.
 
+use crate::model::site::OffsetAxes;
 use crate::table::Treatment::{Carried, Refused, Understood};
 use crate::table::{Alike, StatementRow, Treatment, alike, count, rows};
 
@@ -29,7 +30,7 @@ const ASSIGNED: Treatment = Refused {
     reason: "it gives a position another value while the program runs",
     remedy: "teach the position, or use a position register and leave motions to it as written",
 };
-const FRAME_DATA: Treatment = Refused {
+const FRAME_MENU: Treatment = Refused {
     reason: "it says which frame a number means while the program runs",
     remedy: "set the frame on the controller and take this statement into a program of its own",
 };
@@ -43,28 +44,26 @@ const GROUPS: &[Alike] = &[
     alike(ARCS, BASIC, &["A"]),
     alike(OWN_WAY, BASIC, &["S"]),
     alike(ASSIGNED, BASIC, &["P"]),
-    alike(Understood, BASIC, &["UFRAME_NUM", "UTOOL_NUM"]),
-    alike(FRAME_DATA, BASIC, &["UFRAME", "UTOOL"]),
     alike(Understood, BASIC, &[
+        "UFRAME_NUM", "UTOOL_NUM", "UFRAME", "UTOOL", "PR", "OFFSET CONDITION", "TOOL_OFFSET CONDITION",
         "LBL", "JMP", "CALL", "IF", "ELSE", "ENDIF", "SELECT", "FOR", "ENDFOR", "END", "ABORT",
     ]),
     alike(Carried, BASIC, &[
-        "RUN", "PAUSE", "WAIT", "R", "PR", "SR", "AR", "DI", "DO", "RI", "RO", "SI", "SO", "UI",
+        "RUN", "PAUSE", "WAIT", "R", "SR", "AR", "DI", "DO", "RI", "RO", "SI", "SO", "UI",
         "UO", "GI", "GO", "AI", "AO", "F", "M",
     ]),
     alike(Carried, ARC, &["WI", "WO"]),
     alike(Carried, BASIC, &[
         "TIMER", "OVERRIDE", "MESSAGE", "UALM", "PAYLOAD", "JOINT_MAX_SPEED", "LINEAR_MAX_SPEED",
-        "OFFSET CONDITION", "TOOL_OFFSET CONDITION",
     ]),
     alike(Carried, SENSOR, &["VOFFSET CONDITION"]),
     alike(Carried, BASIC, &["SKIP CONDITION", "LOCK PREG", "UNLOCK PREG"]),
     alike(Carried, OPTIONS, &["MONITOR", "WHEN", "COL DETECT", "COL GUARD ADJUST", "TORQ_LIMIT"]),
     alike(Carried, BASIC, &["RSR"]),
     alike(Carried, OPTIONS, &["ERROR_PROG", "RESUME_PROG"]),
-    alike(Carried, ARC, &["Arc Start", "Arc End", "Weave", "Weave End"]),
+    alike(Carried, ARC, &["Arc Start", "Arc End", "Weld Start", "Weld End", "Weave", "Weave End"]),
     alike(Carried, SENSOR, &["VISION"]),
-    alike(FRAME_DATA, BASIC, &["$MNUFRAME", "$MNUFRAMENUM", "$MNUTOOL", "$MNUTOOLNUM"]),
+    alike(FRAME_MENU, BASIC, &["$MNUFRAME", "$MNUFRAMENUM", "$MNUTOOL", "$MNUTOOLNUM"]),
     alike(Carried, BASIC, &["$", "!", "//", "--"]),
     alike(OTHER_GROUP, OPTIONS, &["INDEPENDENT GP", "SIMULTANEOUS GP"]),
     alike(AT_RUN_TIME, OPTIONS, &["SOFTFLOAT", "FOLLOW UP"]),
@@ -108,8 +107,10 @@ pub(crate) enum Effect {
     Turned(&'static str),
     /// The end is elsewhere, which only the run knows.
     Displaced(&'static str),
-    /// The motion is not followed.
-    Refused(&'static str),
+    /// The end is offset by a register.
+    Offset(OffsetAxes),
+    /// The motion is not followed, and what to do.
+    Refused(&'static str, &'static str),
 }
 
 /// An option of a motion.
@@ -127,10 +128,14 @@ const fn option(name: &'static str, follows: Follows, effect: Effect) -> OptionR
     }
 }
 
-const OFFSET: Effect =
-    Effect::Displaced("it is offset by a register, whose value is not in the text");
-const COORDINATED: Effect =
-    Effect::Refused("it is coordinated with another group that moves the part");
+/// Why an end is not known that is offset.
+pub(crate) const OFFSET: &str =
+    "it is offset by a register, whose value is not in the text, or which turns the tool";
+const ALONE: &str = "take this motion into a program of its own";
+const COORDINATED: Effect = Effect::Refused(
+    "it is coordinated with another group that moves the part",
+    "let the other group stand still and write the motion without COORD, or take it into a program of its own",
+);
 
 /// All options that are known.
 #[rustfmt::skip]
@@ -149,14 +154,15 @@ pub(crate) const MOTION_OPTIONS: &[OptionRow] = &[
     option("TB", Follows::Event, Effect::None),
     option("DB", Follows::Event, Effect::None),
     option("Arc", Follows::Event, Effect::None),
+    option("Weld", Follows::Event, Effect::None),
     option("Weave", Follows::Event, Effect::None),
-    option("Offset", Follows::Register, OFFSET),
-    option("Tool_Offset", Follows::Register, OFFSET),
-    option("VOFFSET", Follows::Register, OFFSET),
+    option("Offset", Follows::Register, Effect::Offset(OffsetAxes::WorkObject)),
+    option("Tool_Offset", Follows::Register, Effect::Offset(OffsetAxes::Tool)),
+    option("VOFFSET", Follows::Register, Effect::Displaced("it is offset by a register of the vision system, whose value is not in the text")),
     option("INC", Follows::Nothing, Effect::Displaced("its position is a step from where the tool was")),
     option("Skip", Follows::Event, Effect::Displaced("it ends where a signal changes, which only the run decides")),
     option("COORD", Follows::Nothing, COORDINATED),
-    option("RTCP", Follows::Nothing, Effect::Refused("its tool stands still and the arm holds the part")),
-    option("TRACK", Follows::Event, Effect::Refused("a sensor bends its path")),
-    option("SPOT", Follows::Event, Effect::Refused("a spot gun moves at its end")),
+    option("RTCP", Follows::Nothing, Effect::Refused("its tool stands still and the arm holds the part", ALONE)),
+    option("TRACK", Follows::Event, Effect::Refused("a sensor bends its path", ALONE)),
+    option("SPOT", Follows::Event, Effect::Refused("a spot gun moves at its end", ALONE)),
 ];

@@ -35,7 +35,10 @@ pub(crate) fn write_ls(
             .map(|section| section.map_or(0, |span| span.end))
             .collect(),
     };
-    let mut written = write_with(program, pieces, options, &syntax)?;
+    let pieces: Vec<Piece> = (pieces.iter())
+        .map(|piece| without_offset(program, piece))
+        .collect();
+    let mut written = write_with(program, &pieces, options, &syntax)?;
     for ((name, bytes), before) in written.iter_mut().zip(&layouts) {
         let now = Layout::of(bytes);
         if now.lines.len() != before.lines.len() {
@@ -45,6 +48,30 @@ pub(crate) fn write_ls(
         }
     }
     Ok(written)
+}
+
+/// A piece as its position states it: the offset of its motion is written with it, and shifts it again.
+fn without_offset(program: &RobotProgram, piece: &Piece) -> Piece {
+    let mut piece = piece.clone();
+    let motion = program.motions.get(piece.motion);
+    let Some((motion, end)) = motion.and_then(|motion| Some((motion, motion.target.pose()?)))
+    else {
+        return piece;
+    };
+    let TargetSite::Declared { declaration, .. } = &motion.site.target else {
+        return piece;
+    };
+    let Some(declared) = program.declarations.get(*declaration) else {
+        return piece;
+    };
+    let by = end.position_mm - declared.pose.position_mm;
+    let text = program.files[motion.file].part(&motion.span);
+    let is_of_tool = text.windows(11).any(|part| part == b"Tool_Offset");
+    piece.position_mm -= match (is_of_tool, piece.orientation) {
+        (true, Some(turned)) => turned * (end.orientation.inverse() * by),
+        _ => by,
+    };
+    piece
 }
 
 /// A program to which one line was added, numbered again.

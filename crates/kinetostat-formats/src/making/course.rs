@@ -1,7 +1,5 @@
 //! In which order moves, events and changes of tools run.
 
-use std::collections::BTreeMap;
-
 use kinetostat_program::Path;
 
 use crate::making::event_kind::EventKind;
@@ -76,8 +74,6 @@ pub(crate) struct Course {
     pub configurations: Vec<StatedConfiguration>,
     /// Of every move, its speeds of turning and of external axes, where the source states them in the same language.
     pub other_speeds: Vec<Option<Box<str>>>,
-    /// By line, the call behind which the speed of a motion is not known: `SPINDLE_ON` on line 7.
-    pub lost_speeds: BTreeMap<usize, String>,
 }
 
 impl Course {

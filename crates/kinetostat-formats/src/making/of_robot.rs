@@ -8,7 +8,7 @@ use crate::making::limits::MakeLanguage;
 use crate::making::make::{Made, make_along};
 use crate::making::of_external_axes::external_axes;
 use crate::making::of_tools::{faults_at, stated, tools_of_source};
-use crate::making::outside_calls::{lost_speeds, outside_calls};
+use crate::making::outside_calls::outside_calls;
 use crate::making::reconfigured;
 use crate::making::robot_course::course_of;
 use crate::making::robot_faults::{arcs_from_elsewhere, not_once};
@@ -117,7 +117,6 @@ pub fn make_of_flat_robot(
         // What the template states holds, and the rest of the source's would not go with it.
         course.configurations.clear();
     }
-    course.lost_speeds = lost_speeds(program, robot.file);
     course.other_speeds = other_speeds(program, robot, language);
     let mut made = make_along(&robot.path, &course, &template, language)?;
     // What is named stands before what is taken for granted.

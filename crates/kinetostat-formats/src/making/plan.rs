@@ -274,14 +274,6 @@ impl Planner<'_> {
         if let Some(speed) = found.filter(|speed| *speed > 0.0 && speed.is_finite()) {
             return Some(speed);
         }
-        if let Some(call) = self.course.lost_speeds.get(&motion.line) {
-            let reason = format!(
-                "the speed of this motion is not known: {call} is in none of these files, and may set another"
-            );
-            let remedy = "give its file as well, state the speed again behind the call, or state unstated_feed_mm_per_s in the template";
-            self.fault(motion.line, &reason, remedy);
-            return None;
-        }
         self.fault(
             motion.line,
             "the speed of this motion at feed is not known",

@@ -56,12 +56,12 @@ pub(crate) fn unknown_frames(motions: &[Motion]) -> Vec<Finding> {
     findings
 }
 
-/// What is called and none of the files holds, each name once with its lines.
+/// What is called and none of the files holds: each name once, with its lines and what is assumed of it.
 pub(crate) fn outside_calls(language: Language, calls: &[OutsideCall]) -> Vec<Finding> {
     let all = by_name(calls).into_iter().map(|of| Finding {
         file: of.file,
         line: of.line(),
-        message: of.message(language, "it is carried"),
+        message: of.message(language, None),
     });
     all.collect()
 }

@@ -1,9 +1,14 @@
-//! Calls of what is in none of the files: they may move the tool, and how is not known here.
+//! Calls of what is in none of the files: they are taken to leave the tool where it is, and in force what is, unless the caller says that
+//! they move it. What a call is that the run computes is not known.
 
 use std::collections::BTreeMap;
 
+use crate::error::ProgramError;
 use crate::model::language::Language;
+use crate::options::ReadOptions;
+use crate::text::finding::Finding;
 use crate::text::line_words::in_words;
+use crate::text::source::SourceFile;
 
 /// A call of what is in none of the files.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -13,8 +18,6 @@ pub(crate) struct OutsideCall {
     pub line: usize,
     /// As it is shown; none where the run computes it.
     pub name: Option<String>,
-    /// Lines of motions whose speed it may have changed, in its file.
-    pub speeds_behind: Vec<usize>,
 }
 
 /// Calls of one name in one file, with their lines in order.
@@ -53,31 +56,78 @@ impl CallsOfOne<'_> {
         self.lines.first().copied().unwrap_or(1)
     }
 
-    /// What is said of them, with what becomes of them: `it is carried`.
-    pub(crate) fn message(&self, language: Language, becomes: &str) -> String {
-        let what = match self.name {
-            Some(name) => format!("`{name}` is in none of these files"),
-            None => "what is called is computed".to_owned(),
-        };
+    /// What is said of them; `becomes` is what becomes of them in what is written, if they are not carried.
+    pub(crate) fn message(&self, language: Language, becomes: Option<&str>) -> String {
         let all = match self.lines.len() {
             1 => String::new(),
             _ => format!(" ({})", in_words(&self.lines)),
         };
-        format!(
-            "{what}: {becomes}, and if it moves the tool{}, that is not seen{all}",
-            modes_of(language)
-        )
+        let modes = modes_of(language);
+        match self.name {
+            Some(name) => format!(
+                "`{name}` is in none of the files: {}taken not to move the tool and not to change speed, tool or frame{modes}; state it under [calls] if it moves, or give its file{all}",
+                becomes.map_or_else(String::new, |becomes| format!("{becomes}, and "))
+            ),
+            None => format!(
+                "what is called is computed: {}, and if it moves the tool{modes}, that is not seen{all}",
+                becomes.unwrap_or("it is carried")
+            ),
+        }
     }
+}
+
+/// Calls that are stated to move the tool.
+pub(crate) struct StatedToMove {
+    pub faults: Vec<ProgramError>,
+    /// Names that nothing calls.
+    pub findings: Vec<Finding>,
+}
+
+/// What the caller states of calls: each of them that moves the tool is refused with its line.
+pub(crate) fn stated_to_move(
+    files: &[SourceFile],
+    calls: &[OutsideCall],
+    options: &ReadOptions,
+) -> StatedToMove {
+    let is = |call: &OutsideCall, stated: &String| {
+        let name = call.name.as_ref();
+        name.is_some_and(|name| name.eq_ignore_ascii_case(stated))
+    };
+    let mut stated = StatedToMove {
+        faults: Vec::new(),
+        findings: Vec::new(),
+    };
+    for name in &options.moving_calls {
+        let mut of_name = calls.iter().filter(|call| is(call, name)).peekable();
+        if of_name.peek().is_none() {
+            stated.findings.push(Finding {
+                file: 0,
+                line: 1,
+                message: format!(
+                    "`{name}`, of which is stated that it moves the tool, is called nowhere, or its file is given: that changes nothing"
+                ),
+            });
+        }
+        stated.faults.extend(of_name.map(|call| {
+            let source = &files[call.file];
+            let reason = format!(
+                "`{name}` moves the tool, as is stated, and none of the files says where to"
+            );
+            let remedy = "give its file as well, or divide the program at the call";
+            ProgramError::at(source, source.range_of(call.line), reason, remedy)
+        }));
+    }
+    stated
 }
 
 /// What else it may do: statements that stay in force behind it, of which no motion behind it says anything.
 fn modes_of(language: Language) -> &'static str {
     match language {
         Language::Rapid => {
-            ", or states how motions behind it go (`CirPathMode`, `SingArea`, `ConfL`, `ConfJ`, `AccSet`, `VelSet`)"
+            ", or how motions behind it go (`CirPathMode`, `SingArea`, `ConfL`, `ConfJ`, `AccSet`, `VelSet`)"
         }
         Language::Krl => {
-            ", or states how motions behind it go (`$ORI_TYPE`, `$CIRC_TYPE`, `$ACC`, `$APO`)"
+            ", or how motions behind it go (`$ORI_TYPE`, `$CIRC_TYPE`, `$ACC`, `$APO`)"
         }
         _ => "",
     }

@@ -5,11 +5,12 @@ use crate::model::external::moving_axis;
 use crate::model::findings::{left_as_written, outside_calls as named_calls, unknown_frames};
 use crate::model::language::Language;
 use crate::model::motion::Motion;
-use crate::model::outside_call::OutsideCall;
+use crate::model::outside_call::{OutsideCall, stated_to_move};
 use crate::model::program::RobotProgram;
 use crate::model::site::Declaration;
 use crate::model::slash_blocks::SlashBlocks;
 use crate::model::stated_axes::StatedAxes;
+use crate::options::{ExternalAxes, ReadOptions};
 use crate::text::finding::Finding;
 use crate::text::source::SourceFile;
 
@@ -22,15 +23,14 @@ pub(crate) struct Parsed {
 }
 
 /// What a reader of a robot's language found in its files.
-pub(crate) struct Read {
+pub(crate) struct Read<'o> {
     pub motions: Vec<Motion>,
     pub declarations: Vec<Declaration>,
     pub findings: Vec<Finding>,
     /// What it calls and none of its files holds.
     pub outside_calls: Vec<OutsideCall>,
     pub faults: Vec<ProgramError>,
-    /// Otherwise a motion of one is a fault.
-    pub external_axes_may_move: bool,
+    pub options: &'o ReadOptions,
 }
 
 impl Parsed {
@@ -64,18 +64,21 @@ impl Parsed {
 
     /// Of what a reader of a robot's language found: with the findings that all languages share, and with findings and
     /// faults in the order of files and lines.
-    pub(crate) fn of_robot(language: Language, files: Vec<SourceFile>, read: Read) -> Self {
+    pub(crate) fn of_robot(language: Language, files: Vec<SourceFile>, read: Read<'_>) -> Self {
         let Read {
             motions,
             declarations,
             mut findings,
             outside_calls,
             mut faults,
-            external_axes_may_move,
+            options,
         } = read;
-        if !external_axes_may_move {
+        if options.external_axes == ExternalAxes::Refused {
             faults.extend(moving_axis(&files, &motions, language));
         }
+        let stated = stated_to_move(&files, &outside_calls, options);
+        faults.extend(stated.faults);
+        findings.extend(stated.findings);
         findings.extend(named_calls(language, &outside_calls));
         findings.extend(unknown_frames(&motions));
         findings.extend(left_as_written(&motions));

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use crate::model::language::Language;
 use crate::model::motion::Motion;
-use crate::model::outside_call::OutsideCall;
+use crate::model::outside_call::{OutsideCall, by_name};
 use crate::model::site::Declaration;
 use crate::model::stated_axes::StatedAxes;
 use crate::text::finding::Finding;
@@ -46,6 +46,22 @@ impl RobotProgram {
     #[must_use]
     pub fn states_axis_angles(&self) -> bool {
         self.rotary.has_angles()
+    }
+
+    /// Names that it calls and none of its files holds, each with its first line: they are taken not to move the tool and not to change
+    /// what is in force ([`crate::ReadOptions::moving_calls`]).
+    ///
+    /// ```
+    /// use kinetostat_formats::{ReadOptions, SourceFile, read_ls};
+    ///
+    /// let text = "/PROG A\n/MN\n   1:  CALL SPINDLE_ON ;\n/POS\n/END\n";
+    /// let program = read_ls(vec![SourceFile::new("a.ls", text)], &ReadOptions::default()).unwrap();
+    /// assert_eq!(program.calls_taken_to_stay(), [("SPINDLE_ON", 3)]);
+    /// ```
+    #[must_use]
+    pub fn calls_taken_to_stay(&self) -> Vec<(&str, usize)> {
+        let named = by_name(&self.outside_calls).into_iter();
+        named.filter_map(|of| Some((of.name?, of.line()))).collect()
     }
 
     /// Lines of a file, counted from 1, that hold a part of a motion or of a declared target.

@@ -121,13 +121,11 @@ fn turns_others(program: &RobotProgram) -> Option<String> {
             other.line
         ));
     }
-    let call = program.outside_calls.first()?;
-    let name = call
-        .name
-        .as_deref()
-        .map_or_else(|| "what is called".to_owned(), |name| format!("`{name}`"));
+    // What has a name is taken not to move the tool.
+    let mut computed = (program.outside_calls.iter()).filter(|call| call.name.is_none());
+    let call = computed.next()?;
     Some(format!(
-        "{turns} circles of {name} (line {}), which is in none of these files, would turn the tool otherwise than now",
+        "{turns} circles of what line {} calls, which is computed, would turn the tool otherwise than now",
         call.line
     ))
 }

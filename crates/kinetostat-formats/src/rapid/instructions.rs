@@ -173,7 +173,6 @@ impl Run<'_, '_> {
             file: file.index,
             line: file.source.line_of(file.span(tokens).start),
             name: (!is_computed).then_some(called),
-            speeds_behind: Vec::new(),
         };
         if !self.outside_calls.contains(&call) {
             self.outside_calls.push(call);

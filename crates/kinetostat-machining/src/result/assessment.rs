@@ -38,6 +38,8 @@ pub enum AssumptionKind {
     OwnWeight,
     /// A cut that does not chatter.
     Chatter,
+    /// Calls of what is in none of the files of a robot's program, taken not to move the tool and not to change what is in force.
+    OutsideCalls,
 }
 
 /// An assumption on which the figures of a run rest.

@@ -8,6 +8,7 @@ use kinetostat_formats::{
     Correctable, Language, Motion, ProgramFault, RobotPath, RobotProgram, Target, Zone, all_faults,
     path_of, read,
 };
+use kinetostat_machining::{Assumption, AssumptionKind};
 use kinetostat_program::{Move, StatedBy, Warning};
 
 use crate::job::robot::read_once::ReadOnce;
@@ -17,6 +18,9 @@ use crate::job::robot::stated_frames::warnings;
 use crate::job::robot::system_frames::taken;
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::fault_list::fault_list_text;
+
+/// Most names of calls in one sentence.
+const MOST_CALLS: usize = 5;
 
 /// A robot's program with its path.
 #[derive(Debug)]
@@ -55,6 +59,27 @@ impl RobotRead<'_> {
         let file = &self.program.files[self.path.file];
         let lines = (1..=file.line_count()).filter_map(|line| Some((line, file.line(line)?)));
         lines.map(|(line, bytes)| (line, String::from_utf8_lossy(bytes).to_ascii_uppercase()))
+    }
+
+    /// That what none of its files holds is taken not to move the tool.
+    pub(crate) fn assumed_of_calls(&self) -> Option<Assumption> {
+        let calls = self.program.calls_taken_to_stay();
+        let named = |(name, line): &(&str, usize)| format!("{name} (line {line})");
+        let shown: Vec<String> = calls.iter().take(MOST_CALLS).map(named).collect();
+        let more = match calls.len().saturating_sub(MOST_CALLS) {
+            0 => String::new(),
+            n => format!(" and {n} more"),
+        };
+        let (calls, are) = match calls.len() {
+            0 => return None,
+            1 => ("The call of", "is"),
+            _ => ("The calls of", "are"),
+        };
+        let text = format!(
+            "{calls} {}{more}, in none of the files, {are} taken not to move the tool and not to change speed, tool or frame.",
+            shown.join(", ")
+        );
+        Some(Assumption::new(AssumptionKind::OutsideCalls, None, text))
     }
 
     /// The program as a run takes it.
@@ -106,7 +131,10 @@ fn read_files(source: &RobotSource) -> Answer<ReadOnce> {
         )));
     }
     let mut calls = program.findings.iter();
-    let call = calls.find(|finding| finding.message.contains("if it moves the tool"));
+    let call = calls.find(|finding| {
+        let said = |text| finding.message.contains(text);
+        said("if it moves the tool") || said("taken not to move the tool")
+    });
     if let (true, Some(first)) = (program.motions.is_empty(), call) {
         let file = program.files.get(first.file).map_or("", |file| file.name());
         return Err(Failure::input(format!(

@@ -1,5 +1,7 @@
 //! How a robot's program is read and written, from options and the table `[robot]` of a job file.
 
+use std::collections::BTreeSet;
+
 use kinetostat::Directions;
 use kinetostat_formats::{
     BetweenRows, CutterCompensation, ExternalAxes, Language, LengthUnit, PathOptions, ReadOptions,
@@ -16,7 +18,7 @@ use crate::job::robot_table::{
     CutterCompensationWord, ExternalAxesWord, LengthUnitWord, RobotTable, UnknownTargetsWord,
 };
 use crate::job::values::{above_zero, chosen};
-use crate::ui::failure::Answer;
+use crate::ui::failure::{Answer, Failure};
 
 /// How a robot's program is read and written.
 #[derive(Clone, Debug)]
@@ -106,6 +108,7 @@ pub(crate) fn settings(
         }
         correct = table.correct.unwrap_or(correct);
     }
+    reading.moving_calls = moving_calls(job, flags, language)?;
     if let Some(axis) = flags.tool_axis {
         making.tool_axis = match axis {
             AxisWord::X => Vector3::x(),
@@ -142,6 +145,26 @@ pub(crate) fn settings(
         made_arm: None,
         beyond_limits: Vec::new(),
     })
+}
+
+/// Names of calls that move the tool; only these languages call what is in none of the files.
+fn moving_calls(
+    job: Option<&JobFile>,
+    flags: &RobotArgs,
+    language: Language,
+) -> Answer<BTreeSet<String>> {
+    let mut found: BTreeSet<String> = flags.moving_calls.iter().cloned().collect();
+    found.extend((job.iter()).flat_map(|j| j.job.calls.keys().map(|name| name.get_ref().clone())));
+    let has_calls = matches!(
+        language,
+        Language::Rapid | Language::Krl | Language::FanucLs
+    );
+    match found.first() {
+        Some(name) if !has_calls => Err(Failure::input(format!(
+            "'{name}' is stated to move the tool ([calls] in the job, --call), which is for programs in RAPID, KRL and FANUC TP: leave it out"
+        ))),
+        _ => Ok(found),
+    }
 }
 
 fn frames(j: &JobFile, table: &RobotTable, reading: &mut ReadOptions) -> Answer<()> {

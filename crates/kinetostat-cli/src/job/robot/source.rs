@@ -89,7 +89,14 @@ pub(crate) fn robot_source(
                     known_endings()
                 ),
             )),
-            _ => Ok(None),
+            _ => match job.and_then(|j| Some((j, j.job.calls.keys().next()?))) {
+                Some((j, call)) if !flags.converted => Err(j.error(
+                    call,
+                    &format!("[calls] is for programs of robots, and '{name}' is read as G-code"),
+                    "leave it out",
+                )),
+                _ => Ok(None),
+            },
         };
     };
     refuse_unfit(job, program, language)?;

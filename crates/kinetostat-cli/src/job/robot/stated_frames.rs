@@ -60,6 +60,11 @@ fn may_state(source: &RobotSource, name: &str) -> bool {
     let is_first = ["TOOL0", "WOBJ0"].contains(&name.as_str())
         || name.ends_with("[0]")
         || name.ends_with(":0");
+    // `UTOOL[9]=PR[9]` gives `UT:9` a value.
+    let written = ["UF:", "UT:"].into_iter().zip(["UFRAME[", "UTOOL["]);
+    let mut written =
+        written.filter_map(|(of, word)| Some(format!("{word}{}]", name.strip_prefix(of)?)));
+    let name = written.next().unwrap_or(name);
     is_first
         || source
             .files

@@ -75,16 +75,13 @@ impl Walker<'_, '_> {
             Some(_) => state,
             None => {
                 let file = self.file();
-                let call = OutsideCall {
+                // It is taken not to move the tool and not to change what is in force.
+                self.settings.calls.push(OutsideCall {
                     file: file.index,
                     line: file.source.line_of(file.span(tokens).start),
                     name: Some(excerpt(file.word(at))),
-                    speeds_behind: Vec::new(),
-                };
-                let calls = &mut self.settings.calls;
-                calls.push(call);
-                self.settings.before_calls.push(state);
-                state.behind_outside(calls.len() - 1)
+                });
+                state
             }
         }
     }
@@ -105,10 +102,7 @@ impl Walker<'_, '_> {
             file: file.index,
             line: file.source.line_of(file.span(&(at..at + 1)).start),
             name: Some(excerpt(file.word(at))),
-            speeds_behind: Vec::new(),
         });
-        // Nothing is lost by it: it is looked up by no slot.
-        self.settings.before_calls.push(State::UNKNOWN);
     }
 
     /// What `INTERRUPT DECL 3 WHEN condition DO routine()` and `TRIGGER WHEN PATH=0 DELAY=0 DO routine() PRIO=-1` call at any time.

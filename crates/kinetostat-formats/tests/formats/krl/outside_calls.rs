@@ -1,4 +1,4 @@
-//! Calls of what is in none of the files: what they may have set, before motions that need it.
+//! Calls of what is in none of the files: they are taken to change nothing, unless the caller says that they move the tool.
 
 use kinetostat_formats::*;
 
@@ -17,93 +17,45 @@ fn faults(statements: &str) -> Vec<String> {
     all.iter().map(ToString::to_string).collect()
 }
 
-fn said(line: usize, name: &str, sets: &str, needs: usize) -> String {
-    format!(
-        "part.src, line {line}: `{name}()`: `{name}` is in none of these files, and may set {sets}, which line {needs} needs; give its file as well, or state them again behind the call"
-    )
-}
-
-/// All calls in one run, each once, with what stands beside them.
+/// They are taken to move nothing and to leave in force what is: the motion behind begins where the one before ended.
 #[test]
-fn calls_before_motions_are_refused_where_they_stand() {
-    let found = faults(&format!(
-        "{FRAMES}\n{ONE}\nspindle_on()\n{TWO}\nNOT A STATEMENT\nLIN {{X 120}}\ncool_on()\n{ONE}\n{TWO}"
-    ));
-    let all = "$BASE, $TOOL, $VEL";
-    assert_eq!(found.len(), 3, "{found:#?}");
-    assert_eq!(found[0], said(6, "spindle_on", all, 7));
-    assert!(found[1].starts_with("part.src, line 8: `NOT A STATEMENT`"));
-    assert_eq!(found[2], said(10, "cool_on", all, 11));
-    // Two calls before one motion.
-    let found = faults(&format!("{FRAMES}\n{ONE}\none()\ntwo()\n{TWO}"));
-    assert_eq!(found, [said(6, "one", all, 8), said(7, "two", all, 8)]);
-    // What is stated again is not lost.
-    let found = faults(&format!("{FRAMES}\n{ONE}\none()\n$VEL.CP=0.1\n{TWO}"));
-    assert_eq!(found, [said(6, "one", "$BASE, $TOOL", 8)]);
-    // A routine that the call stands in, and one that is called behind it.
-    let in_routine = format!("{FRAMES}\n{ONE}\nsub()\n{TWO}\nEND\nDEF sub()\none()");
-    assert_eq!(faults(&in_routine), [said(10, "one", all, 7)]);
-    let behind = format!("{FRAMES}\n{ONE}\none()\nsub()\nEND\nDEF sub()\ntwo()\n{TWO}");
-    assert_eq!(
-        faults(&behind),
-        [said(6, "one", all, 11), said(10, "two", all, 11)]
+fn calls_are_taken_to_change_nothing_and_named_once() {
+    let text = format!(
+        "{FRAMES}\n{ONE}\nspindle_on()\n{TWO}\nLIN_REL {{X 5}}\nFOR i=1 TO 3\nspindle_on()\nENDFOR\nLIN {{X 120}}"
     );
+    assert_eq!(faults(&text), Vec::<String>::new());
+    let program = read_krl(files(&text), &ReadOptions::default()).unwrap();
+    let follows: Vec<Option<usize>> = program.motions.iter().map(|m| m.follows).collect();
+    assert_eq!(follows, [None, Some(0), Some(1), Some(2)]);
+    let last = &program.motions[3];
+    assert_eq!(last.speed.mm_per_s, Some(20.0));
+    assert!(last.tool.known().is_some() && last.work_object.known().is_some());
+    let end = last.target.pose().unwrap().position_mm;
+    assert_eq!((end.x, end.y), (120.0, 2.0));
+    let notes: Vec<(usize, &str)> = (program.findings.iter())
+        .map(|finding| (finding.line, finding.message.as_str()))
+        .collect();
+    let note = "`spindle_on` is in none of the files: taken not to move the tool and not to change speed, tool or frame, or how motions behind it go (`$ORI_TYPE`, `$CIRC_TYPE`, `$ACC`, `$APO`); state it under [calls] if it moves, or give its file (lines 6, 10)";
+    assert_eq!(notes, [(6, note)]);
+    assert_eq!(program.calls_taken_to_stay(), [("spindle_on", 6)]);
 }
 
+/// The caller says that it moves the tool: every call of it is a fault.
 #[test]
-fn what_is_stated_again_makes_a_note_of_the_call() {
-    for again in [
-        FRAMES,
-        "$TOOL=$NULLFRAME\n$BASE=$NULLFRAME\n$VEL={CP 0.1,ORI1 100,ORI2 100}",
-    ] {
-        let statements = format!("{FRAMES}\n{ONE}\nspindle_on()\n{again}\n{TWO}");
-        assert_eq!(faults(&statements), Vec::<String>::new());
-        let program = read_krl(files(&statements), &ReadOptions::default()).unwrap();
-        let notes: Vec<(usize, &str)> = (program.findings.iter())
-            .map(|finding| (finding.line, finding.message.as_str()))
-            .collect();
-        let note = "`spindle_on` is in none of these files: it is carried, and if it moves the tool, or states how motions behind it go (`$ORI_TYPE`, `$CIRC_TYPE`, `$ACC`, `$APO`), that is not seen";
-        assert_eq!(notes, [(6, note)]);
-    }
-    // The caller states them; or all places are behind the call, in one base that nobody needs to know.
+fn calls_that_are_stated_to_move_the_tool_are_refused_by_line() {
+    let text = format!("{FRAMES}\n{ONE}\nSpindle_On()\n{TWO}\nspindle_on()\nother()");
     let mut options = ReadOptions::default();
-    for name in ["$BASE", "$TOOL"] {
-        let frame = nalgebra::Isometry3::identity();
-        options.frames.insert(name.to_owned(), frame);
-    }
-    let statements = format!("{FRAMES}\n{ONE}\nspindle_on()\n{TWO}");
-    assert!(all_faults(Language::Krl, files(&statements), &options).is_empty());
-    let statements = format!("{FRAMES}\nspindle_on()\n{ONE}\n{TWO}");
-    assert_eq!(faults(&statements), Vec::<String>::new());
-}
-
-/// The end of a step, where the call may have moved the tool; and the speed, which only another language needs.
-#[test]
-fn reasons_name_the_call() {
-    let found = faults(&format!(
-        "{FRAMES}\n{ONE}\nspindle_on()\n{FRAMES}\nLIN_REL {{X 5}}"
-    ));
-    assert_eq!(found.len(), 1, "{found:#?}");
-    assert!(
-        found[0].starts_with("part.src, line 10: ")
-            && found[0].contains(
-                "`spindle_on`, which line 6 calls and none of these files holds, may move it"
-            ),
-        "{found:#?}"
-    );
-    let statements =
-        format!("{FRAMES}\nspindle_on()\n$BASE=$NULLFRAME\n$TOOL=$NULLFRAME\n{ONE}\n{TWO}");
-    let program = read_krl(files(&statements), &ReadOptions::default()).unwrap();
-    let robot = path_of(&program, &PathOptions::default()).unwrap();
-    let made = make_of_robot(&program, &robot, &Template::default(), MakeLanguage::Rapid);
-    let found: Vec<String> = made.unwrap_err().iter().map(ToString::to_string).collect();
-    assert_eq!(found.len(), 2, "{found:#?}");
-    for (fault, line) in found.iter().zip([8, 9]) {
-        let says = format!(
-            "line {line}: the speed of this motion is not known: `spindle_on`, which line 5 calls, is in none of these files"
-        );
-        assert!(fault.starts_with(&says), "{fault}");
-    }
+    options.moving_calls = ["SPINDLE_ON", "nowhere"].map(str::to_owned).into();
+    let found = read_krl(files(&text), &options).unwrap_err();
+    let found: Vec<(usize, &str)> = (found.iter())
+        .map(|fault| (fault.line, fault.reason.as_str()))
+        .collect();
+    let reason = "`SPINDLE_ON` moves the tool, as is stated, and none of the files says where to";
+    assert_eq!(found, [(6, reason), (8, reason)]);
+    options.moving_calls = ["nowhere".to_owned()].into();
+    let program = read_krl(files(&text), &options).unwrap();
+    let unused = "`nowhere`, of which is stated that it moves the tool, is called nowhere, or its file is given: that changes nothing";
+    assert!(program.findings.iter().any(|note| note.message == unused));
 }
 
 /// What an interrupt or a trigger calls runs at any time: what it sets would hold for some of the motions.
@@ -138,7 +90,7 @@ fn what_interrupts_set_is_refused_and_what_they_call_outside_is_named() {
         assert_eq!(note.line, 5);
         assert_eq!(
             note.message,
-            "`elsewhere` is in none of these files: it is carried, and if it moves the tool, or states how motions behind it go (`$ORI_TYPE`, `$CIRC_TYPE`, `$ACC`, `$APO`), that is not seen"
+            "`elsewhere` is in none of the files: taken not to move the tool and not to change speed, tool or frame, or how motions behind it go (`$ORI_TYPE`, `$CIRC_TYPE`, `$ACC`, `$APO`); state it under [calls] if it moves, or give its file"
         );
         // Frames and speed are those of before.
         let last = &program.motions[1];

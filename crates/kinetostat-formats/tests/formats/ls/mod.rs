@@ -5,6 +5,7 @@ mod broken;
 mod corrections;
 mod properties;
 mod random;
+mod registers;
 mod zero_change;
 
 use kinetostat_formats::*;

@@ -59,7 +59,7 @@ fn calls_of_krl_that_begin_like_declarations() {
 #[test]
 fn motions_behind_unknown_routines_are_there() {
     let text = format!(
-        "MODULE M\nPROC main()\nMoveJ [[1,0,50],{POSE},v500,z10,tool0;\nElsewhere;\nMoveL [[2,0,50],{POSE},v20,z1,tool0;\nElsewhere;\n\
+        "MODULE M\nPROC main()\nMoveJ [[1,0,50],{POSE},v500,z10,tool0;\n%\"Elsewhere\"%;\nMoveL [[2,0,50],{POSE},v20,z1,tool0;\n%\"Elsewhere\"%;\n\
          MoveL [[2,0,50],{POSE},v20,z1,tool0;\nMoveL [[3,0,50],{POSE},v20,z1,tool0;\nENDPROC\nENDMODULE\n"
     );
     for into in [MakeLanguage::Krl, MakeLanguage::Apt, MakeLanguage::Csv] {
@@ -67,7 +67,7 @@ fn motions_behind_unknown_routines_are_there() {
         assert_eq!(made.kept.motions, 3, "{into:?}: {}", text_of(&made, 0));
     }
     let arc = format!("MoveC [[3,4,50],{POSE},[[9,0,50],{POSE},v20,z1,tool0;");
-    let text = text.replacen("Elsewhere;", &format!("%name%;\n{arc}"), 1);
+    let text = text.replacen("%\"Elsewhere\"%;", &format!("%\"Elsewhere\"%;\n{arc}"), 1);
     let files = vec![SourceFile::new("m.mod", text)];
     let program = read_rapid(files, &ReadOptions::default()).unwrap();
     let robot = path_of(&program, &PathOptions::default()).unwrap();

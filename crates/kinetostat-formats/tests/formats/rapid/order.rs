@@ -236,7 +236,32 @@ fn what_changes_speeds_and_loads_is_said() {
             4,
             "GripLoad changes the load that the controller reckons with",
         ),
-        (6, "`own` is in none of these files"),
+        (6, "`own` is in none of the files"),
     ];
     assert_eq!(found, expected);
+}
+
+/// What is in none of the files is taken not to move the tool; what the run computes may be any routine.
+#[test]
+fn calls_of_what_is_nowhere_keep_the_place() {
+    let text = "PROC main() move; SpindleOn 12000; move; x:=half(2); move; %\"part\"%; move; ENDPROC FUNC num half(num n) CoolOn; RETURN n/2; ENDFUNC";
+    assert_eq!(
+        motions(text),
+        [
+            (1.0, Once, None),
+            (2.0, Once, Some(1.0)),
+            (3.0, Once, Some(2.0)),
+            (4.0, Once, None)
+        ]
+    );
+    let files = || {
+        let text = "MODULE A\nPROC main()\nSpindleOn 12000;\nENDPROC\nENDMODULE";
+        vec![SourceFile::new("a.mod", text)]
+    };
+    let mut options = ReadOptions::default();
+    assert!(read_rapid(files(), &options).is_ok());
+    options.moving_calls = ["spindleon".to_owned()].into();
+    let errors = read_rapid(files(), &options).unwrap_err();
+    assert_eq!((errors.len(), errors[0].line), (1, 3), "{errors:?}");
+    assert!(errors[0].reason.contains("moves the tool"), "{errors:?}");
 }

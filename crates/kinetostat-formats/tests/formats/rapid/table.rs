@@ -22,7 +22,7 @@ fn every_row_is_what_the_reader_does() {
             Treatment::Carried => {
                 let program = found.unwrap_or_else(|errors| panic!("{statement} {errors:?}"));
                 let unknown =
-                    |finding: &Finding| finding.message.contains("is in none of these files");
+                    |finding: &Finding| finding.message.contains("is in none of the files");
                 assert!(!program.findings.iter().any(unknown), "{statement}");
                 carried += 1;
             }

@@ -121,15 +121,17 @@ fn circles_state_their_frame_where_nothing_else_depends_on_it() {
             .unwrap()
             .contains("CirPathMode")
     );
-    // Circles of other modules would turn otherwise behind it.
-    let called = text("", "", "ownGrinding;");
+    // Circles of what the run computes would turn otherwise behind it; what has a name is taken not to move the tool.
+    assert!(corrected(&text("", "", "ownGrinding;"), &TURNING).is_ok());
+    let called = text("", "", "%\"own\"%;");
     let error = corrected(&called, &TURNING).unwrap_err();
     assert!(
-        error.starts_with("line 7: ") && error.contains("circles of `ownGrinding` (line 8)"),
+        error.starts_with("line 7: ")
+            && error.contains("circles of what line 8 calls, which is computed"),
         "{error}"
     );
     assert!(corrected(&called, &SHIFTING).is_ok());
-    let stated = text("CirPathMode\\ObjectFrame;", "", "ownGrinding;");
+    let stated = text("CirPathMode\\ObjectFrame;", "", "%\"own\"%;");
     assert!(corrected(&stated, &TURNING).is_ok());
 }
 

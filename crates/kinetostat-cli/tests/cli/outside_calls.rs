@@ -1,0 +1,129 @@
+//! Calls of what is in none of the files of a robot's program: an assumption, or refused where the user says that they move the tool.
+
+#![allow(clippy::unwrap_used, reason = "a failing test may panic")]
+
+use std::path::Path;
+
+use serde_json::Value;
+
+use crate::common::run;
+
+/// A cut of two lines, with these instructions between motions.
+fn program(between: &str) -> String {
+    let position = |number: usize, x: f64, z: f64| {
+        format!(
+            "P[{number}]{{\n   GP1:\n    UF : 1, UT : 1,        CONFIG : 'N U T, 0, 0, 0',\n   X  = {x:.3}  mm,   Y  = 0.000  mm,   Z  = {z:.3}  mm,\n   W  = 180.000 deg,   P  = 0.000 deg,   R  = 0.000 deg\n}};\n"
+        )
+    };
+    let places = [(0.0, 50.0), (0.0, 0.0), (60.0, 0.0)];
+    let places = places.iter().enumerate();
+    let places: String = places
+        .map(|(at, (x, z))| position(at + 1, *x, *z))
+        .collect();
+    format!(
+        "/PROG MILLX\n/ATTR\n/MN\n 1:UFRAME_NUM=1 ;\n 1:UTOOL_NUM=1 ;\n 1:J P[1] 10% FINE ;\n{between} 1:L P[2] 20mm/sec FINE ;\n{between} 1:L P[3] 20mm/sec FINE ;\n/POS\n{places}/END\n"
+    )
+}
+
+const JOB: &str = "schema = 1\nmodel = \"fanuc_r2000ic_like\"\nprogram = \"mill.ls\"\n[load]\nweight = \"all\"\nmilling = { radial_n = 200, tangential_n = -50, axial_n = -30 }\n[robot.frames]\n\"UT:1\" = { position_mm = [0, 0, 250] }\n\"UF:1\" = { position_mm = [1500, 0, 700] }\n";
+
+const CALL: &str = " 1:CALL SPINDLE_ON ;\n";
+const TAKEN: &str = "taken not to move the tool and not to change speed, tool or frame";
+
+fn put(here: &Path, between: &str, more: &str) {
+    std::fs::write(here.join("mill.ls"), program(between)).unwrap();
+    std::fs::write(here.join("job.toml"), JOB.to_owned() + more).unwrap();
+}
+
+/// The positions of the program that is written.
+fn positions(here: &Path, out: &str) -> String {
+    let said = run(here, &["compensate", "job.toml", "--out", out]);
+    assert!(said.code == 0 || said.code == 4, "{said:?}");
+    let text = std::fs::read_to_string(here.join(out)).unwrap();
+    text[text.find("/POS").unwrap()..].to_owned()
+}
+
+#[test]
+fn a_call_of_what_is_nowhere_is_an_assumption_of_all_commands() {
+    let here = tempfile::tempdir().unwrap();
+    let here = here.path();
+    put(here, "", "");
+    let without = positions(here, "without.ls");
+    put(here, CALL, "");
+    assert_eq!(positions(here, "with.ls"), without);
+    for line in [
+        "deflect job.toml",
+        "check job.toml",
+        "verify with.ls --job job.toml",
+    ] {
+        let words: Vec<&str> = line.split_whitespace().collect();
+        let said = run(here, &words);
+        let all = said.out.clone() + &said.err;
+        let all: String = all.split_whitespace().collect::<Vec<_>>().join(" ");
+        let note = format!("`SPINDLE_ON` is in none of the files: {TAKEN}");
+        assert!(all.contains(&note), "{line}: {all}");
+        let assumed = format!("The call of SPINDLE_ON (line 7), in none of the files, is {TAKEN}.");
+        assert!(
+            line.starts_with("check") || all.contains(&assumed),
+            "{line}: {all}"
+        );
+    }
+    let said = run(here, &["deflect", "job.toml", "--json"]).answered();
+    let found: Value = serde_json::from_str(&said.out).unwrap();
+    let assumptions = found["assessment"]["assumptions"].as_array().unwrap();
+    let kinds: Vec<&str> = (assumptions.iter())
+        .map(|assumed| assumed["kind"].as_str().unwrap())
+        .collect();
+    assert!(kinds.contains(&"outside_calls"), "{kinds:?}");
+}
+
+#[test]
+fn a_call_that_is_stated_to_move_is_refused_by_line() {
+    let here = tempfile::tempdir().unwrap();
+    let here = here.path();
+    put(here, CALL, "[calls]\nSPINDLE_ON = \"moves\"\n");
+    let said = run(here, &["compensate", "job.toml"]);
+    assert_eq!(said.code, 1);
+    let flat: String = said.err.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(
+        flat.contains("`SPINDLE_ON` moves the tool, as is stated"),
+        "{flat}"
+    );
+    put(here, CALL, "");
+    let said = run(here, &["deflect", "job.toml", "--call", "spindle_on=moves"]);
+    assert_eq!(said.code, 1);
+    let flat: String = said.err.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(flat.contains("line 7"), "{flat}");
+    let said = run(here, &["deflect", "job.toml", "--call", "SPINDLE_ON"]);
+    assert!(said.err.contains("NAME=moves"), "{said:?}");
+    // A program in G-code has no such calls.
+    std::fs::write(here.join("a.nc"), "G21 G90 F100\nG1 X5\n").unwrap();
+    let said = run(
+        here,
+        &[
+            "deflect",
+            "--program",
+            "a.nc",
+            "--model",
+            "heavy_6r",
+            "--call",
+            "X=moves",
+        ],
+    );
+    assert!(
+        said.err.contains("--call is for programs of robots"),
+        "{said:?}"
+    );
+    let job = JOB
+        .replace("mill.ls", "a.nc")
+        .split("[robot.frames]")
+        .next()
+        .unwrap()
+        .to_owned();
+    std::fs::write(here.join("job.toml"), job + "[calls]\nX = \"moves\"\n").unwrap();
+    let said = run(here, &["deflect", "job.toml"]);
+    assert!(
+        said.err.contains("[calls] is for programs of robots"),
+        "{said:?}"
+    );
+}
