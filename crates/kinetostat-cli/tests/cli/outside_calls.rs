@@ -102,10 +102,9 @@ fn a_call_that_is_stated_to_move_is_refused_by_line() {
         here,
         &[
             "deflect",
+            "heavy_6r",
             "--program",
             "a.nc",
-            "--model",
-            "heavy_6r",
             "--call",
             "X=moves",
         ],

@@ -132,6 +132,8 @@ const fn option(name: &'static str, follows: Follows, effect: Effect) -> OptionR
 pub(crate) const OFFSET: &str =
     "it is offset by a register, whose value is not in the text, or which turns the tool";
 const ALONE: &str = "take this motion into a program of its own";
+const SKIP: Effect =
+    Effect::Displaced("it ends where a signal changes, which only the run decides");
 const COORDINATED: Effect = Effect::Refused(
     "it is coordinated with another group that moves the part",
     "let the other group stand still and write the motion without COORD, or take it into a program of its own",
@@ -160,7 +162,8 @@ pub(crate) const MOTION_OPTIONS: &[OptionRow] = &[
     option("Tool_Offset", Follows::Register, Effect::Offset(OffsetAxes::Tool)),
     option("VOFFSET", Follows::Register, Effect::Displaced("it is offset by a register of the vision system, whose value is not in the text")),
     option("INC", Follows::Nothing, Effect::Displaced("its position is a step from where the tool was")),
-    option("Skip", Follows::Event, Effect::Displaced("it ends where a signal changes, which only the run decides")),
+    option("Skip", Follows::Event, SKIP),
+    option("SkipJump", Follows::Event, SKIP),
     option("COORD", Follows::Nothing, COORDINATED),
     option("RTCP", Follows::Nothing, Effect::Refused("its tool stands still and the arm holds the part", ALONE)),
     option("TRACK", Follows::Event, Effect::Refused("a sensor bends its path", ALONE)),

@@ -41,8 +41,12 @@ fn lines_that_move_the_tool_otherwise_are_refused_by_line() {
             "it ends where a signal changes",
         ),
         (
+            "L P[1] 20mm/sec FINE SkipJump,LBL[1] ;",
+            "it ends where a signal changes",
+        ),
+        (
             "L P[1] 20mm/sec CNT100 COORD PTH ;",
-            "coordinated with another group",
+            "coordinated with another group that moves the part; let the other group stand still",
         ),
         ("L P[1] 20mm/sec FINE RTCP ;", "the arm holds the part"),
         (
