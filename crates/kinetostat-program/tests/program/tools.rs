@@ -218,11 +218,11 @@ proptest! {
 
 #[test]
 fn a_fault_of_the_whole_program_is_reported_once() {
-    // No units, no motion word, tool length: found in every block, reported in one.
-    let no_units = faults("G1 X1 F100\nX2\nX3\n".as_bytes(), &ReadOptions::default());
+    // No motion word, tool length: found in every block, reported in one.
+    let no_word = faults("G21 F100\nX1\nX2\nX3\n".as_bytes(), &ReadOptions::default());
     assert_eq!(
-        no_units.iter().map(|fault| fault.line).collect::<Vec<_>>(),
-        [1]
+        no_word.iter().map(|fault| fault.line).collect::<Vec<_>>(),
+        [2]
     );
     let length = faults(
         "G21\nG0 X0 Y0 Z0\nG43 H1\nG0 X5\nG1 X6 F9\nX7\n".as_bytes(),
