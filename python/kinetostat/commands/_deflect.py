@@ -49,6 +49,7 @@ def deflect(
     tool_axis: Literal["x", "y", "z", "-x", "-y", "-z"] | None = None,
     joint_rows: Literal["joint", "linear"] | None = None,
     call: str | float | Sequence[str | float] | None = None,
+    set: str | float | Sequence[str | float] | None = None,
     free_turn: bool = False,
     stiff_turn: bool = False,
     turn_plot: _Path | None = None,
@@ -169,6 +170,9 @@ def deflect(
         What the program calls by this name, and none of its files holds, moves the tool: NAME=moves
         (repeat for more). Such a call is refused by line; others are taken not to move the tool and
         not to change speed, tool or frame
+    set : str | float | Sequence[str | float]
+        Value of a name that only the controller knows (a signal, an input, a register), as in di1=1
+        (repeat for more)
     free_turn : bool
         Turn a round tool about its axis along the path of an arm: inside the limits of the joints,
         away from singular postures, in one configuration
@@ -277,6 +281,7 @@ def deflect(
         ("--tool-axis", tool_axis),
         ("--joint-rows", joint_rows),
         ("--call", call),
+        ("--set", set),
         ("--free-turn", free_turn),
         ("--stiff-turn", stiff_turn),
         ("--turn-plot", turn_plot),

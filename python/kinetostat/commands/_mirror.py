@@ -42,6 +42,7 @@ def mirror(
     tool_axis: Literal["x", "y", "z", "-x", "-y", "-z"] | None = None,
     joint_rows: Literal["joint", "linear"] | None = None,
     call: str | float | Sequence[str | float] | None = None,
+    set: str | float | Sequence[str | float] | None = None,
     tolerance_um: float | None = None,
     decimals: str | float | None = None,
     out: _Path | None = None,
@@ -127,6 +128,9 @@ def mirror(
         What the program calls by this name, and none of its files holds, moves the tool: NAME=moves
         (repeat for more). Such a call is refused by line; others are taken not to move the tool and
         not to change speed, tool or frame
+    set : str | float | Sequence[str | float]
+        Value of a name that only the controller knows (a signal, an input, a register), as in di1=1
+        (repeat for more)
     tolerance_um : float
         How far the straight pieces may leave the corrected path, micrometres [default: 0.5]
     decimals : str | float
@@ -190,6 +194,7 @@ def mirror(
         ("--tool-axis", tool_axis),
         ("--joint-rows", joint_rows),
         ("--call", call),
+        ("--set", set),
         ("--tolerance-um", tolerance_um),
         ("--decimals", decimals),
         ("--out", out),

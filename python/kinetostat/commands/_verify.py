@@ -45,6 +45,7 @@ def verify(
     tool_axis: Literal["x", "y", "z", "-x", "-y", "-z"] | None = None,
     joint_rows: Literal["joint", "linear"] | None = None,
     call: str | float | Sequence[str | float] | None = None,
+    set: str | float | Sequence[str | float] | None = None,
     expand: bool = False,
     subprograms: _Path | Sequence[_Path] | None = None,
     tool_diameter_mm: str | float | Sequence[str | float] | None = None,
@@ -149,6 +150,9 @@ def verify(
         What the program calls by this name, and none of its files holds, moves the tool: NAME=moves
         (repeat for more). Such a call is refused by line; others are taken not to move the tool and
         not to change speed, tool or frame
+    set : str | float | Sequence[str | float]
+        Value of a name that only the controller knows (a signal, an input, a register), as in di1=1
+        (repeat for more)
     expand : bool
         Run the program once and go on with its flat form: subprograms, variables, cycles, G41 and
         G42 as plain blocks (`kinetostat expand` shows them)
@@ -252,6 +256,7 @@ def verify(
         ("--tool-axis", tool_axis),
         ("--joint-rows", joint_rows),
         ("--call", call),
+        ("--set", set),
         ("--expand", expand),
         ("--subprograms", subprograms),
         ("--tool-diameter-mm", tool_diameter_mm),

@@ -156,6 +156,7 @@ pub(crate) fn settings_of_made(
     // What is called was refused, or is a note here.
     let flags = RobotArgs {
         moving_calls: Vec::new(),
+        values: Vec::new(),
         ..flags.robot.clone()
     };
     let mut found = settings(None, &flags, (of_robot, axis))?;

@@ -220,6 +220,7 @@ fn flags(args: &ConvertArgs) -> ProgramArgs {
             rapid_from_mm_per_s: args.rapid_from_mm_per_s,
             joint_rows: args.joint_rows.filter(|_| args.to != TargetWord::Joints),
             moving_calls: Vec::new(),
+            values: Vec::new(),
             converted: false,
             template: None,
         },

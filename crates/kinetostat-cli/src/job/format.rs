@@ -15,7 +15,7 @@ use crate::job::cut_tables::{
 use crate::job::expand_table::ExpandTable;
 use crate::job::feature_table::FeatureTable;
 use crate::job::place_table::PlaceTable;
-use crate::job::robot_table::{CallWord, RobotTable};
+use crate::job::robot_table::{CallWord, RobotTable, ValueWord};
 use crate::job::source::Source;
 use crate::job::uncertain_table::UncertainTable;
 use crate::job::units_word::UnitsWord;
@@ -65,6 +65,9 @@ pub(crate) struct Job {
     /// What a program of a robot calls by these names and none of its files holds.
     #[serde(default)]
     pub calls: BTreeMap<Spanned<String>, CallWord>,
+    /// Values of names that only the controller knows.
+    #[serde(default)]
+    pub values: BTreeMap<Spanned<String>, ValueWord>,
     /// The program is run once and written flat.
     pub expand: Option<Spanned<ExpandTable>>,
     /// What is uncertain about machine and load.

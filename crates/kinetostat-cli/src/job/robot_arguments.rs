@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::{ArgAction, Args, ValueEnum};
 use kinetostat::Directions;
-use kinetostat_formats::BetweenRows;
+use kinetostat_formats::{BetweenRows, StatedValue};
 use serde::Deserialize;
 
 use crate::options::number;
@@ -79,6 +79,9 @@ pub(crate) struct RobotArgs {
     /// refused by line; others are taken not to move the tool and not to change speed, tool or frame
     #[arg(long = "call", value_name = "NAME=moves", action = ArgAction::Append, help_heading = "Robot programs", value_parser = moving_call)]
     pub(crate) moving_calls: Vec<String>,
+    /// Value of a name that only the controller knows (a signal, an input, a register), as in di1=1 (repeat for more)
+    #[arg(long = "set", value_name = "NAME=VALUE", action = ArgAction::Append, help_heading = "Robot programs", value_parser = stated_value)]
+    pub(crate) values: Vec<(String, StatedValue)>,
     /// The program is converted into the language of a robot before it is run.
     #[arg(skip)]
     pub(crate) converted: bool,
@@ -92,6 +95,16 @@ fn moving_call(text: &str) -> Result<String, String> {
     match text.split_once('=') {
         Some((name, "moves")) if !name.trim().is_empty() => Ok(name.trim().to_owned()),
         _ => Err("write NAME=moves, as in SPINDLE_ON=moves".to_owned()),
+    }
+}
+
+/// Name and value in `NAME=VALUE`.
+fn stated_value(text: &str) -> Result<(String, StatedValue), String> {
+    match text.split_once('=') {
+        Some((name, value)) if !name.trim().is_empty() && !value.trim().is_empty() => {
+            Ok((name.trim().to_owned(), StatedValue::of(value.trim())))
+        }
+        _ => Err("write NAME=VALUE, as in di1=1".to_owned()),
     }
 }
 
@@ -113,6 +126,7 @@ impl RobotArgs {
             ("--tool-axis", self.tool_axis.is_some()),
             ("--joint-rows", self.joint_rows.is_some()),
             ("--call", !self.moving_calls.is_empty()),
+            ("--set", !self.values.is_empty()),
         ];
         let mut given = all.into_iter().filter(|(_, given)| *given);
         given.next().map(|(name, _)| name)

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use kinetostat_formats::StatedValue;
 use kinetostat_model::schema::{Axis, Placement as PoseTable};
 use serde::Deserialize;
 use serde_spanned::Spanned;
@@ -96,6 +97,25 @@ pub(crate) enum LengthUnitWord {
 pub(crate) enum CallWord {
     /// It moves the tool: it is refused by line.
     Moves,
+}
+
+/// A value of a name.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(untagged)]
+pub(crate) enum ValueWord {
+    Number(f64),
+    Truth(bool),
+    Text(String),
+}
+
+impl From<&ValueWord> for StatedValue {
+    fn from(word: &ValueWord) -> Self {
+        match word {
+            ValueWord::Number(number) => Self::Number(*number),
+            ValueWord::Truth(truth) => Self::Truth(*truth),
+            ValueWord::Text(text) => Self::Text(text.clone()),
+        }
+    }
 }
 
 /// External axes that move.

@@ -169,6 +169,7 @@ fn values(option: &clap::Arg, line: &str) -> Vec<String> {
         "below-z-mm" => &["-2"],
         "work-offset" => &["G54=1,0,0"],
         "call" => &["SPINDLE=moves"],
+        "set" => &["di1=1"],
         "tool-diameter-mm" => &["1=6.5"],
         "parameter" => &["100=2.5"],
         "subprograms" => &["."],

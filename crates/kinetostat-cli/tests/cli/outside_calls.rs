@@ -77,6 +77,66 @@ fn a_call_of_what_is_nowhere_is_an_assumption_of_all_commands() {
     assert!(kinds.contains(&"outside_calls"), "{kinds:?}");
 }
 
+/// What decides the way of a RAPID program is asked for by line, and stated by option or job.
+#[test]
+fn values_that_only_the_controller_knows_are_stated() {
+    let here = tempfile::tempdir().unwrap();
+    let here = here.path();
+    let to = |x: u32| {
+        format!(
+            "MoveL [[{x},0,0],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v20,z1,T1\\WObj:=W1;\n"
+        )
+    };
+    let text = format!(
+        "MODULE M\nPERS tooldata T1:=[TRUE,[[0,0,250],[1,0,0,0]],[5,[0,0,100],[1,0,0,0],0,0,0]];\n\
+         PERS wobjdata W1:=[FALSE,TRUE,\"\",[[1500,0,700],[1,0,0,0]],[[0,0,0],[1,0,0,0]]];\nPROC main()\n{}{}IF di1=1 THEN\n{}ELSE\n{}ENDIF\nENDPROC\nENDMODULE\n",
+        to(0),
+        to(10),
+        to(40),
+        to(60)
+    );
+    std::fs::write(here.join("m.mod"), text).unwrap();
+    let job = "schema = 1\nmodel = \"abb_irb6640_like\"\nprogram = \"m.mod\"\n[load]\nweight = \"none\"\nforce_n = [0, 0, -100]\n";
+    std::fs::write(here.join("job.toml"), job).unwrap();
+    let said = run(here, &["deflect", "job.toml"]);
+    let flat: String = said.err.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(
+        flat.contains("line 7: `di1=1`") && flat.contains("--set NAME=VALUE"),
+        "{flat}"
+    );
+    let length = |words: &[&str]| {
+        let said = run(here, words).answered();
+        let found: Value = serde_json::from_str(&said.out).unwrap();
+        let said = found["warnings"].to_string();
+        assert!(said.contains("as is stated"), "{said}");
+        found["program"]["feed_length_mm"].as_f64().unwrap()
+    };
+    let check = ["check", "job.toml", "--json"];
+    std::fs::write(
+        here.join("job.toml"),
+        job.to_owned() + "[values]\ndi1 = 1\n",
+    )
+    .unwrap();
+    assert!((length(&check) - 40.0).abs() < 1e-9);
+    std::fs::write(
+        here.join("job.toml"),
+        job.to_owned() + "[values]\ndi1 = 0\n",
+    )
+    .unwrap();
+    assert!((length(&check) - 60.0).abs() < 1e-9);
+    // The option goes over the job; what nothing asks for is no value of this program.
+    let said = run(here, &["deflect", "job.toml", "--set", "DI1=1"]).answered();
+    assert!(said.out.contains("40"), "{said:?}");
+    let said = run(here, &["deflect", "job.toml", "--set", "di2=1"]).answered();
+    let flat: String = said.out.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(
+        flat.contains("`di2` is stated, and the run does not ask for it"),
+        "{flat}"
+    );
+    let said = run(here, &["deflect", "job.toml", "--set", "di2"]);
+    assert!(said.err.contains("NAME=VALUE"), "{said:?}");
+}
+
 #[test]
 fn a_call_that_is_stated_to_move_is_refused_by_line() {
     let here = tempfile::tempdir().unwrap();

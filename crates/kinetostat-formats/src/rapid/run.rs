@@ -60,6 +60,9 @@ pub(super) struct Called {
     pub slots: BTreeMap<Name, Slot>,
 }
 
+/// A frame and the value that it was read from.
+pub(super) type KnownFrame = (Rc<Vec<Datum>>, FrameUse);
+
 /// A run of a program.
 pub(crate) struct Run<'r, 'p> {
     pub(super) files: &'p [TokenFile<'p>],
@@ -69,10 +72,12 @@ pub(crate) struct Run<'r, 'p> {
     pub(super) stated: BTreeMap<Name, Isometry3<f64>>,
     /// Values that the caller states.
     pub(super) values: BTreeMap<Name, Datum>,
+    /// Names whose stated values the run asked for.
+    pub(super) used_values: BTreeSet<Name>,
     /// Data of every controller, once they are asked for.
     pub(super) predefined: BTreeMap<Name, Datum>,
     /// Frames of tools and work objects by the values that they were read from.
-    pub(super) frames: BTreeMap<(bool, Name), (Rc<Vec<Datum>>, FrameUse)>,
+    pub(super) frames: BTreeMap<(bool, Name), KnownFrame>,
     /// Values of the data of modules, once they are asked for.
     pub(super) data: BTreeMap<usize, Datum>,
     /// Data that interrupts change at any time.
@@ -133,6 +138,7 @@ impl<'r, 'p> Run<'r, 'p> {
             options,
             stated: stated.collect(),
             values: values.collect(),
+            used_values: BTreeSet::new(),
             predefined: BTreeMap::new(),
             frames: BTreeMap::new(),
             data: BTreeMap::new(),
@@ -184,6 +190,7 @@ impl<'r, 'p> Run<'r, 'p> {
                 self.call(root, BTreeMap::new());
             }
         }
+        self.say_of_values();
         self.say_of_unreached();
         self.mark_repeated();
         let targets = std::mem::take(&mut self.targets);
@@ -221,6 +228,32 @@ impl<'r, 'p> Run<'r, 'p> {
                 });
                 self.volatile.extend(modules);
             }
+        }
+    }
+
+    /// Values that the caller states decide the way of the program.
+    fn say_of_values(&mut self) {
+        let Some(file) = self.files.first() else {
+            return;
+        };
+        for (name, value) in &self.options.values {
+            let is_used =
+                Name::of(name.as_bytes()).is_some_and(|own| self.used_values.contains(&own));
+            let message = match (is_used, value) {
+                (false, _) => {
+                    format!("a value of `{name}` is stated, and the run does not ask for it")
+                }
+                (true, StatedValue::Number(number)) => {
+                    format!("`{name}` is {number}, as is stated")
+                }
+                (true, StatedValue::Truth(truth)) => format!("`{name}` is {truth}, as is stated"),
+                (true, StatedValue::Text(text)) => format!("`{name}` is \"{text}\", as is stated"),
+            };
+            self.findings.push(Finding {
+                file: file.index,
+                line: 1,
+                message,
+            });
         }
     }
 

@@ -85,6 +85,7 @@ impl Run<'_, '_> {
     pub(super) fn initial(&mut self, index: usize) -> Datum {
         let datum = &self.symbols.data[index];
         if let Some(value) = self.values.get(&datum.node.name) {
+            self.used_values.insert(datum.node.name);
             return value.clone();
         }
         let Some(tokens) = datum.node.initial.clone() else {
@@ -254,12 +255,14 @@ impl Run<'_, '_> {
     }
 
     /// The value that the caller states for data that only the controller knows.
-    pub(super) fn stated_value(&self, root: Root) -> Option<Datum> {
+    pub(super) fn stated_value(&mut self, root: Root) -> Option<Datum> {
         let name = match root {
             Root::Module(index) => self.symbols.data[index].node.name,
             Root::Routine(_, name) => name,
         };
-        self.values.get(&name).cloned()
+        let value = self.values.get(&name).cloned()?;
+        self.used_values.insert(name);
+        Some(value)
     }
 
     /// The reason for a datum that a statement changes.
@@ -367,8 +370,11 @@ impl Names for Run<'_, '_> {
                 shown()
             )),
             None => {
-                let known = self.values.get(name).or_else(|| self.predefined.get(name));
-                if let Some(known) = known {
+                if let Some(stated) = self.values.get(name) {
+                    self.used_values.insert(*name);
+                    return stated.clone();
+                }
+                if let Some(known) = self.predefined.get(name) {
                     return known.clone();
                 }
                 match predefined(name) {

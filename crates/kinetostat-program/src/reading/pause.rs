@@ -11,11 +11,16 @@ pub(crate) fn pause(block: &Block<'_>) -> Option<Pause> {
     let kind = match block.codes.dwell {
         true => dwell(block),
         false => {
-            let mut words = block.words.iter().filter(|word| word.letter == b'M');
-            words.find_map(|word| match word.tenths() {
+            let words = block.words.iter().filter(|word| word.letter == b'M');
+            let kinds = words.filter_map(|word| match word.tenths() {
                 0 | 10 | 600 => Some(PauseKind::Stop),
                 60 => Some(PauseKind::ToolChange),
                 _ => None,
+            });
+            // A block with both changes the tool, in whatever order its words stand.
+            kinds.reduce(|one, other| match other {
+                PauseKind::ToolChange => other,
+                _ => one,
             })?
         }
     };

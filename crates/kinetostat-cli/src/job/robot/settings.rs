@@ -1,11 +1,11 @@
 //! How a robot's program is read and written, from options and the table `[robot]` of a job file.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use kinetostat::Directions;
 use kinetostat_formats::{
     BetweenRows, CutterCompensation, ExternalAxes, Language, LengthUnit, PathOptions, ReadOptions,
-    TurnAboutAxis, UnknownTargets, WriteOptions as TextOptions,
+    StatedValue, TurnAboutAxis, UnknownTargets, WriteOptions as TextOptions,
 };
 use kinetostat_model::schema::{Axis, AxisName};
 use kinetostat_program::Warning;
@@ -109,6 +109,7 @@ pub(crate) fn settings(
         correct = table.correct.unwrap_or(correct);
     }
     reading.moving_calls = moving_calls(job, flags, language)?;
+    reading.values = stated_values(job, flags, language)?;
     if let Some(axis) = flags.tool_axis {
         making.tool_axis = match axis {
             AxisWord::X => Vector3::x(),
@@ -162,6 +163,27 @@ fn moving_calls(
     match found.first() {
         Some(name) if !has_calls => Err(Failure::input(format!(
             "'{name}' is stated to move the tool ([calls] in the job, --call), which is for programs in RAPID, KRL and FANUC TP: leave it out"
+        ))),
+        _ => Ok(found),
+    }
+}
+
+/// Values that only the controller knows; programs in RAPID are run with them.
+fn stated_values(
+    job: Option<&JobFile>,
+    flags: &RobotArgs,
+    language: Language,
+) -> Answer<BTreeMap<String, StatedValue>> {
+    let of_job = job.iter().flat_map(|j| &j.job.values);
+    let of_job = of_job.map(|(name, value)| (name.get_ref().clone(), StatedValue::from(value)));
+    let mut found: BTreeMap<String, StatedValue> = of_job.collect();
+    for (name, value) in &flags.values {
+        found.retain(|own, _| !own.eq_ignore_ascii_case(name));
+        found.insert(name.clone(), value.clone());
+    }
+    match found.keys().next() {
+        Some(name) if language != Language::Rapid => Err(Failure::input(format!(
+            "a value of '{name}' is stated ([values] in the job, --set), which is for programs in RAPID: leave it out"
         ))),
         _ => Ok(found),
     }

@@ -6,6 +6,8 @@ use std::path::{Path, PathBuf};
 use kinetostat_formats::{Language, SlashBlocks, SourceFile, endings_of, language_of, odd_program};
 use nalgebra::Vector3;
 
+use serde_spanned::Spanned;
+
 use crate::files::input_files::InputFiles;
 use crate::files::origin;
 use crate::job::arguments::{ProgramArgs, ReadingArgs};
@@ -89,10 +91,10 @@ pub(crate) fn robot_source(
                     known_endings()
                 ),
             )),
-            _ => match job.and_then(|j| Some((j, j.job.calls.keys().next()?))) {
-                Some((j, call)) if !flags.converted => Err(j.error(
-                    call,
-                    &format!("[calls] is for programs of robots, and '{name}' is read as G-code"),
+            _ => match job.and_then(|j| Some((j, only_of_robots(j)?))) {
+                Some((j, (table, key))) if !flags.converted => Err(j.error(
+                    key,
+                    &format!("[{table}] is for programs of robots, and '{name}' is read as G-code"),
                     "leave it out",
                 )),
                 _ => Ok(None),
@@ -180,4 +182,10 @@ fn has_data_beside(language: Language) -> bool {
         Language::Krl => true,
         _ => false,
     }
+}
+
+/// The first key of a table that only programs of robots have, with the name of the table.
+fn only_of_robots(job: &JobFile) -> Option<(&'static str, &Spanned<String>)> {
+    let call = job.job.calls.keys().next().map(|key| ("calls", key));
+    call.or_else(|| job.job.values.keys().next().map(|key| ("values", key)))
 }

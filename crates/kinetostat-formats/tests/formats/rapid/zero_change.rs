@@ -171,11 +171,12 @@ fn runs_and_findings_are_said() {
         .iter()
         .map(|f| f.message.as_str())
         .collect();
-    assert_eq!(messages.len(), 2, "{messages:?}");
+    assert_eq!(messages.len(), 3, "{messages:?}");
+    assert_eq!(messages[0], "`diReady` is 1, as is stated");
     // Of a condition that does not hold.
     assert!(
-        messages[0].contains("does not come to the motions on line 62"),
+        messages[1].contains("does not come to the motions on line 62"),
         "{messages:?}"
     );
-    assert!(messages[1].starts_with("what is called is computed"));
+    assert!(messages[2].starts_with("what is called is computed"));
 }
