@@ -140,7 +140,10 @@ fn contradictions_and_what_belongs_to_g_code_are_refused_with_what_to_do() {
             "--part-origin-mm 0 0 0",
             "the place of the part is stated twice",
         ),
-        ("--parameter 1=2", "is for G-code"),
+        (
+            "--parameter 1=2",
+            "says something about an expanded program",
+        ),
         ("--units mm", "--units is for G-code"),
         ("--work-offset G54=0,0,0", "--work-offset is for G-code"),
         ("--scale 2", "is for G-code"),
