@@ -186,3 +186,26 @@ fn a_call_that_is_stated_to_move_is_refused_by_line() {
         "{said:?}"
     );
 }
+
+/// A program in G-code without a unit is in millimetres, which stands among the assumptions.
+#[test]
+fn a_unit_that_no_word_states_is_an_assumption() {
+    let here = tempfile::tempdir().unwrap();
+    let here = here.path();
+    let of = |program: &str| {
+        std::fs::write(here.join("a.nc"), program).unwrap();
+        let line = "deflect orthoglide --program a.nc --force 10 0 0 --json";
+        let words: Vec<&str> = line.split_whitespace().collect();
+        let said = run(here, &words).answered();
+        let found: Value = serde_json::from_str(&said.out).unwrap();
+        let all = found["assessment"]["assumptions"].as_array().unwrap();
+        let units = all.iter().find(|assumed| assumed["kind"] == "units");
+        units.map(|assumed| assumed["text"].as_str().unwrap().to_owned())
+    };
+    let without = of("G90 F300\nG0 X0 Y0 Z0\nG1 X5\n").unwrap();
+    assert!(
+        without.contains("millimetres, the first on line 2"),
+        "{without}"
+    );
+    assert_eq!(of("G21 G90 F300\nG0 X0 Y0 Z0\nG1 X5\n"), None);
+}

@@ -40,6 +40,8 @@ pub enum AssumptionKind {
     Chatter,
     /// Calls of what is in none of the files of a robot's program, taken not to move the tool and not to change what is in force.
     OutsideCalls,
+    /// Lengths of a program that states no unit.
+    Units,
 }
 
 /// An assumption on which the figures of a run rest.

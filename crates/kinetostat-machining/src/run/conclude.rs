@@ -9,6 +9,7 @@ use crate::checks::unusual::unusual;
 use crate::joints::figures::JointFigures;
 use crate::load::along_path::LoadAlongPath;
 use crate::load::ramp_findings::TooFast;
+use crate::result::assessment::{Assumption, AssumptionKind};
 use crate::result::envelope::Envelope;
 use crate::result::kept_points::KeptPoints;
 use crate::result::point::{PointKind, PointResult};
@@ -105,6 +106,12 @@ pub(crate) fn conclude(
     );
     result.points = kept.points();
     result.assess();
+    if let Some(line) = task.path().units_assumed_on {
+        let text = format!(
+            "The program states no unit (G20 or G21): its lengths are taken for millimetres, the first on line {line}."
+        );
+        result.assume(Assumption::new(AssumptionKind::Units, None, text));
+    }
     Run {
         result,
         points,

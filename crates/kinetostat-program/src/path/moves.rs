@@ -225,6 +225,8 @@ pub struct Path {
     pub(crate) events: Vec<Event>,
     /// What of a longer path this is; `None` of a whole one.
     pub part: Option<PathPart>,
+    /// First line with lengths whose unit the program does not state: they are taken for millimetres.
+    pub units_assumed_on: Option<usize>,
 }
 
 /// Something the user should know; not an error.

@@ -20,13 +20,6 @@ pub fn programs() -> Vec<Case> {
     let changed = |from: &str, to: &str| vec![("bad.ngc", changed(PROGRAM, from, to))];
     vec![
         case(
-            "program: no units",
-            changed("G21 ", ""),
-            &CUT,
-            1,
-            &["bad.ngc", "line 2", "units", "G21"],
-        ),
-        case(
             "program: tool radius compensation",
             changed("G1 Z-1", "G41 D1\nG1 Z-1"),
             &CUT,

@@ -42,6 +42,7 @@ impl Interpreter<'_> {
             pauses: self.pauses,
             events: self.events,
             part: None,
+            units_assumed_on: self.units_assumed_on,
         };
         self.tools.finish(&mut path, program, self.options)?;
         path.warnings.extend(path.rotary_findings());

@@ -41,6 +41,8 @@ pub(crate) struct Interpreter<'o> {
     pub(super) tools: ToolWords,
     pub(in crate::reading) spindle: SpindleWords,
     pub(super) warnings: Vec<Warning>,
+    /// Line of the first lengths without a unit.
+    pub(super) units_assumed_on: Option<usize>,
 }
 
 /// What blocks tell of those behind them.
@@ -83,6 +85,7 @@ impl<'o> Interpreter<'o> {
             tools: ToolWords::default(),
             spindle: SpindleWords::default(),
             warnings: Vec::new(),
+            units_assumed_on: None,
         }
     }
 

@@ -38,6 +38,7 @@ impl Interpreter<'_> {
         let any = |letter: &u8| block.value(*letter).is_some_and(|value| value != 0.0);
         let states_a_length = block.codes.machine.is_none() || COORDINATES.iter().any(any);
         if states_a_length && self.modes.assume_units() {
+            self.units_assumed_on = Some(block.line_number);
             self.warn(block.line_number, "no G20 or G21 stands before the first motion: the lengths are taken for millimetres; if they are others, give the units (--units, or units under [reading] in the job file)");
         }
     }
