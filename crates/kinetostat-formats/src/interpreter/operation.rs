@@ -51,9 +51,18 @@ pub(crate) fn same(left: &Value, right: &Value) -> bool {
             let mut pairs = left.iter().zip(right.iter());
             left.len() == right.len() && pairs.all(|(left, right)| same(&left.value, &right.value))
         }
+        // Numbers of robots have single precision.
+        (Value::Number(left), Value::Number(right))
+            if left.abs() < EXACT && right.abs() < EXACT =>
+        {
+            *left as f32 == *right as f32
+        }
         (left, right) => left == right,
     }
 }
+
+/// Whole numbers below this are exact in single precision.
+const EXACT: f64 = 8_388_608.0;
 
 fn of_numbers(operator: Operator, left: f64, right: f64) -> Datum {
     let number = match operator {

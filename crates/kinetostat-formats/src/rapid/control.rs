@@ -65,6 +65,9 @@ impl Run<'_, '_> {
             self.fault(tokens, (reason, "call what is deepest from main"));
             return Flow::Next;
         }
+        let file = self.file();
+        let site = (file.index, file.span(tokens).start);
+        self.call_sites.entry(called).or_default().insert(site);
         let mut slots = BTreeMap::new();
         let parameters = &self.symbols.routines[called].routine.parameters;
         let mut ordered = parameters.iter().filter(|parameter| !parameter.is_optional);
@@ -73,7 +76,11 @@ impl Run<'_, '_> {
                 Some(name) => parameters.iter().find(|parameter| parameter.name == *name),
                 None => ordered.next(),
             };
-            let (Some(parameter), Some(value)) = (parameter, value) else {
+            let Some(parameter) = parameter else { continue };
+            let Some(value) = value else {
+                // `\\switch`.
+                let given = Slot::Own(Datum::truth(true));
+                slots.insert(parameter.name, given);
                 continue;
             };
             let place = match parameter.changes {
@@ -119,6 +126,7 @@ impl Run<'_, '_> {
                 }
                 return Flow::Ends;
             }
+            self.forget_results();
             match self.statement(statement) {
                 Flow::Next => {}
                 Flow::To(label, tokens) => {
@@ -324,9 +332,13 @@ impl Run<'_, '_> {
                 "the loop never ends: its first pass is read, and its corrections are those of all"
                     .to_owned(),
             );
-            return self.block(block);
+            return match self.block(block) {
+                Flow::Next => Flow::Ends,
+                flow => flow,
+            };
         }
         loop {
+            self.forget_results();
             let value = self.value(&condition);
             match value.as_truth() {
                 Some(true) => {}
@@ -390,7 +402,8 @@ impl Run<'_, '_> {
             if !matches!(flow, Flow::Next) || self.statements > MOST_STATEMENTS {
                 break;
             }
-            value += step;
+            // Numbers of RAPID have single precision.
+            value = f64::from(value as f32 + step as f32);
         }
         match hidden {
             Some(slot) => self.calls[depth].slots.insert(name, slot),
@@ -426,7 +439,11 @@ impl Run<'_, '_> {
         let file = self.file();
         let arguments = Arguments::of(file, tokens.start + 1..tokens.end);
         let has_function = |expression: &&Expression| matches!(expression.node, Node::Call(..));
-        for expression in arguments.ordered.iter().filter(has_function) {
+        let options = arguments
+            .options
+            .iter()
+            .filter_map(|(_, value)| value.as_ref());
+        for expression in arguments.ordered.iter().chain(options).filter(has_function) {
             self.value(expression);
         }
         arguments

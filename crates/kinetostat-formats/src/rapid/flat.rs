@@ -17,8 +17,9 @@ use crate::rapid::reader::{modules_of_files, tokens_of_files};
 use crate::rapid::run::{Root, Run};
 use crate::rapid::symbols::{Meaning, Scope, Symbols};
 use crate::rapid::table::{Ends, MotionRow};
-use crate::rapid::tree::RoutineKind;
+use crate::rapid::tree::{RoutineKind, TokenFile};
 use crate::text::edits::Edits;
+use crate::text::finding::Finding;
 use crate::text::flat::FlatText;
 use crate::text::name::Name;
 use crate::text::source::SourceFile;
@@ -91,9 +92,7 @@ impl Run<'_, '_> {
             return;
         }
         let mut edits = Edits::default();
-        if self.is_own(&to) {
-            self.cannot_be_flat(tokens, "it assigns what its routine was given");
-        }
+        self.put_place(&to, &mut edits);
         let end = tokens.end.saturating_sub(1).max(assign + 1);
         self.put_value(&expression_of(file, assign + 1..end), false, &mut edits);
         self.log_with(tokens, edits);
@@ -110,14 +109,16 @@ impl Run<'_, '_> {
             .into_iter()
             .any(|name| self.means_another_in_main(&name))
         {
-            self.cannot_be_flat(whole, "it uses data of its routine");
+            self.cannot_be_flat(
+                whole,
+                "it uses data that `main` does not see, of which the controller knows the value",
+            );
         }
         self.log_with(whole, Edits::default());
     }
 
     fn cannot_be_flat(&mut self, tokens: &Range<usize>, why: &str) {
-        let reason =
-            format!("the program cannot be written flat: {why}, and the controller decides it");
+        let reason = format!("the program cannot be written flat: {why}");
         self.fault(tokens, (reason, "read the program without expanding it"));
     }
 
@@ -156,10 +157,49 @@ impl Run<'_, '_> {
             _ => {}
         }
         let span = self.file().span(&expression.tokens);
+        if !is_computed && let Some(name) = self.name_in_main(expression) {
+            edits.replace(span, name);
+            return;
+        }
         match printed(&self.value(expression)) {
             Some(text) => edits.replace(span, text),
-            None => self.cannot_be_flat(&expression.tokens, "it uses data of its routine"),
+            None => self.cannot_be_flat(
+                &expression.tokens,
+                "it uses data that `main` does not see, of which the controller knows the value",
+            ),
         }
+    }
+
+    /// Puts the name that `main` knows in place of that by which a routine knows a place.
+    fn put_place(&mut self, expression: &Expression, edits: &mut Edits) {
+        match &expression.node {
+            Node::Word(name) if self.means_another_in_main(name) => {
+                match self.name_in_main(expression) {
+                    Some(name) => edits.replace(self.file().span(&expression.tokens), name),
+                    None => self
+                        .cannot_be_flat(&expression.tokens, "it assigns what `main` does not see"),
+                }
+            }
+            Node::Field(of, _) => self.put_place(of, edits),
+            Node::Element(of, indices) => {
+                self.put_place(of, edits);
+                indices
+                    .iter()
+                    .for_each(|index| self.put_value(index, false, edits));
+            }
+            _ => {}
+        }
+    }
+
+    /// The name of whole data of a module that a parameter stands for, where `main` sees them.
+    fn name_in_main(&mut self, expression: &Expression) -> Option<String> {
+        let place = self.place(expression)?;
+        let (Root::Module(index), true) = (place.root, place.path.is_empty()) else {
+            return None;
+        };
+        let name = self.symbols.data[index].node.name;
+        let main = self.symbols.meaning(self.symbols.main()?, &name);
+        (main == Some(Meaning::Datum(index))).then(|| self.shown(index))
     }
 
     /// True for an expression with a name that means something else, or nothing, in `main`.
@@ -244,20 +284,23 @@ pub(crate) fn expand_rapid(
         return Err(faults);
     }
     let log = run.log.unwrap_or_default();
-    // Routines that a statement of the flat program still names stay.
-    let text: Vec<&[u8]> = log.iter().map(|logged| logged.text.as_slice()).collect();
-    let named: BTreeSet<Name> = text
-        .iter()
-        .flat_map(|text| text.split(|byte| !byte.is_ascii_alphanumeric() && *byte != b'_'))
-        .filter_map(Name::of)
-        .collect();
-    let left_out = |index: usize| {
-        let routine = symbols.routines[index].routine;
-        index != main
-            && routine.kind == RoutineKind::Procedure
-            && run.called.contains(&index)
-            && !named.contains(&routine.name)
-    };
+    let left_out = left_out(&symbols, &token_files, (&run.called, main), &log);
+    let mut findings = run.findings;
+    for index in left_out.iter().chain([&main]) {
+        let home = symbols.routines[*index];
+        if *index != main && !home.routine.handlers.is_empty() {
+            let file = &token_files[home.file];
+            let at = file
+                .span(&(home.routine.name_at..home.routine.name_at + 1))
+                .start;
+            findings.push(Finding {
+                file: home.file,
+                line: file.source.line_of(at),
+                message: "the error handler of this routine is not in the flat program".to_owned(),
+            });
+        }
+    }
+    let left_out = |index: usize| left_out.contains(&index);
     let mut out = Flat::default();
     for file in &token_files {
         let mut cuts: Vec<(Range<usize>, bool)> = Vec::new();
@@ -277,8 +320,10 @@ pub(crate) fn expand_rapid(
                 for (number, logged) in log.iter().enumerate() {
                     if number > 0 {
                         out.bytes.extend_from_slice(file.source.line_ending());
-                        out.from(logged.file, files[logged.file].line_of(logged.at));
-                        out.bytes.extend_from_slice(&indentation);
+                        if !indentation.is_empty() {
+                            out.from(logged.file, files[logged.file].line_of(logged.at));
+                            out.bytes.extend_from_slice(&indentation);
+                        }
                     }
                     out.state(logged, files);
                 }
@@ -292,8 +337,50 @@ pub(crate) fn expand_rapid(
         file: SourceFile::new(files[0].name(), out.bytes),
         origins: out.origins,
         changed,
-        findings: run.findings,
+        findings,
     })
+}
+
+/// Procedures that ran and that nothing in the flat program names any more.
+fn left_out(
+    symbols: &Symbols<'_>,
+    files: &[TokenFile<'_>],
+    (called, main): (&BTreeSet<usize>, usize),
+    log: &[Logged],
+) -> BTreeSet<usize> {
+    let texts = log.iter().map(|logged| logged.text.as_slice());
+    let words =
+        texts.flat_map(|text| text.split(|byte| !byte.is_ascii_alphanumeric() && *byte != b'_'));
+    let mut named: BTreeSet<Name> = words.filter_map(Name::of).collect();
+    let mut out: BTreeSet<usize> = (called.iter().copied())
+        .filter(|index| {
+            *index != main && symbols.routines[*index].routine.kind == RoutineKind::Procedure
+        })
+        .collect();
+    let words_of = |index: usize| {
+        let home = symbols.routines[index];
+        let file = &files[home.file];
+        let whole = match index == main {
+            // The statements of `main` are those of the log; its handlers stay.
+            true => home.routine.statements.end..home.routine.whole.end,
+            false => home.routine.whole.start..home.routine.whole.end,
+        };
+        whole
+            .filter_map(|at| Name::of(file.word(at)))
+            .filter(move |name| *name != home.routine.name)
+    };
+    for index in (0..symbols.routines.len()).filter(|index| !out.contains(index)) {
+        named.extend(words_of(index));
+    }
+    loop {
+        let stays = out
+            .iter()
+            .copied()
+            .find(|index| named.contains(&symbols.routines[*index].routine.name));
+        let Some(stays) = stays else { return out };
+        out.remove(&stays);
+        named.extend(words_of(stays));
+    }
 }
 
 /// Text of a flat program and the lines that it is from.

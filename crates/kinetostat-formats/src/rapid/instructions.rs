@@ -2,15 +2,16 @@
 
 use std::ops::Range;
 
-use crate::interpreter::expression::Expression;
+use crate::interpreter::expression::{Expression, Node};
 use crate::interpreter::value::Datum;
 use crate::model::outside_call::OutsideCall;
 use crate::options::ExternalAxes;
 use crate::rapid::control::Flow;
-use crate::rapid::expression::arguments_of;
+use crate::rapid::expression::{arguments_of, expression_of};
+use crate::rapid::lex::Kind;
 use crate::rapid::literals::frame_of;
 use crate::rapid::passing::CHANGE_THEIRS;
-use crate::rapid::run::Run;
+use crate::rapid::run::{Root, Run};
 use crate::rapid::table::{EXTERNAL, MotionRow, row};
 use crate::rapid::tree::{Choice, TokenFile};
 use crate::rapid::turning::mode_of;
@@ -61,6 +62,8 @@ impl Run<'_, '_> {
                 motion.follows = self.here;
                 motion.site.turns_otherwise = self.modes.otherwise(&motion);
                 self.motions.push(motion);
+                self.routines
+                    .push(self.calls.last().map_or(0, |called| called.routine));
                 self.here = Some(self.motions.len() - 1);
             }
             Err(reason) => {
@@ -101,6 +104,10 @@ impl Run<'_, '_> {
         if CHANGE_THEIRS.iter().any(is) {
             self.change(row.name, &arguments.ordered);
         }
+        // Waiting sets flags and what it waits for; a box asks a person.
+        if row.name.starts_with("Wait") || row.name == "UIMsgBox" {
+            self.lose_waited(tokens);
+        }
         if let Some((word, effect)) = EFFECTS.iter().find(|(word, _)| is(word)) {
             self.find(
                 tokens,
@@ -134,6 +141,23 @@ impl Run<'_, '_> {
         self.displacement = Some(frame);
     }
 
+    /// Names in the arguments of an instruction that may change them.
+    fn lose_waited(&mut self, tokens: &Range<usize>) {
+        let file = self.file();
+        let is_word =
+            |at: &usize| file.tokens[*at].kind == Kind::Word && file.word(*at - 1) != b"\\";
+        let words: Vec<usize> = (tokens.start + 1..tokens.end).filter(is_word).collect();
+        for at in words {
+            let name = expression_of(file, at..at + 1);
+            if let Some(place) = self.place(&name)
+                && let Root::Module(_) | Root::Routine(..) = place.root
+            {
+                let reason = self.changed(&name);
+                self.lose(&name, &reason);
+            }
+        }
+    }
+
     /// `Incr n`, `Decr n`, `Clear n`, `Add n, 3`.
     fn change(&mut self, word: &str, arguments: &[Expression]) {
         let [to, rest @ ..] = arguments else { return };
@@ -163,6 +187,14 @@ impl Run<'_, '_> {
         let mut marks = tokens.clone().filter(|at| file.word(*at) == b"%");
         let name_end = marks.nth(1).unwrap_or(tokens.start);
         let arguments = arguments_of(file, name_end + 1..tokens.end);
+        for value in arguments
+            .iter()
+            .filter_map(|argument| argument.value.as_ref())
+        {
+            if let Node::Call(..) = value.node {
+                self.value(value);
+            }
+        }
         self.lose_arguments(&arguments);
         let is_computed = is_computed(file, tokens);
         if is_computed {

@@ -132,19 +132,28 @@ impl Run<'_, '_> {
         }
     }
 
-    /// Data that statements of a routine assign, or give to what may change them.
+    /// Data that statements of a routine, and the routines that they call, assign or give to what may change them.
     pub(super) fn assigned_in(&self, routine: usize, statements: &[Statement]) -> Vec<Root> {
-        let file = &self.files[self.symbols.routines[routine].file];
         let mut found = Vec::new();
-        let mut names = Vec::new();
+        self.collect_assigned((routine, statements), &mut BTreeSet::new(), &mut found);
+        found
+    }
+
+    fn collect_assigned(
+        &self,
+        (routine, statements): (usize, &[Statement]),
+        seen: &mut BTreeSet<usize>,
+        found: &mut Vec<Root>,
+    ) {
+        let file = &self.files[self.symbols.routines[routine].file];
+        let is_inner = !seen.is_empty();
+        let (mut names, mut called) = (Vec::new(), Vec::new());
         for statement in statements {
             statement.each_part(&mut |tokens| {
-                changed_in(
-                    file,
-                    tokens,
-                    &|name| self.symbols.routine(routine, name).is_some(),
-                    &mut names,
-                );
+                let is_own = |name: &Name| self.symbols.routine(routine, name).is_some();
+                changed_in(file, tokens, &is_own, &mut names);
+                let words = tokens.clone().filter_map(|at| Name::of(file.word(at)));
+                called.extend(words.filter_map(|name| self.symbols.routine(routine, &name)));
             });
         }
         for name in names {
@@ -154,13 +163,20 @@ impl Run<'_, '_> {
                 {
                     found.push(Root::Module(index));
                 }
-                Some(_) if !self.calls.is_empty() => {
+                // Data of a routine that is called are gone behind the call.
+                Some(_) if !self.calls.is_empty() && !is_inner => {
                     found.push(Root::Routine(self.calls.len() - 1, name));
                 }
                 _ => {}
             }
         }
-        found
+        seen.insert(routine);
+        for called in called {
+            if seen.insert(called) {
+                let body = &self.symbols.routines[called].routine.body;
+                self.collect_assigned((called, body), seen, found);
+            }
+        }
     }
 }
 

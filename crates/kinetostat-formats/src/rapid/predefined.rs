@@ -57,7 +57,24 @@ fn zone_by_number(name: &Name) -> Option<Datum> {
 }
 
 fn zone(is_stop: bool, radius: f64) -> Datum {
-    Datum::list(vec![Datum::truth(is_stop), Datum::number(radius)])
+    let turning = match radius {
+        5.0.. => (1.5 * radius).round(),
+        _ => radius,
+    };
+    let numbers = [
+        radius,
+        turning,
+        turning,
+        0.1 * turning,
+        turning,
+        0.1 * turning,
+    ];
+    let numbers = numbers.into_iter().map(Datum::number);
+    Datum::list(
+        std::iter::once(Datum::truth(is_stop))
+            .chain(numbers)
+            .collect(),
+    )
 }
 
 fn number_behind(name: &Name, letter: &[u8]) -> Option<u32> {

@@ -11,6 +11,7 @@ use crate::interpreter::value::{Datum, Value};
 use crate::model::frame::FrameUse;
 use crate::model::motion::{Motion, Runs};
 use crate::model::outside_call::OutsideCall;
+use crate::model::site::TargetSite;
 use crate::options::{ReadOptions, StatedValue};
 use crate::rapid::flat::Logged;
 use crate::rapid::lex::Kind;
@@ -111,6 +112,12 @@ pub(crate) struct Run<'r, 'p> {
     pub(super) passed_over: bool,
     /// Statements that ran, where the program is to be written flat.
     pub(super) log: Option<Vec<Logged>>,
+    /// Results of functions in the statement that runs, by the depth of the call, the file and the token.
+    pub(super) results: BTreeMap<(usize, usize, usize), Datum>,
+    /// Places from which routines were called.
+    pub(super) call_sites: BTreeMap<usize, BTreeSet<(usize, usize)>>,
+    /// The routine of each motion.
+    pub(super) routines: Vec<usize>,
     /// Routines that ran.
     pub(super) called: BTreeSet<usize>,
     pub(super) repeated_motions: usize,
@@ -162,6 +169,9 @@ impl<'r, 'p> Run<'r, 'p> {
             statements: 0,
             passed_over: false,
             log: None,
+            results: BTreeMap::new(),
+            call_sites: BTreeMap::new(),
+            routines: Vec::new(),
             called: BTreeSet::new(),
             repeated_motions: 0,
         }
@@ -193,9 +203,58 @@ impl<'r, 'p> Run<'r, 'p> {
         self.say_of_values();
         self.say_of_unreached();
         self.mark_repeated();
+        self.fix_what_others_call();
         let targets = std::mem::take(&mut self.targets);
         self.targets = targets.with_other_uses(self.files, self.symbols);
         self
+    }
+
+    /// A target that a routine computes is that of the calls that ran. Where code that did not run calls the routine too (an interrupt, an
+    /// error handler, a branch), or a computed name may, it is not written as numbers.
+    fn fix_what_others_call(&mut self) {
+        let is_computed = self.outside_calls.iter().any(|call| call.name.is_none());
+        let mut mentions: BTreeMap<Name, usize> = BTreeMap::new();
+        for file in self.files {
+            for at in (0..file.tokens.len()).filter(|at| file.tokens[*at].kind == Kind::Word) {
+                if let Some(name) = Name::of(file.word(at)) {
+                    *mentions.entry(name).or_default() += 1;
+                }
+            }
+        }
+        let is_open: Vec<bool> = (self.symbols.routines.iter().enumerate())
+            .map(|(index, home)| {
+                let sites = self.call_sites.get(&index).map_or(0, BTreeSet::len);
+                let named = mentions
+                    .get(&home.routine.name)
+                    .copied()
+                    .unwrap_or_default();
+                // One mention is its own declaration.
+                sites > 0 && (is_computed || named > sites + 1)
+            })
+            .collect();
+        for (motion, routine) in self.motions.iter_mut().zip(&self.routines) {
+            if !is_open.get(*routine).copied().unwrap_or_default() {
+                continue;
+            }
+            let source = self.files[motion.file].source;
+            let fixed = |site: &TargetSite| match site {
+                TargetSite::Replaced(_) => true,
+                TargetSite::Offset { arguments, .. } => arguments.iter().any(|number| {
+                    let text = std::str::from_utf8(source.part(&number.span));
+                    text.is_ok_and(|text| text.trim().parse::<f64>().is_err())
+                }),
+                _ => false,
+            };
+            let reason = "its routine computes it, and is called by code that does not run here (an interrupt, an error handler, a branch)";
+            if fixed(&motion.site.target) {
+                motion.site.target = TargetSite::Fixed(reason);
+            }
+            if let Some((_, via)) = &mut motion.site.via
+                && fixed(via)
+            {
+                *via = TargetSite::Fixed(reason);
+            }
+        }
     }
 
     /// Routines that a statement of the files names.

@@ -37,7 +37,23 @@ impl Run<'_, '_> {
                 Scope::Module(_) => Some(Root::Module(index)),
                 Scope::Routine(_) => Some(Root::Routine(depth?, *name)),
             },
-            Meaning::Parameter => Some(Root::Routine(depth?, *name)),
+            Meaning::Parameter => {
+                let depth = depth?;
+                let routine = &self.symbols.routines[self.calls[depth].routine];
+                let is_parameter =
+                    || (routine.routine.parameters.iter()).any(|own| own.name == *name);
+                if self.calls[depth].slots.contains_key(name) || is_parameter() {
+                    return Some(Root::Routine(depth, *name));
+                }
+                // The variable of a loop hides data of its name in the loop alone.
+                match self
+                    .symbols
+                    .meaning_in(Scope::Module(routine.module), name)?
+                {
+                    Meaning::Datum(index) => Some(Root::Module(index)),
+                    Meaning::Parameter => None,
+                }
+            }
         }
     }
 
@@ -287,6 +303,40 @@ impl Run<'_, '_> {
         }
     }
 
+    /// Results of functions are those of one statement.
+    pub(super) fn forget_results(&mut self) {
+        let depth = self.calls.len();
+        if !self.results.is_empty() {
+            self.results.retain(|(own, ..), _| *own < depth);
+        }
+    }
+
+    /// `DInput(di1)` and its kin, with the value that the caller states for the signal.
+    fn stated_signal(&mut self, name: &Name, arguments: &[Argument]) -> Option<Datum> {
+        let reads = [
+            "DINPUT", "DOUTPUT", "GINPUT", "GOUTPUT", "AINPUT", "AOUTPUT", "TESTDI",
+        ];
+        let [
+            Argument {
+                value: Some(signal),
+                ..
+            },
+        ] = arguments
+        else {
+            return None;
+        };
+        let (true, Node::Word(signal)) = (reads.iter().any(|read| name.is(read)), &signal.node)
+        else {
+            return None;
+        };
+        let value = self.values.get(signal).cloned()?;
+        self.used_values.insert(*signal);
+        Some(match (name.is("TESTDI"), value.as_number()) {
+            (true, Some(number)) => Datum::truth(number != 0.0),
+            _ => value,
+        })
+    }
+
     /// `CRobT`: the end of the last motion, with the same tool and work object.
     fn current_target(&self, arguments: &[Argument]) -> Option<Datum> {
         let last = self.motions.get(self.here?)?;
@@ -386,10 +436,19 @@ impl Names for Run<'_, '_> {
     }
 
     fn call(&mut self, name: &Name, arguments: &[Argument], whole: &Expression) -> Datum {
+        let key = (self.calls.len(), self.file().index, whole.tokens.start);
+        if let Some(known) = self.results.get(&key) {
+            return known.clone();
+        }
         if let Scope::Routine(from) = self.scope
             && let Some(called) = self.symbols.routine(from, name)
         {
-            return self.call_function(called, arguments, &whole.tokens);
+            let result = self.call_function(called, arguments, &whole.tokens);
+            self.results.insert(key, result.clone());
+            return result;
+        }
+        if let Some(stated) = self.stated_signal(name, arguments) {
+            return stated;
         }
         if name.is("PRESENT")
             && let Some(Node::Word(parameter)) = arguments
@@ -402,6 +461,7 @@ impl Names for Run<'_, '_> {
         if name.is("CROBT")
             && let Some(here) = self.current_target(arguments)
         {
+            self.results.insert(key, here.clone());
             return here;
         }
         let given = self.given(arguments);

@@ -163,7 +163,7 @@ impl<'p> Symbols<'p> {
     }
 }
 
-/// `FOR i FROM`: it hides other data of its name; here in the whole routine, which at most refuses too much.
+/// `FOR i FROM`: its variable is one of the routine.
 fn loop_variables(file: &TokenFile<'_>, block: &[Statement], locals: &mut BTreeMap<Name, Meaning>) {
     for statement in block {
         match statement {
@@ -171,7 +171,9 @@ fn loop_variables(file: &TokenFile<'_>, block: &[Statement], locals: &mut BTreeM
                 let second = file.word(header.start + 1);
                 if header.len() > 1 && second.eq_ignore_ascii_case(b"FROM") {
                     let name = Name::of(file.word(header.start));
-                    locals.extend(name.map(|name| (name, Meaning::Parameter)));
+                    if let Some(name) = name {
+                        locals.entry(name).or_insert(Meaning::Parameter);
+                    }
                 }
                 loop_variables(file, block, locals);
             }

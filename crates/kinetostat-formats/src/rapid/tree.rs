@@ -92,7 +92,7 @@ pub(crate) struct Routine {
     pub body: Vec<Statement>,
     /// ERROR, UNDO and BACKWARD.
     pub handlers: Vec<Statement>,
-    /// From PROC, FUNC or TRAP to its end.
+    /// From LOCAL, PROC, FUNC or TRAP to its end.
     pub whole: Range<usize>,
     /// Of the statements before the handlers.
     pub statements: Range<usize>,

@@ -69,7 +69,7 @@ impl Parser<'_, '_> {
         } else if self.takes("ALIAS") {
             self.rest_of_statement(start);
         } else if let Some(kind) = self.routine_word() {
-            module.routines.extend(self.routine(kind, sight));
+            module.routines.extend(self.routine(kind, sight, start));
         } else if let Some(datum) = self.datum(start, sight) {
             module.data.extend(datum);
         } else {
@@ -95,7 +95,7 @@ impl Parser<'_, '_> {
         found.map(|(_, kind)| kind)
     }
 
-    fn routine(&mut self, kind: RoutineKind, sight: Sight) -> Option<Routine> {
+    fn routine(&mut self, kind: RoutineKind, sight: Sight, begins: usize) -> Option<Routine> {
         let start = self.at - 1;
         if kind == RoutineKind::Function {
             self.name();
@@ -182,7 +182,7 @@ impl Parser<'_, '_> {
             data: routine_data,
             body,
             handlers,
-            whole: start..self.at,
+            whole: begins..self.at,
             statements: statements.unwrap_or(start..start),
         })
     }

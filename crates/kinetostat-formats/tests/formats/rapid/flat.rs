@@ -58,6 +58,37 @@ fn loops_and_calls_become_statements_one_after_the_other() {
     }
 }
 
+/// Local routines go as a whole, a name that `main` sees stays a name, and lines are those of the source.
+#[test]
+fn names_and_lines_of_flat_programs_are_those_of_the_source() {
+    let text = format!(
+        "MODULE M\nPERS tooldata T1:=[TRUE,[[0,0,9],[1,0,0,0]],[1,[0,0,1],[1,0,0,0],0,0,0]];\nVAR num n;\nPROC main()\nMoveL [[0,0,0]{END},v20,z1,T1;\n\
+         MoveL [[1,0,0]{END},v20,z1,T1;\ncut T1,n,z5;\nMoveL [[3,0,0]{END},v20,z1,T1;\nENDPROC\nLOCAL PROC cut(PERS tooldata t, INOUT num m, zonedata z)\nm:=m+1;\n\
+         MoveL [[2,0,0]{END},v20,z,t;\nERROR\nRETRY;\nENDPROC\nENDMODULE\n"
+    );
+    let found = flat(&text);
+    let written = String::from_utf8(found.file.bytes().to_vec()).unwrap();
+    assert_eq!(motions(&written), motions(&text), "{written}");
+    assert!(
+        !written.contains("LOCAL") && written.contains("n:=1;"),
+        "{written}"
+    );
+    assert!(
+        written.contains(",v20,[FALSE,5,8,8,0.8,8,0.8],T1;"),
+        "{written}"
+    );
+    let at = written
+        .lines()
+        .position(|line| line.contains("[[3,0,0]"))
+        .unwrap();
+    assert_eq!(found.origins[at], (0, 8));
+    let said = found
+        .findings
+        .iter()
+        .any(|finding| finding.message.contains("error handler"));
+    assert!(said, "{:?}", found.findings);
+}
+
 /// What needs another correction at each run is written once it is flat.
 #[test]
 fn runs_of_one_statement_are_corrected_apart() {

@@ -265,3 +265,86 @@ fn calls_of_what_is_nowhere_keep_the_place() {
     assert_eq!((errors.len(), errors[0].line), (1, 3), "{errors:?}");
     assert!(errors[0].reason.contains("moves the tool"), "{errors:?}");
 }
+
+/// What a refuter found that was read otherwise than a controller runs it.
+#[test]
+fn switches_waits_and_results_are_those_of_the_controller() {
+    let switch = "PROC main() p\\s; p; ENDPROC PROC p(\\switch s) IF Present(s) THEN move; ELSE move; ENDIF ENDPROC";
+    assert_eq!(places(switch), [1.0, 2.0]);
+    // Behind a loop that never ends nothing runs.
+    assert!(places("PROC main() WHILE TRUE DO ENDWHILE move; ENDPROC").is_empty());
+    // Numbers have single precision: 0.1 ten times is more than 1.
+    let tenths = "PROC main() FOR k FROM 0 TO 1 STEP 0.1 DO move; ENDFOR ENDPROC";
+    assert_eq!(places(tenths).len(), 10);
+    assert_eq!(places("PROC main() IF 0.1+0.2=0.3 move; ENDPROC").len(), 1);
+    // The variable of a loop hides data of its name, and they are there again behind it.
+    let hidden = "VAR num i:=7; PROC main() FOR i FROM 1 TO 2 DO move; ENDFOR IF i=7 move; ENDPROC";
+    assert_eq!(places(hidden), [1.0, 1.0, 2.0]);
+}
+
+/// The module with statements of `main`, read with a value of `di1`.
+fn read_main(
+    main: &str,
+    routines: &str,
+    di1: Option<f64>,
+) -> Result<RobotProgram, Vec<ProgramError>> {
+    let target = "[[0,0,0],[1,0,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]]";
+    let text = format!(
+        "MODULE A\nCONST robtarget p:={target};\nVAR num x:=5;\nVAR bool b;\nPROC main()\n{main}\nENDPROC\n{routines}\nENDMODULE"
+    );
+    let mut options = ReadOptions::default();
+    let values = di1.map(|value| ("di1".to_owned(), StatedValue::Number(value)));
+    options.values.extend(values);
+    read_rapid(vec![SourceFile::new("a.mod", text)], &options)
+}
+
+#[test]
+fn what_routines_and_waits_change_is_not_decided_here() {
+    let to_x = "MoveL Offs(p,x,0,0),v10,z1,tool0;";
+    let sub = "PROC sub()\ninner;\nENDPROC\nPROC inner()\nx:=x+3;\nENDPROC";
+    for (main, routines) in [
+        (format!("IF di1=1 sub;\n{to_x}"), sub),
+        (format!("WHILE di1=1 DO\nsub;\nENDWHILE\n{to_x}"), sub),
+        (
+            format!("WaitDI di1,1\\MaxTime:=1\\TimeFlag:=b;\nIF b THEN\n{to_x}\nENDIF"),
+            "",
+        ),
+        (format!("WaitUntil b;\nIF b THEN\n{to_x}\nENDIF"), ""),
+        (format!("IF DInput(di1)=1 THEN\n{to_x}\nENDIF"), ""),
+    ] {
+        let faults = read_main(&main, routines, None).unwrap_err();
+        assert_eq!(faults.len(), 1, "{main}: {faults:?}");
+    }
+    let program = read_main(
+        &format!("IF DInput(di1)=1 THEN\n{to_x}\nENDIF"),
+        "",
+        Some(1.0),
+    );
+    assert_eq!(program.unwrap().motions.len(), 1);
+}
+
+#[test]
+fn a_function_in_a_motion_runs_once() {
+    let to = "MoveL Offs(p,f(),0,0),v10,z1,tool0;";
+    let function = "FUNC num f()\nx:=x+1;\nRETURN x;\nENDFUNC";
+    let program = read_main(&format!("{to}\n{to}\nIF x=7 {to}"), function, None).unwrap();
+    let x = |motion: &Motion| motion.target.pose().unwrap().position_mm.x;
+    let all: Vec<f64> = program.motions.iter().map(x).collect();
+    assert_eq!(all, [6.0, 7.0, 8.0]);
+}
+
+/// A target that a routine is given is not written as that of one call where other code calls it too.
+#[test]
+fn a_routine_that_an_interrupt_calls_too_keeps_its_targets() {
+    let routine = "PROC go(robtarget t)\nMoveL t,v10,z1,tool0;\nENDPROC";
+    let trap = "TRAP alarm\ngo Offs(p,9,0,0);\nENDTRAP";
+    for (others, is_fixed) in [("", false), (trap, true)] {
+        let program =
+            read_main("go Offs(p,1,0,0);", &format!("{routine}\n{others}"), None).unwrap();
+        let piece = Piece::to(0, nalgebra::Vector3::new(1.0, 0.0, 0.1));
+        let written = write(&program, &[piece], &WriteOptions::default());
+        let said = written.map_or_else(|error| error.to_string(), |_| String::new());
+        let expected = said.contains("called by code that does not run here");
+        assert_eq!(expected, is_fixed, "{others}: {said}");
+    }
+}
