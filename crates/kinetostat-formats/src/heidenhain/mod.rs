@@ -9,6 +9,7 @@
 //! (see the tests).
 
 pub(crate) mod arcs;
+pub(crate) mod aside;
 pub(crate) mod blocks;
 pub(crate) mod datum;
 pub(crate) mod digits;

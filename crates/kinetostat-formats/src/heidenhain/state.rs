@@ -4,9 +4,9 @@ use std::collections::BTreeMap;
 
 use nalgebra::{Vector2, Vector3};
 
+use crate::heidenhain::aside::Aside;
 use crate::heidenhain::datum::{Bend, Datum};
 use crate::heidenhain::plane::Plane;
-use crate::heidenhain::reading::found::Aside;
 use crate::heidenhain::tip_control::TipControl;
 use crate::model::motion::Speed;
 use crate::standing::Standing;

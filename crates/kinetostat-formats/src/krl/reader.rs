@@ -14,7 +14,7 @@ use crate::krl::walking::walker::Walker;
 use crate::model::language::Language;
 use crate::model::parsed::{Parsed, Read};
 use crate::model::program::RobotProgram;
-use crate::options::ReadOptions;
+use crate::options::{ExternalAxes, ReadOptions};
 use crate::text::finding::Finding;
 use crate::text::source::SourceFile;
 
@@ -103,7 +103,8 @@ pub(crate) fn parse_krl(files: Vec<SourceFile>, options: &ReadOptions) -> Parsed
         findings,
         outside_calls: resolved.outside_calls,
         faults,
-        options,
+        external_axes_may_move: options.external_axes != ExternalAxes::Refused,
+        moving_calls: &options.moving_calls,
     };
     Parsed::of_robot(Language::Krl, files, read)
 }

@@ -14,7 +14,7 @@ use crate::model::language::Language;
 use crate::model::motion::Runs;
 use crate::model::parsed::{Parsed, Read};
 use crate::model::program::RobotProgram;
-use crate::options::ReadOptions;
+use crate::options::{ExternalAxes, ReadOptions};
 use crate::text::source::SourceFile;
 
 /// Reads FANUC TP programs as text (`.ls`): one, or the first and those that it calls.
@@ -127,7 +127,8 @@ fn finish(reader: Reader<'_>, files: Vec<SourceFile>) -> Parsed {
         findings: reader.findings,
         outside_calls: reader.outside_calls,
         faults: reader.faults,
-        options: reader.options,
+        external_axes_may_move: reader.options.external_axes != ExternalAxes::Refused,
+        moving_calls: &reader.options.moving_calls,
     };
     Parsed::of_robot(Language::FanucLs, files, read)
 }

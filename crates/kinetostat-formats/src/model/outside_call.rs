@@ -1,11 +1,10 @@
 //! Calls of what is in none of the files: they are taken to leave the tool where it is, and in force what is, unless the caller says that
 //! they move it. What a call is that the run computes is not known.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use crate::error::ProgramError;
 use crate::model::language::Language;
-use crate::options::ReadOptions;
 use crate::text::finding::Finding;
 use crate::text::line_words::in_words;
 use crate::text::source::SourceFile;
@@ -87,7 +86,7 @@ pub(crate) struct StatedToMove {
 pub(crate) fn stated_to_move(
     files: &[SourceFile],
     calls: &[OutsideCall],
-    options: &ReadOptions,
+    moving_calls: &BTreeSet<String>,
 ) -> StatedToMove {
     let is = |call: &OutsideCall, stated: &String| {
         let name = call.name.as_ref();
@@ -97,7 +96,7 @@ pub(crate) fn stated_to_move(
         faults: Vec::new(),
         findings: Vec::new(),
     };
-    for name in &options.moving_calls {
+    for name in moving_calls {
         let mut of_name = calls.iter().filter(|call| is(call, name)).peekable();
         if of_name.peek().is_none() {
             stated.findings.push(Finding {

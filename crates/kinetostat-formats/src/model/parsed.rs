@@ -1,5 +1,7 @@
 //! A program with what is refused in it.
 
+use std::collections::BTreeSet;
+
 use crate::error::ProgramError;
 use crate::model::external::moving_axis;
 use crate::model::findings::{left_as_written, outside_calls as named_calls, unknown_frames};
@@ -10,7 +12,6 @@ use crate::model::program::RobotProgram;
 use crate::model::site::Declaration;
 use crate::model::slash_blocks::SlashBlocks;
 use crate::model::stated_axes::StatedAxes;
-use crate::options::{ExternalAxes, ReadOptions};
 use crate::text::finding::Finding;
 use crate::text::source::SourceFile;
 
@@ -30,7 +31,10 @@ pub(crate) struct Read<'o> {
     /// What it calls and none of its files holds.
     pub outside_calls: Vec<OutsideCall>,
     pub faults: Vec<ProgramError>,
-    pub options: &'o ReadOptions,
+    /// Otherwise a motion of one is a fault.
+    pub external_axes_may_move: bool,
+    /// Names of calls that move the tool.
+    pub moving_calls: &'o BTreeSet<String>,
 }
 
 impl Parsed {
@@ -71,12 +75,13 @@ impl Parsed {
             mut findings,
             outside_calls,
             mut faults,
-            options,
+            external_axes_may_move,
+            moving_calls,
         } = read;
-        if options.external_axes == ExternalAxes::Refused {
+        if !external_axes_may_move {
             faults.extend(moving_axis(&files, &motions, language));
         }
-        let stated = stated_to_move(&files, &outside_calls, options);
+        let stated = stated_to_move(&files, &outside_calls, moving_calls);
         faults.extend(stated.faults);
         findings.extend(stated.findings);
         findings.extend(named_calls(language, &outside_calls));

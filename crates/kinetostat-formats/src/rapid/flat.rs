@@ -14,7 +14,7 @@ use crate::options::ReadOptions;
 use crate::rapid::arguments::Arguments;
 use crate::rapid::expression::{arguments_of, expression_of};
 use crate::rapid::reader::{modules_of_files, tokens_of_files};
-use crate::rapid::run::{Root, Run};
+use crate::rapid::run::{Logged, Root, Run};
 use crate::rapid::symbols::{Meaning, Scope, Symbols};
 use crate::rapid::table::{Ends, MotionRow};
 use crate::rapid::tree::{RoutineKind, TokenFile};
@@ -23,15 +23,6 @@ use crate::text::finding::Finding;
 use crate::text::flat::FlatText;
 use crate::text::name::Name;
 use crate::text::source::SourceFile;
-
-/// A statement that ran.
-#[derive(Debug)]
-pub(super) struct Logged {
-    file: usize,
-    /// The place of the statement.
-    at: usize,
-    text: Vec<u8>,
-}
 
 impl Run<'_, '_> {
     /// A motion that ran.

@@ -4,7 +4,7 @@ use crate::error::ProgramError;
 use crate::model::language::Language;
 use crate::model::parsed::{Parsed, Read};
 use crate::model::program::RobotProgram;
-use crate::options::ReadOptions;
+use crate::options::{ExternalAxes, ReadOptions};
 use crate::rapid::lex::tokens_of;
 use crate::rapid::parser::modules::modules_of;
 use crate::rapid::run::Run;
@@ -69,7 +69,8 @@ pub(crate) fn parse_rapid(files: Vec<SourceFile>, options: &ReadOptions) -> Pars
         findings: run.findings,
         outside_calls: run.outside_calls,
         faults,
-        options,
+        external_axes_may_move: options.external_axes != ExternalAxes::Refused,
+        moving_calls: &options.moving_calls,
     };
     Parsed::of_robot(Language::Rapid, files, read)
 }

@@ -13,7 +13,6 @@ use crate::model::motion::{Motion, Runs};
 use crate::model::outside_call::OutsideCall;
 use crate::model::site::TargetSite;
 use crate::options::{ReadOptions, StatedValue};
-use crate::rapid::flat::Logged;
 use crate::rapid::lex::Kind;
 use crate::rapid::symbols::{Scope, Symbols};
 use crate::rapid::table::motion_row;
@@ -59,6 +58,15 @@ pub(super) enum Slot {
 pub(super) struct Called {
     pub routine: usize,
     pub slots: BTreeMap<Name, Slot>,
+}
+
+/// A statement that ran, as it is written flat.
+#[derive(Debug)]
+pub(super) struct Logged {
+    pub file: usize,
+    /// The place of the statement.
+    pub at: usize,
+    pub text: Vec<u8>,
 }
 
 /// A frame and the value that it was read from.
@@ -357,7 +365,9 @@ impl<'r, 'p> Run<'r, 'p> {
         for motion in &mut self.motions {
             let runs = count.get(&(motion.file, motion.span.start));
             if runs.is_some_and(|runs| *runs > 1) {
-                motion.runs = motion.runs.max(Runs::Repeatedly);
+                if motion.runs < Runs::Repeatedly {
+                    motion.runs = Runs::Repeatedly;
+                }
             }
         }
     }

@@ -9,8 +9,9 @@ use std::fmt::Write as _;
 use kinetostat_program::{Curve, Dialect, ExpandOptions, NoSubprograms, expand};
 use nalgebra::{Rotation2, Vector2, Vector3};
 
+use crate::heidenhain::aside::Aside;
 use crate::heidenhain::plane::Plane;
-use crate::heidenhain::reading::found::{Aside, Way};
+use crate::heidenhain::reading::found::Way;
 use crate::model::motion::{Motion, MotionKind};
 
 /// A piece of the way, in the programmed axes, mm.

@@ -6,6 +6,7 @@ use nalgebra::{Vector2, Vector3};
 
 use crate::axis_count::CountShown;
 use crate::error::ProgramError;
+use crate::heidenhain::aside::Aside;
 use crate::heidenhain::blocks::Block;
 use crate::heidenhain::datum::Datum;
 use crate::heidenhain::ends::Shape;
@@ -45,15 +46,6 @@ pub(crate) struct Way {
     pub shorter: bool,
     /// The motion at whose end the pole was set from where the tool was.
     pub pole_from: Option<usize>,
-}
-
-/// The side of the contour on which the tool goes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Aside {
-    /// RL.
-    Left,
-    /// RR.
-    Right,
 }
 
 /// The pole at a motion.

@@ -2,9 +2,9 @@
 
 use std::ops::Range;
 
+use crate::heidenhain::aside::Aside;
 use crate::heidenhain::blocks::Block;
 use crate::heidenhain::path_words::{FeedWord, Odd, PathWords};
-use crate::heidenhain::reading::found::Aside;
 use crate::heidenhain::reading::walker::{BY_PARAMETER, EXPAND, Reader};
 use crate::heidenhain::reading::ways::Acts;
 use crate::heidenhain::table::{Function, function};
