@@ -5,8 +5,8 @@ use std::ops::Range;
 use crate::error::excerpt;
 use crate::krl::values::{Reason, Values};
 use crate::model::site::TurnsOtherwise;
+use crate::model::site::not_evenly;
 use crate::model::target::PoseTarget;
-use crate::path::turning_faults::not_evenly;
 use crate::text::name::Name;
 
 /// How motions turn that keep the orientation with which they begin.

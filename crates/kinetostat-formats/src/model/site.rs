@@ -197,3 +197,19 @@ pub(crate) struct TurnsOtherwise {
     /// The statement before the motion with which it does, where it may be written.
     pub evenly: Option<&'static str>,
 }
+
+/// Turns below this are none, rad.
+pub(crate) const TURN_RAD: f64 = 1e-5;
+
+/// That the tool turns by an angle on a way on which it does not turn evenly; `turns` says what turns it. None where it does not turn.
+pub(crate) fn not_evenly(turns: &str, turn_rad: f64, otherwise: TurnsOtherwise) -> Option<String> {
+    // NaN is no small turn.
+    let is_none = turn_rad < TURN_RAD;
+    (!is_none).then(|| {
+        format!(
+            "{turns} by {:.4} deg on its way, and {}",
+            turn_rad.to_degrees(),
+            otherwise.reason
+        )
+    })
+}

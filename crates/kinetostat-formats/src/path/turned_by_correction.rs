@@ -9,8 +9,8 @@ use nalgebra::UnitQuaternion;
 use crate::model::motion::{Motion, MotionKind};
 use crate::model::program::RobotProgram;
 use crate::model::site::TurnsOtherwise;
+use crate::model::site::not_evenly;
 use crate::path::of_program::RobotPath;
-use crate::path::turning_faults::not_evenly;
 use crate::text::line_words::in_words;
 use crate::writing::divided::SAME_RAD;
 

@@ -2,11 +2,8 @@
 
 use crate::model::motion::{Motion, MotionKind};
 use crate::model::program::RobotProgram;
-use crate::model::site::TurnsOtherwise;
+use crate::model::site::not_evenly;
 use crate::path::fault::{PathError, fault_at};
-
-/// Turns below this are none, rad.
-const TURN_RAD: f64 = 1e-5;
 
 /// All motions whose tool turns, and not evenly. Where a motion begins at no known pose it has no way in a path, either.
 pub(crate) fn turning_otherwise(program: &RobotProgram) -> Vec<PathError> {
@@ -29,17 +26,4 @@ pub(crate) fn turning_otherwise(program: &RobotProgram) -> Vec<PathError> {
         Some(fault_at(program, motion, reason, otherwise.remedy))
     };
     program.motions.iter().filter_map(fault).collect()
-}
-
-/// That the tool turns by an angle on a way on which it does not turn evenly; `turns` says what turns it. None where it does not turn.
-pub(crate) fn not_evenly(turns: &str, turn_rad: f64, otherwise: TurnsOtherwise) -> Option<String> {
-    // NaN is no small turn.
-    let is_none = turn_rad < TURN_RAD;
-    (!is_none).then(|| {
-        format!(
-            "{turns} by {:.4} deg on its way, and {}",
-            turn_rad.to_degrees(),
-            otherwise.reason
-        )
-    })
 }
