@@ -364,10 +364,8 @@ impl<'r, 'p> Run<'r, 'p> {
         }
         for motion in &mut self.motions {
             let runs = count.get(&(motion.file, motion.span.start));
-            if runs.is_some_and(|runs| *runs > 1) {
-                if motion.runs < Runs::Repeatedly {
-                    motion.runs = Runs::Repeatedly;
-                }
+            if runs.is_some_and(|runs| *runs > 1) && motion.runs < Runs::Repeatedly {
+                motion.runs = Runs::Repeatedly;
             }
         }
     }
