@@ -35,7 +35,6 @@ impl Run<'_, '_> {
     pub(super) fn call(&mut self, routine: usize, slots: BTreeMap<Name, Slot>) -> Flow {
         let outer = std::mem::replace(&mut self.scope, Scope::Routine(routine));
         self.calls.push(Called { routine, slots });
-        self.called.insert(routine);
         self.depth += 1;
         let body = &self.symbols.routines[routine].routine.body;
         let flow = self.block(body);
@@ -78,7 +77,7 @@ impl Run<'_, '_> {
             };
             let Some(parameter) = parameter else { continue };
             let Some(value) = value else {
-                // `\\switch`.
+                // `\switch`.
                 let given = Slot::Own(Datum::truth(true));
                 slots.insert(parameter.name, given);
                 continue;

@@ -11,7 +11,7 @@ use crate::rapid::expression::{arguments_of, expression_of};
 use crate::rapid::lex::Kind;
 use crate::rapid::literals::frame_of;
 use crate::rapid::passing::CHANGE_THEIRS;
-use crate::rapid::run::{Root, Run};
+use crate::rapid::run::Run;
 use crate::rapid::table::{EXTERNAL, MotionRow, row};
 use crate::rapid::tree::{Choice, TokenFile};
 use crate::rapid::turning::mode_of;
@@ -83,9 +83,8 @@ impl Run<'_, '_> {
         match row.treatment {
             // The arm stands still, and the user says that nothing else matters.
             EXTERNAL if self.options.external_axes == ExternalAxes::Carried => {
-                match self.here {
-                    Some(index) => self.motions[index].site.external_moved_behind = true,
-                    None => self.moved_external = true,
+                if let Some(index) = self.here {
+                    self.motions[index].site.external_moved_behind = true;
                 }
                 return Flow::Next;
             }
@@ -149,12 +148,8 @@ impl Run<'_, '_> {
         let words: Vec<usize> = (tokens.start + 1..tokens.end).filter(is_word).collect();
         for at in words {
             let name = expression_of(file, at..at + 1);
-            if let Some(place) = self.place(&name)
-                && let Root::Module(_) | Root::Routine(..) = place.root
-            {
-                let reason = self.changed(&name);
-                self.lose(&name, &reason);
-            }
+            let reason = self.changed(&name);
+            self.lose(&name, &reason);
         }
     }
 

@@ -104,8 +104,6 @@ pub(crate) struct Run<'r, 'p> {
     pub(super) runs: Runs,
     /// The motion at whose end the tool is.
     pub(super) here: Option<usize>,
-    /// External axes moved alone since the last motion.
-    pub(super) moved_external: bool,
     pub(super) targets: Targets,
     pub(super) motions: Vec<Motion>,
     /// Begins of the statements of motions that ran, by file.
@@ -126,8 +124,6 @@ pub(crate) struct Run<'r, 'p> {
     pub(super) call_sites: BTreeMap<usize, BTreeSet<(usize, usize)>>,
     /// The routine of each motion.
     pub(super) routines: Vec<usize>,
-    /// Routines that ran.
-    pub(super) called: BTreeSet<usize>,
     pub(super) repeated_motions: usize,
 }
 
@@ -166,7 +162,6 @@ impl<'r, 'p> Run<'r, 'p> {
             displacement: None,
             runs: Runs::Once,
             here: None,
-            moved_external: false,
             targets: Targets::default(),
             motions: Vec::new(),
             ran: BTreeSet::new(),
@@ -180,7 +175,6 @@ impl<'r, 'p> Run<'r, 'p> {
             results: BTreeMap::new(),
             call_sites: BTreeMap::new(),
             routines: Vec::new(),
-            called: BTreeSet::new(),
             repeated_motions: 0,
         }
     }

@@ -131,11 +131,14 @@ impl Run<'_, '_> {
         value
     }
 
-    /// The datum of a name that the routine declares itself.
-    pub(super) fn local_datum(&self, name: &Name) -> Option<usize> {
-        match self.symbols.meaning_in(self.scope, name)? {
-            Meaning::Datum(index) => Some(index),
-            Meaning::Parameter => None,
+    /// The declaration of stored data; none of a parameter or the variable of a loop.
+    pub(super) fn datum_of(&self, root: Root) -> Option<usize> {
+        match root {
+            Root::Module(index) => Some(index),
+            Root::Routine(_, name) => match self.symbols.meaning_in(self.scope, &name)? {
+                Meaning::Datum(index) => Some(index),
+                Meaning::Parameter => None,
+            },
         }
     }
 
@@ -208,10 +211,7 @@ impl Run<'_, '_> {
     /// True for data that the files declare with a value.
     pub(super) fn has_first_value(&mut self, expression: &Expression) -> bool {
         let place = self.place(expression);
-        let index = place.and_then(|place| match place.root {
-            Root::Module(index) => Some(index),
-            Root::Routine(_, name) => self.local_datum(&name),
-        });
+        let index = place.and_then(|place| self.datum_of(place.root));
         index.is_some_and(|index| self.symbols.data[index].node.initial.is_some())
     }
 
@@ -263,10 +263,7 @@ impl Run<'_, '_> {
 
     /// True for constants, which nothing changes.
     pub(super) fn is_constant(&self, root: Root) -> bool {
-        let index = match root {
-            Root::Module(index) => Some(index),
-            Root::Routine(_, name) => self.local_datum(&name),
-        };
+        let index = self.datum_of(root);
         index.is_some_and(|index| self.symbols.data[index].node.change == Change::Constant)
     }
 

@@ -11,7 +11,7 @@ use crate::model::site::{
 use crate::model::target::PoseTarget;
 use crate::rapid::lex::Kind;
 use crate::rapid::literals::{numbers_in, pose_of, text_of};
-use crate::rapid::run::{Reason, Root, Run};
+use crate::rapid::run::{Reason, Run};
 use crate::rapid::symbols::Symbols;
 use crate::rapid::tree::TokenFile;
 use crate::text::name::Name;
@@ -77,10 +77,9 @@ impl Run<'_, '_> {
     ) -> TargetSite {
         let file = self.file();
         let span = file.span(&expression.tokens);
-        let is_here = |text: &PoseText| {
-            text.file == file.index
-                && statement.start <= text.whole.start
-                && text.whole.end <= statement.end
+        let is_here = |_: &PoseText| {
+            let literal = value.literal;
+            literal.is_some_and(|literal| literal.is_within(file.index, statement))
         };
         let found = match &expression.node {
             Node::List(_) => text_of(value).filter(is_here).map(TargetSite::Literal),
@@ -124,17 +123,11 @@ impl Run<'_, '_> {
     ) -> Option<TargetSite> {
         let file = self.file();
         let text = text_of(value)?;
-        let index = match self.root(name)? {
-            Root::Module(index) => index,
-            Root::Routine(_, name) => self.local_datum(&name)?,
-        };
+        let index = self.datum_of(self.root(name)?)?;
         let datum = &self.symbols.data[index];
         let home = &self.files[datum.file];
         let whole = home.span(&datum.node.tokens);
-        let is_own = text.file == datum.file
-            && whole.start <= text.whole.start
-            && text.whole.end <= whole.end;
-        if !is_own {
+        if !value.literal?.is_within(datum.file, &whole) {
             return None;
         }
         let span = file.span(&expression.tokens);
