@@ -3,7 +3,7 @@
 //! Names that mean something in the routine of a statement alone (parameters, own data, variables of loops) are replaced by their
 //! values, and computed ends of motions by their numbers. Routines that ran are left out.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 use std::ops::Range;
 
 use crate::error::ProgramError;
@@ -275,7 +275,8 @@ pub(crate) fn expand_rapid(
         return Err(faults);
     }
     let log = run.log.unwrap_or_default();
-    let left_out = left_out(&symbols, &token_files, (&run.call_sites, main), &log);
+    let called: BTreeSet<usize> = run.call_sites.keys().copied().collect();
+    let left_out = left_out(&symbols, &token_files, (&called, main), &log);
     let mut findings = run.findings;
     for index in &left_out {
         let home = symbols.routines[*index];
@@ -336,14 +337,14 @@ pub(crate) fn expand_rapid(
 fn left_out(
     symbols: &Symbols<'_>,
     files: &[TokenFile<'_>],
-    (called, main): (&BTreeMap<usize, BTreeSet<(usize, usize)>>, usize),
+    (called, main): (&BTreeSet<usize>, usize),
     log: &[Logged],
 ) -> BTreeSet<usize> {
     let texts = log.iter().map(|logged| logged.text.as_slice());
     let words =
         texts.flat_map(|text| text.split(|byte| !byte.is_ascii_alphanumeric() && *byte != b'_'));
     let mut named: BTreeSet<Name> = words.filter_map(Name::of).collect();
-    let mut out: BTreeSet<usize> = (called.keys().copied())
+    let mut out: BTreeSet<usize> = (called.iter().copied())
         .filter(|index| {
             *index != main && symbols.routines[*index].routine.kind == RoutineKind::Procedure
         })
