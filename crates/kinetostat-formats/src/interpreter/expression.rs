@@ -23,6 +23,19 @@ pub(crate) enum Operator {
     Over,
     WholeQuotient,
     Remainder,
+    /// A frame in the axes of another (`:` of KRL).
+    Behind,
+}
+
+impl Operator {
+    /// True for those that compare two values.
+    pub(crate) fn compares(self) -> bool {
+        use Operator::{Equal, Greater, GreaterOrEqual, Less, LessOrEqual, Unequal};
+        matches!(
+            self,
+            Equal | Unequal | Less | LessOrEqual | Greater | GreaterOrEqual
+        )
+    }
 }
 
 /// One node of an expression.
@@ -31,12 +44,16 @@ pub(crate) enum Node {
     Number(f64),
     Truth(bool),
     Text,
+    /// A word of an enumeration: `#BASE`.
+    Choice(Name),
     Word(Name),
     /// `p{2}`, `p{2,3}`.
     Element(Box<Expression>, Vec<Expression>),
     /// `p.trans`.
     Field(Box<Expression>, Name),
     List(Vec<Expression>),
+    /// `{X 10,Y 20}`.
+    Members(Vec<(Name, Expression)>),
     Call(Name, Vec<Argument>),
     One(Operator, Box<Expression>),
     Two(Operator, Box<[Expression; 2]>),

@@ -2,7 +2,24 @@
 //!
 //! A program is run concretely, as its controller runs it. A value that only the controller knows is unknown, with its reason; a branch
 //! or a loop on an unknown value is passed over where its arms neither move the tool nor change what is in force.
+//!
+//! A language brings its tokens ([`token`]), its grammar of expressions ([`reading`]), its statements as a [`tree`] with [`symbols`], and
+//! what is its own by [`run::Dialect`]. Shared are the order of the run ([`control`], [`flow`], [`passing`]), its data ([`storage`],
+//! [`evaluate`], [`operation`], [`value`]), and the declared targets at which motions end ([`declared`]);
+//! [`ending`] says at the end what a person should know.
 
+mod control;
+pub(crate) mod declared;
+mod ending;
+pub(crate) mod evaluate;
 pub(crate) mod expression;
+pub(crate) mod flow;
 pub(crate) mod operation;
+mod passing;
+pub(crate) mod reading;
+pub(crate) mod run;
+pub(crate) mod storage;
+pub(crate) mod symbols;
+pub(crate) mod token;
+pub(crate) mod tree;
 pub(crate) mod value;

@@ -3,6 +3,8 @@
 use std::ops::Range;
 use std::rc::Rc;
 
+use crate::text::name::Name;
+
 /// The literal in a file that states a value.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Literal {
@@ -42,8 +44,18 @@ pub(crate) enum Value {
     Text(Rc<str>),
     /// An aggregate or an array.
     List(Rc<Vec<Datum>>),
+    /// An aggregate with the names of its members, of which some may be left out.
+    Members(Rc<Vec<(Name, Datum)>>),
     /// Known to the controller alone, with the reason.
     Unknown(Rc<str>),
+}
+
+/// A way into an aggregate.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Step {
+    /// An index from 0.
+    Index(usize),
+    Member(Name),
 }
 
 /// A value with the literal that states it, where one does.
@@ -116,32 +128,69 @@ impl Datum {
         Some(numbers)
     }
 
+    /// Members of an aggregate that names them; none of another value.
+    pub(crate) fn members(&self) -> &[(Name, Self)] {
+        match &self.value {
+            Value::Members(members) => members,
+            _ => &[],
+        }
+    }
+
+    /// A member by its name in capitals.
+    pub(crate) fn member(&self, capitals: &str) -> Option<&Self> {
+        let mut members = self.members().iter();
+        members
+            .find(|(name, _)| name.is(capitals))
+            .map(|(_, datum)| datum)
+    }
+
     /// The reason of the first part that only the controller knows.
     pub(crate) fn unknown_reason(&self) -> Option<&Rc<str>> {
         match &self.value {
             Value::Unknown(reason) => Some(reason),
             Value::List(parts) => parts.iter().find_map(Self::unknown_reason),
+            Value::Members(members) => members.iter().find_map(|(_, of)| of.unknown_reason()),
             _ => None,
         }
     }
 
-    /// The part at a path of indices from 0; none where there is no such part.
-    pub(crate) fn part(&self, path: &[usize]) -> Option<&Self> {
-        path.iter()
-            .try_fold(self, |own, index| own.parts().get(*index))
+    /// The part at the end of a way; none where there is no such part.
+    pub(crate) fn part(&self, path: &[Step]) -> Option<&Self> {
+        path.iter().try_fold(self, |own, step| match step {
+            Step::Index(index) => own.parts().get(*index),
+            Step::Member(name) => {
+                let mut members = own.members().iter();
+                members.find(|(own, _)| own == name).map(|(_, of)| of)
+            }
+        })
     }
 
-    /// Puts a value at a path of indices from 0. A part of what only the controller knows leaves the whole unknown.
-    pub(crate) fn put(&mut self, path: &[usize], value: Self) {
-        let Some((index, rest)) = path.split_first() else {
+    /// Puts a value at the end of a way; a member that is not there yet is added. A part of what only the controller knows leaves the whole
+    /// unknown.
+    pub(crate) fn put(&mut self, path: &[Step], value: Self) {
+        let Some((step, rest)) = path.split_first() else {
             *self = value;
             return;
         };
-        if let Value::List(parts) = &mut self.value {
-            self.literal = None;
-            if let Some(part) = Rc::make_mut(parts).get_mut(*index) {
-                part.put(rest, value);
+        match (&mut self.value, step) {
+            (Value::List(parts), Step::Index(index)) => {
+                self.literal = None;
+                if let Some(part) = Rc::make_mut(parts).get_mut(*index) {
+                    part.put(rest, value);
+                }
             }
+            (Value::Members(members), Step::Member(name)) => {
+                self.literal = None;
+                let members = Rc::make_mut(members);
+                if !members.iter().any(|(own, _)| own == name) {
+                    members.push((*name, Self::of(Value::Members(Rc::default()))));
+                }
+                let mut all = members.iter_mut();
+                if let Some((_, member)) = all.find(|(own, _)| own == name) {
+                    member.put(rest, value);
+                }
+            }
+            _ => {}
         }
     }
 }

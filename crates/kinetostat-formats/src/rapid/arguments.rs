@@ -3,8 +3,8 @@
 use std::ops::Range;
 
 use crate::interpreter::expression::{Argument, Expression};
+use crate::interpreter::token::TokenFile;
 use crate::rapid::expression::arguments_of;
-use crate::rapid::tree::TokenFile;
 use crate::text::name::Name;
 
 /// The arguments of one instruction.

@@ -8,16 +8,19 @@ use std::ops::Range;
 
 use crate::error::ProgramError;
 use crate::interpreter::expression::{Argument, Expression, Node};
+use crate::interpreter::run::{Logged, Root};
+use crate::interpreter::symbols::{Meaning, Scope, Symbols};
+use crate::interpreter::token::TokenFile;
+use crate::interpreter::tree::RoutineKind;
 use crate::interpreter::value::{Datum, Value};
 use crate::model::site::TargetSite;
 use crate::options::ReadOptions;
 use crate::rapid::arguments::Arguments;
 use crate::rapid::expression::{arguments_of, expression_of};
+use crate::rapid::names::symbols_of;
 use crate::rapid::reader::{modules_of_files, tokens_of_files};
-use crate::rapid::run::{Logged, Root, Run};
-use crate::rapid::symbols::{Meaning, Scope, Symbols};
+use crate::rapid::state::{Rapid, Run};
 use crate::rapid::table::{Ends, MotionRow};
-use crate::rapid::tree::{RoutineKind, TokenFile};
 use crate::text::edits::Edits;
 use crate::text::finding::Finding;
 use crate::text::flat::FlatText;
@@ -189,7 +192,7 @@ impl Run<'_, '_> {
             return None;
         };
         let name = self.symbols.data[index].node.name;
-        let main = self.symbols.meaning(self.symbols.main()?, &name);
+        let main = self.symbols.meaning(self.symbols.main?, &name);
         (main == Some(Meaning::Datum(index))).then(|| self.shown(index))
     }
 
@@ -206,7 +209,12 @@ impl Run<'_, '_> {
             Node::Call(_, arguments) => (arguments.iter())
                 .filter_map(|argument| argument.value.as_ref())
                 .any(|part| self.is_own(part)),
-            Node::Number(_) | Node::Truth(_) | Node::Text | Node::Unreadable => false,
+            Node::Number(_)
+            | Node::Truth(_)
+            | Node::Text
+            | Node::Choice(_)
+            | Node::Members(_)
+            | Node::Unreadable => false,
         }
     }
 
@@ -214,7 +222,7 @@ impl Run<'_, '_> {
         let here = self.symbols.meaning_in(self.scope, name);
         let main = self
             .symbols
-            .main()
+            .main
             .and_then(|main| self.symbols.meaning(main, name));
         let is_of_module = match here {
             Some(Meaning::Datum(index)) => {
@@ -242,7 +250,7 @@ fn printed(datum: &Datum) -> Option<String> {
             let parts: Option<Vec<String>> = parts.iter().map(printed).collect();
             format!("[{}]", parts?.join(","))
         }
-        Value::Unknown(_) => return None,
+        Value::Unknown(_) | Value::Members(_) => return None,
     })
 }
 
@@ -254,12 +262,12 @@ pub(crate) fn expand_rapid(
     let token_files = tokens_of_files(files);
     let mut faults = Vec::new();
     let modules = modules_of_files(&token_files, &mut faults);
-    let symbols = Symbols::of(&token_files, &modules, &mut faults);
-    let mut run = Run::new(&token_files, &symbols, options);
+    let symbols = symbols_of(&token_files, &modules, &mut faults);
+    let mut run = Rapid::run(&token_files, &symbols, options);
     run.log = Some(Vec::new());
     let run = run.whole();
     faults.extend(run.faults);
-    let Some(main) = symbols.main() else {
+    let Some(main) = symbols.main else {
         let file = &files[0];
         let reason =
             "there is no PROC main in these files: which routine is to be run is not known";

@@ -5,10 +5,11 @@ use std::rc::Rc;
 use nalgebra::Isometry3;
 
 use crate::interpreter::expression::{Expression, Node};
+use crate::interpreter::run::{Place, Reason, Root};
 use crate::interpreter::value::{Datum, Value};
 use crate::model::frame::{Frame, FrameUse};
 use crate::rapid::literals::frame_of;
-use crate::rapid::run::{Place, Reason, Root, Run};
+use crate::rapid::state::Run;
 
 /// Tool or work object.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -30,7 +31,7 @@ impl Run<'_, '_> {
             return Err((reason, "write its name, or its numbers"));
         }
         if let Node::Word(word) = &expression.node {
-            if let Some(frame) = self.stated.get(word) {
+            if let Some(frame) = self.own.stated.get(word) {
                 let frame = Frame::Known(*frame);
                 return Ok(FrameUse { name, frame });
             }
@@ -42,7 +43,7 @@ impl Run<'_, '_> {
                 && path.is_empty()
             {
                 let datum = &self.symbols.data[index];
-                if let Some(frame) = self.stated.get(&datum.node.name) {
+                if let Some(frame) = self.own.stated.get(&datum.node.name) {
                     let frame = Frame::Known(*frame);
                     return Ok(FrameUse { name, frame });
                 }
@@ -62,7 +63,7 @@ impl Run<'_, '_> {
         };
         // Most motions have the tool of the one before.
         if let (Some(key), Some(list)) = (&key, list)
-            && let Some((known, frame)) = self.frames.get(key)
+            && let Some((known, frame)) = self.own.frames.get(key)
             && Rc::ptr_eq(known, list)
         {
             return Ok(frame.clone());
@@ -78,7 +79,9 @@ impl Run<'_, '_> {
         };
         let frame = FrameUse { name, frame };
         if let (Some(key), Some(list)) = (key, list) {
-            self.frames.insert(key, (Rc::clone(list), frame.clone()));
+            self.own
+                .frames
+                .insert(key, (Rc::clone(list), frame.clone()));
         }
         Ok(frame)
     }

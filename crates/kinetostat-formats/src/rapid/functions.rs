@@ -3,10 +3,16 @@
 //! Source: ABB, Technical reference manual, RAPID Instructions, Functions and Data types (3HAC050917). Others, as `StrToVal` and
 //! functions of modules that are not given, may have parameters (INOUT) by which they change it.
 
+use std::ops::Range;
+
 use nalgebra::{UnitQuaternion, Vector3};
 
-use crate::interpreter::value::{Datum, Value};
+use crate::interpreter::expression::{Argument, Node};
+use crate::interpreter::token::TokenFile;
+use crate::interpreter::value::{Datum, Step, Value};
+use crate::model::frame::FrameUse;
 use crate::rapid::literals::{frame_of, list_of_frame, orient_of, rotation_of};
+use crate::rapid::state::Run;
 use crate::text::name::Name;
 
 /// In the order of their bytes; operators that stand before a bracket with them.
@@ -29,6 +35,9 @@ const LEAVE: [&str; 135] = [
     "UILISTVIEW", "UIMESSAGEBOX", "UIMSGBOX", "UINUMENTRY", "UINUMTUNE", "VALIDIO", "VALTOSTR", "VECTMAGN",
     "XOR",
 ];
+
+/// Instructions that are carried and change the numbers that they are given.
+pub(super) const CHANGE_THEIRS: [&str; 4] = ["Add", "Clear", "Decr", "Incr"];
 
 /// Whether a function that is in none of the files is known to leave its arguments as they are.
 pub(super) fn leaves_arguments(name: &Name) -> bool {
@@ -210,9 +219,9 @@ fn offset(name: &str, given: &Given) -> Option<Datum> {
             (place + rotation * by, Some(rotation * turn))
         }
     };
-    found.put(&[0], Datum::numbers(place.iter().copied()));
+    found.put(&[Step::Index(0)], Datum::numbers(place.iter().copied()));
     if let Some(rotation) = turned {
-        found.put(&[1], orient_of(&rotation));
+        found.put(&[Step::Index(1)], orient_of(&rotation));
     }
     Some(Datum::of(Value::clone(&found.value)))
 }
@@ -222,4 +231,82 @@ fn larger(one: f64, other: f64) -> f64 {
         true => one,
         false => other,
     }
+}
+
+impl Run<'_, '_> {
+    /// `DInput(di1)` and its kin, with the value that the caller states for the signal.
+    pub(super) fn stated_signal(&mut self, name: &Name, arguments: &[Argument]) -> Option<Datum> {
+        let reads = [
+            "DINPUT", "DOUTPUT", "GINPUT", "GOUTPUT", "AINPUT", "AOUTPUT", "TESTDI",
+        ];
+        let [
+            Argument {
+                value: Some(signal),
+                ..
+            },
+        ] = arguments
+        else {
+            return None;
+        };
+        let (true, Node::Word(signal)) = (reads.iter().any(|read| name.is(read)), &signal.node)
+        else {
+            return None;
+        };
+        let value = self.values.get(signal).cloned()?;
+        self.used_values.insert(*signal);
+        Some(match (name.is("TESTDI"), value.as_number()) {
+            (true, Some(number)) => Datum::truth(number != 0.0),
+            _ => value,
+        })
+    }
+
+    /// `CRobT`: the end of the last motion, with the same tool and work object.
+    pub(super) fn current_target(&self, arguments: &[Argument]) -> Option<Datum> {
+        let last = self.motions.get(self.here?)?;
+        let pose = last.target.pose()?;
+        let is_that_of = |name: &str, frame: &FrameUse| {
+            let option = |argument: &&Argument| argument.option.is_some_and(|own| own.is(name));
+            let given = arguments.iter().find(option)?;
+            let text = self.text(given.value.as_ref()?);
+            Some(text.eq_ignore_ascii_case(&frame.name))
+        };
+        let is_same = is_that_of("TOOL", &last.tool).unwrap_or(true)
+            && is_that_of("WOBJ", &last.work_object).unwrap_or(true);
+        let external = (0..6).map(|axis| pose.external.get(axis).copied().flatten().unwrap_or(9e9));
+        is_same.then(|| {
+            Datum::list(vec![
+                Datum::numbers(pose.position_mm.iter().copied()),
+                orient_of(&pose.orientation),
+                Datum::numbers(pose.configuration.numbers.iter().copied()),
+                Datum::numbers(external),
+            ])
+        })
+    }
+
+    /// The arguments of a function of the controller.
+    pub(super) fn given(&mut self, arguments: &[Argument]) -> Given {
+        let mut given = Given {
+            ordered: Vec::with_capacity(4),
+            options: Vec::new(),
+        };
+        for Argument { option, value } in arguments {
+            let value = value.as_ref().map(|value| self.value(value));
+            match (option, value) {
+                (Some(name), value) => {
+                    given
+                        .options
+                        .push((*name, value.unwrap_or(Datum::truth(true))));
+                }
+                (None, Some(value)) => given.ordered.push(value),
+                (None, None) => {}
+            }
+        }
+        given
+    }
+}
+
+/// True if the run computes which routine is called: `%"name"%`, `CallByVar`.
+pub(super) fn is_computed(file: &TokenFile<'_>, tokens: &Range<usize>) -> bool {
+    let word = file.word(tokens.start);
+    word == b"%" || word.eq_ignore_ascii_case(b"CallByVar")
 }

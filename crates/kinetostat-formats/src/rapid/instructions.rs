@@ -3,17 +3,19 @@
 use std::ops::Range;
 
 use crate::interpreter::expression::{Expression, Node};
+use crate::interpreter::flow::Flow;
+use crate::interpreter::symbols::Scope;
+use crate::interpreter::token::Kind;
+use crate::interpreter::tree::Choice;
 use crate::interpreter::value::Datum;
 use crate::model::outside_call::OutsideCall;
 use crate::options::ExternalAxes;
-use crate::rapid::control::Flow;
+use crate::rapid::arguments::Arguments;
 use crate::rapid::expression::{arguments_of, expression_of};
-use crate::rapid::lex::Kind;
+use crate::rapid::functions::{CHANGE_THEIRS, is_computed};
 use crate::rapid::literals::frame_of;
-use crate::rapid::passing::CHANGE_THEIRS;
-use crate::rapid::run::Run;
-use crate::rapid::table::{EXTERNAL, MotionRow, row};
-use crate::rapid::tree::{Choice, TokenFile};
+use crate::rapid::state::Run;
+use crate::rapid::table::{EXTERNAL, MotionRow, motion_row, row};
 use crate::rapid::turning::mode_of;
 use crate::table::Treatment;
 use crate::text::name::Name;
@@ -36,6 +38,43 @@ const EFFECTS: [(&str, &str); 4] = [
 ];
 
 impl Run<'_, '_> {
+    /// An instruction, or the call of a procedure.
+    pub(super) fn instruction(&mut self, tokens: &Range<usize>, choice: Choice) -> Flow {
+        let file = self.file();
+        let name = Name::of(file.word(tokens.start));
+        if let Some(row) = name.as_ref().and_then(motion_row) {
+            self.motion_by(row, tokens, choice);
+            self.log_motion(row, tokens);
+            return Flow::Next;
+        }
+        if let (Some(name), Scope::Routine(from)) = (&name, self.scope)
+            && let Some(called) = self.symbols.routine(from, name)
+        {
+            let arguments = arguments_of(file, tokens.start + 1..tokens.end);
+            return match self.call_with(called, &arguments, tokens) {
+                Flow::Ends => Flow::Ends,
+                _ => Flow::Next,
+            };
+        }
+        self.log_instruction(tokens);
+        self.carried(name, tokens)
+    }
+
+    /// The arguments of an instruction; functions of these files in them run.
+    fn arguments(&mut self, tokens: &Range<usize>) -> Arguments {
+        let file = self.file();
+        let arguments = Arguments::of(file, tokens.start + 1..tokens.end);
+        let has_function = |expression: &&Expression| matches!(expression.node, Node::Call(..));
+        let options = arguments
+            .options
+            .iter()
+            .filter_map(|(_, value)| value.as_ref());
+        for expression in arguments.ordered.iter().chain(options).filter(has_function) {
+            self.value(expression);
+        }
+        arguments
+    }
+
     /// A motion instruction.
     pub(super) fn motion_by(
         &mut self,
@@ -60,7 +99,7 @@ impl Run<'_, '_> {
                 }
                 motion.runs = self.runs;
                 motion.follows = self.here;
-                motion.site.turns_otherwise = self.modes.otherwise(&motion);
+                motion.site.turns_otherwise = self.own.modes.otherwise(&motion);
                 self.motions.push(motion);
                 self.routines
                     .push(self.calls.last().map_or(0, |called| called.routine));
@@ -97,7 +136,7 @@ impl Run<'_, '_> {
         }
         let arguments = self.arguments(tokens);
         if mode_of(file, tokens).is_some() {
-            self.modes = self.modes.after(file, tokens);
+            self.own.modes = self.own.modes.after(file, tokens);
         }
         let is = |word: &&str| word.eq_ignore_ascii_case(row.name);
         if CHANGE_THEIRS.iter().any(is) {
@@ -115,7 +154,7 @@ impl Run<'_, '_> {
         }
         match row.name {
             "ExitCycle" => return Flow::Ends,
-            "PDispOff" => self.displacement = None,
+            "PDispOff" => self.own.displacement = None,
             "PDispSet" => self.displace(tokens, &arguments.ordered),
             _ => {}
         }
@@ -137,7 +176,7 @@ impl Run<'_, '_> {
             );
             return;
         };
-        self.displacement = Some(frame);
+        self.own.displacement = Some(frame);
     }
 
     /// Names in the arguments of an instruction that may change them.
@@ -205,10 +244,4 @@ impl Run<'_, '_> {
             self.outside_calls.push(call);
         }
     }
-}
-
-/// True if the run computes which routine is called: `%"name"%`, `CallByVar`.
-pub(super) fn is_computed(file: &TokenFile<'_>, tokens: &Range<usize>) -> bool {
-    let word = file.word(tokens.start);
-    word == b"%" || word.eq_ignore_ascii_case(b"CallByVar")
 }

@@ -2,14 +2,13 @@
 //!
 //! The lexer never fails: a byte that begins nothing known is a token of its own, and the parser says what is wrong.
 
-use std::ops::Range;
-
 use winnow::ascii::{digit0, digit1};
 use winnow::combinator::{alt, opt};
 use winnow::prelude::*;
 use winnow::stream::LocatingSlice;
 use winnow::token::{any, one_of, take_till, take_while};
 
+use crate::interpreter::token::{Kind, Token};
 use crate::text::source::BYTE_ORDER_MARK;
 
 type Input<'i> = LocatingSlice<&'i [u8]>;
@@ -17,38 +16,6 @@ type Nothing = winnow::error::EmptyError;
 
 /// With this old editors end a text.
 const END_OF_FILE: u8 = 0x1a;
-
-/// What a token is.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Kind {
-    /// An identifier or a keyword.
-    Word,
-    /// Digits with point and exponent, without sign.
-    Number,
-    /// `"..."`.
-    Text,
-    /// `"...` that its line does not close.
-    OpenText,
-    /// `:=`.
-    Assign,
-    /// Any other byte.
-    Symbol(u8),
-}
-
-/// A token and its bytes in the file.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Token {
-    pub kind: Kind,
-    start: u32,
-    end: u32,
-}
-
-impl Token {
-    /// Its bytes in the file.
-    pub(crate) fn bytes(&self) -> Range<usize> {
-        self.start as usize..self.end as usize
-    }
-}
 
 /// The tokens of a file shorter than 4 GiB.
 pub(crate) fn tokens_of(bytes: &[u8]) -> Vec<Token> {
@@ -59,11 +26,7 @@ pub(crate) fn tokens_of(bytes: &[u8]) -> Vec<Token> {
     // `token` takes at least one byte and matches every byte, so the loop ends with the file.
     while let Ok((kind, span)) = token.with_span().parse_next(&mut input) {
         if let Some(kind) = kind {
-            tokens.push(Token {
-                kind,
-                start: span.start as u32,
-                end: span.end as u32,
-            });
+            tokens.push(Token::new(kind, &span));
         }
     }
     tokens

@@ -4,11 +4,11 @@ use std::ops::Range;
 
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 
+use crate::interpreter::token::TokenFile;
 use crate::interpreter::value::{Datum, Literal};
 use crate::model::orientation::OrientationText;
 use crate::model::site::PoseText;
 use crate::model::target::{Configuration, PoseTarget};
-use crate::rapid::tree::TokenFile;
 use crate::text::number::{NumberText, Width};
 
 /// From here on an external axis is not stated: 9E9.

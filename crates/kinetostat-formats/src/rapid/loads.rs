@@ -5,14 +5,15 @@ use std::collections::btree_map::Entry;
 
 use nalgebra::{Isometry3, Vector3};
 
+use crate::interpreter::evaluate::{LiteralsOnly, evaluate};
+use crate::interpreter::token::TokenFile;
+use crate::interpreter::tree::DatumNode;
 use crate::interpreter::value::Datum;
 use crate::model::tool_load::ToolLoad;
-use crate::rapid::evaluate::{LiteralsOnly, evaluate};
 use crate::rapid::expression::expression_of;
 use crate::rapid::lex::tokens_of;
 use crate::rapid::literals::{frame_of, rotation_of};
 use crate::rapid::parser::modules::modules_of;
-use crate::rapid::tree::{DatumNode, TokenFile};
 use crate::text::name::Name;
 use crate::text::source::SourceFile;
 
@@ -38,6 +39,7 @@ fn literals<T: PartialEq>(
             index,
             source,
             tokens: tokens_of(source.bytes()),
+            lines: Vec::new(),
         };
         for module in modules_of(&file, &mut Vec::new()) {
             let of_routines = module.routines.iter().flat_map(|routine| &routine.data);

@@ -5,6 +5,7 @@ use std::ops::Range;
 use nalgebra::Isometry3;
 
 use crate::interpreter::expression::Expression;
+use crate::interpreter::run::Reason;
 use crate::model::frame::{Frame, FrameUse};
 use crate::model::motion::{Motion, MotionKind, Runs, Speed, Zone};
 use crate::model::site::{MotionSite, SpeedSite, TargetSite};
@@ -13,7 +14,7 @@ use crate::options::UnknownTargets;
 use crate::rapid::arguments::Arguments;
 use crate::rapid::frames::Role;
 use crate::rapid::literals::joints_of;
-use crate::rapid::run::{Reason, Run};
+use crate::rapid::state::Run;
 use crate::rapid::table::{Ends, MotionRow};
 use crate::rapid::targets::Found;
 
@@ -75,7 +76,7 @@ impl Run<'_, '_> {
                 frame: Frame::Known(Isometry3::identity()),
             },
         };
-        if let Some(by) = self.displacement
+        if let Some(by) = self.own.displacement
             && row.ends != Ends::AbsoluteJoint
         {
             work_object.name += " displaced";

@@ -1,15 +1,16 @@
 //! The reader of RAPID modules.
 
 use crate::error::ProgramError;
+use crate::interpreter::token::TokenFile;
+use crate::interpreter::tree::Module;
 use crate::model::language::Language;
 use crate::model::parsed::{Parsed, Read};
 use crate::model::program::RobotProgram;
 use crate::options::{ExternalAxes, ReadOptions};
 use crate::rapid::lex::tokens_of;
+use crate::rapid::names::symbols_of;
 use crate::rapid::parser::modules::modules_of;
-use crate::rapid::run::Run;
-use crate::rapid::symbols::Symbols;
-use crate::rapid::tree::{Module, TokenFile};
+use crate::rapid::state::Rapid;
 use crate::text::source::SourceFile;
 
 /// Most bytes of a file; the memory needed is some twenty times as much.
@@ -60,8 +61,8 @@ pub(crate) fn parse_rapid(files: Vec<SourceFile>, options: &ReadOptions) -> Pars
     }
     let token_files = tokens_of_files(&files);
     let modules = modules_of_files(&token_files, &mut faults);
-    let symbols = Symbols::of(&token_files, &modules, &mut faults);
-    let run = Run::new(&token_files, &symbols, options).whole();
+    let symbols = symbols_of(&token_files, &modules, &mut faults);
+    let run = Rapid::run(&token_files, &symbols, options).whole();
     faults.extend(run.faults);
     let read = Read {
         motions: run.motions,
@@ -81,6 +82,7 @@ pub(super) fn tokens_of_files(files: &[SourceFile]) -> Vec<TokenFile<'_>> {
         index,
         source,
         tokens: tokens_of(source.bytes()),
+        lines: Vec::new(),
     });
     all.collect()
 }

@@ -1,19 +1,15 @@
 //! The ends of motions and where their numbers stand: literals, declarations, elements of arrays, offsets.
 
-use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
+use crate::interpreter::declared::Around;
 use crate::interpreter::expression::{Argument, Expression, Node};
+use crate::interpreter::run::Reason;
 use crate::interpreter::value::Datum;
-use crate::model::site::{
-    Declaration, DeclarationCopy, OffsetAxes, PartText, PoseText, ReplacedText, TargetSite,
-};
+use crate::model::site::{OffsetAxes, PartText, PoseText, ReplacedText, TargetSite};
 use crate::model::target::PoseTarget;
-use crate::rapid::lex::Kind;
 use crate::rapid::literals::{numbers_in, pose_of, text_of};
-use crate::rapid::run::{Reason, Run};
-use crate::rapid::symbols::Symbols;
-use crate::rapid::tree::TokenFile;
+use crate::rapid::state::Run;
 use crate::text::name::Name;
 use crate::text::number::NumberText;
 
@@ -23,17 +19,12 @@ pub(crate) struct Found {
     pub site: TargetSite,
 }
 
-/// The declared targets of a program.
-#[derive(Debug, Default)]
-pub(crate) struct Targets {
-    pub declarations: Vec<Declaration>,
-    /// Names of the declarations.
-    names: Vec<Name>,
-    /// By the file and the begin of the literal.
-    known: BTreeMap<(usize, usize), usize>,
-    /// Names in statements that a motion ends at, by file and begin.
-    ends: BTreeMap<(usize, usize), Name>,
-}
+/// A further declaration of a target that an array has as an element.
+const AROUND: Around = Around {
+    before: |_| "CONST robtarget ".to_owned(),
+    middle: b":=",
+    after: b";",
+};
 
 const WRITE_IT: &str =
     "write the motion with a literal or declared target, or leave it as written when reading";
@@ -83,11 +74,9 @@ impl Run<'_, '_> {
         };
         let found = match &expression.node {
             Node::List(_) => text_of(value).filter(is_here).map(TargetSite::Literal),
-            Node::Word(name) => self.declared(expression, (value, pose), name),
-            Node::Element(of, _) => match &of.node {
-                Node::Word(name) => self.declared(expression, (value, pose), name),
-                _ => None,
-            },
+            Node::Word(_) | Node::Element(..) => {
+                text_of(value).and_then(|text| self.declared(expression, text, pose, &AROUND))
+            }
             Node::Call(name, arguments) if name.is("OFFS") || name.is("RELTOOL") => {
                 self.offset(name, arguments, &span)
             }
@@ -111,60 +100,6 @@ impl Run<'_, '_> {
                 },
                 span: span.clone(),
             }))
-        })
-    }
-
-    /// The declaration of a name or of an element of an array, where its first value is what the motion ends at.
-    fn declared(
-        &mut self,
-        expression: &Expression,
-        (value, pose): (&Datum, &PoseTarget),
-        name: &Name,
-    ) -> Option<TargetSite> {
-        let file = self.file();
-        let text = text_of(value)?;
-        let index = self.datum_of(self.root(name)?)?;
-        let datum = &self.symbols.data[index];
-        let home = &self.files[datum.file];
-        let whole = home.span(&datum.node.tokens);
-        if !value.literal?.is_within(datum.file, &whole) {
-            return None;
-        }
-        let span = file.span(&expression.tokens);
-        let ends = &mut self.targets.ends;
-        ends.insert((file.index, span.start), *name);
-        let key = (text.file, text.whole.start);
-        if let Some(declaration) = self.targets.known.get(&key) {
-            let declaration = *declaration;
-            return Some(TargetSite::Declared {
-                declaration,
-                name: span,
-            });
-        }
-        let is_whole = matches!(expression.node, Node::Word(_));
-        let named = home.span(&(datum.node.name_at..datum.node.name_at + 1));
-        let copy = match is_whole {
-            true => DeclarationCopy::Statement,
-            false => DeclarationCopy::Around {
-                before: b"CONST robtarget ".to_vec(),
-                middle: b":=".to_vec(),
-                after: b";".to_vec(),
-            },
-        };
-        let declaration = self.targets.declarations.len();
-        self.targets.known.insert(key, declaration);
-        self.targets.names.push(*name);
-        self.targets.declarations.push(Declaration {
-            statement: whole,
-            name: named,
-            text,
-            pose: pose.clone(),
-            keeps_value: false,
-            copy,
-        });
-        Some(TargetSite::Declared {
-            declaration,
-            name: span,
         })
     }
 
@@ -202,39 +137,5 @@ impl Run<'_, '_> {
             base: Box::new(pose_of(self.files, &base).ok()?),
             literal: Box::new(literal),
         })
-    }
-}
-
-impl Targets {
-    /// Notes which declarations something else than the motions that end at them rests on.
-    pub(super) fn with_other_uses(
-        mut self,
-        files: &[TokenFile<'_>],
-        symbols: &Symbols<'_>,
-    ) -> Self {
-        let names: BTreeSet<Name> = self.names.iter().copied().collect();
-        if names.is_empty() {
-            return self;
-        }
-        let mut uses: BTreeMap<Name, usize> = BTreeMap::new();
-        for file in files {
-            for (at, token) in file.tokens.iter().enumerate() {
-                if token.kind == Kind::Word
-                    && let Some(name) = Name::of(file.word(at)).filter(|name| names.contains(name))
-                {
-                    *uses.entry(name).or_default() += 1;
-                }
-            }
-        }
-        let declared = symbols.data.iter().map(|datum| datum.node.name);
-        for name in declared.chain(self.ends.values().copied()) {
-            if let Some(uses) = uses.get_mut(&name) {
-                *uses = uses.saturating_sub(1);
-            }
-        }
-        for (declaration, name) in self.declarations.iter_mut().zip(&self.names) {
-            declaration.keeps_value = uses.get(name).is_some_and(|uses| *uses > 0);
-        }
-        self
     }
 }

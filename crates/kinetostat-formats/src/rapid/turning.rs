@@ -5,10 +5,10 @@
 
 use std::ops::Range;
 
+use crate::interpreter::token::TokenFile;
 use crate::model::motion::{Motion, MotionKind};
 use crate::model::site::TurnsOtherwise;
 use crate::rapid::arguments::Arguments;
-use crate::rapid::tree::TokenFile;
 use crate::text::name::Name;
 
 const CIRCLES: &str = "CirPathMode";

@@ -3,11 +3,12 @@
 use std::collections::BTreeSet;
 use std::ops::Range;
 
+use crate::interpreter::token::Kind;
 use crate::model::motion::{Motion, Zone};
 use crate::model::program::RobotProgram;
 use crate::model::site::ReplacedText;
 use crate::options::{ExactStops, WriteOptions};
-use crate::rapid::lex::{Kind, tokens_of};
+use crate::rapid::lex::tokens_of;
 use crate::rapid::table::{MotionRow, motion_row};
 use crate::text::edits::Edits;
 use crate::text::name::{LONGEST, Name};

@@ -3,8 +3,7 @@
 use std::ops::Range;
 
 use crate::error::{ProgramError, note};
-use crate::rapid::lex::Kind;
-use crate::rapid::tree::TokenFile;
+use crate::interpreter::token::{Kind, TokenFile};
 use crate::text::name::Name;
 
 /// Words that begin a statement or end a block: a statement before them has no semicolon.

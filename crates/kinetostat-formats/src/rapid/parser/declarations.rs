@@ -1,8 +1,8 @@
 //! Declarations of data and parameters.
 
-use crate::rapid::lex::Kind;
+use crate::interpreter::token::Kind;
+use crate::interpreter::tree::{Change, DatumNode, Parameter, Sight};
 use crate::rapid::parser::cursor::Parser;
-use crate::rapid::tree::{Change, DatumNode, Parameter, Sight};
 use crate::text::name::Name;
 
 impl Parser<'_, '_> {
@@ -48,6 +48,7 @@ impl Parser<'_, '_> {
             dimensions: (dimensions.len() > 2).then(|| dimensions.start + 1..dimensions.end - 1),
             initial: assigned.then(|| first..tokens.end.saturating_sub(1).max(first)),
             tokens,
+            is_alone: true,
         }))
     }
 

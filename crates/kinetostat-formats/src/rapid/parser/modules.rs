@@ -1,8 +1,9 @@
 //! Modules and their routines.
 
 use crate::error::ProgramError;
+use crate::interpreter::token::TokenFile;
+use crate::interpreter::tree::{Module, Routine, RoutineKind, Sight};
 use crate::rapid::parser::cursor::Parser;
-use crate::rapid::tree::{Module, Routine, RoutineKind, Sight, TokenFile};
 
 /// The modules of a file.
 pub(crate) fn modules_of(file: &TokenFile<'_>, faults: &mut Vec<ProgramError>) -> Vec<Module> {

@@ -2,9 +2,9 @@
 
 use std::ops::Range;
 
-use crate::rapid::lex::Kind;
+use crate::interpreter::token::Kind;
+use crate::interpreter::tree::{Choice, LoopKind, Statement};
 use crate::rapid::parser::cursor::Parser;
-use crate::rapid::tree::{Choice, Statement};
 
 /// Deepest nesting of blocks.
 const DEEPEST: usize = 100;
@@ -48,9 +48,9 @@ impl Parser<'_, '_> {
         if self.takes("IF") {
             statements.extend(self.branches(start, depth));
         } else if self.takes("FOR") {
-            statements.push(self.repeated(start, "ENDFOR", depth));
+            statements.push(self.repeated(start, LoopKind::Counting, depth));
         } else if self.takes("WHILE") {
-            statements.push(self.repeated(start, "ENDWHILE", depth));
+            statements.push(self.repeated(start, LoopKind::While, depth));
         } else if self.takes("TEST") {
             statements.push(self.test(start, depth));
         } else if ["RETURN", "EXIT", "RAISE", "RETRY", "TRYNEXT", "GOTO"]
@@ -91,7 +91,7 @@ impl Parser<'_, '_> {
         }
     }
 
-    pub(super) fn repeated(&mut self, start: usize, end: &str, depth: usize) -> Statement {
+    pub(super) fn repeated(&mut self, start: usize, kind: LoopKind, depth: usize) -> Statement {
         let header = self.up_to(&["DO"]);
         if header.is_none() {
             self.fault(
@@ -103,8 +103,15 @@ impl Parser<'_, '_> {
         self.takes("DO");
         let mut block = Vec::new();
         self.block(&mut block, depth + 1);
-        self.close(start, end);
+        self.close(
+            start,
+            match kind {
+                LoopKind::Counting => "ENDFOR",
+                _ => "ENDWHILE",
+            },
+        );
         Statement::Loop {
+            kind,
             header: header.unwrap_or(start..start),
             block,
             whole: start..self.at,

@@ -1,34 +1,8 @@
-//! What a file holds: modules, routines, declarations and statements, by ranges of tokens.
+//! Modules, routines, declarations and statements of a file, by ranges of tokens.
 
 use std::ops::Range;
 
-use crate::rapid::lex::Token;
 use crate::text::name::Name;
-use crate::text::source::SourceFile;
-
-/// A file and its tokens.
-pub(crate) struct TokenFile<'a> {
-    pub index: usize,
-    pub source: &'a SourceFile,
-    pub tokens: Vec<Token>,
-}
-
-impl TokenFile<'_> {
-    /// The bytes of a token; none behind the last.
-    pub(crate) fn word(&self, at: usize) -> &[u8] {
-        let token = self.tokens.get(at);
-        token.map_or(&[], |token| self.source.part(&token.bytes()))
-    }
-
-    /// The place of a range of tokens in the file.
-    pub(crate) fn span(&self, tokens: &Range<usize>) -> Range<usize> {
-        let place = |at: usize| self.tokens.get(at).map(Token::bytes);
-        let first = place(tokens.start).or_else(|| self.tokens.last().map(Token::bytes));
-        let start = first.map_or(0, |place| place.start);
-        let last = tokens.end.checked_sub(1).and_then(place);
-        start..last.map_or(start, |place| place.end).max(start)
-    }
-}
 
 /// How a datum may change.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -58,8 +32,21 @@ pub(crate) struct DatumNode {
     pub tokens: Range<usize>,
     /// Of its first value.
     pub initial: Option<Range<usize>>,
-    /// Of the sizes of an array, in its braces.
+    /// Of the sizes of an array, in its brackets.
     pub dimensions: Option<Range<usize>>,
+    /// True where its statement declares no other name.
+    pub is_alone: bool,
+}
+
+/// The first value of an element of an array, in a statement of its own (`BASE_DATA[1]={X 0}`); index 0 is the whole of what the system
+/// declares.
+#[derive(Debug, Clone)]
+pub(crate) struct Preset {
+    pub name: Name,
+    pub name_at: usize,
+    pub index: usize,
+    pub tokens: Range<usize>,
+    pub value: Range<usize>,
 }
 
 /// A parameter of a routine.
@@ -125,6 +112,19 @@ pub(crate) enum Choice {
     Compact,
 }
 
+/// How a loop repeats its block.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum LoopKind {
+    /// A variable counts (`FOR`).
+    Counting,
+    /// While the condition of its header holds.
+    While,
+    /// Until the condition of its header holds, once at least.
+    Until,
+    /// For ever: a statement in it leaves it.
+    Endless,
+}
+
 /// A statement of a routine.
 #[derive(Debug, Clone)]
 pub(crate) enum Statement {
@@ -144,6 +144,8 @@ pub(crate) enum Statement {
         whole: Range<usize>,
     },
     Loop {
+        kind: LoopKind,
+        /// Of how it counts, or of its condition.
         header: Range<usize>,
         block: Vec<Statement>,
         /// From FOR or WHILE to its end.

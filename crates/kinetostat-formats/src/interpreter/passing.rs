@@ -4,40 +4,25 @@ use std::collections::BTreeSet;
 use std::ops::Range;
 
 use crate::interpreter::expression::{Argument, Expression, Node};
+use crate::interpreter::flow::Leave;
+use crate::interpreter::run::{Dialect, Place, Root, Run};
+use crate::interpreter::symbols::{Meaning, Scope};
+use crate::interpreter::token::TokenFile;
+use crate::interpreter::tree::Statement;
 use crate::interpreter::value::Datum;
-use crate::options::ExternalAxes;
-use crate::rapid::expression::{arguments_of, expression_of};
-use crate::rapid::functions::leaves_arguments;
-use crate::rapid::instructions::is_computed;
-use crate::rapid::run::{Place, Root, Run};
-use crate::rapid::symbols::{Meaning, Scope};
-use crate::rapid::table::{EXTERNAL, motion_row, row};
-use crate::rapid::tree::{Statement, TokenFile};
-use crate::rapid::turning::mode_of;
-use crate::table::Treatment;
 use crate::text::name::Name;
 
-/// Instructions that are carried and change the numbers that they are given.
-pub(super) const CHANGE_THEIRS: [&str; 4] = ["Add", "Clear", "Decr", "Incr"];
-
-impl Run<'_, '_> {
+impl<D: Dialect> Run<'_, '_, D> {
     /// Passes over blocks of which only the controller knows whether they run: what they assign is unknown behind them. A block that moves the
     /// tool, changes modal state or leaves its routine is a fault at the condition.
-    pub(super) fn pass_over(
+    pub(crate) fn pass_over(
         &mut self,
         blocks: &[&[Statement]],
         condition: &Range<usize>,
         value: &Datum,
     ) {
-        let Scope::Routine(routine) = self.scope else {
-            return;
-        };
-        let mut seen = BTreeSet::new();
-        let acts = |own: &Self, seen: &mut BTreeSet<usize>| {
-            let mut all = blocks.iter().copied().flatten();
-            all.any(|statement| own.acts(routine, statement, seen))
-        };
-        if acts(self, &mut seen) {
+        let mut all = blocks.iter().copied().flatten();
+        if all.any(|statement| self.acts_here(statement, false)) {
             let why = value
                 .unknown_reason()
                 .map_or("it is no truth", |reason| reason);
@@ -45,6 +30,41 @@ impl Run<'_, '_> {
             self.fault(condition, (reason, SET_IT));
             return;
         }
+        self.lose_assigned(blocks, condition);
+    }
+
+    /// Passes over a loop as [`Run::pass_over`]; its block may leave the loop.
+    pub(super) fn pass_over_loop(
+        &mut self,
+        block: &[Statement],
+        condition: &Range<usize>,
+        value: &Datum,
+    ) {
+        match self.only_waits(block) {
+            true => self.lose_assigned(&[block], condition),
+            false => self.pass_over(&[block], condition, value),
+        }
+    }
+
+    /// True for the block of a loop that neither moves the tool nor changes modal state.
+    pub(super) fn only_waits(&self, block: &[Statement]) -> bool {
+        !block
+            .iter()
+            .any(|statement| self.acts_here(statement, true))
+    }
+
+    fn acts_here(&self, statement: &Statement, in_loop: bool) -> bool {
+        match self.scope {
+            Scope::Routine(routine) => self.acts(routine, statement, in_loop, &mut BTreeSet::new()),
+            Scope::Module(_) => false,
+        }
+    }
+
+    /// Data that blocks assign are unknown behind them.
+    fn lose_assigned(&mut self, blocks: &[&[Statement]], condition: &Range<usize>) {
+        let Scope::Routine(routine) = self.scope else {
+            return;
+        };
         self.passed_over = true;
         for statement in blocks.iter().copied().flatten() {
             for root in self.assigned_in(routine, std::slice::from_ref(statement)) {
@@ -53,7 +73,9 @@ impl Run<'_, '_> {
                 }
                 let name = match root {
                     Root::Module(index) => self.shown(index),
-                    Root::Routine(_, name) => String::from_utf8_lossy(name.letters()).into_owned(),
+                    Root::Routine(_, name) | Root::Undeclared(name) => {
+                        String::from_utf8_lossy(name.letters()).into_owned()
+                    }
                 };
                 let file = self.file();
                 let line = file.source.line_of(file.span(condition).start);
@@ -66,8 +88,14 @@ impl Run<'_, '_> {
         }
     }
 
-    /// True if a statement moves the tool, changes modal state, or leaves its block.
-    fn acts(&self, routine: usize, statement: &Statement, seen: &mut BTreeSet<usize>) -> bool {
+    /// True if a statement moves the tool, changes modal state, or leaves its block; one of a loop (`in_loop`) may leave the loop.
+    fn acts(
+        &self,
+        routine: usize,
+        statement: &Statement,
+        in_loop: bool,
+        seen: &mut BTreeSet<usize>,
+    ) -> bool {
         let file = &self.files[self.symbols.routines[routine].file];
         let calls_what_acts = |tokens: &Range<usize>, seen: &mut BTreeSet<usize>| {
             let names = tokens.clone().filter_map(|at| Name::of(file.word(at)));
@@ -80,24 +108,23 @@ impl Run<'_, '_> {
                     && body.iter().any(|inner| match inner {
                         // A routine that returns leaves itself alone.
                         Statement::Leaves { tokens } => {
-                            !file_word(self, called, tokens.start, "RETURN")
+                            let file = &self.files[self.symbols.routines[called].file];
+                            !matches!(D::leave(file, tokens), Leave::Returns(_))
                         }
-                        _ => self.acts(called, inner, seen),
+                        _ => self.acts(called, inner, false, seen),
                     })
             })
         };
         match statement {
             Statement::Label { .. } => false,
-            Statement::Assignment { tokens, .. } => calls_what_acts(tokens, seen),
-            Statement::Leaves { tokens } => {
-                // A program that ends here does not cut what follows: it is taken to go on.
-                let ends = ["EXIT", "RAISE"];
-                !ends
-                    .iter()
-                    .any(|word| file_word(self, routine, tokens.start, word))
-            }
-            Statement::Call { tokens } => {
-                self.instruction_acts(file, tokens) || calls_what_acts(tokens, seen)
+            // A program that ends here does not cut what follows: it is taken to go on.
+            Statement::Leaves { tokens } => match D::leave(file, tokens) {
+                Leave::Ends => false,
+                Leave::Breaks => !in_loop,
+                Leave::Jump(_) | Leave::Returns(_) => true,
+            },
+            Statement::Call { tokens } | Statement::Assignment { tokens, .. } => {
+                D::acts(self, file, tokens) || calls_what_acts(tokens, seen)
             }
             Statement::Branches {
                 conditions, blocks, ..
@@ -106,34 +133,17 @@ impl Run<'_, '_> {
                     || blocks
                         .iter()
                         .flatten()
-                        .any(|inner| self.acts(routine, inner, seen))
+                        .any(|inner| self.acts(routine, inner, in_loop, seen))
             }
             Statement::Loop { header, block, .. } => {
                 calls_what_acts(header, seen)
-                    || block.iter().any(|inner| self.acts(routine, inner, seen))
+                    || (block.iter()).any(|inner| self.acts(routine, inner, true, seen))
             }
-        }
-    }
-
-    fn instruction_acts(&self, file: &TokenFile<'_>, tokens: &Range<usize>) -> bool {
-        let Some(name) = Name::of(file.word(tokens.start)) else {
-            return true;
-        };
-        if motion_row(&name).is_some() || mode_of(file, tokens).is_some() {
-            return true;
-        }
-        match row(&name).map(|row| row.treatment) {
-            Some(EXTERNAL) => self.options.external_axes != ExternalAxes::Carried,
-            Some(Treatment::Refused { .. }) => true,
-            Some(_) => ["EXITCYCLE", "PDISPSET", "PDISPOFF"]
-                .iter()
-                .any(|word| name.is(word)),
-            None => is_computed(file, tokens),
         }
     }
 
     /// Data that statements of a routine, and the routines that they call, assign or give to what may change them.
-    pub(super) fn assigned_in(&self, routine: usize, statements: &[Statement]) -> Vec<Root> {
+    pub(crate) fn assigned_in(&self, routine: usize, statements: &[Statement]) -> Vec<Root> {
         let mut found = Vec::new();
         self.collect_assigned((routine, statements), &mut BTreeSet::new(), &mut found);
         found
@@ -151,7 +161,7 @@ impl Run<'_, '_> {
         for statement in statements {
             statement.each_part(&mut |tokens| {
                 let is_own = |name: &Name| self.symbols.routine(routine, name).is_some();
-                changed_in(file, tokens, &is_own, &mut names);
+                changed_in::<D>(file, tokens, &is_own, &mut names);
                 let words = tokens.clone().filter_map(|at| Name::of(file.word(at)));
                 called.extend(words.filter_map(|name| self.symbols.routine(routine, &name)));
             });
@@ -167,6 +177,9 @@ impl Run<'_, '_> {
                 Some(_) if !self.calls.is_empty() && !is_inner => {
                     found.push(Root::Routine(self.calls.len() - 1, name));
                 }
+                None if self.undeclared.contains_key(&name) => {
+                    found.push(Root::Undeclared(name));
+                }
                 _ => {}
             }
         }
@@ -180,15 +193,10 @@ impl Run<'_, '_> {
     }
 }
 
-pub(super) const SET_IT: &str = "state the value of what decides it (--set NAME=VALUE, [values] in a job), or write the motions without the branch";
-
-fn file_word(run: &Run<'_, '_>, routine: usize, at: usize, word: &str) -> bool {
-    let file = &run.files[run.symbols.routines[routine].file];
-    file.word(at).eq_ignore_ascii_case(word.as_bytes())
-}
+pub(crate) const SET_IT: &str = "state the value of what decides it (--set NAME=VALUE, [values] in a job), or write the motions without the branch";
 
 /// Names that a statement assigns, and those that it gives to a routine or an instruction that may change them.
-fn changed_in(
+fn changed_in<D: Dialect>(
     file: &TokenFile<'_>,
     tokens: &Range<usize>,
     is_own: &dyn Fn(&Name) -> bool,
@@ -201,49 +209,61 @@ fn changed_in(
     let is_option = |at: usize| at >= 2 && file.word(at - 2) == b"\\";
     if let Some(at) = assign.filter(|at| !is_option(*at)) {
         names.push(first);
-        let value = expression_of(file, at + 1..tokens.end.saturating_sub(1).max(at + 1));
-        given_away(&value, is_own, names);
+        let value = D::expression_of(file, at + 1..tokens.end.saturating_sub(1).max(at + 1));
+        given_away::<D>(&value, is_own, names);
         return;
     }
-    let changes = is_own(&first) || row(&first).is_none_or(|row| CHANGE_THEIRS.contains(&row.name));
-    for argument in arguments_of(file, tokens.start + 1..tokens.end) {
+    let changes = is_own(&first) || D::changes_arguments(&first);
+    for argument in D::arguments_of(file, tokens.start + 1..tokens.end) {
         if let Some(value) = argument.value {
             match (changes, root_name(&value)) {
                 (true, Some(name)) => names.push(name),
-                _ => given_away(&value, is_own, names),
+                _ => given_away::<D>(&value, is_own, names),
             }
         }
     }
 }
 
 /// Names that an expression gives to functions which may change them.
-fn given_away(expression: &Expression, is_own: &dyn Fn(&Name) -> bool, names: &mut Vec<Name>) {
+fn given_away<D: Dialect>(
+    expression: &Expression,
+    is_own: &dyn Fn(&Name) -> bool,
+    names: &mut Vec<Name>,
+) {
     match &expression.node {
         Node::Call(name, arguments) => {
-            let changes = is_own(name) || !leaves_arguments(name);
+            let changes = is_own(name) || !D::leaves_arguments(name);
             for Argument { value, .. } in arguments {
                 let Some(value) = value else { continue };
                 match (changes, root_name(value)) {
                     (true, Some(name)) => names.push(name),
-                    _ => given_away(value, is_own, names),
+                    _ => given_away::<D>(value, is_own, names),
                 }
             }
         }
         Node::List(parts) => parts
             .iter()
-            .for_each(|part| given_away(part, is_own, names)),
-        Node::One(_, operand) => given_away(operand, is_own, names),
+            .for_each(|part| given_away::<D>(part, is_own, names)),
+        Node::One(_, operand) => given_away::<D>(operand, is_own, names),
         Node::Two(_, operands) => operands
             .iter()
-            .for_each(|part| given_away(part, is_own, names)),
-        Node::Field(of, _) => given_away(of, is_own, names),
+            .for_each(|part| given_away::<D>(part, is_own, names)),
+        Node::Field(of, _) => given_away::<D>(of, is_own, names),
         Node::Element(of, indices) => {
-            given_away(of, is_own, names);
+            given_away::<D>(of, is_own, names);
             indices
                 .iter()
-                .for_each(|part| given_away(part, is_own, names));
+                .for_each(|part| given_away::<D>(part, is_own, names));
         }
-        Node::Number(_) | Node::Truth(_) | Node::Text | Node::Word(_) | Node::Unreadable => {}
+        Node::Members(members) => members
+            .iter()
+            .for_each(|(_, part)| given_away::<D>(part, is_own, names)),
+        Node::Number(_)
+        | Node::Truth(_)
+        | Node::Text
+        | Node::Choice(_)
+        | Node::Word(_)
+        | Node::Unreadable => {}
     }
 }
 

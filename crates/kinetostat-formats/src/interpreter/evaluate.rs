@@ -2,13 +2,15 @@
 
 use crate::interpreter::expression::{Argument, Expression, Node};
 use crate::interpreter::operation::{one, two};
-use crate::interpreter::value::{Datum, Literal, Value};
-use crate::rapid::literals::component;
-use crate::rapid::tree::TokenFile;
+use crate::interpreter::token::TokenFile;
+use crate::interpreter::value::{Datum, Literal, Step, Value};
 use crate::text::name::Name;
 
-/// Values of names and results of functions.
+/// Values of names, results of functions, and names of components.
 pub(crate) trait Names {
+    /// The way to a component of a value.
+    fn component(&self, of: &Datum, name: &Name) -> Option<Step>;
+
     /// The value of a name.
     fn word(&mut self, name: &Name, whole: &Expression) -> Datum;
 
@@ -20,6 +22,10 @@ pub(crate) trait Names {
 pub(crate) struct LiteralsOnly;
 
 impl Names for LiteralsOnly {
+    fn component(&self, _: &Datum, _: &Name) -> Option<Step> {
+        None
+    }
+
     fn word(&mut self, _: &Name, _: &Expression) -> Datum {
         Datum::unknown("it is a name")
     }
@@ -56,10 +62,19 @@ pub(crate) fn evaluate(
         }
         Node::Word(name) => names.word(name, expression),
         Node::Call(name, arguments) => names.call(name, arguments, expression),
+        Node::Choice(name) => {
+            let text = format!("#{}", String::from_utf8_lossy(name.letters()));
+            literal(Value::Text(text.into()))
+        }
+        Node::Members(members) => {
+            let members = members.iter();
+            let all = members.map(|(name, part)| (*name, evaluate(file, part, names)));
+            literal(Value::Members(all.collect::<Vec<_>>().into()))
+        }
         Node::Field(inner, name) => {
             let of = evaluate(file, inner, names);
-            let index = component_of(&of, name);
-            let part = index.and_then(|index| of.part(&[index]).cloned());
+            let step = names.component(&of, name);
+            let part = step.and_then(|step| of.part(&[step]).cloned());
             part.unwrap_or_else(|| {
                 not_a_part(&of, || format!("`{}` has no such component", shown(inner)))
             })
@@ -73,7 +88,8 @@ pub(crate) fn evaluate(
             if let Some(reason) = at.iter().find_map(Datum::unknown_reason) {
                 return Datum::unknown(reason.clone());
             }
-            let path: Option<Vec<usize>> = at.iter().map(index_of).collect();
+            let path = at.iter().map(|index| index_of(index).map(Step::Index));
+            let path: Option<Vec<Step>> = path.collect();
             let part = path.and_then(|path| of.part(&path).cloned());
             part.unwrap_or_else(|| {
                 not_a_part(&of, || format!("`{}` has no such element", shown(inner)))
@@ -87,12 +103,6 @@ pub(crate) fn evaluate(
         }
         Node::Unreadable => Datum::unknown("it is no expression that is understood here"),
     }
-}
-
-/// Where a component stands in a value.
-pub(crate) fn component_of(of: &Datum, name: &Name) -> Option<usize> {
-    let letters = std::str::from_utf8(name.letters()).ok()?;
-    component(letters, of.parts().len())
 }
 
 /// An index from 0 for one from 1.

@@ -3,36 +3,23 @@
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-use crate::interpreter::expression::{Argument, Expression, Node};
+use crate::interpreter::expression::{Argument, Node};
+use crate::interpreter::flow::{Flow, Leave};
 use crate::interpreter::operation::same;
+use crate::interpreter::passing::SET_IT;
+use crate::interpreter::run::{Called, DEEPEST, Dialect, Place, Root, Run, Slot};
+use crate::interpreter::symbols::Scope;
+use crate::interpreter::token::{Kind, Token, TokenFile};
+use crate::interpreter::tree::{Choice, LoopKind, Statement};
 use crate::interpreter::value::Datum;
-use crate::rapid::arguments::Arguments;
-use crate::rapid::expression::{arguments_of, expression_of};
-use crate::rapid::lex::Kind;
-use crate::rapid::passing::SET_IT;
-use crate::rapid::run::{Called, DEEPEST, Run, Slot};
-use crate::rapid::symbols::Scope;
-use crate::rapid::table::motion_row;
-use crate::rapid::tree::{Choice, Statement};
 use crate::text::name::Name;
 
 /// Most statements of a run.
 const MOST_STATEMENTS: usize = 5_000_000;
 
-/// Where a run goes on behind a statement.
-pub(super) enum Flow {
-    Next,
-    /// Behind the call of the routine, with the value of a function.
-    Returns(Option<Datum>),
-    /// At a label of a block around it.
-    To(Name, Range<usize>),
-    /// Nowhere: the program ends.
-    Ends,
-}
-
-impl Run<'_, '_> {
+impl<D: Dialect> Run<'_, '_, D> {
     /// Runs a routine with the slots of its parameters.
-    pub(super) fn call(&mut self, routine: usize, slots: BTreeMap<Name, Slot>) -> Flow {
+    pub(crate) fn call(&mut self, routine: usize, slots: BTreeMap<Name, Slot>) -> Flow {
         let outer = std::mem::replace(&mut self.scope, Scope::Routine(routine));
         self.calls.push(Called { routine, slots });
         self.depth += 1;
@@ -48,12 +35,12 @@ impl Run<'_, '_> {
         match flow {
             Flow::Returns(value) => Flow::Returns(value),
             Flow::Ends => Flow::Ends,
-            Flow::Next | Flow::To(..) => Flow::Returns(None),
+            Flow::Next | Flow::Breaks | Flow::To(..) => Flow::Returns(None),
         }
     }
 
     /// Calls a routine of the files with the arguments of a statement.
-    pub(super) fn call_with(
+    pub(crate) fn call_with(
         &mut self,
         called: usize,
         arguments: &[Argument],
@@ -96,7 +83,7 @@ impl Run<'_, '_> {
     }
 
     /// The value of a function of the files.
-    pub(super) fn call_function(
+    pub(crate) fn call_function(
         &mut self,
         called: usize,
         arguments: &[Argument],
@@ -109,7 +96,7 @@ impl Run<'_, '_> {
     }
 
     /// Runs the statements of a block.
-    pub(super) fn block(&mut self, statements: &[Statement]) -> Flow {
+    pub(crate) fn block(&mut self, statements: &[Statement]) -> Flow {
         let mut at = 0;
         while let Some(statement) = statements.get(at) {
             at += 1;
@@ -148,7 +135,7 @@ impl Run<'_, '_> {
     fn statement(&mut self, statement: &Statement) -> Flow {
         match statement {
             Statement::Label { .. } => Flow::Next,
-            Statement::Call { tokens } => self.instruction(tokens, Choice::OneOfAll),
+            Statement::Call { tokens } => D::instruction(self, tokens, Choice::OneOfAll),
             Statement::Assignment { tokens, assign } => {
                 self.assign(tokens, *assign);
                 Flow::Next
@@ -166,18 +153,24 @@ impl Run<'_, '_> {
                     false => self.branch(conditions, *choice, blocks),
                 };
                 self.depth -= 1;
-                self.log_passed_over(whole);
+                D::log_passed_over(self, whole);
                 flow
             }
             Statement::Loop {
+                kind,
                 header,
                 block,
                 whole,
             } => {
                 self.depth += 1;
-                let flow = self.repeat(header, block);
+                let flow = match kind {
+                    LoopKind::Counting => self.count(header, block),
+                    LoopKind::While => self.repeat(header, block),
+                    LoopKind::Until => self.repeat_until(header, block),
+                    LoopKind::Endless => self.repeat_for_ever(header, block),
+                };
                 self.depth -= 1;
-                self.log_passed_over(whole);
+                D::log_passed_over(self, whole);
                 flow
             }
         }
@@ -186,13 +179,11 @@ impl Run<'_, '_> {
     /// `a.b{i} := value;`
     fn assign(&mut self, tokens: &Range<usize>, assign: usize) {
         let file = self.file();
-        let to = expression_of(file, tokens.start..assign);
-        let value = expression_of(
-            file,
-            assign + 1..tokens.end.saturating_sub(1).max(assign + 1),
-        );
+        let to = D::expression_of(file, tokens.start..assign);
+        let value = D::expression_of(file, file.value_behind(assign, tokens));
         let value = self.value(&value);
-        self.log_assignment(tokens, assign);
+        D::log_assignment(self, tokens, assign);
+        D::assigned(self, tokens, assign);
         match self.place(&to) {
             Some(place) => self.put(&place, value),
             None => {
@@ -203,22 +194,15 @@ impl Run<'_, '_> {
     }
 
     fn leave(&mut self, tokens: &Range<usize>) -> Flow {
-        let file = self.file();
-        let word = file.word(tokens.start).to_ascii_uppercase();
-        match word.as_slice() {
-            b"GOTO" => match Name::of(file.word(tokens.start + 1)) {
-                Some(label) => Flow::To(label, tokens.clone()),
-                None => Flow::Next,
-            },
-            b"RETURN" => {
-                let end = tokens.end.saturating_sub(1);
-                let value = (end > tokens.start + 1)
-                    .then(|| expression_of(file, tokens.start + 1..end))
-                    .map(|value| self.value(&value));
-                Flow::Returns(value)
+        match D::leave(self.file(), tokens) {
+            Leave::Jump(label) => Flow::To(label, tokens.clone()),
+            Leave::Returns(value) => {
+                let value = value.map(|tokens| D::expression_of(self.file(), tokens));
+                Flow::Returns(value.map(|value| self.value(&value)))
             }
-            _ => {
-                self.log_instruction(tokens);
+            Leave::Breaks => Flow::Breaks,
+            Leave::Ends => {
+                D::log_instruction(self, tokens);
                 Flow::Ends
             }
         }
@@ -232,7 +216,7 @@ impl Run<'_, '_> {
         blocks: &[Vec<Statement>],
     ) -> Flow {
         for (index, tokens) in conditions.iter().enumerate() {
-            let condition = expression_of(self.file(), tokens.clone());
+            let condition = D::expression_of(self.file(), tokens.clone());
             let value = self.value(&condition);
             match value.as_truth() {
                 Some(true) => return self.arm(choice, &blocks[index]),
@@ -254,7 +238,7 @@ impl Run<'_, '_> {
     /// A block that runs; behind `IF condition` without THEN one statement can stand.
     fn arm(&mut self, choice: Choice, block: &[Statement]) -> Flow {
         match (choice, block) {
-            (Choice::Compact, [Statement::Call { tokens }]) => self.instruction(tokens, choice),
+            (Choice::Compact, [Statement::Call { tokens }]) => D::instruction(self, tokens, choice),
             _ => self.block(block),
         }
     }
@@ -265,7 +249,7 @@ impl Run<'_, '_> {
         let Some((subject, cases)) = conditions.split_first() else {
             return Flow::Next;
         };
-        let value = self.value(&expression_of(file, subject.clone()));
+        let value = self.value(&D::expression_of(file, subject.clone()));
         for (index, case) in cases.iter().enumerate() {
             let is_default = case.is_empty();
             let mut is_it = Some(is_default);
@@ -294,10 +278,8 @@ impl Run<'_, '_> {
     /// True if a value is that of a case, or between two: `1 TO 3`.
     fn is_in(&mut self, value: &Datum, case: &Range<usize>) -> Option<bool> {
         let file = self.file();
-        let to = case
-            .clone()
-            .find(|at| file.word(*at).eq_ignore_ascii_case(b"TO"));
-        let part = |run: &mut Self, tokens| run.value(&expression_of(file, tokens));
+        let to = case.clone().find(|at| file.is_word(*at, "TO"));
+        let part = |run: &mut Self, tokens| run.value(&D::expression_of(file, tokens));
         let (low, high) = match to {
             Some(to) => (part(self, case.start..to), part(self, to + 1..case.end)),
             None => {
@@ -317,15 +299,59 @@ impl Run<'_, '_> {
         }
     }
 
-    /// FOR and WHILE.
+    /// A loop with its condition before its block.
     fn repeat(&mut self, header: &Range<usize>, block: &[Statement]) -> Flow {
-        let file = self.file();
-        let is_word = |at: usize, word: &str| file.word(at).eq_ignore_ascii_case(word.as_bytes());
-        if header.len() > 1 && is_word(header.start + 1, "FROM") {
-            return self.count(header, block);
-        }
-        let condition = expression_of(file, header.clone());
+        let condition = D::expression_of(self.file(), header.clone());
         if condition.node == Node::Truth(true) {
+            return self.repeat_for_ever(header, block);
+        }
+        loop {
+            self.forget_results();
+            let value = self.value(&condition);
+            match value.as_truth() {
+                Some(true) => {}
+                Some(false) => return Flow::Next,
+                None => {
+                    self.pass_over_loop(block, header, &value);
+                    return Flow::Next;
+                }
+            }
+            self.statements += 1;
+            match self.block(block) {
+                Flow::Next if self.statements <= MOST_STATEMENTS => {}
+                Flow::Breaks => return Flow::Next,
+                flow => return flow,
+            }
+        }
+    }
+
+    /// A loop with its condition behind its block.
+    fn repeat_until(&mut self, header: &Range<usize>, block: &[Statement]) -> Flow {
+        let condition = D::expression_of(self.file(), header.clone());
+        loop {
+            self.statements += 1;
+            match self.block(block) {
+                Flow::Next if self.statements <= MOST_STATEMENTS => {}
+                Flow::Breaks => return Flow::Next,
+                flow => return flow,
+            }
+            self.forget_results();
+            let value = self.value(&condition);
+            match value.as_truth() {
+                Some(true) => return Flow::Next,
+                Some(false) => {}
+                None => {
+                    // It runs once for certain.
+                    self.pass_over_loop(block, header, &value);
+                    return Flow::Next;
+                }
+            }
+        }
+    }
+
+    /// A loop that only a statement in it leaves. Where none does, its first pass is read; where it waits, it is passed over.
+    fn repeat_for_ever(&mut self, header: &Range<usize>, block: &[Statement]) -> Flow {
+        if !has_way_out::<D>(self.file(), block, true) {
             self.find(
                 header,
                 "the loop never ends: its first pass is read, and its corrections are those of all"
@@ -336,49 +362,46 @@ impl Run<'_, '_> {
                 flow => flow,
             };
         }
+        if self.only_waits(block) {
+            let value = Datum::unknown("the loop waits");
+            self.pass_over_loop(block, header, &value);
+            return Flow::Next;
+        }
         loop {
-            self.forget_results();
-            let value = self.value(&condition);
-            match value.as_truth() {
-                Some(true) => {}
-                Some(false) => return Flow::Next,
-                None => {
-                    self.pass_over(&[block], header, &value);
-                    return Flow::Next;
-                }
-            }
             self.statements += 1;
             match self.block(block) {
                 Flow::Next if self.statements <= MOST_STATEMENTS => {}
+                Flow::Breaks => return Flow::Next,
                 flow => return flow,
             }
         }
     }
 
-    /// `i FROM a TO b STEP c`.
+    /// A loop with a variable that counts.
     fn count(&mut self, header: &Range<usize>, block: &[Statement]) -> Flow {
         let file = self.file();
-        let find = |word: &str| {
-            let mut all = header.clone();
-            all.find(|at| file.word(*at).eq_ignore_ascii_case(word.as_bytes()))
-        };
-        let (to, step) = (find("TO"), find("STEP"));
-        let Some((name, to)) = Name::of(file.word(header.start)).zip(to) else {
+        let Some(counting) = D::counting(file, header) else {
             let reason = "the loop does not say from where to where it counts".to_owned();
-            self.fault(header, (reason, "write FOR i FROM a TO b DO"));
+            self.fault(
+                header,
+                (reason, "write its variable, from where, and to where"),
+            );
             return Flow::Next;
         };
-        let last = step.unwrap_or(header.end);
-        let mut number = |tokens: Range<usize>| self.value(&expression_of(file, tokens));
-        let (from, end) = (number(header.start + 2..to), number(to + 1..last));
-        let step = step.map(|at| number(at + 1..header.end));
+        let mut number = |tokens: Range<usize>| self.value(&D::expression_of(file, tokens));
+        let (from, end) = (number(counting.from), number(counting.to));
+        let step = counting.step.map(number);
         let (Some(first), Some(end_at)) = (from.as_number(), end.as_number()) else {
             let unknown = [from, end].into_iter().find(|of| of.as_number().is_none());
             let unknown = unknown.unwrap_or_else(|| Datum::truth(false));
-            self.pass_over(&[block], header, &unknown);
+            self.pass_over_loop(block, header, &unknown);
             return Flow::Next;
         };
-        let usual = if end_at < first { -1.0 } else { 1.0 };
+        let usual = if D::OWN_COUNTER && end_at < first {
+            -1.0
+        } else {
+            1.0
+        };
         let step = match step.as_ref().map(Datum::as_number) {
             None => usual,
             Some(Some(step)) if step != 0.0 => step,
@@ -388,69 +411,72 @@ impl Run<'_, '_> {
                 return Flow::Next;
             }
         };
+        let variable = D::expression_of(file, counting.variable.clone());
+        let own = Name::of(file.word(counting.variable.start)).filter(|_| D::OWN_COUNTER);
         let depth = self.calls.len() - 1;
-        let hidden = self.calls[depth].slots.get(&name).cloned();
+        let hidden = own.and_then(|own| self.calls[depth].slots.get(&own).cloned());
+        let place = match own {
+            Some(name) => {
+                let slot = Slot::Own(Datum::number(first));
+                self.calls[depth].slots.insert(name, slot);
+                Some(Place {
+                    root: Root::Routine(depth, name),
+                    path: Vec::new(),
+                })
+            }
+            None => self.place(&variable),
+        };
         let mut value = first;
         let mut flow = Flow::Next;
         while (step > 0.0 && value <= end_at) || (step < 0.0 && value >= end_at) {
-            self.calls[depth]
-                .slots
-                .insert(name, Slot::Own(Datum::number(value)));
+            if let Some(place) = &place {
+                self.put(place, Datum::number(value));
+            }
             self.statements += 1;
             flow = self.block(block);
             if !matches!(flow, Flow::Next) || self.statements > MOST_STATEMENTS {
                 break;
             }
-            // Numbers of RAPID have single precision.
+            // Numbers of robots have single precision.
             value = f64::from(value as f32 + step as f32);
         }
-        match hidden {
-            Some(slot) => self.calls[depth].slots.insert(name, slot),
-            None => self.calls[depth].slots.remove(&name),
-        };
-        flow
-    }
-
-    /// An instruction, or the call of a procedure.
-    pub(super) fn instruction(&mut self, tokens: &Range<usize>, choice: Choice) -> Flow {
-        let file = self.file();
-        let name = Name::of(file.word(tokens.start));
-        if let Some(row) = name.as_ref().and_then(motion_row) {
-            self.motion_by(row, tokens, choice);
-            self.log_motion(row, tokens);
-            return Flow::Next;
+        match (own, hidden) {
+            (Some(name), Some(slot)) => {
+                self.calls[depth].slots.insert(name, slot);
+            }
+            (Some(name), None) => {
+                self.calls[depth].slots.remove(&name);
+            }
+            (None, _) if matches!(flow, Flow::Next) => {
+                self.lose(&variable, &"it counted a loop that has ended".into());
+            }
+            (None, _) => {}
         }
-        if let (Some(name), Scope::Routine(from)) = (&name, self.scope)
-            && let Some(called) = self.symbols.routine(from, name)
-        {
-            let arguments = arguments_of(file, tokens.start + 1..tokens.end);
-            return match self.call_with(called, &arguments, tokens) {
-                Flow::Ends => Flow::Ends,
-                _ => Flow::Next,
-            };
+        match flow {
+            Flow::Breaks => Flow::Next,
+            flow => flow,
         }
-        self.log_instruction(tokens);
-        self.carried(name, tokens)
-    }
-
-    /// The arguments of an instruction; functions of these files in them run.
-    pub(super) fn arguments(&mut self, tokens: &Range<usize>) -> Arguments {
-        let file = self.file();
-        let arguments = Arguments::of(file, tokens.start + 1..tokens.end);
-        let has_function = |expression: &&Expression| matches!(expression.node, Node::Call(..));
-        let options = arguments
-            .options
-            .iter()
-            .filter_map(|(_, value)| value.as_ref());
-        for expression in arguments.ordered.iter().chain(options).filter(has_function) {
-            self.value(expression);
-        }
-        arguments
     }
 }
 
+/// True if a statement of a block that runs for ever leaves it on a condition that decides where the program goes on.
+fn has_way_out<D: Dialect>(file: &TokenFile<'_>, block: &[Statement], is_innermost: bool) -> bool {
+    block.iter().any(|statement| match statement {
+        Statement::Leaves { tokens } => match D::leave(file, tokens) {
+            Leave::Jump(_) | Leave::Returns(_) => true,
+            Leave::Breaks => is_innermost,
+            Leave::Ends => false,
+        },
+        Statement::Branches { blocks, .. } => {
+            (blocks.iter()).any(|block| has_way_out::<D>(file, block, is_innermost))
+        }
+        Statement::Loop { block, .. } => has_way_out::<D>(file, block, false),
+        _ => false,
+    })
+}
+
 /// Tokens between the commas of a case.
-fn ranges(tokens: &[crate::rapid::lex::Token], case: &Range<usize>) -> Vec<Range<usize>> {
+fn ranges(tokens: &[Token], case: &Range<usize>) -> Vec<Range<usize>> {
     let mut found = Vec::new();
     let mut start = case.start;
     for at in case.clone() {

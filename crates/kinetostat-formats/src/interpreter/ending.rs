@@ -1,0 +1,134 @@
+//! What a run says at its end: values that were stated, motions that it did not come to, statements that ran several times.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use crate::interpreter::run::{Dialect, Run};
+use crate::interpreter::token::Kind;
+use crate::model::motion::Runs;
+use crate::model::site::TargetSite;
+use crate::options::StatedValue;
+use crate::text::finding::Finding;
+use crate::text::line_words::in_words;
+use crate::text::name::Name;
+
+impl<D: Dialect> Run<'_, '_, D> {
+    /// A target that a routine computes is that of the calls that ran. Where code that did not run calls the routine too (an interrupt, an
+    /// error handler, a branch), or a computed name may, it is not written as numbers.
+    pub(super) fn fix_what_others_call(&mut self) {
+        let is_computed = self.outside_calls.iter().any(|call| call.name.is_none());
+        let mut mentions: BTreeMap<Name, usize> = BTreeMap::new();
+        for file in self.files {
+            for at in (0..file.tokens.len()).filter(|at| file.tokens[*at].kind == Kind::Word) {
+                if let Some(name) = Name::of(file.word(at)) {
+                    *mentions.entry(name).or_default() += 1;
+                }
+            }
+        }
+        let is_open: Vec<bool> = (self.symbols.routines.iter().enumerate())
+            .map(|(index, home)| {
+                let sites = self.call_sites.get(&index).map_or(0, BTreeSet::len);
+                let named = mentions
+                    .get(&home.routine.name)
+                    .copied()
+                    .unwrap_or_default();
+                // One mention is its own declaration.
+                sites > 0 && (is_computed || named > sites + 1)
+            })
+            .collect();
+        for (motion, routine) in self.motions.iter_mut().zip(&self.routines) {
+            if !is_open.get(*routine).copied().unwrap_or_default() {
+                continue;
+            }
+            let source = self.files[motion.file].source;
+            let fixed = |site: &TargetSite| match site {
+                TargetSite::Replaced(_) => true,
+                TargetSite::Offset { arguments, .. } => arguments.iter().any(|number| {
+                    let text = std::str::from_utf8(source.part(&number.span));
+                    text.is_ok_and(|text| text.trim().parse::<f64>().is_err())
+                }),
+                _ => false,
+            };
+            let reason = "its routine computes it, and is called by code that does not run here (an interrupt, an error handler, a branch)";
+            if fixed(&motion.site.target) {
+                motion.site.target = TargetSite::Fixed(reason);
+            }
+            if let Some((_, via)) = &mut motion.site.via
+                && fixed(via)
+            {
+                *via = TargetSite::Fixed(reason);
+            }
+        }
+    }
+
+    /// Values that the caller states decide the way of the program.
+    pub(super) fn say_of_values(&mut self) {
+        let Some(file) = self.files.first() else {
+            return;
+        };
+        for (name, value) in &self.options.values {
+            let is_used =
+                Name::of(name.as_bytes()).is_some_and(|own| self.used_values.contains(&own));
+            let message = match (is_used, value) {
+                (false, _) => {
+                    format!("a value of `{name}` is stated, and the run does not ask for it")
+                }
+                (true, StatedValue::Number(number)) => {
+                    format!("`{name}` is {number}, as is stated")
+                }
+                (true, StatedValue::Truth(truth)) => format!("`{name}` is {truth}, as is stated"),
+                (true, StatedValue::Text(text)) => format!("`{name}` is \"{text}\", as is stated"),
+            };
+            self.findings.push(Finding {
+                file: file.index,
+                line: 1,
+                message,
+            });
+        }
+    }
+
+    /// Motions that the run does not come to: of arms that are not taken, behind the end of the program, of error handlers and interrupts.
+    pub(super) fn say_of_unreached(&mut self) {
+        let mut unreached: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+        for home in &self.symbols.routines {
+            let file = &self.files[home.file];
+            home.routine.each_part(&mut |tokens| {
+                let start = file.span(tokens).start;
+                let is_motion = || {
+                    let name = Name::of(file.word(tokens.start));
+                    name.is_some_and(|name| D::is_motion(&name))
+                };
+                if !self.ran.contains(&(file.index, start)) && is_motion() {
+                    let lines = unreached.entry(file.index).or_default();
+                    lines.push(file.source.line_of(start));
+                }
+            });
+        }
+        let all = unreached.into_iter().map(|(file, mut lines)| {
+            lines.sort_unstable();
+            lines.dedup();
+            let named = in_words(&lines);
+            Finding {
+                file,
+                line: lines.first().copied().unwrap_or(1),
+                message: format!(
+                    "the run of the program does not come to the motions on {named}: they stay as they are written"
+                ),
+            }
+        });
+        self.findings.extend(all);
+    }
+
+    /// Statements that ran several times say so at each of their motions.
+    pub(super) fn mark_repeated(&mut self) {
+        let mut count: BTreeMap<(usize, usize), usize> = BTreeMap::new();
+        for motion in &self.motions {
+            *count.entry((motion.file, motion.span.start)).or_default() += 1;
+        }
+        for motion in &mut self.motions {
+            let runs = count.get(&(motion.file, motion.span.start));
+            if runs.is_some_and(|runs| *runs > 1) && motion.runs < Runs::Repeatedly {
+                motion.runs = Runs::Repeatedly;
+            }
+        }
+    }
+}

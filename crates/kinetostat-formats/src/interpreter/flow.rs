@@ -1,0 +1,39 @@
+//! Ways on behind a statement.
+
+use std::ops::Range;
+
+use crate::interpreter::value::Datum;
+use crate::text::name::Name;
+
+/// Where a run goes on behind a statement.
+pub(crate) enum Flow {
+    Next,
+    /// Behind the call of the routine, with the value of a function.
+    Returns(Option<Datum>),
+    /// At a label of a block around it.
+    To(Name, Range<usize>),
+    /// Behind the innermost loop.
+    Breaks,
+    /// Nowhere: the program ends.
+    Ends,
+}
+
+/// A statement that leaves its block.
+pub(crate) enum Leave {
+    /// To a label.
+    Jump(Name),
+    /// From its routine, with the tokens of a value.
+    Returns(Option<Range<usize>>),
+    /// From the innermost loop.
+    Breaks,
+    /// The program ends.
+    Ends,
+}
+
+/// A loop that counts, by tokens.
+pub(crate) struct Counting {
+    pub variable: Range<usize>,
+    pub from: Range<usize>,
+    pub to: Range<usize>,
+    pub step: Option<Range<usize>>,
+}

@@ -1,0 +1,334 @@
+//! A run of a program: its data, the routine that runs, and the motions so far.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::ops::Range;
+
+use crate::error::{ProgramError, note};
+use crate::interpreter::declared::Targets;
+use crate::interpreter::expression::{Argument, Expression};
+use crate::interpreter::flow::{Counting, Flow, Leave};
+use crate::interpreter::symbols::{Scope, Symbols};
+use crate::interpreter::token::{Kind, TokenFile};
+use crate::interpreter::tree::{Choice, DatumNode, RoutineKind};
+use crate::interpreter::value::{Datum, Step, Value};
+use crate::model::motion::{Motion, Runs};
+use crate::model::outside_call::OutsideCall;
+use crate::options::{ReadOptions, StatedValue};
+use crate::text::finding::Finding;
+use crate::text::name::Name;
+
+/// The reason why something is refused, and the remedy.
+pub(crate) type Reason = (String, &'static str);
+
+/// Deepest nesting of calls and blocks together.
+pub(crate) const DEEPEST: usize = 200;
+
+/// A place of data: where it is stored, and the way to a part of it.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Place {
+    pub root: Root,
+    pub path: Vec<Step>,
+}
+
+/// Where data are stored.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Root {
+    /// An index of [`Symbols::data`], of a module.
+    Module(usize),
+    /// A name that no file declares.
+    Undeclared(Name),
+    /// A name of a routine that runs: its depth among the calls.
+    Routine(usize, Name),
+}
+
+/// A datum or a parameter of a routine that runs.
+#[derive(Debug, Clone)]
+pub(crate) enum Slot {
+    Own(Datum),
+    /// A parameter that stands for data of the caller.
+    Of(Place),
+}
+
+/// A call that runs.
+#[derive(Debug)]
+pub(crate) struct Called {
+    pub routine: usize,
+    pub slots: BTreeMap<Name, Slot>,
+}
+
+/// A statement that ran, as it is written flat.
+#[derive(Debug)]
+pub(crate) struct Logged {
+    pub file: usize,
+    /// The place of the statement.
+    pub at: usize,
+    pub text: Vec<u8>,
+}
+
+/// What a run asks of a language.
+pub(crate) trait Dialect: Sized {
+    /// True where a loop counts down by itself if its end is below its begin, and its variable lives in the loop alone.
+    const OWN_COUNTER: bool;
+
+    /// The expression that tokens are.
+    fn expression_of(file: &TokenFile<'_>, tokens: Range<usize>) -> Expression;
+
+    /// The arguments of a call between two tokens.
+    fn arguments_of(file: &TokenFile<'_>, tokens: Range<usize>) -> Vec<Argument>;
+
+    /// The way to a component of a value.
+    fn component(of: &Datum, name: &Name) -> Option<Step>;
+
+    /// The value of a name that every controller declares.
+    fn predefined(name: &Name) -> Option<Datum>;
+
+    /// The value of a declaration without one; none where only the controller knows it.
+    fn of_type(node: &DatumNode) -> Option<Datum>;
+
+    /// True for data of which the controller may hold another value than the file.
+    fn is_kept(node: &DatumNode) -> bool;
+
+    /// The result of a function of the controller; none of one that is not computed here.
+    fn function(
+        run: &mut Run<'_, '_, Self>,
+        name: &Name,
+        arguments: &[Argument],
+        whole: &Expression,
+    ) -> Option<Datum>;
+
+    /// True for a function of the controller that leaves its arguments as they are.
+    fn leaves_arguments(function: &Name) -> bool;
+
+    /// True for an instruction that changes what it is given.
+    fn changes_arguments(instruction: &Name) -> bool;
+
+    /// True for the word of a motion.
+    fn is_motion(word: &Name) -> bool;
+
+    /// Puts in force what an assignment to a variable of the controller sets.
+    fn assigned(_run: &mut Run<'_, '_, Self>, _tokens: &Range<usize>, _assign: usize) {}
+
+    /// Runs an instruction, or calls a procedure.
+    fn instruction(run: &mut Run<'_, '_, Self>, tokens: &Range<usize>, choice: Choice) -> Flow;
+
+    /// Reads a statement that leaves its block.
+    fn leave(file: &TokenFile<'_>, tokens: &Range<usize>) -> Leave;
+
+    /// Reads how a loop counts.
+    fn counting(file: &TokenFile<'_>, header: &Range<usize>) -> Option<Counting>;
+
+    /// True for an instruction that moves the tool or changes modal state.
+    fn acts(run: &Run<'_, '_, Self>, file: &TokenFile<'_>, tokens: &Range<usize>) -> bool;
+
+    /// Routines that interrupts call.
+    fn interrupting(run: &Run<'_, '_, Self>) -> Vec<usize>;
+
+    /// Takes the modal state with which a program begins.
+    fn begin(run: &mut Run<'_, '_, Self>);
+
+    /// Notes an instruction that ran, where the program is to be written flat.
+    fn log_instruction(_run: &mut Run<'_, '_, Self>, _tokens: &Range<usize>) {}
+
+    /// Notes an assignment that ran.
+    fn log_assignment(_run: &mut Run<'_, '_, Self>, _tokens: &Range<usize>, _assign: usize) {}
+
+    /// Notes a branch or a loop that ran or was passed over.
+    fn log_passed_over(_run: &mut Run<'_, '_, Self>, _whole: &Range<usize>) {}
+}
+
+/// A run of a program.
+pub(crate) struct Run<'r, 'p, D> {
+    pub(crate) files: &'p [TokenFile<'p>],
+    pub(crate) symbols: &'r Symbols<'p>,
+    pub(crate) options: &'r ReadOptions,
+    /// Values that the caller states.
+    pub(crate) values: BTreeMap<Name, Datum>,
+    /// Names whose stated values the run asked for.
+    pub(crate) used_values: BTreeSet<Name>,
+    /// Data of every controller, once they are asked for.
+    pub(crate) predefined: BTreeMap<Name, Datum>,
+    /// Values of the data of modules, once they are asked for.
+    pub(crate) data: BTreeMap<usize, Datum>,
+    /// Values of names that no file declares.
+    pub(crate) undeclared: BTreeMap<Name, Datum>,
+    /// Data that interrupts change at any time.
+    pub(crate) volatile: BTreeSet<usize>,
+    pub(crate) calls: Vec<Called>,
+    /// Where the expression stands that is evaluated.
+    pub(crate) scope: Scope,
+    /// Nesting of declarations that rest on others.
+    pub(crate) depth_of_data: usize,
+    /// Nesting of blocks and calls.
+    pub(crate) depth: usize,
+    /// Modal state of the language, and what it keeps beside.
+    pub(crate) own: D,
+    pub(crate) runs: Runs,
+    /// The motion at whose end the tool is.
+    pub(crate) here: Option<usize>,
+    pub(crate) targets: Targets,
+    pub(crate) motions: Vec<Motion>,
+    /// Begins of the statements of motions that ran, by file.
+    pub(crate) ran: BTreeSet<(usize, usize)>,
+    pub(crate) findings: Vec<Finding>,
+    pub(crate) outside_calls: Vec<OutsideCall>,
+    pub(crate) faults: Vec<ProgramError>,
+    /// Places of faults and findings that were noted: a statement in a loop has one.
+    pub(crate) noted: BTreeSet<(usize, usize, &'static str)>,
+    pub(crate) statements: usize,
+    /// The branch or the loop that ran last was passed over.
+    pub(crate) passed_over: bool,
+    /// Statements that ran, where the program is to be written flat.
+    pub(crate) log: Option<Vec<Logged>>,
+    /// Results of functions in the statement that runs, by the depth of the call, the file and the token.
+    pub(crate) results: BTreeMap<(usize, usize, usize), Datum>,
+    /// Places from which routines were called.
+    pub(crate) call_sites: BTreeMap<usize, BTreeSet<(usize, usize)>>,
+    /// The routine of each motion.
+    pub(crate) routines: Vec<usize>,
+    pub(crate) repeated_motions: usize,
+}
+
+impl<'r, 'p, D: Dialect> Run<'r, 'p, D> {
+    pub(crate) fn new(
+        files: &'p [TokenFile<'p>],
+        symbols: &'r Symbols<'p>,
+        options: &'r ReadOptions,
+        own: D,
+    ) -> Self {
+        let values = options.values.iter().filter_map(|(name, value)| {
+            let value = match value {
+                StatedValue::Number(number) => Value::Number(*number),
+                StatedValue::Truth(truth) => Value::Truth(*truth),
+                StatedValue::Text(text) => Value::Text(text.as_str().into()),
+            };
+            Some((Name::of(name.as_bytes())?, Datum::of(value)))
+        });
+        Self {
+            files,
+            symbols,
+            options,
+            values: values.collect(),
+            used_values: BTreeSet::new(),
+            predefined: BTreeMap::new(),
+            data: BTreeMap::new(),
+            undeclared: BTreeMap::new(),
+            volatile: BTreeSet::new(),
+            calls: Vec::new(),
+            scope: Scope::Module(0),
+            depth_of_data: 0,
+            depth: 0,
+            own,
+            runs: Runs::Once,
+            here: None,
+            targets: Targets::default(),
+            motions: Vec::new(),
+            ran: BTreeSet::new(),
+            findings: Vec::new(),
+            outside_calls: Vec::new(),
+            faults: Vec::new(),
+            noted: BTreeSet::new(),
+            statements: 0,
+            passed_over: false,
+            log: None,
+            results: BTreeMap::new(),
+            call_sites: BTreeMap::new(),
+            routines: Vec::new(),
+            repeated_motions: 0,
+        }
+    }
+
+    /// Runs `main`, then each procedure that nothing calls as a program of its own.
+    pub(crate) fn whole(mut self) -> Self {
+        self.note_volatile();
+        let main = self.symbols.main;
+        let called = self.called_by_name();
+        let others = (0..self.symbols.routines.len()).filter(|index| {
+            let kind = self.symbols.routines[*index].routine.kind;
+            Some(*index) != main && kind == RoutineKind::Procedure && !called.contains(index)
+        });
+        let roots: Vec<usize> = main.into_iter().chain(others).collect();
+        for root in roots {
+            self.here = None;
+            D::begin(&mut self);
+            self.runs = match Some(root) == main {
+                true => Runs::Once,
+                false => Runs::Elsewhere,
+            };
+            self.data.clear();
+            self.undeclared.clear();
+            if self.log.is_none() || Some(root) == main {
+                self.call(root, BTreeMap::new());
+            }
+        }
+        self.say_of_values();
+        self.say_of_unreached();
+        self.mark_repeated();
+        self.fix_what_others_call();
+        let targets = std::mem::take(&mut self.targets);
+        self.targets = targets.with_other_uses(self.files, self.symbols);
+        self
+    }
+
+    /// Routines that a statement of the files names.
+    fn called_by_name(&self) -> BTreeSet<usize> {
+        let mut called = BTreeSet::new();
+        if self.symbols.routines.len() < 2 {
+            return called;
+        }
+        for (index, home) in self.symbols.routines.iter().enumerate() {
+            let file = &self.files[home.file];
+            let mut see = |tokens: &Range<usize>| {
+                let is_word = |at: &usize| file.tokens[*at].kind == Kind::Word;
+                let words = tokens.clone().filter(is_word);
+                let names = words.filter_map(|at| Name::of(file.word(at)));
+                called.extend(names.filter_map(|name| self.symbols.routine(index, &name)));
+            };
+            home.routine.each_part(&mut see);
+        }
+        called
+    }
+
+    /// Data that routines of interrupts assign may change between any two statements.
+    fn note_volatile(&mut self) {
+        for index in D::interrupting(self) {
+            let body = &self.symbols.routines[index].routine.body;
+            let volatile = self.assigned_in(index, body).into_iter();
+            self.volatile.extend(volatile.filter_map(|root| match root {
+                Root::Module(datum) => Some(datum),
+                Root::Routine(..) | Root::Undeclared(_) => None,
+            }));
+        }
+    }
+
+    /// The file of the scope.
+    pub(crate) fn file(&self) -> &'p TokenFile<'p> {
+        &self.files[match self.scope {
+            Scope::Routine(routine) => self.symbols.routines[routine].file,
+            Scope::Module(module) => self.symbols.file_of_module(module),
+        }]
+    }
+
+    /// Notes a fault once.
+    pub(crate) fn fault(&mut self, tokens: &Range<usize>, (reason, remedy): Reason) {
+        let file = self.file();
+        let span = file.span(tokens);
+        if self.noted.insert((file.index, span.start, "fault")) {
+            note(&mut self.faults, || {
+                ProgramError::at(file.source, span, reason, remedy)
+            });
+        }
+    }
+
+    /// Notes a finding once.
+    pub(crate) fn find(&mut self, tokens: &Range<usize>, message: String) {
+        let file = self.file();
+        let start = file.span(tokens).start;
+        if self.noted.insert((file.index, start, "finding")) {
+            self.findings.push(Finding {
+                file: file.index,
+                line: file.source.line_of(start),
+                message,
+            });
+        }
+    }
+}

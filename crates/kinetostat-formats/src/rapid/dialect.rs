@@ -1,0 +1,171 @@
+//! The parts of RAPID that a run asks for.
+
+use std::ops::Range;
+
+use crate::interpreter::expression::{Argument, Expression};
+use crate::interpreter::flow::{Counting, Flow, Leave};
+use crate::interpreter::run::Dialect;
+use crate::interpreter::token::TokenFile;
+use crate::interpreter::tree::{Change, Choice, DatumNode, RoutineKind};
+use crate::interpreter::value::{Datum, Step, Value};
+use crate::options::ExternalAxes;
+use crate::rapid::expression;
+use crate::rapid::functions::{CHANGE_THEIRS, computed, is_computed, leaves_arguments};
+use crate::rapid::literals::component;
+use crate::rapid::predefined::predefined;
+use crate::rapid::state::{Rapid, Run};
+use crate::rapid::table::{EXTERNAL, motion_row, row};
+use crate::rapid::turning::{Modes, mode_of};
+use crate::table::Treatment;
+use crate::text::name::Name;
+
+impl Dialect for Rapid {
+    const OWN_COUNTER: bool = true;
+
+    fn expression_of(file: &TokenFile<'_>, tokens: Range<usize>) -> Expression {
+        expression::expression_of(file, tokens)
+    }
+
+    fn arguments_of(file: &TokenFile<'_>, tokens: Range<usize>) -> Vec<Argument> {
+        expression::arguments_of(file, tokens)
+    }
+
+    fn component(of: &Datum, name: &Name) -> Option<Step> {
+        let letters = std::str::from_utf8(name.letters()).ok()?;
+        component(letters, of.parts().len()).map(Step::Index)
+    }
+
+    fn predefined(name: &Name) -> Option<Datum> {
+        predefined(name)
+    }
+
+    fn of_type(node: &DatumNode) -> Option<Datum> {
+        let is_variable = node.change == Change::Variable;
+        is_variable.then(|| of_type(&node.type_name)).flatten()
+    }
+
+    /// Values that decide where the tool goes, or which way the program takes. Frames, loads and speeds that controllers keep are stated
+    /// again as they are set up.
+    fn is_kept(node: &DatumNode) -> bool {
+        const KINDS: [&str; 7] = ["NUM", "DNUM", "BOOL", "POS", "ORIENT", "POSE", "ROBTARGET"];
+        node.change == Change::Persistent && KINDS.iter().any(|kind| node.type_name.is(kind))
+    }
+
+    fn function(
+        run: &mut Run<'_, '_>,
+        name: &Name,
+        arguments: &[Argument],
+        whole: &Expression,
+    ) -> Option<Datum> {
+        if let Some(stated) = run.stated_signal(name, arguments) {
+            return Some(stated);
+        }
+        if name.is("CROBT")
+            && let Some(here) = run.current_target(arguments)
+        {
+            let key = (run.calls.len(), run.file().index, whole.tokens.start);
+            run.results.insert(key, here.clone());
+            return Some(here);
+        }
+        let given = run.given(arguments);
+        computed(name, &given)
+    }
+
+    fn leaves_arguments(function: &Name) -> bool {
+        leaves_arguments(function)
+    }
+
+    fn changes_arguments(instruction: &Name) -> bool {
+        row(instruction).is_none_or(|row| CHANGE_THEIRS.contains(&row.name))
+    }
+
+    fn is_motion(word: &Name) -> bool {
+        motion_row(word).is_some()
+    }
+
+    fn instruction(run: &mut Run<'_, '_>, tokens: &Range<usize>, choice: Choice) -> Flow {
+        run.instruction(tokens, choice)
+    }
+
+    fn leave(file: &TokenFile<'_>, tokens: &Range<usize>) -> Leave {
+        if file.is_word(tokens.start, "RETURN") {
+            let value = tokens.start + 1..tokens.end.saturating_sub(1);
+            return Leave::Returns((!value.is_empty()).then_some(value));
+        }
+        match Name::of(file.word(tokens.start + 1)) {
+            Some(label) if file.is_word(tokens.start, "GOTO") => Leave::Jump(label),
+            _ => Leave::Ends,
+        }
+    }
+
+    /// `i FROM a TO b STEP c`.
+    fn counting(file: &TokenFile<'_>, header: &Range<usize>) -> Option<Counting> {
+        let find = |word: &str| header.clone().find(|at| file.is_word(*at, word));
+        let (to, step) = (find("TO")?, find("STEP"));
+        file.is_word(header.start + 1, "FROM").then(|| Counting {
+            variable: header.start..header.start + 1,
+            from: header.start + 2..to,
+            to: to + 1..step.unwrap_or(header.end),
+            step: step.map(|at| at + 1..header.end),
+        })
+    }
+
+    fn acts(run: &Run<'_, '_>, file: &TokenFile<'_>, tokens: &Range<usize>) -> bool {
+        let Some(name) = Name::of(file.word(tokens.start)) else {
+            return true;
+        };
+        if motion_row(&name).is_some() || mode_of(file, tokens).is_some() {
+            return true;
+        }
+        match row(&name).map(|row| row.treatment) {
+            Some(EXTERNAL) => run.options.external_axes != ExternalAxes::Carried,
+            Some(Treatment::Refused { .. }) => true,
+            Some(_) => ["EXITCYCLE", "PDISPSET", "PDISPOFF"]
+                .iter()
+                .any(|word| name.is(word)),
+            None => is_computed(file, tokens),
+        }
+    }
+
+    fn interrupting(run: &Run<'_, '_>) -> Vec<usize> {
+        let all = run.symbols.routines.iter().enumerate();
+        let traps = all.filter(|(_, home)| home.routine.kind == RoutineKind::Trap);
+        traps.map(|(index, _)| index).collect()
+    }
+
+    fn begin(run: &mut Run<'_, '_>) {
+        run.own.modes = Modes::BASIC;
+        run.own.displacement = None;
+    }
+
+    fn log_instruction(run: &mut Run<'_, '_>, tokens: &Range<usize>) {
+        run.log_instruction(tokens);
+    }
+
+    fn log_assignment(run: &mut Run<'_, '_>, tokens: &Range<usize>, assign: usize) {
+        run.log_assignment(tokens, assign);
+    }
+
+    fn log_passed_over(run: &mut Run<'_, '_>, whole: &Range<usize>) {
+        run.log_passed_over(whole);
+    }
+}
+
+/// The value of a type without one: numbers are 0, truths FALSE, texts empty, and aggregates of those.
+///
+/// Source: ABB, Technical reference manual - RAPID kernel, Data declarations.
+fn of_type(type_name: &Name) -> Option<Datum> {
+    let zeros = |count: usize| Datum::numbers(std::iter::repeat_n(0.0, count));
+    Some(match type_name.letters() {
+        b"NUM" | b"DNUM" | b"INTNUM" | b"ERRNUM" => Datum::number(0.0),
+        b"BOOL" => Datum::truth(false),
+        b"STRING" => Datum::of(Value::Text("".into())),
+        b"POS" => zeros(3),
+        b"ORIENT" | b"CONFDATA" | b"SPEEDDATA" => zeros(4),
+        b"EXTJOINT" | b"ROBJOINT" => zeros(6),
+        b"POSE" => Datum::list(vec![zeros(3), zeros(4)]),
+        b"JOINTTARGET" => Datum::list(vec![zeros(6), zeros(6)]),
+        b"ROBTARGET" => Datum::list(vec![zeros(3), zeros(4), zeros(4), zeros(6)]),
+        _ => return None,
+    })
+}
