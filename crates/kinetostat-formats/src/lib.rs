@@ -39,7 +39,6 @@
 
 mod apt;
 mod axis_count;
-mod calls;
 mod corner;
 mod document;
 mod error;

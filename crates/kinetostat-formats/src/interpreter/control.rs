@@ -49,7 +49,7 @@ impl<D: Dialect> Run<'_, '_, D> {
         if self.depth >= DEEPEST {
             let reason = "calls and blocks are nested deeper than 200".to_owned();
             self.fault(tokens, (reason, "call what is deepest from main"));
-            return Flow::Next;
+            return Flow::Ends;
         }
         let file = self.file();
         let site = (file.index, file.span(tokens).start);
@@ -62,7 +62,14 @@ impl<D: Dialect> Run<'_, '_, D> {
                 Some(name) => parameters.iter().find(|parameter| parameter.name == *name),
                 None => ordered.next(),
             };
-            let Some(parameter) = parameter else { continue };
+            let Some(parameter) = parameter else {
+                // The files know another form of the routine.
+                if let Some(value) = value {
+                    let reason = self.changed(value);
+                    self.lose(value, &reason);
+                }
+                continue;
+            };
             let Some(value) = value else {
                 // `\switch`.
                 let given = Slot::Own(Datum::truth(true));
@@ -133,6 +140,12 @@ impl<D: Dialect> Run<'_, '_, D> {
     }
 
     fn statement(&mut self, statement: &Statement) -> Flow {
+        match statement {
+            Statement::Call { tokens } | Statement::Assignment { tokens, .. } => {
+                self.statement = tokens.clone();
+            }
+            _ => {}
+        }
         match statement {
             Statement::Label { .. } => Flow::Next,
             Statement::Call { tokens } => D::instruction(self, tokens, Choice::OneOfAll),
@@ -328,6 +341,9 @@ impl<D: Dialect> Run<'_, '_, D> {
     /// A loop with its condition behind its block.
     fn repeat_until(&mut self, header: &Range<usize>, block: &[Statement]) -> Flow {
         let condition = D::expression_of(self.file(), header.clone());
+        if condition.node == Node::Truth(false) {
+            return self.repeat_for_ever(header, block);
+        }
         loop {
             self.statements += 1;
             match self.block(block) {
@@ -357,7 +373,7 @@ impl<D: Dialect> Run<'_, '_, D> {
                 "the loop never ends: its first pass is read, and its corrections are those of all"
                     .to_owned(),
             );
-            return match self.block(block) {
+            return match self.one_pass(header, block) {
                 Flow::Next => Flow::Ends,
                 flow => flow,
             };
@@ -375,6 +391,53 @@ impl<D: Dialect> Run<'_, '_, D> {
                 flow => return flow,
             }
         }
+    }
+
+    /// The first pass of a loop that never ends. Where it changes data, a second pass shows whether all passes go to the same places.
+    fn one_pass(&mut self, header: &Range<usize>, block: &[Statement]) -> Flow {
+        let Scope::Routine(routine) = self.scope else {
+            return Flow::Next;
+        };
+        let changed: Vec<Root> = self.assigned_in(routine, block);
+        let before: Vec<Option<Datum>> = changed.iter().map(|root| self.stored(*root)).collect();
+        let begin = self.motions.len();
+        let flow = self.block(block);
+        let after: Vec<Option<Datum>> = changed.iter().map(|root| self.stored(*root)).collect();
+        if !matches!(flow, Flow::Next) || before == after {
+            return flow;
+        }
+        let (end, here, logged) = (
+            self.motions.len(),
+            self.here,
+            self.log.as_ref().map(Vec::len),
+        );
+        self.block(block);
+        let [first, second] = [&self.motions[begin..end], &self.motions[end..]];
+        let is_same = first.len() == second.len()
+            && first.iter().zip(second).all(|(first, second)| {
+                let places = [first, second].map(|of| (&of.kind, &of.target));
+                let frames = [first, second].map(|of| (&of.tool, &of.work_object));
+                places[0] == places[1] && frames[0] == frames[1]
+            });
+        self.repeated_motions -= (self.motions.len() - end).min(self.repeated_motions);
+        self.motions.truncate(end);
+        self.routines.truncate(end);
+        self.here = here;
+        if let (Some(log), Some(length)) = (&mut self.log, logged) {
+            log.truncate(length);
+        }
+        if !is_same {
+            let reason =
+                "the loop never ends, and its second pass goes to other places than its first";
+            self.fault(
+                header,
+                (
+                    reason.to_owned(),
+                    "write a loop that ends, or give the data their values at the begin of each pass",
+                ),
+            );
+        }
+        flow
     }
 
     /// A loop with a variable that counts.

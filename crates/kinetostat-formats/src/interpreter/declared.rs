@@ -103,6 +103,11 @@ impl<D: Dialect> Run<'_, '_, D> {
 }
 
 impl Targets {
+    /// A name in a statement that ends elsewhere rests on the value of its declaration.
+    pub(crate) fn is_no_end(&mut self, file: usize, start: usize) {
+        self.ends.remove(&(file, start));
+    }
+
     /// Notes which declarations something else than the motions that end at them rests on.
     pub(crate) fn with_other_uses(
         mut self,
@@ -123,7 +128,14 @@ impl Targets {
                 }
             }
         }
-        let declared = symbols.data.iter().map(|datum| datum.node.name);
+        let declared = symbols.data.iter().flat_map(|datum| {
+            let elements = datum.elements.values().map(|preset| preset.name);
+            let own = datum
+                .elements
+                .values()
+                .all(|own| own.name_at != datum.node.name_at);
+            elements.chain(own.then_some(datum.node.name))
+        });
         for name in declared.chain(self.ends.values().copied()) {
             if let Some(uses) = uses.get_mut(&name) {
                 *uses = uses.saturating_sub(1);

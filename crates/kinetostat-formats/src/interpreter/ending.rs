@@ -2,8 +2,11 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use crate::error::{ProgramError, note};
+use crate::interpreter::operation::same;
 use crate::interpreter::run::{Dialect, Run};
 use crate::interpreter::token::Kind;
+use crate::interpreter::value::{Datum, Step, Value};
 use crate::model::motion::Runs;
 use crate::model::site::TargetSite;
 use crate::options::StatedValue;
@@ -131,4 +134,60 @@ impl<D: Dialect> Run<'_, '_, D> {
             }
         }
     }
+
+    /// Refuses data that decide where the tool goes, that began with the values of the files, and end with others: the next run begins with
+    /// those.
+    pub(super) fn refuse_kept(&mut self) {
+        for (index, given) in std::mem::take(&mut self.begun_with) {
+            let node = self.symbols.data[index].node;
+            let (Some(given), Some(now)) = (given, self.data.get(&index).cloned()) else {
+                continue;
+            };
+            if D::decides_places(node) && differs(&self.initial(index), &now, &given) {
+                let datum = &self.symbols.data[index];
+                let file = &self.files[datum.file];
+                let span = file.span(&(node.name_at..node.name_at + 1));
+                let reason =
+                    "the run changes it after it was used: the next run begins with another value";
+                let remedy =
+                    "give it its value in the program before it is used, or declare a further one";
+                note(&mut self.faults, || {
+                    ProgramError::at(file.source, span, reason, remedy)
+                });
+            }
+        }
+    }
+
+    /// Begins a program of the files: what another one changed is not known.
+    pub(super) fn begin_data(&mut self) {
+        self.left_changed.extend(self.given.keys());
+        self.data.clear();
+        self.undeclared.clear();
+        self.begun_with.clear();
+        self.given.clear();
+    }
+}
+
+/// True if a part of a value with which the files begin became another, but for those that were given a value before.
+fn differs(first: &Datum, now: &Datum, given: &[Step]) -> bool {
+    if !first.members().is_empty() {
+        let mut members = first.members().iter();
+        return members.any(|(name, value)| {
+            let step = Step::Member(*name);
+            !given.contains(&step)
+                && now
+                    .part(&[step])
+                    .is_none_or(|now| !same(&value.value, &now.value))
+        });
+    }
+    if !first.parts().is_empty() {
+        let mut parts = first.parts().iter().enumerate();
+        return parts.any(|(at, value)| {
+            let step = Step::Index(at);
+            let now = now.part(&[step]);
+            !given.contains(&step) && now.is_none_or(|now| differs(value, now, &[]))
+        });
+    }
+    let is_known = first.unknown_reason().is_none() && !matches!(first.value, Value::Members(_));
+    is_known && !same(&first.value, &now.value)
 }

@@ -1,6 +1,6 @@
 //! Values of expressions.
 
-use crate::interpreter::expression::{Argument, Expression, Node};
+use crate::interpreter::expression::{Argument, Expression, Node, Operator};
 use crate::interpreter::operation::{one, two};
 use crate::interpreter::token::TokenFile;
 use crate::interpreter::value::{Datum, Literal, Step, Value};
@@ -10,6 +10,16 @@ use crate::text::name::Name;
 pub(crate) trait Names {
     /// The way to a component of a value.
     fn component(&self, of: &Datum, name: &Name) -> Option<Step>;
+
+    /// The result of an operator with two operands.
+    fn operation(&self, operator: Operator, left: &Datum, right: &Datum) -> Datum {
+        two(operator, left, right)
+    }
+
+    /// The value that the caller states for an element of an array.
+    fn stated(&mut self, _element: &Expression) -> Option<Datum> {
+        None
+    }
 
     /// The value of a name.
     fn word(&mut self, name: &Name, whole: &Expression) -> Datum;
@@ -80,6 +90,9 @@ pub(crate) fn evaluate(
             })
         }
         Node::Element(inner, indices) => {
+            if let Some(stated) = names.stated(expression) {
+                return stated;
+            }
             let of = evaluate(file, inner, names);
             let at: Vec<Datum> = indices
                 .iter()
@@ -99,7 +112,8 @@ pub(crate) fn evaluate(
         Node::Two(operator, operands) => {
             let [left, right] = &**operands;
             let left = evaluate(file, left, names);
-            two(*operator, &left, &evaluate(file, right, names))
+            let right = evaluate(file, right, names);
+            names.operation(*operator, &left, &right)
         }
         Node::Unreadable => Datum::unknown("it is no expression that is understood here"),
     }

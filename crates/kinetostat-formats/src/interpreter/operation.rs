@@ -51,6 +51,11 @@ pub(crate) fn same(left: &Value, right: &Value) -> bool {
             let mut pairs = left.iter().zip(right.iter());
             left.len() == right.len() && pairs.all(|(left, right)| same(&left.value, &right.value))
         }
+        (Value::Members(left), Value::Members(right)) => {
+            left.len() == right.len()
+                && (left.iter().zip(right.iter()))
+                    .all(|(left, right)| left.0 == right.0 && same(&left.1.value, &right.1.value))
+        }
         // Numbers of robots have single precision.
         (Value::Number(left), Value::Number(right))
             if left.abs() < EXACT && right.abs() < EXACT =>

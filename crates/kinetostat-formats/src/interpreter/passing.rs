@@ -8,7 +8,7 @@ use crate::interpreter::flow::Leave;
 use crate::interpreter::run::{Dialect, Place, Root, Run};
 use crate::interpreter::symbols::{Meaning, Scope};
 use crate::interpreter::token::TokenFile;
-use crate::interpreter::tree::Statement;
+use crate::interpreter::tree::{LoopKind, Statement};
 use crate::interpreter::value::Datum;
 use crate::text::name::Name;
 
@@ -51,6 +51,14 @@ impl<D: Dialect> Run<'_, '_, D> {
         !block
             .iter()
             .any(|statement| self.acts_here(statement, true))
+    }
+
+    /// True if a routine that is called moves the tool or changes modal state.
+    pub(crate) fn routine_acts(&self, routine: usize) -> bool {
+        let mut seen = BTreeSet::from([routine]);
+        let body = &self.symbols.routines[routine].routine.body;
+        body.iter()
+            .any(|statement| self.acts_called(routine, statement, &mut seen))
     }
 
     fn acts_here(&self, statement: &Statement, in_loop: bool) -> bool {
@@ -105,14 +113,7 @@ impl<D: Dialect> Run<'_, '_, D> {
             called.into_iter().any(|called| {
                 let body = &self.symbols.routines[called].routine.body;
                 seen.insert(called)
-                    && body.iter().any(|inner| match inner {
-                        // A routine that returns leaves itself alone.
-                        Statement::Leaves { tokens } => {
-                            let file = &self.files[self.symbols.routines[called].file];
-                            !matches!(D::leave(file, tokens), Leave::Returns(_))
-                        }
-                        _ => self.acts(called, inner, false, seen),
-                    })
+                    && (body.iter()).any(|inner| self.acts_called(called, inner, seen))
             })
         };
         match statement {
@@ -142,6 +143,22 @@ impl<D: Dialect> Run<'_, '_, D> {
         }
     }
 
+    /// True if a statement of a routine that is called acts behind the call: one that returns leaves its routine alone.
+    fn acts_called(
+        &self,
+        routine: usize,
+        statement: &Statement,
+        seen: &mut BTreeSet<usize>,
+    ) -> bool {
+        match statement {
+            Statement::Leaves { tokens } => {
+                let file = &self.files[self.symbols.routines[routine].file];
+                !matches!(D::leave(file, tokens), Leave::Returns(_))
+            }
+            _ => self.acts(routine, statement, false, seen),
+        }
+    }
+
     /// Data that statements of a routine, and the routines that they call, assign or give to what may change them.
     pub(crate) fn assigned_in(&self, routine: usize, statements: &[Statement]) -> Vec<Root> {
         let mut found = Vec::new();
@@ -158,13 +175,30 @@ impl<D: Dialect> Run<'_, '_, D> {
         let file = &self.files[self.symbols.routines[routine].file];
         let is_inner = !seen.is_empty();
         let (mut names, mut called) = (Vec::new(), Vec::new());
+        let is_own = |name: &Name| self.symbols.routine(routine, name).is_some();
+        let mut see = |tokens: &Range<usize>, assign: Option<usize>| {
+            changed_in::<D>(file, tokens, assign, &is_own, &mut names);
+            let words = tokens.clone().filter_map(|at| Name::of(file.word(at)));
+            called.extend(words.filter_map(|name| self.symbols.routine(routine, &name)));
+        };
+        let mut counted = Vec::new();
         for statement in statements {
-            statement.each_part(&mut |tokens| {
-                let is_own = |name: &Name| self.symbols.routine(routine, name).is_some();
-                changed_in::<D>(file, tokens, &is_own, &mut names);
-                let words = tokens.clone().filter_map(|at| Name::of(file.word(at)));
-                called.extend(words.filter_map(|name| self.symbols.routine(routine, &name)));
+            statement.each(&mut |inner| match inner {
+                Statement::Assignment { tokens, assign } => see(tokens, Some(*assign)),
+                Statement::Call { tokens } | Statement::Leaves { tokens } => see(tokens, None),
+                Statement::Branches { conditions, .. } => {
+                    conditions.iter().for_each(|tokens| see(tokens, None));
+                }
+                Statement::Loop { kind, header, .. } => {
+                    see(header, None);
+                    let variable = Name::of(file.word(header.start));
+                    counted.extend(variable.filter(|_| *kind == LoopKind::Counting));
+                }
+                Statement::Label { .. } => {}
             });
+        }
+        if !D::OWN_COUNTER {
+            names.extend(counted);
         }
         for name in names {
             match self.symbols.meaning(routine, &name) {
@@ -177,7 +211,7 @@ impl<D: Dialect> Run<'_, '_, D> {
                 Some(_) if !self.calls.is_empty() && !is_inner => {
                     found.push(Root::Routine(self.calls.len() - 1, name));
                 }
-                None if self.undeclared.contains_key(&name) => {
+                None if D::DECLARES_BY_USE => {
                     found.push(Root::Undeclared(name));
                 }
                 _ => {}
@@ -199,17 +233,16 @@ pub(crate) const SET_IT: &str = "state the value of what decides it (--set NAME=
 fn changed_in<D: Dialect>(
     file: &TokenFile<'_>,
     tokens: &Range<usize>,
+    assign: Option<usize>,
     is_own: &dyn Fn(&Name) -> bool,
     names: &mut Vec<Name>,
 ) {
     let Some(first) = Name::of(file.word(tokens.start)) else {
         return;
     };
-    let assign = tokens.clone().find(|at| file.word(*at) == b":=");
-    let is_option = |at: usize| at >= 2 && file.word(at - 2) == b"\\";
-    if let Some(at) = assign.filter(|at| !is_option(*at)) {
+    if let Some(at) = assign {
         names.push(first);
-        let value = D::expression_of(file, at + 1..tokens.end.saturating_sub(1).max(at + 1));
+        let value = D::expression_of(file, file.value_behind(at, tokens));
         given_away::<D>(&value, is_own, names);
         return;
     }

@@ -5,8 +5,9 @@ use std::ops::Range;
 
 use crate::error::{ProgramError, note};
 use crate::interpreter::declared::Targets;
-use crate::interpreter::expression::{Argument, Expression};
+use crate::interpreter::expression::{Argument, Expression, Operator};
 use crate::interpreter::flow::{Counting, Flow, Leave};
+use crate::interpreter::operation::two;
 use crate::interpreter::symbols::{Scope, Symbols};
 use crate::interpreter::token::{Kind, TokenFile};
 use crate::interpreter::tree::{Choice, DatumNode, RoutineKind};
@@ -19,6 +20,9 @@ use crate::text::name::Name;
 
 /// The reason why something is refused, and the remedy.
 pub(crate) type Reason = (String, &'static str);
+
+/// Most motions of statements that ran before.
+const MOST_REPEATED: usize = 200_000;
 
 /// Deepest nesting of calls and blocks together.
 pub(crate) const DEEPEST: usize = 200;
@@ -70,6 +74,9 @@ pub(crate) trait Dialect: Sized {
     /// True where a loop counts down by itself if its end is below its begin, and its variable lives in the loop alone.
     const OWN_COUNTER: bool;
 
+    /// True where a name that no file declares is one of the controller, and gets its value by an assignment.
+    const DECLARES_BY_USE: bool;
+
     /// The expression that tokens are.
     fn expression_of(file: &TokenFile<'_>, tokens: Range<usize>) -> Expression;
 
@@ -85,8 +92,23 @@ pub(crate) trait Dialect: Sized {
     /// The value of a declaration without one; none where only the controller knows it.
     fn of_type(node: &DatumNode) -> Option<Datum>;
 
-    /// True for data of which the controller may hold another value than the file.
-    fn is_kept(node: &DatumNode) -> bool;
+    /// What is said of data of which the controller may hold another value than the file.
+    fn kept(run: &Run<'_, '_, Self>, index: usize) -> Option<String>;
+
+    /// True for data that decide where the tool goes: such data must not keep another value for the next run.
+    fn decides_places(_node: &DatumNode) -> bool {
+        false
+    }
+
+    /// The result of an operator with two operands.
+    fn operation(
+        _run: &Run<'_, '_, Self>,
+        operator: Operator,
+        left: &Datum,
+        right: &Datum,
+    ) -> Datum {
+        two(operator, left, right)
+    }
 
     /// The result of a function of the controller; none of one that is not computed here.
     fn function(
@@ -151,6 +173,12 @@ pub(crate) struct Run<'r, 'p, D> {
     pub(crate) data: BTreeMap<usize, Datum>,
     /// Values of names that no file declares.
     pub(crate) undeclared: BTreeMap<Name, Datum>,
+    /// Data of modules that were used, with the parts that the run had given a value before; none where that was the whole.
+    pub(crate) begun_with: BTreeMap<usize, Option<Vec<Step>>>,
+    /// Parts of data of modules to which the run gave a value.
+    pub(crate) given: BTreeMap<usize, Vec<Step>>,
+    /// Data of modules that an earlier program of the files changed.
+    pub(crate) left_changed: BTreeSet<usize>,
     /// Data that interrupts change at any time.
     pub(crate) volatile: BTreeSet<usize>,
     pub(crate) calls: Vec<Called>,
@@ -175,6 +203,8 @@ pub(crate) struct Run<'r, 'p, D> {
     /// Places of faults and findings that were noted: a statement in a loop has one.
     pub(crate) noted: BTreeSet<(usize, usize, &'static str)>,
     pub(crate) statements: usize,
+    /// Tokens of the statement that runs.
+    pub(crate) statement: Range<usize>,
     /// The branch or the loop that ran last was passed over.
     pub(crate) passed_over: bool,
     /// Statements that ran, where the program is to be written flat.
@@ -212,6 +242,9 @@ impl<'r, 'p, D: Dialect> Run<'r, 'p, D> {
             predefined: BTreeMap::new(),
             data: BTreeMap::new(),
             undeclared: BTreeMap::new(),
+            begun_with: BTreeMap::new(),
+            given: BTreeMap::new(),
+            left_changed: BTreeSet::new(),
             volatile: BTreeSet::new(),
             calls: Vec::new(),
             scope: Scope::Module(0),
@@ -228,6 +261,7 @@ impl<'r, 'p, D: Dialect> Run<'r, 'p, D> {
             faults: Vec::new(),
             noted: BTreeSet::new(),
             statements: 0,
+            statement: 0..0,
             passed_over: false,
             log: None,
             results: BTreeMap::new(),
@@ -254,10 +288,10 @@ impl<'r, 'p, D: Dialect> Run<'r, 'p, D> {
                 true => Runs::Once,
                 false => Runs::Elsewhere,
             };
-            self.data.clear();
-            self.undeclared.clear();
+            self.begin_data();
             if self.log.is_none() || Some(root) == main {
                 self.call(root, BTreeMap::new());
+                self.refuse_kept();
             }
         }
         self.say_of_values();
@@ -306,6 +340,36 @@ impl<'r, 'p, D: Dialect> Run<'r, 'p, D> {
             Scope::Routine(routine) => self.symbols.routines[routine].file,
             Scope::Module(module) => self.symbols.file_of_module(module),
         }]
+    }
+
+    /// Notes that the statement of a motion runs; false where too many ran before.
+    pub(crate) fn begins_motion(&mut self, tokens: &Range<usize>) -> bool {
+        let start = self.file().span(tokens).start;
+        if self.ran.insert((self.file().index, start)) {
+            return true;
+        }
+        self.repeated_motions += 1;
+        let is_too_much = self.repeated_motions > MOST_REPEATED;
+        if is_too_much {
+            let reason = "the loops of the program run more than 200000 motions".to_owned();
+            self.fault(tokens, (reason, "read the part that cuts by itself"));
+        }
+        !is_too_much
+    }
+
+    /// Adds a motion that ran.
+    pub(crate) fn push_motion(&mut self, mut motion: Motion) {
+        motion.runs = self.runs;
+        motion.follows = self.here;
+        self.motions.push(motion);
+        let routine = self.calls.last().map_or(0, |called| called.routine);
+        self.routines.push(routine);
+        self.here = Some(self.motions.len() - 1);
+    }
+
+    /// The line of the statement that runs.
+    pub(crate) fn line(&self) -> usize {
+        self.file().line_of(self.statement.start)
     }
 
     /// Notes a fault once.

@@ -3,7 +3,7 @@
 use std::rc::Rc;
 
 use crate::interpreter::evaluate::{Names, evaluate, index_of};
-use crate::interpreter::expression::{Argument, Expression, Node};
+use crate::interpreter::expression::{Argument, Expression, Node, Operator};
 use crate::interpreter::run::{Dialect, Place, Root, Run, Slot};
 use crate::interpreter::symbols::{Meaning, Scope};
 use crate::interpreter::tree::Change;
@@ -56,6 +56,16 @@ impl<D: Dialect> Run<'_, '_, D> {
         }
     }
 
+    /// Notes that data of a module are used, and which of their parts the run had given a value before.
+    pub(crate) fn note_use(&mut self, root: Root) {
+        if let Root::Module(index) = root
+            && !self.begun_with.contains_key(&index)
+        {
+            let given = self.given.get(&index).cloned().unwrap_or_default();
+            self.begun_with.insert(index, Some(given));
+        }
+    }
+
     /// The value that is stored.
     pub(crate) fn stored(&mut self, root: Root) -> Option<Datum> {
         match root {
@@ -104,23 +114,30 @@ impl<D: Dialect> Run<'_, '_, D> {
             self.used_values.insert(datum.node.name);
             return value.clone();
         }
+        if self.left_changed.contains(&index) {
+            return Datum::unknown(format!(
+                "`{}` is changed by another program of these files",
+                self.shown(index)
+            ));
+        }
         let Some(tokens) = datum.node.initial.clone() else {
-            return self.without_value(index);
+            let whole = self.without_value(index);
+            return self.with_elements(index, whole);
         };
         if self.depth_of_data >= DEEPEST {
             return Datum::unknown("its declaration rests on too many others");
         }
         let node = datum.node;
-        if D::is_kept(node) {
+        if let Some(message) = D::kept(self, index) {
             let file = &self.files[datum.file];
-            self.findings.push(Finding {
-                file: datum.file,
-                line: file.source.line_of(file.span(&(node.name_at..node.name_at + 1)).start),
-                message: format!(
-                    "`{}` is PERS: the controller may hold another value than this file; load the written one",
-                    self.shown(index)
-                ),
-            });
+            let line = file.line_of(node.name_at);
+            if self.noted.insert((datum.file, node.name_at, "kept")) {
+                self.findings.push(Finding {
+                    file: datum.file,
+                    line,
+                    message,
+                });
+            }
         }
         let outer = std::mem::replace(&mut self.scope, datum.scope);
         self.depth_of_data += 1;
@@ -129,6 +146,35 @@ impl<D: Dialect> Run<'_, '_, D> {
         self.depth_of_data -= 1;
         self.scope = outer;
         value
+    }
+
+    /// A declared array with the first values of its elements, which stand in statements of their own.
+    fn with_elements(&mut self, index: usize, mut whole: Datum) -> Datum {
+        let datum = &self.symbols.data[index];
+        let outer = std::mem::replace(&mut self.scope, datum.scope);
+        self.depth_of_data += 1;
+        for (number, preset) in &datum.elements {
+            let expression = D::expression_of(&self.files[datum.file], preset.value.clone());
+            let value = self.value(&expression);
+            let Some(element) = number.checked_sub(1) else {
+                whole = value;
+                continue;
+            };
+            if element >= MOST_ELEMENTS {
+                continue;
+            }
+            if whole.parts().len() <= element {
+                let mut parts = whole.parts().to_vec();
+                parts.resize_with(element + 1, || {
+                    Datum::unknown("it has no value in these files")
+                });
+                whole = Datum::list(parts);
+            }
+            whole.put(&[Step::Index(element)], value);
+        }
+        self.depth_of_data -= 1;
+        self.scope = outer;
+        whole
     }
 
     /// The declaration of stored data; none of a parameter or the variable of a loop.
@@ -191,8 +237,10 @@ impl<D: Dialect> Run<'_, '_, D> {
             }
             Node::Field(of, name) => {
                 let mut place = self.place(of)?;
-                let whole = self.value(of);
-                place.path.push(D::component(&whole, name)?);
+                let whole = self.stored(place.root)?;
+                let none = Datum::list(Vec::new());
+                let whole = whole.part(&place.path).unwrap_or(&none);
+                place.path.push(D::component(whole, name)?);
                 Some(place)
             }
             Node::Element(of, indices) => {
@@ -229,6 +277,19 @@ impl<D: Dialect> Run<'_, '_, D> {
         };
         match place.root {
             Root::Module(index) => {
+                match (place.path.as_slice(), self.begun_with.contains_key(&index)) {
+                    ([], false) => {
+                        self.begun_with.insert(index, None);
+                    }
+                    ([step], false) => {
+                        let given = self.given.entry(index).or_default();
+                        if !given.contains(step) {
+                            given.push(*step);
+                        }
+                    }
+                    _ => {}
+                }
+                self.given.entry(index).or_default();
                 self.data.insert(index, whole);
             }
             Root::Undeclared(name) => {
@@ -251,6 +312,12 @@ impl<D: Dialect> Run<'_, '_, D> {
         // Of an element that only the controller knows, the whole array.
         let place = self.place(expression).or_else(|| self.place(whole));
         let Some(place) = place.filter(|place| !self.is_constant(place.root)) else {
+            if let (Node::Word(name), true) = (&whole.node, D::DECLARES_BY_USE)
+                && self.root(name).is_none()
+            {
+                let unknown = Datum::unknown(reason.clone());
+                self.undeclared.insert(*name, unknown);
+            }
             return;
         };
         let stated = match place.path.is_empty() {
@@ -316,10 +383,30 @@ impl<D: Dialect> Names for Run<'_, '_, D> {
         D::component(of, name)
     }
 
+    fn operation(&self, operator: Operator, left: &Datum, right: &Datum) -> Datum {
+        D::operation(self, operator, left, right)
+    }
+
+    fn stated(&mut self, element: &Expression) -> Option<Datum> {
+        if self.values.is_empty() {
+            return None;
+        }
+        let text = self.file().text(&element.tokens);
+        let letters: String = text.chars().filter(|own| !own.is_whitespace()).collect();
+        let name = Name::of(letters.as_bytes())?;
+        let value = self.values.get(&name)?.clone();
+        self.used_values.insert(name);
+        Some(value)
+    }
+
     fn word(&mut self, name: &Name, whole: &Expression) -> Datum {
         let file = self.file();
         let shown = || String::from_utf8_lossy(file.word(whole.tokens.start)).into_owned();
-        let stored = self.root(name).map(|root| self.stored(root));
+        let root = self.root(name);
+        if let Some(root) = root {
+            self.note_use(root);
+        }
+        let stored = root.map(|root| self.stored(root));
         match stored {
             Some(Some(datum)) => datum,
             Some(None) => Datum::unknown(format!(
@@ -336,6 +423,9 @@ impl<D: Dialect> Names for Run<'_, '_, D> {
                 }
                 match D::predefined(name) {
                     Some(datum) => self.predefined.entry(*name).or_insert(datum).clone(),
+                    None if shown().starts_with('$') => {
+                        Datum::unknown(format!("`{}` is known to the controller alone", shown()))
+                    }
                     None => Datum::unknown(format!("no `{}` is declared in these files", shown())),
                 }
             }

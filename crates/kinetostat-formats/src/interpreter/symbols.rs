@@ -128,7 +128,10 @@ impl<'p> Symbols<'p> {
         for parameter in &routine.parameters {
             locals.insert(parameter.name, Meaning::Parameter);
         }
-        for node in &routine.data {
+        // KRL declares its parameters as data as well.
+        let is_parameter =
+            |node: &&DatumNode| (routine.parameters.iter()).any(|own| own.name == node.name);
+        for node in routine.data.iter().filter(|node| !is_parameter(node)) {
             let datum = self.add(file.index, node, Scope::Routine(index));
             let before = locals.insert(node.name, Meaning::Datum(datum));
             if before.is_some() {
@@ -136,6 +139,22 @@ impl<'p> Symbols<'p> {
             }
         }
         self.in_routine.push(locals);
+    }
+
+    /// Adds the first value of an element to the datum of its name, where that is of the same file.
+    pub(crate) fn add_element(&mut self, file: usize, module: usize, preset: &'p Preset) {
+        let index = self.datum_in(module, &preset.name);
+        if let Some(datum) = index.and_then(|index| self.data.get_mut(index))
+            && datum.file == file
+        {
+            datum.elements.insert(preset.index, preset);
+        }
+    }
+
+    /// Lets all modules see a routine of one, unless they see another of its name.
+    pub(crate) fn see_everywhere(&mut self, routine: usize) {
+        let name = self.routines[routine].routine.name;
+        self.routines_everywhere.entry(name).or_insert(routine);
     }
 
     /// Adds a name of a routine that is no datum: the variable of a loop.

@@ -165,6 +165,19 @@ impl Statement {
         found
     }
 
+    /// Sees the statement and those in it.
+    pub(crate) fn each(&self, see: &mut dyn FnMut(&Self)) {
+        see(self);
+        let blocks = match self {
+            Self::Branches { blocks, .. } => blocks.as_slice(),
+            Self::Loop { block, .. } => std::slice::from_ref(block),
+            _ => &[],
+        };
+        for statement in blocks.iter().flatten() {
+            statement.each(see);
+        }
+    }
+
     /// Sees the tokens of the statement, or of its conditions and of the statements in it.
     pub(crate) fn each_part(&self, see: &mut dyn FnMut(&Range<usize>)) {
         match self {

@@ -2,12 +2,8 @@
 
 use std::ops::Range;
 
-use crate::krl::lex::{Kind, TokenFile};
-use crate::model::orientation::OrientationText;
-use crate::model::site::PoseText;
-use crate::model::target::Configuration;
+use crate::interpreter::token::{Kind, TokenFile};
 use crate::text::name::Name;
-use crate::text::number::{NumberText, Width, values_of};
 
 /// Members and the tokens of their values.
 #[derive(Debug, Clone, PartialEq)]
@@ -83,135 +79,6 @@ pub(crate) fn number_of(file: &TokenFile<'_>, tokens: &Range<usize>) -> Option<f
     value.is_finite().then_some(value)
 }
 
-/// What a position in braces states.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub(crate) struct Position {
-    /// The whole literal in its file.
-    pub whole: Range<usize>,
-    /// X, Y, Z, A, B, C.
-    pub numbers: [Option<NumberText>; 6],
-    /// S and T.
-    pub configuration: Configuration,
-    /// E1 to E6; empty where none is stated.
-    pub external: Vec<Option<NumberText>>,
-    /// A1 to A6.
-    pub axes: [Option<f64>; 6],
-}
-
-const PLACE: [&str; 6] = ["X", "Y", "Z", "A", "B", "C"];
-const AXES: [&str; 6] = ["A1", "A2", "A3", "A4", "A5", "A6"];
-const EXTERNAL: [&str; 6] = ["E1", "E2", "E3", "E4", "E5", "E6"];
-
-/// Larger than a length in mm or an angle in degrees of any robot.
-const LARGEST: f64 = 1e7;
-
-/// The position that tokens are; why they are none.
-pub(crate) fn position_of(
-    file: &TokenFile<'_>,
-    tokens: &Range<usize>,
-) -> Result<Position, &'static str> {
-    let aggregate = aggregate_of(file, tokens).ok_or("it is no position in braces")?;
-    let mut position = Position {
-        whole: file.span(tokens),
-        ..Position::default()
-    };
-    for (name, value) in &aggregate.members {
-        let of_this_name = |other: &&(Name, Range<usize>)| other.0 == *name;
-        if aggregate.members.iter().filter(of_this_name).count() > 1 {
-            return Err("it states a component twice");
-        }
-        position.set(file, name, value)?;
-    }
-    Ok(position)
-}
-
-impl Position {
-    /// Gives a member the number that tokens are.
-    pub(crate) fn set(
-        &mut self,
-        file: &TokenFile<'_>,
-        name: &Name,
-        value: &Range<usize>,
-    ) -> Result<(), &'static str> {
-        let number =
-            number_of(file, value).ok_or("its numbers are computed while the program runs")?;
-        if number.abs() > LARGEST {
-            return Err("its numbers are larger than any robot needs");
-        }
-        let text = NumberText {
-            span: file.span(value),
-            value: number,
-        };
-        let slot = |names: [&str; 6]| names.iter().position(|capitals| name.is(capitals));
-        if let Some(index) = slot(PLACE) {
-            self.numbers[index] = Some(text);
-        } else if let Some(index) = slot(AXES) {
-            self.axes[index] = Some(number);
-        } else if let Some(index) = slot(EXTERNAL) {
-            self.external.resize(EXTERNAL.len(), None);
-            self.external[index] = Some(text);
-        } else if name.is("S") || name.is("T") {
-            if number.fract() != 0.0 || number < 0.0 {
-                return Err("its S and T are not whole numbers of 0 and above");
-            }
-            let written = &mut self.configuration.text;
-            if !written.is_empty() {
-                written.push(',');
-            }
-            written.push_str(&file.text(&(value.start - 1..value.end)));
-            self.configuration.numbers.push(number);
-        } else {
-            return Err("it has a member that no position has");
-        }
-        Ok(())
-    }
-
-    /// Without some of its members.
-    pub(crate) fn without(mut self, members: &[Name]) -> Self {
-        let is_left = |capitals: &str| !members.iter().any(|name| name.is(capitals));
-        for index in 0..PLACE.len() {
-            self.numbers[index].take_if(|_| !is_left(PLACE[index]));
-            self.axes[index].take_if(|_| !is_left(AXES[index]));
-        }
-        for (name, value) in EXTERNAL.iter().zip(&mut self.external) {
-            value.take_if(|_| !is_left(name));
-        }
-        self
-    }
-    /// What it says of X, Y, Z, A, B, C.
-    pub(crate) fn values(&self) -> [Option<f64>; 6] {
-        self.numbers
-            .each_ref()
-            .map(|number| number.as_ref().map(|number| number.value))
-    }
-
-    /// External axes as stated.
-    pub(crate) fn external_values(&self) -> Vec<Option<f64>> {
-        values_of(&self.external)
-    }
-
-    /// Where its numbers stand; none where X, Y and Z are not all there, or only some of A, B, C.
-    pub(crate) fn text(&self, file: usize) -> Option<PoseText> {
-        let [Some(x), Some(y), Some(z), a, b, c] = self.numbers.clone() else {
-            return None;
-        };
-        let (orientation, convention) = match (a, b, c) {
-            (Some(a), Some(b), Some(c)) => (vec![a, b, c], OrientationText::Abc),
-            (None, None, None) => (Vec::new(), OrientationText::Unstated),
-            _ => return None,
-        };
-        Some(PoseText {
-            file,
-            whole: self.whole.clone(),
-            position: [x, y, z],
-            orientation,
-            convention,
-            external: self.external.clone(),
-            width: Width::Free,
-        })
-    }
-}
-
 /// `[3]`, or nothing, which is 0; none for all else.
 pub(crate) fn literal_index(file: &TokenFile<'_>, tokens: Range<usize>) -> Option<u32> {
     if tokens.is_empty() {
@@ -221,4 +88,13 @@ pub(crate) fn literal_index(file: &TokenFile<'_>, tokens: Range<usize>) -> Optio
     let closed = file.is(tokens.start, b'[') && file.is(tokens.end - 1, b']');
     let text = std::str::from_utf8(file.word(tokens.start + 1)).ok()?;
     (is_number && closed).then(|| text.parse().ok())?
+}
+
+/// A name, or an element of an array, and the tokens it is written with. An index that is no literal number is none.
+pub(crate) fn place_of(file: &TokenFile<'_>, at: usize, end: usize) -> (Range<usize>, Option<u32>) {
+    if !file.is(at + 1, b'[') || at + 1 >= end {
+        return (at..at + 1, Some(0));
+    }
+    let close = file.find(at + 2..end, b']').map_or(end, |close| close + 1);
+    (at..close, literal_index(file, at + 1..close))
 }

@@ -2,23 +2,35 @@
 
 use std::ops::Range;
 
-use crate::krl::lex::TokenFile;
-use crate::krl::state::Thing;
-use crate::krl::values::Reason;
+use crate::interpreter::run::Reason;
+use crate::interpreter::token::TokenFile;
 
-const ROUNDINGS: [(&str, Option<Thing>); 5] = [
-    ("C_DIS", Some(Thing::Distance)),
-    ("C_PTP", Some(Thing::Percent)),
-    ("C_VEL", Some(Thing::VelocityPercent)),
-    ("C_ORI", None),
-    ("C_SPL", Some(Thing::Distance)),
+/// A way of passing an end.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Rounding {
+    /// Within `$APO.CDIS`.
+    Distance,
+    /// Within `$APO.CPTP`.
+    JointPercent,
+    /// With `$APO.CVEL`.
+    SpeedPercent,
+    /// Where the tool is turned.
+    Turning,
+}
+
+const ROUNDINGS: [(&str, Rounding); 5] = [
+    ("C_DIS", Rounding::Distance),
+    ("C_PTP", Rounding::JointPercent),
+    ("C_VEL", Rounding::SpeedPercent),
+    ("C_ORI", Rounding::Turning),
+    ("C_SPL", Rounding::Distance),
 ];
 
 /// What stands behind the ends of a motion.
 pub(crate) struct Rest {
     /// Place of the words of rounding.
     pub zone: Option<Range<usize>>,
-    pub rounding: Option<Thing>,
+    pub rounding: Option<Rounding>,
     /// A step is in the axes of the tool, not of the base.
     pub in_tool: bool,
     /// What follows WITH.
@@ -53,11 +65,11 @@ pub(crate) fn rest_of(
             }
             return Err(inline_form());
         };
-        if let Some((_, thing)) = ROUNDINGS.iter().find(|(word, _)| name.is(word)) {
+        if let Some((_, rounding)) = ROUNDINGS.iter().find(|(word, _)| name.is(word)) {
             let span = file.span(&(at..at + 1));
             let start = rest.zone.as_ref().map_or(span.start, |zone| zone.start);
             if rest.zone.is_none() {
-                rest.rounding = *thing;
+                rest.rounding = Some(*rounding);
             }
             rest.zone = Some(start..span.end);
             at += 1;
@@ -66,9 +78,9 @@ pub(crate) fn rest_of(
             // Words of rounding may stand behind it.
             if let Some(zone) = file.name(tokens.end - 1) {
                 let found = ROUNDINGS.iter().find(|(word, _)| zone.is(word));
-                if let (Some((_, thing)), true) = (found, rest.with.len() > 1) {
+                if let (Some((_, rounding)), true) = (found, rest.with.len() > 1) {
                     rest.with.end -= 1;
-                    rest.rounding = *thing;
+                    rest.rounding = Some(*rounding);
                     rest.zone = Some(file.span(&(tokens.end - 1..tokens.end)));
                 }
             }

@@ -2,7 +2,8 @@
 
 use std::ops::Range;
 
-use crate::krl::lex::{TokenFile, closes, opens};
+use crate::interpreter::token::TokenFile;
+use crate::krl::lex::{closes, opens};
 use crate::model::frame::FrameUse;
 
 /// For each line the line that opens the fold around it.

@@ -2,13 +2,13 @@
 
 use nalgebra::{UnitQuaternion, Vector3};
 
+use crate::krl::position::angles_of;
 use crate::model::orientation::OrientationText;
 use crate::model::target::PoseTarget;
 
 /// A, B and C of an orientation as a controller says them: B no farther than 90 degrees.
 pub(crate) fn kept_angles(orientation: &UnitQuaternion<f64>) -> [f64; 3] {
-    let near = OrientationText::Abc.numbers_of(orientation, &[0.0; 3]);
-    let [a, b, c] = [0, 1, 2].map(|index| near.get(index).copied().unwrap_or_default());
+    let [a, b, c] = angles_of(orientation);
     let other = |angle: f64| match angle > 0.0 {
         true => angle - 180.0,
         false => angle + 180.0,

@@ -10,144 +10,48 @@ use winnow::prelude::*;
 use winnow::stream::LocatingSlice;
 use winnow::token::{any, one_of, take_till, take_while};
 
-use crate::text::name::Name;
+use crate::interpreter::token::{Kind, Line, Token, TokenFile};
 use crate::text::source::{SourceFile, beginning};
 
 type Input<'i> = LocatingSlice<&'i [u8]>;
 type Nothing = winnow::error::EmptyError;
 
-/// What a token is.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Kind {
-    /// An identifier or a keyword; system variables begin with `$`.
-    Word,
-    /// Digits with point and exponent, without sign.
-    Number,
-    /// `'B0110'`, `'H1F'`.
-    Bits,
-    /// `"..."`.
-    Text,
-    /// Any other byte.
-    Symbol(u8),
-}
-
-/// A token and its bytes in the file.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Token {
-    pub kind: Kind,
-    start: u32,
-    end: u32,
-}
-
-impl Token {
-    /// Its bytes in the file.
-    pub(crate) fn bytes(&self) -> Range<usize> {
-        self.start as usize..self.end as usize
-    }
-}
-
-/// A line with tokens or with a comment that is part of a fold.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct Line {
-    pub tokens: Range<usize>,
-    /// From the semicolon to the end of the line.
-    pub comment: Option<Range<usize>>,
-}
-
-/// A file, its tokens and its lines.
-pub(crate) struct TokenFile<'a> {
-    pub index: usize,
-    pub source: &'a SourceFile,
-    pub tokens: Vec<Token>,
-    pub lines: Vec<Line>,
-}
-
-impl<'a> TokenFile<'a> {
-    /// The lines of a file shorter than 4 GiB.
-    pub(crate) fn of(index: usize, source: &'a SourceFile) -> Self {
-        let bytes = source.bytes();
-        let mut tokens = Vec::with_capacity(bytes.len() / 4);
-        let mut lines = Vec::new();
-        let mut start = beginning(bytes);
-        while start < bytes.len() {
-            let length = bytes[start..].iter().position(|byte| *byte == b'\n');
-            let end = length.map_or(bytes.len(), |length| start + length);
-            if bytes.get(start) != Some(&b'&') {
-                let first = tokens.len();
-                let comment = tokens_of(&bytes[start..end], start, &mut tokens);
-                if tokens.len() > first
-                    || comment.as_ref().is_some_and(|at| folds(&bytes[at.clone()]))
-                {
-                    lines.push(Line {
-                        tokens: first..tokens.len(),
-                        comment,
-                    });
-                }
-            }
-            start = end + 1;
-        }
-        Self {
-            index,
-            source,
-            tokens,
-            lines,
-        }
-    }
-
-    /// The bytes of a token; none behind the last.
-    pub(crate) fn word(&self, at: usize) -> &[u8] {
-        let token = self.tokens.get(at);
-        token.map_or(&[], |token| self.source.part(&token.bytes()))
-    }
-
-    /// The identifier that a token is.
-    pub(crate) fn name(&self, at: usize) -> Option<Name> {
-        let is_word = self.tokens.get(at)?.kind == Kind::Word;
-        is_word.then(|| Name::of(self.word(at)))?
-    }
-
-    /// The place of a range of tokens in the file.
-    pub(crate) fn span(&self, tokens: &Range<usize>) -> Range<usize> {
-        let place = |at: usize| self.tokens.get(at).map(Token::bytes);
-        let first = place(tokens.start).or_else(|| self.tokens.last().map(Token::bytes));
-        let start = first.map_or(0, |place| place.start);
-        let last = tokens.end.checked_sub(1).and_then(place);
-        start..last.map_or(start, |place| place.end).max(start)
-    }
-
-    /// Tokens as they are written.
-    pub(crate) fn text(&self, tokens: &Range<usize>) -> String {
-        String::from_utf8_lossy(self.source.part(&self.span(tokens))).into_owned()
-    }
-
-    /// Whether a token is this byte.
-    pub(crate) fn is(&self, at: usize, symbol: u8) -> bool {
-        self.tokens
-            .get(at)
-            .is_some_and(|token| token.kind == Kind::Symbol(symbol))
-    }
-
-    /// The first token of these that is this byte and stands in no bracket.
-    pub(crate) fn find(&self, tokens: Range<usize>, symbol: u8) -> Option<usize> {
-        let mut open = 0_usize;
-        for at in tokens {
-            match self.tokens[at].kind {
-                Kind::Symbol(found) if found == symbol && open == 0 => return Some(at),
-                Kind::Symbol(b'(' | b'[' | b'{') => open += 1,
-                Kind::Symbol(b')' | b']' | b'}') => open = open.saturating_sub(1),
-                _ => {}
+/// The tokens and lines of a file shorter than 4 GiB.
+pub(crate) fn token_file(index: usize, source: &SourceFile) -> TokenFile<'_> {
+    let bytes = source.bytes();
+    let mut tokens = Vec::with_capacity(bytes.len() / 4);
+    let mut lines = Vec::new();
+    let mut start = beginning(bytes);
+    while start < bytes.len() {
+        let length = bytes[start..].iter().position(|byte| *byte == b'\n');
+        let end = length.map_or(bytes.len(), |length| start + length);
+        if bytes.get(start) != Some(&b'&') {
+            let first = tokens.len();
+            let comment = tokens_of(&bytes[start..end], start, &mut tokens);
+            if tokens.len() > first || comment.as_ref().is_some_and(|at| folds(&bytes[at.clone()]))
+            {
+                lines.push(Line {
+                    tokens: first..tokens.len(),
+                    comment,
+                });
             }
         }
-        None
+        start = end + 1;
     }
+    TokenFile {
+        index,
+        source,
+        tokens,
+        lines,
+    }
+}
 
-    /// Where `=` assigns: not `==`, `<=`, `>=`.
-    pub(crate) fn assign(&self, tokens: &Range<usize>) -> Option<usize> {
-        let at = self.find(tokens.clone(), b'=')?;
-        let other = |at: usize| self.is(at, b'=') || self.is(at, b'<') || self.is(at, b'>');
-        (at > tokens.start && !other(at - 1) && !(at + 1 < tokens.end && self.is(at + 1, b'=')))
-            .then_some(at)
-    }
+/// Where `=` assigns: not `==`, `<=`, `>=`.
+pub(crate) fn assignment(file: &TokenFile<'_>, tokens: &Range<usize>) -> Option<usize> {
+    let at = file.find(tokens.clone(), b'=')?;
+    let other = |at: usize| file.is(at, b'=') || file.is(at, b'<') || file.is(at, b'>');
+    (at > tokens.start && !other(at - 1) && !(at + 1 < tokens.end && file.is(at + 1, b'=')))
+        .then_some(at)
 }
 
 /// Whether a comment is part of a fold: newer inline forms state their parameters in one.
@@ -184,11 +88,7 @@ fn tokens_of(line: &[u8], start: usize, tokens: &mut Vec<Token>) -> Option<Range
             Some(Kind::Symbol(b';')) => {
                 return Some(place.start..start + line.trim_ascii_end().len());
             }
-            Some(kind) => tokens.push(Token {
-                kind,
-                start: place.start as u32,
-                end: place.end as u32,
-            }),
+            Some(kind) => tokens.push(Token::new(kind, &place)),
             None => {}
         }
     }

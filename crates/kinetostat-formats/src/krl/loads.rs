@@ -9,9 +9,9 @@ use std::ops::Range;
 
 use nalgebra::Vector3;
 
-use crate::krl::aggregate::aggregate_of;
-use crate::krl::lex::TokenFile;
-use crate::krl::usage::place_of;
+use crate::interpreter::token::TokenFile;
+use crate::krl::aggregate::{aggregate_of, place_of};
+use crate::krl::lex::{assignment, token_file};
 use crate::model::orientation::OrientationText;
 use crate::model::tool_load::ToolLoad;
 use crate::text::source::SourceFile;
@@ -21,9 +21,9 @@ use crate::text::source::SourceFile;
 pub(crate) fn tool_loads(files: &[SourceFile]) -> BTreeMap<u32, ToolLoad> {
     let mut found: BTreeMap<u32, Option<ToolLoad>> = BTreeMap::new();
     for (index, source) in files.iter().enumerate() {
-        let file = TokenFile::of(index, source);
+        let file = token_file(index, source);
         for line in &file.lines {
-            let Some(equals) = file.assign(&line.tokens) else {
+            let Some(equals) = assignment(&file, &line.tokens) else {
                 continue;
             };
             let value = equals + 1..line.tokens.end;

@@ -3,8 +3,8 @@
 use std::ops::Range;
 
 use crate::error::excerpt;
-use crate::krl::lex::TokenFile;
-use crate::krl::values::Reason;
+use crate::interpreter::run::Reason;
+use crate::interpreter::token::TokenFile;
 use crate::text::name::Name;
 
 /// The tool stands still and the part is in the hand: base and tool change their parts.

@@ -1,16 +1,13 @@
 //! The reader of KRL programs.
 
 use crate::error::ProgramError;
+use crate::interpreter::token::TokenFile;
 use crate::krl::folds::not_paired;
-use crate::krl::lex::TokenFile;
+use crate::krl::lex::token_file;
+use crate::krl::names::{complete, symbols_of};
+use crate::krl::parser::cursor::Content;
 use crate::krl::parser::routines::content_of;
-use crate::krl::resolve::resolve;
-use crate::krl::symbols::Symbols;
-use crate::krl::targets::Targets;
-use crate::krl::tree::Content;
-use crate::krl::usage::note_usage;
-use crate::krl::values::Values;
-use crate::krl::walking::walker::Walker;
+use crate::krl::state::Krl;
 use crate::model::language::Language;
 use crate::model::parsed::{Parsed, Read};
 use crate::model::program::RobotProgram;
@@ -63,7 +60,7 @@ pub(crate) fn parse_krl(files: Vec<SourceFile>, options: &ReadOptions) -> Parsed
         return Parsed::refused(Language::Krl, faults);
     }
     let token_files: Vec<TokenFile<'_>> = (files.iter().enumerate())
-        .map(|(index, source)| TokenFile::of(index, source))
+        .map(|(index, source)| token_file(index, source))
         .collect();
     let mut contents: Vec<Content> = Vec::with_capacity(files.len());
     for file in &token_files {
@@ -79,15 +76,11 @@ pub(crate) fn parse_krl(files: Vec<SourceFile>, options: &ReadOptions) -> Parsed
         }
         contents.push(content);
     }
-    let mut symbols = Symbols::of(&token_files, &contents, &mut faults);
-    note_usage(&token_files, &mut symbols);
-    let values = Values::new(&token_files, symbols, options);
-    let mut targets = Targets::default();
-    let main = main(&values);
-    let mut walker = Walker::new(&values, &mut targets, options.unknown_targets, &mut faults);
-    walker.walk(main);
-    let resolved = resolve(walker, main);
-    let mut findings = resolved.findings;
+    complete(&token_files, &mut contents);
+    let symbols = symbols_of(&token_files, &contents, &mut faults);
+    let run = Krl::run(&token_files, &symbols, options).whole();
+    faults.extend(run.faults);
+    let mut findings = run.findings;
     for file in &token_files {
         findings.extend(not_paired(file).into_iter().map(|(line, what)| Finding {
             file: file.index,
@@ -98,37 +91,15 @@ pub(crate) fn parse_krl(files: Vec<SourceFile>, options: &ReadOptions) -> Parsed
         }));
     }
     let read = Read {
-        motions: resolved.motions,
-        declarations: targets.declarations,
+        motions: run.motions,
+        declarations: run.targets.declarations,
         findings,
-        outside_calls: resolved.outside_calls,
+        outside_calls: run.outside_calls,
         faults,
         external_axes_may_move: options.external_axes != ExternalAxes::Refused,
         moving_calls: &options.moving_calls,
     };
-    Parsed::of_robot(Language::Krl, files, read)
-}
-
-/// The routine with which the program begins.
-fn main(values: &Values<'_>) -> Option<usize> {
-    let routines = &values.symbols.routines;
-    let mut called = vec![false; routines.len()];
-    for (index, home) in routines.iter().enumerate() {
-        let file = &values.files[home.file];
-        let next = routines
-            .get(index + 1)
-            .filter(|next| next.file == home.file);
-        let end = next.map_or(file.tokens.len(), |next| next.routine.name_at);
-        for at in home.routine.name_at + 1..end {
-            let name = file.name(at).filter(|_| file.is(at + 1, b'('));
-            let Some(found) = name.and_then(|name| values.symbols.routine(index, &name)) else {
-                continue;
-            };
-            // The name of the next routine, in its own line, is no call.
-            called[found] |= found != index && !(at + 1 >= end && found == index + 1);
-        }
-    }
-    let mut firsts = (0..routines.len()).filter(|index| routines[*index].is_first);
-    let first = firsts.clone().next();
-    firsts.find(|index| !called[*index]).or(first)
+    let mut parsed = Parsed::of_robot(Language::Krl, files, read);
+    parsed.program.values = options.values.clone();
+    parsed
 }

@@ -2,8 +2,9 @@
 
 use std::ops::Range;
 
+use crate::interpreter::token::TokenFile;
 use crate::krl::aggregate::aggregate_of;
-use crate::krl::lex::TokenFile;
+use crate::krl::lex::assignment;
 use crate::model::site::SpeedSite;
 
 /// mm/s in one m/s, in which KRL states speeds.
@@ -85,7 +86,7 @@ pub(crate) fn items<'f>(
 /// there, none at all where the item says nothing of the speed along the path.
 fn stated_in(file: &TokenFile<'_>, item: &Range<usize>) -> Option<Option<Range<usize>>> {
     file.name(item.start).filter(|name| name.is("$VEL"))?;
-    let equals = file.assign(item)?;
+    let equals = assignment(file, item)?;
     let value = equals + 1..item.end;
     let is_whole = equals == item.start + 1;
     if !is_whole {

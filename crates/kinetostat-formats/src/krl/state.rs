@@ -1,184 +1,128 @@
-//! What is in force at a statement: place, base, tool, speed, rounding. Each may be that of where the routine was called.
+//! What a run of KRL keeps beside its data: what is in force, and the frames that the caller states.
 
 use std::collections::BTreeMap;
-use std::fmt::Debug;
 
-use crate::calls::Holds;
-use crate::krl::assigned_frames::Given;
-use crate::krl::values::PointData;
+use nalgebra::Isometry3;
+
+use crate::interpreter::run;
+use crate::interpreter::symbols::Symbols;
+use crate::interpreter::token::TokenFile;
+use crate::interpreter::tree::Statement;
+use crate::interpreter::value::Datum;
+use crate::krl::role::Role;
 use crate::model::frame::FrameUse;
 use crate::model::motion::Speed;
-use crate::model::outside_call::OutsideCall;
+use crate::options::ReadOptions;
+use crate::text::name::Name;
 
-/// One thing in force.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Slot {
-    /// As where the routine was called.
-    Entry,
-    /// A motion, or an entry of a list of [`Settings`].
-    Is(usize),
-    /// Not the same on every way, or not known from the text.
-    Unknown,
+/// A run of a KRL program.
+pub(crate) type Run<'r, 'p> = run::Run<'r, 'p, Krl>;
+
+/// The numbers of tool and base that a FDAT states.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct PointData {
+    pub tool: Option<u32>,
+    pub base: Option<u32>,
+    /// True where the tool stands still and the part is in the hand.
+    pub is_external: bool,
 }
 
-/// Which thing.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[repr(usize)]
-pub(crate) enum Thing {
-    /// The motion at whose end the tool is.
-    Place,
-    Base,
-    Tool,
-    Speed,
-    /// $APO.CDIS, $APO.CPTP and $APO.CVEL.
-    Distance,
-    Percent,
-    VelocityPercent,
-    /// FDAT_ACT, LDAT_ACT, PDAT_ACT.
-    PointData,
-    LinearData,
-    JointData,
-    /// $ORI_TYPE.
-    Orientation,
+/// What motions go by; none of what nothing has set.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct InForce {
+    pub base: Option<FrameUse>,
+    pub tool: Option<FrameUse>,
+    pub speed: Option<Speed>,
+    /// `$APO.CDIS`, mm.
+    pub distance_mm: Option<f64>,
+    /// `$APO.CPTP`.
+    pub joint_percent: Option<f64>,
+    /// `$APO.CVEL`.
+    pub speed_percent: Option<f64>,
+    /// `FDAT_ACT`.
+    pub point: Option<PointData>,
+    /// The distance of `LDAT_ACT`.
+    pub linear_mm: Option<f64>,
+    /// The distance of `PDAT_ACT`.
+    pub joint: Option<f64>,
+    /// `$ORI_TYPE=#CONSTANT`.
+    pub keeps_orientation: bool,
 }
 
-/// How many there are.
-const COUNT: usize = 11;
-
-/// All of them.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct State([Slot; COUNT]);
-
-/// A set of things.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub(crate) struct Things(u16);
-
-impl Things {
-    pub(crate) const ALL: Self = Self((1 << COUNT) - 1);
-
-    pub(crate) fn of(things: &[Thing]) -> Self {
-        Self(
-            things
-                .iter()
-                .fold(0, |set, thing| set | 1 << (*thing as usize)),
-        )
-    }
-
-    pub(crate) fn with(self, other: Self) -> Self {
-        Self(self.0 | other.0)
-    }
-
-    pub(crate) fn has(self, thing: Thing) -> bool {
-        self.0 & 1 << (thing as usize) != 0
-    }
-}
-
-impl State {
-    pub(crate) const ENTRY: Self = Self([Slot::Entry; COUNT]);
-
-    pub(crate) fn get(&self, thing: Thing) -> Slot {
-        self.0[thing as usize]
-    }
-
-    pub(crate) fn set(&mut self, thing: Thing, slot: Slot) {
-        self.0[thing as usize] = slot;
-    }
-
-    /// All that may change is not known.
-    pub(crate) fn without(self, things: Things) -> Self {
-        let kept = |index: usize| match things.0 & 1 << index == 0 {
-            true => self.0[index],
-            false => Slot::Unknown,
+impl InForce {
+    /// Takes back what BAS sets in a way that is not known here.
+    pub(crate) fn forget(&mut self) {
+        *self = Self {
+            point: self.point,
+            linear_mm: self.linear_mm,
+            joint: self.joint,
+            keeps_orientation: self.keeps_orientation,
+            ..Self::default()
         };
-        Self(std::array::from_fn(kept))
     }
 }
 
-impl Holds for State {
-    const UNKNOWN: Self = Self([Slot::Unknown; COUNT]);
+/// What a run of KRL keeps.
+pub(crate) struct Krl {
+    /// Frames that the caller states, by their names without blanks, in capitals.
+    pub stated: BTreeMap<String, Isometry3<f64>>,
+    /// How many statements give each name a value.
+    pub assigned: BTreeMap<Name, usize>,
+    /// Values of elements of the arrays of frames: with which the files begin, and at their first use.
+    pub initial: BTreeMap<(Role, u32), Datum>,
+    pub used: BTreeMap<(Role, u32), Datum>,
+    pub force: InForce,
+    /// What was in force before the spline block that is open.
+    pub spline: Option<InForce>,
+    /// Why the next motion stays one: a statement before it acts somewhere along it.
+    pub along_next: Option<&'static str>,
+    /// Of each motion: true where its end has a B beyond 90 degrees, with which the angles of an orientation are not certain.
+    pub beyond: Vec<bool>,
+    /// By file and line the line that opens the fold around it, once it is asked for.
+    pub folds: Vec<Option<Vec<Option<usize>>>>,
+}
 
-    fn merged(self, other: Self) -> Self {
-        let same = |index: usize| match (self.0[index], other.0[index]) {
-            (one, other) if one == other => one,
-            _ => Slot::Unknown,
+impl Krl {
+    /// A run that has not begun.
+    pub(crate) fn run<'r, 'p>(
+        files: &'p [TokenFile<'p>],
+        symbols: &'r Symbols<'p>,
+        options: &'r ReadOptions,
+    ) -> Run<'r, 'p> {
+        let stated = options.frames.iter();
+        let own = Self {
+            stated: stated.map(|(name, frame)| (key(name), *frame)).collect(),
+            assigned: assigned(files, symbols),
+            initial: BTreeMap::new(),
+            used: BTreeMap::new(),
+            force: InForce::default(),
+            spline: None,
+            along_next: None,
+            beyond: Vec::new(),
+            folds: files.iter().map(|_| None).collect(),
         };
-        Self(std::array::from_fn(same))
-    }
-
-    fn in_call(self, at: Self) -> Self {
-        let resolved = |index: usize| match self.0[index] {
-            Slot::Entry => at.0[index],
-            slot => slot,
-        };
-        Self(std::array::from_fn(resolved))
+        Run::new(files, symbols, options, own)
     }
 }
 
-/// A list without doubles.
-#[derive(Debug)]
-pub(crate) struct Pool<T> {
-    values: Vec<T>,
-    known: BTreeMap<String, usize>,
+/// A name as the caller may write it: without blanks, in capitals.
+pub(crate) fn key(name: &str) -> String {
+    let letters = name.chars().filter(|letter| !letter.is_whitespace());
+    letters.collect::<String>().to_uppercase()
 }
 
-impl<T> Default for Pool<T> {
-    fn default() -> Self {
-        Self {
-            values: Vec::new(),
-            known: BTreeMap::new(),
+fn assigned(files: &[TokenFile<'_>], symbols: &Symbols<'_>) -> BTreeMap<Name, usize> {
+    let mut found = BTreeMap::new();
+    for home in &symbols.routines {
+        for statement in &home.routine.body {
+            statement.each(&mut |inner| {
+                if let Statement::Assignment { tokens, .. } = inner
+                    && let Some(name) = files[home.file].name(tokens.start)
+                {
+                    *found.entry(name).or_default() += 1;
+                }
+            });
         }
     }
-}
-
-impl<T: Debug> Pool<T> {
-    /// Where a value is in the list.
-    pub(crate) fn slot(&mut self, value: T) -> Slot {
-        let key = format!("{value:?}");
-        self.slot_of(key, value)
-    }
-
-    /// Where the value of a key is in the list: that of the first of equal keys stays.
-    pub(crate) fn slot_of(&mut self, key: String, value: T) -> Slot {
-        let next = self.values.len();
-        let index = *self.known.entry(key).or_insert(next);
-        if index == next {
-            self.values.push(value);
-        }
-        Slot::Is(index)
-    }
-
-    /// The value of a slot.
-    pub(crate) fn get(&self, slot: Slot) -> Option<&T> {
-        match slot {
-            Slot::Is(index) => self.values.get(index),
-            Slot::Entry | Slot::Unknown => None,
-        }
-    }
-}
-
-/// What slots stand for.
-#[derive(Debug, Default)]
-pub(crate) struct Settings {
-    pub frames: Pool<FrameUse>,
-    pub speeds: Pool<Speed>,
-    pub numbers: Pool<f64>,
-    pub points: Pool<PointData>,
-    /// Calls of what is in none of the files.
-    pub calls: Vec<OutsideCall>,
-    /// Tools and bases to which the program gave values up to here.
-    pub given: Given,
-    /// A statement lets the tool keep its orientation (`$ORI_TYPE=#CONSTANT`): where another does not is in [`Thing::Orientation`].
-    pub may_keep_orientation: bool,
-}
-
-impl Settings {
-    /// Whether the tool keeps its orientation, or may do so, as the slot of [`Thing::Orientation`] says.
-    pub(crate) fn keeps_orientation(&self, slot: Slot) -> bool {
-        let stated = match slot {
-            Slot::Is(index) => Slot::Is(index),
-            Slot::Entry => return false,
-            Slot::Unknown => return self.may_keep_orientation,
-        };
-        self.numbers.get(stated).is_none_or(|kept| *kept != 0.0)
-    }
+    found
 }

@@ -1,15 +1,13 @@
 //! Ends that go on from where the tool is: `LIN_REL {X 10,Z -5}`.
 
-use std::ops::Range;
+use nalgebra::Vector3;
 
-use nalgebra::{UnitQuaternion, Vector3};
+use crate::interpreter::run::Reason;
+use crate::krl::position::Position;
+use crate::model::target::{Configuration, Target};
 
-use crate::krl::aggregate::position_of;
-use crate::krl::lex::TokenFile;
-use crate::krl::targets::End;
-use crate::krl::values::Reason;
-use crate::model::site::TargetSite;
-use crate::model::target::{Configuration, PoseTarget, Target};
+/// The remedy for a step that is not followed.
+pub(crate) const WRITE_END: &str = "write the end with LIN, or PTP, and all its numbers";
 
 /// A step from where the tool is.
 #[derive(Debug, Clone, Copy)]
@@ -48,15 +46,8 @@ impl Step {
     }
 }
 
-/// `{X 10,Z -5}`, a step that turns nothing, and of joints (`is_joint`) `{A1 10}`.
-pub(crate) fn step_of(
-    file: &TokenFile<'_>,
-    tokens: &Range<usize>,
-    (is_joint, in_tool): (bool, bool),
-) -> Result<Step, Reason> {
-    let remedy = "write the end with LIN, or PTP, and all its numbers";
-    let position =
-        position_of(file, tokens).map_err(|reason| (format!("its step: {reason}"), remedy))?;
+/// The step that a position is (`{X 10,Z -5}`), which turns nothing; that of joints (`is_joint`) may be `{A1 10}`.
+pub(crate) fn step_of(position: &Position, is_joint: bool, in_tool: bool) -> Result<Step, Reason> {
     let values = position.values().map(Option::unwrap_or_default);
     let turns = values[3..].iter().any(|angle| *angle != 0.0);
     let external = position.external.iter().flatten();
@@ -66,25 +57,12 @@ pub(crate) fn step_of(
     match turns || moves_external || (has_axes && !is_of_axes) {
         true => Err((
             "it goes on from where the tool is, and turns it or moves axes".to_owned(),
-            remedy,
+            WRITE_END,
         )),
         false if has_axes => Ok(Step::Joints(position.axes.map(Option::unwrap_or_default))),
         false => Ok(Step::Along {
             step_mm: Vector3::new(values[0], values[1], values[2]),
             in_tool,
         }),
-    }
-}
-
-/// The end of a step before the pose that it goes on from is known.
-pub(crate) fn by_step() -> End {
-    End {
-        target: Target::Pose(PoseTarget {
-            orientation: UnitQuaternion::identity(),
-            ..PoseTarget::default()
-        }),
-        site: TargetSite::Fixed("it goes on from where the tool is"),
-        open: None,
-        external: Vec::new(),
     }
 }

@@ -3,11 +3,13 @@
 use std::ops::Range;
 
 use crate::error::excerpt;
-use crate::krl::values::{Reason, Values};
+use crate::interpreter::expression::{Expression, Node};
+use crate::interpreter::run::Reason;
+use crate::interpreter::value::{Datum, Value};
+use crate::krl::state::Run;
 use crate::model::site::TurnsOtherwise;
 use crate::model::site::not_evenly;
 use crate::model::target::PoseTarget;
-use crate::text::name::Name;
 
 /// How motions turn that keep the orientation with which they begin.
 pub(crate) const KEPT: TurnsOtherwise = TurnsOtherwise {
@@ -28,55 +30,64 @@ pub(crate) fn turned(before: Option<&PoseTarget>, end: Option<&PoseTarget>) -> O
     Some((not_evenly("the tool turns", turn_rad, KEPT)?, KEPT.remedy))
 }
 
-/// Refuses what lets the tool turn otherwise than from the orientation of one point to that of the next; whether it keeps that of the
-/// first.
-pub(crate) fn turns_as_followed(
-    values: &Values<'_>,
-    routine: usize,
-    (name, tokens, value): (&Name, &Range<usize>, &Range<usize>),
-) -> Result<bool, Reason> {
-    let file = values.file(routine);
-    // A member of LDAT_ACT stands behind a point.
-    let stated = file.name(tokens.start + 2).filter(|_| name.is("LDAT_ACT"));
-    let is_orientation = name.is("$ORI_TYPE") || stated.is_some_and(|member| member.is("ORI_TYP"));
-    let word = match is_orientation {
-        true => "ORI_TYP",
-        false => "CIRC_TYP",
-    };
-    let called = file
-        .name(value.start)
-        .filter(|_| file.is(value.start + 1, b'('))
-        .filter(|called| called.is("SORI_TYP") || called.is("SCIRC_TYP"));
-    let (choice, place) = match called {
-        // Data that do not state it have the first of each: #VAR, #BASE.
-        Some(_) => {
-            let argument = value.start + 2..value.end.saturating_sub(1).max(value.start + 2);
-            let choice = values.choice(routine, &argument, word)?;
-            (choice.unwrap_or_else(|| "VAR".to_owned()), "there")
+impl Run<'_, '_> {
+    /// Refuses what lets the tool turn otherwise than from the orientation of one point to that of the next; `word` is ORI_TYP or CIRC_TYP.
+    /// True where the tool keeps the orientation of the first.
+    pub(super) fn turns_as_followed(
+        &mut self,
+        word: &str,
+        tokens: &Range<usize>,
+        value: &Expression,
+    ) -> Result<bool, Reason> {
+        let file = self.file();
+        let shown = excerpt(file.text(tokens).as_bytes());
+        let called = match &value.node {
+            Node::Call(name, arguments) if name.is("SORI_TYP") || name.is("SCIRC_TYP") => {
+                arguments.first().and_then(|of| of.value.as_ref())
+            }
+            _ => None,
+        };
+        let Some(data) = called else {
+            let text = file.text(&value.tokens).to_uppercase();
+            return is_followed(word, &text, &shown, true);
+        };
+        let data = self.value(data);
+        if let Some(reason) = data.unknown_reason() {
+            return Err((reason.to_string(), GIVE_THEM));
         }
-        None => (file.text(value).to_uppercase(), "here"),
-    };
-    let shown = excerpt(file.text(tokens).as_bytes());
-    is_followed(word, &choice, &shown, place == "here")
+        // Data that do not state it have the first of each: #VAR, #BASE.
+        let choice = choice_of(&data, word).unwrap_or_else(|| "VAR".to_owned());
+        is_followed(word, &choice, &shown, false)
+    }
+
+    /// Refuses data of inline forms, which BAS puts in force for the motions behind it, as [`Run::turns_as_followed`] refuses words. True
+    /// where they keep the orientation.
+    pub(super) fn data_turn_as_followed(
+        &mut self,
+        tokens: &Range<usize>,
+        data: &Datum,
+    ) -> Result<bool, Reason> {
+        let mut kept = false;
+        let shown = excerpt(self.file().text(tokens).as_bytes());
+        for word in ["ORI_TYP", "CIRC_TYP"] {
+            // Data that are in none of the files say nothing of speed or rounding, either: what needs them says so.
+            if let Some(choice) = choice_of(data, word) {
+                kept |= is_followed(word, &choice, &shown, false)?;
+            }
+        }
+        Ok(kept)
+    }
 }
 
-/// Refuses data of inline forms, which BAS puts in force for the motions behind it, as [`turns_as_followed`] refuses words; whether they
-/// keep the orientation.
-pub(crate) fn data_turn_as_followed(
-    values: &Values<'_>,
-    routine: usize,
-    (tokens, value): (&Range<usize>, &Range<usize>),
-) -> Result<bool, Reason> {
-    let mut kept = false;
-    let shown = excerpt(values.file(routine).text(tokens).as_bytes());
-    for word in ["ORI_TYP", "CIRC_TYP"] {
-        // Data that are in none of the files say nothing of speed or rounding, either: what needs them says so.
-        if let Ok(Some(choice)) = values.choice(routine, value, word) {
-            kept |= is_followed(word, &choice, &shown, false)?;
-        }
+/// A member that is a word of an enumeration, without its `#`, in capitals.
+pub(super) fn choice_of(data: &Datum, capitals: &str) -> Option<String> {
+    match &data.member(capitals)?.value {
+        Value::Text(text) => Some(text.trim_start_matches('#').trim().to_uppercase()),
+        _ => None,
     }
-    Ok(kept)
 }
+
+const GIVE_THEM: &str = "give the .dat file that states these data as well";
 
 fn is_followed(word: &str, choice: &str, shown: &str, here: bool) -> Result<bool, Reason> {
     match word {

@@ -1,12 +1,12 @@
-//! What WITH puts in force for one motion, or for one spline block.
+//! The list of WITH: what is in force for one motion, or for one spline block.
 
 use std::ops::Range;
 
 use crate::error::excerpt;
-use crate::krl::settings::Setter;
+use crate::interpreter::run::Reason;
+use crate::krl::lex::assignment;
 use crate::krl::speed_place::items;
-use crate::krl::state::{Settings, State};
-use crate::krl::values::{Reason, Values};
+use crate::krl::state::Run;
 
 /// System variables that say nothing of where the tool goes: accelerations, loads, how joints and external axes are timed.
 const CARRIED: [&str; 18] = [
@@ -29,8 +29,7 @@ const CARRIED: [&str; 18] = [
     "$VEL_AXIS",
     "$VEL_EXTAX",
 ];
-
-/// Those that [`Setter::assign`] follows or refuses.
+/// System variables that [`Run::set`] follows or refuses.
 const FOLLOWED: [&str; 9] = [
     "$APO",
     "$BASE",
@@ -42,35 +41,22 @@ const FOLLOWED: [&str; 9] = [
     "$TOOL",
     "$VEL",
 ];
-
-/// Takes what the tokens behind WITH put in force.
-pub(crate) fn with(
-    (values, settings, routine): (&Values<'_>, &mut Settings, usize),
-    tokens: &Range<usize>,
-    state: &mut State,
-) -> Result<(), Reason> {
-    let file = values.file(routine);
-    for item in items(file, tokens) {
-        let name = file.name(item.start);
-        let is_one = |all: &[&str]| {
-            name.as_ref()
-                .is_some_and(|n| all.iter().any(|one| n.is(one)))
-        };
-        let equals = file.assign(&item);
-        match equals {
-            Some(equals) if is_one(&FOLLOWED) => {
-                let mut setter = Setter {
-                    values,
-                    settings: &mut *settings,
-                    routine,
-                };
-                setter.assign(&item, equals, state)?;
+impl Run<'_, '_> {
+    /// Takes what the tokens behind WITH put in force, for one motion or one spline block.
+    pub(super) fn with(&mut self, tokens: &Range<usize>) -> Result<(), Reason> {
+        let file = self.file();
+        let all: Vec<Range<usize>> = items(file, tokens).collect();
+        for item in all {
+            let name = file.name(item.start);
+            let is_one = |all: &[&str]| name.is_some_and(|name| all.iter().any(|one| name.is(one)));
+            match assignment(file, &item) {
+                Some(equals) if is_one(&FOLLOWED) => self.set(&item, equals)?,
+                Some(_) if is_one(&CARRIED) => {}
+                _ => return Err(not_known(&file.text(&item))),
             }
-            Some(_) if is_one(&CARRIED) => {}
-            _ => return Err(not_known(&file.text(&item))),
         }
+        Ok(())
     }
-    Ok(())
 }
 
 fn not_known(text: &str) -> Reason {

@@ -1,6 +1,6 @@
 //! A program with what is refused in it.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use crate::error::ProgramError;
 use crate::model::external::moving_axis;
@@ -59,6 +59,7 @@ impl Parsed {
             motions,
             findings,
             declarations: Vec::new(),
+            values: BTreeMap::new(),
             outside_calls: Vec::new(),
             slash_blocks: SlashBlocks::default(),
             rotary: StatedAxes::default(),

@@ -1,12 +1,13 @@
 //! A program of any language.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use crate::model::language::Language;
 use crate::model::motion::Motion;
 use crate::model::outside_call::{OutsideCall, by_name};
 use crate::model::site::Declaration;
 use crate::model::stated_axes::StatedAxes;
+use crate::options::StatedValue;
 use crate::text::finding::Finding;
 use crate::text::source::SourceFile;
 
@@ -23,6 +24,8 @@ pub struct RobotProgram {
     /// In order of files and lines.
     pub findings: Vec<Finding>,
     pub(crate) declarations: Vec<Declaration>,
+    /// Values that the caller stated for what only the controller knows.
+    pub(crate) values: BTreeMap<String, StatedValue>,
     /// What it calls and none of its files holds.
     pub(crate) outside_calls: Vec<OutsideCall>,
     /// What it says of the rotary axes of a machine.

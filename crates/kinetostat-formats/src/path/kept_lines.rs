@@ -5,8 +5,9 @@ use std::collections::BTreeMap;
 
 use kinetostat_program::{Corrected, WriteError};
 
+use crate::interpreter::token::TokenFile;
 use crate::krl::folds::folds_of;
-use crate::krl::lex::TokenFile;
+use crate::krl::lex::token_file;
 use crate::model::language::Language;
 use crate::model::motion::Motion;
 use crate::model::program::RobotProgram;
@@ -92,7 +93,7 @@ fn renamed_lines<'a>(
             continue;
         }
         let (tokens, folds) = files.entry(before.file).or_insert_with(|| {
-            let tokens = TokenFile::of(before.file, &program.files[before.file]);
+            let tokens = token_file(before.file, &program.files[before.file]);
             let folds = folds_of(&tokens);
             (tokens, folds)
         });

@@ -21,6 +21,7 @@ use crate::text::name::Name;
 
 impl Dialect for Rapid {
     const OWN_COUNTER: bool = true;
+    const DECLARES_BY_USE: bool = false;
 
     fn expression_of(file: &TokenFile<'_>, tokens: Range<usize>) -> Expression {
         expression::expression_of(file, tokens)
@@ -46,9 +47,16 @@ impl Dialect for Rapid {
 
     /// Values that decide where the tool goes, or which way the program takes. Frames, loads and speeds that controllers keep are stated
     /// again as they are set up.
-    fn is_kept(node: &DatumNode) -> bool {
+    fn kept(run: &Run<'_, '_>, index: usize) -> Option<String> {
         const KINDS: [&str; 7] = ["NUM", "DNUM", "BOOL", "POS", "ORIENT", "POSE", "ROBTARGET"];
-        node.change == Change::Persistent && KINDS.iter().any(|kind| node.type_name.is(kind))
+        let node = run.symbols.data[index].node;
+        let decides = || KINDS.iter().any(|kind| node.type_name.is(kind));
+        (node.change == Change::Persistent && decides()).then(|| {
+            format!(
+                "`{}` is PERS: the controller may hold another value than this file; load the written one",
+                run.shown(index)
+            )
+        })
     }
 
     fn function(

@@ -20,9 +20,6 @@ use crate::rapid::turning::mode_of;
 use crate::table::Treatment;
 use crate::text::name::Name;
 
-/// Most motions of statements that ran before.
-const MOST_REPEATED: usize = 200_000;
-
 /// Statements that leave the path as it is, and change what deflection depends on.
 const EFFECTS: [(&str, &str); 4] = [
     ("VelSet", "changes the speeds behind it"),
@@ -82,14 +79,8 @@ impl Run<'_, '_> {
         tokens: &Range<usize>,
         choice: Choice,
     ) {
-        let start = self.file().span(tokens).start;
-        if !self.ran.insert((self.file().index, start)) {
-            self.repeated_motions += 1;
-            if self.repeated_motions > MOST_REPEATED {
-                let reason = "the loops of the program run more than 200000 motions".to_owned();
-                self.fault(tokens, (reason, "read the part that cuts by itself"));
-                return;
-            }
+        if !self.begins_motion(tokens) {
+            return;
         }
         match self.motion(row, tokens) {
             Ok(mut motion) => {
@@ -97,13 +88,8 @@ impl Run<'_, '_> {
                     motion.site.indivisible =
                         Some("it stands behind IF without THEN, where one statement can stand");
                 }
-                motion.runs = self.runs;
-                motion.follows = self.here;
                 motion.site.turns_otherwise = self.own.modes.otherwise(&motion);
-                self.motions.push(motion);
-                self.routines
-                    .push(self.calls.last().map_or(0, |called| called.routine));
-                self.here = Some(self.motions.len() - 1);
+                self.push_motion(motion);
             }
             Err(reason) => {
                 self.fault(tokens, reason);

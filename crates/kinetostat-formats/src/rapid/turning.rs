@@ -16,7 +16,7 @@ const SINGULAR: &str = "SingArea";
 
 /// Modal state of turning.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Modes {
+pub(crate) struct Modes {
     /// `CirPathMode\ObjectFrame`: on a circle the tool turns evenly in the work object.
     object_frame: bool,
     /// `SingArea\Off`: between its ends the tool turns evenly.

@@ -2,39 +2,45 @@
 
 use std::ops::Range;
 
+use crate::interpreter::tree::{Choice, LoopKind, Statement};
+use crate::krl::lex::assignment;
 use crate::krl::parser::cursor::{Block, JOINT_SPLINE, Parser};
-use crate::krl::tree::{Least, Statement};
 
 /// Deepest nesting of blocks.
 const DEEPEST: usize = 100;
 
 impl Parser<'_, '_> {
-    pub(super) fn statement(&mut self, line: usize, tokens: &Range<usize>) {
+    pub(super) fn statement(&mut self, tokens: &Range<usize>) {
         let Some(word) = self.file.name(tokens.start) else {
-            return self.push(Statement::Simple(line));
+            return self.push(Statement::Call {
+                tokens: tokens.clone(),
+            });
         };
         let looped = |word: &'static str| Block::Loop {
-            header: line,
+            header: tokens.clone(),
             word,
             block: Vec::new(),
         };
         let letters = word.letters();
         let is_label = tokens.len() == 2 && self.file.is(tokens.start + 1, b':');
         match letters {
-            _ if is_label => self.push(Statement::Label),
+            _ if is_label => self.push(Statement::Label { at: tokens.start }),
             b"IF" | b"SWITCH" => {
+                let then = tokens.clone().find(|at| self.file.is_word(*at, "THEN"));
+                let condition = tokens.start + 1..then.unwrap_or(tokens.end);
                 let block = Block::Branches {
-                    header: line,
+                    header: tokens.clone(),
                     is_switch: letters == b"SWITCH",
-                    complete: false,
+                    conditions: vec![condition],
+                    is_complete: false,
                     blocks: Vec::new(),
                     now: Vec::new(),
                 };
                 self.open(tokens, block);
             }
-            b"ELSE" => self.next_branch(tokens, false, true),
-            b"CASE" => self.next_branch(tokens, true, false),
-            b"DEFAULT" => self.next_branch(tokens, true, true),
+            b"ELSE" => self.next_branch(tokens, None),
+            b"CASE" => self.next_branch(tokens, Some(tokens.start + 1..tokens.end)),
+            b"DEFAULT" => self.next_branch(tokens, Some(tokens.end..tokens.end)),
             b"ENDIF" => self.end_branches(tokens, false),
             b"ENDSWITCH" => self.end_branches(tokens, true),
             b"LOOP" => self.open(tokens, looped("LOOP")),
@@ -45,18 +51,22 @@ impl Parser<'_, '_> {
             b"ENDFOR" => self.end_loop(tokens, "FOR"),
             b"ENDWHILE" => self.end_loop(tokens, "WHILE"),
             b"UNTIL" => self.end_loop(tokens, "REPEAT"),
-            b"SPLINE" => self.begin_spline(line, tokens, "SPLINE"),
-            b"PTP_SPLINE" => self.begin_spline(line, tokens, JOINT_SPLINE),
-            b"ENDSPLINE" => self.end_spline(line, tokens),
-            b"EXIT" => self.push(Statement::Exit),
-            b"RETURN" => self.push(Statement::Leaves(line)),
-            b"GOTO" => {
-                if let Some(routine) = &mut self.routine {
-                    routine.jumps = true;
-                }
-                self.push(Statement::Leaves(line));
+            b"SPLINE" => self.begin_spline(tokens, "SPLINE"),
+            b"PTP_SPLINE" => self.begin_spline(tokens, JOINT_SPLINE),
+            b"ENDSPLINE" => self.end_spline(tokens),
+            b"EXIT" | b"RETURN" | b"GOTO" => self.push(Statement::Leaves {
+                tokens: tokens.clone(),
+            }),
+            _ => {
+                let second = tokens.start + 1;
+                let is_place = b"=.[".iter().any(|byte| self.file.is(second, *byte));
+                let assign = assignment(self.file, tokens).filter(|_| is_place);
+                let tokens = tokens.clone();
+                self.push(match assign {
+                    Some(assign) => Statement::Assignment { tokens, assign },
+                    None => Statement::Call { tokens },
+                });
             }
-            _ => self.push(Statement::Simple(line)),
         }
     }
 
@@ -75,7 +85,7 @@ impl Parser<'_, '_> {
     /// Refuses a block that is open where it must not be.
     fn no_end(&mut self, block: &Block) {
         let (header, word, end) = block.words();
-        let tokens = self.file.lines[header].tokens.clone();
+        let tokens = header.clone();
         let remedy = match word {
             "SPLINE" => "write ENDSPLINE behind its last segment".to_owned(),
             _ => format!("write {end} where it ends"),
@@ -84,26 +94,24 @@ impl Parser<'_, '_> {
         self.fault(&tokens, reason, &remedy);
     }
 
-    /// Puts a block that is closed, by the line of its end if there is one, among the statements around it.
-    fn leave(&mut self, block: Block, end: Option<usize>) {
-        let (header, word, block) = match block {
-            Block::Spline {
-                header,
-                word,
-                block,
-            } => (header, word, block),
-            other => {
-                let statement = finished(other);
-                return self.push(statement);
-            }
+    /// Puts a block that is closed, by the tokens of its end if there is one, among the statements around it.
+    fn leave(&mut self, block: Block, end: Option<Range<usize>>) {
+        let Block::Spline {
+            header,
+            word,
+            block,
+        } = block
+        else {
+            let statement = finished(block, &end.unwrap_or_default());
+            return self.push(statement);
         };
         if word == JOINT_SPLINE {
-            return self.push(Statement::Simple(header));
+            return self.push(Statement::Call { tokens: header });
         }
         // Without an end there is none: what is behind it is not said to be wrong in it.
-        let words = end.map(|end| [header, end].map(Statement::Simple));
-        let [first, last] = match words {
-            Some([first, last]) => [Some(first), Some(last)],
+        let word = |tokens: Range<usize>| Statement::Call { tokens };
+        let [first, last] = match end {
+            Some(end) => [Some(word(header)), Some(word(end))],
             None => [None, None],
         };
         for statement in first.into_iter().chain(block).chain(last) {
@@ -111,7 +119,7 @@ impl Parser<'_, '_> {
         }
     }
 
-    fn begin_spline(&mut self, line: usize, tokens: &Range<usize>, word: &'static str) {
+    fn begin_spline(&mut self, tokens: &Range<usize>, word: &'static str) {
         // A block in another one is that one without its end.
         if let Some(open) = self
             .blocks
@@ -121,19 +129,19 @@ impl Parser<'_, '_> {
             self.leave(open, None);
         }
         let block = Block::Spline {
-            header: line,
+            header: tokens.clone(),
             word,
             block: Vec::new(),
         };
         self.open(tokens, block);
     }
 
-    fn end_spline(&mut self, line: usize, tokens: &Range<usize>) {
+    fn end_spline(&mut self, tokens: &Range<usize>) {
         let open = self
             .blocks
             .pop_if(|block| matches!(block, Block::Spline { .. }));
         match open {
-            Some(block) => self.leave(block, Some(line)),
+            Some(block) => self.leave(block, Some(tokens.clone())),
             None => self.misplaced(tokens),
         }
     }
@@ -152,17 +160,20 @@ impl Parser<'_, '_> {
         }
     }
 
-    pub(super) fn next_branch(&mut self, tokens: &Range<usize>, of_switch: bool, is_last: bool) {
+    /// ELSE of IF, or CASE and DEFAULT of SWITCH with the tokens of the values, none for DEFAULT.
+    pub(super) fn next_branch(&mut self, tokens: &Range<usize>, case: Option<Range<usize>>) {
         match self.blocks.last_mut() {
             Some(Block::Branches {
                 is_switch,
-                complete,
+                conditions,
+                is_complete,
                 blocks,
                 now,
                 ..
-            }) if *is_switch == of_switch => {
+            }) if *is_switch == case.is_some() => {
                 blocks.push(std::mem::take(now));
-                *complete |= is_last;
+                *is_complete |= case.as_ref().is_none_or(Range::is_empty);
+                conditions.extend(case);
             }
             _ => self.misplaced(tokens),
         }
@@ -173,8 +184,7 @@ impl Parser<'_, '_> {
             self.lost = true;
             let remedy = match self.blocks.last().map(Block::words) {
                 Some((header, word, end)) => {
-                    let span = self.file.span(&self.file.lines[header].tokens);
-                    let line = self.file.source.line_of(span.start);
+                    let line = self.file.line_of(header.start);
                     format!("close the {word} of line {line} with {end} before it")
                 }
                 None => "remove it, or open its block before it".to_owned(),
@@ -201,7 +211,7 @@ impl Parser<'_, '_> {
     fn end(&mut self, tokens: &Range<usize>, is_meant: impl Fn(&Block) -> bool) {
         match self.blocks.pop() {
             Some(block) if is_meant(&block) => {
-                let statement = finished(block);
+                let statement = finished(block, tokens);
                 self.push(statement);
             }
             other => {
@@ -212,41 +222,56 @@ impl Parser<'_, '_> {
     }
 }
 
-fn finished(block: Block) -> Statement {
+/// The statement that a block is, by the tokens of the line that closes it.
+fn finished(block: Block, end: &Range<usize>) -> Statement {
+    let whole = |header: &Range<usize>| header.start..header.end.max(end.end);
     match block {
         Block::Branches {
             header,
             is_switch,
-            complete,
+            conditions,
+            is_complete,
             mut blocks,
             now,
         } => {
             blocks.push(now);
             // What stands between SWITCH and the first CASE never runs.
-            if is_switch && blocks.len() > 1 {
+            if is_switch {
                 blocks.remove(0);
             }
             Statement::Branches {
-                header,
-                complete,
+                conditions,
+                choice: match is_complete {
+                    true => Choice::OneOfAll,
+                    false => Choice::AtMostOne,
+                },
                 blocks,
+                whole: whole(&header),
             }
         }
         // Its statements stand among those around it.
-        Block::Spline { header, .. } => Statement::Simple(header),
+        Block::Spline { header, .. } => Statement::Call { tokens: header },
         Block::Loop {
             header,
             word,
             block,
         } => {
-            let least = match word {
-                "LOOP" | "REPEAT" => Least::Once,
-                _ => Least::Never,
+            let kind = match word {
+                "FOR" => LoopKind::Counting,
+                "WHILE" => LoopKind::While,
+                "REPEAT" => LoopKind::Until,
+                _ => LoopKind::Endless,
             };
+            let behind = |line: &Range<usize>| line.start + 1..line.end.max(line.start + 1);
             Statement::Loop {
-                header,
-                least,
+                kind,
+                header: match kind {
+                    LoopKind::Until => behind(end),
+                    LoopKind::Endless => header.clone(),
+                    LoopKind::Counting | LoopKind::While => behind(&header),
+                },
                 block,
+                whole: whole(&header),
             }
         }
     }

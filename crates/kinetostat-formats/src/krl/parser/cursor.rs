@@ -3,43 +3,56 @@
 use std::ops::Range;
 
 use crate::error::{ProgramError, note};
-use crate::krl::lex::TokenFile;
-use crate::krl::tree::{Content, Routine, Statement};
+use crate::interpreter::token::TokenFile;
+use crate::interpreter::tree::{DatumNode, Preset, Routine, Statement};
+use crate::text::name::Name;
 
-/// A block that is not closed yet.
+/// The content of a file.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Content {
+    pub data: Vec<DatumNode>,
+    pub presets: Vec<Preset>,
+    pub routines: Vec<Routine>,
+    /// The name behind DEFDAT.
+    pub list: Option<Name>,
+}
+
+/// A block that is not closed yet, with the tokens of the line that opens it.
 pub(super) enum Block {
     Branches {
-        header: usize,
+        header: Range<usize>,
         is_switch: bool,
-        complete: bool,
+        /// Of IF; what SWITCH compares, and the values of each CASE.
+        conditions: Vec<Range<usize>>,
+        is_complete: bool,
         blocks: Vec<Vec<Statement>>,
         now: Vec<Statement>,
     },
     Loop {
-        header: usize,
+        header: Range<usize>,
         word: &'static str,
         block: Vec<Statement>,
     },
     /// SPLINE, or PTP_SPLINE, which is refused as a whole: nothing in it is looked at.
     Spline {
-        header: usize,
+        header: Range<usize>,
         word: &'static str,
         block: Vec<Statement>,
     },
 }
 
 impl Block {
-    /// The line that opens it, with its word and the one that closes it.
-    pub fn words(&self) -> (usize, &'static str, &'static str) {
+    /// The tokens of the line that opens it, with its word and the one that closes it.
+    pub fn words(&self) -> (&Range<usize>, &'static str, &'static str) {
         match self {
             Self::Branches {
                 header,
                 is_switch: true,
                 ..
-            } => (*header, "SWITCH", "ENDSWITCH"),
-            Self::Branches { header, .. } => (*header, "IF", "ENDIF"),
+            } => (header, "SWITCH", "ENDSWITCH"),
+            Self::Branches { header, .. } => (header, "IF", "ENDIF"),
             Self::Loop { header, word, .. } => (
-                *header,
+                header,
                 word,
                 match *word {
                     "LOOP" => "ENDLOOP",
@@ -48,7 +61,7 @@ impl Block {
                     _ => "UNTIL",
                 },
             ),
-            Self::Spline { header, word, .. } => (*header, word, "ENDSPLINE"),
+            Self::Spline { header, word, .. } => (header, word, "ENDSPLINE"),
         }
     }
 }

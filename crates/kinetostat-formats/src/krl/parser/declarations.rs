@@ -2,17 +2,19 @@
 
 use std::ops::Range;
 
+use crate::interpreter::tree::{Change, DatumNode, Preset, Sight};
 use crate::krl::aggregate::literal_index;
+use crate::krl::lex::assignment;
 use crate::krl::parser::cursor::Parser;
-use crate::krl::tree::{DatumNode, Preset};
 
 impl Parser<'_, '_> {
     /// `[GLOBAL] [DECL] [CONST] type name[3]=value, name`.
     pub(super) fn declaration(&mut self, tokens: &Range<usize>) {
         let mut at = tokens.start;
-        let (mut is_global, mut is_other) = (false, false);
+        let (mut is_global, mut is_constant, mut is_other) = (false, false, false);
         while let Some(name) = (at < tokens.end).then(|| self.file.name(at)).flatten() {
             is_global |= name.is("GLOBAL");
+            is_constant |= name.is("CONST");
             is_other |= ["STRUC", "ENUM", "SIGNAL", "EXT", "EXTFCT"]
                 .iter()
                 .any(|word| name.is(word));
@@ -41,15 +43,27 @@ impl Parser<'_, '_> {
                     "write DECL type name",
                 );
             };
-            let assign = self.file.assign(&(start..end));
+            let assign = assignment(self.file, &(start..end));
+            let close = self.file.is(start + 1, b'[').then(|| {
+                let close = self.file.find(start + 2..end, b']');
+                start + 2..close.unwrap_or(end)
+            });
             found.push(DatumNode {
+                change: match is_constant {
+                    true => Change::Constant,
+                    false => Change::Variable,
+                },
+                sight: match is_global {
+                    true => Sight::Everywhere,
+                    false => Sight::Module,
+                },
                 type_name,
                 name,
                 name_at: start,
                 tokens: tokens.clone(),
                 initial: assign.map(|assign| assign + 1..end),
-                alone: start == at + 1 && end == tokens.end,
-                is_global,
+                dimensions: close.filter(|sizes| !sizes.is_empty()),
+                is_alone: start == at + 1 && end == tokens.end,
             });
             start = end + 1;
         }
@@ -67,13 +81,14 @@ impl Parser<'_, '_> {
         let Some(name) = self.file.name(tokens.start) else {
             return;
         };
-        let Some(assign) = self.file.assign(tokens) else {
+        let Some(assign) = assignment(self.file, tokens) else {
             return;
         };
         if let Some(index) = literal_index(self.file, tokens.start + 1..assign) {
             self.content.presets.push(Preset {
                 name,
-                index,
+                name_at: tokens.start,
+                index: index as usize,
                 tokens: tokens.clone(),
                 value: assign + 1..tokens.end,
             });

@@ -3,9 +3,9 @@
 use std::ops::Range;
 
 use crate::error::ProgramError;
-use crate::krl::lex::TokenFile;
-use crate::krl::parser::cursor::Parser;
-use crate::krl::tree::{Content, Parameter, Routine};
+use crate::interpreter::token::TokenFile;
+use crate::interpreter::tree::{Parameter, Routine, RoutineKind, Sight};
+use crate::krl::parser::cursor::{Content, Parser};
 
 /// Types that need no DECL.
 const TYPES: [&str; 11] = [
@@ -66,7 +66,7 @@ impl Parser<'_, '_> {
             return self.declaration(&tokens);
         }
         match self.routine.is_some() {
-            true => self.statement(line, &tokens),
+            true => self.statement(&tokens),
             false if self.in_list => self.preset(&tokens),
             false if self.outside => {}
             false => {
@@ -111,18 +111,28 @@ impl Parser<'_, '_> {
                 parameters.push(Parameter {
                     name,
                     changes: !is_in,
+                    is_optional: false,
                 });
             }
         }
         self.lost = false;
         self.routine = Some(Routine {
-            is_global: def > tokens.start,
+            kind: match is_function {
+                true => RoutineKind::Function,
+                false => RoutineKind::Procedure,
+            },
+            sight: match def > tokens.start {
+                true => Sight::Everywhere,
+                false => Sight::Module,
+            },
             name,
             name_at,
             parameters,
             data: Vec::new(),
             body: Vec::new(),
-            jumps: false,
+            handlers: Vec::new(),
+            whole: tokens.clone(),
+            statements: tokens.end..tokens.end,
         });
     }
 

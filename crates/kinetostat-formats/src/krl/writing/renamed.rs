@@ -5,8 +5,9 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
+use crate::interpreter::token::{Line, TokenFile};
 use crate::krl::folds::folds_of;
-use crate::krl::lex::{Line, TokenFile};
+use crate::krl::lex::token_file;
 use crate::model::program::RobotProgram;
 use crate::text::edits::Edits;
 use crate::writing::syntax::Renamed;
@@ -17,7 +18,7 @@ type PointData = BTreeMap<Vec<u8>, (Range<usize>, Range<usize>)>;
 /// The text of the fold around each statement, its names of the point's data, and a copy of these data.
 pub(super) fn rename_in_folds(program: &RobotProgram, names: &[Renamed], edits: &mut [Edits]) {
     let files: Vec<TokenFile<'_>> = (program.files.iter().enumerate())
-        .map(|(index, source)| TokenFile::of(index, source))
+        .map(|(index, source)| token_file(index, source))
         .collect();
     let folds: Vec<Vec<Option<usize>>> = files.iter().map(folds_of).collect();
     let data: Vec<PointData> = files.iter().map(point_data).collect();

@@ -8,8 +8,9 @@ use nalgebra::Vector3;
 
 use crate::error::WriteError;
 use crate::krl::kept::kept_angles;
+use crate::krl::position::PLACE;
 use crate::krl::reader::read_krl;
-use crate::krl::writing::steps::{MEMBERS, state_step, step_of, trimmed};
+use crate::krl::writing::steps::{state_step, step_of, trimmed};
 use crate::model::motion::{Motion, MotionKind};
 use crate::model::program::RobotProgram;
 use crate::model::site::{PartialText, PoseText, TargetSite};
@@ -56,6 +57,7 @@ pub(super) fn with_stated_ends(
     let reading = ReadOptions {
         unknown_targets: UnknownTargets::LeftAsWritten,
         external_axes: ExternalAxes::Carried,
+        values: program.values.clone(),
         ..ReadOptions::default()
     };
     let again = files.and_then(|files| read_krl(files, &reading).ok());
@@ -212,7 +214,7 @@ fn insertions(home: &SourceFile, text: &PartialText, added: &[Option<String>; 6]
         let Some(value) = value else {
             continue;
         };
-        let name = MEMBERS[member];
+        let name = PLACE[member];
         if let Some(before) = stated(0..member).next_back() {
             let at = before.span.end;
             edits.replace(at..at, format!(",{name} {value}"));

@@ -3,15 +3,13 @@
 use std::ops::Range;
 
 use crate::krl::kept::kept_angles;
+use crate::krl::position::PLACE;
 use crate::krl::table::motion_row;
 use crate::model::motion::Motion;
 use crate::model::program::RobotProgram;
 use crate::model::target::PoseTarget;
 use crate::text::edits::Edits;
 use crate::text::name::Name;
-
-/// Members of a position in the order in which they are written.
-pub(super) const MEMBERS: [&str; 6] = ["X", "Y", "Z", "A", "B", "C"];
 
 /// With which word a step is written that states its end.
 pub(super) fn step_of(program: &RobotProgram, motion: &Motion) -> Option<&'static str> {
@@ -32,7 +30,7 @@ pub(super) fn state_step(
     let place = pose.position_mm.iter().map(|value| format!("{value:.6}"));
     let angles = kept_angles(&pose.orientation);
     let values = place.chain(angles.iter().map(|value| format!("{value:.8}")));
-    let members: Vec<String> = (MEMBERS.iter().zip(values))
+    let members: Vec<String> = (PLACE.iter().zip(values))
         .map(|(name, value)| format!("{name} {}", trimmed(value)))
         .collect();
     let edits = &mut edits[motion.file];

@@ -3,15 +3,21 @@
 use std::collections::BTreeSet;
 
 use crate::error::WriteError;
-use crate::krl::lex::{Kind, TokenFile};
+use crate::interpreter::token::Kind;
+use crate::krl::kept::kept_angles;
+use crate::krl::lex::token_file;
+use crate::krl::position::PLACE;
 use crate::krl::table::{MotionRow, motion_row};
 use crate::krl::writing::renamed::rename_in_folds;
 use crate::krl::writing::stated::with_stated_ends;
 use crate::model::motion::{Motion, Zone};
 use crate::model::program::RobotProgram;
+use crate::model::site::ReplacedText;
 use crate::options::{ExactStops, WriteOptions};
 use crate::text::edits::Edits;
 use crate::text::name::Name;
+use crate::text::source::SourceFile;
+use crate::writing::literal::Wanted;
 use crate::writing::motions::write_with;
 use crate::writing::piece::Piece;
 use crate::writing::syntax::{PieceLiterals, Renamed, Syntax, replace_word};
@@ -47,7 +53,7 @@ impl Syntax for KrlSyntax {
     fn names(&self, program: &RobotProgram) -> BTreeSet<Vec<u8>> {
         let mut names = BTreeSet::new();
         for (index, source) in program.files.iter().enumerate() {
-            let file = TokenFile::of(index, source);
+            let file = token_file(index, source);
             for token in &file.tokens {
                 if token.kind == Kind::Word {
                     names.insert(source.part(&token.bytes()).to_ascii_uppercase());
@@ -115,6 +121,32 @@ impl Syntax for KrlSyntax {
             edits.replace(end..end, format!(" {}", row.pass));
         }
         edits.applied_to_part(file.bytes(), &motion.span)
+    }
+
+    fn replaced(
+        &self,
+        _file: &SourceFile,
+        text: &ReplacedText,
+        wanted: &Wanted<'_>,
+        options: &WriteOptions,
+    ) -> Option<Vec<u8>> {
+        let rotation = wanted.orientation.unwrap_or(text.pose.orientation);
+        let decimals = [options.position_decimals, options.angle_decimals];
+        let place = wanted.position_mm.iter().copied();
+        let values = place.chain(kept_angles(&rotation));
+        let mut members: Vec<String> = (PLACE.iter().zip(values).enumerate())
+            .map(|(at, (name, value))| format!("{name} {value:.*}", decimals[at / 3]))
+            .collect();
+        let configuration = &text.pose.configuration.text;
+        members.extend((!configuration.is_empty()).then(|| configuration.clone()));
+        for (axis, before) in text.pose.external.iter().enumerate() {
+            let changed = wanted.external.get(axis).copied().flatten();
+            let value = changed
+                .or(*before)
+                .map(|value| format!("E{} {value}", axis + 1));
+            members.extend(value);
+        }
+        Some(format!("{{{}}}", members.join(",")).into_bytes())
     }
 
     fn straighten(&self, program: &RobotProgram, motion: &Motion, edits: &mut Edits) {

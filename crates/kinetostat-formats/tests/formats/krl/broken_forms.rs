@@ -72,14 +72,14 @@ fn spline_blocks_that_are_none() {
             )],
         ),
         (
-            "IF $IN[1] THEN\nSPLINE\n SLIN XP1\nENDIF\nENDSPLINE",
+            "IF TRUE THEN\nSPLINE\n SLIN XP1\nENDIF\nENDSPLINE",
             &[(
                 6,
                 "`ENDIF`: it closes no block that is open here; close the SPLINE of line 4 with ENDSPLINE before it",
             )],
         ),
         (
-            "SPLINE\nIF $IN[1] THEN\n SLIN XP1\nENDSPLINE\nENDIF",
+            "SPLINE\nIF TRUE THEN\n SLIN XP1\nENDSPLINE\nENDIF",
             &[(6, "close the IF of line 4 with ENDIF before it")],
         ),
         (
@@ -147,25 +147,25 @@ fn steps_and_values_in_braces_that_are_none() {
         ),
         (
             "LIN_REL {X d}",
-            &[(3, "its step: its numbers are computed")],
+            &[(3, "its step: no `d` is declared in these files")],
         ),
         (
             "LIN_REL XP1",
-            &[(3, "its step: it is no position in braces")],
+            &[(3, "it goes on from where the tool is, and turns it")],
         ),
         (
             "LIN {}\nLIN {X 1,Y}\nLIN {X 1 Y 2}",
             &[
                 (3, "it states no place; write X, Y, Z, A, B and C"),
                 (4, "it is no position in braces"),
-                (5, "its numbers are computed"),
+                (5, "it is no expression that is understood here"),
             ],
         ),
         (
             "LIN {X 1,Y 2,Z 3\nLIN {X 1.5.2,Y 2}\nLIN {X 1e9}\nLIN {X 1,W 3}",
             &[
                 (3, "it is no position in braces"),
-                (4, "its numbers are computed"),
+                (4, "it is no expression that is understood here"),
                 (5, "its numbers are larger than any robot needs"),
                 (6, "it has a member that no position has"),
             ],
@@ -307,11 +307,11 @@ fn data_lists_that_do_not_state_what_is_asked() {
         ("DECL E6POS XQ", "`XQ` has no value in these files"),
         (
             "DECL E6POS XQ={X 1,Y 2",
-            "`XQ`: it is no position in braces",
+            "`LIN XQ`: it is no expression that is understood here",
         ),
         (
             "DECL E6POS XQ={X one,Y 2}",
-            "`XQ`: its numbers are computed",
+            "`XQ`: no `one` is declared in these files",
         ),
         ("DECL E6POS XQ={S 2,T 3}", "it states no place"),
         (
@@ -325,9 +325,9 @@ fn data_lists_that_do_not_state_what_is_asked() {
         ("DECL E6AXIS XQ={A1 10,A2 20}", "it states only some axes"),
         (
             "DECL E6POS XQ={X 1,Y 2,\nZ 3}",
-            "`XQ`: it is no position in braces",
+            "`LIN XQ`: it is no expression that is understood here",
         ),
-        ("XQ={X 1,Y 2,Z 3", "`XQ`: it is no position in braces"),
+        ("XQ={X 1,Y 2,Z 3", "`LIN XQ`: it is no expression"),
     ] {
         let found = refused(
             "DEF a()\nPTP XP1\nLIN XQ\nEND\n",

@@ -84,11 +84,6 @@ fn frames_are_those_that_statements_set() {
             None,
             Some([0.0, 0.0, 7.0]),
         ),
-        (
-            "$BASE=BASE_DATA[4]\nBASE_DATA[4]={X 0,Y 0,Z 7,A 0,B 0,C 0}",
-            None,
-            None,
-        ),
         ("$BASE=BASE_DATA[9]", None, None),
     ];
     let data = "DECL FRAME mine={X 4,Y 5,Z 6,A 0,B 0,C 0}\nINT count\nDECL FDAT FP1={TOOL_NO 3,BASE_NO 4,IPO_FRAME #BASE}";
@@ -127,18 +122,35 @@ fn frames_that_the_caller_states_count() {
 
 #[test]
 fn frames_of_branches_loops_and_routines_are_those_of_every_way() {
-    let known = |statements: &str| {
-        place(&frames("BOOL ready\nINT n", statements, &ReadOptions::default()).0).is_some()
+    let tool = |statements: &str| {
+        let found = frames("BOOL ready\nINT n", statements, &ReadOptions::default());
+        place(&found.0)
     };
-    assert!(known("BAS(#TOOL,3)\nIF ready THEN\nBAS(#TOOL,3)\nENDIF"));
-    assert!(!known("BAS(#TOOL,3)\nIF ready THEN\nBAS(#TOOL,0)\nENDIF"));
-    assert!(known(
-        "IF ready THEN\nBAS(#TOOL,3)\nELSE\nBAS(#TOOL,3)\nENDIF"
-    ));
-    assert!(known("BAS(#TOOL,3)\nFOR n=1 TO 3\n$VEL.CP=0.1\nENDFOR"));
-    assert!(!known("BAS(#TOOL,3)\nFOR n=1 TO 3\nBAS(#TOOL,0)\nENDFOR"));
-    assert!(known("LOOP\nBAS(#TOOL,3)\nENDLOOP"));
-    assert!(!known("BAS(#TOOL,3)\nGOTO there\nthere:"));
+    let third = Some([1.0, 2.0, 3.0]);
+    for statements in [
+        "BAS(#TOOL,3)\nFOR n=1 TO 3\n$VEL.CP=0.1\nENDFOR",
+        "FOR n=1 TO 3\nBAS(#TOOL,n)\nENDFOR",
+        "n=2\nIF n==2 THEN\nBAS(#TOOL,3)\nELSE\nBAS(#TOOL,0)\nENDIF",
+        "REPEAT\nBAS(#TOOL,3)\nUNTIL TRUE",
+        "BAS(#TOOL,3)\nGOTO there\nBAS(#TOOL,0)\nthere:",
+    ] {
+        assert_eq!(tool(statements), third, "{statements}");
+    }
+    // Which way it goes is not known.
+    let file = SourceFile::new(
+        "a.src",
+        "DEF a()\nIF $IN[1] THEN\nBAS(#TOOL,0)\nENDIF\nEND\n",
+    );
+    let mut options = ReadOptions::default();
+    let refused = read_krl(vec![file.clone()], &options).unwrap_err();
+    assert!(
+        refused[0].line == 2 && refused[0].remedy.contains("--set"),
+        "{refused:?}"
+    );
+    options
+        .values
+        .insert("$IN[1]".to_owned(), StatedValue::Truth(true));
+    assert!(read_krl(vec![file], &options).is_ok());
     let both = |calls: &str| {
         let source = format!("DEF part()\n{calls}\nEND\nDEF sub()\n{HERE}\nEND\n");
         let files = vec![SourceFile::new("part.src", source)];
@@ -150,7 +162,7 @@ fn frames_of_branches_loops_and_routines_are_those_of_every_way() {
         (Some([0.0; 3]), Runs::Repeatedly)
     );
     let twice = both("$TOOL=$NULLFRAME\nsub()\n$TOOL={X 1,Y 0,Z 0,A 0,B 0,C 0}\nsub()");
-    assert_eq!(place(&twice.tool), None);
+    assert_eq!(place(&twice.tool), Some([0.0; 3]));
 }
 
 #[test]

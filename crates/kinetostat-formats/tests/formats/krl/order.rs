@@ -39,18 +39,19 @@ fn routines_are_followed_in_the_order_of_their_calls() {
         order(&program),
         [
             (1.0, Runs::Once, None),
-            (2.0, Runs::Repeatedly, None),
+            (2.0, Runs::Repeatedly, Some(0)),
             (3.0, Runs::Once, Some(1)),
             (4.0, Runs::Once, Some(2)),
+            (2.0, Runs::Repeatedly, Some(3)),
             (9.0, Runs::Elsewhere, None),
         ]
     );
 }
 
 #[test]
-fn branches_and_loops_are_noted() {
+fn branches_and_loops_run() {
     let text = format!(
-        "DEF main()\n{}IF $IN[1] THEN\n{}ENDIF\n{}FOR i=1 TO 3\n{}ENDFOR\nSWITCH n\nCASE 1\n{}DEFAULT\n{}ENDSWITCH\nREPEAT\n{}UNTIL FALSE\n{}END",
+        "DEF main()\nINT i,n\n{}IF $IN[1] THEN\n{}ENDIF\n{}FOR i=1 TO 2\n{}ENDFOR\nn=4-2\nSWITCH n\nCASE 1,3\n{}CASE 2\n{}ENDSWITCH\nREPEAT\nn=n+1\n{}UNTIL n>=4\n{}LOOP\nn=n+1\nIF n==9 THEN\nEXIT\nENDIF\nENDLOOP\nEND",
         to(1),
         to(2),
         to(3),
@@ -60,19 +61,24 @@ fn branches_and_loops_are_noted() {
         to(7),
         to(8)
     );
-    let program = read_all(&[("main.src", &text)]);
-    use Runs::{OnCondition, Once, Repeatedly};
+    let mut options = ReadOptions::default();
+    options
+        .values
+        .insert("$IN[1]".to_owned(), StatedValue::Truth(true));
+    let program = read_krl(vec![SourceFile::new("main.src", text)], &options).unwrap();
+    use Runs::{Once, Repeatedly};
     assert_eq!(
         order(&program),
         [
             (1.0, Once, None),
-            (2.0, OnCondition, Some(0)),
-            (3.0, Once, None),
-            (4.0, Repeatedly, None),
-            (5.0, OnCondition, None),
-            (6.0, OnCondition, None),
-            (7.0, Repeatedly, None),
-            (8.0, Once, Some(6)),
+            (2.0, Once, Some(0)),
+            (3.0, Once, Some(1)),
+            (4.0, Repeatedly, Some(2)),
+            (4.0, Repeatedly, Some(3)),
+            (6.0, Once, Some(4)),
+            (7.0, Repeatedly, Some(5)),
+            (7.0, Repeatedly, Some(6)),
+            (8.0, Once, Some(7)),
         ]
     );
 }
@@ -126,17 +132,15 @@ fn deep_and_recursive_calls_end() {
         );
     }
     text += &format!("DEF r150()\n{}END\n", to(2));
-    let program = read_all(&[("main.src", &text)]);
-    assert_eq!(program.motions.len(), 2);
+    let files = vec![SourceFile::new("main.src", text)];
+    let refused = read_krl(files, &ReadOptions::default()).unwrap_err();
     assert!(
-        program
-            .motions
-            .iter()
-            .all(|motion| motion.runs == Runs::Repeatedly)
+        refused[0].reason.contains("nested deeper than 200"),
+        "{refused:?}"
     );
     let deep = format!(
         "DEF main()\n{}{}{}END\n",
-        "IF x THEN\n".repeat(99),
+        "IF TRUE THEN\n".repeat(99),
         to(1),
         "ENDIF\n".repeat(99)
     );

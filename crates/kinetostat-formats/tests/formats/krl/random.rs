@@ -140,14 +140,15 @@ fn statements(chance: &mut Chance, depth: usize) -> String {
     for _ in 0..chance.below(7) {
         text += &match chance.below(14) {
             0 if depth < 3 => format!(
-                "IF $IN[1] THEN\n{}ELSE\n{}ENDIF\n",
+                "IF {} THEN\n{}ELSE\n{}ENDIF\n",
+                chance.of(&["TRUE", "FALSE", "(i==2) OR TRUE"]),
                 statements(chance, depth + 1),
                 statements(chance, depth + 1)
             ),
             1 if depth < 3 => format!("FOR i = 1 TO 3\n{}ENDFOR\n", statements(chance, depth + 1)),
             2 if depth < 3 => format!("REPEAT\n{}UNTIL TRUE\n", statements(chance, depth + 1)),
             3 => "$OUT[1]=TRUE\nWAIT SEC 0.5\n".to_owned(),
-            4 => "sub()\n".to_owned(),
+            4 if depth < 2 => "sub()\n".to_owned(),
             5 => format!("  $VEL.CP={}\n", chance.of(&["0.02", "1", "20/1000.0"])),
             6 => format!(
                 "$BASE={}\n",
@@ -190,7 +191,9 @@ pub fn module(chance: &mut Chance) -> [String; 2] {
 }
 
 /// What a writer may say of a correction that it cannot write.
-const SAID: [&str; 4] = [
+const SAID: [&str; 5] = [
+    // An end that keeps what it does not state ends elsewhere in each run.
+    "needs another correction each time",
     "states only some of",
     "states no orientation",
     "a piece has no finite place",

@@ -85,7 +85,7 @@ fn what_keeps_its_orientation_is_taken_where_nothing_turns() {
         [0; 0]
     );
     assert_eq!(
-        lines(&format!("{start}\nIF $IN[1] THEN\n{kept}\nENDIF\n{turn}")),
+        lines(&format!("{start}\nIF TRUE THEN\n{kept}\nENDIF\n{turn}")),
         [8]
     );
     assert_eq!(

@@ -74,12 +74,12 @@ fn names_of_positions_come_along() {
 
 #[test]
 fn refused_lines_ascend() {
-    let text = "DEF part()\n$BASE=$NULLFRAME\n$TOOL=$NULLFRAME\n$VEL.CP=0.02\nsub()\nRETURN\n\
-        LIN {X 1,Y 2,Z 3,A 0,B 0,C 0}\nEND\nDEF sub()\nRETURN\nLIN {X 5,Y 2,Z 3,A 0,B 0,C 0}\nEND\n";
+    let text = "DEF part()\n$BASE=$NULLFRAME\n$TOOL=$NULLFRAME\n$VEL.CP=0.02\n\
+        LIN {X 1,Y 2,Z 3,A 0,B 0,C 0}\nEND\nDEF one()\n$BASE=$NULLFRAME\n$TOOL=$NULLFRAME\nLIN {X 5,Y 2,Z 3,A 0,B 0,C 0}\nEND\nDEF two()\n$BASE=$NULLFRAME\n$TOOL=$NULLFRAME\nLIN {X 5,Y 2,Z 3,A 0,B 0,C 0}\nEND\n";
     let files = vec![SourceFile::new("part.src", text)];
     let program = read_krl(files, &ReadOptions::default()).unwrap();
     let robot = path_of(&program, &PathOptions::default()).unwrap();
     let made = make_of_robot(&program, &robot, &Template::default(), MakeLanguage::Rapid);
     let lines: Vec<Option<usize>> = made.unwrap_err().iter().map(|fault| fault.line).collect();
-    assert_eq!(lines, [Some(7), Some(11)]);
+    assert_eq!(lines, [Some(10), Some(15)]);
 }

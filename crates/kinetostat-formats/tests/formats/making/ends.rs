@@ -102,10 +102,10 @@ fn exit_of_rapid_ends_the_program_from_wherever_it_stands() {
 }
 
 #[test]
-fn motions_behind_a_return_of_krl_are_refused() {
+fn motions_behind_a_return_of_krl_do_not_run() {
     let text = "DEF a( )\n$BASE=$NULLFRAME\n$TOOL=$NULLFRAME\n$VEL.CP=0.01\nPTP {X 0,Y 0,Z 5,A 0,B 0,C 180}\nRETURN\nLIN {X 9,Y 0,Z 5,A 0,B 0,C 180}\nEND\n";
-    let found = refused(Language::Krl, text);
-    assert_eq!(found[0].0, Some(7), "{found:?}");
+    let made = of_robot(Language::Krl, text, MakeLanguage::Krl);
+    assert_eq!(made.kept.motions, 1, "{}", text_of(&made, 0));
 }
 
 #[test]
