@@ -34,23 +34,15 @@ const ROOMS: [&str; 15] = [
 const TOGETHER: [(&str, &[&str], &str); 1] = [(
     "kinetostat-formats",
     &[
-        "rapid/control",
-        "rapid/evaluate",
-        "rapid/flat",
-        "rapid/frames",
-        "rapid/instructions",
-        "rapid/motion",
-        "rapid/passing",
-        "rapid/reader",
-        "rapid/run",
-        "rapid/storage",
-        "rapid/targets",
+        "interpreter/control",
+        "interpreter/passing",
+        "interpreter/storage",
     ],
     "a function in an expression runs statements, and statements evaluate expressions: one run",
 )];
 
 /// Methods of libraries that one of our types has too: whose a call is, only types tell.
-const OTHERS: [&str; 63] = [
+const OTHERS: [&str; 64] = [
     "abs",
     "all",
     "any",
@@ -113,6 +105,7 @@ const OTHERS: [&str; 63] = [
     "take",
     "transpose",
     "value",
+    "values",
     "zip",
 ];
 

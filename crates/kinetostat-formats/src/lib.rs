@@ -105,10 +105,11 @@ pub use model::orientation::OrientationText;
 pub use model::program::RobotProgram;
 pub use model::slash_blocks::SlashBlocks;
 pub use model::stated_arm::StatedArm;
+pub use model::stated_value::StatedValue;
 pub use model::target::{Configuration, PoseTarget, Target};
 pub use options::{
-    CutterCompensation, ExactStops, ExternalAxes, LengthUnit, ReadOptions, StatedValue,
-    UnknownTargets, WriteOptions,
+    CutterCompensation, ExactStops, ExternalAxes, LengthUnit, ReadOptions, UnknownTargets,
+    WriteOptions,
 };
 pub use path::all_faults::{ProgramFault, all_faults};
 pub use path::axis_turns::TurnAboutAxis;

@@ -6,6 +6,7 @@ use nalgebra::Isometry3;
 
 use crate::model::joint_arm::TableArm;
 use crate::model::slash_blocks::SlashBlocks;
+use crate::model::stated_value::StatedValue;
 
 /// What becomes of a motion whose end is not known from the text.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -45,17 +46,6 @@ pub enum LengthUnit {
     Millimetre,
     /// m.
     Metre,
-}
-
-/// A value that only the controller knows, as the caller states it.
-#[derive(Debug, Clone, PartialEq)]
-pub enum StatedValue {
-    /// A number.
-    Number(f64),
-    /// TRUE or FALSE.
-    Truth(bool),
-    /// Any other text.
-    Text(String),
 }
 
 impl StatedValue {

@@ -14,8 +14,8 @@ use crate::interpreter::tree::{Choice, LoopKind, Statement};
 use crate::interpreter::value::Datum;
 use crate::text::name::Name;
 
-/// Most statements of a run.
-const MOST_STATEMENTS: usize = 5_000_000;
+/// Most statements of a run that are run again: in loops, and in routines that others call.
+const MOST_REPEATED: usize = 1_000_000;
 
 impl<D: Dialect> Run<'_, '_, D> {
     /// Runs a routine with the slots of its parameters.
@@ -107,15 +107,12 @@ impl<D: Dialect> Run<'_, '_, D> {
         let mut at = 0;
         while let Some(statement) = statements.get(at) {
             at += 1;
-            self.statements += 1;
-            if self.statements > MOST_STATEMENTS {
+            if !self.counts_statement() {
                 if let Some(tokens) = statement.tokens() {
                     let reason =
-                        "the program runs more than 5 million statements up to here".to_owned();
-                    self.fault(
-                        &tokens,
-                        (reason, "end its loop, or read the part that cuts by itself"),
-                    );
+                        "the loops of the program run more than 1 million statements up to here";
+                    let remedy = "end its loop, or read the part that cuts by itself";
+                    self.fault(&tokens, (reason.to_owned(), remedy));
                 }
                 return Flow::Ends;
             }
@@ -129,7 +126,11 @@ impl<D: Dialect> Run<'_, '_, D> {
                         _ => false,
                     };
                     match statements.iter().position(is_it) {
-                        Some(label) => at = label,
+                        Some(label) => {
+                            // A jump backward is a loop.
+                            self.in_loops += usize::from(label < at);
+                            at = label;
+                        }
                         None => return Flow::To(label, tokens),
                     }
                 }
@@ -137,6 +138,12 @@ impl<D: Dialect> Run<'_, '_, D> {
             }
         }
         Flow::Next
+    }
+
+    /// Counts a statement that runs; false where too many ran again.
+    fn counts_statement(&mut self) -> bool {
+        self.repeated_statements += usize::from(self.in_loops > 0 || self.calls.len() > 1);
+        self.repeated_statements <= MOST_REPEATED
     }
 
     fn statement(&mut self, statement: &Statement) -> Flow {
@@ -176,12 +183,14 @@ impl<D: Dialect> Run<'_, '_, D> {
                 whole,
             } => {
                 self.depth += 1;
+                self.in_loops += 1;
                 let flow = match kind {
                     LoopKind::Counting => self.count(header, block),
                     LoopKind::While => self.repeat(header, block),
                     LoopKind::Until => self.repeat_until(header, block),
                     LoopKind::Endless => self.repeat_for_ever(header, block),
                 };
+                self.in_loops -= 1;
                 self.depth -= 1;
                 D::log_passed_over(self, whole);
                 flow
@@ -329,9 +338,11 @@ impl<D: Dialect> Run<'_, '_, D> {
                     return Flow::Next;
                 }
             }
-            self.statements += 1;
+            if !self.counts_statement() {
+                return self.block(block);
+            }
             match self.block(block) {
-                Flow::Next if self.statements <= MOST_STATEMENTS => {}
+                Flow::Next => {}
                 Flow::Breaks => return Flow::Next,
                 flow => return flow,
             }
@@ -345,9 +356,11 @@ impl<D: Dialect> Run<'_, '_, D> {
             return self.repeat_for_ever(header, block);
         }
         loop {
-            self.statements += 1;
+            if !self.counts_statement() {
+                return self.block(block);
+            }
             match self.block(block) {
-                Flow::Next if self.statements <= MOST_STATEMENTS => {}
+                Flow::Next => {}
                 Flow::Breaks => return Flow::Next,
                 flow => return flow,
             }
@@ -384,9 +397,11 @@ impl<D: Dialect> Run<'_, '_, D> {
             return Flow::Next;
         }
         loop {
-            self.statements += 1;
+            if !self.counts_statement() {
+                return self.block(block);
+            }
             match self.block(block) {
-                Flow::Next if self.statements <= MOST_STATEMENTS => {}
+                Flow::Next => {}
                 Flow::Breaks => return Flow::Next,
                 flow => return flow,
             }
@@ -495,9 +510,8 @@ impl<D: Dialect> Run<'_, '_, D> {
             if let Some(place) = &place {
                 self.put(place, Datum::number(value));
             }
-            self.statements += 1;
             flow = self.block(block);
-            if !matches!(flow, Flow::Next) || self.statements > MOST_STATEMENTS {
+            if !matches!(flow, Flow::Next) || !self.counts_statement() {
                 break;
             }
             // Numbers of robots have single precision.

@@ -5,12 +5,11 @@
 //!
 //! A language brings its tokens ([`token`]), its grammar of expressions ([`reading`]), its statements as a [`tree`] with [`symbols`], and
 //! what is its own by [`run::Dialect`]. Shared are the order of the run ([`control`], [`flow`], [`passing`]), its data ([`storage`],
-//! [`evaluate`], [`operation`], [`value`]), and the declared targets at which motions end ([`declared`]);
-//! [`ending`] says at the end what a person should know.
+//! [`evaluate`], [`operation`], [`value`]), and the declared targets at which motions end ([`declared`], [`targets`]);
+//! [`whole`] runs all programs of the files and says at the end what a person should know.
 
 mod control;
 pub(crate) mod declared;
-mod ending;
 pub(crate) mod evaluate;
 pub(crate) mod expression;
 pub(crate) mod flow;
@@ -20,6 +19,8 @@ pub(crate) mod reading;
 pub(crate) mod run;
 pub(crate) mod storage;
 pub(crate) mod symbols;
+mod targets;
 pub(crate) mod token;
 pub(crate) mod tree;
 pub(crate) mod value;
+mod whole;

@@ -4,17 +4,18 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
 use crate::error::{ProgramError, note};
-use crate::interpreter::declared::Targets;
 use crate::interpreter::expression::{Argument, Expression, Operator};
 use crate::interpreter::flow::{Counting, Flow, Leave};
 use crate::interpreter::operation::two;
 use crate::interpreter::symbols::{Scope, Symbols};
-use crate::interpreter::token::{Kind, TokenFile};
-use crate::interpreter::tree::{Choice, DatumNode, RoutineKind};
+use crate::interpreter::targets::Targets;
+use crate::interpreter::token::TokenFile;
+use crate::interpreter::tree::{Choice, DatumNode};
 use crate::interpreter::value::{Datum, Step, Value};
 use crate::model::motion::{Motion, Runs};
 use crate::model::outside_call::OutsideCall;
-use crate::options::{ReadOptions, StatedValue};
+use crate::model::stated_value::StatedValue;
+use crate::options::ReadOptions;
 use crate::text::finding::Finding;
 use crate::text::name::Name;
 
@@ -202,7 +203,10 @@ pub(crate) struct Run<'r, 'p, D> {
     pub(crate) faults: Vec<ProgramError>,
     /// Places of faults and findings that were noted: a statement in a loop has one.
     pub(crate) noted: BTreeSet<(usize, usize, &'static str)>,
-    pub(crate) statements: usize,
+    /// Statements that ran in loops and in routines that others call.
+    pub(crate) repeated_statements: usize,
+    /// Nesting of loops that run.
+    pub(crate) in_loops: usize,
     /// Tokens of the statement that runs.
     pub(crate) statement: Range<usize>,
     /// The branch or the loop that ran last was passed over.
@@ -260,7 +264,8 @@ impl<'r, 'p, D: Dialect> Run<'r, 'p, D> {
             outside_calls: Vec::new(),
             faults: Vec::new(),
             noted: BTreeSet::new(),
-            statements: 0,
+            repeated_statements: 0,
+            in_loops: 0,
             statement: 0..0,
             passed_over: false,
             log: None,
@@ -268,69 +273,6 @@ impl<'r, 'p, D: Dialect> Run<'r, 'p, D> {
             call_sites: BTreeMap::new(),
             routines: Vec::new(),
             repeated_motions: 0,
-        }
-    }
-
-    /// Runs `main`, then each procedure that nothing calls as a program of its own.
-    pub(crate) fn whole(mut self) -> Self {
-        self.note_volatile();
-        let main = self.symbols.main;
-        let called = self.called_by_name();
-        let others = (0..self.symbols.routines.len()).filter(|index| {
-            let kind = self.symbols.routines[*index].routine.kind;
-            Some(*index) != main && kind == RoutineKind::Procedure && !called.contains(index)
-        });
-        let roots: Vec<usize> = main.into_iter().chain(others).collect();
-        for root in roots {
-            self.here = None;
-            D::begin(&mut self);
-            self.runs = match Some(root) == main {
-                true => Runs::Once,
-                false => Runs::Elsewhere,
-            };
-            self.begin_data();
-            if self.log.is_none() || Some(root) == main {
-                self.call(root, BTreeMap::new());
-                self.refuse_kept();
-            }
-        }
-        self.say_of_values();
-        self.say_of_unreached();
-        self.mark_repeated();
-        self.fix_what_others_call();
-        let targets = std::mem::take(&mut self.targets);
-        self.targets = targets.with_other_uses(self.files, self.symbols);
-        self
-    }
-
-    /// Routines that a statement of the files names.
-    fn called_by_name(&self) -> BTreeSet<usize> {
-        let mut called = BTreeSet::new();
-        if self.symbols.routines.len() < 2 {
-            return called;
-        }
-        for (index, home) in self.symbols.routines.iter().enumerate() {
-            let file = &self.files[home.file];
-            let mut see = |tokens: &Range<usize>| {
-                let is_word = |at: &usize| file.tokens[*at].kind == Kind::Word;
-                let words = tokens.clone().filter(is_word);
-                let names = words.filter_map(|at| Name::of(file.word(at)));
-                called.extend(names.filter_map(|name| self.symbols.routine(index, &name)));
-            };
-            home.routine.each_part(&mut see);
-        }
-        called
-    }
-
-    /// Data that routines of interrupts assign may change between any two statements.
-    fn note_volatile(&mut self) {
-        for index in D::interrupting(self) {
-            let body = &self.symbols.routines[index].routine.body;
-            let volatile = self.assigned_in(index, body).into_iter();
-            self.volatile.extend(volatile.filter_map(|root| match root {
-                Root::Module(datum) => Some(datum),
-                Root::Routine(..) | Root::Undeclared(_) => None,
-            }));
         }
     }
 

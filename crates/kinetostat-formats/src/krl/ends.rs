@@ -128,7 +128,7 @@ impl Run<'_, '_> {
             site,
             open,
             external: position.external_values(),
-            b: position.values()[4],
+            b: position.coordinates()[4],
         })
     }
 
@@ -173,7 +173,7 @@ impl Run<'_, '_> {
                 return declared;
             }
         }
-        if position.values().iter().all(Option::is_some) {
+        if position.coordinates().iter().all(Option::is_some) {
             return TargetSite::Replaced(Box::new(ReplacedText {
                 span,
                 pose: pose.clone(),
@@ -222,7 +222,7 @@ impl Run<'_, '_> {
                 "write the motion with a target of its own",
             ));
         }
-        let by = isometry(added.values().map(Option::unwrap_or_default))
+        let by = isometry(added.coordinates().map(Option::unwrap_or_default))
             .unwrap_or_else(Isometry3::identity);
         let place = Translation3::from(base_pose.position_mm);
         let end = Isometry3::from_parts(place, base_pose.orientation) * by;

@@ -119,7 +119,7 @@ impl Position {
     }
 
     /// What it says of X, Y, Z, A, B, C.
-    pub(crate) fn values(&self) -> [Option<f64>; 6] {
+    pub(crate) fn coordinates(&self) -> [Option<f64>; 6] {
         let value = |number: &Option<Member>| number.as_ref().map(|number| number.value);
         self.numbers.each_ref().map(value)
     }
@@ -175,7 +175,7 @@ impl Position {
 
     /// The frame, where all six numbers are stated.
     pub(crate) fn frame(&self) -> Option<Isometry3<f64>> {
-        match self.values() {
+        match self.coordinates() {
             [Some(x), Some(y), Some(z), Some(a), Some(b), Some(c)] => isometry([x, y, z, a, b, c]),
             _ => None,
         }
@@ -183,7 +183,7 @@ impl Position {
 
     /// The pose without the members that it leaves open, and those that it states where that is not all.
     pub(crate) fn pose(&self) -> (PoseTarget, Option<[Option<f64>; 6]>) {
-        let values = self.values();
+        let values = self.coordinates();
         let is_whole = values.iter().all(Option::is_some);
         let numbers = values.map(Option::unwrap_or_default);
         let frame = isometry(numbers).unwrap_or_else(Isometry3::identity);

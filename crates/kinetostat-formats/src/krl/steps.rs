@@ -48,7 +48,7 @@ impl Step {
 
 /// The step that a position is (`{X 10,Z -5}`), which turns nothing; that of joints (`is_joint`) may be `{A1 10}`.
 pub(crate) fn step_of(position: &Position, is_joint: bool, in_tool: bool) -> Result<Step, Reason> {
-    let values = position.values().map(Option::unwrap_or_default);
+    let values = position.coordinates().map(Option::unwrap_or_default);
     let turns = values[3..].iter().any(|angle| *angle != 0.0);
     let external = position.external.iter().flatten();
     let moves_external = external.into_iter().any(|step| step.value != 0.0);

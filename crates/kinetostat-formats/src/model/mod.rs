@@ -17,5 +17,6 @@ pub(crate) mod site;
 pub(crate) mod slash_blocks;
 pub(crate) mod stated_arm;
 pub(crate) mod stated_axes;
+pub(crate) mod stated_value;
 pub(crate) mod target;
 pub(crate) mod tool_load;

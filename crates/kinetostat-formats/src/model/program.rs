@@ -7,7 +7,7 @@ use crate::model::motion::Motion;
 use crate::model::outside_call::{OutsideCall, by_name};
 use crate::model::site::Declaration;
 use crate::model::stated_axes::StatedAxes;
-use crate::options::StatedValue;
+use crate::model::stated_value::StatedValue;
 use crate::text::finding::Finding;
 use crate::text::source::SourceFile;
 

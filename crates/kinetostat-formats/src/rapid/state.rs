@@ -17,6 +17,9 @@ use crate::text::name::Name;
 /// A run of a RAPID program.
 pub(crate) type Run<'r, 'p> = run::Run<'r, 'p, Rapid>;
 
+/// A frame and the value that it was read from.
+pub(crate) type KnownFrame = (Rc<Vec<Datum>>, FrameUse);
+
 /// Modal state of a RAPID program, and the frames that it has used.
 pub(crate) struct Rapid {
     pub modes: Modes,
@@ -25,7 +28,7 @@ pub(crate) struct Rapid {
     /// Frames that the caller states.
     pub stated: BTreeMap<Name, Isometry3<f64>>,
     /// Frames of tools and work objects by the values that they were read from.
-    pub frames: BTreeMap<(bool, Name), (Rc<Vec<Datum>>, FrameUse)>,
+    pub frames: BTreeMap<(bool, Name), KnownFrame>,
 }
 
 impl Rapid {

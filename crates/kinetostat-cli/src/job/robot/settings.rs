@@ -156,19 +156,23 @@ fn moving_calls(
 ) -> Answer<BTreeSet<String>> {
     let mut found: BTreeSet<String> = flags.moving_calls.iter().cloned().collect();
     found.extend((job.iter()).flat_map(|j| j.job.calls.keys().map(|name| name.get_ref().clone())));
-    let has_calls = matches!(
-        language,
-        Language::Rapid | Language::Krl | Language::FanucLs
-    );
     match found.first() {
-        Some(name) if !has_calls => Err(Failure::input(format!(
+        Some(name) if !is_run(language) => Err(Failure::input(format!(
             "'{name}' is stated to move the tool ([calls] in the job, --call), which is for programs in RAPID, KRL and FANUC TP: leave it out"
         ))),
         _ => Ok(found),
     }
 }
 
-/// Values that only the controller knows; programs in RAPID are run with them.
+/// True for languages whose programs are run with values that the caller states.
+fn is_run(language: Language) -> bool {
+    matches!(
+        language,
+        Language::Rapid | Language::Krl | Language::FanucLs
+    )
+}
+
+/// Values that only the controller knows, for programs that are run with them.
 fn stated_values(
     job: Option<&JobFile>,
     flags: &RobotArgs,
@@ -182,8 +186,8 @@ fn stated_values(
         found.insert(name.clone(), value.clone());
     }
     match found.keys().next() {
-        Some(name) if language != Language::Rapid => Err(Failure::input(format!(
-            "a value of '{name}' is stated ([values] in the job, --set), which is for programs in RAPID: leave it out"
+        Some(name) if !is_run(language) => Err(Failure::input(format!(
+            "a value of '{name}' is stated ([values] in the job, --set), which is for programs in RAPID, KRL and FANUC TP: leave it out"
         ))),
         _ => Ok(found),
     }

@@ -155,7 +155,7 @@ fn loops_run_as_often_as_they_say() {
     )
     .unwrap_err();
     assert!(
-        faults[0].reason.contains("more than 5 million statements"),
+        faults[0].reason.contains("more than 1 million statements"),
         "{}",
         faults[0]
     );

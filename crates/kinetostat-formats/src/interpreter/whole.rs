@@ -1,23 +1,89 @@
-//! What a run says at its end: values that were stated, motions that it did not come to, statements that ran several times.
+//! Whole runs: the programs of the files one after the other, and what is said at the end: values that were stated, motions that no run came
+//! to, statements that ran several times.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::ops::Range;
 
 use crate::error::{ProgramError, note};
 use crate::interpreter::operation::same;
-use crate::interpreter::run::{Dialect, Run};
+use crate::interpreter::run::{Dialect, Root, Run};
 use crate::interpreter::token::Kind;
+use crate::interpreter::tree::RoutineKind;
 use crate::interpreter::value::{Datum, Step, Value};
 use crate::model::motion::Runs;
 use crate::model::site::TargetSite;
-use crate::options::StatedValue;
+use crate::model::stated_value::StatedValue;
 use crate::text::finding::Finding;
 use crate::text::line_words::in_words;
 use crate::text::name::Name;
 
 impl<D: Dialect> Run<'_, '_, D> {
+    /// Runs `main`, then each procedure that nothing calls as a program of its own.
+    pub(crate) fn whole(mut self) -> Self {
+        self.note_volatile();
+        let main = self.symbols.main;
+        let called = self.called_by_name();
+        let others = (0..self.symbols.routines.len()).filter(|index| {
+            let kind = self.symbols.routines[*index].routine.kind;
+            Some(*index) != main && kind == RoutineKind::Procedure && !called.contains(index)
+        });
+        let roots: Vec<usize> = main.into_iter().chain(others).collect();
+        for root in roots {
+            self.here = None;
+            D::begin(&mut self);
+            self.runs = match Some(root) == main {
+                true => Runs::Once,
+                false => Runs::Elsewhere,
+            };
+            self.begin_data();
+            if self.log.is_none() || Some(root) == main {
+                self.call(root, BTreeMap::new());
+                self.refuse_kept();
+            }
+        }
+        self.say_of_values();
+        self.say_of_unreached();
+        self.mark_repeated();
+        self.fix_what_others_call();
+        let targets = std::mem::take(&mut self.targets);
+        self.targets = targets.with_other_uses(self.files, self.symbols);
+        self
+    }
+
+    /// Routines that a statement of the files names.
+    fn called_by_name(&self) -> BTreeSet<usize> {
+        let mut called = BTreeSet::new();
+        if self.symbols.routines.len() < 2 {
+            return called;
+        }
+        for (index, home) in self.symbols.routines.iter().enumerate() {
+            let file = &self.files[home.file];
+            let mut see = |tokens: &Range<usize>| {
+                let is_word = |at: &usize| file.tokens[*at].kind == Kind::Word;
+                let words = tokens.clone().filter(is_word);
+                let names = words.filter_map(|at| Name::of(file.word(at)));
+                called.extend(names.filter_map(|name| self.symbols.routine(index, &name)));
+            };
+            home.routine.each_part(&mut see);
+        }
+        called
+    }
+
+    /// Data that routines of interrupts assign may change between any two statements.
+    fn note_volatile(&mut self) {
+        for index in D::interrupting(self) {
+            let body = &self.symbols.routines[index].routine.body;
+            let volatile = self.assigned_in(index, body).into_iter();
+            self.volatile.extend(volatile.filter_map(|root| match root {
+                Root::Module(datum) => Some(datum),
+                Root::Routine(..) | Root::Undeclared(_) => None,
+            }));
+        }
+    }
+
     /// A target that a routine computes is that of the calls that ran. Where code that did not run calls the routine too (an interrupt, an
     /// error handler, a branch), or a computed name may, it is not written as numbers.
-    pub(super) fn fix_what_others_call(&mut self) {
+    fn fix_what_others_call(&mut self) {
         let is_computed = self.outside_calls.iter().any(|call| call.name.is_none());
         let mut mentions: BTreeMap<Name, usize> = BTreeMap::new();
         for file in self.files {
@@ -64,7 +130,7 @@ impl<D: Dialect> Run<'_, '_, D> {
     }
 
     /// Values that the caller states decide the way of the program.
-    pub(super) fn say_of_values(&mut self) {
+    fn say_of_values(&mut self) {
         let Some(file) = self.files.first() else {
             return;
         };
@@ -90,7 +156,7 @@ impl<D: Dialect> Run<'_, '_, D> {
     }
 
     /// Motions that the run does not come to: of arms that are not taken, behind the end of the program, of error handlers and interrupts.
-    pub(super) fn say_of_unreached(&mut self) {
+    fn say_of_unreached(&mut self) {
         let mut unreached: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
         for home in &self.symbols.routines {
             let file = &self.files[home.file];
@@ -122,7 +188,7 @@ impl<D: Dialect> Run<'_, '_, D> {
     }
 
     /// Statements that ran several times say so at each of their motions.
-    pub(super) fn mark_repeated(&mut self) {
+    fn mark_repeated(&mut self) {
         let mut count: BTreeMap<(usize, usize), usize> = BTreeMap::new();
         for motion in &self.motions {
             *count.entry((motion.file, motion.span.start)).or_default() += 1;
@@ -137,7 +203,7 @@ impl<D: Dialect> Run<'_, '_, D> {
 
     /// Refuses data that decide where the tool goes, that began with the values of the files, and end with others: the next run begins with
     /// those.
-    pub(super) fn refuse_kept(&mut self) {
+    fn refuse_kept(&mut self) {
         for (index, given) in std::mem::take(&mut self.begun_with) {
             let node = self.symbols.data[index].node;
             let (Some(given), Some(now)) = (given, self.data.get(&index).cloned()) else {
@@ -159,7 +225,7 @@ impl<D: Dialect> Run<'_, '_, D> {
     }
 
     /// Begins a program of the files: what another one changed is not known.
-    pub(super) fn begin_data(&mut self) {
+    fn begin_data(&mut self) {
         self.left_changed.extend(self.given.keys());
         self.data.clear();
         self.undeclared.clear();
