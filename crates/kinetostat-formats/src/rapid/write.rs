@@ -99,6 +99,10 @@ impl Syntax for RapidSyntax {
         edits.applied_to_part(file.bytes(), &motion.span)
     }
 
+    fn is_written_flat(&self) -> bool {
+        true
+    }
+
     fn replaced(
         &self,
         file: &SourceFile,

@@ -14,7 +14,7 @@ use crate::writing::ends::Writer;
 use crate::writing::external_axes::{AxesOfPiece, shared_axes};
 use crate::writing::line_length::check_lines;
 use crate::writing::piece::Piece;
-use crate::writing::refusals::{REPEATED, SAME_MM, SAME_RAD};
+use crate::writing::refusals::{REPEATED, REPEATED_FOR_GOOD, SAME_MM, SAME_RAD};
 use crate::writing::refused::Refused;
 use crate::writing::syntax::Syntax;
 use crate::writing::target_texts::text_of;
@@ -86,7 +86,13 @@ pub(crate) fn write_with(
         if first != index {
             let before = of_motion.get(&first).map_or(&[][..], Vec::as_slice);
             if !is_same_way((&program.motions[first], before), (motion, pieces)) {
-                refused.add(motion, REPEATED);
+                refused.add(
+                    motion,
+                    match syntax.is_written_flat() {
+                        true => REPEATED,
+                        false => REPEATED_FOR_GOOD,
+                    },
+                );
             }
             continue;
         }

@@ -25,9 +25,14 @@ pub(super) const NO_NAME: Reason = (
     "give fewer pieces, or divide the program",
 );
 
+/// Runs of one statement that need different corrections, where the program can be written flat and where it cannot.
 pub(super) const REPEATED: Reason = (
     "the statement runs several times, and needs another correction each time",
     "run the program once and go on with its flat form (--expand, [expand] in a job)",
+);
+pub(super) const REPEATED_FOR_GOOD: Reason = (
+    REPEATED.0,
+    "write the statement once for each of its runs, without the loop or the routine around it",
 );
 
 /// Corrections of two runs of one statement that are the same, mm and rad: less than the last digit that is written.

@@ -67,6 +67,11 @@ pub(crate) trait Syntax {
         options: &WriteOptions,
     ) -> Option<Vec<u8>>;
 
+    /// True where a program with loops and calls can be written flat.
+    fn is_written_flat(&self) -> bool {
+        false
+    }
+
     /// The text of an end that the statement has by names or computes, with another pose.
     fn replaced(
         &self,
