@@ -10,7 +10,7 @@ use crate::heidenhain::expand::flat::run_or_refused as run_heidenhain;
 use crate::heidenhain::expand::program::called as called_by_heidenhain;
 use crate::heidenhain::reading::reader::read_heidenhain;
 use crate::heidenhain::writing::write::write_heidenhain;
-use crate::krl::reader::read_krl;
+use crate::krl::reader::{expand_krl, is_data_list, read_krl};
 use crate::krl::writing::write::write_krl;
 use crate::ls::reader::read_ls;
 use crate::ls::write::write_ls;
@@ -19,8 +19,7 @@ use crate::model::program::RobotProgram;
 use crate::options::{ReadOptions, WriteOptions};
 use crate::poses::reader::read_poses;
 use crate::poses::write::write_poses;
-use crate::rapid::flat::expand_rapid;
-use crate::rapid::reader::read_rapid;
+use crate::rapid::reader::{expand_rapid, read_rapid};
 use crate::rapid::write::RapidSyntax;
 use crate::refused_run::RefusedRun;
 use crate::siemens::flat::run_or_refused as run_siemens;
@@ -88,6 +87,7 @@ pub fn expand(
         Language::Siemens => run_siemens(&files, options),
         Language::Apt => expand_apt(&files).map_err(RefusedRun::from),
         Language::Rapid => expand_rapid(&files, options).map_err(RefusedRun::from),
+        Language::Krl => expand_krl(&files, options).map_err(RefusedRun::from),
         _ => return Ok(None),
     };
     done.map(Some).map_err(|refused| {
@@ -97,6 +97,20 @@ pub fn expand(
                 .unwrap_or_default()
         })
     })
+}
+
+/// True for a file of a program that stays beside its flat text: a data list of KRL.
+///
+/// ```
+/// use kinetostat_formats::{Language, SourceFile, stays_beside_flat};
+///
+/// let data = SourceFile::new("part.dat", "DEFDAT part\nENDDAT\n");
+/// assert!(stays_beside_flat(Language::Krl, &data));
+/// assert!(!stays_beside_flat(Language::Krl, &SourceFile::new("part.src", "DEF part()\nEND\n")));
+/// ```
+#[must_use]
+pub fn stays_beside_flat(language: Language, file: &SourceFile) -> bool {
+    language == Language::Krl && is_data_list(file)
 }
 
 /// A file whose lines end with a carriage return alone would be one line: refused, as no controller reads it.

@@ -71,7 +71,7 @@ mod writing;
 pub use apt::flat::expand::expand_apt;
 pub use apt::reader::read_apt;
 pub use apt::table::APT_STATEMENTS;
-pub use document::{called_files, expand, read, write};
+pub use document::{called_files, expand, read, stays_beside_flat, write};
 pub use error::{ProgramError, WriteError};
 pub use file_form::FileForm;
 pub use heidenhain::expand::flat::expand_heidenhain;

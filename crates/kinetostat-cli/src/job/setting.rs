@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use kinetostat::number::larger;
-use kinetostat_formats::FileForm;
+use kinetostat_formats::{FileForm, stays_beside_flat};
 use kinetostat_machining::{Feature, FileRead, FlatProgram, ForceAlongPath, Limits, WarningCode};
 use kinetostat_program::{
     Arcs, Corrected, Path as ToolPath, ReadOptions, RotaryAxes, Warning, WriteOptions,
@@ -272,11 +272,18 @@ pub(crate) fn setting(
             let (text, flat) = flat_text(&source, expand.comments_asked)?;
             notes_of_run = notes_of(&text);
             robot_flat = Some((text.file.bytes().to_vec(), flat));
+            let before = std::mem::replace(&mut source.files, vec![text.file]);
+            let paths = std::mem::take(&mut source.paths);
+            for (file, path) in before.iter().skip(1).zip(paths) {
+                if stays_beside_flat(source.language, file) {
+                    source.files.push(file.clone());
+                    source.paths.push(path);
+                }
+            }
             source.before = Some(BeforeFlat {
-                files: std::mem::replace(&mut source.files, vec![text.file]),
+                files: before,
                 origins: text.origins,
             });
-            source.paths.clear();
         }
         let mut further = source.paths.clone();
         if let Some(joined) = join_parts(&mut source, &path)? {

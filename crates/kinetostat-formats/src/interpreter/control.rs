@@ -173,7 +173,7 @@ impl<D: Dialect> Run<'_, '_, D> {
                     false => self.branch(conditions, *choice, blocks),
                 };
                 self.depth -= 1;
-                D::log_passed_over(self, whole);
+                self.log_passed_over(whole);
                 flow
             }
             Statement::Loop {
@@ -192,7 +192,7 @@ impl<D: Dialect> Run<'_, '_, D> {
                 };
                 self.in_loops -= 1;
                 self.depth -= 1;
-                D::log_passed_over(self, whole);
+                self.log_passed_over(whole);
                 flow
             }
         }
@@ -204,7 +204,7 @@ impl<D: Dialect> Run<'_, '_, D> {
         let to = D::expression_of(file, tokens.start..assign);
         let value = D::expression_of(file, file.value_behind(assign, tokens));
         let value = self.value(&value);
-        D::log_assignment(self, tokens, assign);
+        self.log_assignment(tokens, assign);
         D::assigned(self, tokens, assign);
         match self.place(&to) {
             Some(place) => self.put(&place, value),
@@ -224,7 +224,7 @@ impl<D: Dialect> Run<'_, '_, D> {
             }
             Leave::Breaks => Flow::Breaks,
             Leave::Ends => {
-                D::log_instruction(self, tokens);
+                self.log_instruction(tokens);
                 Flow::Ends
             }
         }
@@ -509,6 +509,9 @@ impl<D: Dialect> Run<'_, '_, D> {
         while (step > 0.0 && value <= end_at) || (step < 0.0 && value >= end_at) {
             if let Some(place) = &place {
                 self.put(place, Datum::number(value));
+            }
+            if own.is_none() {
+                self.log_counter(&variable, value);
             }
             flow = self.block(block);
             if !matches!(flow, Flow::Next) || !self.counts_statement() {

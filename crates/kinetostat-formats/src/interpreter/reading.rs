@@ -206,12 +206,13 @@ impl Reader<'_, '_> {
                 let (_, operator, strength) = all.find(|(text, ..)| self.is_word(text))?;
                 Some((*operator, *strength, 1))
             }
-            Kind::Symbol(_) => {
+            Kind::Symbol(first) => {
                 let stands = |text: &str| {
                     let mut bytes = text.bytes().enumerate();
-                    bytes.all(|(at, byte)| {
-                        self.at + at < self.end && self.file.is(self.at + at, byte)
-                    })
+                    text.as_bytes().first() == Some(&first)
+                        && bytes.all(|(at, byte)| {
+                            self.at + at < self.end && self.file.is(self.at + at, byte)
+                        })
                 };
                 let (text, operator, strength) = all.find(|(text, ..)| stands(text))?;
                 Some((*operator, *strength, text.len()))

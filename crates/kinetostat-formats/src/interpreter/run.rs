@@ -149,14 +149,25 @@ pub(crate) trait Dialect: Sized {
     /// Takes the modal state with which a program begins.
     fn begin(run: &mut Run<'_, '_, Self>);
 
-    /// Notes an instruction that ran, where the program is to be written flat.
-    fn log_instruction(_run: &mut Run<'_, '_, Self>, _tokens: &Range<usize>) {}
+    /// True where all files of a program are written flat as one; otherwise those that hold no routines stay beside it.
+    const JOINS_FILES: bool;
 
-    /// Notes an assignment that ran.
-    fn log_assignment(_run: &mut Run<'_, '_, Self>, _tokens: &Range<usize>, _assign: usize) {}
+    /// What is said where no routine is the one with which the program begins, and the remedy.
+    const NO_MAIN: [&'static str; 2];
 
-    /// Notes a branch or a loop that ran or was passed over.
-    fn log_passed_over(_run: &mut Run<'_, '_, Self>, _whole: &Range<usize>) {}
+    /// Expressions in the statement of a motion.
+    fn motion_parts(file: &TokenFile<'_>, tokens: &Range<usize>) -> MotionParts;
+
+    /// A value as the language writes it; none where a part of it is not known.
+    fn printed(datum: &Datum) -> Option<String>;
+}
+
+/// Expressions in the statement of a motion.
+#[derive(Default)]
+pub(crate) struct MotionParts {
+    /// The place on a circle, and the end.
+    pub ends: Vec<Expression>,
+    pub others: Vec<Expression>,
 }
 
 /// A run of a program.

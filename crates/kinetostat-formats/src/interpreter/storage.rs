@@ -444,6 +444,10 @@ impl<D: Dialect> Names for Run<'_, '_, D> {
             self.results.insert(key, result.clone());
             return result;
         }
+        if let Some(stated) = self.values.get(name) {
+            self.used_values.insert(*name);
+            return stated.clone();
+        }
         if name.is("PRESENT")
             && let Some(Node::Word(parameter)) = arguments
                 .first()

@@ -5,15 +5,18 @@ use std::ops::Range;
 use crate::interpreter::expression::{Argument, Expression, Node, Operator};
 use crate::interpreter::flow::{Counting, Flow, Leave};
 use crate::interpreter::operation::two;
-use crate::interpreter::run::Dialect;
+use crate::interpreter::run::{Dialect, MotionParts};
 use crate::interpreter::symbols::Scope;
 use crate::interpreter::token::TokenFile;
 use crate::interpreter::tree::{Choice, DatumNode, Statement};
 use crate::interpreter::value::{Datum, Step, Value};
+use crate::krl::ends::ends_of;
 use crate::krl::expression;
+use crate::krl::lex::assignment;
 use crate::krl::position::{datum_of, position_of};
 use crate::krl::role::Role;
 use crate::krl::settings::is_in_force;
+use crate::krl::speed_place::items;
 use crate::krl::state::{InForce, Krl, Run};
 use crate::krl::table::{motion_row, only_reads, row};
 use crate::table::Treatment;
@@ -216,6 +219,53 @@ impl Dialect for Krl {
         run.own.along_next = None;
         run.own.initial.clear();
         run.own.used.clear();
+    }
+
+    const JOINS_FILES: bool = false;
+
+    const NO_MAIN: [&'static str; 2] = [
+        "there is no DEF in these files: which routine is to be run is not known",
+        "give the .src file of the routine that cuts",
+    ];
+
+    fn motion_parts(file: &TokenFile<'_>, tokens: &Range<usize>) -> MotionParts {
+        let read = |tokens: Range<usize>| expression::expression_of(file, tokens);
+        let row = file.name(tokens.start).as_ref().and_then(motion_row);
+        let ends = row.map_or_else(Vec::new, |row| ends_of(file, tokens, row.ends));
+        let with = tokens.clone().find(|at| file.is_word(*at, "WITH"));
+        let list = with.map(|at| at + 1..tokens.end);
+        let items = list.iter().flat_map(|list| items(file, list));
+        let values = items.filter_map(|item| {
+            let equals = assignment(file, &item)?;
+            Some(read(equals + 1..item.end))
+        });
+        MotionParts {
+            others: values.collect(),
+            ends: ends.into_iter().map(read).collect(),
+        }
+    }
+
+    fn printed(datum: &Datum) -> Option<String> {
+        Some(match &datum.value {
+            Value::Number(value) => value.to_string(),
+            Value::Truth(value) => if *value { "TRUE" } else { "FALSE" }.to_owned(),
+            Value::Text(text) if text.starts_with('#') => text.to_string(),
+            Value::Text(text) => format!("\"{text}\""),
+            Value::Members(members) => {
+                let members = members.iter().map(|(name, value)| {
+                    let letters = String::from_utf8_lossy(name.letters());
+                    let text = match value.as_number() {
+                        // Below a picometre nothing is meant.
+                        Some(number) if number.abs() < 1e7 => (1e9 * number).round() / 1e9,
+                        _ => return Some(format!("{letters} {}", Self::printed(value)?)),
+                    };
+                    Some(format!("{letters} {}", text + 0.0))
+                });
+                let members: Option<Vec<String>> = members.collect();
+                format!("{{{}}}", members?.join(","))
+            }
+            Value::List(_) | Value::Unknown(_) => return None,
+        })
     }
 }
 

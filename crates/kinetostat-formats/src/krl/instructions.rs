@@ -26,14 +26,25 @@ impl Run<'_, '_> {
         };
         if let Some(row) = motion_row(&name) {
             self.moves(row, tokens);
+            self.log_motion(tokens);
             return Flow::Next;
         }
         if name.is("SPLINE") || name.is("ENDSPLINE") {
+            self.log_motion(tokens);
             self.spline_word(tokens, name.is("SPLINE"));
             return Flow::Next;
         }
         if name.letters().starts_with(b"EXT") && row(&name).is_some() {
             return Flow::Next;
+        }
+        let calls_own = match self.scope {
+            Scope::Routine(from) => self.symbols.routine(from, &name).is_some(),
+            Scope::Module(_) => false,
+        };
+        match file.is(tokens.start + 1, b'(') {
+            true if calls_own => {}
+            true => self.log_instruction(tokens),
+            false => self.log_words(tokens),
         }
         self.note_what_acts_along(&name, tokens);
         if name.is("INTERRUPT") || name.is("TRIGGER") || name.is("GLOBAL") {

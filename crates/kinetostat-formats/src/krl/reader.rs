@@ -1,6 +1,7 @@
 //! The reader of KRL programs.
 
 use crate::error::ProgramError;
+use crate::interpreter::flat::flat_of;
 use crate::interpreter::token::TokenFile;
 use crate::krl::folds::not_paired;
 use crate::krl::lex::token_file;
@@ -13,6 +14,7 @@ use crate::model::parsed::{Parsed, Read};
 use crate::model::program::RobotProgram;
 use crate::options::{ExternalAxes, ReadOptions};
 use crate::text::finding::Finding;
+use crate::text::flat::FlatText;
 use crate::text::source::SourceFile;
 
 /// Most bytes of a file; the memory needed is some forty times as much.
@@ -59,24 +61,8 @@ pub(crate) fn parse_krl(files: Vec<SourceFile>, options: &ReadOptions) -> Parsed
     if !faults.is_empty() {
         return Parsed::refused(Language::Krl, faults);
     }
-    let token_files: Vec<TokenFile<'_>> = (files.iter().enumerate())
-        .map(|(index, source)| token_file(index, source))
-        .collect();
-    let mut contents: Vec<Content> = Vec::with_capacity(files.len());
-    for file in &token_files {
-        let before = faults.len();
-        let content = content_of(file, &mut faults);
-        if content.routines.is_empty() && content.list.is_none() && faults.len() == before {
-            faults.push(ProgramError::at(
-                file.source,
-                0..0,
-                "there is no DEF and no DEFDAT in the file",
-                "give a .src or .dat file as the controller saves it",
-            ));
-        }
-        contents.push(content);
-    }
-    complete(&token_files, &mut contents);
+    let token_files = token_files(&files);
+    let contents = contents_of(&token_files, &mut faults);
     let symbols = symbols_of(&token_files, &contents, &mut faults);
     let run = Krl::run(&token_files, &symbols, options).whole();
     faults.extend(run.faults);
@@ -102,4 +88,49 @@ pub(crate) fn parse_krl(files: Vec<SourceFile>, options: &ReadOptions) -> Parsed
     let mut parsed = Parsed::of_robot(Language::Krl, files, read);
     parsed.program.values = options.values.clone();
     parsed
+}
+
+/// Runs a program once and writes it flat: the statements of its run, one after the other, in place of those of its first routine. Data lists
+/// stay beside it.
+pub(crate) fn expand_krl(
+    files: &[SourceFile],
+    options: &ReadOptions,
+) -> Result<FlatText, Vec<ProgramError>> {
+    let mut faults = Vec::new();
+    let token_files = token_files(files);
+    let contents = contents_of(&token_files, &mut faults);
+    let symbols = symbols_of(&token_files, &contents, &mut faults);
+    flat_of(Krl::run(&token_files, &symbols, options), files, faults)
+}
+
+/// True for a file that holds no routine.
+pub(crate) fn is_data_list(file: &SourceFile) -> bool {
+    let tokens = token_file(0, file);
+    content_of(&tokens, &mut Vec::new()).routines.is_empty()
+}
+
+fn token_files(files: &[SourceFile]) -> Vec<TokenFile<'_>> {
+    let all = files.iter().enumerate();
+    all.map(|(index, source)| token_file(index, source))
+        .collect()
+}
+
+/// What each file holds.
+fn contents_of(files: &[TokenFile<'_>], faults: &mut Vec<ProgramError>) -> Vec<Content> {
+    let mut contents: Vec<Content> = Vec::with_capacity(files.len());
+    for file in files {
+        let before = faults.len();
+        let content = content_of(file, faults);
+        if content.routines.is_empty() && content.list.is_none() && faults.len() == before {
+            faults.push(ProgramError::at(
+                file.source,
+                0..0,
+                "there is no DEF and no DEFDAT in the file",
+                "give a .src or .dat file as the controller saves it",
+            ));
+        }
+        contents.push(content);
+    }
+    complete(files, &mut contents);
+    contents
 }

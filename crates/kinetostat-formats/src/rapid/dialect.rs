@@ -4,17 +4,18 @@ use std::ops::Range;
 
 use crate::interpreter::expression::{Argument, Expression};
 use crate::interpreter::flow::{Counting, Flow, Leave};
-use crate::interpreter::run::Dialect;
+use crate::interpreter::run::{Dialect, MotionParts};
 use crate::interpreter::token::TokenFile;
 use crate::interpreter::tree::{Change, Choice, DatumNode, RoutineKind};
 use crate::interpreter::value::{Datum, Step, Value};
 use crate::options::ExternalAxes;
+use crate::rapid::arguments::Arguments;
 use crate::rapid::expression;
 use crate::rapid::functions::{CHANGE_THEIRS, computed, is_computed, leaves_arguments};
 use crate::rapid::literals::component;
 use crate::rapid::predefined::predefined;
 use crate::rapid::state::{Rapid, Run};
-use crate::rapid::table::{EXTERNAL, motion_row, row};
+use crate::rapid::table::{EXTERNAL, Ends, motion_row, row};
 use crate::rapid::turning::{Modes, mode_of};
 use crate::table::Treatment;
 use crate::text::name::Name;
@@ -146,17 +147,48 @@ impl Dialect for Rapid {
         run.own.displacement = None;
     }
 
-    fn log_instruction(run: &mut Run<'_, '_>, tokens: &Range<usize>) {
-        run.log_instruction(tokens);
+    const JOINS_FILES: bool = true;
+
+    const NO_MAIN: [&'static str; 2] = [
+        "there is no PROC main in these files: which routine is to be run is not known",
+        "name the one that cuts main",
+    ];
+
+    fn motion_parts(file: &TokenFile<'_>, tokens: &Range<usize>) -> MotionParts {
+        let mut arguments = Arguments::of(file, tokens.start + 1..tokens.end);
+        let name = Name::of(file.word(tokens.start));
+        let is_circle = name
+            .as_ref()
+            .and_then(motion_row)
+            .is_some_and(|row| row.ends == Ends::Circular);
+        let ends = (1 + usize::from(is_circle)).min(arguments.ordered.len());
+        let options = std::mem::take(&mut arguments.options).into_iter();
+        let mut others = arguments.ordered.split_off(ends);
+        others.extend(options.filter_map(|(_, value)| value));
+        MotionParts {
+            ends: arguments.ordered,
+            others,
+        }
     }
 
-    fn log_assignment(run: &mut Run<'_, '_>, tokens: &Range<usize>, assign: usize) {
-        run.log_assignment(tokens, assign);
+    fn printed(datum: &Datum) -> Option<String> {
+        printed(datum)
     }
+}
 
-    fn log_passed_over(run: &mut Run<'_, '_>, whole: &Range<usize>) {
-        run.log_passed_over(whole);
-    }
+/// A value as RAPID writes it; none where a part of it is not known.
+fn printed(datum: &Datum) -> Option<String> {
+    Some(match &datum.value {
+        Value::Number(value) if value.abs() >= 8e9 => "9E9".to_owned(),
+        Value::Number(value) => value.to_string(),
+        Value::Truth(value) => if *value { "TRUE" } else { "FALSE" }.to_owned(),
+        Value::Text(text) => format!("\"{text}\""),
+        Value::List(parts) => {
+            let parts: Option<Vec<String>> = parts.iter().map(printed).collect();
+            format!("[{}]", parts?.join(","))
+        }
+        Value::Unknown(_) | Value::Members(_) => return None,
+    })
 }
 
 /// The value of a type without one: numbers are 0, truths FALSE, texts empty, and aggregates of those.

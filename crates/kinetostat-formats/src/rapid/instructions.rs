@@ -41,7 +41,7 @@ impl Run<'_, '_> {
         let name = Name::of(file.word(tokens.start));
         if let Some(row) = name.as_ref().and_then(motion_row) {
             self.motion_by(row, tokens, choice);
-            self.log_motion(row, tokens);
+            self.log_motion(tokens);
             return Flow::Next;
         }
         if let (Some(name), Scope::Routine(from)) = (&name, self.scope)

@@ -2,14 +2,13 @@
 //!
 //! From tokens ([`lex`]) to blocks ([`parser`]) and names ([`names`]), and to a run ([`state`], [`dialect`]): expressions
 //! ([`expression`], [`functions`], [`predefined`], [`literals`]), motions ([`instructions`], [`arguments`], [`motion`], [`targets`], [`frames`]), the
-//! modal state of turning ([`turning`]), and the flat program ([`flat`]). [`loads`] reads what tools weigh, [`write`] writes.
+//! modal state of turning ([`turning`]). [`loads`] reads what tools weigh, [`write`] writes.
 //!
 //! Source: ABB, Technical reference manual - RAPID kernel, and - RAPID Instructions, Functions and Data types (3HAC050917).
 
 pub(crate) mod arguments;
 mod dialect;
 pub(crate) mod expression;
-pub(crate) mod flat;
 mod frames;
 mod functions;
 mod instructions;

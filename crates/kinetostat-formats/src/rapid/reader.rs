@@ -1,6 +1,7 @@
 //! The reader of RAPID modules.
 
 use crate::error::ProgramError;
+use crate::interpreter::flat::flat_of;
 use crate::interpreter::token::TokenFile;
 use crate::interpreter::tree::Module;
 use crate::model::language::Language;
@@ -11,6 +12,7 @@ use crate::rapid::lex::tokens_of;
 use crate::rapid::names::symbols_of;
 use crate::rapid::parser::modules::modules_of;
 use crate::rapid::state::Rapid;
+use crate::text::flat::FlatText;
 use crate::text::source::SourceFile;
 
 /// Most bytes of a file; the memory needed is some twenty times as much.
@@ -74,6 +76,18 @@ pub(crate) fn parse_rapid(files: Vec<SourceFile>, options: &ReadOptions) -> Pars
         moving_calls: &options.moving_calls,
     };
     Parsed::of_robot(Language::Rapid, files, read)
+}
+
+/// Runs a program once and writes it flat: the statements of its run, one after the other, in place of those of `main`.
+pub(crate) fn expand_rapid(
+    files: &[SourceFile],
+    options: &ReadOptions,
+) -> Result<FlatText, Vec<ProgramError>> {
+    let token_files = tokens_of_files(files);
+    let mut faults = Vec::new();
+    let modules = modules_of_files(&token_files, &mut faults);
+    let symbols = symbols_of(&token_files, &modules, &mut faults);
+    flat_of(Rapid::run(&token_files, &symbols, options), files, faults)
 }
 
 /// Tokens of files.

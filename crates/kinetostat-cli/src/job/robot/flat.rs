@@ -1,4 +1,4 @@
-//! Programs that are run once and written flat: SINUMERIK, Heidenhain and RAPID, and APT with its cycles.
+//! Programs that are run once and written flat: SINUMERIK, Heidenhain, RAPID and KRL, and APT with its cycles.
 
 use kinetostat_formats::{FlatText, expand};
 use kinetostat_machining::FlatProgram;
@@ -16,7 +16,7 @@ pub(crate) fn flat_text(source: &RobotSource, comments: bool) -> Answer<(FlatTex
         .map_err(|all| refused(&all, |fault| fault.reason.as_str()).of_program())?;
     let Some(text) = done else {
         return Err(Failure::input(
-            "--expand and [expand] are for G-code, SINUMERIK, Heidenhain, RAPID and the cycles of APT; a program of another robot is read as it stands, with its routines: leave them out",
+            "--expand and [expand] are for G-code, SINUMERIK, Heidenhain, RAPID, KRL and the cycles of APT; a program of another robot is read as it stands, with its routines: leave them out",
         ));
     };
     let text = match comments {

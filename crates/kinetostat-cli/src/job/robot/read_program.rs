@@ -116,7 +116,9 @@ fn read_files(source: &RobotSource) -> Answer<ReadOnce> {
         // All in one run: those of the motions that could be read, too.
         let mut all = all_faults(source.language, source.files.clone(), &settings.reading);
         for fault in &mut all {
-            if let (ProgramFault::Text(fault), Some(before)) = (fault, &source.before) {
+            if let (ProgramFault::Text(fault), Some(before)) = (fault, &source.before)
+                && source.files.first().is_some_and(|file| file.name() == fault.file)
+            {
                 fault.show_source(&before.origins, &before.files);
             }
         }

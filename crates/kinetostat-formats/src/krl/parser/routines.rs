@@ -66,7 +66,14 @@ impl Parser<'_, '_> {
             return self.declaration(&tokens);
         }
         match self.routine.is_some() {
-            true => self.statement(&tokens),
+            true => {
+                if let Some(routine) = &mut self.routine {
+                    let own = &mut routine.statements;
+                    let is_first = own.start == own.end;
+                    *own = if is_first { tokens.start } else { own.start }..tokens.end;
+                }
+                self.statement(&tokens);
+            }
             false if self.in_list => self.preset(&tokens),
             false if self.outside => {}
             false => {
@@ -138,7 +145,12 @@ impl Parser<'_, '_> {
 
     fn end_routine(&mut self, tokens: &Range<usize>) {
         match self.routine.is_some() {
-            true => self.close(),
+            true => {
+                if let Some(routine) = &mut self.routine {
+                    routine.whole.end = tokens.end;
+                }
+                self.close();
+            }
             false => self.fault(
                 tokens,
                 "no routine is open here",

@@ -123,6 +123,10 @@ impl Syntax for KrlSyntax {
         edits.applied_to_part(file.bytes(), &motion.span)
     }
 
+    fn is_written_flat(&self) -> bool {
+        true
+    }
+
     fn replaced(
         &self,
         _file: &SourceFile,

@@ -4,6 +4,7 @@ mod assigned_frames;
 mod broken;
 mod broken_forms;
 mod corrections;
+mod flat;
 mod folds;
 mod frames;
 mod order;

@@ -8,65 +8,54 @@ use std::ops::Range;
 
 use crate::error::ProgramError;
 use crate::interpreter::expression::{Argument, Expression, Node};
-use crate::interpreter::run::{Logged, Root};
+use crate::interpreter::run::{Dialect, Logged, Root, Run};
 use crate::interpreter::symbols::{Meaning, Scope, Symbols};
 use crate::interpreter::token::TokenFile;
 use crate::interpreter::tree::RoutineKind;
-use crate::interpreter::value::{Datum, Value};
 use crate::model::site::TargetSite;
-use crate::options::ReadOptions;
-use crate::rapid::arguments::Arguments;
-use crate::rapid::expression::{arguments_of, expression_of};
-use crate::rapid::names::symbols_of;
-use crate::rapid::reader::{modules_of_files, tokens_of_files};
-use crate::rapid::state::{Rapid, Run};
-use crate::rapid::table::{Ends, MotionRow};
 use crate::text::edits::Edits;
 use crate::text::finding::Finding;
 use crate::text::flat::FlatText;
 use crate::text::name::Name;
 use crate::text::source::SourceFile;
 
-impl Run<'_, '_> {
+impl<D: Dialect> Run<'_, '_, D> {
     /// A motion that ran.
-    pub(super) fn log_motion(&mut self, row: &MotionRow, tokens: &Range<usize>) {
+    pub(crate) fn log_motion(&mut self, tokens: &Range<usize>) {
         if self.log.is_none() || self.here.is_none() {
             return;
         }
         let file = self.file();
-        let arguments = Arguments::of(file, tokens.start + 1..tokens.end);
-        let ends = if row.ends == Ends::Circular { 2 } else { 1 };
+        let parts = D::motion_parts(file, tokens);
         let mut edits = Edits::default();
-        for (index, expression) in arguments.ordered.iter().enumerate() {
-            let is_computed = match self.motions.last() {
-                Some(motion) if index + 1 == ends => is_replaced(&motion.site.target),
-                Some(motion) if index == 0 && ends == 2 => motion
-                    .site
-                    .via
-                    .as_ref()
-                    .is_some_and(|(_, site)| is_replaced(site)),
-                _ => false,
-            };
-            let is_list = matches!(expression.node, Node::List(_));
+        let last = self.motions.last();
+        let is_computed: Vec<bool> = match last.map(|motion| &motion.site) {
+            Some(site) => {
+                let via = site.via.iter().map(|(_, via)| is_replaced(via));
+                via.chain([is_replaced(&site.target)]).collect()
+            }
+            None => Vec::new(),
+        };
+        for (index, expression) in parts.ends.iter().enumerate() {
+            let is_computed = is_computed
+                .get(index)
+                .is_some_and(|is_computed| *is_computed);
+            let is_list = matches!(expression.node, Node::List(_) | Node::Members(_));
             self.put_value(expression, is_computed && !is_list, &mut edits);
         }
-        for expression in arguments
-            .options
-            .iter()
-            .filter_map(|(_, value)| value.as_ref())
-        {
+        for expression in &parts.others {
             self.put_value(expression, false, &mut edits);
         }
         self.log_with(tokens, edits);
     }
 
     /// An instruction that ran.
-    pub(super) fn log_instruction(&mut self, tokens: &Range<usize>) {
+    pub(crate) fn log_instruction(&mut self, tokens: &Range<usize>) {
         if self.log.is_none() {
             return;
         }
         let mut edits = Edits::default();
-        for Argument { value, .. } in arguments_of(self.file(), tokens.start + 1..tokens.end) {
+        for Argument { value, .. } in D::arguments_of(self.file(), tokens.start + 1..tokens.end) {
             if let Some(value) = value {
                 self.put_value(&value, false, &mut edits);
             }
@@ -75,25 +64,31 @@ impl Run<'_, '_> {
     }
 
     /// An assignment that ran; of data of a routine nothing remains but their values.
-    pub(super) fn log_assignment(&mut self, tokens: &Range<usize>, assign: usize) {
+    pub(crate) fn log_assignment(&mut self, tokens: &Range<usize>, assign: usize) {
         if self.log.is_none() {
             return;
         }
         let file = self.file();
-        let to = expression_of(file, tokens.start..assign);
+        let to = D::expression_of(file, tokens.start..assign);
         let place = self.place(&to);
-        if !place.is_some_and(|place| matches!(place.root, Root::Module(_))) {
+        let stays = match place.map(|place| place.root) {
+            Some(Root::Routine(..)) => false,
+            Some(_) => true,
+            // A variable of the controller.
+            None => D::DECLARES_BY_USE,
+        };
+        if !stays {
             return;
         }
         let mut edits = Edits::default();
         self.put_place(&to, &mut edits);
-        let end = tokens.end.saturating_sub(1).max(assign + 1);
-        self.put_value(&expression_of(file, assign + 1..end), false, &mut edits);
+        let value = D::expression_of(file, file.value_behind(assign, tokens));
+        self.put_value(&value, false, &mut edits);
         self.log_with(tokens, edits);
     }
 
     /// A branch or a loop that the controller decides.
-    pub(super) fn log_passed_over(&mut self, whole: &Range<usize>) {
+    pub(crate) fn log_passed_over(&mut self, whole: &Range<usize>) {
         if !std::mem::take(&mut self.passed_over) || self.log.is_none() {
             return;
         }
@@ -109,6 +104,36 @@ impl Run<'_, '_> {
             );
         }
         self.log_with(whole, Edits::default());
+    }
+
+    /// A variable of the program that a loop counts gets its value.
+    pub(crate) fn log_counter(&mut self, variable: &Expression, value: f64) {
+        if self.log.is_none() || self.is_own(variable) {
+            return;
+        }
+        let file = self.file();
+        let text = format!("{}={value}", file.text(&variable.tokens));
+        let (index, at) = (file.index, file.span(&variable.tokens).start);
+        if let Some(log) = &mut self.log {
+            log.push(Logged {
+                file: index,
+                at,
+                text: text.into_bytes(),
+            });
+        }
+    }
+
+    /// An instruction without arguments in brackets: what it names must mean the same in `main`.
+    pub(crate) fn log_words(&mut self, tokens: &Range<usize>) {
+        if self.log.is_none() {
+            return;
+        }
+        let file = self.file();
+        let mut names = tokens.clone().filter_map(|at| file.name(at));
+        if names.any(|name| self.means_another_in_main(&name)) {
+            self.cannot_be_flat(tokens, "it uses data of its routine");
+        }
+        self.log_with(tokens, Edits::default());
     }
 
     fn cannot_be_flat(&mut self, tokens: &Range<usize>, why: &str) {
@@ -148,6 +173,12 @@ impl Run<'_, '_> {
                     .for_each(|part| self.put_value(part, false, edits));
                 return;
             }
+            Node::Members(members) => {
+                members
+                    .iter()
+                    .for_each(|(_, part)| self.put_value(part, false, edits));
+                return;
+            }
             _ => {}
         }
         let span = self.file().span(&expression.tokens);
@@ -155,7 +186,7 @@ impl Run<'_, '_> {
             edits.replace(span, name);
             return;
         }
-        match printed(&self.value(expression)) {
+        match D::printed(&self.value(expression)) {
             Some(text) => edits.replace(span, text),
             None => self.cannot_be_flat(
                 &expression.tokens,
@@ -205,16 +236,14 @@ impl Run<'_, '_> {
                 self.is_own(of) || indices.iter().any(|part| self.is_own(part))
             }
             Node::List(parts) => parts.iter().any(|part| self.is_own(part)),
+            Node::Members(members) => members.iter().any(|(_, part)| self.is_own(part)),
             Node::Two(_, operands) => operands.iter().any(|part| self.is_own(part)),
             Node::Call(_, arguments) => (arguments.iter())
                 .filter_map(|argument| argument.value.as_ref())
                 .any(|part| self.is_own(part)),
-            Node::Number(_)
-            | Node::Truth(_)
-            | Node::Text
-            | Node::Choice(_)
-            | Node::Members(_)
-            | Node::Unreadable => false,
+            Node::Number(_) | Node::Truth(_) | Node::Text | Node::Choice(_) | Node::Unreadable => {
+                false
+            }
         }
     }
 
@@ -239,44 +268,20 @@ fn is_replaced(site: &TargetSite) -> bool {
     matches!(site, TargetSite::Replaced(_))
 }
 
-/// A value as RAPID writes it; none where a part of it is not known.
-fn printed(datum: &Datum) -> Option<String> {
-    Some(match &datum.value {
-        Value::Number(value) if value.abs() >= 8e9 => "9E9".to_owned(),
-        Value::Number(value) => value.to_string(),
-        Value::Truth(value) => if *value { "TRUE" } else { "FALSE" }.to_owned(),
-        Value::Text(text) => format!("\"{text}\""),
-        Value::List(parts) => {
-            let parts: Option<Vec<String>> = parts.iter().map(printed).collect();
-            format!("[{}]", parts?.join(","))
-        }
-        Value::Unknown(_) | Value::Members(_) => return None,
-    })
-}
-
-/// Runs a program once and writes it flat.
-pub(crate) fn expand_rapid(
+/// The flat text of a program that ran with a log, or all that is refused.
+pub(crate) fn flat_of<D: Dialect>(
+    mut run: Run<'_, '_, D>,
     files: &[SourceFile],
-    options: &ReadOptions,
+    mut faults: Vec<ProgramError>,
 ) -> Result<FlatText, Vec<ProgramError>> {
-    let token_files = tokens_of_files(files);
-    let mut faults = Vec::new();
-    let modules = modules_of_files(&token_files, &mut faults);
-    let symbols = symbols_of(&token_files, &modules, &mut faults);
-    let mut run = Rapid::run(&token_files, &symbols, options);
     run.log = Some(Vec::new());
     let run = run.whole();
+    let (symbols, token_files) = (run.symbols, run.files);
     faults.extend(run.faults);
     let Some(main) = symbols.main else {
         let file = &files[0];
-        let reason =
-            "there is no PROC main in these files: which routine is to be run is not known";
-        faults.push(ProgramError::at(
-            file,
-            0..0,
-            reason,
-            "name the one that cuts main",
-        ));
+        let [reason, remedy] = D::NO_MAIN;
+        faults.push(ProgramError::at(file, 0..0, reason, remedy));
         return Err(faults);
     };
     if !faults.is_empty() {
@@ -284,7 +289,7 @@ pub(crate) fn expand_rapid(
     }
     let log = run.log.unwrap_or_default();
     let called: BTreeSet<usize> = run.call_sites.keys().copied().collect();
-    let left_out = left_out(&symbols, &token_files, (&called, main), &log);
+    let left_out = left_out(symbols, token_files, (&called, main), &log);
     let mut findings = run.findings;
     for index in &left_out {
         let home = symbols.routines[*index];
@@ -302,7 +307,11 @@ pub(crate) fn expand_rapid(
     }
     let left_out = |index: usize| left_out.contains(&index);
     let mut out = Flat::default();
-    for file in &token_files {
+    let own = symbols.routines[main].file;
+    for file in token_files
+        .iter()
+        .filter(|file| D::JOINS_FILES || file.index == own)
+    {
         let mut cuts: Vec<(Range<usize>, bool)> = Vec::new();
         for (index, home) in symbols.routines.iter().enumerate() {
             if home.file == file.index && index == main {
@@ -332,9 +341,9 @@ pub(crate) fn expand_rapid(
         }
         out.copy(file.source, at..file.source.bytes().len(), file.index);
     }
-    let changed = out.bytes != files[0].bytes();
+    let changed = out.bytes != files[own].bytes();
     Ok(FlatText {
-        file: SourceFile::new(files[0].name(), out.bytes),
+        file: SourceFile::new(files[own].name(), out.bytes),
         origins: out.origins,
         changed,
         findings,
