@@ -469,3 +469,48 @@ fn speeds_and_extents_in_a_wrong_unit_are_warned_of() {
         assert!(text.contains(said), "{said}: {text}");
     }
 }
+
+/// A KRL program with a loop and a data list: its runs need different corrections, and its flat program takes them.
+#[test]
+fn a_krl_program_with_a_loop_is_compensated_flat_and_verified() {
+    let here = tempfile::tempdir().unwrap();
+    let here = here.path();
+    let source = "DEF part()\nINT i\n$TOOL={X 0,Y 0,Z 180,A 0,B 0,C 0}\n$BASE={X 1800,Y 0,Z 900,A 0,B 0,C 0}\n$VEL.CP=0.02\nPTP XP1\nFOR i=1 TO 2\nLIN XP2\n\
+        LIN {X 80,Y 0,Z 0,A 0,B 0,C 180}\nENDFOR\nIF $IN[1] THEN\nLIN {X 90,Y 0,Z 0,A 0,B 0,C 180}\nENDIF\nEND\n";
+    std::fs::write(here.join("part.src"), source).unwrap();
+    let data = "DEFDAT part\nDECL E6POS XP1={X 0,Y 0,Z 50,A 0,B 0,C 180}\nDECL E6POS XP2={X 50,Y 10,Z 0,A 0,B 0,C 180}\nENDDAT\n";
+    std::fs::write(here.join("part.dat"), data).unwrap();
+    let job = |more: &str| {
+        let text = format!(
+            "schema = 1\nmodel = \"heavy_6r\"\nprogram = \"part.src\"\n[load]\nforce_n = [100, 50, -80]\nweight = \"all\"\n{more}"
+        );
+        std::fs::write(here.join("job.toml"), text).unwrap();
+    };
+    job("");
+    let refused = run(here, &["compensate", "job.toml"]);
+    let said = words(&refused.err).join(" ");
+    assert!(
+        refused.code == 1 && said.contains("part.src, line 11") && said.contains("--set"),
+        "{said}"
+    );
+    job("[values]\n\"$IN[1]\" = true\n[expand]\n");
+    let done = run(here, &["compensate", "job.toml"]).answered();
+    assert!(
+        words(&done.out)
+            .join(" ")
+            .contains("was run once and written flat"),
+        "{done:?}"
+    );
+    let output = read(here, "compensated/part.src");
+    assert!(
+        !output.contains("FOR") && output.contains("LIN {X 90"),
+        "{output}"
+    );
+    assert_ne!(read(here, "compensated/part.dat"), data, "{output}");
+    let verified = run(
+        here,
+        &["verify", "compensated/part.src", "--job", "job.toml"],
+    )
+    .answered();
+    assert!(verified.out.contains("VERIFIED"), "{verified:?}");
+}

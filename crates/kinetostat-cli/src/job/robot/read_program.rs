@@ -117,7 +117,10 @@ fn read_files(source: &RobotSource) -> Answer<ReadOnce> {
         let mut all = all_faults(source.language, source.files.clone(), &settings.reading);
         for fault in &mut all {
             if let (ProgramFault::Text(fault), Some(before)) = (fault, &source.before)
-                && source.files.first().is_some_and(|file| file.name() == fault.file)
+                && source
+                    .files
+                    .first()
+                    .is_some_and(|file| file.name() == fault.file)
             {
                 fault.show_source(&before.origins, &before.files);
             }
