@@ -74,6 +74,9 @@ struct ProgramFinding {
     flat: Option<FlatProgram>,
     lines: usize,
     blocks: usize,
+    /// True where it states no unit, and its lengths are taken for millimetres.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    units_assumed: bool,
     feed_moves: usize,
     rapid_moves: usize,
     feed_length_mm: f64,
@@ -194,6 +197,7 @@ fn findings(files: &InputFiles, path: &Path, flags: &ProgramArgs) -> Answer<JobF
             flat: setting.flat.clone(),
             lines: read.line_count(),
             blocks: read.with(|program| program.statement_count()),
+            units_assumed: motion.units_assumed_on.is_some(),
             feed_moves: feed(MoveKind::Feed).count(),
             rapid_moves: feed(MoveKind::Rapid).count(),
             feed_length_mm: feed(MoveKind::Feed)
@@ -306,10 +310,14 @@ fn answer_text(f: &JobFindings) -> String {
         ),
         _ => ", no motion".to_owned(),
     };
+    let units = match p.units_assumed {
+        true => "; it states no unit: lengths are taken for millimetres",
+        false => "",
+    };
     let lines = [
         format!("Model: {} ({})", f.model, f.model_source),
         format!(
-            "Program: {}, {} in {}; {} of {} mm in all, {}{corners}",
+            "Program: {}, {} in {}; {} of {} mm in all, {}{corners}{units}",
             p.name,
             counted(p.blocks, "block"),
             counted(p.lines, "line"),
