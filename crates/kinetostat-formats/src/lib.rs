@@ -46,6 +46,7 @@ mod extreme;
 pub mod fields;
 mod file_form;
 mod flat_origins;
+mod flat_run;
 mod heidenhain;
 #[doc(hidden)]
 pub mod internal;

@@ -3,6 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::error::ProgramError;
+use crate::text::edits::Edits;
 use crate::text::flat::FlatText;
 use crate::text::source::SourceFile;
 
@@ -58,6 +59,33 @@ impl FaultsOfRun {
     pub(crate) fn into_faults(self) -> Vec<ProgramError> {
         self.found.into_values().collect()
     }
+}
+
+/// A flat program with changes, which add so many lines before or behind lines of it, counted from 1.
+///
+/// # Errors
+/// Changes that overlap; what to do.
+pub(crate) fn edited(
+    flat: FlatText,
+    (edits, added): (Edits, &BTreeMap<usize, usize>),
+    files: &[SourceFile],
+    remedy: &str,
+) -> Result<FlatText, Vec<ProgramError>> {
+    let Some(bytes) = edits.applied_to(flat.file.bytes()) else {
+        let overlap = ("its words overlap".to_owned(), remedy);
+        return Err(vec![ProgramError::of_flat(&flat, files, 0, overlap)]);
+    };
+    let lines = flat.origins.iter().enumerate();
+    let origins = lines.flat_map(|(index, origin)| {
+        let added = added.get(&(index + 1)).map_or(0, |added| *added);
+        std::iter::repeat_n(*origin, 1 + added)
+    });
+    Ok(FlatText {
+        file: SourceFile::new(flat.file.name(), bytes),
+        origins: origins.collect(),
+        changed: true,
+        findings: flat.findings,
+    })
 }
 
 /// A flat program with its corners written out by `written_out`; refused with all that was refused before.

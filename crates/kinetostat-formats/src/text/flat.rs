@@ -25,3 +25,16 @@ pub struct FlatText {
     /// What was taken where the source is not certain, by file and line of the program as given.
     pub findings: Vec<Finding>,
 }
+
+impl FlatText {
+    /// A file, by its index, in which nothing is to be flattened.
+    pub(crate) fn unchanged(file: &SourceFile, index: usize) -> Self {
+        let count = file.bytes().split_inclusive(|byte| *byte == b'\n').count();
+        Self {
+            file: file.clone(),
+            origins: (1..=count).map(|line| (index, line)).collect(),
+            changed: false,
+            findings: Vec::new(),
+        }
+    }
+}

@@ -13,11 +13,9 @@ use crate::apt::numbers::{all_numbers, arguments_of};
 use crate::apt::spindle::spindle_of;
 use crate::apt::state::unit_of;
 use crate::error::ProgramError;
+use crate::flat_run::Written;
 use crate::text::flat::FlatText;
 use crate::text::source::SourceFile;
-
-/// Most bytes of it.
-const MOST_BYTES: usize = 1 << 28;
 
 /// Writes the holes of an APT file (`CYCLE` and the GOTO behind it) as plain motions: by rapid over the hole and down to `RAPTO` or `CLEAR`,
 /// at the cycle's feed to its depth along the tool's axis, and out again; between holes at `CLEAR`, `RTRCTO` or higher. DRILL, FACE and
@@ -43,12 +41,7 @@ const MOST_BYTES: usize = 1 << 28;
 /// Cycles that are not followed, by line.
 pub fn expand_apt(files: &[SourceFile]) -> Result<FlatText, Vec<ProgramError>> {
     let Some(file) = files.first() else {
-        return Ok(FlatText {
-            file: SourceFile::new("", ""),
-            origins: Vec::new(),
-            changed: false,
-            findings: Vec::new(),
-        });
+        return Ok(FlatText::unchanged(&SourceFile::new("", ""), 0));
     };
     if let Some(other) = files.get(1) {
         let reason = "holes are written out in one file, and here is another one";
@@ -60,8 +53,7 @@ pub fn expand_apt(files: &[SourceFile]) -> Result<FlatText, Vec<ProgramError>> {
         file,
         dialect: Dialect::of(file, &statements),
         unit_mm: unit_of(file, &statements).0.unwrap_or(1.0),
-        output: Vec::new(),
-        origins: Vec::new(),
+        written: Written::new(file),
         faults: Vec::new(),
         has_holes: false,
         rapid_waits: false,
@@ -79,10 +71,10 @@ pub fn expand_apt(files: &[SourceFile]) -> Result<FlatText, Vec<ProgramError>> {
         run.copy(from..statement.lines.start);
         from = statement.lines.end;
         run.statement(statement);
-        if run.output.len() > MOST_BYTES {
+        if run.written.is_full() {
             run.fault(
                 statement,
-                "the flat program is larger than 256 MiB",
+                "the flat program is larger than 5 million lines, or 256 MiB",
                 "divide it",
             );
             break;
@@ -92,21 +84,13 @@ pub fn expand_apt(files: &[SourceFile]) -> Result<FlatText, Vec<ProgramError>> {
     if !run.faults.is_empty() {
         return Err(run.faults);
     }
-    let changed = run.has_holes;
-    let (bytes, origins) = match changed {
-        true => (run.output, run.origins),
-        false => {
-            let count = file.bytes().split_inclusive(|byte| *byte == b'\n').count();
-            (
-                file.bytes().to_vec(),
-                (1..=count).map(|line| (0, line)).collect(),
-            )
-        }
-    };
+    if !run.has_holes {
+        return Ok(FlatText::unchanged(file, 0));
+    }
     Ok(FlatText {
-        file: SourceFile::new(file.name(), bytes),
-        origins,
-        changed,
+        file: SourceFile::new(file.name(), run.written.bytes),
+        origins: run.written.origins,
+        changed: true,
         findings: Vec::new(),
     })
 }
@@ -115,8 +99,7 @@ struct Run<'f> {
     file: &'f SourceFile,
     dialect: Dialect,
     unit_mm: f64,
-    output: Vec<u8>,
-    origins: Vec<(usize, usize)>,
+    written: Written,
     faults: Vec<ProgramError>,
     has_holes: bool,
     /// A RAPID in a cycle waits for the GOTO behind it.
@@ -144,22 +127,18 @@ impl Run<'_> {
     }
 
     fn copy(&mut self, part: Range<usize>) {
-        let bytes = self.file.part(&part);
-        let first = self.file.line_of(part.start);
-        let lines = bytes.split_inclusive(|byte| *byte == b'\n').count();
-        self.output.extend_from_slice(bytes);
-        self.origins
-            .extend((0..lines).map(|line| (0, first + line)));
+        self.written.copy((self.file, 0), &part);
     }
 
     fn line(&mut self, text: &str, from: &Statement) {
         // The last line of a file may have no end.
-        if self.output.last().is_some_and(|byte| *byte != b'\n') {
-            self.output.extend_from_slice(self.file.line_ending());
+        if self.written.bytes.last().is_some_and(|byte| *byte != b'\n') {
+            self.written
+                .bytes
+                .extend_from_slice(self.file.line_ending());
         }
-        self.output.extend_from_slice(text.as_bytes());
-        self.output.extend_from_slice(self.file.line_ending());
-        self.origins.push((0, self.file.line_of(from.span.start)));
+        let line = self.file.line_of(from.span.start);
+        self.written.line(text.as_bytes(), (0, line));
     }
 
     fn take_feed(&mut self, feed: Option<String>, from: &Statement) {

@@ -18,6 +18,7 @@ use crate::heidenhain::writing::words::{
     Part, Stated, stands, with_blanks, word_text, write_functions,
 };
 use crate::options::{CutterCompensation, ReadOptions};
+use crate::refused_run::edited;
 use crate::text::edits::Edits;
 use crate::text::finding::Finding;
 use crate::text::flat::FlatText;
@@ -115,13 +116,9 @@ impl Text {
         files: &[SourceFile],
     ) -> Result<FlatText, Vec<ProgramError>> {
         let file = &flat.file;
-        let mut origins = Vec::with_capacity(flat.origins.len());
-        for (index, origin) in flat.origins.iter().enumerate() {
-            let start = file.start_of(index + 1);
-            let count = self.before.get(&start).map_or(0, Vec::len);
-            origins.extend(std::iter::repeat_n(*origin, count + 1));
-        }
+        let mut added = BTreeMap::new();
         for (start, lines) in &self.before {
+            added.insert(file.line_of(*start), lines.len());
             let bytes = file.bytes();
             let head = bytes[*start..].iter();
             let head = head
@@ -138,21 +135,12 @@ impl Text {
             let lines: Vec<u8> = lines.iter().flat_map(line).collect();
             self.edits.replace(*start..*start, lines);
         }
-        let bytes = self.edits.applied_to(file.bytes());
-        let bytes = bytes.and_then(|bytes| match is_numbered(&bytes) {
-            true => numbered_again(&bytes),
-            false => Some(bytes),
-        });
-        let bytes = bytes.ok_or_else(|| {
-            let overlap = ("its words overlap".to_owned(), AGAIN);
-            vec![ProgramError::of_flat(&flat, files, 0, overlap)]
-        })?;
-        Ok(FlatText {
-            file: SourceFile::new(file.name(), bytes),
-            origins,
-            changed: true,
-            findings: flat.findings,
-        })
+        let mut flat = edited(flat, (self.edits, &added), files, AGAIN)?;
+        let bytes = flat.file.bytes();
+        if let Some(bytes) = is_numbered(bytes).then(|| numbered_again(bytes)).flatten() {
+            flat.file = SourceFile::new(flat.file.name(), bytes);
+        }
+        Ok(flat)
     }
 }
 

@@ -14,6 +14,7 @@ use crate::heidenhain::reading::reader::interpret;
 use crate::heidenhain::reading::rounded::{AS_ARC, Rounded, has_corners};
 use crate::heidenhain::writing::words::{Stated, feed_text, stands, with_blanks, word_text};
 use crate::options::ReadOptions;
+use crate::refused_run::edited;
 use crate::text::edits::Edits;
 use crate::text::flat::FlatText;
 use crate::text::source::SourceFile;
@@ -57,16 +58,7 @@ pub(crate) fn written_out(
         return Err(faults);
     }
     let edits = edits_of(&flat.file, &corners, &found.polar);
-    let bytes = edits.applied_to(flat.file.bytes()).ok_or_else(|| {
-        let none = "its words overlap";
-        vec![ProgramError::at(&flat.file, 0..0, none, AS_ARC)]
-    })?;
-    Ok(FlatText {
-        file: SourceFile::new(flat.file.name(), bytes),
-        origins: flat.origins,
-        changed: true,
-        findings: flat.findings,
-    })
+    edited(flat, (edits, &BTreeMap::new()), files, AS_ARC)
 }
 
 /// The changes of a flat text; `polar` holds the LP blocks that count on a radius or an angle of before, with their ends.

@@ -57,10 +57,11 @@ impl Run<'_> {
                 None => Vec::new(),
             };
             if self.is_left(at)? {
-                return self.write(&text, at);
+                self.write(&text, at);
+                return Ok(());
             }
             if rest.first().is_some_and(|byte| *byte != b';') {
-                self.write(&rest, at)?;
+                self.write(&rest, at);
             }
             return self.drill(at);
         }
@@ -180,9 +181,9 @@ impl Run<'_> {
                 Stroke::To(to, feed) => (self.axis.to_owned(), to, feed),
                 Stroke::By(by, feed) => (format!("I{}", self.axis), by, feed),
                 Stroke::Dwell(seconds) => {
-                    self.write(b"CYCL DEF 9.0 DWELL TIME", at)?;
+                    self.write(b"CYCL DEF 9.0 DWELL TIME", at);
                     let text = format!("CYCL DEF 9.1 DWELL {}", trimmed(seconds, 3));
-                    self.write(text.as_bytes(), at)?;
+                    self.write(text.as_bytes(), at);
                     continue;
                 }
             };
@@ -194,7 +195,7 @@ impl Run<'_> {
                 None => "FMAX".to_owned(),
             };
             let text = format!("L {letters}{} R0 {feed}", length(value, self.unit_mm));
-            self.write(text.as_bytes(), at)?;
+            self.write(text.as_bytes(), at);
         }
         Ok(())
     }

@@ -1,8 +1,7 @@
 //! A program run once and written flat.
 
-use std::collections::BTreeMap;
-
 use crate::error::ProgramError;
+use crate::flat_run::{MOST_STEPS, Runs, Written};
 use crate::heidenhain::expand::aside::led_aside;
 use crate::heidenhain::expand::corners::written_out;
 use crate::heidenhain::expand::program::Program;
@@ -10,12 +9,9 @@ use crate::heidenhain::expand::run::Run;
 use crate::heidenhain::expand::values::Values;
 use crate::heidenhain::numbering::is_numbered;
 use crate::options::ReadOptions;
-use crate::refused_run::{FaultsOfRun, RefusedRun, with_corners};
+use crate::refused_run::{RefusedRun, with_corners};
 use crate::text::flat::FlatText;
 use crate::text::source::SourceFile;
-
-/// Most blocks of a flat program.
-const MOST_BLOCKS: usize = 5_000_000;
 
 /// Runs a Heidenhain program once and writes it flat: labels that are called and repeated, other programs (given behind the first
 /// one), jumps and Q parameters, drilling by cycles 200, 201, 203 and 1, corners that are rounded (RND, between two lines or a line and an
@@ -43,19 +39,19 @@ pub fn expand_heidenhain(
     files: Vec<SourceFile>,
     options: &ReadOptions,
 ) -> Result<FlatText, Vec<ProgramError>> {
-    expand_within(files, options, MOST_BLOCKS)
+    expand_within(files, options, MOST_STEPS)
 }
 
-/// The same with at most so many blocks.
+/// The same by so many blocks at most.
 ///
 /// # Errors
 /// As there.
 pub fn expand_within(
     files: Vec<SourceFile>,
     options: &ReadOptions,
-    most_blocks: usize,
+    most_steps: u64,
 ) -> Result<FlatText, Vec<ProgramError>> {
-    run_within(&files, options, most_blocks).map_err(|refused| refused.faults)
+    run_within(&files, options, most_steps).map_err(|refused| refused.faults)
 }
 
 /// The same; of a program that is refused what was written all the same.
@@ -63,13 +59,13 @@ pub(crate) fn run_or_refused(
     files: &[SourceFile],
     options: &ReadOptions,
 ) -> Result<FlatText, RefusedRun> {
-    run_within(files, options, MOST_BLOCKS)
+    run_within(files, options, MOST_STEPS)
 }
 
 fn run_within(
     files: &[SourceFile],
     options: &ReadOptions,
-    most_blocks: usize,
+    most_steps: u64,
 ) -> Result<FlatText, RefusedRun> {
     let out = |flat| {
         let flat = written_out(flat, files, options)?;
@@ -86,18 +82,18 @@ fn run_within(
         return Err(equal.into());
     }
     if !main.needs() {
-        return with_corners(unchanged(main.file), Vec::new(), out);
+        return with_corners(FlatText::unchanged(main.file, 0), Vec::new(), out);
     }
     let mut run = Run {
         options,
+        files,
         programs: &programs,
         unit_mm: main.unit_mm(),
         number: is_numbered(main.file.bytes()).then_some(0),
-        ending: main.file.line_ending(),
         parameters: Values::default(),
         frames: Vec::new(),
-        output: Vec::with_capacity(main.file.bytes().len()),
-        origins: Vec::new(),
+        written: Written::new(main.file),
+        at: Some((0, 0)),
         cycle: None,
         pecking: [None; 6],
         axis: "Z",
@@ -105,48 +101,10 @@ fn run_within(
         modal: false,
         feed: None,
         feed_lost: false,
-        steps: 0,
-        silent: 0,
-        most_blocks,
-        back_to: BTreeMap::new(),
-        is_endless: false,
         cycle_refused: false,
-        faults: FaultsOfRun::default(),
     };
-    run.whole();
-    let Run {
-        output,
-        origins,
-        faults,
-        is_endless,
-        ..
-    } = run;
-    if is_endless {
-        // To read millions of blocks of a loop takes gigabytes, and says nothing more.
-        return Err(faults.into_faults().into());
-    }
-    let changed = output != main.file.bytes();
-    let file = SourceFile::new(main.file.name(), output);
-    let flat = FlatText {
-        file,
-        origins,
-        changed,
-        findings: Vec::new(),
-    };
-    with_corners(flat, faults.into_faults(), out)
-}
-
-fn unchanged(file: &SourceFile) -> FlatText {
-    // What follows the last line ending is a line only where something stands there.
-    let bytes = file.bytes();
-    let count = match bytes.last() {
-        None | Some(b'\n') => file.line_count() - 1,
-        Some(_) => file.line_count(),
-    };
-    FlatText {
-        file: file.clone(),
-        origins: (1..=count).map(|line| (0, line)).collect(),
-        changed: false,
-        findings: Vec::new(),
-    }
+    run.begin();
+    run.run(most_steps);
+    run.written
+        .into_flat(main.file, (Vec::new(), Vec::new()), out)
 }

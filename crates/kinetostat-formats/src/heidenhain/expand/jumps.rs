@@ -182,7 +182,7 @@ impl Run<'_> {
         };
         let to = self.label(at, words.get(goes + 1))?;
         if is_true {
-            self.goes_back(at.0, at.1, to);
+            self.written.goes_back(at, to);
         }
         Ok(match is_true {
             true => Next::At(at.0, to),

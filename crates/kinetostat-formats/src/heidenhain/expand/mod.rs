@@ -2,7 +2,7 @@
 //!
 //! From the files ([`program`]), the values of Q parameters ([`values`], [`expression`]) and the blocks of drilling cycles ([`hole`], [`drill`])
 //! to the [`run`]: its [`steps`] go through the blocks, [`jumps`] say where it goes on, [`parameters`] what a block says,
-//! [`cycles`] and [`path_block`] what is drilled, [`corners`] what is rounded, [`aside`] and [`centre_line`] where the tool goes beside a contour (RL, RR), [`refused_lines`] how it goes on behind what is refused. The way in is [`flat`].
+//! [`cycles`] and [`path_block`] what is drilled, [`corners`] what is rounded, [`aside`] and [`centre_line`] where the tool goes beside a contour (RL, RR). The way in is [`flat`].
 
 pub(crate) mod aside;
 pub(crate) mod centre_line;
@@ -17,7 +17,6 @@ pub(crate) mod numbers;
 pub(crate) mod parameters;
 pub(crate) mod path_block;
 pub(crate) mod program;
-pub(crate) mod refused_lines;
 pub(crate) mod run;
 pub(crate) mod steps;
 pub(crate) mod values;

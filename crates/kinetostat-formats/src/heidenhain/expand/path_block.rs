@@ -56,14 +56,14 @@ impl Run<'_> {
         if !self.modal && !self.feed_lost && words.iter().all(plain) {
             let program = &self.programs[at.0];
             let text = program.file.part(&program.blocks[at.1].text);
-            self.write(text, at)?;
+            self.write(text, at);
             return Ok(Next::Block);
         }
         let mut text = self.text(at, words)?;
         let flat = words_of(&text, &(0..text.len()));
         if flat.first().is_some_and(|word| word.is("TOOL")) {
             self.tool(&flat, &text);
-            self.write(&text, at)?;
+            self.write(&text, at);
             return Ok(Next::Block);
         }
         let moves = matches!(
@@ -112,7 +112,7 @@ impl Run<'_> {
         let nothing = !taken.is_empty() && !goes && rest.iter().all(idle);
         match nothing {
             true => self.feed_lost |= self.feed.is_some(),
-            false => self.write(&text, at)?,
+            false => self.write(&text, at),
         }
         if calls && !left {
             self.drill(at)?;

@@ -1,97 +1,155 @@
 //! The run, block by block.
 
-use crate::heidenhain::blocks::{Block, STRAY, STRAY_REMEDY};
-use crate::heidenhain::expand::run::{Fault, Frame, Next, Run};
+use std::ops::Range;
+
+use crate::flat_run::{Place, Runs, Written};
+use crate::heidenhain::blocks::{STRAY, STRAY_REMEDY};
+use crate::heidenhain::expand::run::{DEEPEST, Fault, Frame, Next, Run};
 use crate::heidenhain::expand::values::begins_value;
 use crate::heidenhain::flow::NOT_ALONE;
 use crate::heidenhain::words::{EXPONENT, Value, Word, exponent};
 use crate::refused_run::Behind;
+use crate::text::source::SourceFile;
 
-/// Most blocks that run one after another without one that is written.
-const MOST_SILENT: usize = 1_000_000;
+impl Runs for Run<'_> {
+    fn files(&self) -> &[SourceFile] {
+        self.files
+    }
 
-/// Most blocks that run.
-const MOST_STEPS: usize = 20_000_000;
+    fn written(&mut self) -> &mut Written {
+        &mut self.written
+    }
 
-impl Run<'_> {
-    /// Runs the program; what is refused is noted.
-    pub(crate) fn whole(&mut self) {
-        if let Err(fault) = self.blocks() {
-            self.refuse(fault, Behind::Nothing);
+    fn at(&self) -> Option<Place> {
+        self.at
+    }
+
+    fn running(&self) -> Vec<Place> {
+        let mut file = self.at.map_or(0, |at| at.0);
+        let mut running: Vec<Place> = self.at.into_iter().collect();
+        for frame in self.frames.iter().rev() {
+            let block = match frame {
+                Frame::Sub { caller } => *caller,
+                Frame::Again { by, .. } => *by,
+                Frame::Program {
+                    file: calls,
+                    caller,
+                    ..
+                } => {
+                    file = *calls;
+                    *caller
+                }
+            };
+            running.push((file, block));
+        }
+        running.reverse();
+        running
+    }
+
+    fn span_of(&self, at: Place) -> Range<usize> {
+        let block = self.programs[at.0].blocks.get(at.1);
+        block.map_or(0..0, |block| block.text.clone())
+    }
+
+    fn step(&mut self, at: Place) -> Result<(), Fault> {
+        if at.1 >= self.programs[at.0].blocks.len() {
+            return self.file_ends((at.0, at.1.saturating_sub(1)));
+        }
+        match self.block(at)? {
+            Next::Block => self.at = Some((at.0, at.1 + 1)),
+            Next::At(file, block) => self.at = Some((file, block)),
+            Next::End => self.last_block(),
+        }
+        Ok(())
+    }
+
+    /// The same as without it, unless it says what runs or what a parameter is.
+    fn behind(&self, at: Place) -> Behind {
+        let program = &self.programs[at.0];
+        let Some(block) = program.blocks.get(at.1) else {
+            return Behind::Nothing;
+        };
+        if self.frames.len() >= DEEPEST {
+            return Behind::Nothing;
+        }
+        let words = block.words(program.file.bytes());
+        let Some(first) = words.first() else {
+            return Behind::Same;
+        };
+        let depends = match first.letters.letters() {
+            b"BEGIN" | b"END" | b"LBL" | b"Q" | b"QL" | b"QR" => true,
+            b"FN" => matches!(first.whole(), Some(0..=14) | None),
+            _ => words
+                .iter()
+                .any(|word| word.is("M") && matches!(word.whole(), Some(2 | 30))),
+        };
+        match depends {
+            true => Behind::Depends,
+            false => Behind::Same,
         }
     }
 
-    fn blocks(&mut self) -> Result<(), Fault> {
-        let programs = self.programs;
-        let begin = programs[0].begin.unwrap_or(0);
-        let mut at = (0, 0);
-        // What stands before the program stays.
-        while at.1 < begin {
-            let text = &programs[0].blocks[at.1];
-            self.raw(programs[0].file.part(&text.lines), at)?;
-            at.1 += 1;
+    fn pass(&mut self, at: Place, has_written: bool) {
+        let program = &self.programs[at.0];
+        let block = &program.blocks[at.1];
+        let words = block.words(program.file.bytes());
+        if let [cycle, define, ..] = words.as_slice()
+            && (cycle.is("CYCL") || cycle.is("CYCLE"))
+            && define.is("DEF")
+        {
+            self.cycle_refused = true;
         }
-        if let (Some(_), Some(number)) = (self.number, &programs[0].blocks[begin].number) {
-            let digits = String::from_utf8_lossy(programs[0].file.part(number)).into_owned();
+        if !has_written {
+            self.write(program.file.part(&block.text), at);
+        }
+        self.at = Some((at.0, at.1 + 1));
+    }
+}
+
+impl Run<'_> {
+    /// Goes to BEGIN PGM: what stands before the program stays.
+    pub(crate) fn begin(&mut self) {
+        let program = &self.programs[0];
+        let begin = program.begin.unwrap_or(0);
+        let before = program.blocks[..begin].last();
+        let end = before.map_or(0, |block| block.lines.end);
+        self.written.copy((program.file, 0), &(0..end));
+        if let (Some(_), Some(number)) = (self.number, &program.blocks[begin].number) {
+            let digits = String::from_utf8_lossy(program.file.part(number));
             self.number = Some(digits.parse().unwrap_or(0));
         }
-        loop {
-            self.steps += 1;
-            self.silent += 1;
-            let fewer = self.most_blocks.saturating_mul(4);
-            if self.steps > MOST_STEPS.min(fewer) || self.silent > MOST_SILENT {
-                return Err(self.endless(
-                    at,
-                    "the program runs more than a million blocks that write nothing, or 20 million in all",
-                ));
+        self.at = Some((0, begin));
+    }
+
+    /// Behind the last block of a file.
+    fn file_ends(&mut self, last: Place) -> Result<(), Fault> {
+        let (reason, remedy) = match self.frames.last() {
+            None => {
+                self.at = None;
+                return Ok(());
             }
-            if at.1 >= programs[at.0].blocks.len() {
-                let last = (at.0, at.1.saturating_sub(1));
-                return match self.frames.last() {
-                    None => Ok(()),
-                    Some(Frame::Program { .. }) => Err(self.fault(
-                        last,
-                        "no block END PGM ends the program that is called",
-                        "give the whole program",
-                    )),
-                    Some(_) => {
-                        Err(self.fault(last, "the file ends in a subprogram", "end it with LBL 0"))
-                    }
-                };
-            }
-            let written = self.origins.len();
-            match self.block(at) {
-                Ok(Next::Block) => at.1 += 1,
-                Ok(Next::At(file, block)) => at = (file, block),
-                Ok(Next::End) => break,
-                Err(fault) => {
-                    let behind = self.behind(at);
-                    if !self.refuse(fault, behind) {
-                        return Ok(());
-                    }
-                    self.go_on(at, written)?;
-                    at.1 += 1;
-                }
-            }
-        }
-        // The last block of the program.
-        let main = &programs[0];
-        let is_end = |block: &&Block| {
-            block
-                .words(main.file.bytes())
-                .first()
-                .is_some_and(|word| word.is("END"))
+            Some(Frame::Program { .. }) => (
+                "no block END PGM ends the program that is called",
+                "give the whole program",
+            ),
+            Some(_) => ("the file ends in a subprogram", "end it with LBL 0"),
         };
-        if let Some(end) = main
-            .blocks
-            .iter()
-            .skip(begin)
-            .position(|block| is_end(&block))
-        {
-            let end = begin + end;
-            self.write(main.file.part(&main.blocks[end].text), (0, end))?;
+        Err(self.fault(last, reason, remedy))
+    }
+
+    /// Writes the last block of the program.
+    fn last_block(&mut self) {
+        self.at = None;
+        let main = &self.programs[0];
+        let bytes = main.file.bytes();
+        let is_end = |at: &usize| {
+            let words = main.blocks[*at].words(bytes);
+            words.first().is_some_and(|word| word.is("END"))
+        };
+        let mut blocks = main.begin.unwrap_or(0)..main.blocks.len();
+        if let Some(end) = blocks.find(is_end) {
+            self.write(main.file.part(&main.blocks[end].text), (0, end));
         }
-        Ok(())
     }
 
     fn block(&mut self, at: (usize, usize)) -> Result<Next, Fault> {
@@ -101,7 +159,7 @@ impl Run<'_> {
         let Some(first) = words.first() else {
             let text = file.part(&block.text);
             if !text.is_empty() || self.number.is_none() {
-                self.write(text, at)?;
+                self.write(text, at);
             }
             return Ok(Next::Block);
         };
@@ -116,7 +174,7 @@ impl Run<'_> {
             return Err(self.fault(at, EXPONENT.0, EXPONENT.1));
         }
         match first.letters.letters() {
-            b"BEGIN" if at.0 == 0 => self.write(file.part(&block.text), at)?,
+            b"BEGIN" if at.0 == 0 => self.write(file.part(&block.text), at),
             b"BEGIN" => {
                 if program.unit_mm() != self.unit_mm {
                     return Err(self.fault(
@@ -148,7 +206,7 @@ impl Run<'_> {
             b"Q" | b"QL" | b"QR" => self.assign(at, &words)?,
             b"QS" => {}
             // Its parameters are what it finds.
-            b"TCH" => self.write(file.part(&block.text), at)?,
+            b"TCH" => self.write(file.part(&block.text), at),
             b"CYCL" | b"CYCLE" if block.no_parameter(file.bytes()).is_some() => {
                 return Err(self.fault(at, STRAY, STRAY_REMEDY));
             }
@@ -205,7 +263,7 @@ impl Run<'_> {
                     self.parameters.remove(&key);
                 }
                 let block = &self.programs[at.0].blocks[at.1];
-                self.write(self.programs[at.0].file.part(&block.text), at)?;
+                self.write(self.programs[at.0].file.part(&block.text), at);
             }
         }
         Ok(Next::Block)

@@ -132,7 +132,7 @@ impl<'r> Runner<'r> {
                 (_, Some(_)) => variable.values = vec![self.value_of(bytes, argument)?],
                 (_, None) => {
                     if let Some(default) = &parameter.default {
-                        let bytes = self.files[unit.file].bytes();
+                        let bytes = self.files[call.unit].bytes();
                         variable.values = vec![self.value_of(bytes, Some(default))?];
                     }
                 }

@@ -8,6 +8,7 @@ use nalgebra::Vector2;
 use crate::corner::{Corner, Cut, not_followed};
 use crate::error::ProgramError;
 use crate::options::ReadOptions;
+use crate::refused_run::edited;
 use crate::siemens::flat::numbers::number;
 use crate::siemens::place::{LETTERS, without};
 use crate::siemens::scan::scan_with;
@@ -97,24 +98,8 @@ pub(super) fn written_out(
         faults.dedup();
         return Err(faults);
     }
-    let (edits, inserted) = edits_of(&flat.file, &found.written, &made);
-    let bytes = edits.applied_to(flat.file.bytes()).ok_or_else(|| {
-        let overlap = ("its words overlap".to_owned(), REMEDY);
-        vec![ProgramError::of_flat(&flat, files, 0, overlap)]
-    })?;
-    let mut origins = Vec::with_capacity(flat.origins.len() + inserted.len());
-    for (index, origin) in flat.origins.iter().enumerate() {
-        origins.push(*origin);
-        if inserted.contains(&(index + 1)) {
-            origins.push(*origin);
-        }
-    }
-    Ok(FlatText {
-        file: SourceFile::new(flat.file.name(), bytes),
-        origins,
-        changed: true,
-        findings: flat.findings,
-    })
+    let (edits, added) = edits_of(&flat.file, &found.written, &made);
+    edited(flat, (edits, &added), files, REMEDY)
 }
 
 fn corner(
@@ -166,9 +151,9 @@ fn edits_of(
     file: &SourceFile,
     written: &[Written],
     made: &BTreeMap<usize, Found>,
-) -> (Edits, Vec<usize>) {
+) -> (Edits, BTreeMap<usize, usize>) {
     let mut edits = Edits::default();
-    let mut inserted = Vec::new();
+    let mut added = BTreeMap::new();
     // Where lines end, in the plane; those behind a corner at their own end.
     let mut ends: BTreeMap<usize, [Option<f64>; 3]> = BTreeMap::new();
     for (index, found) in made {
@@ -197,7 +182,7 @@ fn edits_of(
         }
         let line = [file.line_ending(), text.as_bytes()].concat();
         edits.replace(own.line.end..own.line.end, line);
-        inserted.push(file.line_of(own.line.start));
+        added.insert(file.line_of(own.line.start), 1);
         if let Some((span, _)) = &own.corner {
             edits.replace(without(file.bytes(), span, own.words_at), "");
         }
@@ -231,7 +216,7 @@ fn edits_of(
             }
         }
     }
-    (edits, inserted)
+    (edits, added)
 }
 
 /// A word of an axis behind a blank, in units of the program.

@@ -3,7 +3,7 @@
 //! CYCLE83 withdraws within the hole (VARI=0, chips are broken) by G1 at the feed of the program, by 1 mm where _VRT states no other way,
 //! and out of the hole (VARI=1) by G0; with DAM = 0 all steps are as long as the first. A depth by DPR goes before one by DP. This is
 //! Siemens' SINUMERIK 840D/840Di/810D, Programming Guide Cycles, "Deep hole drilling CYCLE83", from memory: the manual was not at hand,
-//! and no public text that quotes it was found. So a note names the lines ([`super::doubtful`]).
+//! and no public text that quotes it was found. So a note names the lines ([`super::holes`]).
 
 /// A cycle with its numbers, along the axis across the plane.
 #[derive(Debug, Clone, PartialEq)]

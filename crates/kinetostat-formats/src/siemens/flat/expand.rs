@@ -5,6 +5,7 @@ use std::collections::btree_map::Entry;
 use std::ops::Range;
 
 use crate::error::ProgramError;
+use crate::flat_run::{MOST_STEPS, Runs};
 use crate::model::slash_blocks::SlashBlocks;
 use crate::options::ReadOptions;
 use crate::refused_run::{RefusedRun, with_corners};
@@ -12,8 +13,7 @@ use crate::siemens::block::{Block, What};
 use crate::siemens::files::whole_file;
 use crate::siemens::flat::corners::written_out;
 use crate::siemens::flat::names::program_name;
-use crate::siemens::flat::run::MOST_STEPS;
-use crate::siemens::flat::runner::{Runner, Written};
+use crate::siemens::flat::runner::Runner;
 use crate::siemens::flat::structure::Unit;
 use crate::siemens::flat::unresolved::note_calls;
 use crate::text::flat::FlatText;
@@ -72,12 +72,7 @@ fn run_within(
     let is_main = |file: &&SourceFile| file.name().to_ascii_lowercase().ends_with(".mpf");
     let main = files.iter().position(|file| is_main(&file)).unwrap_or(0);
     let Some(file) = files.get(main) else {
-        return Ok(FlatText {
-            file: SourceFile::new("", ""),
-            origins: Vec::new(),
-            changed: false,
-            findings: Vec::new(),
-        });
+        return Ok(FlatText::unchanged(&SourceFile::new("", ""), 0));
     };
     let (mut names, mut faults) = (BTreeMap::new(), Vec::new());
     for (index, other) in files.iter().enumerate().filter(|(index, _)| *index != main) {
@@ -99,40 +94,21 @@ fn run_within(
     }
     if !needs(file, &names) {
         note_calls(file, &mut faults);
-        let flat = FlatText {
-            file: file.clone(),
-            origins: (1..=file.line_count()).map(|line| (main, line)).collect(),
-            changed: false,
-            findings: Vec::new(),
-        };
+        let mut flat = FlatText::unchanged(file, main);
+        // What follows the last line end is a line, too.
+        flat.origins = (1..=file.line_count()).map(|line| (main, line)).collect();
         return with_corners(flat, faults, |flat| written_out(flat, files));
     }
-    let units: Vec<Unit> = (files.iter().enumerate())
-        .map(|(index, file)| Unit::of(file, index, &mut faults))
-        .collect();
+    let units = files.iter();
+    let units: Vec<Unit> = units.map(|file| Unit::of(file, &mut faults)).collect();
     if !faults.is_empty() && !units.iter().all(|unit| unit.runs) {
         return Err(faults.into());
     }
-    let runner = Runner::new(files, &units, names, (main, slash_blocks));
-    let Written {
-        output,
-        origins,
-        faults: of_run,
-        findings,
-        is_endless,
-    } = runner.run(most_steps);
-    faults.extend(of_run);
-    if is_endless {
-        // To read millions of blocks of a loop takes gigabytes, and says nothing more.
-        return Err(faults.into());
-    }
-    let flat = FlatText {
-        file: SourceFile::new(file.name(), output),
-        origins,
-        changed: true,
-        findings,
-    };
-    with_corners(flat, faults, |flat| written_out(flat, files))
+    let mut runner = Runner::new(files, &units, names, (main, slash_blocks));
+    runner.run(most_steps);
+    let findings = runner.doubts.into_findings();
+    let written = runner.written;
+    written.into_flat(file, (faults, findings), |flat| written_out(flat, files))
 }
 
 /// The first line of a subprogram that says something: PROC, as a rule.

@@ -1,13 +1,11 @@
 //! Programs with jumps, loops, calls and drilling cycles: run once, and written flat.
 //!
 //! [`structure`] reads the control flow of a file ([`control`], [`statements`]), [`run`] follows it, [`mod@print`] writes the blocks with numbers in place of
-//! expressions, [`holes`] the blocks of drilling cycles ([`doubtful`] names what of them is not certain), [`corners`] those of rounded and broken corners, [`saved`] what comes back behind a subprogram with SAVE,
-//! [`refused_lines`] how the run goes on behind what is refused.
+//! expressions, [`holes`] the blocks of drilling cycles ([`doubts`] name what of them is not certain), [`corners`] those of rounded and broken corners, [`saved`] what comes back behind a subprogram with SAVE.
 
 mod calls;
 mod control;
 mod corners;
-mod doubtful;
 mod doubts;
 mod drilling;
 mod expand;
@@ -17,7 +15,6 @@ mod modes;
 mod names;
 mod numbers;
 mod print;
-mod refused_lines;
 mod run;
 mod runner;
 mod saved;

@@ -2,97 +2,85 @@
 
 use std::ops::Range;
 
-use crate::error::ProgramError;
+use crate::flat_run::{Place, Runs, Written};
 use crate::model::slash_blocks::SlashBlocks;
 use crate::refused_run::Behind;
+use crate::siemens::block::Item;
 use crate::siemens::declarations::define;
 use crate::siemens::expression::Expression;
 use crate::siemens::flat::control::{Control, Jump, Way};
-use crate::siemens::flat::runner::{Fault, Runner, Section, Written};
+use crate::siemens::flat::print::End;
+use crate::siemens::flat::runner::{Fault, MOST_LEVELS, Runner, Section};
 use crate::siemens::values::Value;
+use crate::text::source::SourceFile;
 
-/// Most blocks that are written.
-pub(super) const MOST_BLOCKS: usize = 5_000_000;
-/// Most lines that are run.
-pub(super) const MOST_STEPS: u64 = 20_000_000;
-/// Most bytes that are written.
-pub(super) const MOST_BYTES: usize = 1 << 28;
 /// Most sections that are repeated within one another.
 const MOST_SECTIONS: usize = 32;
 
-impl<'r> Runner<'r> {
-    /// Runs it to its end, by so many lines at most.
-    pub(super) fn run(mut self, most_steps: u64) -> Written {
-        let mut steps = 0_u64;
-        let mut is_endless = false;
-        while let Some(level) = self.levels.last() {
-            let (unit, line) = (level.unit, level.line);
-            let written = self.origins.len();
-            steps += 1;
-            let (done, ends) = match self.is_bounded(steps, most_steps) {
-                Err(fault) => (Err(fault), true),
-                Ok(()) if line >= self.units[unit].lines.len() => (self.leave(), false),
-                Ok(()) => (self.line(unit, line), false),
-            };
-            let Err(fault) = done else {
-                continue;
-            };
-            is_endless = ends;
-            let behind = match ends {
-                true => Behind::Nothing,
-                false => self.behind(unit, line),
-            };
-            let file = (self.files.iter()).position(|file| file.name() == fault.file);
-            if !self.faults.add(file.unwrap_or(0), *fault, behind) {
-                break;
-            }
-            self.go_on(unit, line, written);
-        }
-        Written {
-            output: self.output,
-            origins: self.origins,
-            faults: self.faults.into_faults(),
-            findings: self.doubts.into_findings(),
-            is_endless,
+impl Runs for Runner<'_> {
+    fn files(&self) -> &[SourceFile] {
+        self.files
+    }
+
+    fn written(&mut self) -> &mut Written {
+        &mut self.written
+    }
+
+    fn at(&self) -> Option<Place> {
+        self.levels.last().map(|level| (level.unit, level.line))
+    }
+
+    fn running(&self) -> Vec<Place> {
+        let levels = self.levels.iter();
+        levels.map(|level| (level.unit, level.line)).collect()
+    }
+
+    fn span_of(&self, (unit, line): Place) -> Range<usize> {
+        let line = self.units[unit].lines.get(line);
+        line.map_or(0..0, |line| line.block.span.clone())
+    }
+
+    fn step(&mut self, (unit, line): Place) -> Result<(), Fault> {
+        match line >= self.units[unit].lines.len() {
+            true => self.leave(),
+            false => self.line(unit, line),
         }
     }
 
-    fn is_bounded(&self, steps: u64, most_steps: u64) -> Result<(), Fault> {
-        let is_full = self.origins.len() > MOST_BLOCKS || self.output.len() > MOST_BYTES;
-        match steps > most_steps || is_full {
-            true => Err(self.endless()),
-            false => Ok(()),
+    fn behind(&self, at: Place) -> Behind {
+        if self.levels.len() >= MOST_LEVELS {
+            return Behind::Nothing;
         }
-    }
-
-    /// At the line that goes back to the beginning of the loop, where one runs.
-    fn endless(&self) -> Fault {
-        let most = "20 million lines, or written 5 million blocks or 256 MiB";
-        let Some((unit, line)) = self.loop_in_force() else {
-            return self.fault(
-                &self.span(),
-                format!("the program has run {most}, and has not ended"),
-                "divide it",
-            );
+        let Some(line) = self.units[at.0].lines.get(at.1) else {
+            return Behind::Depends;
         };
-        let unit = &self.units[unit];
-        let span = unit.lines[line].block.span.clone();
-        Box::new(ProgramError::at(
-            &self.files[unit.file],
-            span,
-            format!("the loop that goes back here does not end: the program has run {most}"),
-            "check its condition, or divide the program",
-        ))
+        let items = &line.block.items;
+        let assigns = |item: &Item| self.is_assignment(&item.name, &item.what);
+        let is_same = self.at() == Some(at)
+            && matches!(line.control, Control::None)
+            && !items.iter().any(assigns)
+            && matches!(self.end(items), Ok(End::No));
+        match is_same {
+            true => Behind::Same,
+            false => Behind::Depends,
+        }
     }
 
+    fn pass(&mut self, (unit, line): Place, has_written: bool) {
+        if let (Some(at), false) = (self.units[unit].lines.get(line), has_written) {
+            self.write_line(self.file().part(&at.block.line));
+        }
+        self.arrive(line + 1, false);
+    }
+}
+
+impl Runner<'_> {
     fn line(&mut self, unit: usize, line: usize) -> Result<(), Fault> {
         let units = self.units;
         let at = &units[unit].lines[line];
         if at.block.skip && self.slash_blocks == SlashBlocks::Skipped {
             // The reader does not run it, either.
-            let text = self.file().part(&at.block.line).to_vec();
-            self.write_line(&text);
-            self.arrive(line + 1, false);
+            self.pass((unit, line), false);
             return Ok(());
         }
         let mut next = line + 1;

@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 
 use crate::error::ProgramError;
+use crate::flat_run::Written;
 use crate::model::slash_blocks::SlashBlocks;
-use crate::refused_run::FaultsOfRun;
 use crate::siemens::block::What;
 use crate::siemens::expression::Expression;
 use crate::siemens::flat::doubts::Doubts;
@@ -14,23 +14,12 @@ use crate::siemens::flat::frames::Frames;
 use crate::siemens::flat::modes::Modes;
 use crate::siemens::flat::structure::Unit;
 use crate::siemens::values::{Value, Variable, Variables, whole};
-use crate::text::finding::Finding;
 use crate::text::source::SourceFile;
 
 /// Most programs that call one another (840D sl: 18 levels).
 pub(super) const MOST_LEVELS: usize = 18;
 /// Why the run ends.
-pub(super) type Fault = Box<ProgramError>;
-
-/// Bytes, and of each line the file and the line there; what is refused.
-pub(super) struct Written {
-    pub output: Vec<u8>,
-    pub origins: Vec<(usize, usize)>,
-    pub faults: Vec<ProgramError>,
-    pub findings: Vec<Finding>,
-    /// It reached the most lines or bytes: what it wrote is not the program.
-    pub is_endless: bool,
-}
+pub(super) type Fault = ProgramError;
 
 /// A section that is run again.
 #[derive(Debug, Clone)]
@@ -50,8 +39,6 @@ pub(super) struct Level {
     pub line: usize,
     /// Last values of FOR by lines.
     pub limits: BTreeMap<usize, f64>,
-    /// Lines that were gone back to, each with the last line from where.
-    pub back_to: BTreeMap<usize, usize>,
     pub sections: Vec<Section>,
     /// Variables of the program that called it, and what is given back to them.
     pub caller: BTreeMap<Vec<u8>, Variable>,
@@ -76,19 +63,17 @@ impl Level {
 #[derive(Default)]
 pub(super) struct Runner<'r> {
     pub files: &'r [SourceFile],
+    /// In the order of the files.
     pub units: &'r [Unit],
     pub names: BTreeMap<Vec<u8>, usize>,
     pub levels: Vec<Level>,
     pub variables: Variables,
-    pub output: Vec<u8>,
-    pub origins: Vec<(usize, usize)>,
-    pub ending: &'static [u8],
+    pub written: Written,
     pub modes: Modes,
     pub frames: Frames,
     pub feed: Option<f64>,
     /// MCALL in force.
     pub drilling: Option<Drilling>,
-    pub faults: FaultsOfRun,
     pub doubts: Doubts,
     pub slash_blocks: SlashBlocks,
 }
@@ -102,7 +87,7 @@ impl<'r> Runner<'r> {
     ) -> Self {
         Self {
             slash_blocks,
-            ending: files.get(main).map_or(b"\n", SourceFile::line_ending),
+            written: files.get(main).map_or_else(Written::default, Written::new),
             files,
             units,
             names,
@@ -113,7 +98,7 @@ impl<'r> Runner<'r> {
 
     pub(super) fn file(&self) -> &'r SourceFile {
         let unit = self.levels.last().map_or(0, |level| level.unit);
-        &self.files[self.units[unit].file]
+        &self.files[unit]
     }
 
     /// The words of the line that runs.
@@ -131,7 +116,7 @@ impl<'r> Runner<'r> {
         reason: impl Into<String>,
         remedy: &str,
     ) -> Fault {
-        Box::new(ProgramError::at(self.file(), span.clone(), reason, remedy))
+        ProgramError::at(self.file(), span.clone(), reason, remedy)
     }
 
     /// How often a subprogram or a section runs, P: SINUMERIK 840D sl, Programming Manual, Fundamentals, "Subprogram repetitions
@@ -180,21 +165,8 @@ impl<'r> Runner<'r> {
             next = section.behind;
             level.sections.pop();
         }
-        if next <= level.line {
-            let from = level.back_to.entry(next).or_insert(level.line);
-            *from = level.line.max(*from);
-        }
+        self.written.goes_back((level.unit, level.line), next);
         level.line = next;
-    }
-
-    /// The loop in which the program is, as the file and the line that goes back to its beginning: the outermost one.
-    pub(super) fn loop_in_force(&self) -> Option<(usize, usize)> {
-        self.levels.iter().find_map(|level| {
-            let loops = level.back_to.iter();
-            let around = loops.filter(|(from, to)| (**from..=**to).contains(&level.line));
-            let widest = around.max_by_key(|(from, to)| *to - *from);
-            widest.map(|(_, to)| (level.unit, *to))
-        })
     }
 
     /// Gives a variable a value.
@@ -253,11 +225,8 @@ impl<'r> Runner<'r> {
 
     /// Writes a line, and where it is from.
     pub(super) fn write_line(&mut self, text: &[u8]) {
-        self.output.extend_from_slice(text.trim_ascii_end());
-        self.output.extend_from_slice(self.ending);
-        let origin = self.levels.last().map_or((0, 0), |level| {
-            (self.units[level.unit].file, level.line + 1)
-        });
-        self.origins.push(origin);
+        let level = self.levels.last();
+        let origin = level.map_or((0, 0), |level| (level.unit, level.line + 1));
+        self.written.line(text.trim_ascii_end(), origin);
     }
 }

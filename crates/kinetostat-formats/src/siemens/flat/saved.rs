@@ -3,6 +3,7 @@
 //! Source: Siemens, SINUMERIK 840D sl / 828D, programming manual, job planning, "Save modal G functions (SAVE)", and function manual,
 //! basic functions, K2 "Subprograms with SAVE attribute": behind the call the frame that was active before it is active again.
 
+use crate::flat_run::Runs;
 use crate::refused_run::Behind;
 use crate::siemens::flat::runner::{Level, Runner};
 
@@ -20,9 +21,7 @@ impl Runner<'_> {
                     format!("the subprogram states {code} and gives back at its end (SAVE) what was before, which the program does not state"),
                     "state the code that holds before the call",
                 );
-                let caller = self.levels.last().map_or(0, |caller| caller.unit);
-                self.faults
-                    .add(self.units[caller].file, *fault, Behind::Same);
+                self.refuse(fault, Behind::Same);
             }
         }
         self.modes = level.modes;

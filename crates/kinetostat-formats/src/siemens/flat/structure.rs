@@ -17,8 +17,6 @@ use crate::text::source::SourceFile;
 /// A program.
 #[derive(Debug, Default)]
 pub(super) struct Unit {
-    /// An index of the files.
-    pub file: usize,
     pub lines: Vec<Line>,
     /// Lines by label in capitals, ascending.
     pub labels: BTreeMap<Vec<u8>, Vec<usize>>,
@@ -55,9 +53,8 @@ fn controls(text: &[u8]) -> bool {
 
 impl Unit {
     /// Of a file; what is wrong with it is noted.
-    pub(super) fn of(file: &SourceFile, index: usize, faults: &mut Vec<ProgramError>) -> Self {
+    pub(super) fn of(file: &SourceFile, faults: &mut Vec<ProgramError>) -> Self {
         let mut unit = Self {
-            file: index,
             runs: true,
             ..Self::default()
         };

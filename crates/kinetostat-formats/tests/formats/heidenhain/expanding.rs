@@ -408,7 +408,7 @@ fn an_endless_loop_is_named_by_the_jump_back_and_nothing_is_read_of_it() {
         assert_eq!(found[0].line, line, "{found:?}");
         let said = found[0].to_string();
         assert!(
-            said.contains("the loop that jumps back here does not end"),
+            said.contains("the loop that goes back here does not end"),
             "{said}"
         );
     }

@@ -1,0 +1,193 @@
+//! The run of a program that is written flat, the same for all languages: what it has written, what of it is refused, its bounds.
+
+use std::collections::BTreeMap;
+use std::ops::Range;
+
+use crate::error::ProgramError;
+use crate::refused_run::{Behind, FaultsOfRun, RefusedRun, with_corners};
+use crate::text::finding::Finding;
+use crate::text::flat::FlatText;
+use crate::text::source::SourceFile;
+
+/// A line of a program, or a block of several lines: an index of the files, and one of what the file is divided into.
+pub(crate) type Place = (usize, usize);
+
+/// Most lines that run.
+pub(crate) const MOST_STEPS: u64 = 20_000_000;
+/// Most lines that run one after another without one that is written.
+const MOST_SILENT: u64 = 1_000_000;
+/// Most lines that are written.
+const MOST_LINES: usize = 5_000_000;
+/// Most bytes that are written.
+const MOST_BYTES: usize = 1 << 28;
+
+/// The bounds in words.
+const BOUNDS: &str = "it has run more than 20 million blocks, or more than a million blocks that write nothing, or has written more than 5 million blocks or 256 MiB";
+
+/// The flat program as it grows, and what is refused.
+#[derive(Default)]
+pub(crate) struct Written {
+    pub bytes: Vec<u8>,
+    /// Of each line the file, and the line there, counted from 1.
+    pub origins: Vec<(usize, usize)>,
+    ending: &'static [u8],
+    steps: u64,
+    silent: u64,
+    /// Lines that were gone back to, each with the last line from where.
+    back_to: BTreeMap<Place, usize>,
+    pub faults: FaultsOfRun,
+    /// It reached a bound: what it wrote is not the program.
+    is_endless: bool,
+}
+
+impl Written {
+    /// Nothing yet, with the line ends of a file.
+    pub(crate) fn new(file: &SourceFile) -> Self {
+        Self {
+            bytes: Vec::with_capacity(file.bytes().len()),
+            ending: file.line_ending(),
+            ..Self::default()
+        }
+    }
+
+    /// Adds a text and a line end; the text may be of several lines.
+    pub(crate) fn line(&mut self, text: &[u8], (file, line): (usize, usize)) {
+        self.silent = 0;
+        self.bytes.extend_from_slice(text);
+        self.bytes.extend_from_slice(self.ending);
+        let further = text.iter().filter(|byte| **byte == b'\n').count();
+        self.origins
+            .extend((0..=further).map(|further| (file, line + further)));
+    }
+
+    /// Adds a part of a file, by its index, with its own line ends.
+    pub(crate) fn copy(&mut self, (file, index): (&SourceFile, usize), part: &Range<usize>) {
+        let bytes = file.part(part);
+        let first = file.line_of(part.start);
+        let lines = bytes.split_inclusive(|byte| *byte == b'\n').count();
+        self.bytes.extend_from_slice(bytes);
+        self.origins
+            .extend((0..lines).map(|line| (index, first + line)));
+    }
+
+    /// Whether it is larger than any program.
+    pub(crate) fn is_full(&self) -> bool {
+        self.origins.len() > MOST_LINES || self.bytes.len() > MOST_BYTES
+    }
+
+    /// Notes where a line goes, if it goes back.
+    pub(crate) fn goes_back(&mut self, (file, from): Place, to: usize) {
+        if to <= from {
+            let last = self.back_to.entry((file, to)).or_insert(from);
+            *last = from.max(*last);
+        }
+    }
+
+    /// The line that goes back to the beginning of the widest loop around a line.
+    fn end_of_loop(&self, (file, line): Place) -> Option<Place> {
+        let loops = self.back_to.iter();
+        let around = loops.filter(|((of, from), to)| *of == file && (*from..=**to).contains(&line));
+        let widest = around.max_by_key(|((_, from), to)| **to - from);
+        widest.map(|(_, to)| (file, *to))
+    }
+
+    /// The flat program of a file, with its corners written out by `out`; refused with all that was refused before and by the run.
+    pub(crate) fn into_flat(
+        self,
+        file: &SourceFile,
+        (mut faults, findings): (Vec<ProgramError>, Vec<Finding>),
+        out: impl FnOnce(FlatText) -> Result<FlatText, Vec<ProgramError>>,
+    ) -> Result<FlatText, RefusedRun> {
+        faults.extend(self.faults.into_faults());
+        if self.is_endless {
+            // To read millions of blocks of a loop takes gigabytes, and says nothing more.
+            return Err(faults.into());
+        }
+        let flat = FlatText {
+            changed: self.bytes != file.bytes(),
+            file: SourceFile::new(file.name(), self.bytes),
+            origins: self.origins,
+            findings,
+        };
+        with_corners(flat, faults, out)
+    }
+}
+
+/// A program that is run line by line.
+pub(crate) trait Runs {
+    fn files(&self) -> &[SourceFile];
+
+    fn written(&mut self) -> &mut Written;
+
+    /// The line that runs; none at the end.
+    fn at(&self) -> Option<Place>;
+
+    /// The lines that run, from that of the main program to the innermost of what is called.
+    fn running(&self) -> Vec<Place>;
+
+    /// The bytes of a line in its file.
+    fn span_of(&self, at: Place) -> Range<usize>;
+
+    /// Runs a line, and goes to the next one.
+    ///
+    /// # Errors
+    /// Why it is refused.
+    fn step(&mut self, at: Place) -> Result<(), ProgramError>;
+
+    /// What stands behind a line that is refused.
+    fn behind(&self, at: Place) -> Behind;
+
+    /// Goes behind a line that is refused; where it has written nothing, it is written as it stands.
+    fn pass(&mut self, at: Place, has_written: bool);
+
+    /// Notes a fault; whether the run goes on.
+    fn refuse(&mut self, fault: ProgramError, behind: Behind) -> bool {
+        let file = (self.files().iter()).position(|file| file.name() == fault.file);
+        self.written().faults.add(file.unwrap_or(0), fault, behind)
+    }
+
+    /// Runs it to its end, by so many lines at most: behind a line that is refused, too, unless what runs, or a value, depends on it.
+    fn run(&mut self, most_steps: u64) {
+        while let Some(at) = self.at() {
+            let written = self.written();
+            let lines = written.origins.len();
+            written.steps += 1;
+            written.silent += 1;
+            let silent = written.silent > MOST_SILENT;
+            if written.steps > most_steps || silent || written.is_full() {
+                written.is_endless = true;
+                let fault = self.endless(at);
+                self.refuse(fault, Behind::Nothing);
+                return;
+            }
+            if let Err(fault) = self.step(at) {
+                let behind = self.behind(at);
+                if !self.refuse(fault, behind) {
+                    return;
+                }
+                let has_written = self.written().origins.len() > lines;
+                self.pass(at, has_written);
+            }
+        }
+    }
+
+    /// Why a run ends that does not end by itself: at the line that goes back to the beginning of the outermost loop, where one runs.
+    fn endless(&mut self, at: Place) -> ProgramError {
+        let mut running = self.running().into_iter();
+        let last = running.find_map(|place| self.written().end_of_loop(place));
+        let (place, reason, remedy) = match last {
+            Some(last) => (
+                last,
+                format!("the loop that goes back here does not end: {BOUNDS}"),
+                "check its condition, or divide the program",
+            ),
+            None => (
+                at,
+                format!("the program does not end: {BOUNDS}"),
+                "repeat fewer times, or divide the program",
+            ),
+        };
+        let span = self.span_of(place);
+        ProgramError::at(&self.files()[place.0], span, reason, remedy)
+    }
+}
