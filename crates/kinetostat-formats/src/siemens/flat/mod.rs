@@ -1,10 +1,9 @@
 //! Programs with jumps, loops, calls and drilling cycles: run once, and written flat.
 //!
-//! [`structure`] reads the control flow of a file ([`control`], [`statements`]), [`run`] follows it, [`mod@print`] writes the blocks with numbers in place of
+//! [`structure`] reads the control flow of a file ([`statements`]), [`run`] follows it, [`mod@print`] writes the blocks with numbers in place of
 //! expressions, [`holes`] the blocks of drilling cycles ([`doubts`] name what of them is not certain), [`corners`] those of rounded and broken corners, [`saved`] what comes back behind a subprogram with SAVE.
 
 mod calls;
-mod control;
 mod corners;
 mod doubts;
 mod drilling;

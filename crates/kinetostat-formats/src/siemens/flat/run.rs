@@ -8,9 +8,9 @@ use crate::refused_run::Behind;
 use crate::siemens::block::Item;
 use crate::siemens::declarations::define;
 use crate::siemens::expression::Expression;
-use crate::siemens::flat::control::{Control, Jump, Way};
 use crate::siemens::flat::print::End;
 use crate::siemens::flat::runner::{Fault, MOST_LEVELS, Runner, Section};
+use crate::siemens::flat::statements::{Control, Jump, Way};
 use crate::siemens::values::Value;
 use crate::text::source::SourceFile;
 
@@ -92,7 +92,7 @@ impl Runner<'_> {
                     return Ok(());
                 }
             }
-            Control::Skip | Control::Mark => {}
+            Control::Mark => {}
             Control::Define => {
                 let from = at
                     .tokens
@@ -103,48 +103,22 @@ impl Runner<'_> {
                 define(bytes, tokens, &mut self.variables)
                     .map_err(|broken| self.fault(&broken.span, broken.reason, broken.remedy))?;
             }
-            Control::If {
-                condition,
-                otherwise,
-            } => {
+            Control::Unless { condition, to } => {
                 if self.number(condition)? == 0.0 {
-                    next = *otherwise;
+                    next = *to;
                 }
             }
-            Control::Else(behind) => next = *behind,
-            Control::JumpIf(jumps) => {
+            Control::Goto(to) => next = *to,
+            Control::Jump(jumps) => {
                 for (condition, jump) in jumps {
-                    if self.number(condition)? != 0.0 {
+                    let condition = condition.as_ref().map(|condition| self.number(condition));
+                    if condition.transpose()? != Some(0.0) {
                         next = self.destination(jump, line)?;
                         jumped = true;
                         break;
                     }
                 }
             }
-            Control::Jump(jump) => {
-                next = self.destination(jump, line)?;
-                jumped = true;
-            }
-            Control::Case { of, cases } => {
-                let of = self.number(of)?;
-                for (value, jump) in cases {
-                    let is = match value {
-                        Some(value) => self.number(value)? == of,
-                        None => true,
-                    };
-                    if is {
-                        next = self.destination(jump, line)?;
-                        jumped = true;
-                        break;
-                    }
-                }
-            }
-            Control::While { condition, end } => {
-                if self.number(condition)? == 0.0 {
-                    next = *end;
-                }
-            }
-            Control::Back(start) => next = *start,
             Control::For {
                 variable,
                 indices,
@@ -162,11 +136,6 @@ impl Runner<'_> {
                 }
             }
             Control::EndFor(start) => next = self.end_for(unit, *start, next)?,
-            Control::Until { condition, start } => {
-                if self.number(condition)? == 0.0 {
-                    next = *start + 1;
-                }
-            }
             Control::Repeat { .. } => return self.repeat(unit, line),
         }
         self.arrive(next, jumped);

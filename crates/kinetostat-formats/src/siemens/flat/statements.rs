@@ -1,10 +1,63 @@
-//! The statements of control flow, from their tokens.
+//! What a line does besides its words (jumps, loops, sections that run again), from its tokens.
+
+use std::ops::Range;
 
 use crate::siemens::declarations::type_of;
-use crate::siemens::expression::{Cursor, Expression};
-use crate::siemens::flat::control::{Control, Jump, Way};
+use crate::siemens::expression::{Cursor, Expression, Operation};
 use crate::siemens::tokens::{Broken, Kind};
 use crate::siemens::values::Type;
+
+/// A jump.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Jump {
+    pub way: Way,
+    /// Label or number.
+    pub to: Range<usize>,
+    pub number: Option<u64>,
+}
+
+/// Where the destination of a jump is looked for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Way {
+    Forward,
+    Back,
+    Both,
+    /// As both, and no fault where there is none.
+    IfThere,
+}
+
+/// What a line does besides its words. Lines of others are indices of the unit.
+#[derive(Debug, Clone)]
+pub(super) enum Control {
+    None,
+    Define,
+    /// It only marks a place: PROC, EXTERN, LOOP, ENDIF.
+    Mark,
+    /// IF, WHILE, UNTIL: goes to a line where the condition does not hold.
+    Unless {
+        condition: Expression,
+        to: usize,
+    },
+    /// ELSE, ENDWHILE, ENDLOOP.
+    Goto(usize),
+    /// GOTO, IF before it, CASE: the first jump whose condition holds.
+    Jump(Vec<(Option<Expression>, Jump)>),
+    For {
+        variable: Range<usize>,
+        indices: Vec<Expression>,
+        from: Expression,
+        to: Expression,
+        end: usize,
+    },
+    EndFor(usize),
+    /// REPEAT and REPEATB of a section.
+    Repeat {
+        from: Range<usize>,
+        to: Option<Range<usize>>,
+        one_block: bool,
+        count: Option<Expression>,
+    },
+}
 
 /// A parameter of PROC.
 #[derive(Debug, Clone)]
@@ -51,14 +104,11 @@ pub(super) fn condition(cursor: &mut Cursor<'_>) -> Result<Control, Broken> {
         cursor.at += 1;
         let condition = cursor.expression()?;
         if cursor.peek().is_none() && jumps.is_empty() {
-            return Ok(Control::If {
-                condition,
-                otherwise: 0,
-            });
+            return Ok(Control::Unless { condition, to: 0 });
         }
-        jumps.push((condition, jump(cursor)?));
+        jumps.push((Some(condition), jump(cursor)?));
     }
-    Ok(Control::JumpIf(jumps))
+    Ok(Control::Jump(jumps))
 }
 
 pub(super) fn for_loop(cursor: &mut Cursor<'_>) -> Result<Control, Broken> {
@@ -118,16 +168,19 @@ pub(super) fn case(cursor: &mut Cursor<'_>) -> Result<Control, Broken> {
     cursor.at += 1;
     let mut cases = Vec::new();
     while cursor.peek().is_some() {
-        let value = match cursor.is_next("DEFAULT") {
+        let condition = match cursor.is_next("DEFAULT") {
             true => {
                 cursor.at += 1;
                 None
             }
-            false => Some(cursor.expression()?),
+            false => {
+                let sides = Box::new((of.clone(), cursor.expression()?));
+                Some(Expression::Binary(Operation::Equal, sides))
+            }
         };
-        cases.push((value, jump(cursor)?));
+        cases.push((condition, jump(cursor)?));
     }
-    Ok(Control::Case { of, cases })
+    Ok(Control::Jump(cases))
 }
 
 /// The parameters of PROC, and whether it saves the modes.

@@ -5,9 +5,8 @@ use std::collections::BTreeMap;
 use crate::error::{ProgramError, note};
 use crate::siemens::block::{Block, STATEMENTS, What};
 use crate::siemens::expression::Cursor;
-use crate::siemens::flat::control::Control;
 use crate::siemens::flat::statements::{
-    Parameter, case, condition, for_loop, jump, procedure, repeat,
+    Control, Parameter, case, condition, for_loop, jump, procedure, repeat,
 };
 use crate::siemens::table::row;
 use crate::siemens::tokens::{Broken, Token};
@@ -139,21 +138,20 @@ impl Unit {
         let word = self.word(line, file);
         let opener = open.last().copied();
         let opens = opener.map_or(Vec::new(), |at| self.word(at, file));
-        let closes: &[&[u8]] = match (&self.lines[line].control, word.as_slice()) {
-            (Control::If { .. } | Control::While { .. } | Control::For { .. }, _) => {
+        let closes: &[&[u8]] = match (word.as_slice(), &self.lines[line].control) {
+            (_, Control::None | Control::Repeat { .. }) | (b"IF", Control::Jump(_)) => {
+                return Ok(());
+            }
+            (b"IF" | b"WHILE" | b"FOR" | b"LOOP" | b"REPEAT", _) => {
                 open.push(line);
                 return Ok(());
             }
-            (Control::Mark, b"LOOP" | b"REPEAT") => {
-                open.push(line);
-                return Ok(());
-            }
-            (_, b"ELSE") => &[b"IF"],
-            (_, b"ENDIF") => &[b"IF", b"ELSE"],
-            (_, b"ENDWHILE") => &[b"WHILE"],
-            (_, b"ENDFOR") => &[b"FOR"],
-            (_, b"UNTIL") => &[b"REPEAT"],
-            (_, b"ENDLOOP") => &[b"LOOP"],
+            (b"ELSE", _) => &[b"IF"],
+            (b"ENDIF", _) => &[b"IF", b"ELSE"],
+            (b"ENDWHILE", _) => &[b"WHILE"],
+            (b"ENDFOR", _) => &[b"FOR"],
+            (b"UNTIL", _) => &[b"REPEAT"],
+            (b"ENDLOOP", _) => &[b"LOOP"],
             _ => return Ok(()),
         };
         let (Some(opener), true) = (opener, closes.contains(&opens.as_slice())) else {
@@ -164,15 +162,15 @@ impl Unit {
             open.push(line);
         }
         match &mut self.lines[opener].control {
-            Control::If { otherwise, .. } => *otherwise = line + 1,
-            Control::Else(behind) => *behind = line + 1,
-            Control::While { end, .. } | Control::For { end, .. } => *end = line + 1,
+            Control::Unless { to, .. } | Control::Goto(to) | Control::For { end: to, .. } => {
+                *to = line + 1;
+            }
             _ => {}
         }
         match &mut self.lines[line].control {
-            Control::Back(start) | Control::EndFor(start) | Control::Until { start, .. } => {
-                *start = opener;
-            }
+            Control::Goto(start) | Control::EndFor(start) => *start = opener,
+            // UNTIL.
+            Control::Unless { to, .. } => *to = opener + 1,
             _ => {}
         }
         Ok(())
@@ -210,30 +208,27 @@ impl Unit {
         }
         let control = match word.as_slice() {
             b"IF" => condition(&mut cursor)?,
-            b"ELSE" => Control::Else(0),
             b"ENDIF" | b"LOOP" => Control::Mark,
-            b"WHILE" => Control::While {
+            b"WHILE" | b"UNTIL" => Control::Unless {
                 condition: cursor.expression()?,
-                end: 0,
+                to: 0,
             },
-            b"ENDWHILE" | b"ENDLOOP" => Control::Back(0),
+            b"ELSE" | b"ENDWHILE" | b"ENDLOOP" => Control::Goto(0),
             b"FOR" => for_loop(&mut cursor)?,
             b"ENDFOR" => Control::EndFor(0),
-            b"UNTIL" => Control::Until {
-                condition: cursor.expression()?,
-                start: 0,
-            },
             b"REPEAT" if cursor.peek().is_none() => Control::Mark,
             b"REPEAT" | b"REPEATB" => repeat(&mut cursor, word == b"REPEATB")?,
-            b"GOTO" | b"GOTOF" | b"GOTOB" | b"GOTOC" => Control::Jump(jump(&mut cursor)?),
+            b"GOTO" | b"GOTOF" | b"GOTOB" | b"GOTOC" => {
+                Control::Jump(vec![(None, jump(&mut cursor)?)])
+            }
             b"CASE" => case(&mut cursor)?,
             b"DEF" => return Ok(Control::Define),
-            b"EXTERN" => return Ok(Control::Skip),
+            b"EXTERN" => return Ok(Control::Mark),
             b"PROC" => {
                 let (parameters, saves) = procedure(&mut cursor)?;
                 self.parameters = parameters;
                 self.saves |= saves;
-                return Ok(Control::Skip);
+                return Ok(Control::Mark);
             }
             b"CALL" => {
                 return Err(broken(
