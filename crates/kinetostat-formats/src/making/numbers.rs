@@ -3,25 +3,7 @@
 use nalgebra::{UnitQuaternion, Vector3};
 
 use crate::model::orientation::OrientationText;
-
-/// With so many decimals; a zero has no sign.
-pub(crate) fn fixed(value: f64, decimals: usize) -> String {
-    let text = format!("{value:.decimals$}");
-    let is_zero = !text.bytes().any(|byte| (b'1'..=b'9').contains(&byte));
-    match text.strip_prefix('-') {
-        Some(positive) if is_zero => positive.to_owned(),
-        _ => text,
-    }
-}
-
-/// With at most so many decimals, and no zeros at the end.
-pub(crate) fn short(value: f64, decimals: usize) -> String {
-    let text = fixed(value, decimals);
-    match text.contains('.') {
-        true => text.trim_end_matches('0').trim_end_matches('.').to_owned(),
-        false => text,
-    }
-}
+pub(crate) use crate::text::number::{fixed, short};
 
 /// The three coordinates.
 pub(crate) fn coordinates(place: &Vector3<f64>, decimals: usize) -> [String; 3] {

@@ -6,7 +6,7 @@ use crate::options::WriteOptions;
 use crate::siemens::state::Coordinate;
 use crate::siemens::walker::Written;
 use crate::text::edits::Edits;
-use crate::text::number::{Width, printed};
+use crate::text::number::{Width, printed, short};
 use crate::text::source::SourceFile;
 
 /// Names of the axes.
@@ -21,6 +21,11 @@ pub(crate) fn digits_of(options: &WriteOptions, unit_mm: f64) -> usize {
         true => options.position_decimals,
         false => options.position_decimals + 2,
     }
+}
+
+/// A number of a flat program, with up to nine decimals: far below a nanometre, in inches and behind many steps, too.
+pub(crate) fn number_text(value: f64) -> String {
+    short(value, 9)
 }
 
 /// A number as it is written, and what it says.

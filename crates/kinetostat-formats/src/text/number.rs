@@ -11,6 +11,25 @@ pub(crate) struct NumberText {
     pub value: f64,
 }
 
+/// With so many decimals; a zero has no sign.
+pub(crate) fn fixed(value: f64, decimals: usize) -> String {
+    let text = format!("{value:.decimals$}");
+    let is_zero = !text.bytes().any(|byte| (b'1'..=b'9').contains(&byte));
+    match text.strip_prefix('-') {
+        Some(positive) if is_zero => positive.to_owned(),
+        _ => text,
+    }
+}
+
+/// With at most so many decimals, and no zeros at the end.
+pub(crate) fn short(value: f64, decimals: usize) -> String {
+    let text = fixed(value, decimals);
+    match text.contains('.') {
+        true => text.trim_end_matches('0').trim_end_matches('.').to_owned(),
+        false => text,
+    }
+}
+
 /// Whether a number may become longer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Width {
@@ -48,16 +67,8 @@ pub fn printed(
     width: Width,
 ) -> Vec<u8> {
     let digits = decimals(original).max(least_decimals).min(MOST_DECIMALS);
-    let fixed = |value: f64| {
-        let text = format!("{value:.digits$}");
-        let is_zero = !text.bytes().any(|byte| (b'1'..=b'9').contains(&byte));
-        match text.strip_prefix('-') {
-            Some(positive) if is_zero => positive.to_owned(),
-            _ => text,
-        }
-    };
-    let mut text = fixed(value);
-    if text == fixed(old) {
+    let mut text = fixed(value, digits);
+    if text == fixed(old, digits) {
         return original.to_vec();
     }
     let body = original.trim_ascii_start();

@@ -15,6 +15,7 @@ use crate::apt::state::unit_of;
 use crate::error::ProgramError;
 use crate::flat_run::Written;
 use crate::text::flat::FlatText;
+use crate::text::number::short;
 use crate::text::source::SourceFile;
 
 /// Writes the holes of an APT file (`CYCLE` and the GOTO behind it) as plain motions: by rapid over the hole and down to `RAPTO` or `CLEAR`,
@@ -300,11 +301,9 @@ const SAME: f64 = 1e-9;
 
 /// A number with a point, and up to seven decimals.
 fn number(value: f64) -> String {
-    let text = format!("{value:.7}");
-    let text = text.trim_end_matches('0');
-    let whole = if text.ends_with('.') { "0" } else { "" };
-    match text {
-        "-0." => "0.0".to_owned(),
-        text => format!("{text}{whole}"),
+    let text = short(value, 7);
+    match text.contains('.') {
+        true => text,
+        false => format!("{text}.0"),
     }
 }

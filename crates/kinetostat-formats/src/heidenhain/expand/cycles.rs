@@ -1,12 +1,13 @@
 //! Cycles: what they define, and the holes that their calls drill.
 
-use crate::heidenhain::expand::hole::{Hole, Retract, Stroke};
-use crate::heidenhain::expand::numbers::{length, trimmed};
+use crate::heidenhain::digits::length;
+use crate::heidenhain::expand::hole::{Hole, Stroke};
 use crate::heidenhain::expand::run::{Fault, Run};
 use crate::heidenhain::expand::values::Parameters;
 use crate::heidenhain::expand::values::begins_value;
 use crate::heidenhain::words::{Value, Word, words_of};
 use crate::options::UnknownTargets;
+use crate::text::number::short;
 
 /// Parameters of the drilling cycles.
 const OWN: [&str; 15] = [
@@ -166,10 +167,7 @@ impl Run<'_> {
         let hole = match cycle {
             1 => Hole::pecked(&self.pecking, self.unit_mm),
             _ => {
-                let retract = match self.rapid_out {
-                    true => Retract::Rapid,
-                    false => Retract::Feed(value("Q208")),
-                };
+                let retract = (!self.rapid_out).then(|| value("Q208"));
                 Hole::drilled(cycle, value, retract, self.unit_mm)
             }
         };
@@ -182,7 +180,7 @@ impl Run<'_> {
                 Stroke::By(by, feed) => (format!("I{}", self.axis), by, feed),
                 Stroke::Dwell(seconds) => {
                     self.write(b"CYCL DEF 9.0 DWELL TIME", at);
-                    let text = format!("CYCL DEF 9.1 DWELL {}", trimmed(seconds, 3));
+                    let text = format!("CYCL DEF 9.1 DWELL {}", short(seconds, 3));
                     self.write(text.as_bytes(), at);
                     continue;
                 }
@@ -190,7 +188,7 @@ impl Run<'_> {
             let feed = match feed {
                 Some(feed) => {
                     self.feed_lost = true;
-                    format!("F{}", trimmed(feed, 3))
+                    format!("F{}", short(feed, 3))
                 }
                 None => "FMAX".to_owned(),
             };

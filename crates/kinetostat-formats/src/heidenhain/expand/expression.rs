@@ -160,34 +160,25 @@ impl Reader<'_> {
         if word.is_empty() {
             return Err("the expression is not understood".to_owned());
         }
-        if !FUNCTIONS.contains(&word.as_str()) {
-            return Err(format!("the function {word} is not known"));
-        }
-        let of = self.one(depth + 1)?;
-        let value = match word.as_str() {
-            "SIN" => of.to_radians().sin(),
-            "COS" => of.to_radians().cos(),
-            "TAN" => of.to_radians().tan(),
-            "ASIN" => of.asin().to_degrees(),
-            "ACOS" => of.acos().to_degrees(),
-            "ATAN" => of.atan().to_degrees(),
-            "SQRT" => of.sqrt(),
-            "SQ" => of * of,
-            "LN" => of.ln(),
-            "LOG" => of.log10(),
-            "EXP" => of.exp(),
-            "NEG" => -of,
-            "INT" => of.trunc(),
-            "FRAC" => of.fract(),
-            "ABS" => of.abs(),
-            "SGN" if of == 0.0 => 0.0,
-            _ => of.signum(),
+        let function: fn(f64) -> f64 = match word.as_str() {
+            "SIN" => |of| of.to_radians().sin(),
+            "COS" => |of| of.to_radians().cos(),
+            "TAN" => |of| of.to_radians().tan(),
+            "ASIN" => |of| of.asin().to_degrees(),
+            "ACOS" => |of| of.acos().to_degrees(),
+            "ATAN" => |of| of.atan().to_degrees(),
+            "SQRT" => f64::sqrt,
+            "SQ" => |of| of * of,
+            "LN" => f64::ln,
+            "LOG" => f64::log10,
+            "EXP" => f64::exp,
+            "NEG" => |of| -of,
+            "INT" => f64::trunc,
+            "FRAC" => f64::fract,
+            "ABS" => f64::abs,
+            "SGN" => |of| if of == 0.0 { 0.0 } else { of.signum() },
+            _ => return Err(format!("the function {word} is not known")),
         };
-        finite(value)
+        finite(function(self.one(depth + 1)?))
     }
 }
-
-const FUNCTIONS: [&str; 16] = [
-    "SIN", "COS", "TAN", "ASIN", "ACOS", "ATAN", "SQRT", "SQ", "LN", "LOG", "EXP", "NEG", "INT",
-    "FRAC", "ABS", "SGN",
-];

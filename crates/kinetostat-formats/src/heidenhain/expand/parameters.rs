@@ -1,12 +1,13 @@
 //! Q parameters: what gives them values, and blocks with values in their place.
 
+use crate::heidenhain::digits::length;
 use crate::heidenhain::expand::expression::value_of;
-use crate::heidenhain::expand::numbers::{length, trimmed};
 use crate::heidenhain::expand::run::{Fault, Run};
 use crate::heidenhain::expand::values::Parameters;
 use crate::heidenhain::expand::values::{begins_value, no_value};
 use crate::heidenhain::words::{Value, Word};
 use crate::text::edits::Edits;
+use crate::text::number::short;
 
 impl Run<'_> {
     /// Puts values into parameters: `Q1 = ...`, more of them in a cycle.
@@ -86,7 +87,7 @@ impl Run<'_> {
                 .iter()
                 .any(|letters| word.is(letters));
             let text = match plain {
-                true => trimmed(sign * value, 3),
+                true => short(sign * value, 3),
                 false => length(sign * value, self.unit_mm),
             };
             edits.replace(span, text);

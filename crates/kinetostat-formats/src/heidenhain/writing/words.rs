@@ -4,7 +4,7 @@ use crate::heidenhain::path_words::{FeedWord, PathWords, RotaryWord, has_words};
 use crate::heidenhain::table::{Function, function};
 use crate::heidenhain::words::Word;
 use crate::text::edits::Edits;
-use crate::text::number::{NumberText, Width, printed};
+use crate::text::number::{NumberText, Width, printed, short};
 use crate::text::source::SourceFile;
 
 /// Functions of a block that is divided: those at its beginning on the first piece, those at its end on the last.
@@ -162,8 +162,7 @@ pub(crate) fn number_text(
 pub(crate) fn feed_text(feed: f64) -> String {
     // Feeds of a turn are small.
     let decimals = if feed < 1.0 { 6 } else { 3 };
-    let text = format!("{feed:.decimals$}");
-    text.trim_end_matches('0').trim_end_matches('.').to_owned()
+    short(feed, decimals)
 }
 
 /// A word of an axis.

@@ -1,10 +1,15 @@
-//! Calls of subprograms, and the way back.
+//! Calls of subprograms, and the way back: behind one with SAVE the G codes in force at its call, the settable zero and the programmable
+//! frame come back.
+//!
+//! Source: Siemens, SINUMERIK 840D sl / 828D, programming manual, job planning, "Save modal G functions (SAVE)", and function manual,
+//! basic functions, K2 "Subprograms with SAVE attribute": behind the call the frame that was active before it is active again.
 
+use crate::flat_run::Runs;
+use crate::refused_run::Behind;
 use crate::siemens::block::{Argument, Item, What};
 use crate::siemens::expression::Expression;
-use crate::siemens::flat::names::program_name;
 use crate::siemens::flat::runner::{Fault, Level, Runner};
-use crate::siemens::flat::unresolved::{REASON, REMEDY, is_call};
+use crate::siemens::flat::unresolved::{REASON, REMEDY, is_call, program_name};
 use crate::siemens::values::{Value, Variable};
 
 /// A subprogram that a block calls.
@@ -187,6 +192,49 @@ impl<'r> Runner<'r> {
         let line = self.levels.last().map_or(0, |level| level.line);
         self.arrive(line + 1, false);
         Ok(())
+    }
+
+    /// Writes what puts back the codes and the frame of a call.
+    ///
+    /// What the machine alone knows is refused at the call.
+    fn restore(&mut self, level: &Level) {
+        match level.modes.restored_from(&self.modes) {
+            Ok(codes) if codes.is_empty() => {}
+            Ok(codes) => self.write_line(codes.as_bytes()),
+            Err(code) => {
+                let fault = self.fault(
+                    &self.span(),
+                    format!("the subprogram states {code} and gives back at its end (SAVE) what was before, which the program does not state"),
+                    "state the code that holds before the call",
+                );
+                self.refuse(fault, Behind::Same);
+            }
+        }
+        self.modes = level.modes;
+        if self.frames.is(&level.frames) {
+            return;
+        }
+        self.frames = level.frames.clone();
+        let mut now = self.modes;
+        if !level
+            .frames
+            .statements()
+            .first()
+            .is_some_and(|first| first.instead)
+        {
+            self.write_line(b"TRANS");
+        }
+        for statement in level.frames.statements() {
+            let codes = statement.modes.of_frame_from(&mut now);
+            if !codes.is_empty() {
+                self.write_line(codes.as_bytes());
+            }
+            self.write_line(&statement.text);
+        }
+        let codes = self.modes.of_frame_from(&mut now);
+        if !codes.is_empty() {
+            self.write_line(codes.as_bytes());
+        }
     }
 
     /// Runs the subprogram of the block in force once more.

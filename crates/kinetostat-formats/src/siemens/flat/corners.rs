@@ -9,8 +9,7 @@ use crate::corner::{Corner, Cut, not_followed};
 use crate::error::ProgramError;
 use crate::options::ReadOptions;
 use crate::refused_run::edited;
-use crate::siemens::flat::numbers::number;
-use crate::siemens::place::{LETTERS, without};
+use crate::siemens::place::{LETTERS, number_text, without};
 use crate::siemens::scan::scan_with;
 use crate::siemens::state::Code;
 use crate::siemens::walker::{Corners, Written};
@@ -178,7 +177,7 @@ fn edits_of(
             text += &word(own, axis, found.corner.ends[1][k] / unit);
         }
         if let Cut::Rounded(radius) = found.cut {
-            text += &format!(" CR={}", number(radius / unit));
+            text += &format!(" CR={}", number_text(radius / unit));
         }
         let line = [file.line_ending(), text.as_bytes()].concat();
         edits.replace(own.line.end..own.line.end, line);
@@ -221,7 +220,7 @@ fn edits_of(
 
 /// A word of an axis behind a blank, in units of the program.
 fn word(written: &Written, axis: usize, value: f64) -> String {
-    let (letter, value) = (LETTERS[axis], number(value));
+    let (letter, value) = (LETTERS[axis], number_text(value));
     match written.steps {
         true => format!(" {letter}=AC({value})"),
         false => format!(" {letter}{value}"),

@@ -5,6 +5,11 @@
 //! Siemens' SINUMERIK 840D/840Di/810D, Programming Guide Cycles, "Deep hole drilling CYCLE83", from memory: the manual was not at hand,
 //! and no public text that quotes it was found. So a note names the lines ([`super::holes`]).
 
+use std::collections::BTreeMap;
+
+use crate::text::finding::Finding;
+use crate::text::line_words::in_words;
+
 /// A cycle with its numbers, along the axis across the plane.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Drilling {
@@ -97,5 +102,31 @@ impl Drilling {
             found.push(now);
         }
         Some(found)
+    }
+}
+
+/// Lines by what is in doubt, each with its file.
+#[derive(Debug, Default)]
+pub(super) struct Doubts(pub(super) BTreeMap<(&'static str, usize), Vec<usize>>);
+
+impl Doubts {
+    /// Each once in every file, with its lines.
+    pub(super) fn into_findings(self) -> Vec<Finding> {
+        let found = self.0.into_iter().map(|((what, file), mut lines)| {
+            lines.sort_unstable();
+            lines.dedup();
+            let all = match lines.len() {
+                1 => String::new(),
+                _ => format!(" ({})", in_words(&lines)),
+            };
+            Finding {
+                file,
+                line: lines.first().copied().unwrap_or(1),
+                message: format!("{what}{all}"),
+            }
+        });
+        let mut found: Vec<Finding> = found.collect();
+        found.sort_by_key(|finding| (finding.file, finding.line));
+        found
     }
 }

@@ -12,10 +12,9 @@ use crate::refused_run::{RefusedRun, with_corners};
 use crate::siemens::block::{Block, What};
 use crate::siemens::files::whole_file;
 use crate::siemens::flat::corners::written_out;
-use crate::siemens::flat::names::program_name;
 use crate::siemens::flat::runner::Runner;
 use crate::siemens::flat::structure::Unit;
-use crate::siemens::flat::unresolved::note_calls;
+use crate::siemens::flat::unresolved::{note_calls, program_name};
 use crate::text::flat::FlatText;
 use crate::text::source::SourceFile;
 

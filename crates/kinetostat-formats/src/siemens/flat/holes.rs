@@ -2,8 +2,8 @@
 
 use crate::siemens::block::{Argument, Item, What};
 use crate::siemens::flat::drilling::{Deep, Drilling};
-use crate::siemens::flat::numbers::number;
 use crate::siemens::flat::runner::{Fault, Runner};
+use crate::siemens::place::number_text;
 
 /// The cycle of a call.
 pub(super) fn drilling_of(runner: &Runner<'_>, item: &Item) -> Result<Drilling, Fault> {
@@ -138,8 +138,8 @@ fn ahead_of(deep: &Deep, drilled: f64, unit_mm: f64) -> f64 {
 
 fn dwell(time: f64) -> Option<String> {
     match time {
-        _ if time > 0.0 => Some(format!("G4 F{}", number(time))),
-        _ if time < 0.0 => Some(format!("G4 S{}", number(-time))),
+        _ if time > 0.0 => Some(format!("G4 F{}", number_text(time))),
+        _ if time < 0.0 => Some(format!("G4 S{}", number_text(-time))),
         _ => None,
     }
 }
@@ -166,7 +166,7 @@ impl Runner<'_> {
     /// Writes the blocks of a cycle where the tool is.
     pub(super) fn drill_here(&mut self, drilling: &Drilling) -> Result<(), Fault> {
         let axis = self.modes.normal();
-        let to = |at: f64| format!("{axis}=AC({})", number(at));
+        let to = |at: f64| format!("{axis}=AC({})", number_text(at));
         let mut blocks = vec![format!("G0 {}", to(drilling.begin))];
         self.doubt(drilling);
         match &drilling.deep {
@@ -198,9 +198,10 @@ impl Runner<'_> {
                 let way = (drilling.surface - drilling.depth).signum();
                 for (index, depth) in depths.iter().enumerate() {
                     // The feed of the program is stated again in the first block by G1 behind the first step.
-                    let further = feed.map_or(String::new(), |feed| format!(" F{}", number(feed)));
+                    let further =
+                        feed.map_or(String::new(), |feed| format!(" F{}", number_text(feed)));
                     let stated = match (index, feed) {
-                        (0, Some(feed)) => format!(" F{}", number(feed * deep.feed_share)),
+                        (0, Some(feed)) => format!(" F{}", number_text(feed * deep.feed_share)),
                         (1, _) if deep.withdraws => further.clone(),
                         _ => String::new(),
                     };
@@ -222,7 +223,7 @@ impl Runner<'_> {
                     }
                 }
                 if let (1, Some(feed)) = (depths.len(), feed) {
-                    blocks.push(format!("F{}", number(feed)));
+                    blocks.push(format!("F{}", number_text(feed)));
                 }
             }
         }

@@ -3,11 +3,11 @@
 use crate::model::slash_blocks::SlashBlocks;
 use crate::siemens::block::{Block, Item, What};
 use crate::siemens::expression::Expression;
-use crate::siemens::flat::frames::is_frame;
 use crate::siemens::flat::holes::drilling_of;
-use crate::siemens::flat::numbers::number;
+use crate::siemens::flat::modes::is_frame;
 use crate::siemens::flat::runner::{Fault, Runner};
 use crate::siemens::flat::structure::Line;
+use crate::siemens::place::number_text;
 use crate::siemens::scan::{SLASHED, SLASHED_REMEDY};
 use crate::siemens::values::Value;
 use crate::text::edits::Edits;
@@ -254,7 +254,7 @@ fn has_variable(value: &Expression) -> bool {
 
 fn text_of(value: &Value) -> Vec<u8> {
     match value {
-        Value::Number(value) => number(*value).into_bytes(),
+        Value::Number(value) => number_text(*value).into_bytes(),
         Value::Text(text) => [b"\"", text.as_slice(), b"\""].concat(),
     }
 }

@@ -8,6 +8,7 @@ use crate::options::WriteOptions;
 use crate::siemens::state::Code;
 use crate::siemens::walker::Written;
 use crate::text::edits::Edits;
+use crate::text::number::short;
 use crate::text::source::SourceFile;
 
 /// Why a motion cannot be written, and what to do.
@@ -125,9 +126,7 @@ impl Writer<'_> {
         }
         // Feeds of a turn are small.
         let decimals = if wanted < 1.0 { 6 } else { 4 };
-        let number = format!("{wanted:.decimals$}");
-        let number = number.trim_end_matches('0').trim_end_matches('.');
-        Ok(Some(format!("F{number}")))
+        Ok(Some(format!("F{}", short(wanted, decimals))))
     }
 
     /// States the feed of the own block where another one would be in force.
