@@ -61,7 +61,6 @@ mod path;
 mod poses;
 mod rapid;
 mod refused_run;
-mod rounding;
 mod siemens;
 mod standing;
 mod table;

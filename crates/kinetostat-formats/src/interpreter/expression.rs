@@ -23,6 +23,11 @@ pub(crate) enum Operator {
     Over,
     WholeQuotient,
     Remainder,
+    BitAnd,
+    BitXor,
+    BitOr,
+    /// Of texts.
+    Join,
     /// A frame in the axes of another (`:` of KRL).
     Behind,
 }

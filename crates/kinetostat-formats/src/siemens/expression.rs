@@ -5,6 +5,7 @@
 
 use std::ops::Range;
 
+use crate::interpreter::expression::Operator;
 use crate::siemens::tokens::{Broken, Kind, Sign, Token};
 
 /// An expression.
@@ -20,55 +21,15 @@ pub(crate) enum Expression {
     },
     Negative(Box<Expression>),
     Not(Box<Expression>),
-    Binary(Operation, Box<(Expression, Expression)>),
+    Binary(Operator, Box<(Expression, Expression)>),
     Call {
         name: Range<usize>,
         arguments: Vec<Expression>,
     },
 }
 
-/// An operation of two values.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Operation {
-    Add,
-    Subtract,
-    Multiply,
-    Divide,
-    WholeDivide,
-    Remainder,
-    BitAnd,
-    BitXor,
-    BitOr,
-    And,
-    Xor,
-    Or,
-    Join,
-    Equal,
-    NotEqual,
-    Less,
-    LessOrEqual,
-    Greater,
-    GreaterOrEqual,
-}
-
-use Operation::{
-    Add, And, BitAnd, BitOr, BitXor, Divide, Equal, Greater, GreaterOrEqual, Join, Less,
-    LessOrEqual, Multiply, NotEqual, Or, Remainder, Subtract, WholeDivide, Xor,
-};
-
-/// Levels of operations, the weakest first; the first is that of comparisons.
-const LEVELS: [&[Operation]; 10] = [
-    &[Equal, NotEqual, Less, LessOrEqual, Greater, GreaterOrEqual],
-    &[Join],
-    &[Or],
-    &[Xor],
-    &[And],
-    &[BitOr],
-    &[BitXor],
-    &[BitAnd],
-    &[Add, Subtract],
-    &[Multiply, Divide, WholeDivide, Remainder],
-];
+/// The level of comparisons: they bind least.
+const COMPARES: u8 = 0;
 
 /// Most parts of an expression: the stack is not deeper than these.
 const MOST_PARTS: usize = 200;
@@ -145,49 +106,48 @@ impl<'t> Cursor<'t> {
     /// Where it is none.
     pub(crate) fn expression(&mut self) -> Result<Expression, Broken> {
         self.parts = 0;
-        self.level(0)
+        self.level(COMPARES)
     }
 
-    fn operation(&self) -> Option<Operation> {
+    /// The operator that is next, and how tightly it binds.
+    fn operator(&self) -> Option<(Operator, u8)> {
         let token = self.peek()?;
         Some(match token.kind {
-            Kind::Sign(Sign::Equal) => Equal,
-            Kind::Sign(Sign::NotEqual) => NotEqual,
-            Kind::Sign(Sign::LessOrEqual) => LessOrEqual,
-            Kind::Sign(Sign::GreaterOrEqual) => GreaterOrEqual,
-            Kind::Sign(Sign::Joined) => Join,
+            Kind::Sign(Sign::Equal) => (Operator::Equal, COMPARES),
+            Kind::Sign(Sign::NotEqual) => (Operator::Unequal, COMPARES),
+            Kind::Sign(Sign::LessOrEqual) => (Operator::LessOrEqual, COMPARES),
+            Kind::Sign(Sign::GreaterOrEqual) => (Operator::GreaterOrEqual, COMPARES),
+            Kind::Sign(Sign::Joined) => (Operator::Join, 1),
             Kind::Sign(Sign::Byte(byte)) => match byte {
-                b'<' => Less,
-                b'>' => Greater,
-                b'+' => Add,
-                b'-' => Subtract,
-                b'*' => Multiply,
-                b'/' => Divide,
+                b'<' => (Operator::Less, COMPARES),
+                b'>' => (Operator::Greater, COMPARES),
+                b'+' => (Operator::Plus, 8),
+                b'-' => (Operator::Minus, 8),
+                b'*' => (Operator::Times, 9),
+                b'/' => (Operator::Over, 9),
                 _ => return None,
             },
             Kind::Name => match self.text(&token.span).to_ascii_uppercase().as_slice() {
-                b"DIV" => WholeDivide,
-                b"MOD" => Remainder,
-                b"B_AND" => BitAnd,
-                b"B_XOR" => BitXor,
-                b"B_OR" => BitOr,
-                b"AND" => And,
-                b"XOR" => Xor,
-                b"OR" => Or,
+                b"OR" => (Operator::Or, 2),
+                b"XOR" => (Operator::Xor, 3),
+                b"AND" => (Operator::And, 4),
+                b"B_OR" => (Operator::BitOr, 5),
+                b"B_XOR" => (Operator::BitXor, 6),
+                b"B_AND" => (Operator::BitAnd, 7),
+                b"DIV" => (Operator::WholeQuotient, 9),
+                b"MOD" => (Operator::Remainder, 9),
                 _ => return None,
             },
             _ => return None,
         })
     }
 
-    fn level(&mut self, level: usize) -> Result<Expression, Broken> {
-        let Some(operations) = LEVELS.get(level) else {
-            return self.operand();
-        };
-        let mut left = self.level(level + 1)?;
+    /// Operators that bind at least so tightly, with their operands.
+    fn level(&mut self, least: u8) -> Result<Expression, Broken> {
+        let mut left = self.operand()?;
         let mut compared = false;
-        while let Some(operation) = self.operation().filter(|found| operations.contains(found)) {
-            if level == 0 && std::mem::replace(&mut compared, true) {
+        while let Some((operator, level)) = self.operator().filter(|(_, level)| *level >= least) {
+            if level == COMPARES && std::mem::replace(&mut compared, true) {
                 return Err(Broken {
                     span: self.place(),
                     reason: "comparisons bind less than AND and OR",
@@ -197,7 +157,7 @@ impl<'t> Cursor<'t> {
             self.part()?;
             self.at += 1;
             let right = self.level(level + 1)?;
-            left = Expression::Binary(operation, Box::new((left, right)));
+            left = Expression::Binary(operator, Box::new((left, right)));
         }
         Ok(left)
     }
@@ -224,7 +184,7 @@ impl<'t> Cursor<'t> {
             Kind::Sign(Sign::Byte(b'-')) => Ok(Expression::Negative(Box::new(self.operand()?))),
             Kind::Sign(Sign::Byte(b'+')) => self.operand(),
             Kind::Sign(Sign::Byte(b'(')) => {
-                let inner = self.level(0)?;
+                let inner = self.level(COMPARES)?;
                 match self.takes(b')') {
                     true => Ok(inner),
                     false => Err(self.broken("a parenthesis is not closed")),
@@ -270,7 +230,7 @@ impl<'t> Cursor<'t> {
         }
         loop {
             self.part()?;
-            found.push(self.level(0)?);
+            found.push(self.level(COMPARES)?);
             if self.takes(closes) {
                 return Ok(found);
             }

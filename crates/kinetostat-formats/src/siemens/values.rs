@@ -3,7 +3,9 @@
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-use crate::siemens::expression::{Expression, Operation};
+use crate::interpreter::expression::Operator;
+use crate::interpreter::functions::function;
+use crate::siemens::expression::Expression;
 
 /// What an expression is worth.
 #[derive(Debug, Clone, PartialEq)]
@@ -43,15 +45,24 @@ impl Variable {
             let all = all.checked_mul(*size)?;
             (all <= MOST_VALUES).then_some(all)
         })?;
+        let mut made = Self::zero(kind);
+        made.sizes = sizes;
+        let value = made.values.first()?.clone();
+        made.values.resize(count, value);
+        Some(made)
+    }
+
+    /// One value: zero, or an empty text.
+    pub(crate) fn zero(kind: Type) -> Self {
         let value = match kind {
             Type::Text => Value::Text(Vec::new()),
             _ => Value::Number(0.0),
         };
-        Some(Self {
+        Self {
             kind,
-            sizes,
-            values: vec![value; count],
-        })
+            sizes: Vec::new(),
+            values: vec![value],
+        }
     }
 
     /// A value as the variable holds it.
@@ -109,6 +120,15 @@ pub(crate) fn parameter(name: &[u8]) -> Option<u32> {
     }
 }
 
+/// The same by its name, or by its index: `R[12]`.
+fn stated_parameter(name: &[u8], indices: &[f64]) -> Option<u32> {
+    match (parameter(name), indices) {
+        (Some(number), []) => Some(number),
+        (None, [index]) if name.eq_ignore_ascii_case(b"R") => whole(*index),
+        _ => None,
+    }
+}
+
 /// Longest text that is ever joined, bytes.
 const LONGEST_TEXT: usize = 1000;
 
@@ -145,7 +165,7 @@ impl Variables {
                     .iter()
                     .map(|argument| self.number(bytes, argument))
                     .collect();
-                Value::Number(function(text(name), &numbers?)?)
+                Value::Number(computed(text(name), &numbers?)?)
             }
         })
     }
@@ -164,12 +184,7 @@ impl Variables {
 
     fn variable(&self, name: &[u8], indices: &[f64]) -> Result<Value, Why> {
         let unknown = || format!("`{}` has no value that this program gives it", shown(name));
-        let number = match (parameter(name), indices) {
-            (Some(number), []) => Some(number),
-            (None, [index]) if name.eq_ignore_ascii_case(b"R") => whole(*index),
-            _ => None,
-        };
-        if let Some(number) = number {
+        if let Some(number) = stated_parameter(name, indices) {
             let value = self.parameters.get(&number).ok_or_else(unknown)?;
             return Ok(Value::Number(*value));
         }
@@ -197,12 +212,7 @@ impl Variables {
     /// # Errors
     /// Why it cannot have it.
     pub(crate) fn set(&mut self, name: &[u8], indices: &[f64], value: Value) -> Result<(), Why> {
-        let number = match (parameter(name), indices) {
-            (Some(number), []) => Some(number),
-            (None, [index]) if name.eq_ignore_ascii_case(b"R") => whole(*index),
-            _ => None,
-        };
-        if let Some(number) = number {
+        if let Some(number) = stated_parameter(name, indices) {
             let Value::Number(value) = value else {
                 return Err("an R parameter takes a number".to_owned());
             };
@@ -248,12 +258,12 @@ pub(crate) fn whole(value: f64) -> Option<u32> {
 /// Comparisons of the control count as equal what differs by less, relative.
 const SAME: f64 = 1e-12;
 
-fn binary(operation: Operation, left: Value, right: Value) -> Result<Value, Why> {
-    use Operation as O;
+fn binary(operation: Operator, left: Value, right: Value) -> Result<Value, Why> {
+    use Operator as O;
     let (a, b) = match (left, right) {
         (Value::Number(a), Value::Number(b)) if operation != O::Join => (a, b),
         (Value::Text(a), Value::Text(b)) if operation == O::Equal => return Ok(truth(a == b)),
-        (Value::Text(a), Value::Text(b)) if operation == O::NotEqual => return Ok(truth(a != b)),
+        (Value::Text(a), Value::Text(b)) if operation == O::Unequal => return Ok(truth(a != b)),
         (a, b) if operation == O::Join => {
             let text = |value| match value {
                 Value::Number(number) => format!("{number}").into_bytes(),
@@ -270,12 +280,12 @@ fn binary(operation: Operation, left: Value, right: Value) -> Result<Value, Why>
     let bits = |operation: fn(i64, i64) -> i64| operation(a as i64, b as i64) as f64;
     let zero = || Err("it is divided by zero".to_owned());
     Ok(match operation {
-        O::Add => Value::Number(a + b),
-        O::Subtract => Value::Number(a - b),
-        O::Multiply => Value::Number(a * b),
-        O::Divide | O::WholeDivide | O::Remainder if b == 0.0 => return zero(),
-        O::Divide => Value::Number(a / b),
-        O::WholeDivide => Value::Number((a / b).trunc()),
+        O::Plus => Value::Number(a + b),
+        O::Minus => Value::Number(a - b),
+        O::Times => Value::Number(a * b),
+        O::Over | O::WholeQuotient | O::Remainder if b == 0.0 => return zero(),
+        O::Over => Value::Number(a / b),
+        O::WholeQuotient => Value::Number((a / b).trunc()),
         O::Remainder => Value::Number(a % b),
         O::BitAnd => Value::Number(bits(|a, b| a & b)),
         O::BitOr => Value::Number(bits(|a, b| a | b)),
@@ -284,42 +294,35 @@ fn binary(operation: Operation, left: Value, right: Value) -> Result<Value, Why>
         O::Or => truth(a != 0.0 || b != 0.0),
         O::Xor => truth((a != 0.0) != (b != 0.0)),
         O::Equal => truth(near),
-        O::NotEqual => truth(!near),
+        O::Unequal => truth(!near),
         O::Less => truth(a < b && !near),
         O::LessOrEqual => truth(a < b || near),
         O::Greater => truth(a > b && !near),
         O::GreaterOrEqual => truth(a > b || near),
-        O::Join => return Err("texts are not joined here".to_owned()),
+        O::Join | O::Not | O::Behind => return Err("texts are not joined here".to_owned()),
     })
 }
 
-fn function(name: &[u8], arguments: &[f64]) -> Result<f64, Why> {
+fn computed(name: &[u8], arguments: &[f64]) -> Result<f64, Why> {
     let capitals = name.to_ascii_uppercase();
     let value = match (capitals.as_slice(), arguments) {
-        (b"SIN", [x]) => x.to_radians().sin(),
-        (b"COS", [x]) => x.to_radians().cos(),
-        (b"TAN", [x]) => x.to_radians().tan(),
-        (b"ASIN", [x]) => x.asin().to_degrees(),
-        (b"ACOS", [x]) => x.acos().to_degrees(),
         (b"ATAN2", [y, x]) => y.atan2(*x).to_degrees(),
-        (b"SQRT", [x]) => x.sqrt(),
-        (b"ABS", [x]) => x.abs(),
         (b"POT", [x]) => x * x,
         (b"TRUNC", [x]) => x.trunc(),
         (b"ROUND", [x]) => (x + 0.5).floor(),
         (b"ROUNDUP", [x]) => x.ceil(),
-        (b"LN", [x]) => x.ln(),
-        (b"EXP", [x]) => x.exp(),
         (b"MINVAL", [x, y]) if x < y => *x,
         (b"MINVAL", [_, y]) => *y,
         (b"MAXVAL", [x, y]) if x > y => *x,
         (b"MAXVAL", [_, y]) => *y,
         (b"B_NOT", [x]) => !(*x as i64) as f64,
-        _ => {
-            return Err(format!(
-                "what `{}` is worth, is not known here",
-                shown(name)
-            ));
+        (capitals, arguments) => {
+            let of_one = std::str::from_utf8(capitals).ok().and_then(function);
+            let (Some(of_one), [x]) = (of_one, arguments) else {
+                let unknown = format!("what `{}` is worth, is not known here", shown(name));
+                return Err(unknown);
+            };
+            of_one(*x)
         }
     };
     match value.is_finite() {

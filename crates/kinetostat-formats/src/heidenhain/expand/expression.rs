@@ -2,6 +2,7 @@
 
 use crate::heidenhain::expand::values::{Parameters, no_value};
 use crate::heidenhain::words::parameter_at;
+use crate::interpreter::functions::function;
 
 /// Deepest nesting of brackets and functions.
 const DEEPEST: usize = 64;
@@ -161,23 +162,14 @@ impl Reader<'_> {
             return Err("the expression is not understood".to_owned());
         }
         let function: fn(f64) -> f64 = match word.as_str() {
-            "SIN" => |of| of.to_radians().sin(),
-            "COS" => |of| of.to_radians().cos(),
-            "TAN" => |of| of.to_radians().tan(),
-            "ASIN" => |of| of.asin().to_degrees(),
-            "ACOS" => |of| of.acos().to_degrees(),
             "ATAN" => |of| of.atan().to_degrees(),
-            "SQRT" => f64::sqrt,
             "SQ" => |of| of * of,
-            "LN" => f64::ln,
             "LOG" => f64::log10,
-            "EXP" => f64::exp,
             "NEG" => |of| -of,
             "INT" => f64::trunc,
             "FRAC" => f64::fract,
-            "ABS" => f64::abs,
             "SGN" => |of| if of == 0.0 { 0.0 } else { of.signum() },
-            _ => return Err(format!("the function {word} is not known")),
+            name => function(name).ok_or_else(|| format!("the function {word} is not known"))?,
         };
         finite(function(self.one(depth + 1)?))
     }

@@ -7,13 +7,12 @@ use std::ops::Range;
 
 use nalgebra::Vector3;
 
-use crate::corner::{Corner, Cut};
+use crate::corner::{Beside, Corner, Cut, rounding};
 use crate::heidenhain::blocks::Block;
 use crate::heidenhain::plane::{Plane, XY};
 use crate::heidenhain::reading::rounded::{AS_ARC, AS_LINE, Line, Pending, Rounded};
 use crate::heidenhain::reading::walker::Reader;
 use crate::heidenhain::words::Word;
-use crate::rounding::{Beside, rounding};
 
 /// An arc that turns by more has no corner of its own, rad.
 const MOST_OF_A_TURN: f64 = 0.999 * std::f64::consts::TAU;

@@ -4,9 +4,8 @@ use std::ops::Range;
 
 use nalgebra::{Vector2, Vector3};
 
-use crate::corner::{Corner, Cut};
+use crate::corner::{Beside, Corner, Cut, Leg};
 use crate::heidenhain::blocks::Block;
-use crate::rounding::{Beside, Leg};
 
 /// Whether a program may hold rounded corners or chamfers.
 pub(crate) fn has_corners(bytes: &[u8]) -> bool {

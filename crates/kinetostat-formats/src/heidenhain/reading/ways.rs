@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use nalgebra::{UnitQuaternion, Vector3};
 
+use crate::corner::Beside;
 use crate::heidenhain::blocks::Block;
 use crate::heidenhain::ends::{Ends, Went};
 use crate::heidenhain::path_words::{FeedWord, PathWords};
@@ -15,7 +16,6 @@ use crate::model::motion::MotionKind;
 use crate::model::orientation::OrientationText;
 use crate::model::site::{PoseText, TargetSite};
 use crate::model::target::{Configuration, PoseTarget, Target};
-use crate::rounding::Beside;
 use crate::text::number::{NumberText, Width};
 
 /// What the functions of a block do.

@@ -106,42 +106,35 @@ impl<'r> Runner<'r> {
                 .arguments
                 .get(index)
                 .and_then(|given| given.value.as_ref());
-            let whole = match argument {
-                Some(Expression::Variable { name, indices }) if indices.is_empty() => {
-                    let name = self.file().part(name).to_ascii_uppercase();
-                    self.variables
-                        .own
-                        .get(&name)
-                        .map(|found| (name, found.clone()))
+            let named = match argument {
+                Some(Expression::Variable { name, indices }) => {
+                    Some((self.file().part(name).to_ascii_uppercase(), indices))
                 }
                 _ => None,
             };
-            let empty = Variable::new(parameter.kind, Vec::new());
-            let mut variable =
-                empty.ok_or_else(|| self.fault(&self.span(), "it is too large", "mend it"))?;
-            match (whole, argument) {
-                // Arrays are given as they are.
-                (Some((name, found)), _) if parameter.by_reference || !found.sizes.is_empty() => {
-                    variable = found;
-                    if parameter.by_reference {
-                        level.back.push((parameter.name.clone(), name, Vec::new()));
-                    }
-                }
-                (_, Some(Expression::Variable { name, indices })) if parameter.by_reference => {
-                    let places: Result<Vec<f64>, Fault> =
-                        indices.iter().map(|index| self.number(index)).collect();
-                    let name = self.file().part(name).to_ascii_uppercase();
-                    level.back.push((parameter.name.clone(), name, places?));
-                    variable.values = vec![self.value_of(bytes, argument)?];
-                }
-                (_, Some(_)) => variable.values = vec![self.value_of(bytes, argument)?],
-                (_, None) => {
-                    if let Some(default) = &parameter.default {
-                        let bytes = self.files[call.unit].bytes();
-                        variable.values = vec![self.value_of(bytes, Some(default))?];
-                    }
-                }
+            if let (true, Some((name, indices))) = (parameter.by_reference, &named) {
+                let places = indices.iter().map(|index| self.number(index));
+                let places: Result<Vec<f64>, Fault> = places.collect();
+                let back = (parameter.name.clone(), name.clone(), places?);
+                level.back.push(back);
             }
+            let whole = named.filter(|(_, indices)| indices.is_empty());
+            let whole = whole.and_then(|(name, _)| self.variables.own.get(&name));
+            // Arrays are given as they are.
+            let given = whole.filter(|found| parameter.by_reference || !found.sizes.is_empty());
+            let (bytes, value) = match argument {
+                Some(value) => (bytes, Some(value)),
+                None => (self.files[call.unit].bytes(), parameter.default.as_ref()),
+            };
+            let variable = match (given, value) {
+                (Some(given), _) => given.clone(),
+                (None, Some(value)) => Variable {
+                    kind: parameter.kind,
+                    sizes: Vec::new(),
+                    values: vec![self.value_of(bytes, value)?],
+                },
+                (None, None) => Variable::zero(parameter.kind),
+            };
             own.insert(parameter.name.clone(), variable);
         }
         level.caller = std::mem::replace(&mut self.variables.own, own);
@@ -152,10 +145,8 @@ impl<'r> Runner<'r> {
         Ok(())
     }
 
-    fn value_of(&self, bytes: &[u8], value: Option<&Expression>) -> Result<Value, Fault> {
-        let value = value.map_or(Ok(Value::Number(0.0)), |value| {
-            self.variables.value(bytes, value)
-        });
+    fn value_of(&self, bytes: &[u8], value: &Expression) -> Result<Value, Fault> {
+        let value = self.variables.value(bytes, value);
         value.map_err(|why| self.fault(&self.span(), why, "give the argument a value"))
     }
 

@@ -2,8 +2,9 @@
 
 use std::ops::Range;
 
+use crate::interpreter::expression::Operator;
 use crate::siemens::declarations::type_of;
-use crate::siemens::expression::{Cursor, Expression, Operation};
+use crate::siemens::expression::{Cursor, Expression};
 use crate::siemens::tokens::{Broken, Kind};
 use crate::siemens::values::Type;
 
@@ -175,7 +176,7 @@ pub(super) fn case(cursor: &mut Cursor<'_>) -> Result<Control, Broken> {
             }
             false => {
                 let sides = Box::new((of.clone(), cursor.expression()?));
-                Some(Expression::Binary(Operation::Equal, sides))
+                Some(Expression::Binary(Operator::Equal, sides))
             }
         };
         cases.push((condition, jump(cursor)?));
