@@ -12,7 +12,9 @@ use crate::heidenhain::digits::decimals;
 use crate::heidenhain::path_words::FeedWord;
 use crate::heidenhain::reading::reader::interpret;
 use crate::heidenhain::reading::rounded::{AS_ARC, Rounded, has_corners};
-use crate::heidenhain::writing::words::{Stated, feed_text, stands, with_blanks, word_text};
+use crate::heidenhain::writing::words::{
+    Stated, before_functions, feed_text, stands, with_blanks, word_text,
+};
 use crate::options::ReadOptions;
 use crate::refused_run::edited;
 use crate::text::edits::Edits;
@@ -141,10 +143,7 @@ fn line_ends(file: &SourceFile, block: &Block, wanted: &Wanted, edits: &mut Edit
     let at = first.span.end;
     edits.replace(at..at, format!(" {} {}", texts[0], texts[1]));
     if let (Some(feed), FeedWord::None) = (wanted.feed, stated.feed) {
-        // Before the functions.
-        let functions = words.iter().position(|word| word.is("M"));
-        let behind = functions.unwrap_or(words.len()).saturating_sub(1);
-        let at = words[behind].span.end;
+        let at = before_functions(&words);
         edits.replace(at..at, format!(" F{}", feed_text(feed)));
     }
 }

@@ -5,6 +5,7 @@ use crate::heidenhain::expand::values::Parameters;
 use crate::heidenhain::flow::label_name;
 use crate::heidenhain::path_words::{FeedWord, PathWords};
 use crate::heidenhain::words::{Value, Word, words_of};
+use crate::heidenhain::writing::words::{before_functions, take_out};
 use crate::text::edits::Edits;
 
 impl Run<'_> {
@@ -94,7 +95,9 @@ impl Run<'_> {
             true => Vec::new(),
             false => [once, on].into_iter().flatten().collect(),
         };
-        without(&taken, &flat, &mut edits);
+        for at in &taken {
+            take_out(&flat, *at, &mut edits);
+        }
         text = edits.applied_to(&text).ok_or_else(|| {
             self.fault(
                 at,
@@ -132,10 +135,6 @@ impl Run<'_> {
         text: &[u8],
         edits: &mut Edits,
     ) {
-        let first = flat
-            .iter()
-            .position(|word| word.is("M"))
-            .unwrap_or(flat.len());
         match feed {
             FeedWord::Number(word, _) => {
                 let span = flat[word].span.clone();
@@ -149,7 +148,7 @@ impl Run<'_> {
             FeedWord::Other => self.feed = None,
             FeedWord::None if self.feed_lost && goes => {
                 if let Some(feed) = &self.feed {
-                    let behind = flat[first.saturating_sub(1)].span.end;
+                    let behind = before_functions(flat);
                     edits.replace(behind..behind, format!(" {feed}"));
                 }
                 self.feed_lost = false;
@@ -169,23 +168,5 @@ impl Run<'_> {
             )),
             false => Ok(Next::End),
         }
-    }
-}
-
-/// Takes words out of a block, each with the blanks before it.
-fn without(taken: &[usize], flat: &[Word], edits: &mut Edits) {
-    for index in taken.iter().copied() {
-        let from = match index {
-            0 => 0,
-            _ => flat[index - 1].span.end,
-        };
-        let end = flat[index].span.end;
-        // The word behind may stand against it.
-        let next = flat.get(index + 1);
-        let gap = match next.is_some_and(|next| next.span.start == end) {
-            true => " ",
-            false => "",
-        };
-        edits.replace(from..end, gap);
     }
 }

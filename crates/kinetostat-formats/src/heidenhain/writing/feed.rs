@@ -3,7 +3,7 @@
 use crate::heidenhain::path_words::FeedWord;
 use crate::heidenhain::reading::found::Way;
 use crate::heidenhain::words::Word;
-use crate::heidenhain::writing::words::{Stated, feed_text};
+use crate::heidenhain::writing::words::{Stated, before_functions, feed_text};
 use crate::heidenhain::writing::writer::Writer;
 use crate::text::edits::Edits;
 
@@ -48,10 +48,7 @@ impl Writer<'_> {
                         edits.replace(words[at].span.start..end, text);
                     }
                     (None, None) => {
-                        // Before the functions.
-                        let first = words.iter().position(|word| word.is("M"));
-                        let behind = first.unwrap_or(words.len()).saturating_sub(1);
-                        let at = words[behind].span.end;
+                        let at = before_functions(words);
                         edits.replace(at..at, format!(" {text}"));
                     }
                 }

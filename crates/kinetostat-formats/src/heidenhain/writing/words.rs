@@ -26,17 +26,7 @@ pub(crate) fn write_functions(words: &[Word], part: Part, edits: &mut Edits) {
             continue;
         }
         if taken {
-            let span = with_blanks(words, at);
-            // The word behind may stand against it.
-            let next = words.get(at + 1).map(|next| next.span.start);
-            let against = next == Some(span.end);
-            edits.replace(
-                span,
-                match against {
-                    true => " ",
-                    false => "",
-                },
-            );
+            take_out(words, at, edits);
         }
     }
 }
@@ -108,6 +98,25 @@ impl Stated {
             },
         }
     }
+}
+
+/// Takes a word out, with the blanks before it.
+pub(crate) fn take_out(words: &[Word], at: usize, edits: &mut Edits) {
+    let span = with_blanks(words, at);
+    // The word behind may stand against it.
+    let next = words.get(at + 1).map(|next| next.span.start);
+    let gap = match next == Some(span.end) {
+        true => " ",
+        false => "",
+    };
+    edits.replace(span, gap);
+}
+
+/// Where words go that stand before the functions of a block.
+pub(crate) fn before_functions(words: &[Word]) -> usize {
+    let first = words.iter().position(|word| word.is("M"));
+    let behind = first.unwrap_or(words.len()).saturating_sub(1);
+    words.get(behind).map_or(0, |word| word.span.end)
 }
 
 /// A word with the blanks before it.
