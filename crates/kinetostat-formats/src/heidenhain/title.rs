@@ -13,23 +13,39 @@ fn stated(file: &SourceFile, block: &Block) -> [String; 2] {
     [words.join(" "), unit.unwrap_or_default().to_owned()]
 }
 
-/// That the END PGM of a program states another name or unit than its BEGIN PGM, if it does.
+/// An END PGM that is that of another program.
+pub(crate) struct OtherEnd {
+    pub fault: ProgramError,
+    /// It has another unit, not another name alone.
+    pub has_other_unit: bool,
+}
+
+/// The END PGM of a program that states another name or unit than its BEGIN PGM, if it does.
 ///
 /// The control writes both from one name and one unit: HEIDENHAIN, TNC 640, user's manual, Klartext programming, "Creating and
-/// writing programs". So the end is that of another program.
-pub(crate) fn other_end(file: &SourceFile, blocks: &[Block], begin: usize) -> Option<ProgramError> {
+/// writing programs".
+pub(crate) fn other_end(file: &SourceFile, blocks: &[Block], begin: usize) -> Option<OtherEnd> {
     let is_end = |block: &&Block| {
         let words = block.words(file.bytes());
         words.first().is_some_and(|word| word.is("END"))
     };
     let end = blocks.get(begin..)?.iter().find(is_end)?;
     let (first, last) = (stated(file, &blocks[begin]), stated(file, end));
-    let differ =
-        |(first, last): &(&String, &String)| first != last && !first.is_empty() && !last.is_empty();
-    let (first, last) = first.iter().zip(&last).find(differ)?;
+    let differs = |part: &usize| {
+        let both = [&first[*part], &last[*part]];
+        first[*part] != last[*part] && both.iter().all(|text| !text.is_empty())
+    };
+    // The unit counts most.
+    let part = [1, 0].into_iter().find(differs)?;
     let line = file.line_of(blocks[begin].text.start);
-    let reason = format!("the program ends as {last} and begins as {first} in line {line}");
+    let reason = format!(
+        "the program ends as {} and begins as {} in line {line}",
+        last[part], first[part]
+    );
     let remedy =
         "give one whole program, with one name and one unit in its first and its last block";
-    Some(ProgramError::at(file, end.text.clone(), reason, remedy))
+    Some(OtherEnd {
+        fault: ProgramError::at(file, end.text.clone(), reason, remedy),
+        has_other_unit: part == 1,
+    })
 }

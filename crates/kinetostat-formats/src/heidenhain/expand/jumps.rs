@@ -130,8 +130,8 @@ impl Run<'_> {
             ));
         };
         let called = &self.programs[found];
-        if let Some(fault) = other_end(called.file, &called.blocks, begin) {
-            return Err(fault);
+        if let Some(other) = other_end(called.file, &called.blocks, begin) {
+            return Err(other.fault);
         }
         self.may_enter(at)?;
         let local = self.parameters.called();

@@ -11,13 +11,14 @@ use crate::heidenhain::reading::found::Found;
 use crate::heidenhain::reading::rounded::has_corners;
 use crate::heidenhain::reading::walker::{EXPAND, Reader};
 use crate::heidenhain::state::State;
-use crate::heidenhain::title::other_end;
+use crate::heidenhain::title::{OtherEnd, other_end};
 use crate::model::language::Language;
 use crate::model::parsed::Parsed;
 use crate::model::program::RobotProgram;
 use crate::model::stated_axes::StatedAxes;
 use crate::options::ReadOptions;
 use crate::standing::Standing;
+use crate::text::finding::Finding;
 use crate::text::source::{BEHIND_END, SourceFile};
 
 /// Most bytes of a file.
@@ -142,8 +143,19 @@ impl Reader<'_> {
             let text = blocks[index].text.clone();
             self.fault(&text, label_twice(line), NAME_IT);
         }
-        if let Some(fault) = other_end(self.file, &blocks, first) {
-            note(&mut self.found.faults, || fault);
+        if let Some(OtherEnd {
+            fault,
+            has_other_unit,
+        }) = other_end(self.file, &blocks, first)
+        {
+            match has_other_unit {
+                false => self.found.findings.push(Finding {
+                    file: 0,
+                    line: fault.line,
+                    message: format!("{}: it is taken for one program", fault.reason),
+                }),
+                true => note(&mut self.found.faults, || fault),
+            }
         }
         let calls = |block: &Block| {
             let is_call = bytes.get(block.text.start).map(u8::to_ascii_uppercase) == Some(b'C');

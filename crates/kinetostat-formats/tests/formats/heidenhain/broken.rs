@@ -301,19 +301,29 @@ fn the_end_of_another_program_is_refused() {
     for (end, part) in [
         (
             "END PGM B INCH",
-            "the program ends as B and begins as A in line 1",
+            "the program ends as INCH and begins as MM in line 1",
         ),
         (
             "END PGM A INCH",
             "the program ends as INCH and begins as MM in line 1",
         ),
-        ("END PGM B MM", "give one whole program"),
     ] {
         let found = errors(&text("A MM", end));
         assert_eq!(found.len(), 1, "{found:?}");
         assert_eq!(found[0].0, 4);
         assert!(found[0].1.contains(part), "{found:?}");
     }
+    // One unit and another name is said, and read.
+    let program = read_with(
+        text("A MM", "END PGM B MM").as_bytes(),
+        &ReadOptions::default(),
+    );
+    let said = program.unwrap().findings;
+    assert!(
+        said.iter()
+            .any(|note| note.line == 4 && note.message.contains("ends as B and begins as A")),
+        "{said:?}"
+    );
     // What is not stated says nothing else.
     let named = "BEGIN PGM 5E3 MM\nL X+1 Y+1 Z+1 FMAX\nEND PGM 5E3 MM\n";
     assert!(read_with(named.as_bytes(), &ReadOptions::default()).is_ok());
