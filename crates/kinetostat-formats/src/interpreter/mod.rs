@@ -5,7 +5,7 @@
 //!
 //! A language brings its tokens ([`token`]), its grammar of expressions ([`reading`]), its statements as a [`tree`] with [`symbols`], and
 //! what is its own by [`run::Dialect`]. Shared are the order of the run ([`control`], [`flow`], [`passing`]), its data ([`storage`],
-//! [`evaluate`], [`operation`], [`functions`], [`value`]), and the declared targets at which motions end ([`declared`], [`targets`]);
+//! [`evaluate`], [`operation`], [`functions`], [`value`], [`stated`]), and the declared targets at which motions end ([`declared`], [`targets`]);
 //! [`whole`] runs all programs of the files and says at the end what a person should know;
 //! [`flat`] writes a program flat.
 
@@ -20,6 +20,7 @@ pub(crate) mod operation;
 mod passing;
 pub(crate) mod reading;
 pub(crate) mod run;
+pub(crate) mod stated;
 pub(crate) mod storage;
 pub(crate) mod symbols;
 mod targets;

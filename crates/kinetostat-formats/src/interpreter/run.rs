@@ -7,14 +7,14 @@ use crate::error::{ProgramError, note};
 use crate::interpreter::expression::{Argument, Expression, Operator};
 use crate::interpreter::flow::{Counting, Flow, Leave};
 use crate::interpreter::operation::two;
+use crate::interpreter::stated::StatedValues;
 use crate::interpreter::symbols::{Scope, Symbols};
 use crate::interpreter::targets::Targets;
 use crate::interpreter::token::TokenFile;
 use crate::interpreter::tree::{Choice, DatumNode};
-use crate::interpreter::value::{Datum, Step, Value};
+use crate::interpreter::value::{Datum, Step};
 use crate::model::motion::{Motion, Runs};
 use crate::model::outside_call::OutsideCall;
-use crate::model::stated_value::StatedValue;
 use crate::options::ReadOptions;
 use crate::text::finding::Finding;
 use crate::text::name::Name;
@@ -176,9 +176,7 @@ pub(crate) struct Run<'r, 'p, D> {
     pub(crate) symbols: &'r Symbols<'p>,
     pub(crate) options: &'r ReadOptions,
     /// Values that the caller states.
-    pub(crate) values: BTreeMap<Name, Datum>,
-    /// Names whose stated values the run asked for.
-    pub(crate) used_values: BTreeSet<Name>,
+    pub(crate) values: StatedValues<'r>,
     /// Data of every controller, once they are asked for.
     pub(crate) predefined: BTreeMap<Name, Datum>,
     /// Values of the data of modules, once they are asked for.
@@ -240,20 +238,11 @@ impl<'r, 'p, D: Dialect> Run<'r, 'p, D> {
         options: &'r ReadOptions,
         own: D,
     ) -> Self {
-        let values = options.values.iter().filter_map(|(name, value)| {
-            let value = match value {
-                StatedValue::Number(number) => Value::Number(*number),
-                StatedValue::Truth(truth) => Value::Truth(*truth),
-                StatedValue::Text(text) => Value::Text(text.as_str().into()),
-            };
-            Some((Name::of(name.as_bytes())?, Datum::of(value)))
-        });
         Self {
             files,
             symbols,
             options,
-            values: values.collect(),
-            used_values: BTreeSet::new(),
+            values: StatedValues::of(options),
             predefined: BTreeMap::new(),
             data: BTreeMap::new(),
             undeclared: BTreeMap::new(),

@@ -110,9 +110,8 @@ impl<D: Dialect> Run<'_, '_, D> {
     /// The first value of a datum.
     pub(crate) fn initial(&mut self, index: usize) -> Datum {
         let datum = &self.symbols.data[index];
-        if let Some(value) = self.values.get(&datum.node.name) {
-            self.used_values.insert(datum.node.name);
-            return value.clone();
+        if let Some(value) = self.values.ask(&datum.node.name) {
+            return value;
         }
         if self.left_changed.contains(&index) {
             return Datum::unknown(format!(
@@ -342,9 +341,7 @@ impl<D: Dialect> Run<'_, '_, D> {
             Root::Module(index) => self.symbols.data[index].node.name,
             Root::Routine(_, name) | Root::Undeclared(name) => name,
         };
-        let value = self.values.get(&name).cloned()?;
-        self.used_values.insert(name);
-        Some(value)
+        self.values.ask(&name)
     }
 
     /// The reason for a datum that a statement changes.
@@ -394,9 +391,7 @@ impl<D: Dialect> Names for Run<'_, '_, D> {
         let text = self.file().text(&element.tokens);
         let letters: String = text.chars().filter(|own| !own.is_whitespace()).collect();
         let name = Name::of(letters.as_bytes())?;
-        let value = self.values.get(&name)?.clone();
-        self.used_values.insert(name);
-        Some(value)
+        self.values.ask(&name)
     }
 
     fn word(&mut self, name: &Name, whole: &Expression) -> Datum {
@@ -414,9 +409,8 @@ impl<D: Dialect> Names for Run<'_, '_, D> {
                 shown()
             )),
             None => {
-                if let Some(stated) = self.values.get(name) {
-                    self.used_values.insert(*name);
-                    return stated.clone();
+                if let Some(stated) = self.values.ask(name) {
+                    return stated;
                 }
                 if let Some(known) = self.predefined.get(name) {
                     return known.clone();
@@ -444,9 +438,8 @@ impl<D: Dialect> Names for Run<'_, '_, D> {
             self.results.insert(key, result.clone());
             return result;
         }
-        if let Some(stated) = self.values.get(name) {
-            self.used_values.insert(*name);
-            return stated.clone();
+        if let Some(stated) = self.values.ask(name) {
+            return stated;
         }
         if name.is("PRESENT")
             && let Some(Node::Word(parameter)) = arguments

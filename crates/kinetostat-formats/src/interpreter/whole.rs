@@ -12,7 +12,6 @@ use crate::interpreter::tree::RoutineKind;
 use crate::interpreter::value::{Datum, Step, Value};
 use crate::model::motion::Runs;
 use crate::model::site::TargetSite;
-use crate::model::stated_value::StatedValue;
 use crate::text::finding::Finding;
 use crate::text::line_words::in_words;
 use crate::text::name::Name;
@@ -41,7 +40,7 @@ impl<D: Dialect> Run<'_, '_, D> {
                 self.refuse_kept();
             }
         }
-        self.say_of_values();
+        self.findings.extend(self.values.findings());
         self.say_of_unreached();
         self.mark_repeated();
         self.fix_what_others_call();
@@ -126,32 +125,6 @@ impl<D: Dialect> Run<'_, '_, D> {
             {
                 *via = TargetSite::Fixed(reason);
             }
-        }
-    }
-
-    /// Values that the caller states decide the way of the program.
-    fn say_of_values(&mut self) {
-        let Some(file) = self.files.first() else {
-            return;
-        };
-        for (name, value) in &self.options.values {
-            let is_used =
-                Name::of(name.as_bytes()).is_some_and(|own| self.used_values.contains(&own));
-            let message = match (is_used, value) {
-                (false, _) => {
-                    format!("a value of `{name}` is stated, and the run does not ask for it")
-                }
-                (true, StatedValue::Number(number)) => {
-                    format!("`{name}` is {number}, as is stated")
-                }
-                (true, StatedValue::Truth(truth)) => format!("`{name}` is {truth}, as is stated"),
-                (true, StatedValue::Text(text)) => format!("`{name}` is \"{text}\", as is stated"),
-            };
-            self.findings.push(Finding {
-                file: file.index,
-                line: 1,
-                message,
-            });
         }
     }
 

@@ -1,33 +1,18 @@
-//! Where motions end: positions with the frames in force, registers, frames by number.
+//! Where motions end: positions with the frames in force, position registers, frames by number.
 
-use std::collections::{BTreeMap, BTreeSet};
-
-use nalgebra::Isometry3;
-
-use crate::ls::flow::{InForce, State};
-use crate::ls::lines::Line;
+use crate::interpreter::value::Value;
 use crate::ls::motion::End;
-use crate::ls::positions::{Held, Positions};
-use crate::ls::registers::{Place, Registers};
+use crate::ls::positions::{Held, Position};
+use crate::ls::run::{InForce, Run};
+use crate::ls::storage::{frame_of, name_of};
 use crate::model::frame::{Frame, FrameUse};
-use crate::model::site::{Declaration, TargetSite};
-use crate::model::target::Target;
-use crate::options::{ReadOptions, UnknownTargets};
-use crate::text::source::SourceFile;
-
-/// Where a motion stands.
-pub(crate) struct MotionPlace<'a> {
-    pub file: &'a SourceFile,
-    pub index: usize,
-    pub line: &'a Line,
-    pub positions: &'a Positions,
-    pub declarations: &'a [Declaration],
-    pub before: Option<State>,
-    pub registers: &'a Registers,
-}
+use crate::model::site::TargetSite;
+use crate::model::target::{Configuration, PoseTarget, Target};
+use crate::options::UnknownTargets;
+use crate::text::name::Name;
 
 /// An end: what it is, where it stands, frame and tool, external axes.
-pub(crate) struct EndFound {
+pub(super) struct EndFound {
     pub target: Target,
     pub site: TargetSite,
     pub frame: Option<u32>,
@@ -35,44 +20,14 @@ pub(crate) struct EndFound {
     pub external: Vec<Option<f64>>,
 }
 
-/// What is stated of ends and frames.
-pub(crate) struct Ends<'o> {
-    options: &'o ReadOptions,
-    /// The options' frames by name in capitals.
-    pub frames: BTreeMap<String, Isometry3<f64>>,
-    /// Frames and tools to which the programs give values.
-    pub given: BTreeSet<Place>,
-}
+/// Why an end is refused, and what to do.
+pub(super) type EndReason = (String, &'static str);
 
-impl<'o> Ends<'o> {
-    /// Of the caller's options.
-    pub(crate) fn of(options: &'o ReadOptions) -> Self {
-        let named = options.frames.iter();
-        Self {
-            options,
-            given: BTreeSet::new(),
-            frames: named
-                .map(|(name, frame)| (name.to_ascii_uppercase(), *frame))
-                .collect(),
-        }
-    }
+const LEAVE: &str = "leave such motions as written (unknown_targets = \"left_as_written\" under [robot] in a job file), or teach a position";
 
-    /// Whether the program gives a frame or tool values, and which one it has the run decides.
-    pub(crate) fn is_open(&self, letters: &str, number: Option<u32>, now: &Registers) -> bool {
-        number.is_some_and(|number| {
-            let place = place_of(letters, number);
-            let is_stated = self.frames.contains_key(&format!("{letters}:{number}"));
-            self.given.contains(&place) && !is_stated && now.pose(place).is_none()
-        })
-    }
-
-    /// A frame or tool by its number: as the caller states it, else with the value that the program gives it.
-    pub(crate) fn frame_use(
-        &self,
-        letters: &str,
-        number: Option<u32>,
-        now: &Registers,
-    ) -> FrameUse {
+impl Run<'_, '_> {
+    /// A frame or tool by its number, for the motion of a step.
+    pub(super) fn frame_use(&mut self, at: usize, letters: &str, number: Option<u32>) -> FrameUse {
         let Some(number) = number else {
             return FrameUse {
                 name: letters.to_owned(),
@@ -81,101 +36,163 @@ impl<'o> Ends<'o> {
                 },
             };
         };
-        let name = format!("{letters}:{number}");
-        let stated = self.frames.get(&name).copied();
-        let frame = match stated.or_else(|| now.pose(place_of(letters, number))) {
-            Some(frame) => Frame::Known(frame),
-            None => Frame::Unknown {
-                reason: "the controller holds it; state it under [robot.frames]".to_owned(),
-            },
+        let kind = Name::of(if letters == "UF" { b"UFRAME" } else { b"UTOOL" });
+        let stated = kind.and_then(|kind| self.stated_frame(&kind, number).copied());
+        let known = stated.or_else(|| frame_of(&self.frame(&kind?, number)?));
+        if let (None, Some(name)) = (known, kind.and_then(|kind| name_of(&kind, number))) {
+            let program = self.program();
+            self.unknown.entry(name).or_default().push((program, at));
+        }
+        let held = || Frame::Unknown {
+            reason: "the controller holds it; state it under [robot.frames]".to_owned(),
         };
-        FrameUse { name, frame }
+        FrameUse {
+            name: format!("{letters}:{number}"),
+            frame: known.map_or_else(held, Frame::Known),
+        }
     }
 
     /// One end of a motion: what it is, where it stands, frame and tool, external axes.
-    pub(crate) fn end(
-        &self,
+    pub(super) fn end(
+        &mut self,
         end: &End,
-        place: &MotionPlace<'_>,
-        displaced: Option<&'static str>,
-    ) -> Result<EndFound, (String, &'static str)> {
-        let unknown = "leave such motions as written (unknown_targets = \"left_as_written\" under [robot] in a job file), or teach a position";
-        let before = place.before.unwrap_or(State::OPEN);
-        let (in_force, tool_in_force) = (before.frame.known(), before.tool.known());
+        displaced: Option<&str>,
+    ) -> Result<EndFound, EndReason> {
         let (number, name) = match end {
-            End::Position(number, name) => (number, name),
-            End::Register(reason) => {
-                return match self.options.unknown_targets {
-                    UnknownTargets::Refused => Err(((*reason).to_owned(), unknown)),
-                    UnknownTargets::LeftAsWritten => Ok(EndFound {
-                        target: Target::Unknown {
-                            reason: (*reason).to_owned(),
-                        },
-                        site: TargetSite::Fixed("its end is not known"),
-                        frame: in_force,
-                        tool: tool_in_force,
-                        external: Vec::new(),
-                    }),
+            End::Position(number, name) => (*number, name),
+            End::Computed(index, name) => match self.index(index) {
+                Some(number) => (number, name),
+                None => return self.unknown_end("which position it goes to, a register says"),
+            },
+            End::Register(index, name) => {
+                let number = self.index(index).filter(|_| displaced.is_none());
+                let found = number.and_then(|number| self.register_end(number, name));
+                return match found {
+                    Some(found) => Ok(found),
+                    None => self.unknown_end(
+                        "its end is in a position register, whose value is not in the text",
+                    ),
                 };
             }
         };
-        let missing = || {
+        let Some(position) = self.taught(number) else {
             let reason = format!("position P[{number}] is not in /POS");
-            (reason, "teach it, or take the motion out")
+            return Err((reason, "teach it, or take the motion out"));
         };
-        let position = place.positions.all.get(number).ok_or_else(missing)?;
-        let mut displaced = displaced.map(|reason| (reason.to_owned(), unknown));
-        for (letters, word, own, now) in [
-            ("UF", "UFRAME_NUM", position.frame, before.frame),
-            ("UT", "UTOOL_NUM", position.tool, before.tool),
-        ] {
-            let why = own.and_then(|own| taught_otherwise((*number, letters, own), word, now));
-            displaced = displaced.or(why);
-        }
-        let (target, site) = match (&position.held, displaced) {
+        let displaced = displaced.map(|reason| (reason.to_owned(), LEAVE));
+        let displaced = displaced.or_else(|| {
+            let own = [
+                (position.frame, "UF", "UFRAME_NUM", self.modal.frame),
+                (position.tool, "UT", "UTOOL_NUM", self.modal.tool),
+            ];
+            own.into_iter().find_map(|(own, letters, word, now)| {
+                taught_otherwise((number, letters, own?), word, now)
+            })
+        });
+        let site = match &position.held {
+            Held::Pose(declaration) => TargetSite::Declared {
+                declaration: *declaration,
+                name: name.clone(),
+            },
+            _ => TargetSite::Fixed("it goes to joint values"),
+        };
+        let target = match (&position.held, displaced) {
             (Held::Nothing(reason), _) => {
-                return Err((
-                    format!("P[{number}]: {reason}"),
-                    "teach it, or take the motion out",
-                ));
+                let reason = format!("P[{number}]: {reason}");
+                return Err((reason, "teach it, or take the motion out"));
             }
-            (_, Some(reason)) if self.options.unknown_targets == UnknownTargets::Refused => {
+            (_, Some(reason)) if self.reader.options.unknown_targets == UnknownTargets::Refused => {
                 return Err(reason);
             }
-            (held, displaced) => {
-                let site = match held {
-                    Held::Pose(declaration) => TargetSite::Declared {
-                        declaration: *declaration,
-                        name: name.clone(),
-                    },
-                    _ => TargetSite::Fixed("it goes to joint values"),
-                };
-                let target = match (held, displaced) {
-                    (_, Some((reason, _))) => Target::Unknown { reason },
-                    (Held::Pose(at), None) => Target::Pose(place.declarations[*at].pose.clone()),
-                    (Held::Joints(values), None) => Target::Joints {
-                        values_deg: values.clone(),
-                    },
-                    (Held::Nothing(_), None) => return Err(missing()),
-                };
-                (target, site)
-            }
+            (_, Some((reason, _))) => Target::Unknown { reason },
+            (Held::Pose(at), None) => Target::Pose(self.reader.declarations[*at].pose.clone()),
+            (Held::Joints(values), None) => Target::Joints {
+                values_deg: values.clone(),
+            },
         };
         Ok(EndFound {
             target,
             site,
-            frame: position.frame.or(in_force),
-            tool: position.tool.or(tool_in_force),
+            frame: position.frame.or(self.modal.frame.known()),
+            tool: position.tool.or(self.modal.tool.known()),
             external: position.external.clone(),
         })
     }
-}
 
-/// `UF` and `UT` with their numbers.
-fn place_of(letters: &str, number: u32) -> Place {
-    match letters {
-        "UF" => Place::Frame(number),
-        _ => Place::Tool(number),
+    fn unknown_end(&self, reason: &'static str) -> Result<EndFound, EndReason> {
+        match self.reader.options.unknown_targets {
+            UnknownTargets::Refused => Err((reason.to_owned(), LEAVE)),
+            UnknownTargets::LeftAsWritten => Ok(EndFound {
+                target: Target::Unknown {
+                    reason: reason.to_owned(),
+                },
+                site: TargetSite::Fixed("its end is not known"),
+                frame: self.modal.frame.known(),
+                tool: self.modal.tool.known(),
+                external: Vec::new(),
+            }),
+        }
+    }
+
+    /// The pose in a position register that came from a position of the program, as a further declaration like that one: a corrected end is
+    /// written as a position of its own.
+    fn register_end(&mut self, number: u32, name: &std::ops::Range<usize>) -> Option<EndFound> {
+        let value = self.register(number);
+        let pose = frame_of(&value)?;
+        let [.., configuration] = value.parts() else {
+            return None;
+        };
+        let (Value::Text(text), Some(literal)) = (&configuration.value, configuration.literal)
+        else {
+            return None;
+        };
+        let declarations = &self.reader.declarations[..self.taught];
+        let place = (literal.file, literal.span().start);
+        let at = declarations.partition_point(|own| (own.text.file, own.statement.start) < place);
+        let mut declared = declarations.get(at)?.clone();
+        let file = &self.all.files[literal.file];
+        let own = std::str::from_utf8(file.part(&declared.name))
+            .ok()?
+            .parse()
+            .ok()?;
+        let position: &Position = self.all.positions[literal.file].all.get(&own)?;
+        if !position.external.is_empty() {
+            return None;
+        }
+        let (frame, tool) = (self.modal.frame.known(), self.modal.tool.known());
+        let target = PoseTarget {
+            position_mm: pose.translation.vector,
+            orientation: pose.rotation,
+            configuration: Configuration {
+                text: text.to_string(),
+                numbers: declared.pose.configuration.numbers.clone(),
+            },
+            external: Vec::new(),
+        };
+        let is_here = literal.file == self.program()
+            && position.frame.is_none_or(|own| frame == Some(own))
+            && position.tool.is_none_or(|own| tool == Some(own));
+        let site = match is_here {
+            true => {
+                declared.pose = target.clone();
+                declared.keeps_value = true;
+                self.reader.declarations.push(declared);
+                TargetSite::Declared {
+                    declaration: self.reader.declarations.len() - 1,
+                    name: name.clone(),
+                }
+            }
+            false => TargetSite::Fixed(
+                "its position register holds a position of another program, frame or tool",
+            ),
+        };
+        Some(EndFound {
+            target: Target::Pose(target),
+            site,
+            frame,
+            tool,
+            external: Vec::new(),
+        })
     }
 }
 
@@ -185,12 +202,8 @@ fn taught_otherwise(
     (position, letters, own): (u32, &str, u32),
     word: &str,
     now: InForce,
-) -> Option<(String, &'static str)> {
+) -> Option<EndReason> {
     let (how, remedy) = match now {
-        InForce::OnOneWay(other) if other != own => (
-            format!("{word} is {other} here, if the run came by where it is set"),
-            "set it on all ways, or leave such motions as written (unknown_targets = \"left_as_written\" under [robot] in a job file)",
-        ),
         InForce::Computed => (
             format!("which {word} is in force here, the run decides"),
             "assign a number, or leave such motions as written (unknown_targets = \"left_as_written\" under [robot] in a job file)",

@@ -1,9 +1,6 @@
 //! What is found of programs so far, and what is wrong with them.
 
 use crate::error::ProgramError;
-use crate::ls::ends::Ends;
-use crate::model::motion::Motion;
-use crate::model::outside_call::OutsideCall;
 use crate::model::site::Declaration;
 use crate::options::ReadOptions;
 use crate::text::finding::Finding;
@@ -14,10 +11,7 @@ pub(super) struct Reader<'o> {
     pub options: &'o ReadOptions,
     pub faults: Vec<ProgramError>,
     pub findings: Vec<Finding>,
-    pub outside_calls: Vec<OutsideCall>,
-    pub motions: Vec<Motion>,
     pub declarations: Vec<Declaration>,
-    pub ends: Ends<'o>,
 }
 
 impl Reader<'_> {

@@ -5,9 +5,8 @@ use std::collections::BTreeSet;
 use crate::ls::found::Reader;
 use crate::ls::lines::Layout;
 use crate::ls::motion::End;
-use crate::ls::positions::{Held, Position, Positions};
+use crate::ls::positions::{Held, Positions};
 use crate::ls::program::Program;
-use crate::ls::registers::Value;
 use crate::ls::step::{Step, positions_read, step_of};
 use crate::text::source::SourceFile;
 
@@ -40,18 +39,6 @@ impl Reader<'_> {
         layout
     }
 
-    /// X, Y, Z, W, P, R of a position.
-    fn value_of(&self, position: &Position) -> Option<Value> {
-        let Held::Pose(declaration) = position.held else {
-            return None;
-        };
-        let text = &self.declarations.get(declaration)?.text;
-        let [x, y, z] = text.position.each_ref().map(|number| number.value);
-        let angles: Vec<f64> = text.orientation.iter().map(|number| number.value).collect();
-        let [w, p, r] = angles.try_into().ok()?;
-        Some(Value::of([x, y, z, w, p, r]))
-    }
-
     /// The instructions of a file; positions that are read besides motions keep their values.
     pub(super) fn program_of(
         &mut self,
@@ -73,16 +60,10 @@ impl Reader<'_> {
         for line in &layout.lines {
             let step = step_of(file.bytes(), &line.text);
             match &step {
-                Step::Refused((reason, remedy)) => {
-                    self.fault(file, line.whole.clone(), *reason, *remedy);
-                }
                 Step::Motion(motion) => {
-                    let unknown = End::Register("which position it goes to, a register says");
-                    all_kept |= motion.target == unknown;
-                }
-                Step::Run => {
-                    let line = file.line_of(line.whole.start);
-                    self.finding(index, line, "another task starts: it is not followed");
+                    let via = motion.via.iter().map(|(_, via)| via);
+                    let mut ends = via.chain([&motion.target]);
+                    all_kept |= ends.any(|end| matches!(end, End::Computed(..)));
                 }
                 _ => match positions_read(file.bytes(), &line.text) {
                     Some(numbers) => kept.extend(numbers),
@@ -98,10 +79,7 @@ impl Reader<'_> {
                 self.declarations[*declaration].keeps_value = true;
             }
         }
-        let mut program = Program::of(steps);
-        program.positions = (positions.all.iter())
-            .filter_map(|(number, position)| Some((*number, self.value_of(position)?)))
-            .collect();
+        let program = Program::of(steps);
         for (at, reason, remedy) in &program.faults {
             self.fault(file, layout.lines[*at].whole.clone(), *reason, *remedy);
         }

@@ -5,19 +5,18 @@ use std::collections::BTreeMap;
 use crate::ls::beside::run_beside;
 use crate::ls::found::Reader;
 use crate::ls::lines::Layout;
-use crate::ls::program::Program;
+use crate::ls::run::Files;
 use crate::ls::step::Step;
 use crate::model::outside_call::OutsideCall;
 use crate::text::source::SourceFile;
 
 impl Reader<'_> {
-    /// Finds the programs that are called.
-    pub(super) fn link_calls(
+    /// Programs by their names in capitals.
+    pub(super) fn names_of(
         &mut self,
         files: &[SourceFile],
         layouts: &[Layout],
-        programs: &mut [Program],
-    ) {
+    ) -> BTreeMap<Vec<u8>, usize> {
         let mut names: BTreeMap<Vec<u8>, usize> = BTreeMap::new();
         for (index, layout) in layouts.iter().enumerate() {
             let name = files[index].part(&layout.name).to_ascii_uppercase();
@@ -32,39 +31,39 @@ impl Reader<'_> {
                 );
             }
         }
-        for (index, program) in programs.iter_mut().enumerate() {
-            let file = &files[index];
+        names
+    }
+}
+
+impl Files<'_> {
+    /// The program of a name.
+    pub(super) fn named(&self, name: &[u8]) -> Option<usize> {
+        self.names.get(&name.to_ascii_uppercase()).copied()
+    }
+
+    /// Programs that are in none of the files and are called, or run beside the motions.
+    pub(super) fn outside_calls(&self) -> Vec<OutsideCall> {
+        let mut found = Vec::new();
+        for (index, program) in self.programs.iter().enumerate() {
+            let file = &self.files[index];
             for (at, step) in program.steps.iter().enumerate() {
-                let step = match step {
-                    Step::Perhaps(step) => step,
-                    step => step,
+                let line = &self.layouts[index].lines[at];
+                let named = match step.action() {
+                    Step::Call(call) => vec![call.name.clone()],
+                    _ => run_beside(file.bytes(), &line.text),
                 };
-                let line = &layouts[index].lines[at];
-                let mut outside = |name: Option<&[u8]>| {
-                    self.outside_calls.push(OutsideCall {
-                        file: index,
-                        line: file.line_of(line.whole.start),
-                        name: name.map(crate::error::excerpt),
-                    });
-                };
-                let known = |name: &[u8]| names.get(&name.to_ascii_uppercase());
-                if let Step::Call(name) = step {
-                    let called = name.as_ref().map(|name| file.part(name));
-                    match called.and_then(known) {
-                        Some(to) => {
-                            program.called.insert(at, *to);
-                        }
-                        None => outside(called),
-                    }
-                    continue;
-                }
-                for name in run_beside(file.bytes(), &line.text) {
+                for name in named {
                     let name = name.as_ref().map(|name| file.part(name));
-                    if name.and_then(known).is_none() {
-                        outside(name);
+                    if name.and_then(|name| self.named(name)).is_none() {
+                        found.push(OutsideCall {
+                            file: index,
+                            line: file.line_of(line.whole.start),
+                            name: name.map(crate::error::excerpt),
+                        });
                     }
                 }
             }
         }
+        found
     }
 }

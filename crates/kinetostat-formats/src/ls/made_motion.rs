@@ -1,110 +1,109 @@
 //! The motion of an instruction, with its ends in the frames in force.
 
-use crate::ls::ends::{EndFound, MotionPlace};
-use crate::ls::found::Reader;
+use nalgebra::Vector3;
+
+use crate::interpreter::value::{Datum, Value};
+use crate::ls::ends::EndReason;
 use crate::ls::motion::{End, MotionText, Way};
 use crate::ls::positions::Held;
-use crate::ls::registers::Shift;
+use crate::ls::run::{Run, index_of_axes};
 use crate::ls::table::OFFSET;
-use crate::model::motion::{Motion, MotionKind, Runs};
+use crate::model::motion::{Motion, MotionKind, Runs, Speed};
 use crate::model::site::{MotionSite, OffsetAxes, TurnsOtherwise};
 use crate::model::target::Target;
 
-impl Reader<'_> {
-    /// By how much a motion is offset, or why its end is elsewhere.
-    fn shift_of(
-        &mut self,
-        text: &MotionText,
-        place: &MotionPlace<'_>,
-    ) -> (Option<Shift>, Option<&'static str>) {
-        let Some((axes, register)) = text.offset.filter(|_| text.displaced.is_none()) else {
-            return (None, text.displaced);
-        };
-        let to_pose = match &text.target {
-            End::Position(number, _) => {
-                let position = place.positions.all.get(number);
-                position.is_none_or(|position| !matches!(position.held, Held::Joints(_)))
+impl Run<'_, '_> {
+    /// By how much a motion is offset; none where only the controller knows it, or where a register turns the tool.
+    fn shift_of(&mut self, at: usize, text: &MotionText) -> Option<(OffsetAxes, Vector3<f64>)> {
+        let (axes, register) = text.offset.as_ref()?;
+        let number = match register {
+            Some(register) => self.index(register),
+            None => self.modal.conditions[index_of_axes(*axes)],
+        }?;
+        let is_to_joints = match &text.target {
+            End::Position(position, _) => {
+                let held = self.taught(*position).map(|position| &position.held);
+                matches!(held, Some(Held::Joints(_)))
             }
-            End::Register(_) => false,
+            _ => false,
         };
-        let shift = place.registers.shift(axes, register);
-        let Some(shift) = shift.filter(|_| to_pose && text.via.is_none()) else {
-            return (None, Some(OFFSET));
-        };
-        let message = format!(
-            "PR[{}] is taken to hold X, Y, Z, W, P, R, and not joint values: the program gives it numbers alone",
-            shift.register
-        );
-        if shift.is_taken && self.findings.iter().all(|said| said.message != message) {
-            let line = place.file.line_of(place.line.whole.start);
-            self.finding(place.index, line, message);
+        let value = self.register(number);
+        let numbers: Option<Vec<f64>> =
+            value.parts().iter().take(6).map(Datum::as_number).collect();
+        let [x, y, z, angles @ ..]: [f64; 6] = numbers?.try_into().ok()?;
+        if is_to_joints || text.via.is_some() || angles != [0.0; 3] {
+            return None;
         }
-        (Some(shift), None)
-    }
-
-    /// Refuses a frame or tool to which the program gives one value or another.
-    fn refuses_open_frame(&mut self, end: &EndFound, place: &MotionPlace<'_>) -> bool {
-        let used = [("UFRAME", "UF", end.frame), ("UTOOL", "UT", end.tool)];
-        let mut open = used.into_iter().filter(|(_, of, number)| {
-            let number = *number;
-            self.ends.is_open(of, number, place.registers)
-        });
-        let Some((name, _, number)) = open.next() else {
-            return false;
-        };
-        let reason = format!(
-            "which value {name}[{}] has here, the run decides",
-            number.unwrap_or_default()
+        let is_pose = matches!(
+            value.parts().last(),
+            Some(Datum {
+                value: Value::Text(_),
+                ..
+            })
         );
-        let remedy = "give it its value on all ways, or state it under [robot.frames]";
-        self.fault(place.file, place.line.whole.clone(), reason, remedy);
-        true
+        if !is_pose && self.taken.insert(number) {
+            let message = format!(
+                "PR[{number}] is taken to hold X, Y, Z, W, P, R, and not joint values: the program gives it numbers alone"
+            );
+            let (program, line) = (self.program(), self.line(at));
+            self.reader.finding(program, line, message);
+        }
+        Some((*axes, Vector3::new(x, y, z)))
     }
 
+    fn speed_of(&mut self, text: &MotionText) -> Speed {
+        let mut speed = text.speed.clone();
+        if let Some((register, unit_mm_per_s)) = &text.speed_by {
+            let value = self.value(register).as_number();
+            speed.mm_per_s = value.map(|value| value * unit_mm_per_s);
+        }
+        speed
+    }
+
+    /// The motion of a step; `open` says why it is not known that it runs.
     pub(super) fn motion_of(
         &mut self,
+        at: usize,
         text: &MotionText,
-        place: &MotionPlace<'_>,
-    ) -> Option<Motion> {
-        let file = place.file;
-        let (shift, displaced) = self.shift_of(text, place);
-        let end = self.ends.end(&text.target, place, displaced);
-        let via = text.via.as_ref().map(|(span, end)| {
-            let found = self.ends.end(end, place, displaced);
+        open: Option<&str>,
+    ) -> Result<Motion, EndReason> {
+        let mut displaced = open.or(text.displaced);
+        let shift = match displaced {
+            Some(_) => None,
+            None => self.shift_of(at, text),
+        };
+        if text.offset.is_some() && shift.is_none() {
+            displaced = displaced.or(Some(OFFSET));
+        }
+        let mut end = self.end(&text.target, displaced)?;
+        let via = match &text.via {
             // With what stands between the two positions.
-            let span = span.start..text.target_span.start.max(span.end);
-            found.map(|found| (span, found))
-        });
-        let (mut end, via) = match (end, via.transpose()) {
-            (Ok(end), Ok(via)) => (end, via),
-            (Err((reason, remedy)), _) | (_, Err((reason, remedy))) => {
-                self.fault(file, place.line.whole.clone(), reason, remedy);
-                return None;
-            }
+            Some((span, via)) => Some((
+                span.start..text.target_span.start.max(span.end),
+                self.end(via, displaced)?,
+            )),
+            None => None,
         };
         if let Some((_, via)) = &via
             && (via.frame, via.tool) != (end.frame, end.tool)
         {
-            let (reason, remedy) = (
-                "the two positions of the circle have different frames or tools",
+            return Err((
+                "the two positions of the circle have different frames or tools".to_owned(),
                 "teach both in one frame and with one tool",
-            );
-            self.fault(file, place.line.whole.clone(), reason, remedy);
-            return None;
+            ));
         }
-        if let (Some(shift), Target::Pose(pose)) = (shift, &mut end.target) {
-            pose.position_mm += match shift.axes {
-                OffsetAxes::WorkObject => shift.by_mm,
-                OffsetAxes::Tool => pose.orientation * shift.by_mm,
+        if let (Some((axes, by_mm)), Target::Pose(pose)) = (shift, &mut end.target) {
+            pose.position_mm += match axes {
+                OffsetAxes::WorkObject => by_mm,
+                OffsetAxes::Tool => pose.orientation * by_mm,
             };
         }
-        if self.refuses_open_frame(&end, place) {
-            return None;
-        }
-        Some(Motion {
-            file: place.index,
-            line: file.line_of(place.line.whole.start),
-            span: place.line.whole.clone(),
+        let speed = self.speed_of(text);
+        let span = self.all.layouts[self.program()].lines[at].whole.clone();
+        Ok(Motion {
+            file: self.program(),
+            line: self.file().line_of(span.start),
+            span,
             kind: match (text.way, &via) {
                 (Way::Joint, _) => MotionKind::Joint,
                 (Way::Linear, _) | (Way::Circular, None) => MotionKind::Linear,
@@ -113,10 +112,9 @@ impl Reader<'_> {
                 },
             },
             target: end.target,
-            speed: text.speed.clone(),
             zone: text.zone,
-            tool: self.ends.frame_use("UT", end.tool, place.registers),
-            work_object: self.ends.frame_use("UF", end.frame, place.registers),
+            tool: self.frame_use(at, "UT", end.tool),
+            work_object: self.frame_use(at, "UF", end.frame),
             runs: Runs::Once,
             follows: None,
             site: MotionSite {
@@ -124,7 +122,7 @@ impl Reader<'_> {
                 target_span: text.target_span.clone(),
                 target: end.site,
                 via: via.map(|(span, via)| (span, via.site)),
-                speed: text.speed_site.clone(),
+                speed: text.speed_site.clone().filter(|_| speed.mm_per_s.is_some()),
                 zone: text.zone_span.clone(),
                 external: end.external,
                 other_speeds: None,
@@ -136,6 +134,7 @@ impl Reader<'_> {
                     evenly: None,
                 }),
             },
+            speed,
         })
     }
 }

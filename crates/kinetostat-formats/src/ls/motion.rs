@@ -2,7 +2,9 @@
 
 use std::ops::Range;
 
-use crate::ls::table::{Effect, Follows, MOTION_OPTIONS, OFFSET};
+use crate::interpreter::expression::Expression;
+use crate::ls::expression::{expression_of, indices_of};
+use crate::ls::table::{Effect, Follows, MOTION_OPTIONS, OFFSET, SKIP};
 use crate::ls::words::{Kind, Word, index_of, words_of};
 use crate::model::motion::{Speed, Zone};
 use crate::model::site::{OffsetAxes, SpeedSite};
@@ -20,8 +22,10 @@ pub(crate) enum Way {
 pub(crate) enum End {
     /// A position of the program: its number and where that stands.
     Position(u32, Range<usize>),
-    /// Only the run knows it, and why.
-    Register(&'static str),
+    /// A position whose number is computed, and where that stands.
+    Computed(Expression, Range<usize>),
+    /// A position register: its number, and where that stands.
+    Register(Expression, Range<usize>),
 }
 
 /// A motion as it is written.
@@ -35,12 +39,16 @@ pub(crate) struct MotionText {
     pub target: End,
     pub speed: Speed,
     pub speed_site: Option<SpeedSite>,
+    /// A register with the speed, and how many mm/s one of it is.
+    pub speed_by: Option<(Expression, f64)>,
     pub zone: Zone,
     pub zone_span: Option<Range<usize>>,
     /// Why the end is not where its position says.
     pub displaced: Option<&'static str>,
     /// A register offsets it; none for that of the condition in force.
-    pub offset: Option<(OffsetAxes, Option<u32>)>,
+    pub offset: Option<(OffsetAxes, Option<Expression>)>,
+    /// The label to which a signal may lead from its end.
+    pub skips_to: Option<Expression>,
     pub indivisible: Option<&'static str>,
     pub turns_otherwise: Option<Reason>,
 }
@@ -52,6 +60,14 @@ const FORM: Reason = (
     "a motion is J, L or C, a position, a speed, and FINE or CNT",
     "write it as the controller prints it",
 );
+
+/// How a speed is stated.
+enum How {
+    Stated,
+    /// A register holds it, and how many mm/s one of it is.
+    ByRegister(Expression, f64),
+    Duration,
+}
 
 struct Reader<'b> {
     bytes: &'b [u8],
@@ -78,8 +94,9 @@ pub(crate) fn motion_of(bytes: &[u8], text: &Range<usize>) -> Result<MotionText,
         Way::Circular => (Some(first), reader.end()?),
         Way::Joint | Way::Linear => (None, first),
     };
-    let (speed, speed_site, is_duration) = reader.speed().ok_or(FORM)?;
+    let (speed, speed_site, how) = reader.speed().ok_or(FORM)?;
     let (zone, zone_span) = reader.zone().ok_or(FORM)?;
+    let is_duration = matches!(how, How::Duration);
     let mut motion = MotionText {
         way,
         keyword,
@@ -88,10 +105,15 @@ pub(crate) fn motion_of(bytes: &[u8], text: &Range<usize>) -> Result<MotionText,
         target,
         speed,
         speed_site,
+        speed_by: match how {
+            How::ByRegister(register, unit_mm_per_s) => Some((register, unit_mm_per_s)),
+            How::Stated | How::Duration => None,
+        },
         zone,
         zone_span: Some(zone_span),
         displaced: None,
         offset: None,
+        skips_to: None,
         indivisible: is_duration.then_some("its speed is a time, which each piece would take"),
         turns_otherwise: None,
     };
@@ -145,14 +167,23 @@ impl Reader<'_> {
         };
         let bracket = self.next(Kind::Bracket).ok_or(FORM)?;
         let span = name.start..bracket.end;
-        let end = match (is_register, index_of(self.bytes, &bracket)) {
-            (true, _) => {
-                End::Register("its end is in a position register, whose value is not in the text")
-            }
+        let found = index_of(self.bytes, &bracket);
+        let inside = match &found {
+            Some((_, digits)) => digits.clone(),
+            None => bracket.start + 1..bracket.end - 1,
+        };
+        let end = match (is_register, found) {
             (false, Some((number, digits))) => End::Position(number, digits),
-            (false, None) => End::Register("which position it goes to, a register says"),
+            (false, None) => End::Computed(self.index(&bracket), inside),
+            (true, _) => End::Register(self.index(&bracket), inside),
         };
         Ok((span, end))
+    }
+
+    fn index(&self, bracket: &Range<usize>) -> Expression {
+        let indices = indices_of(self.bytes, bracket);
+        let first = indices.and_then(|indices| indices.into_iter().next());
+        first.unwrap_or_else(|| expression_of(self.bytes, bracket.clone()))
     }
 
     /// A number, or a register; with its value where the text says it.
@@ -172,11 +203,11 @@ impl Reader<'_> {
         }
     }
 
-    /// The speed, where another can be written, and whether it is a time.
-    fn speed(&mut self) -> Option<(Speed, Option<SpeedSite>, bool)> {
+    /// The speed, where another can be written, and how it is stated.
+    fn speed(&mut self) -> Option<(Speed, Option<SpeedSite>, How)> {
         if self.text().eq_ignore_ascii_case(b"WELD_SPEED") {
             let span = self.letters()?;
-            return Some((self.speed_text(&span, None), None, false));
+            return Some((self.speed_text(&span, None), None, How::Stated));
         }
         let (value, from) = self.value()?;
         let unit = self.words.get(self.at)?.clone();
@@ -189,24 +220,32 @@ impl Reader<'_> {
             }
             false => (Vec::new(), unit.span.end),
         };
-        let mm_per_s = match (&self.bytes[unit.span], per.as_slice()) {
-            (b"%", b"") | (b"deg", b"sec") => None,
-            (b"sec" | b"msec", b"") => {
-                return Some((self.speed_text(&(from.start..end), None), None, true));
+        let span = from.start..end;
+        // In mm, and in seconds.
+        let [length, time] = match (&self.bytes[unit.span], per.as_slice()) {
+            (b"%", b"") | (b"deg", b"sec") => {
+                return Some((self.speed_text(&span, None), None, How::Stated));
             }
-            (b"mm", b"sec") => value,
-            (b"cm", b"min") => value.map(|value| value / 6.0),
-            (b"inch", b"min") => value.map(|value| value * 25.4 / 60.0),
+            (b"sec" | b"msec", b"") => {
+                return Some((self.speed_text(&span, None), None, How::Duration));
+            }
+            (b"mm", b"sec") => [1.0, 1.0],
+            (b"cm", b"min") => [10.0, 60.0],
+            (b"inch", b"min") => [25.4, 60.0],
             _ => return None,
         };
-        let span = from.start..end;
-        let site = mm_per_s.map(|_| SpeedSite {
+        let how = match value {
+            Some(_) => How::Stated,
+            None => How::ByRegister(expression_of(self.bytes, from), length / time),
+        };
+        let site = SpeedSite {
             span: span.clone(),
             before: String::new(),
             after: "mm/sec".to_owned(),
             unit_mm_per_s: 1.0,
-        });
-        Some((self.speed_text(&span, mm_per_s), site, false))
+        };
+        let mm_per_s = value.map(|value| value * length / time);
+        Some((self.speed_text(&span, mm_per_s), Some(site), how))
     }
 
     fn speed_text(&self, span: &Range<usize>, mm_per_s: Option<f64>) -> Speed {
@@ -263,11 +302,14 @@ impl Reader<'_> {
                     if self.takes(Kind::Symbol(b',')) {
                         self.letters().ok_or(FORM)?;
                         let bracket = self.next(Kind::Bracket).ok_or(FORM)?;
-                        let number = index_of(self.bytes, &bracket);
-                        register = Some(number.map(|(number, _)| number));
+                        register = Some(self.index(&bracket));
                     }
                 }
                 Follows::Event => {
+                    if row.effect == SKIP {
+                        let bracket = self.words.iter().rfind(|word| word.kind == Kind::Bracket);
+                        motion.skips_to = bracket.map(|word| self.index(&word.span));
+                    }
                     self.at = self.words.len();
                     motion.indivisible = Some("what its option starts would start at each piece");
                 }
@@ -280,10 +322,9 @@ impl Reader<'_> {
                     motion.turns_otherwise = Some((reason, remedy));
                 }
                 Effect::Displaced(reason) => motion.displaced = Some(reason),
-                Effect::Offset(axes) => match (motion.offset, register) {
-                    (None, None) => motion.offset = Some((axes, None)),
-                    (None, Some(Some(register))) => motion.offset = Some((axes, Some(register))),
-                    _ => motion.displaced = Some(OFFSET),
+                Effect::Offset(axes) => match motion.offset {
+                    None => motion.offset = Some((axes, register)),
+                    Some(_) => motion.displaced = Some(OFFSET),
                 },
                 Effect::Refused(reason, remedy) => return Err((reason, remedy)),
             }

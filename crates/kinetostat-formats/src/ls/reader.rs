@@ -1,23 +1,21 @@
 //! The reader of FANUC TP programs.
 
-use std::collections::BTreeMap;
-
 use crate::error::ProgramError;
-use crate::ls::ends::{Ends, MotionPlace};
-use crate::ls::flow::{Flow, Last};
 use crate::ls::found::Reader;
-use crate::ls::order::Order;
 use crate::ls::positions::Positions;
-use crate::ls::program::Place;
-use crate::ls::step::Step;
+use crate::ls::run::{Files, Run};
 use crate::model::language::Language;
-use crate::model::motion::Runs;
 use crate::model::parsed::{Parsed, Read};
 use crate::model::program::RobotProgram;
 use crate::options::{ExternalAxes, ReadOptions};
 use crate::text::source::SourceFile;
 
 /// Reads FANUC TP programs as text (`.ls`): one, or the first and those that it calls.
+///
+/// The programs are run as the controller runs them: loops, branches, jumps and calls with the values that the files and the options
+/// state ([`ReadOptions::values`]: `R[1]`, `DI[3]`, `PR[2,3]`). A statement that runs several times gives as many motions. A branch on a
+/// value that only the controller knows is passed over where its arms neither move the tool nor change the frame or the tool, and refused
+/// with its line otherwise.
 ///
 /// The frames and tools of positions are checked against `UFRAME_NUM` and `UTOOL_NUM` where these are known from the
 /// text; what they are, the options say (`UF:2`, `UT:1`; `UF:0` and `UT:0` are the world and the flange), or the program, where it
@@ -58,10 +56,7 @@ pub(crate) fn parse_ls(files: Vec<SourceFile>, options: &ReadOptions) -> Parsed 
         options,
         faults: Vec::new(),
         findings: Vec::new(),
-        outside_calls: Vec::new(),
-        motions: Vec::new(),
         declarations: Vec::new(),
-        ends: Ends::of(options),
     };
     let (mut layouts, mut positions, mut programs) = (Vec::new(), Vec::new(), Vec::new());
     for (index, file) in files.iter().enumerate() {
@@ -75,60 +70,23 @@ pub(crate) fn parse_ls(files: Vec<SourceFile>, options: &ReadOptions) -> Parsed 
         layouts.push(layout);
         positions.push(found);
     }
-    reader.link_calls(&files, &layouts, &mut programs);
-    let flow = Flow::of(&programs, &reader.ends.frames);
-    reader.given_frames(&files, &layouts, (&programs, &flow));
-    let order = Order::of(&programs);
-    let mut indices: BTreeMap<Place, usize> = BTreeMap::new();
-    for (program, at) in &order.motions {
-        let Step::Motion(motion) = &programs[*program].steps[*at] else {
-            continue;
-        };
-        let declarations = std::mem::take(&mut reader.declarations);
-        let site = MotionPlace {
-            declarations: &declarations,
-            file: &files[*program],
-            index: *program,
-            line: &layouts[*program].lines[*at],
-            positions: &positions[*program],
-            before: flow.before[*program][*at],
-            registers: flow.registers(flow.before[*program][*at]),
-        };
-        let found = reader.motion_of(motion, &site);
-        let before = site.before;
-        reader.declarations = declarations;
-        let Some(mut motion) = found else {
-            continue;
-        };
-        motion.runs = match before {
-            Some(_) => programs[*program].runs[*at].max(order.runs[*program]),
-            // Behind END or ABORT, and no jump leads there.
-            None => Runs::Elsewhere,
-        };
-        let last = before.map(|state| match state.last {
-            Last::Entry => flow.entry[*program].unwrap_or(Last::Unknown),
-            last => last,
-        });
-        motion.follows = match last {
-            Some(Last::Motion(place)) => indices.get(&place).copied(),
-            _ => None,
-        };
-        indices.insert((*program, *at), reader.motions.len());
-        reader.motions.push(motion);
-    }
-    finish(reader, files)
-}
-
-/// The program with what a person should know of it.
-fn finish(reader: Reader<'_>, files: Vec<SourceFile>) -> Parsed {
+    let all = Files {
+        names: reader.names_of(&files, &layouts),
+        files: &files,
+        layouts: &layouts,
+        programs: &programs,
+        positions: &positions,
+    };
+    let outside_calls = all.outside_calls();
+    let run = Run::new(reader, &all, outside_calls).whole();
     let read = Read {
-        motions: reader.motions,
-        declarations: reader.declarations,
-        findings: reader.findings,
-        outside_calls: reader.outside_calls,
-        faults: reader.faults,
-        external_axes_may_move: reader.options.external_axes != ExternalAxes::Refused,
-        moving_calls: &reader.options.moving_calls,
+        motions: run.motions,
+        declarations: run.reader.declarations,
+        findings: run.reader.findings,
+        outside_calls: run.outside_calls,
+        faults: run.reader.faults,
+        external_axes_may_move: options.external_axes != ExternalAxes::Refused,
+        moving_calls: &options.moving_calls,
     };
     Parsed::of_robot(Language::FanucLs, files, read)
 }

@@ -1,49 +1,85 @@
-//! What an instruction does to the order of the program, to its frames and to the tool.
+//! Steps of a program: what an instruction does to the order of the program, to its data and to the tool.
 
 use std::ops::Range;
 
+use crate::interpreter::expression::{Expression, Node, Operator};
+use crate::ls::expression::{expression_of, indices_of, list_of};
 use crate::ls::motion::{MotionText, Reason, motion_of};
-use crate::ls::registers::{Given, given_by};
 use crate::ls::table::row;
-use crate::ls::words::{Kind, index_of, words_of};
+use crate::ls::words::{Kind, Word, index_of, words_of};
+use crate::model::site::OffsetAxes;
 use crate::table::Treatment;
+use crate::text::name::Name;
 
-/// A frame's number.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Number {
-    Known(u32),
-    /// A register says it.
-    Computed,
+/// A call of a program.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct CallText {
+    /// The name; none where a register holds it.
+    pub name: Option<Range<usize>>,
+    pub computed: Expression,
+    pub arguments: Vec<Expression>,
+}
+
+/// `FOR counter=first TO last`.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct ForText {
+    pub counter: Expression,
+    pub first: Expression,
+    pub last: Expression,
+    pub is_down: bool,
+}
+
+/// A line of a SELECT.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct CaseText {
+    /// The value that is compared; of the first line alone.
+    pub subject: Option<Expression>,
+    /// None of ELSE.
+    pub value: Option<Expression>,
+    pub action: Step,
 }
 
 /// An instruction as far as it is followed.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Step {
     Motion(Box<MotionText>),
-    Frame(Number),
-    Tool(Number),
+    /// A register, an output, a frame or the number of a frame gets a value.
+    Assign(Box<[Expression; 2]>),
+    /// The register by which motions are offset; none where it is not followed.
+    Offset(OffsetAxes, Option<Box<Expression>>),
     Label(u32),
-    Jump(Number),
-    /// A program by its name; none where a register says it.
-    Call(Option<Range<usize>>),
+    Jump(Box<Expression>),
+    Call(Box<CallText>),
     /// `IF (...) THEN`.
-    If,
+    If(Box<Expression>),
     Else,
     EndIf,
-    For,
+    For(Box<ForText>),
     EndFor,
-    /// What runs on a condition: `IF ..., JMP LBL[1]`, and the lines of a SELECT.
-    Perhaps(Box<Step>),
+    /// `IF ..., JMP LBL[1]`.
+    Perhaps(Box<(Expression, Step)>),
+    Case(Box<CaseText>),
+    /// Other tasks may change what is waited for.
+    Wait(Box<Expression>),
     /// The program returns.
     End,
     /// All programs end.
     Abort,
     /// Another task is started.
     Run,
-    /// A register, frame or tool gets a value.
-    Give(Given),
     Carried,
     Refused(Reason),
+}
+
+impl Step {
+    /// The step without the condition on which it runs.
+    pub(crate) fn action(&self) -> &Self {
+        match self {
+            Self::Perhaps(own) => own.1.action(),
+            Self::Case(own) => own.action.action(),
+            own => own,
+        }
+    }
 }
 
 const UNKNOWN: Reason = (
@@ -76,6 +112,7 @@ fn inner(bytes: &[u8], span: Range<usize>, depth: usize) -> Step {
     let Some(row) = row(text) else {
         return Step::Refused(UNKNOWN);
     };
+    let behind = span.start + row.name.len()..span.end;
     match (row.name, row.treatment) {
         (_, Treatment::Refused { reason, remedy }) => Step::Refused((reason, remedy)),
         ("J" | "L" | "C", _) => match motion_of(bytes, &span) {
@@ -86,32 +123,37 @@ fn inner(bytes: &[u8], span: Range<usize>, depth: usize) -> Step {
             )),
             Err(reason) => Step::Refused(reason),
         },
-        ("UFRAME_NUM", _) => Step::Frame(assigned(bytes, &span)),
-        ("UTOOL_NUM", _) => Step::Tool(assigned(bytes, &span)),
-        ("LBL", _) => match bracketed(bytes, &span) {
-            Number::Known(number) => Step::Label(number),
-            Number::Computed => Step::Refused(("the label has no number", "number it")),
+        ("LBL", _) => match first_bracket(bytes, &span).and_then(|of| index_of(bytes, &of)) {
+            Some((number, _)) => Step::Label(number),
+            None => Step::Refused(("the label has no number", "number it")),
         },
-        ("JMP", _) => Step::Jump(bracketed(bytes, &span)),
-        ("CALL", _) => Step::Call(called(bytes, &span)),
-        ("IF", _) if text.ends_with(b"THEN") => Step::If,
+        ("JMP", _) => {
+            let indices = first_bracket(bytes, &span).and_then(|of| indices_of(bytes, &of));
+            let index = indices.and_then(|indices| indices.into_iter().next());
+            Step::Jump(Box::new(
+                index.unwrap_or_else(|| expression_of(bytes, span)),
+            ))
+        }
+        ("CALL", _) => Step::Call(Box::new(called(bytes, behind))),
+        ("IF", _) if text.ends_with(b"THEN") => {
+            let end = (span.end - b"THEN".len()).max(behind.start);
+            Step::If(Box::new(expression_of(bytes, behind.start..end)))
+        }
         ("IF" | "SELECT", _) => perhaps(bytes, &span, depth),
         ("ELSE", _) if text.contains(&b',') => perhaps(bytes, &span, depth),
         ("ELSE", _) => Step::Else,
         ("ENDIF", _) => Step::EndIf,
-        ("FOR", _) => Step::For,
+        ("FOR", _) => Step::For(Box::new(counted(bytes, behind))),
         ("ENDFOR", _) => Step::EndFor,
         ("END", _) => Step::End,
         ("ABORT", _) => Step::Abort,
         ("RUN", _) => Step::Run,
-        ("PR" | "OFFSET CONDITION" | "TOOL_OFFSET CONDITION", _) => {
-            Step::Give(given_by(bytes, &span).unwrap_or(Given::AnyRegister))
-        }
-        ("UFRAME" | "UTOOL", _) => {
-            given_by(bytes, &span).map_or(Step::Refused(FRAME_DATA), Step::Give)
-        }
+        ("WAIT", _) => Step::Wait(Box::new(waited(bytes, behind))),
+        ("OFFSET CONDITION", _) => offset(OffsetAxes::WorkObject, bytes, behind),
+        ("TOOL_OFFSET CONDITION", _) => offset(OffsetAxes::Tool, bytes, behind),
         ("$", _) if sets_frame(text) => Step::Refused(FRAME_OF_SYSTEM),
-        _ => Step::Carried,
+        ("$" | "!" | "//" | "--", _) => Step::Carried,
+        _ => assigned(bytes, &span, row.name),
     }
 }
 
@@ -151,7 +193,7 @@ fn sets_frame(text: &[u8]) -> bool {
 /// Deepest nesting of conditions in one instruction.
 const DEEPEST: usize = 4;
 
-/// What stands behind the first comma that no bracket holds.
+/// What is done on a condition: what stands behind the first comma that no bracket holds.
 fn perhaps(bytes: &[u8], span: &Range<usize>, depth: usize) -> Step {
     let mut open = 0_i32;
     for at in span.clone() {
@@ -165,14 +207,15 @@ fn perhaps(bytes: &[u8], span: &Range<usize>, depth: usize) -> Step {
                     .count();
                 let step = inner(bytes, at + 1 + blanks..span.end, depth + 1);
                 return match step {
-                    Step::Refused(_) | Step::Carried | Step::Perhaps(_) | Step::Run => step,
-                    Step::If
+                    Step::Refused(_) => step,
+                    Step::If(_)
                     | Step::Else
                     | Step::EndIf
-                    | Step::For
+                    | Step::For(_)
                     | Step::EndFor
+                    | Step::Case(_)
                     | Step::Label(_) => Step::Refused(UNKNOWN),
-                    step => Step::Perhaps(Box::new(step)),
+                    step => on_condition(bytes, span.start..at, step),
                 };
             }
             _ => {}
@@ -184,31 +227,120 @@ fn perhaps(bytes: &[u8], span: &Range<usize>, depth: usize) -> Step {
     ))
 }
 
-/// The number behind the equals sign.
-fn assigned(bytes: &[u8], span: &Range<usize>) -> Number {
-    let words = words_of(bytes, span);
-    let kinds: Vec<Kind> = words.iter().map(|word| word.kind).collect();
-    match kinds.as_slice() {
-        [Kind::Letters, Kind::Symbol(b'='), Kind::Number(value)]
-            if value.fract() == 0.0 && *value < 1e6 =>
-        {
-            Number::Known(*value as u32)
+fn on_condition(bytes: &[u8], before: Range<usize>, action: Step) -> Step {
+    let text = &bytes[before.clone()];
+    let behind = |word: &[u8]| expression_of(bytes, before.start + word.len()..before.end);
+    let (subject, value) = match text {
+        [b'=', ..] => (None, Some(behind(b"="))),
+        _ if text.starts_with(b"ELSE") => (None, None),
+        _ if text.starts_with(b"SELECT") => {
+            let compared = behind(b"SELECT");
+            let tokens = compared.tokens.clone();
+            let open = Expression {
+                node: Node::Unreadable,
+                tokens,
+            };
+            match compared.node {
+                Node::Two(Operator::Equal, operands) => {
+                    let [subject, value] = *operands;
+                    (Some(subject), Some(value))
+                }
+                _ => (Some(open.clone()), Some(open)),
+            }
         }
-        _ => Number::Computed,
+        _ => return Step::Perhaps(Box::new((behind(b"IF"), action))),
+    };
+    Step::Case(Box::new(CaseText {
+        subject,
+        value,
+        action,
+    }))
+}
+
+/// An assignment, or what is carried.
+fn assigned(bytes: &[u8], span: &Range<usize>, statement: &str) -> Step {
+    let words = words_of(bytes, span);
+    let equals = words
+        .iter()
+        .find(|word| word.kind == Kind::Symbol(b'='))
+        .map(|word| word.span.clone());
+    match (equals, Name::of(statement.as_bytes())) {
+        (None, _) if matches!(statement, "UFRAME" | "UTOOL") => Step::Refused(FRAME_DATA),
+        (Some(equals), Some(name)) => {
+            let mut to = expression_of(bytes, span.start..equals.start);
+            let value = expression_of(bytes, equals.end..span.end);
+            // `UFRAME_NUM[GP1]=2` sets that of one group.
+            if statement.ends_with("FRAME_NUM") || statement.ends_with("TOOL_NUM") {
+                let is_other = to.node != Node::Word(name);
+                to.node = Node::Word(name);
+                return Step::Assign(Box::new([to.clone(), if is_other { to } else { value }]));
+            }
+            Step::Assign(Box::new([to, value]))
+        }
+        _ => Step::Carried,
     }
 }
 
-/// The number in the first bracket.
-fn bracketed(bytes: &[u8], span: &Range<usize>) -> Number {
-    let words = words_of(bytes, span);
-    let bracket = words.iter().find(|word| word.kind == Kind::Bracket);
-    let index = bracket.and_then(|word| index_of(bytes, &word.span));
-    index.map_or(Number::Computed, |(number, _)| Number::Known(number))
+/// Another frame or tool than that in force may stand behind the register: it is not followed.
+fn offset(axes: OffsetAxes, bytes: &[u8], behind: Range<usize>) -> Step {
+    let register = match expression_of(bytes, behind).node {
+        Node::Element(of, indices) => match (&of.node, <[Expression; 1]>::try_from(indices)) {
+            (Node::Word(name), Ok([index])) if name.is("PR") => Some(Box::new(index)),
+            _ => None,
+        },
+        _ => None,
+    };
+    Step::Offset(axes, register)
 }
 
-/// The name of the program that is called.
-fn called(bytes: &[u8], span: &Range<usize>) -> Option<Range<usize>> {
-    name_from(bytes, span.start + b"CALL".len()..span.end)
+fn counted(bytes: &[u8], behind: Range<usize>) -> ForText {
+    let words = words_of(bytes, &behind);
+    let find = |is: &dyn Fn(&Word) -> bool| {
+        let found = words.iter().find(|word| is(word));
+        found.map_or(behind.end..behind.end, |word| word.span.clone())
+    };
+    let equals = find(&|word| word.kind == Kind::Symbol(b'='));
+    let to = find(&|word| matches!(&bytes[word.span.clone()], b"TO" | b"DOWNTO"));
+    ForText {
+        counter: expression_of(bytes, behind.start..equals.start),
+        first: expression_of(bytes, equals.end.min(to.start)..to.start),
+        last: expression_of(bytes, to.end..behind.end),
+        is_down: bytes[to].starts_with(b"DOWN"),
+    }
+}
+
+/// The condition of WAIT, without what is done when it lasts too long.
+fn waited(bytes: &[u8], behind: Range<usize>) -> Expression {
+    let words = words_of(bytes, &behind);
+    let timeout = words
+        .iter()
+        .find(|word| bytes[word.span.clone()] == *b"TIMEOUT");
+    let end = timeout.map_or(behind.end, |word| word.span.start);
+    expression_of(bytes, behind.start..end)
+}
+
+fn first_bracket(bytes: &[u8], span: &Range<usize>) -> Option<Range<usize>> {
+    let words = words_of(bytes, span);
+    let bracket = words.iter().find(|word| word.kind == Kind::Bracket);
+    bracket.map(|word| word.span.clone())
+}
+
+/// The program that is called, and its arguments.
+fn called(bytes: &[u8], behind: Range<usize>) -> CallText {
+    let open = bytes[behind.clone()].iter().position(|byte| *byte == b'(');
+    let open = open.map_or(behind.end, |open| behind.start + open);
+    let close = bytes[open..behind.end]
+        .iter()
+        .rposition(|byte| *byte == b')');
+    let inside = match close {
+        Some(close) => open + 1..open + close,
+        None => open..open,
+    };
+    CallText {
+        name: name_from(bytes, behind.clone()),
+        computed: expression_of(bytes, behind.start..open),
+        arguments: list_of(bytes, inside),
+    }
 }
 
 /// The name of a program with which a part begins; none where a register says it.

@@ -132,7 +132,7 @@ const fn option(name: &'static str, follows: Follows, effect: Effect) -> OptionR
 pub(crate) const OFFSET: &str =
     "it is offset by a register, whose value is not in the text, or which turns the tool";
 const ALONE: &str = "take this motion into a program of its own";
-const SKIP: Effect =
+pub(crate) const SKIP: Effect =
     Effect::Displaced("it ends where a signal changes, which only the run decides");
 const COORDINATED: Effect = Effect::Refused(
     "it is coordinated with another group that moves the part",

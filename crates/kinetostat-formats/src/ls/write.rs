@@ -5,6 +5,7 @@
 //! only where its lines follow one another.
 
 use std::collections::BTreeSet;
+use std::ops::Range;
 
 use crate::error::WriteError;
 use crate::ls::lines::Layout;
@@ -14,9 +15,10 @@ use crate::model::program::RobotProgram;
 use crate::model::site::{Declaration, TargetSite};
 use crate::options::{ExactStops, WriteOptions};
 use crate::text::edits::Edits;
+use crate::text::source::SourceFile;
 use crate::writing::motions::write_with;
 use crate::writing::piece::Piece;
-use crate::writing::syntax::{PieceLiterals, Syntax};
+use crate::writing::syntax::{PieceLiterals, Renamed, Syntax};
 
 /// The files of a program with pieces in place of its motions.
 pub(crate) fn write_ls(
@@ -117,6 +119,13 @@ struct LsSyntax {
     ends: Vec<usize>,
 }
 
+/// The R of `PR[` before the number of a position register: a position of the program takes its place.
+fn of_register(file: &SourceFile, name: &Range<usize>) -> Option<Range<usize>> {
+    let before = file.part(&(0..name.start)).trim_ascii_end();
+    let letter = before.len().checked_sub(2)?;
+    before.ends_with(b"PR[").then_some(letter..letter + 1)
+}
+
 /// Highest number of a position.
 const HIGHEST: u32 = 32_766;
 
@@ -181,6 +190,10 @@ impl Syntax for LsSyntax {
             None => self.straighten(program, motion, &mut edits),
         }
         edits.replace(name.clone(), literals.end.clone());
+        let via = literals.via.iter().map(|(via, _)| via);
+        for letter in via.chain([name]).filter_map(|name| of_register(file, name)) {
+            edits.replace(letter, "");
+        }
         if let (Some(site), Some(speed)) = (&site.speed, speed) {
             edits.replace(site.span.clone(), speed);
         }
@@ -191,6 +204,14 @@ impl Syntax for LsSyntax {
             edits.replace(zone.clone(), "CNT100");
         }
         edits.applied_to_part(file.bytes(), &motion.span)
+    }
+
+    fn renamed(&self, program: &RobotProgram, names: &[Renamed], edits: &mut [Edits]) {
+        for Renamed { file, place, .. } in names {
+            if let Some(letter) = of_register(&program.files[*file], place) {
+                edits[*file].replace(letter, "");
+            }
+        }
     }
 
     fn straighten(&self, _program: &RobotProgram, motion: &Motion, edits: &mut Edits) {

@@ -252,8 +252,7 @@ impl Run<'_, '_> {
         else {
             return None;
         };
-        let value = self.values.get(signal).cloned()?;
-        self.used_values.insert(*signal);
+        let value = self.values.ask(signal)?;
         Some(match (name.is("TESTDI"), value.as_number()) {
             (true, Some(number)) => Datum::truth(number != 0.0),
             _ => value,

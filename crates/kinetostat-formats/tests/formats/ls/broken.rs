@@ -2,7 +2,7 @@
 
 use kinetostat_formats::*;
 
-use super::{EVERYTHING, position, read_with, with_lines, written};
+use super::{EVERYTHING, decided, position, read_with, stating, with_lines, written};
 
 fn errors(text: &str) -> Vec<(usize, String)> {
     let found = read_with(text.as_bytes(), &ReadOptions::default()).expect_err("it is refused");
@@ -129,7 +129,7 @@ fn frames_and_tools_must_be_those_in_force() {
             .contains("P[1] is taught with UT 1, but UTOOL_NUM is 5 here"),
         "{found:?}"
     );
-    // Known again behind both branches; where they differ, and where a register says which, it is refused.
+    // Of a branch that sets it, and of a register, only the controller knows which it is.
     let read = |lines: &[&str]| read_with(with_lines(lines).as_bytes(), &ReadOptions::default());
     let branch = |one: &'static str, other: &'static str| {
         [
@@ -143,7 +143,9 @@ fn frames_and_tools_must_be_those_in_force() {
     };
     assert!(read(&branch("  UFRAME_NUM=3 ;", "  UFRAME_NUM=3 ;")).is_err());
     assert!(read(&branch("  UFRAME_NUM=3 ;", "  UFRAME_NUM=2 ;")).is_err());
-    assert!(read(&branch("  UFRAME_NUM=2 ;", "  UFRAME_NUM=2 ;")).is_ok());
+    let both = with_lines(&branch("  UFRAME_NUM=3 ;", "  UFRAME_NUM=2 ;"));
+    assert!(read_with(both.as_bytes(), &stating(&[("R[1]", "1")])).is_err());
+    assert!(read_with(both.as_bytes(), &stating(&[("R[1]", "2")])).is_ok());
     assert!(
         read(&[
             "  UFRAME_NUM=3 ;",
@@ -279,7 +281,7 @@ fn axes_that_move_are_refused_unless_carried() {
             .contains("moves from 12.5 to 13: the arm stands elsewhere then"),
         "{found:?}"
     );
-    let mut options = ReadOptions::default();
+    let mut options = decided();
     options.external_axes = ExternalAxes::Carried;
     assert!(read_with(text.as_bytes(), &options).is_ok());
 }
@@ -323,7 +325,7 @@ fn statements_stand_once_in_their_table() {
     assert!(names.windows(2).all(|pair| pair[0] != pair[1]));
 }
 
-/// Which frame counts depends on the way that the run takes.
+/// Which frame counts depends on the way that the run takes, and only the controller knows it.
 #[test]
 fn a_frame_that_is_set_in_a_branch_is_refused_where_it_would_be_another() {
     let lines = |branch: &[&str]| {
@@ -341,25 +343,12 @@ fn a_frame_that_is_set_in_a_branch_is_refused_where_it_would_be_another() {
         let errors = read(&lines(branch)).unwrap_err();
         assert_eq!(errors.len(), 1, "{branch:?} {errors:?}");
         let reason = &errors[0].reason;
-        let known = ["the run decides", "if the run came by"];
-        assert!(known.iter().any(|part| reason.contains(part)), "{reason}");
+        let part = "which way the program goes here is not known: `R[1]`";
+        assert!(reason.contains(part), "{reason}");
     }
     // The same frame on both ways is the same frame.
     let same = ["  IF (R[1]=1) THEN ;", "  UFRAME_NUM=2 ;", "  ENDIF ;"];
     assert_eq!(read(&lines(&same)).unwrap().motions.len(), 2);
-    // Nothing is stated on one way, and another frame than that of the position on the other.
-    let open = [
-        "  IF (R[1]=1) THEN ;",
-        "  UFRAME_NUM=3 ;",
-        "  ENDIF ;",
-        "L P[2] 20mm/sec FINE ;",
-    ];
-    let errors = read(&with_lines(&open)).unwrap_err();
-    assert!(
-        errors[0].reason.contains("if the run came by"),
-        "{}",
-        errors[0]
-    );
 }
 
 #[test]

@@ -272,9 +272,11 @@ fn called_programs_run_where_they_are_called() {
         order,
         [
             (0, Runs::Once, None),
-            (1, Runs::Repeatedly, None),
+            (1, Runs::Repeatedly, Some(0)),
             (1, Runs::Repeatedly, Some(1)),
             (0, Runs::Once, Some(2)),
+            (1, Runs::Repeatedly, Some(3)),
+            (1, Runs::Repeatedly, Some(4)),
             (2, Runs::Elsewhere, None),
         ]
     );

@@ -6,6 +6,7 @@ mod corrections;
 mod properties;
 mod random;
 mod registers;
+mod runs;
 mod zero_change;
 
 use kinetostat_formats::*;
@@ -14,6 +15,21 @@ const EVERYTHING: &str = include_str!("../fixtures/everything.ls");
 
 fn read_with(bytes: &[u8], options: &ReadOptions) -> Result<RobotProgram, Vec<ProgramError>> {
     read_ls(vec![SourceFile::new("part.ls", bytes)], options)
+}
+
+/// Options that state values (`R[1]`, `DI[1]`).
+fn stating(values: &[(&str, &str)]) -> ReadOptions {
+    let mut options = ReadOptions::default();
+    let values = values.iter();
+    options.values = values
+        .map(|(name, value)| ((*name).to_owned(), StatedValue::of(value)))
+        .collect();
+    options
+}
+
+/// Options with which the run through [`EVERYTHING`] is known.
+fn decided() -> ReadOptions {
+    stating(&[("DI[1]", "ON"), ("R[1]", "3")])
 }
 
 /// A position in frame 2 with tool 1.

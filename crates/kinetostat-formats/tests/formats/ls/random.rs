@@ -5,9 +5,12 @@ use kinetostat_formats::*;
 use crate::harness::{Chance, Kind, PLACE_MM, broken};
 
 pub fn kind() -> Kind {
+    let mut options = ReadOptions::default();
+    let on = StatedValue::Truth(true);
+    options.values.insert("DI[1]".to_owned(), on);
     Kind {
         language: Language::FanucLs,
-        options: ReadOptions::default(),
+        options,
         turns: true,
         speeds: false,
         words: &[

@@ -2,7 +2,7 @@
 
 use kinetostat_formats::*;
 
-use super::{EVERYTHING, read_with};
+use super::{EVERYTHING, decided, read_with};
 
 #[test]
 fn every_byte_comes_back_with_any_line_ending_and_any_coding() {
@@ -19,7 +19,7 @@ fn every_byte_comes_back_with_any_line_ending_and_any_coding() {
         latin,
     ];
     for bytes in all {
-        let program = read_with(&bytes, &ReadOptions::default()).unwrap();
+        let program = read_with(&bytes, &decided()).unwrap();
         let files = write(&program, &[], &WriteOptions::default()).unwrap();
         assert_eq!(files, [("part.ls".to_owned(), bytes)]);
     }
@@ -27,8 +27,8 @@ fn every_byte_comes_back_with_any_line_ending_and_any_coding() {
 
 #[test]
 fn every_construct_is_what_the_manual_says() {
-    let program = read_with(EVERYTHING.as_bytes(), &ReadOptions::default()).unwrap();
-    assert_eq!(program.motions.len(), 13);
+    let program = read_with(EVERYTHING.as_bytes(), &decided()).unwrap();
+    assert_eq!(program.motions.len(), 15);
     let motions = &program.motions;
     let speeds: Vec<Option<f64>> = motions.iter().map(|motion| motion.speed.mm_per_s).collect();
     // 60 cm/min, 30 inch/min.
@@ -89,38 +89,26 @@ fn every_construct_is_what_the_manual_says() {
 
 #[test]
 fn runs_and_starts_follow_branches_loops_and_jumps() {
-    let program = read_with(EVERYTHING.as_bytes(), &ReadOptions::default()).unwrap();
-    let runs: Vec<Runs> = program.motions.iter().map(|motion| motion.runs).collect();
-    let once = [Runs::Once; 8];
-    assert_eq!(runs[..8], once);
-    assert_eq!(
-        runs[8..],
-        [
-            Runs::OnCondition,
-            Runs::OnCondition,
-            Runs::Repeatedly,
-            Runs::Repeatedly,
-            Runs::Repeatedly
-        ]
-    );
-    let follows: Vec<Option<usize>> = program
-        .motions
-        .iter()
-        .map(|motion| motion.follows)
+    let program = read_with(EVERYTHING.as_bytes(), &decided()).unwrap();
+    let lines: Vec<(usize, Runs)> = (program.motions.iter())
+        .map(|motion| (motion.line, motion.runs))
         .collect();
-    // Behind a loop's head and a label it is not known; CALL of what is in none of the files is taken not to move the tool.
+    let (once, again) = (Runs::Once, Runs::Repeatedly);
+    assert!(lines[..8].iter().all(|(_, runs)| *runs == once));
+    // The first arm of IF, the loop three times, LBL[2], and once more from LBL[1]: R[1] stays 3.
     assert_eq!(
-        follows[..8],
+        lines[8..],
         [
-            None,
-            Some(0),
-            Some(1),
-            Some(2),
-            Some(3),
-            Some(4),
-            Some(5),
-            Some(6)
+            (39, once),
+            (44, again),
+            (44, again),
+            (44, again),
+            (52, again),
+            (50, once),
+            (52, again)
         ]
     );
-    assert_eq!(follows[8..], [Some(7), Some(7), None, None, None]);
+    for (index, motion) in program.motions.iter().enumerate() {
+        assert_eq!(motion.follows, index.checked_sub(1), "{index}");
+    }
 }

@@ -34,29 +34,26 @@ const THIRD: &str = "L P[3] 20mm/sec FINE   ";
 
 #[test]
 fn what_stands_behind_the_end_of_a_tp_program_does_not_run() {
+    let made = |behind: &[&str]| {
+        let text = ls(&[&TWO[..], behind].concat());
+        of_robot(Language::FanucLs, &text, MakeLanguage::Krl)
+            .kept
+            .motions
+    };
     for end in ["  ABORT", "  END"] {
-        let found = refused(Language::FanucLs, &ls(&[&TWO[..], &[end, THIRD]].concat()));
-        assert_eq!(found.len(), 1, "{end}: {found:?}");
-        assert_eq!(found[0].0, Some(10));
-        assert!(found[0].1.contains("it never runs"), "{found:?}");
-        // At its end it is none of a fault.
-        of_robot(
-            Language::FanucLs,
-            &ls(&[&TWO[..], &[end]].concat()),
-            MakeLanguage::Krl,
-        );
+        assert_eq!(made(&[end, THIRD]), 2, "{end}");
+        assert_eq!(made(&[end]), 2, "{end}");
     }
-    // A jump leads there, perhaps.
+    // A program that ends somewhere is taken to go on.
+    assert_eq!(made(&["  IF DI[1]=OFF,ABORT", THIRD]), 3);
     let jump = ["  IF DI[1]=ON,JMP LBL[9]", "  END", "  LBL[9]", THIRD];
-    let found = refused(Language::FanucLs, &ls(&[&TWO[..], &jump].concat()));
-    assert_eq!(found[0].0, Some(12));
-    assert!(
-        found[0].1.contains("whether it runs is not known"),
-        "{found:?}"
-    );
-    let perhaps = ["  IF DI[1]=OFF,ABORT", THIRD];
-    let found = refused(Language::FanucLs, &ls(&[&TWO[..], &perhaps].concat()));
-    assert_eq!(found[0].0, Some(10));
+    assert_eq!(made(&jump), 3);
+    // A motion that a jump leaves out on a condition.
+    let jump = ["  IF DI[1]=ON,JMP LBL[9]", THIRD, "  LBL[9]", TWO[3]];
+    let text = ls(&[&TWO[..], &jump].concat());
+    let files = vec![SourceFile::new("source", text)];
+    let found = read_ls(files, &ReadOptions::default()).unwrap_err();
+    assert_eq!(found[0].line, 9, "{found:?}");
 }
 
 const NONE: &str = "[9E9,9E9,9E9,9E9,9E9,9E9]";

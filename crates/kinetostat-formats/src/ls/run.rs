@@ -1,0 +1,315 @@
+//! A run of TP programs: their data, the programs that run, and the motions so far.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use nalgebra::Isometry3;
+
+use crate::interpreter::stated::StatedValues;
+use crate::interpreter::value::Datum;
+use crate::ls::found::Reader;
+use crate::ls::lines::Layout;
+use crate::ls::motion::End;
+use crate::ls::positions::{Held, Positions};
+use crate::ls::program::Program;
+use crate::ls::step::Step;
+use crate::model::motion::{Motion, Runs};
+use crate::model::outside_call::OutsideCall;
+use crate::model::site::OffsetAxes;
+use crate::text::line_words::in_words;
+use crate::text::name::Name;
+use crate::text::source::SourceFile;
+
+/// The programs of the files.
+pub(super) struct Files<'p> {
+    pub files: &'p [SourceFile],
+    pub layouts: &'p [Layout],
+    pub programs: &'p [Program],
+    pub positions: &'p [Positions],
+    /// Programs by their names in capitals.
+    pub names: BTreeMap<Vec<u8>, usize>,
+}
+
+/// The number of a frame or tool in force.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum InForce {
+    /// Nothing sets it.
+    Unset,
+    Known(u32),
+    /// Only the controller knows it.
+    Computed,
+}
+
+impl InForce {
+    pub(super) fn known(self) -> Option<u32> {
+        match self {
+            Self::Known(number) => Some(number),
+            _ => None,
+        }
+    }
+}
+
+/// Modal state: the frame, the tool, and the registers by which motions are offset.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Modal {
+    pub frame: InForce,
+    pub tool: InForce,
+    /// In axes of the work object, and of the tool.
+    pub conditions: [Option<u32>; 2],
+}
+
+impl Modal {
+    pub(super) const UNSET: Self = Self {
+        frame: InForce::Unset,
+        tool: InForce::Unset,
+        conditions: [None, None],
+    };
+}
+
+/// The index of an offset's axes among the conditions.
+pub(super) fn index_of_axes(axes: OffsetAxes) -> usize {
+    match axes {
+        OffsetAxes::WorkObject => 0,
+        OffsetAxes::Tool => 1,
+    }
+}
+
+/// Where a run goes on behind a step.
+pub(super) enum Flow {
+    Next,
+    To(usize),
+    /// Behind the call of the program.
+    Returns,
+    /// Nowhere: all programs end.
+    Ends,
+}
+
+/// State of a run as it jumped back.
+pub(super) struct Pass {
+    pub decided: usize,
+    pub values: BTreeMap<Name, Datum>,
+    pub modal: Modal,
+    pub motions: usize,
+}
+
+/// A call that runs.
+pub(super) struct RunningCall {
+    pub program: usize,
+    pub arguments: Vec<Datum>,
+    /// Loops that run, by FOR: the counter and the last value.
+    pub counters: BTreeMap<usize, (Name, f64)>,
+    /// By the step that jumps back.
+    pub passes: BTreeMap<usize, Pass>,
+}
+
+impl RunningCall {
+    pub(super) fn of(program: usize, arguments: Vec<Datum>) -> Self {
+        Self {
+            program,
+            arguments,
+            counters: BTreeMap::new(),
+            passes: BTreeMap::new(),
+        }
+    }
+}
+
+/// A run of programs.
+pub(super) struct Run<'o, 'p> {
+    pub reader: Reader<'o>,
+    pub all: &'p Files<'p>,
+    pub stated: StatedValues<'o>,
+    /// Frames that the caller states, by names in capitals (`UF:2`).
+    pub frames: BTreeMap<String, Isometry3<f64>>,
+    /// Frames and tools to which the programs give values.
+    pub given: BTreeSet<Name>,
+    /// Motions, by program and step, where a frame or tool is not known.
+    pub unknown: BTreeMap<Name, Vec<(usize, usize)>>,
+    /// Registers, outputs, frames: what is not here is not known.
+    pub values: BTreeMap<Name, Datum>,
+    pub calls: Vec<RunningCall>,
+    pub modal: Modal,
+    pub runs: Runs,
+    /// The motion at whose end the tool is.
+    pub here: Option<usize>,
+    pub motions: Vec<Motion>,
+    pub outside_calls: Vec<OutsideCall>,
+    /// Registers of which is said that they are taken to hold X, Y, Z, W, P, R.
+    pub taken: BTreeSet<u32>,
+    /// Declarations of the files; those behind them are of position registers.
+    pub taught: usize,
+    /// Motions that ran, by program and step.
+    pub ran: Vec<Vec<bool>>,
+    pub repeated_motions: usize,
+    pub statements: usize,
+    /// Conditions whose values are known, so far.
+    pub decided: usize,
+    /// Places of faults and findings that were noted: a statement in a loop has one.
+    pub noted: BTreeSet<(usize, usize, &'static str)>,
+}
+
+impl<'o, 'p> Run<'o, 'p> {
+    pub(super) fn new(
+        reader: Reader<'o>,
+        all: &'p Files<'p>,
+        outside_calls: Vec<OutsideCall>,
+    ) -> Self {
+        let frames = reader.options.frames.iter();
+        Self {
+            stated: StatedValues::of(reader.options),
+            frames: frames
+                .map(|(name, frame)| (name.to_ascii_uppercase(), *frame))
+                .collect(),
+            given: BTreeSet::new(),
+            unknown: BTreeMap::new(),
+            values: BTreeMap::new(),
+            calls: Vec::new(),
+            modal: Modal::UNSET,
+            runs: Runs::Once,
+            here: None,
+            motions: Vec::new(),
+            outside_calls,
+            ran: (all.programs.iter())
+                .map(|program| vec![false; program.steps.len()])
+                .collect(),
+            taken: BTreeSet::new(),
+            taught: reader.declarations.len(),
+            repeated_motions: 0,
+            statements: 0,
+            decided: 0,
+            noted: BTreeSet::new(),
+            reader,
+            all,
+        }
+    }
+
+    /// Runs the first program, then each that nothing calls as one of its own.
+    pub(super) fn whole(mut self) -> Self {
+        let called = self.called_by_name();
+        for program in 0..self.all.programs.len() {
+            if program > 0 && called.contains(&program) {
+                continue;
+            }
+            self.here = None;
+            self.modal = Modal::UNSET;
+            self.values.clear();
+            if program > 0 {
+                self.runs = Runs::Elsewhere;
+            }
+            self.call(program, Vec::new());
+        }
+        self.reader.findings.extend(self.stated.findings());
+        self.refuse_open_frames();
+        self.say_of_unreached();
+        self.mark_repeated();
+        self
+    }
+
+    /// A frame or tool to which the programs give a value, and not on all ways to a motion that uses it.
+    fn refuse_open_frames(&mut self) {
+        for (name, motions) in std::mem::take(&mut self.unknown) {
+            for (program, at) in motions.into_iter().filter(|_| self.given.contains(&name)) {
+                if self.noted.insert((program, at, "frame")) {
+                    let name = String::from_utf8_lossy(name.letters());
+                    let reason = format!("which value {name} has here, the run decides");
+                    let remedy = "give it its value before, or state it under [robot.frames]";
+                    let span = self.all.layouts[program].lines[at].whole.clone();
+                    (self.reader).fault(&self.all.files[program], span, reason, remedy);
+                }
+            }
+        }
+    }
+
+    fn called_by_name(&self) -> BTreeSet<usize> {
+        let all = self.all.programs.iter().zip(self.all.files);
+        all.flat_map(|(program, file)| {
+            program.steps.iter().filter_map(|step| match step.action() {
+                Step::Call(call) => self.all.named(file.part(call.name.as_ref()?)),
+                _ => None,
+            })
+        })
+        .collect()
+    }
+
+    /// Motions that the run does not come to stay, and so do their positions.
+    fn say_of_unreached(&mut self) {
+        for (index, program) in self.all.programs.iter().enumerate() {
+            let file = &self.all.files[index];
+            let mut lines = Vec::new();
+            for (at, step) in program.steps.iter().enumerate() {
+                let Step::Motion(text) = step else { continue };
+                if self.ran[index][at] {
+                    continue;
+                }
+                let start = self.all.layouts[index].lines[at].whole.start;
+                lines.push(file.line_of(start));
+                let via = text.via.iter().map(|(_, via)| via);
+                for end in via.chain([&text.target]) {
+                    if let End::Position(number, _) = end
+                        && let Some(position) = self.all.positions[index].all.get(number)
+                        && let Held::Pose(declaration) = position.held
+                    {
+                        self.reader.declarations[declaration].keeps_value = true;
+                    }
+                }
+            }
+            lines.dedup();
+            if let Some(first) = lines.first().copied() {
+                let named = in_words(&lines);
+                let message = format!(
+                    "the run of the program does not come to the motions on {named}: they stay as they are written"
+                );
+                self.reader.finding(index, first, message);
+            }
+        }
+    }
+
+    /// Statements that ran several times say so at each of their motions.
+    fn mark_repeated(&mut self) {
+        if self.repeated_motions == 0 {
+            return;
+        }
+        let mut count: BTreeMap<(usize, usize), usize> = BTreeMap::new();
+        for motion in &self.motions {
+            *count.entry((motion.file, motion.span.start)).or_default() += 1;
+        }
+        for motion in &mut self.motions {
+            let runs = count.get(&(motion.file, motion.span.start));
+            if runs.is_some_and(|runs| *runs > 1) && motion.runs < Runs::Repeatedly {
+                motion.runs = Runs::Repeatedly;
+            }
+        }
+    }
+
+    /// The program that runs.
+    pub(super) fn program(&self) -> usize {
+        self.calls.last().map_or(0, |called| called.program)
+    }
+
+    /// The file of the program that runs.
+    pub(super) fn file(&self) -> &'p SourceFile {
+        &self.all.files[self.program()]
+    }
+
+    /// The line of a step of the program that runs, from 1.
+    pub(super) fn line(&self, at: usize) -> usize {
+        let start = self.all.layouts[self.program()].lines[at].whole.start;
+        self.file().line_of(start)
+    }
+
+    /// Notes a fault of a step once.
+    pub(super) fn fault(&mut self, at: usize, (reason, remedy): (String, &'static str)) {
+        let program = self.program();
+        if self.noted.insert((program, at, "fault")) {
+            let span = self.all.layouts[program].lines[at].whole.clone();
+            self.reader.fault(self.file(), span, reason, remedy);
+        }
+    }
+
+    /// Notes a finding of a step once.
+    pub(super) fn find(&mut self, at: usize, message: impl Into<String>) {
+        let program = self.program();
+        if self.noted.insert((program, at, "finding")) {
+            let line = self.line(at);
+            self.reader.finding(program, line, message);
+        }
+    }
+}
