@@ -84,6 +84,7 @@ pub use language::{endings_of, language_of, odd_program};
 pub use ls::reader::read_ls;
 pub use ls::table::LS_STATEMENTS;
 pub use making::action::{Coolant, EventAction};
+pub use making::block_words::{BlockWord, each_block};
 pub use making::compare::Kept;
 pub use making::event_kind::EventKind;
 pub use making::events::SourceEvent;

@@ -123,7 +123,8 @@ const WORK_OFFSETS: [&str; 9] = [
     "G54", "G55", "G56", "G57", "G58", "G59", "G59.1", "G59.2", "G59.3",
 ];
 
-fn work_offset(name: &str) -> Option<usize> {
+/// Which of the frames of G-code has this name.
+pub(crate) fn work_offset(name: &str) -> Option<usize> {
     WORK_OFFSETS
         .iter()
         .position(|known| known.eq_ignore_ascii_case(name))

@@ -2,11 +2,11 @@
 
 use kinetostat_machining::{
     Assessment, FeatureResult, FileRead, FlatProgram, MissedTolerance, PointResult, Verified,
-    Warning, farthest_off,
+    Warning, WarningCode, farthest_off,
 };
 use serde::Serialize;
 
-use crate::verify::conditions;
+use crate::verify::other_language::SPINDLE;
 use crate::verify::other_word::OtherWord;
 use crate::verify::tilted::Tilted;
 
@@ -72,10 +72,16 @@ impl VerifyAnswer {
         let matched = &verified.matched;
         let whole =
             matched.uncut.is_empty() && matched.rapids.is_empty() && matched.extra_cuts.is_empty();
-        let is_same =
-            matched.conditions.is_empty() && other_words.iter().all(|word| word.fault.is_none());
+        let is_same = other_words.iter().all(|word| word.fault.is_none());
         let mut warnings = result.warnings.clone();
-        warnings.extend(conditions::warnings(&other_words));
+        let named = other_words.iter().filter(|word| word.fault.is_none());
+        warnings.extend(named.map(|word| {
+            let code = match word.word == SPINDLE {
+                true => WarningCode::SpindleNotStarted,
+                false => WarningCode::OtherThanOriginal,
+            };
+            Warning::new(code, word.text.clone())
+        }));
         Self {
             schema: 1,
             kinetostat_version: env!("CARGO_PKG_VERSION"),
@@ -121,7 +127,7 @@ impl VerifyAnswer {
 }
 
 /// Where a line of a program that was run came from.
-fn source_of(flat: Option<&FlatProgram>, line: usize) -> String {
+pub(crate) fn source_of(flat: Option<&FlatProgram>, line: usize) -> String {
     let source = flat.and_then(|flat| flat.source_of(line));
     source.map_or_else(String::new, |(file, from)| {
         format!(" (line {from} of {file})")

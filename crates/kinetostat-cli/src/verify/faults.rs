@@ -3,7 +3,6 @@
 use kinetostat_machining::FeatureResult;
 
 use crate::verify::answer::VerifyAnswer;
-use crate::verify::conditions;
 use crate::verify::other_word::OtherWord;
 use crate::verify::tilted::Tilted;
 
@@ -71,11 +70,7 @@ impl VerifyAnswer {
 
     /// Feeds, spindles, tools, frames and statements of the program that are faults, a sentence each.
     pub(crate) fn faults_of_words(&self) -> Vec<String> {
-        let conditions = self.matched.conditions.iter().map(|other| {
-            let source = self.source(other.line_of_original);
-            conditions::said(other, self.forces_from_cut, &source)
-        });
-        let words = self.other_words.iter().filter_map(OtherWord::fault_text);
-        conditions.chain(words).collect()
+        let words = self.other_words.iter();
+        words.filter_map(OtherWord::fault_text).collect()
     }
 }

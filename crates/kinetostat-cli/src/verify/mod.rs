@@ -4,58 +4,43 @@
 
 mod answer;
 pub(crate) mod arguments;
-mod conditions;
-mod control_words;
-mod cut_lines;
+mod block_marks;
+mod compared;
 mod ending;
 mod faults;
-mod gcode_words;
-mod in_force;
+mod marks;
 mod on_paper;
 mod other_language;
 mod other_word;
-mod robot_words;
-mod statements;
+mod program_marks;
+mod solved;
 mod text;
 mod tilted;
-mod unseen_motions;
-mod words;
 mod written;
+mod zones;
 
 use std::path::Path;
-
-use kinetostat::Directions;
-use kinetostat_formats::Template;
-use kinetostat_machining::{Condition, RunError, Verified, verify_program};
 
 use crate::files::input_files::InputFiles;
 use crate::files::outputs;
 use crate::job::arguments::{ProgramArgs, WritingFlags};
 use crate::job::feature_lines::refuse_lines_beyond;
 use crate::job::job_file::JobFile;
-use crate::job::machine::{MachineSetup, machine_setup};
+use crate::job::machine::machine_setup;
 use crate::job::of_model::give_of_model;
 use crate::job::program::read_program;
-use crate::job::robot::read_program::RobotRead;
 use crate::job::run_warnings;
 use crate::job::setting::{Setting, program_path, setting};
 use crate::long::which::say_as_a_whole;
-use crate::program::aim::Aim;
 use crate::program::features::put_features;
 use crate::program::report::refuse_doubtful;
-use crate::program::solve::{forces_of, with_task};
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::json;
 use crate::ui::language::LanguageWord;
-use crate::ui::progress::Progress;
-use crate::ui::threads::in_threads;
 use crate::verify::answer::VerifyAnswer;
 use crate::verify::arguments::VerifyArgs;
-use crate::verify::ending::{ends_in_cut, is_cut};
-use crate::verify::gcode_words::other_words;
-use crate::verify::other_language::{fitting, language, read_as_made, template, words_of_cell};
-use crate::verify::other_word::OtherWord;
-use crate::verify::robot_words::robot_words;
+use crate::verify::other_language::{fitting, language, read_as_made, template};
+use crate::verify::solved::{Solved, solved};
 use crate::verify::tilted::Tilted;
 use crate::verify::written::ClaimedFiles;
 
@@ -194,87 +179,4 @@ fn asked(
     let model = (job, model_named);
     give_of_model(&mut setting, files, model, program)?;
     Ok(setting)
-}
-
-/// The machine along the second program.
-struct Solved {
-    found: Verified,
-    /// Lines of cuts of the original that it leaves out.
-    uncut: Vec<usize>,
-    other_words: Vec<OtherWord>,
-    corrected: Directions,
-    /// By how much the digits of a program written from the original may be off.
-    rounding_mm: f64,
-    forces_from_cut: bool,
-}
-
-/// The machine along the second program, and what it leaves out and has otherwise.
-fn solved(
-    machine: &MachineSetup,
-    (original, verified): (&Setting, &Setting),
-    template: Option<&Template>,
-    threads: Option<usize>,
-) -> Answer<Solved> {
-    let read = read_program(original)?;
-    let other = read_program(verified)?;
-    if !other.path().moves.iter().any(is_cut) {
-        return Err(verified.within(Failure::input(
-            "the program has no move at feed that begins at a place it states, so that there is nothing to verify: name the program that was compensated, and the original as --against",
-        )));
-    }
-    let progress = Progress::new();
-    let forces = forces_of(machine, original, read.path(), &progress)?;
-    let aim = Aim::Compensate;
-    let found = with_task(aim, machine, original, &read, forces.as_ref(), |task| {
-        let program = (other.path(), verified.program.as_slice());
-        in_threads(threads, || verify_program(task, program, &progress))
-    })??;
-    progress.finish();
-    let mut found = found.map_err(|error| {
-        // Its line is one of the verified program; those of all others are the original's.
-        let of = match error {
-            RunError::Elsewhere { .. } => verified,
-            _ => original,
-        };
-        of.within(Failure::from(error))
-    })?;
-    if let Some(assumed) = read.robot().and_then(RobotRead::assumed_of_calls) {
-        found.run.result.assume(assumed);
-    }
-    let cuts = read.path().moves.iter().filter(|m| m.is_known_feed());
-    let left_out = |line: &usize| {
-        let mut all = found.matched.uncut.iter();
-        all.any(|uncut| (uncut.lines[0]..=uncut.lines[1]).contains(line))
-    };
-    let uncut = cuts.map(|m| m.line).filter(left_out).collect();
-    let mut other_words = match ((read.gcode(), other.gcode()), (read.robot(), other.robot())) {
-        ((Some(of_original), Some(of_verified)), _) => {
-            let cuts = found.matched.cut_lines.as_slice();
-            other_words(of_original, of_verified, (&original.reading, cuts))
-        }
-        (_, (Some(of_original), Some(of_verified))) => {
-            // Tools of robots have names, and are compared where they are.
-            let conditions = &mut found.matched.conditions;
-            conditions.retain(|other| other.condition != Condition::Tool);
-            let cuts = found.matched.cut_lines.as_slice();
-            robot_words(of_original, of_verified, cuts)
-        }
-        ((Some(_), None), (None, Some(_))) => {
-            // A robot has no words for spindle and tools of G-code: those of its cell are compared.
-            let conditions = &mut found.matched.conditions;
-            conditions.retain(|other| other.condition == Condition::Feed);
-            words_of_cell(machine, verified, (read.path(), &other), template)?
-        }
-        _ => Vec::new(),
-    };
-    let shift_mm = found.run.result.summary.max_position_error_before_mm;
-    other_words.extend(ends_in_cut(read.path(), other.path(), shift_mm));
-    Ok(Solved {
-        found,
-        uncut,
-        other_words,
-        corrected: read.corrected(),
-        rounding_mm: original.rounding_mm(read.path()),
-        forces_from_cut: forces.is_some(),
-    })
 }

@@ -62,10 +62,7 @@ impl VerifyAnswer {
 
     /// Lines of the program with another feed, spindle, tool or frame, where that is a fault.
     fn lines_of_other_words(&self) -> Vec<usize> {
-        let conditions = self.matched.conditions.iter();
-        let conditions = conditions.map(|other| other.lines[0]);
         let words = self.other_words.iter().filter(|word| word.fault.is_some());
-        let words = words.map(|word| word.line.unwrap_or(1));
-        conditions.chain(words).collect()
+        words.map(|word| word.line.unwrap_or(1)).collect()
     }
 }

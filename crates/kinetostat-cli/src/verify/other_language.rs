@@ -6,7 +6,7 @@
 use std::path::Path;
 
 use kinetostat::Pose;
-use kinetostat_formats::{Language, SpindleStatements, Template, language_of};
+use kinetostat_formats::{Language, Template, language_of};
 use kinetostat_program::{Path as ToolPath, SpindleRotation};
 use nalgebra::Vector3;
 
@@ -150,25 +150,17 @@ pub(crate) fn words_of_cell(
     if !placement.orientation_follows {
         found.extend(leaning(machine, own));
     }
-    let cuts = original
-        .moves
-        .iter()
-        .filter(|motion| motion.is_known_feed());
-    let turns = |line: usize| original.spindle_on(line).rotation != SpindleRotation::Stopped;
-    let started = cuts.map(|motion| motion.line).find(|line| turns(*line));
-    let is_of_arm = own.robot().is_some_and(|robot| {
+    let of_arm = |language| {
         matches!(
-            robot.program.language,
+            language,
             Language::Krl | Language::Rapid | Language::FanucLs | Language::Poses
         )
-    });
-    if let (Some(line), true) = (started, is_of_arm && !starts(verified, template)) {
-        let text = format!(
-            "{SPINDLE_NOT_STARTED}: the original cuts with a spindle that turns (line {line} there), and no statement of this program is known to start it; state the cell's statements under [spindle] in the template"
-        );
-        found.push(OtherWord::new(SPINDLE, None, [None, Some(line)], text));
-    } else if let (Some(template), true) = (template, is_of_arm) {
-        found.extend(spindle_of_cell(&template.spindle, verified, original));
+    };
+    if own
+        .robot()
+        .is_some_and(|robot| of_arm(robot.program.language))
+    {
+        found.extend(spindle_of_cell(template, verified, original));
     }
     Ok(found)
 }
@@ -203,9 +195,9 @@ fn leaning(machine: &MachineSetup, own: &ReadProgram<'_>) -> Option<OtherWord> {
     })
 }
 
-/// The first speed or direction of the spindle at a cut of the original for which a statement of the template is missing.
+/// The first speed or direction of the spindle at a cut of the original for which the program has no statement of the cell.
 fn spindle_of_cell(
-    statements: &SpindleStatements,
+    template: Option<&Template>,
     verified: &Setting,
     original: &ToolPath,
 ) -> Option<OtherWord> {
@@ -215,40 +207,22 @@ fn spindle_of_cell(
         .map(|m| (m.line, original.spindle_on(m.line)))
         .collect();
     states.dedup_by_key(|(_, spindle)| *spindle);
-    let turning = states
-        .into_iter()
-        .filter(|(_, spindle)| spindle.rotation != SpindleRotation::Stopped);
-    let mut missing = turning.filter_map(|(line, spindle)| {
-        let all = statements.lines(spindle.rotation, spindle.speed)?;
-        let missing = all
-            .into_iter()
-            .find(|said| !program.contains(said.trim()))?;
-        Some((line, missing))
-    });
-    let (line, said) = missing.next()?;
-    let text = format!(
-        "`{said}`, by which the template has the spindle turn as at line {line} of the original, stands nowhere in this program"
-    );
-    let lines = [None, Some(line)];
-    Some(OtherWord::new(
-        "spindle of the cell",
-        Some(FaultKind::Spindle),
-        lines,
-        text,
-    ))
-}
-
-/// Whether a statement of the template that starts the spindle stands in the program.
-fn starts(verified: &Setting, template: Option<&Template>) -> bool {
-    let Some(template) = template else {
-        return false;
-    };
-    let text = String::from_utf8_lossy(&verified.program);
-    let spindle = &template.spindle;
-    let mut lines = spindle.clockwise.iter().chain(&spindle.counter_clockwise);
-    lines.any(|line| {
-        let fixed = line.split("{rpm}").next().unwrap_or_default().trim();
-        !fixed.is_empty() && text.contains(fixed)
+    states.retain(|(_, spindle)| spindle.rotation != SpindleRotation::Stopped);
+    states.into_iter().find_map(|(line, spindle)| {
+        let lines = [None, Some(line)];
+        let statements = template.map(|template| &template.spindle);
+        let Some(all) = statements.and_then(|all| all.lines(spindle.rotation, spindle.speed)) else {
+            let text = format!(
+                "{SPINDLE_NOT_STARTED}: the original cuts with a spindle that turns (line {line} there), and no statement of this program is known to start it; state the cell's statements under [spindle] in the template"
+            );
+            return Some(OtherWord::new(SPINDLE, None, lines, text));
+        };
+        let said = all.into_iter().find(|said| !program.contains(said.trim()))?;
+        let text = format!(
+            "`{said}`, by which the template has the spindle turn as at line {line} of the original, stands nowhere in this program"
+        );
+        let fault = Some(FaultKind::Spindle);
+        Some(OtherWord::new("spindle of the cell", fault, lines, text))
     })
 }
 

@@ -1,5 +1,6 @@
 //! What one of both programs says and the other does not.
 
+use kinetostat_machining::{Condition, OtherCondition};
 use serde::Serialize;
 
 /// A word or a statement that one of both programs has and the other does not, or has otherwise.
@@ -50,6 +51,9 @@ impl FaultKind {
 /// What follows from another path mode.
 pub(crate) const OTHER_PATH_MODE: &str = ": the control follows the path otherwise, and leaves its corners by what that allows; nothing here has that in it";
 
+/// What follows from another feed or speed where forces are computed.
+const OTHER_FORCES: &str = ": the forces that the program is corrected for come from that cut";
+
 /// Line of the program and of the original; none of the one that does not have the word.
 pub(crate) type Lines = [Option<usize>; 2];
 
@@ -68,6 +72,43 @@ impl OtherWord {
             fault,
             text,
         }
+    }
+
+    /// Cuts that are made with another value than in the original; `source` says where a line of that came from.
+    pub(crate) fn at_cuts(
+        [first, last, there]: [usize; 3],
+        [own, of_original]: [&str; 2],
+        (fault, follows): (Option<FaultKind>, &str),
+        source: &dyn Fn(usize) -> String,
+    ) -> Self {
+        let cut = match first == last {
+            true => format!("line {first} cuts"),
+            false => format!("lines {first} to {last} cut"),
+        };
+        let text = format!(
+            "{cut} with {own}, the original with {of_original} (line {there}{} there){follows}",
+            source(there)
+        );
+        Self::new(own, fault, [Some(first), Some(there)], text)
+    }
+
+    /// Another feed or spindle along the path.
+    pub(crate) fn of_condition(
+        other: &OtherCondition,
+        forces_from_cut: bool,
+        source: &dyn Fn(usize) -> String,
+    ) -> Self {
+        let (fault, follows) = match other.condition {
+            Condition::Feed if forces_from_cut => (FaultKind::Feed, OTHER_FORCES),
+            Condition::Feed => (FaultKind::Feed, ""),
+            Condition::Spindle if forces_from_cut => (FaultKind::Spindle, OTHER_FORCES),
+            Condition::Spindle => (FaultKind::Spindle, ""),
+            Condition::Rotation => (FaultKind::Rotation, ""),
+        };
+        let [first, last] = other.lines;
+        let lines = [first, last, other.line_of_original];
+        let said = [other.of_program.as_str(), &other.of_original];
+        Self::at_cuts(lines, said, (Some(fault), follows), source)
     }
 
     /// That only one of both programs has a word.

@@ -99,7 +99,7 @@ fn other_feeds_are_faults_where_the_load_is_stated() {
     compensated(here.path(), &["--no-header"]);
     let (code, found, said) = changed(here.path(), |text| text.replace(" F", " F1"));
     assert_eq!(code, 3, "{said}");
-    assert!(said.contains("ANOTHER FEED at line"), "{said}");
+    assert!(said.contains("ANOTHER FEED: line"), "{said}");
     let conditions = &found["matched"]["conditions"];
     assert_eq!(conditions[0]["condition"], "feed", "{said}");
     assert_eq!(conditions[0]["of_original"], "600 mm/min", "{said}");
@@ -134,7 +134,7 @@ fn frames_that_the_original_does_not_state_are_faults() {
         ("G64 P0.50", ["ANOTHER PATH MODE", "cut with G64 P0.5, the"]),
         (
             "T2 M6",
-            ["ANOTHER TOOL at line", ": T2, where the original"],
+            ["ANOTHER TOOL: line", "with T2, the original with"],
         ),
     ] {
         let (code, _, said) = changed(here.path(), |text| format!("{word}\n{text}"));
@@ -148,6 +148,22 @@ fn frames_that_the_original_does_not_state_are_faults() {
         found["warnings"].to_string().contains("cut with G61"),
         "{said}"
     );
+}
+
+/// A cut in a frame that lies elsewhere is no wrong input.
+#[test]
+fn a_cut_in_a_frame_that_is_far_away_is_a_fault() {
+    let here = part();
+    let frames = ["--work-offset", "G54=0,0,0", "--work-offset", "G55=400,0,0"];
+    compensated(here.path(), &[&["--no-header"], &frames[..]].concat());
+    let text = std::fs::read_to_string(here.path().join("out.ngc")).unwrap();
+    for cut in ["G0 Z-1\n", "G0 Z0\n"] {
+        let from = text.find(cut).unwrap_or_else(|| panic!("{text}"));
+        let other = format!("{}G55\n{}", &text[..from], &text[from..]);
+        std::fs::write(here.path().join("other.ngc"), other).unwrap();
+        let (code, _, said) = verified(here.path(), "other.ngc", &frames);
+        assert_eq!(code, 3, "{cut}: {said}");
+    }
 }
 
 /// The rounding of a program with three digits is part of what `compensate` allows itself.

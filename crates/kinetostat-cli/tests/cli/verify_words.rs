@@ -124,7 +124,7 @@ fn words_of_robots_are_faults_or_named() {
 }
 
 const LS: &str = "/PROG PART\n/ATTR\n/MN\n 1:UFRAME_NUM=1 ;\n 2:UTOOL_NUM=1 ;\n 3:L P[1] 200mm/sec FINE ;\n 4:CALL SPINDLE_ON ;\n 5:DO[7]=ON ;\n \
-6:L P[2] 20mm/sec FINE ;\n 7:L P[3] 20mm/sec CNT5 ;\n 8:L P[4] 20mm/sec FINE ;\n 9:L P[5] 200mm/sec FINE ;\n/POS\n";
+6:L P[2] 20mm/sec FINE ;\n 7:L P[3] 20mm/sec CNT5 TB .50sec,DO[8]=ON ;\n 8:L P[4] 20mm/sec FINE ;\n 9:L P[5] 200mm/sec FINE ;\n/POS\n";
 
 /// A program of FANUC, changed behind its compensation.
 #[test]
@@ -155,6 +155,7 @@ rapid_from_mm_per_s = 150\n[robot.frames]\n\"UT:1\" = { position_mm = [0, 0, 250
             3,
             "ANOTHER FEED: OVERRIDE=30% at line",
         ),
+        (" TB .50sec,DO[8]=ON", "", 0, "DO[8]=ON at line"),
         ("DO[7]=ON", "WAIT 2.00(sec)", 0, "WAIT 2.00(SEC) at line"),
     ] {
         assert!(text.contains(from), "{from}: {text}");

@@ -3,7 +3,7 @@
 //! Source: HEIDENHAIN, user's manuals of TNC 426 to TNC 640: which M functions act at the start of their block and which at its
 //! end ([`function`]), M13 and M14 (spindle and coolant), STOP, cycle 9 and FUNCTION DWELL (seconds).
 
-use kinetostat_program::SpindleRotation;
+use kinetostat_program::{SpindleChange, SpindleRotation};
 
 use crate::heidenhain::blocks::{Block, blocks_of};
 use crate::heidenhain::path_words::has_words;
@@ -16,8 +16,8 @@ use crate::making::turning::Turning;
 use crate::making::words::{InForce, Said, Word, Words, kind_of_m, word_of_m};
 use crate::text::source::SourceFile;
 
-/// The events of a file.
-pub(crate) fn events_of_heidenhain(source: &SourceFile) -> Vec<SourceEvent> {
+/// The events of a file, and where its spindle begins to turn otherwise.
+pub(crate) fn events_of_heidenhain(source: &SourceFile) -> (Vec<SourceEvent>, Vec<SpindleChange>) {
     let blocks = blocks_of(source.bytes());
     let mut walk = Walk {
         source,
@@ -34,7 +34,7 @@ pub(crate) fn events_of_heidenhain(source: &SourceFile) -> Vec<SourceEvent> {
             events.extend(walk.block(block));
         }
     }
-    events
+    (events, walk.turning.changes())
 }
 
 struct Walk<'w> {
@@ -72,8 +72,11 @@ impl Walk<'_> {
         let stops = |said: &Said| {
             said.is_late && (said.word == Word::SpindleStop || said.kind == EventKind::Tool)
         };
+        let line = self.source.line_of(block.text.start);
+        self.turning.note(line);
         if said.iter().any(stops) {
             self.turning.turn(SpindleRotation::Stopped);
+            self.turning.note(line + 1);
         }
         let text = texts.join(" ");
         let words = Words {
@@ -81,7 +84,7 @@ impl Walk<'_> {
             said,
             is_optional: block.skipped,
         };
-        words.events(self.source.line_of(block.text.start), force)
+        words.events(line, force)
     }
 
     /// What a statement says beside a motion.

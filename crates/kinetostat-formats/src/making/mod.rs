@@ -2,7 +2,7 @@
 //!
 //! The way: [`gcode_events`] and [`robot_events`] find what a source says beside its moves ([`motion_events`]: in their statements;
 //! [`siemens_events`] and [`heidenhain_events`]: the words of blocks, with [`turning`], how the spindle turns, and [`words`], what they do
-//! before a motion and behind it),
+//! before a motion and behind it; [`block_words`]: all of them for whoever compares two programs),
 //! [`course`] says in which order all of it runs ([`robot_course`], [`routines`], [`block_order`]: of robots' programs, [`of_tools`]: their tools, [`configurations`], [`reconfigured`], [`stated_configurations`]: their
 //! postures), [`plan`] makes steps
 //! (where [`tools_told`] finds every tool of the program in the template, and [`tool_edges`] its edges)
@@ -13,6 +13,7 @@ pub(crate) mod action;
 pub(crate) mod again;
 pub(crate) mod apt;
 pub(crate) mod block_order;
+pub(crate) mod block_words;
 pub(crate) mod blocks;
 pub(crate) mod compare;
 pub(crate) mod computed_frames;

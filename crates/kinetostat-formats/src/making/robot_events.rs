@@ -36,8 +36,8 @@ pub fn events_of_robot(program: &RobotProgram) -> Vec<SourceEvent> {
     };
     let moving = program.lines_of_targets(file);
     match program.language {
-        Language::Heidenhain => return events_of_heidenhain(source),
-        Language::Siemens => return events_of_siemens(source, &moving),
+        Language::Heidenhain => return events_of_heidenhain(source).0,
+        Language::Siemens => return events_of_siemens(source, &moving).0,
         _ => {}
     }
     let spindle = match program.language {

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use kinetostat_program::SpindleRotation;
+use kinetostat_program::{SpindleChange, SpindleRotation};
 
 use crate::making::event_kind::EventKind;
 use crate::making::events::SourceEvent;
@@ -17,8 +17,11 @@ use crate::siemens::tokens::Token;
 use crate::siemens::values::{Variables, whole};
 use crate::text::source::SourceFile;
 
-/// The events of a file with motions on some of its lines.
-pub(crate) fn events_of_siemens(source: &SourceFile, moving: &BTreeSet<usize>) -> Vec<SourceEvent> {
+/// The events of a file with motions on some of its lines, and where its spindle begins to turn otherwise.
+pub(crate) fn events_of_siemens(
+    source: &SourceFile,
+    moving: &BTreeSet<usize>,
+) -> (Vec<SourceEvent>, Vec<SpindleChange>) {
     let mut walk = Walk {
         source,
         variables: Variables::default(),
@@ -29,9 +32,10 @@ pub(crate) fn events_of_siemens(source: &SourceFile, moving: &BTreeSet<usize>) -
         changes_by_m6: has_change(source.bytes()),
     };
     let lines = 1..=source.line_count();
-    lines
+    let events = lines
         .flat_map(|line| walk.line(line, moving.contains(&line)))
-        .collect()
+        .collect();
+    (events, walk.master.turning.changes())
 }
 
 struct Walk<'w> {
@@ -96,8 +100,10 @@ impl Walk<'_> {
             dwell_s: purpose.dwell_s,
             spindle: self.master.turning.now(),
         };
+        self.master.turning.note(line);
         if purpose.stops_late {
             self.master.turning.turn(SpindleRotation::Stopped);
+            self.master.turning.note(line + 1);
         }
         if block.skip && words.said.iter().any(|s| s.kind == EventKind::Spindle) {
             self.master.turning.forget();

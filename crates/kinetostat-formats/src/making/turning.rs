@@ -1,6 +1,6 @@
 //! How the spindle of a program turns, as far as its blocks say.
 
-use kinetostat_program::{SpeedMode, Spindle, SpindleRotation};
+use kinetostat_program::{SpeedMode, Spindle, SpindleChange, SpindleRotation};
 
 /// What is known of the spindle.
 #[derive(Default)]
@@ -8,12 +8,33 @@ pub(crate) struct Turning {
     spindle: Spindle,
     /// A switch of the machine, or another master spindle, leaves it open which way it turns.
     is_open: bool,
+    changes: Vec<SpindleChange>,
+    /// It was open somewhere: then nothing is said of where it turns otherwise.
+    was_open: bool,
 }
 
 impl Turning {
     /// None where it is not known whether and which way it turns.
     pub(crate) fn now(&self) -> Option<Spindle> {
         (!self.is_open).then_some(self.spindle)
+    }
+
+    /// Takes down how it turns on a line.
+    pub(crate) fn note(&mut self, line: usize) {
+        let spindle = self.spindle;
+        self.was_open |= self.is_open;
+        let last = self.changes.last().map(|change| change.spindle);
+        if last.unwrap_or_default() != spindle {
+            self.changes.push(SpindleChange { line, spindle });
+        }
+    }
+
+    /// Where it begins to turn otherwise, as far as that is known throughout.
+    pub(crate) fn changes(self) -> Vec<SpindleChange> {
+        match self.was_open {
+            true => Vec::new(),
+            false => self.changes,
+        }
     }
 
     pub(crate) fn turn(&mut self, rotation: SpindleRotation) {

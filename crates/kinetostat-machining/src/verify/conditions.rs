@@ -1,4 +1,4 @@
-//! Feed, spindle and tool of another program at the cuts that it shares with the original.
+//! Feed and spindle of another program at the cuts that it shares with the original.
 
 use std::fmt::Write as _;
 
@@ -26,7 +26,7 @@ pub(crate) struct Cut<'a> {
     original_min: Option<f64>,
 }
 
-/// Where the other program cuts with another feed, another speed of the spindle or another tool than the original; consecutive moves
+/// Where the other program cuts with another feed or another speed of the spindle than the original; consecutive moves
 /// that differ in the same way are one. `most_feed_factor` is how many times the programmed feed a compensated program may state so
 /// that the speed along the part stays: held to that it is slower there.
 pub(crate) fn conditions(
@@ -42,14 +42,9 @@ pub(crate) fn conditions(
             original.spindle_on(cut.original.line),
             other.spindle_on(cut.own.line),
         ];
-        let tools = [
-            original.tool_on(cut.original.line),
-            other.tool_on(cut.own.line),
-        ];
         let differences = [
             other_feed(cut, spindles, most_feed_factor),
             other_spindle(spindles),
-            other_tool(tools),
         ];
         for (condition, was, is) in differences.into_iter().flatten() {
             let known = found
@@ -68,7 +63,6 @@ pub(crate) fn conditions(
                     line_of_original: cut.original.line,
                     of_original: was,
                     of_program: is,
-                    tools_named: tools.iter().all(Option::is_some),
                 });
             }
         }
@@ -140,7 +134,7 @@ fn other_feed(cut: &Cut<'_>, spindles: [Spindle; 2], most_feed_factor: f64) -> D
     let own = speed(cut.own, spindles[1]);
     let said = |motion: &Move| {
         let Some(feed) = motion.feed else {
-            return "none".to_owned();
+            return "no feed".to_owned();
         };
         let unit = match feed.mode {
             FeedMode::PerMinute => "mm/min",
@@ -198,7 +192,7 @@ fn other_spindle([of_original, own]: [Spindle; 2]) -> Difference {
         let mut said = match spindle.rotation {
             SpindleRotation::Clockwise => "M3".to_owned(),
             SpindleRotation::CounterClockwise => "M4".to_owned(),
-            SpindleRotation::Stopped => return "the spindle stands still".to_owned(),
+            SpindleRotation::Stopped => return "a spindle that stands still".to_owned(),
         };
         if let Some(speed) = spindle.speed {
             let unit = match spindle.mode {
@@ -216,11 +210,6 @@ fn other_spindle([of_original, own]: [Spindle; 2]) -> Difference {
         false => Condition::Spindle,
     };
     (!same).then(|| (condition, said(of_original), said(own)))
-}
-
-fn other_tool([of_original, own]: [Option<u32>; 2]) -> Difference {
-    let said = |tool: Option<u32>| tool.map_or("none is named".to_owned(), |t| format!("T{t}"));
-    (of_original != own).then(|| (Condition::Tool, said(of_original), said(own)))
 }
 
 /// As a program states it.

@@ -18,7 +18,7 @@ pub struct Matched {
     /// Moves at feed that the original does not make.
     #[serde(default)]
     pub extra_cuts: Vec<ExtraCut>,
-    /// Where cuts that both make have another feed, another speed of the spindle or another tool.
+    /// Where cuts that both make have another feed or another speed of the spindle.
     #[serde(default)]
     pub conditions: Vec<OtherCondition>,
     /// Lines of cuts that both make: of the program, and of the original.
@@ -50,8 +50,6 @@ pub enum Condition {
     Spindle,
     /// The spindle stands still or turns the other way round.
     Rotation,
-    /// The tool.
-    Tool,
 }
 
 /// Moves that the original makes otherwise than where they go.
@@ -67,8 +65,6 @@ pub struct OtherCondition {
     pub of_original: String,
     /// What the program says there.
     pub of_program: String,
-    /// Whether both name a tool.
-    pub tools_named: bool,
 }
 
 /// A rapid of a program that goes elsewhere than that of the original.

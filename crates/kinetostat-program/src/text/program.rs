@@ -219,6 +219,23 @@ impl Program {
         words.any(|word| word.letter == b'G' && codes.contains(&word.value))
     }
 
+    /// Letters, in capitals, and numbers of a line in their order; `line` is counted from 1.
+    ///
+    /// ```
+    /// use kinetostat_program::Program;
+    ///
+    /// let program = Program::read("G21 G90\nN5 G4 P1.50 (cool down)\n")?;
+    /// let words: Vec<(char, f64)> = program.words_on(2).collect();
+    /// assert_eq!(words, [('G', 4.0), ('P', 1.5)]);
+    /// # Ok::<(), kinetostat_program::ProgramError>(())
+    /// ```
+    pub fn words_on(&self, line: usize) -> impl Iterator<Item = (char, f64)> {
+        let words = self.line(line).map_or(&[][..], |line| self.words(line));
+        words
+            .iter()
+            .map(|word| (char::from(word.letter), word.value))
+    }
+
     pub(crate) fn words(&self, line: &Line) -> &[Word] {
         &self.words[line.words.start as usize..line.words.end as usize]
     }

@@ -54,13 +54,6 @@ impl RobotRead<'_> {
         self.program.language == Language::Krl && !self.settings.axis_is_stated
     }
 
-    /// Lines of the file with the motions, from 1, in capitals.
-    pub(crate) fn lines_in_capitals(&self) -> impl Iterator<Item = (usize, String)> {
-        let file = &self.program.files[self.path.file];
-        let lines = (1..=file.line_count()).filter_map(|line| Some((line, file.line(line)?)));
-        lines.map(|(line, bytes)| (line, String::from_utf8_lossy(bytes).to_ascii_uppercase()))
-    }
-
     /// That what none of its files holds is taken not to move the tool.
     pub(crate) fn assumed_of_calls(&self) -> Option<Assumption> {
         let calls = self.program.calls_taken_to_stay();

@@ -1,0 +1,137 @@
+//! Which marks the words of a block are: of G-code, SINUMERIK and Heidenhain.
+
+use kinetostat_formats::{BlockWord, Language};
+
+use crate::job::reading::work_offset;
+use crate::verify::marks::{Kind, Marks, NOTHING_ADDED, Value};
+
+/// G words of G-code that are in the path that was read, with feeds and speeds of the spindle: rounds of cycles, units, planes, kinds of
+/// feed.
+const IN_PATH: &[&str] = &[
+    "0", "1", "2", "3", "5", "5.1", "5.2", "5.3", "7", "8", "17", "18", "19", "20", "21", "70",
+    "71", "73", "74", "76", "80", "81", "82", "83", "84", "85", "86", "87", "88", "89", "90",
+    "90.1", "91", "91.1", "92.1", "92.2", "92.3", "93", "94", "95", "96", "97", "98", "99",
+];
+
+/// G words of a SINUMERIK for how it follows the path.
+const PATH_MODES: [&str; 10] = [
+    "G60", "G64", "G601", "G602", "G603", "G641", "G642", "G643", "G644", "G645",
+];
+
+/// Words that are done behind the motion of their block.
+const BEHIND_MOTIONS: [&str; 9] = ["M0", "M1", "M2", "M5", "M9", "M17", "M30", "M60", "M99"];
+
+/// No word of a block that is left out.
+const NO_SLASH: &str = "no /";
+
+impl Marks<'_> {
+    /// The marks of a block, of G-code where no language is named.
+    pub(crate) fn add_block(&mut self, line: usize, of: Option<Language>, words: &[BlockWord]) {
+        let found = match of {
+            None => of_gcode(words),
+            Some(Language::Heidenhain) => of_heidenhain(words),
+            Some(_) => of_siemens(words),
+        };
+        let has_slash = words.first().is_some_and(|word| word.name == "/");
+        let slash = if has_slash { "/" } else { NO_SLASH };
+        let is_move = self.move_lines.binary_search(&line).is_ok();
+        let slash = is_move.then(|| (Kind::Optional, slash.to_owned()));
+        for (kind, text) in found.into_iter().chain(slash) {
+            let is_behind = BEHIND_MOTIONS.contains(&text.as_str());
+            self.add(line, kind, Value::Text(text), is_behind);
+        }
+    }
+}
+
+/// Words of these names, each behind a blank, in this order whichever they have.
+fn with(words: &[BlockWord], names: &[&str]) -> String {
+    let of = |name: &&str| {
+        let own = words.iter().filter(move |word| word.name == *name);
+        own.map(|word| format!(" {}", word.text))
+            .collect::<String>()
+    };
+    names.iter().map(|name| of(&name)).collect()
+}
+
+/// Those of G-code with the words that belong to them: `G64 P0.5 Q0.1`, `G43 H2`, `G4 P1`.
+fn of_gcode(words: &[BlockWord]) -> Vec<(Kind, String)> {
+    let mark = |word: &BlockWord| {
+        let number = word.text.get(1..).unwrap_or_default();
+        let (kind, belong): (Kind, &[&str]) = match (word.name.as_str(), number) {
+            ("G", "92") => (Kind::Shift, &[]),
+            ("G", "40") => (Kind::Radius, &[]),
+            ("G", "41" | "42") => (Kind::Radius, &["D"]),
+            ("G", "43" | "43.2" | "43.4" | "44") => (Kind::Length, &["H"]),
+            ("G", "43.1") => (Kind::Length, &["X", "Y", "Z"]),
+            ("G", "49") => (Kind::Length, &[]),
+            ("G", "61" | "61.1") => (Kind::PathMode, &[]),
+            ("G", "64") => (Kind::PathMode, &["P", "Q"]),
+            ("G", "4") => (Kind::Other, &["P", "X", "U", "S"]),
+            ("G", number) if IN_PATH.contains(&number) => return None,
+            ("G", _) if work_offset(&word.text).is_some() => (Kind::Frame, &[]),
+            ("M", number) if number.len() > 1 => (Kind::Other, &["P", "Q"]),
+            ("G" | "M", _) => (Kind::Other, &[]),
+            // H names a tool, too, where no T does.
+            ("T", _) => (Kind::Tool, &[]),
+            _ => return None,
+        };
+        Some((kind, format!("{}{}", word.text, with(words, belong))))
+    };
+    words.iter().filter_map(mark).collect()
+}
+
+/// `D1`, `M8`, `G642 ADIS=1`, `CYCLE832(0.5,1)`, `G4 F2`.
+fn of_siemens(words: &[BlockWord]) -> Vec<(Kind, String)> {
+    let waits = words.iter().any(|word| word.text == "G4");
+    let mut path_mode: Vec<&str> = Vec::new();
+    let mut found = Vec::new();
+    for word in words {
+        match word.name.as_str() {
+            "F" | "S" if waits => found.push((Kind::Other, format!("G4 {}", word.text))),
+            "D" => found.push((Kind::Edge, word.text.replace('=', ""))),
+            "M" => found.push((Kind::Other, word.text.clone())),
+            "OVR" | "OVRRAP" => found.push((Kind::Override, word.text.clone())),
+            "ADIS" | "ADISPOS" | "CYCLE832" => path_mode.push(&word.text),
+            _ if PATH_MODES.contains(&word.text.as_str()) => path_mode.push(&word.text),
+            _ => {}
+        }
+    }
+    if !path_mode.is_empty() {
+        path_mode.sort_by(|a, b| b.cmp(a));
+        found.push((Kind::PathMode, path_mode.join(" ")));
+    }
+    found
+}
+
+/// What `TOOL CALL 1 Z DL+0.1` adds to a tool; words with M and `STOP`; `CYCL DEF 32.1 T0.5`: by how much corners may be left;
+/// `CYCL DEF 9.1 DWELL 2`.
+fn of_heidenhain(words: &[BlockWord]) -> Vec<(Kind, String)> {
+    let texts: Vec<&str> = words.iter().map(|word| word.text.as_str()).collect();
+    let mut found: Vec<(Kind, String)> = (words.iter())
+        .filter(|word| word.name == "M" || word.name == "STOP")
+        .map(|word| (Kind::Other, word.text.clone()))
+        .collect();
+    match texts.as_slice() {
+        [_, "DEF32.1", with @ ..] => {
+            found.push((Kind::PathMode, format!("cycle 32 with {}", with.join(" "))));
+        }
+        [_, "DEF9.1", with @ ..] => found.push((Kind::Other, with.join(" "))),
+        ["FUNCTION", "DWELL", ..] => found.push((Kind::Other, texts[1..].join(" "))),
+        ["TOOL", call, ..] if call.starts_with("CALL") => {
+            let is_zero =
+                |text: &str| text.trim_start_matches(|c: char| !c.is_ascii_digit()) == "0";
+            let added = with(words, &["DL", "DR"]);
+            let added = added.split_whitespace().filter(|text| !is_zero(text));
+            let added: Vec<&str> = added.collect();
+            found.push((
+                Kind::Edge,
+                match added.is_empty() {
+                    true => NOTHING_ADDED.to_owned(),
+                    false => added.join(" "),
+                },
+            ));
+        }
+        _ => {}
+    }
+    found
+}

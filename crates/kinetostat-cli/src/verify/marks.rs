@@ -1,0 +1,264 @@
+//! What a program says beside the places of its moves, in one form for all languages.
+
+use std::fmt;
+
+use kinetostat_formats::FrameUse;
+use nalgebra::Vector3;
+
+use crate::job::robot::frame_distance::distance;
+use crate::ui::numbers::{number, short, triple};
+use crate::verify::other_word::{FaultKind, OTHER_PATH_MODE};
+
+/// Frames nearer to each other than this are one: more digits than controllers write, mm and rad.
+const SAME_MM: f64 = 1e-3;
+const SAME_RAD: f64 = 5e-6;
+
+/// Kinds of marks. Of those in `IN_FORCE` the last one holds, the others are for the place where they stand.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Kind {
+    Frame,
+    /// Before the first place is known it says where the machine stands, in a frame that it moves.
+    Shift,
+    Length,
+    Radius,
+    Tool,
+    Edge,
+    PathMode,
+    /// How often a motion runs.
+    Runs,
+    /// How the arm stands.
+    Configuration,
+    /// A block that a switch of the control leaves out.
+    Optional,
+    /// Motions of which it is not known where the tool is: by joint values, or to places that are computed.
+    Unseen,
+    /// Statements of robots behind which somebody has to start again.
+    Stop,
+    /// Those that say how fast all motions run.
+    Override,
+    /// Statements that name the spindle, by what they call or switch.
+    Spindle,
+    Other,
+}
+
+pub(crate) const IN_FORCE: [Kind; 10] = [
+    Kind::Frame,
+    Kind::Shift,
+    Kind::Length,
+    Kind::Radius,
+    Kind::Tool,
+    Kind::Edge,
+    Kind::PathMode,
+    Kind::Runs,
+    Kind::Configuration,
+    Kind::Optional,
+];
+
+/// A call that adds nothing to its tool.
+pub(crate) const NOTHING_ADDED: &str = "no DL and DR";
+
+/// The frame of a program that names none.
+const NO_FRAME: &str = "no word for a frame";
+
+/// How often motions run.
+pub(crate) const ONCE: &str = "statements that run once";
+pub(crate) const AGAIN: &str = "statements that run again";
+
+impl Kind {
+    /// In force without a mark.
+    pub(crate) fn usual(self) -> Value<'static> {
+        Value::Text(
+            match self {
+                Self::Frame => NO_FRAME,
+                Self::Shift => "no G92 before the first place",
+                Self::Length => "G49",
+                Self::Radius => "G40",
+                Self::PathMode => "what the control is set up for",
+                Self::Runs => ONCE,
+                Self::Optional => "no /",
+                _ => "none",
+            }
+            .to_owned(),
+        )
+    }
+
+    pub(crate) fn fault(self) -> Option<FaultKind> {
+        match self {
+            Self::Frame | Self::Shift => Some(FaultKind::Frame),
+            Self::Length | Self::Radius | Self::Tool | Self::Edge => Some(FaultKind::Tool),
+            Self::Spindle => Some(FaultKind::Rotation),
+            Self::PathMode => Some(FaultKind::PathMode),
+            Self::Runs | Self::Stop | Self::Unseen => Some(FaultKind::Course),
+            Self::Override => Some(FaultKind::Feed),
+            Self::Configuration | Self::Optional | Self::Other => None,
+        }
+    }
+
+    pub(crate) fn follows(self) -> &'static str {
+        match self {
+            Self::Frame => {
+                ": where its origin is not stated (--work-offset), it is not known where the control has this frame"
+            }
+            Self::Shift => {
+                ": before the program has said where the tool is, it shifts the frame by what the control knows"
+            }
+            Self::Length => ": the control moves the tool by what its table has there",
+            Self::PathMode => OTHER_PATH_MODE,
+            Self::Runs => ": these cuts may not be made, or more than once",
+            Self::Stop => ": motions behind it may not be made",
+            Self::Override => ": it changes how fast all motions run",
+            Self::Configuration => ": the model stands as in the original",
+            Self::Optional => {
+                ": where the control is switched to leave such blocks out, they are not made"
+            }
+            _ => "",
+        }
+    }
+}
+
+/// What a mark says.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Value<'a> {
+    Text(String),
+    WorkObject(&'a FrameUse),
+    Tool(&'a FrameUse),
+}
+
+impl fmt::Display for Value<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Text(text) => write!(f, "{text}"),
+            Self::WorkObject(frame) => write!(f, "work object '{}'", frame.name),
+            Self::Tool(frame) => write!(f, "tool '{}'", frame.name),
+        }
+    }
+}
+
+/// How two values are not the same.
+pub(crate) struct Apart {
+    pub(crate) fault: Option<FaultKind>,
+    pub(crate) follows: String,
+}
+
+impl Value<'_> {
+    /// How this is another value than the original has; places in frames with stated origins are compared as places.
+    pub(crate) fn apart(
+        &self,
+        of_original: &Self,
+        kind: Kind,
+        is_stated: &dyn Fn(&str) -> bool,
+    ) -> Option<Apart> {
+        let (fault, follows) = match (self, of_original) {
+            (Self::Text(own), Self::Text(of_original)) => {
+                let texts = [own.as_str(), of_original.as_str()];
+                (!is_same_text(kind, texts, is_stated)).then(|| {
+                    // Whoever stops at corners follows the path no worse.
+                    match own.starts_with("G61") {
+                        true => (None, String::new()),
+                        false => (kind.fault(), kind.follows().to_owned()),
+                    }
+                })?
+            }
+            (
+                Self::WorkObject(own) | Self::Tool(own),
+                Self::WorkObject(of_original) | Self::Tool(of_original),
+            ) => match frames_apart(own, of_original) {
+                Some(why) => (kind.fault(), format!(": it {why}")),
+                None if is_same_name(&own.name, &of_original.name) => return None,
+                None => (None, ": it is at the same place".to_owned()),
+            },
+            _ => (kind.fault(), String::new()),
+        };
+        Some(Apart { fault, follows })
+    }
+}
+
+fn is_same_text(kind: Kind, [own, of]: [&str; 2], is_stated: &dyn Fn(&str) -> bool) -> bool {
+    let both = |is: &dyn Fn(&str) -> bool| is(own) && is(of);
+    let first = |word: &str| matches!(word, NO_FRAME | "G54");
+    own == of
+        || match kind {
+            Kind::Frame => both(&first) || both(&|word| word == NO_FRAME || is_stated(word)),
+            Kind::Edge => both(&|word| matches!(word, "none" | "D1" | NOTHING_ADDED)),
+            // What runs again may be written one round after the other.
+            Kind::Runs => own == ONCE || own == AGAIN && of != ONCE,
+            Kind::Optional => own != "/",
+            _ => false,
+        }
+}
+
+/// Whether two names are one: robots and controls do not tell `tMill` from `TMILL`, nor tool 01 from tool 1.
+fn is_same_name(a: &str, b: &str) -> bool {
+    let numbers = [a, b].map(str::parse::<u64>);
+    a.eq_ignore_ascii_case(b) || matches!(numbers, [Ok(a), Ok(b)] if a == b)
+}
+
+/// Why two frames are not one.
+fn frames_apart(own: &FrameUse, of_original: &FrameUse) -> Option<String> {
+    let (Some(a), Some(b)) = (own.known(), of_original.known()) else {
+        let same = is_same_name(&own.name, &of_original.name);
+        return (!same).then(|| "is not known where both are".to_owned());
+    };
+    let [mm, turn] = distance(a, b);
+    let shown = |v: &Vector3<f64>| triple([v.x, v.y, v.z], |x| short((1e4 * x).round() / 1e4));
+    let place = (mm > SAME_MM).then(|| {
+        let [own, of] = [a, b].map(|frame| shown(&frame.translation.vector));
+        format!("is at {own} mm, in the original at {of} mm")
+    });
+    let turned = (turn > SAME_RAD).then(|| {
+        let deg = number(turn.to_degrees(), 4);
+        format!("is turned by {deg} deg from that of the original")
+    });
+    let found: Vec<String> = place.into_iter().chain(turned).collect();
+    (!found.is_empty()).then(|| found.join(", and "))
+}
+
+/// A value and its line.
+#[derive(Clone, Debug)]
+pub(crate) struct Mark<'a> {
+    pub(crate) line: usize,
+    pub(crate) kind: Kind,
+    pub(crate) value: Value<'a>,
+    /// It acts behind the motion of its line.
+    pub(crate) is_behind: bool,
+}
+
+/// Marks of a program, and lines of its moves, which ascend.
+#[derive(Default)]
+pub(crate) struct Marks<'a> {
+    pub(crate) all: Vec<Mark<'a>>,
+    pub(crate) move_lines: Vec<usize>,
+    /// The last of each kind in force.
+    last: Vec<(Kind, Value<'a>)>,
+}
+
+impl<'a> Marks<'a> {
+    /// Adds a mark, of those in force where it says another thing than the last one; those of a kind are added in the order of lines.
+    pub(crate) fn add(&mut self, line: usize, kind: Kind, value: Value<'a>, is_behind: bool) {
+        if IN_FORCE.contains(&kind) {
+            match self.last.iter_mut().find(|(of, _)| *of == kind) {
+                Some((_, last)) if *last == value => return,
+                Some((_, last)) => *last = value.clone(),
+                None => self.last.push((kind, value.clone())),
+            }
+        }
+        self.all.push(Mark {
+            line,
+            kind,
+            value,
+            is_behind,
+        });
+    }
+
+    /// Motions run more than once: a program without the loop has the words of its rounds more often.
+    pub(crate) fn has_loops(&self) -> bool {
+        let is = |mark: &Mark<'_>| mark.kind == Kind::Runs && mark.value.is(AGAIN);
+        self.all.iter().any(is)
+    }
+}
+
+impl Value<'_> {
+    pub(crate) fn is(&self, wanted: &str) -> bool {
+        matches!(self, Self::Text(text) if text == wanted)
+    }
+}
