@@ -104,12 +104,12 @@ impl<'r> Marks<'r> {
             };
             let words = code.unwrap_or_default().split_whitespace();
             let text = words.collect::<Vec<_>>().join(" ");
-            // Targets are in the places, as tools are, and APT has the spindle along the path.
+            // Targets are in the places, and APT has the spindle along the path.
             let dense = text.replace(' ', "");
             let is_place =
                 dense.contains("={") || dense.contains(":=[") || dense.starts_with("PR[");
             let is_compared = match event.kind {
-                EventKind::Comment | EventKind::End | EventKind::Tool => true,
+                EventKind::Comment | EventKind::End => true,
                 EventKind::Spindle => language == Language::Apt,
                 _ => is_place || text.is_empty(),
             };

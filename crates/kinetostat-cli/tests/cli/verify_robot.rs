@@ -228,12 +228,20 @@ fn calls_for_tools_and_shifts_are_compared() {
         "part.apt",
         APT,
         &with,
-        &[(
-            "LOADTL/1",
-            "LOADTL/2",
-            3,
-            "with tool 'TOOL:2', the original with tool 'TOOL:1'",
-        )],
+        &[
+            (
+                "LOADTL/1",
+                "LOADTL/2",
+                3,
+                "with tool 'TOOL:2', the original with tool 'TOOL:1'",
+            ),
+            (
+                "LOADTL/1",
+                "TOOLNO/1",
+                0,
+                "LOADTL/1 at line 3 of the original",
+            ),
+        ],
     );
     changes(
         "part.ngc",
