@@ -94,7 +94,7 @@ pub use making::joint_table::{JointStart, JointTable, JointTableError, joint_tab
 pub use making::limits::MakeLanguage;
 pub use making::make::{Made, make};
 pub use making::of_robot::{base_of_robot, make_of_flat_robot, make_of_robot};
-pub use making::robot_events::events_of_robot;
+pub use making::robot_events::{events_of_robot, spindle_of_blocks};
 pub use making::template::{
     PlacesUnknown, Rapids, SpindleStatements, StatedFrame, StatedTool, Template, Zones,
 };

@@ -2,6 +2,8 @@
 
 use std::ops::Range;
 
+use kinetostat_program::SpindleChange;
+
 use crate::apt::spindle::spindle_changes;
 use crate::making::action::EventAction;
 use crate::making::course::place_of;
@@ -85,6 +87,20 @@ pub fn events_of_robot(program: &RobotProgram) -> Vec<SourceEvent> {
     }
     events.sort_by_key(|event| place_of(event, event.line));
     events
+}
+
+/// Where the spindle of a program in blocks (SINUMERIK, Heidenhain) begins to turn otherwise, for [`kinetostat_program::Path`]; nothing
+/// of other languages.
+#[must_use]
+pub fn spindle_of_blocks(program: &RobotProgram) -> Vec<SpindleChange> {
+    let file = program.motions.first().map_or(0, |motion| motion.file);
+    match (program.language, program.files.get(file)) {
+        (Language::Heidenhain, Some(source)) => events_of_heidenhain(source).1,
+        (Language::Siemens, Some(source)) => {
+            events_of_siemens(source, &program.lines_of_targets(file)).1
+        }
+        _ => Vec::new(),
+    }
 }
 
 /// Whether `SPINDL` says no more than which way the spindle turns and how fast.

@@ -4,8 +4,6 @@ use kinetostat_program::{Move, Path, Warning};
 use nalgebra::{Isometry3, UnitQuaternion};
 
 use crate::apt::spindle::spindle_changes;
-use crate::making::heidenhain_events::events_of_heidenhain;
-use crate::making::siemens_events::events_of_siemens;
 use crate::model::frame::FrameUse;
 use crate::model::language::Language;
 use crate::model::motion::{Motion, Runs};
@@ -113,13 +111,8 @@ pub fn path_of(program: &RobotProgram, options: &PathOptions) -> Result<RobotPat
     let findings = made.rotary_findings();
     made.warnings.extend(findings);
     made.warnings.extend(turns_alone(&made.moves));
-    if let Some(source) = program.files.get(file) {
-        made.spindle_changes = match program.language {
-            Language::Apt => spindle_changes(source),
-            Language::Siemens => events_of_siemens(source, &program.lines_of_targets(file)).1,
-            Language::Heidenhain => events_of_heidenhain(source).1,
-            _ => Vec::new(),
-        };
+    if let (Language::Apt, Some(file)) = (program.language, program.files.get(file)) {
+        made.spindle_changes = spindle_changes(file);
     }
     if tools.len() > 1 {
         made.tool_changes = changes(&poses, &tools);

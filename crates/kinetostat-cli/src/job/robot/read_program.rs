@@ -6,7 +6,7 @@ use std::sync::Arc;
 use kinetostat::Directions;
 use kinetostat_formats::{
     Correctable, Language, Motion, ProgramFault, RobotPath, RobotProgram, Target, Zone, all_faults,
-    path_of, read,
+    path_of, read, spindle_of_blocks,
 };
 use kinetostat_machining::{Assumption, AssumptionKind};
 use kinetostat_program::{Move, StatedBy, Warning};
@@ -148,6 +148,9 @@ fn read_files(source: &RobotSource) -> Answer<ReadOnce> {
             "the motions stand in '{name}': give that file as the program, and this one among files under [robot]"
         )));
     }
+    path.path
+        .spindle_changes
+        .extend(spindle_of_blocks(&program));
     path.path.warnings.extend(warnings(source, &program));
     path.path.warnings.extend(taken(source, &program));
     path.path
