@@ -50,7 +50,7 @@ fn with(words: &[BlockWord], names: &[&str]) -> String {
         own.map(|word| format!(" {}", word.text))
             .collect::<String>()
     };
-    names.iter().map(|name| of(&name)).collect()
+    names.iter().map(of).collect()
 }
 
 /// Those of G-code with the words that belong to them: `G64 P0.5 Q0.1`, `G43 H2`, `G4 P1`.

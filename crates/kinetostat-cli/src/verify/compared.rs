@@ -25,7 +25,7 @@ pub(crate) fn compared(
         let at_cuts = match kind {
             // Pieces of a motion may state how the arm stands where the whole does not.
             Kind::Configuration => Vec::new(),
-            _ => elsewhere(kind, &both, cut_lines, (is_stated, source)),
+            _ => elsewhere(kind, &both, cut_lines, is_stated, source),
         };
         if at_cuts.is_empty() {
             found.extend(in_one_alone(kind, &both, is_stated));
@@ -77,7 +77,8 @@ fn elsewhere(
     kind: Kind,
     [own, of_original]: &[InForce<'_>; 2],
     cut_lines: &[[usize; 2]],
-    (is_stated, source): (&dyn Fn(&str) -> bool, &dyn Fn(usize) -> String),
+    is_stated: &dyn Fn(&str) -> bool,
+    source: &dyn Fn(usize) -> String,
 ) -> Vec<OtherWord> {
     /// Lines from the first to the last, and that of the original which the first belongs to.
     type Run<'v> = ([usize; 3], [&'v Value<'v>; 2], Apart);
