@@ -21,6 +21,9 @@ pub(crate) trait Names {
         None
     }
 
+    /// Notes that the value of a name, or an element of it, is used.
+    fn uses(&mut self, _name: &Name, _element: Option<Step>) {}
+
     /// The value of a name.
     fn word(&mut self, name: &Name, whole: &Expression) -> Datum;
 
@@ -70,7 +73,10 @@ pub(crate) fn evaluate(
             let parts = parts.iter().map(|part| evaluate(file, part, names));
             literal(Value::List(parts.collect::<Vec<_>>().into()))
         }
-        Node::Word(name) => names.word(name, expression),
+        Node::Word(name) => {
+            names.uses(name, None);
+            names.word(name, expression)
+        }
         Node::Call(name, arguments) => names.call(name, arguments, expression),
         Node::Choice(name) => {
             let text = format!("#{}", String::from_utf8_lossy(name.letters()));
@@ -93,11 +99,18 @@ pub(crate) fn evaluate(
             if let Some(stated) = names.stated(expression) {
                 return stated;
             }
-            let of = evaluate(file, inner, names);
             let at: Vec<Datum> = indices
                 .iter()
                 .map(|index| evaluate(file, index, names))
                 .collect();
+            let of = match &inner.node {
+                Node::Word(name) => {
+                    let first = at.first().and_then(index_of).map(Step::Index);
+                    names.uses(name, first);
+                    names.word(name, inner)
+                }
+                _ => evaluate(file, inner, names),
+            };
             if let Some(reason) = at.iter().find_map(Datum::unknown_reason) {
                 return Datum::unknown(reason.clone());
             }

@@ -61,6 +61,15 @@ pub(crate) struct Called {
     pub slots: BTreeMap<Name, Slot>,
 }
 
+/// Uses of a datum with the value of the files.
+#[derive(Debug, Default)]
+pub(crate) struct FirstUse {
+    /// Where the whole was used: the parts that the run had given a value before.
+    pub whole: Option<Vec<Step>>,
+    /// Elements that were used.
+    pub parts: Vec<Step>,
+}
+
 /// A statement that ran, as it is written flat.
 #[derive(Debug)]
 pub(crate) struct Logged {
@@ -183,10 +192,10 @@ pub(crate) struct Run<'r, 'p, D> {
     pub(crate) data: BTreeMap<usize, Datum>,
     /// Values of names that no file declares.
     pub(crate) undeclared: BTreeMap<Name, Datum>,
-    /// Data of modules that were used, with the parts that the run had given a value before; none where that was the whole.
-    pub(crate) begun_with: BTreeMap<usize, Option<Vec<Step>>>,
-    /// Parts of data of modules to which the run gave a value.
-    pub(crate) given: BTreeMap<usize, Vec<Step>>,
+    /// Uses of data of modules with the values of the files.
+    pub(crate) first_uses: BTreeMap<usize, FirstUse>,
+    /// Parts of data of modules to which the run gave a value; none where that was the whole.
+    pub(crate) given: BTreeMap<usize, Option<Vec<Step>>>,
     /// Data of modules that an earlier program of the files changed.
     pub(crate) left_changed: BTreeSet<usize>,
     /// Data that interrupts change at any time.
@@ -246,7 +255,7 @@ impl<'r, 'p, D: Dialect> Run<'r, 'p, D> {
             predefined: BTreeMap::new(),
             data: BTreeMap::new(),
             undeclared: BTreeMap::new(),
-            begun_with: BTreeMap::new(),
+            first_uses: BTreeMap::new(),
             given: BTreeMap::new(),
             left_changed: BTreeSet::new(),
             volatile: BTreeSet::new(),

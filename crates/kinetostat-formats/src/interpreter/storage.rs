@@ -56,13 +56,28 @@ impl<D: Dialect> Run<'_, '_, D> {
         }
     }
 
-    /// Notes that data of a module are used, and which of their parts the run had given a value before.
-    pub(crate) fn note_use(&mut self, root: Root) {
-        if let Root::Module(index) = root
-            && !self.begun_with.contains_key(&index)
-        {
-            let given = self.given.get(&index).cloned().unwrap_or_default();
-            self.begun_with.insert(index, Some(given));
+    /// Notes that data of a module, or an element of them, are used before the run gave them a value.
+    pub(crate) fn note_use(&mut self, root: Root, element: Option<Step>) {
+        let Root::Module(index) = root else {
+            return;
+        };
+        let given = match self.given.get(&index) {
+            Some(None) => return,
+            Some(Some(given)) => given.as_slice(),
+            None => &[],
+        };
+        match element {
+            Some(step) if given.contains(&step) => {}
+            Some(step) => {
+                let parts = &mut self.first_uses.entry(index).or_default().parts;
+                if !parts.contains(&step) {
+                    parts.push(step);
+                }
+            }
+            None => {
+                let use_of = self.first_uses.entry(index).or_default();
+                use_of.whole.get_or_insert_with(|| given.to_vec());
+            }
         }
     }
 
@@ -276,19 +291,12 @@ impl<D: Dialect> Run<'_, '_, D> {
         };
         match place.root {
             Root::Module(index) => {
-                match (place.path.as_slice(), self.begun_with.contains_key(&index)) {
-                    ([], false) => {
-                        self.begun_with.insert(index, None);
-                    }
-                    ([step], false) => {
-                        let given = self.given.entry(index).or_default();
-                        if !given.contains(step) {
-                            given.push(*step);
-                        }
-                    }
+                let given = self.given.entry(index).or_insert_with(|| Some(Vec::new()));
+                match (place.path.as_slice(), given.as_mut()) {
+                    ([], _) => *given = None,
+                    ([step], Some(parts)) if !parts.contains(step) => parts.push(*step),
                     _ => {}
                 }
-                self.given.entry(index).or_default();
                 self.data.insert(index, whole);
             }
             Root::Undeclared(name) => {
@@ -384,6 +392,12 @@ impl<D: Dialect> Names for Run<'_, '_, D> {
         D::operation(self, operator, left, right)
     }
 
+    fn uses(&mut self, name: &Name, element: Option<Step>) {
+        if let Some(root) = self.root(name) {
+            self.note_use(root, element);
+        }
+    }
+
     fn stated(&mut self, element: &Expression) -> Option<Datum> {
         if self.values.is_empty() {
             return None;
@@ -398,9 +412,6 @@ impl<D: Dialect> Names for Run<'_, '_, D> {
         let file = self.file();
         let shown = || String::from_utf8_lossy(file.word(whole.tokens.start)).into_owned();
         let root = self.root(name);
-        if let Some(root) = root {
-            self.note_use(root);
-        }
         let stored = root.map(|root| self.stored(root));
         match stored {
             Some(Some(datum)) => datum,

@@ -177,12 +177,23 @@ impl<D: Dialect> Run<'_, '_, D> {
     /// Refuses data that decide where the tool goes, that began with the values of the files, and end with others: the next run begins with
     /// those.
     fn refuse_kept(&mut self) {
-        for (index, given) in std::mem::take(&mut self.begun_with) {
+        for (index, uses) in std::mem::take(&mut self.first_uses) {
             let node = self.symbols.data[index].node;
-            let (Some(given), Some(now)) = (given, self.data.get(&index).cloned()) else {
+            let Some(now) = self.data.get(&index).cloned() else {
                 continue;
             };
-            if D::decides_places(node) && differs(&self.initial(index), &now, &given) {
+            if !D::decides_places(node) {
+                continue;
+            }
+            let first = self.initial(index);
+            let is_other = |step: &Step| match (first.part(&[*step]), now.part(&[*step])) {
+                (Some(first), Some(now)) => differs(first, now, &[]),
+                _ => false,
+            };
+            let whole = uses.whole.as_deref();
+            if whole.is_some_and(|given| differs(&first, &now, given))
+                || uses.parts.iter().any(is_other)
+            {
                 let datum = &self.symbols.data[index];
                 let file = &self.files[datum.file];
                 let span = file.span(&(node.name_at..node.name_at + 1));
@@ -202,7 +213,7 @@ impl<D: Dialect> Run<'_, '_, D> {
         self.left_changed.extend(self.given.keys());
         self.data.clear();
         self.undeclared.clear();
-        self.begun_with.clear();
+        self.first_uses.clear();
         self.given.clear();
     }
 }

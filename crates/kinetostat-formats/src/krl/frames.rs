@@ -140,7 +140,8 @@ impl Run<'_, '_> {
         let name = Name::of(role.array().as_bytes());
         let root = name.and_then(|name| self.root(&name));
         if let Some(root) = root {
-            self.note_use(root);
+            let index = (number as usize).checked_sub(1);
+            self.note_use(root, index.map(Step::Index));
         }
         let whole = root.and_then(|root| self.stored(root));
         element_of(whole.as_ref(), number)

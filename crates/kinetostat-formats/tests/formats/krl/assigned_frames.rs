@@ -359,3 +359,32 @@ fn members_and_copies_that_are_assigned_are_followed() {
         assert!(places(statements).is_err(), "{statements}");
     }
 }
+
+/// What a run leaves in a data list is what the next one begins with, element by element.
+#[test]
+fn elements_that_end_with_another_value_are_refused_where_they_were_used() {
+    let data = "DECL FRAME BASE_DATA[4]\nBASE_DATA[1]={X 1,Y 0,Z 0,A 0,B 0,C 0}\nBASE_DATA[2]={X 2,Y 0,Z 0,A 0,B 0,C 0}";
+    let read = |statements: &str| {
+        let files = vec![
+            SourceFile::new(
+                "part.src",
+                format!("DEF part()\n$TOOL=$NULLFRAME\n{statements}\nEND\n"),
+            ),
+            SourceFile::new("part.dat", format!("DEFDAT part\n{data}\nENDDAT\n")),
+        ];
+        read_krl(files, &ReadOptions::default())
+    };
+    let other = "{X 9,Y 0,Z 0,A 0,B 0,C 0}";
+    for statements in [
+        format!("$BASE=BASE_DATA[1]\n{HERE}\nBASE_DATA[2]={other}\n$BASE=BASE_DATA[2]\n{HERE}"),
+        format!("BASE_DATA[1]={other}\n$BASE=BASE_DATA[1]\n{HERE}\nBASE_DATA[1]=$NULLFRAME"),
+    ] {
+        assert!(read(&statements).is_ok(), "{statements}");
+    }
+    let refused = read(&format!("$BASE=BASE_DATA[1]\n{HERE}\nBASE_DATA[1]={other}")).unwrap_err();
+    assert_eq!(
+        (refused[0].file.as_str(), refused[0].line),
+        ("part.dat", 2),
+        "{refused:?}"
+    );
+}
