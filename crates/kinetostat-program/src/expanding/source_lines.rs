@@ -22,7 +22,7 @@ pub(crate) fn of_source(error: ProgramError, line: usize, file: &str) -> Program
 
 /// What is advised where a program is only read names the expansion, which is under way here.
 fn while_expanding(reason: String, remedy: String) -> (String, String) {
-    if !remedy.contains("--expand") {
+    if !remedy.starts_with("add --expand") {
         return (reason, remedy);
     }
     let remedy = match (

@@ -54,6 +54,7 @@ const fn refused(reason: &'static str, remedy: &'static str) -> Treatment {
 }
 
 const WRITE_MOVES: &str = "let the CAM system write the motion as G0 and G1 to G3 blocks";
+const EXPAND: &str = "have it written as moves (--expand, or a table [expand] in the job file; --dialect fanuc or linuxcnc where controllers disagree), or let the CAM system write G0 and G1 to G3 blocks";
 const OWN_PROGRAM: &str = "take it out of the program and run it by hand or from another program";
 
 /// Every code that is known, one by one: a code between two of them (G2.1, G90.2) is unknown.
@@ -148,7 +149,7 @@ pub const CODES: &[Code] = &[
         "cutter radius compensation on",
         refused(
             "the controller offsets the path by a radius that is not in the program",
-            "let the CAM system write the centre line of the tool (compensation in computer), then G40",
+            "have it computed (--expand and --tool-diameter-mm, or tables in the job file: [expand]), or let the CAM system write the centre line of the tool (compensation in computer), then G40",
         ),
     ),
     g(&[430], "tool length offset on", Understood),
@@ -177,7 +178,7 @@ pub const CODES: &[Code] = &[
         "scaling, mirroring",
         refused(
             "coordinates would be scaled",
-            "write coordinates in full size",
+            "write coordinates in full size, or have them written so (--expand; LinuxCNC has no such word)",
         ),
     ),
     g(
@@ -207,31 +208,38 @@ pub const CODES: &[Code] = &[
         "rotation of coordinates",
         refused(
             "coordinates would be turned",
-            "let the CAM system write turned coordinates",
+            "let the CAM system write turned coordinates, or have them written so (--expand; LinuxCNC has no such word)",
         ),
     ),
     g(&[690], "rotation of coordinates off", Carried),
     g(
-        &[700, 710, 711, 712, 717, 720, 721, 722],
+        &[700, 710],
+        "lathe cycles",
+        refused(
+            "a cycle's motion is the controller's own",
+            "where another control has it for inches or millimetres write G20 or G21 (a program of SINUMERIK is read as a file .mpf), or let the CAM system write the motion as G0 and G1 to G3 blocks",
+        ),
+    ),
+    g(
+        &[711, 712, 717, 720, 721, 722],
         "lathe cycles",
         refused("a cycle's motion is the controller's own", WRITE_MOVES),
     ),
     g(
-        &[730, 731, 732, 740, 750, 760],
+        &[731, 732, 750],
+        "canned cycles of lathes",
+        refused("a cycle's motion is the controller's own", WRITE_MOVES),
+    ),
+    g(
+        &[730, 740, 760],
         "canned cycles",
-        refused(
-            "a canned cycle's motion is the controller's own",
-            WRITE_MOVES,
-        ),
+        refused("a canned cycle's motion is the controller's own", EXPAND),
     ),
     g(&[800], "motion mode off", Understood),
     g(
         &[810, 820, 830, 840, 850, 860, 870, 880, 890],
         "canned cycles",
-        refused(
-            "a canned cycle's motion is the controller's own",
-            WRITE_MOVES,
-        ),
+        refused("a canned cycle's motion is the controller's own", EXPAND),
     ),
     g(
         &[900, 901, 910, 911],

@@ -37,8 +37,8 @@ pub(crate) struct Coordinates<'o> {
     programmed: Option<Flat<'o>>,
     /// Axes that the next motion must state.
     to_state: [bool; 3],
-    /// The code of motion of the program, where the flat one has another in force: behind mirrored arcs, say. Whatever ends coordinates
-    /// (G50, G50.1, G69) is in another group, and leaves it as it is.
+    /// The code of motion of the program, where the flat one has another in force: behind mirrored arcs, say, or G80 of Fanuc. Whatever
+    /// ends coordinates (G50, G50.1, G69) is in another group, and leaves it as it is.
     code_due: Option<&'static str>,
 }
 
@@ -129,7 +129,7 @@ impl<'o> Coordinates<'o> {
         let block = MotionBlock::of(text, Polar::default());
         let has_centre = b"IJKR".iter().any(|letter| block.value(*letter).is_some());
         let moves = block.has_place() || block.has_other_axis() || has_centre;
-        if block.motion.is_some() {
+        if block.motion.is_some_and(|code| code != 800) {
             self.code_due = None;
         } else if moves && !block.wants_axes {
             self.code_due = None;
@@ -145,6 +145,11 @@ impl<'o> Coordinates<'o> {
             return Cow::Owned([head, code.as_bytes(), b" ", rest].concat());
         }
         Cow::Borrowed(text)
+    }
+
+    /// The next move without a code is of this one.
+    pub fn owe(&mut self, code: Option<&'static str>) {
+        self.code_due = code;
     }
 
     /// The coordinates are others from here on.

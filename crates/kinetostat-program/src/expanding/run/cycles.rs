@@ -44,6 +44,23 @@ impl Runner<'_> {
         }
     }
 
+    /// Notes G0 to G3. G80 is of another group to Fanuc and Haas, so that the last of them holds behind it (B-64304EN,
+    /// list of G codes); elsewhere nothing does.
+    pub fn note_move(&mut self, block: &MotionBlock) {
+        match block.motion {
+            Some(0) => self.move_named = Some("G0"),
+            Some(10) => self.move_named = Some("G1"),
+            Some(20) => self.move_named = Some("G2"),
+            Some(30) => self.move_named = Some("G3"),
+            Some(800) => {
+                let is_fanuc = self.options.dialect == Dialect::Fanuc;
+                let code = self.move_named.filter(|_| is_fanuc);
+                self.coordinates.owe(code);
+            }
+            _ => {}
+        }
+    }
+
     /// An arc of more than one turn (LinuxCNC).
     pub fn turns(&mut self, block: &MotionBlock) -> Result<(), ProgramError> {
         self.add_rest(&block.before)?;

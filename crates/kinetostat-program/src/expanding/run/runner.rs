@@ -38,6 +38,8 @@ pub(crate) struct Runner<'o> {
     pub coordinates: Coordinates<'o>,
     /// The cycle that bare places repeat.
     pub cycle: Option<Cycle>,
+    /// The last of G0 to G3 that the program names: what holds behind G80 on Fanuc.
+    pub move_named: Option<&'static str>,
     /// The spline that bare places go on with.
     pub spline: Option<Spline>,
     pub steps: usize,
@@ -73,6 +75,7 @@ impl<'o> Runner<'o> {
             radius: Radius::new(options),
             coordinates: Coordinates::default(),
             cycle: None,
+            move_named: None,
             spline: None,
             steps: 0,
             functions: Functions::default(),

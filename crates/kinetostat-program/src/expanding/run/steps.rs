@@ -243,6 +243,7 @@ impl Runner<'_> {
             self.turns(&block)?;
             return self.after_block();
         }
+        self.note_move(&block);
         let code = match (block.motion, self.cycle) {
             (Some(code), _) => Some(code).filter(|code| is_cycle(*code)),
             (None, Some(cycle)) => match self.in_cycle(&block)? {

@@ -22,7 +22,7 @@ pub(crate) struct Cycle {
     shift: [Option<f64>; 3],
     /// Depth coordinate before the first cycle of a row.
     initial: f64,
-    /// Whether R and the depth were read as increments (G91), and the levels that they mean.
+    /// Whether R and the depth are increments (G91), and the levels that they mean.
     incremental: bool,
     levels: [f64; 2],
 }
@@ -50,7 +50,7 @@ pub(crate) fn cycle(
     else {
         return wrong(
             "where the tool is before the cycle is not known",
-            "state X, Y and Z before it, or give the start position",
+            "state X, Y and Z with G0 before it; at the beginning of the program the start position does it (--start-position-mm, or start_position_mm under [reading] in the job file)",
         );
     };
     refuse_other_words(block, normal)?;
@@ -72,6 +72,13 @@ pub(crate) fn cycle(
     let repeats = repeats_of(code, block, dialect)?;
     cycle.levels = levels_of(&cycle, same, (block, letters[2]), dialect)?;
     let [level, bottom] = cycle.levels;
+    if dialect != Dialect::LinuxCnc && same.is_some_and(|one| one.incremental != incremental) {
+        // What holes behind this one keep are the levels, in words of the distance mode now.
+        (cycle.retract, cycle.depth) = match incremental {
+            true => (level - cycle.initial, bottom - level),
+            false => (level, bottom),
+        };
+    }
     let mut texts = Vec::new();
     let at = |plane: [f64; 2], height: f64| {
         let mut to = [None; 3];

@@ -22,7 +22,7 @@ impl Interpreter<'_> {
                 return Err(block.refuse(
                     ProgramErrorKind::Ambiguous, None,
                     "axis words without a motion word before them: what they do depends on the machine",
-                    "write G0, G1, G2 or G3 before the first motion (and after G80)",
+                    "write G0, G1, G2 or G3 before the first motion and after G80 (behind G80 the one before it holds on Fanuc and Haas: --expand with --dialect fanuc)",
                 ));
             }
             Some(motion) => motion,

@@ -1,6 +1,9 @@
 //! Cycles as Fanuc runs them: rigid taps, words without a place, G80 beside a move, a start below R, points of numbers.
 
-use kinetostat_program::{Dialect, ExpandOptions, Expanded, NoSubprograms, expand};
+use kinetostat_program::{
+    Dialect, ExpandOptions, Expanded, MoveKind, NoSubprograms, Program, ReadOptions, expand,
+    interpret,
+};
 
 use super::fanuc::{BEGIN, fanuc, run};
 
@@ -206,5 +209,102 @@ fn settings_and_additional_systems_beside_a_cycle() {
         }
         let made = run(&format!("{begin}G54.1 P2 X5. (there)\n"), dialect).unwrap();
         assert!(made.contains("P2 G54.1 (there)\nG0 X5\n"), "{made}");
+    }
+}
+
+/// The places of the holes and their bottoms.
+fn holes(text: &str, dialect: Dialect) -> Vec<[f64; 2]> {
+    let mut options = ExpandOptions::default();
+    options.dialect = dialect;
+    let made = expand(format!("{BEGIN}{text}"), &options, &NoSubprograms).unwrap();
+    let feeds = made
+        .path
+        .moves
+        .iter()
+        .filter(|one| one.kind == MoveKind::Feed);
+    feeds.map(|one| [one.end.x, one.end.z]).collect()
+}
+
+/// Its levels hold for all that follows, also where G90 and G91 change between its holes.
+#[test]
+fn the_levels_of_a_row_outlast_the_distance_mode() {
+    // The start is at Z15, so R is at 3 and the bottom at -1.
+    let row = "G99 G91 G81 X10. Z-4. R-12. F100\nX10.\nG90 X30.\nX40.\nG98 X50.\nG91\nX10.\nX10.\nG90 X80. R5.\nX90.\nG80\n";
+    let expected: Vec<[f64; 2]> = (1..10).map(|n| [f64::from(n) * 10.0, -1.0]).collect();
+    assert_eq!(holes(row, Dialect::Fanuc), expected);
+    let made = fanuc(row);
+    assert!(
+        made.contains("G0 X30\nG1 Z-1\nG0 Z3\nG0 X40\nG1 Z-1\nG0 Z3\n"),
+        "{made}"
+    );
+    assert!(
+        made.ends_with("G0 X90\nG0 Z5\nG1 Z-1\nG0 Z15\nG80\n"),
+        "{made}"
+    );
+    // Another cycle takes them over.
+    let other = "G99 G91 G81 X10. Z-4. R-12. F100\nG90 G82 X20. P1\nX30.\nG91 G81 X10. K2\n";
+    let expected: Vec<[f64; 2]> = (1..6).map(|n| [f64::from(n) * 10.0, -1.0]).collect();
+    assert_eq!(holes(other, Dialect::Fanuc), expected);
+}
+
+/// G80 is of another group than G0 to G3 (B-64304EN, list of G codes): what was in force before the cycle is so behind it.
+#[test]
+fn behind_g80_the_move_before_the_cycle_holds_on_fanuc() {
+    let hole = "G99 G81 X1. Z-3. R1. F100\nX2.\n";
+    for (text, expected) in [
+        (format!("{hole}G80\nZ15.\nX5.\n"), "\nG80\nG0 Z15.\nX5.\n"),
+        (
+            format!("{hole}N7 G80 X5. Y6.\nX7.\n"),
+            "\nN7 G0 G80 X5. Y6.\nX7.\n",
+        ),
+        (
+            format!("G1 Z9.\n{hole}G80 M9\nG80\nN8 Z15.\n"),
+            "\nG80 M9\nG80\nN8 G1 Z15.\n",
+        ),
+        (
+            format!("{hole}G80\nG91 G28 Z0\nG90 X5.\n"),
+            "\nG91 G28 Z0\nG0 G90 X5.\n",
+        ),
+        (format!("{hole}G80\nG43 H1 Z9.\n"), "\nG0 G43 H1 Z9.\n"),
+        (
+            format!("G1 Z9.\n{hole}G80\nG0 Z15.\nX3.\n"),
+            "\nG80\nG0 Z15.\nX3.\n",
+        ),
+        (
+            format!("G1 Z9.\n{hole}G80\n{hole}G80\nZ15.\n"),
+            "\nG80\nG1 Z15.\n",
+        ),
+        ("G1 Z9.\nG80\nX4.\n".to_owned(), "\nG80\nG1 X4.\n"),
+    ] {
+        let made = fanuc(&text);
+        assert!(made.ends_with(expected), "{made}");
+        for dialect in [Dialect::LinuxCnc, Dialect::Undecided] {
+            if let Err(error) = run(&text, dialect) {
+                assert!(error.remedy.contains("--dialect fanuc"), "{error}");
+            } else {
+                assert!(text.contains("G0 Z15."), "{text}");
+            }
+        }
+    }
+    // Which of them a controller begins with is a parameter of it.
+    let mut options = ExpandOptions::default();
+    options.dialect = Dialect::Fanuc;
+    let error = expand("G21 G90 G80\nZ15. F9\n", &options, &NoSubprograms).unwrap_err();
+    assert!(error.reason.contains("without a motion word"), "{error}");
+}
+
+/// As it stands it is refused, and what the message says helps.
+#[test]
+fn what_the_expansion_follows_is_refused_with_its_name() {
+    for word in [
+        "G81 X1 Z-3 R1",
+        "G73 X1 Z-3 R1 Q1",
+        "G41 D1",
+        "G68 X0 Y0 R5",
+        "G51 X0 P2.",
+    ] {
+        let program = Program::read(format!("{BEGIN}{word}\n")).unwrap();
+        let error = interpret(&program, &ReadOptions::default()).unwrap_err();
+        assert!(error.remedy.contains("--expand"), "{error}");
     }
 }
