@@ -192,6 +192,15 @@ fn without_expand_the_remedy_is_said_first() {
             "G21 G90\nG0 X0 Y0 Z5\nG98 G81 X5 Y5 Z-1 R1 F200\nG80\nM2\n",
             "error: part.ngc: add --expand",
         ),
+        // Controllers disagree where the tool goes behind the hole, and what holds behind G80.
+        (
+            "G21 G90\nG0 X0 Y0 Z5\nG81 X5 Y5 Z-1 R1 F200\nG80 G0 X9\nM2\n",
+            "add --expand and --dialect fanuc or linuxcnc, as the control",
+        ),
+        (
+            "G21 G90\nG0 X0 Y0 Z5\nG98 G81 X5 Y5 Z-1 R1 F200\nG80\nX9\nM2\n",
+            "add --expand and --dialect fanuc, as the control",
+        ),
         // What the expansion refuses is said as well.
         (
             "G21 G90\n#1 = 5\nG0 X0 Y0 Z#1\nG5 X10 Y10 F100\nM2\n",

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use kinetostat_machining::number::counted;
-use kinetostat_program::{ExpandOptions, ProgramError, ReadOptions, expand};
+use kinetostat_program::{Dialect, ExpandOptions, Expanded, ProgramError, ReadOptions, expand};
 
 use crate::job::expansion::folders::Folders;
 
@@ -24,20 +24,43 @@ pub(crate) fn advice(
     let mut options = ExpandOptions::default();
     options.reading = reading.clone();
     options.most_blocks = MOST_BLOCKS;
-    match expand(bytes, &options, &Folders::new(program, &[])) {
-        // Nothing moves with an expansion, either.
-        Ok(expanded) if expanded.path.moves.is_empty() => None,
-        Ok(expanded) => Some(format!(
-            "{ADD}: run once and written flat, it is {} that can be followed. As it stands: ",
-            counted(expanded.program.block_count(), "block")
-        )),
-        // What is wrong with or without an expansion is no reason for one.
-        Err(error) if known(faults, &error) || error.line <= first.line => None,
-        Err(error) => Some(format!(
-            "{ADD}; what is wrong then is in line {}: `{}`: {}; {}. As it stands: ",
-            error.line, error.found, error.reason, error.remedy
-        )),
+    let folders = Folders::new(program, &[]);
+    let undecided = match expand(bytes, &options, &folders) {
+        Ok(expanded) => return follows(ADD, &expanded),
+        Err(error) => error,
+    };
+    let dialects = [("fanuc", Dialect::Fanuc), ("linuxcnc", Dialect::LinuxCnc)];
+    let tried = dialects.into_iter().filter_map(|(name, dialect)| {
+        options.dialect = dialect;
+        Some((name, expand(bytes, &options, &folders).ok()?))
+    });
+    let taken: Vec<(&str, Expanded)> = tried.collect();
+    if let Some((_, expanded)) = taken.first() {
+        let names: Vec<&str> = taken.iter().map(|(name, _)| *name).collect();
+        let add = format!(
+            "add --expand and --dialect {}, as the control of the machine is (in a job file: a table [expand] with dialect)",
+            names.join(" or ")
+        );
+        return follows(&add, expanded);
     }
+    // What is wrong with or without an expansion is no reason for one.
+    if known(faults, &undecided) || undecided.line <= first.line {
+        return None;
+    }
+    Some(format!(
+        "{ADD}; what is wrong then is in line {}: `{}`: {}; {}. As it stands: ",
+        undecided.line, undecided.found, undecided.reason, undecided.remedy
+    ))
+}
+
+/// None where nothing moves with an expansion, either.
+fn follows(add: &str, expanded: &Expanded) -> Option<String> {
+    (!expanded.path.moves.is_empty()).then(|| {
+        format!(
+            "{add}: run once and written flat, it is {} that can be followed. As it stands: ",
+            counted(expanded.program.block_count(), "block")
+        )
+    })
 }
 
 fn known(faults: &[ProgramError], error: &ProgramError) -> bool {
