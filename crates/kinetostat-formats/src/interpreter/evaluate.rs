@@ -105,8 +105,10 @@ pub(crate) fn evaluate(
                 .collect();
             let of = match &inner.node {
                 Node::Word(name) => {
-                    let first = at.first().and_then(index_of).map(Step::Index);
-                    names.uses(name, first);
+                    // Of an index that is not known nothing is used.
+                    if let Some(index) = at.first().and_then(index_of) {
+                        names.uses(name, Some(Step::Index(index)));
+                    }
                     names.word(name, inner)
                 }
                 _ => evaluate(file, inner, names),

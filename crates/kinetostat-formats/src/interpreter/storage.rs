@@ -415,10 +415,12 @@ impl<D: Dialect> Names for Run<'_, '_, D> {
         let stored = root.map(|root| self.stored(root));
         match stored {
             Some(Some(datum)) => datum,
-            Some(None) => Datum::unknown(format!(
-                "`{}` is an argument of the routine: no call of these files gives it",
-                shown()
-            )),
+            Some(None) => self.values.ask(name).unwrap_or_else(|| {
+                Datum::unknown(format!(
+                    "`{}` is an argument of the routine: no call of these files gives it",
+                    shown()
+                ))
+            }),
             None => {
                 if let Some(stated) = self.values.ask(name) {
                     return stated;
