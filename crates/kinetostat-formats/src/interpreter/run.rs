@@ -61,13 +61,16 @@ pub(crate) struct Called {
     pub slots: BTreeMap<Name, Slot>,
 }
 
+/// Ways to parts of a value.
+pub(crate) type Ways = BTreeSet<Vec<Step>>;
+
 /// Uses of a datum with the value of the files.
 #[derive(Debug, Default)]
 pub(crate) struct FirstUse {
-    /// Where the whole was used: the parts that the run had given a value before.
-    pub whole: Option<Vec<Step>>,
-    /// Elements that were used.
-    pub parts: Vec<Step>,
+    /// For a use of the whole, ways to the parts that the run had given a value before.
+    pub whole: Option<Ways>,
+    /// For elements that were used, the same.
+    pub parts: BTreeMap<Step, Ways>,
 }
 
 /// A statement that ran, as it is written flat.
@@ -195,7 +198,7 @@ pub(crate) struct Run<'r, 'p, D> {
     /// Uses of data of modules with the values of the files.
     pub(crate) first_uses: BTreeMap<usize, FirstUse>,
     /// Parts of data of modules to which the run gave a value; none where that was the whole.
-    pub(crate) given: BTreeMap<usize, Option<Vec<Step>>>,
+    pub(crate) given: BTreeMap<usize, Option<Ways>>,
     /// Data of modules that an earlier program of the files changed.
     pub(crate) left_changed: BTreeSet<usize>,
     /// Data that interrupts change at any time.

@@ -4,7 +4,7 @@ use std::rc::Rc;
 
 use crate::interpreter::evaluate::{Names, evaluate, index_of};
 use crate::interpreter::expression::{Argument, Expression, Node, Operator};
-use crate::interpreter::run::{Dialect, Place, Root, Run, Slot};
+use crate::interpreter::run::{Dialect, Place, Root, Run, Slot, Ways};
 use crate::interpreter::symbols::{Meaning, Scope};
 use crate::interpreter::tree::Change;
 use crate::interpreter::value::{Datum, Step};
@@ -61,22 +61,23 @@ impl<D: Dialect> Run<'_, '_, D> {
         let Root::Module(index) = root else {
             return;
         };
+        let none = Ways::new();
         let given = match self.given.get(&index) {
             Some(None) => return,
-            Some(Some(given)) => given.as_slice(),
-            None => &[],
+            Some(Some(given)) => given,
+            None => &none,
         };
+        let use_of = self.first_uses.entry(index).or_default();
         match element {
-            Some(step) if given.contains(&step) => {}
-            Some(step) => {
-                let parts = &mut self.first_uses.entry(index).or_default().parts;
-                if !parts.contains(&step) {
-                    parts.push(step);
+            Some(step) if !use_of.parts.contains_key(&step) => {
+                let behind = behind(given, step);
+                if !behind.contains(&Vec::new()) {
+                    use_of.parts.insert(step, behind);
                 }
             }
+            Some(_) => {}
             None => {
-                let use_of = self.first_uses.entry(index).or_default();
-                use_of.whole.get_or_insert_with(|| given.to_vec());
+                use_of.whole.get_or_insert_with(|| given.clone());
             }
         }
     }
@@ -291,10 +292,12 @@ impl<D: Dialect> Run<'_, '_, D> {
         };
         match place.root {
             Root::Module(index) => {
-                let given = self.given.entry(index).or_insert_with(|| Some(Vec::new()));
+                let given = self.given.entry(index).or_insert_with(|| Some(Ways::new()));
                 match (place.path.as_slice(), given.as_mut()) {
                     ([], _) => *given = None,
-                    ([step], Some(parts)) if !parts.contains(step) => parts.push(*step),
+                    (path, Some(ways)) if !ways.contains(path) => {
+                        ways.insert(path.to_vec());
+                    }
                     _ => {}
                 }
                 self.data.insert(index, whole);
@@ -381,6 +384,13 @@ impl<D: Dialect> Run<'_, '_, D> {
             self.results.retain(|(own, ..), _| *own < depth);
         }
     }
+}
+
+/// Ways that begin with a step, behind it.
+pub(super) fn behind(ways: &Ways, step: Step) -> Ways {
+    let from = ways.range(vec![step]..);
+    let own = from.take_while(|way| way.first() == Some(&step));
+    own.map(|way| way[1..].to_vec()).collect()
 }
 
 impl<D: Dialect> Names for Run<'_, '_, D> {

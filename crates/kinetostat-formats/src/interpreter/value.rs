@@ -51,7 +51,7 @@ pub(crate) enum Value {
 }
 
 /// A way into an aggregate.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Step {
     /// An index from 0.
     Index(usize),

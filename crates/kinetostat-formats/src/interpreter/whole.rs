@@ -6,7 +6,8 @@ use std::ops::Range;
 
 use crate::error::{ProgramError, note};
 use crate::interpreter::operation::same;
-use crate::interpreter::run::{Dialect, Root, Run};
+use crate::interpreter::run::{Dialect, Root, Run, Ways};
+use crate::interpreter::storage::behind;
 use crate::interpreter::token::Kind;
 use crate::interpreter::tree::RoutineKind;
 use crate::interpreter::value::{Datum, Step, Value};
@@ -186,11 +187,12 @@ impl<D: Dialect> Run<'_, '_, D> {
                 continue;
             }
             let first = self.initial(index);
-            let is_other = |step: &Step| match (first.part(&[*step]), now.part(&[*step])) {
-                (Some(first), Some(now)) => differs(first, now, &[]),
-                _ => false,
-            };
-            let whole = uses.whole.as_deref();
+            let is_other =
+                |(step, given): (&Step, &Ways)| match (first.part(&[*step]), now.part(&[*step])) {
+                    (Some(first), Some(now)) => differs(first, now, given),
+                    _ => false,
+                };
+            let whole = uses.whole.as_ref();
             if whole.is_some_and(|given| differs(&first, &now, given))
                 || uses.parts.iter().any(is_other)
             {
@@ -218,25 +220,21 @@ impl<D: Dialect> Run<'_, '_, D> {
     }
 }
 
-/// True if a part of a value with which the files begin became another, but for those that were given a value before.
-fn differs(first: &Datum, now: &Datum, given: &[Step]) -> bool {
+/// True if a part of a value with which the files begin became another, but for those that were given a value before (`given`).
+fn differs(first: &Datum, now: &Datum, given: &Ways) -> bool {
+    let is_other = |step: Step, value: &Datum| {
+        let given = behind(given, step);
+        let is_given = given.contains(&Vec::new());
+        let now = now.part(&[step]);
+        !is_given && now.is_none_or(|now| differs(value, now, &given))
+    };
     if !first.members().is_empty() {
         let mut members = first.members().iter();
-        return members.any(|(name, value)| {
-            let step = Step::Member(*name);
-            !given.contains(&step)
-                && now
-                    .part(&[step])
-                    .is_none_or(|now| !same(&value.value, &now.value))
-        });
+        return members.any(|(name, value)| is_other(Step::Member(*name), value));
     }
     if !first.parts().is_empty() {
         let mut parts = first.parts().iter().enumerate();
-        return parts.any(|(at, value)| {
-            let step = Step::Index(at);
-            let now = now.part(&[step]);
-            !given.contains(&step) && now.is_none_or(|now| differs(value, now, &[]))
-        });
+        return parts.any(|(at, value)| is_other(Step::Index(at), value));
     }
     let is_known = first.unknown_reason().is_none() && !matches!(first.value, Value::Members(_));
     is_known && !same(&first.value, &now.value)

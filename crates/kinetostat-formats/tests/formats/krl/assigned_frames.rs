@@ -378,13 +378,18 @@ fn elements_that_end_with_another_value_are_refused_where_they_were_used() {
     for statements in [
         format!("$BASE=BASE_DATA[1]\n{HERE}\nBASE_DATA[2]={other}\n$BASE=BASE_DATA[2]\n{HERE}"),
         format!("BASE_DATA[1]={other}\n$BASE=BASE_DATA[1]\n{HERE}\nBASE_DATA[1]=$NULLFRAME"),
+        // One of its members, in each run before it is used.
+        format!("BASE_DATA[1].Y=7\n$BASE=BASE_DATA[1]\n{HERE}\nBASE_DATA[1].Y=8"),
     ] {
         assert!(read(&statements).is_ok(), "{statements}");
     }
-    let refused = read(&format!("$BASE=BASE_DATA[1]\n{HERE}\nBASE_DATA[1]={other}")).unwrap_err();
-    assert_eq!(
-        (refused[0].file.as_str(), refused[0].line),
-        ("part.dat", 2),
-        "{refused:?}"
-    );
+    for change in [
+        format!("BASE_DATA[1]={other}"),
+        "BASE_DATA[1].X=8".to_owned(),
+    ] {
+        let statements = format!("BASE_DATA[1].Y=7\n$BASE=BASE_DATA[1]\n{HERE}\n{change}");
+        let refused = read(&statements).unwrap_err();
+        assert_eq!(refused[0].file, "part.dat", "{refused:?}");
+        assert_eq!(refused[0].line, 2, "{refused:?}");
+    }
 }
