@@ -82,7 +82,14 @@ impl<D: Dialect> Run<'_, '_, D> {
             };
             let slot = match place {
                 Some(place) => Slot::Of(place),
-                None => Slot::Own(self.value(value)),
+                None => {
+                    let value = self.value(value);
+                    let types = &self.symbols.routines[called].routine.data;
+                    let own = types.iter().find(|node| node.name == parameter.name);
+                    Slot::Own(
+                        own.map_or(value.clone(), |node| D::converted(&node.type_name, value)),
+                    )
+                }
             };
             slots.insert(parameter.name, slot);
         }
@@ -207,7 +214,13 @@ impl<D: Dialect> Run<'_, '_, D> {
         self.log_assignment(tokens, assign);
         D::assigned(self, tokens, assign);
         match self.place(&to) {
-            Some(place) => self.put(&place, value),
+            Some(place) => {
+                let value = match self.type_of(place.root) {
+                    Some(type_name) => D::converted(&type_name, value),
+                    None => value,
+                };
+                self.put(&place, value);
+            }
             None => {
                 let reason = self.changed(&to);
                 self.lose(&to, &reason);
@@ -408,17 +421,11 @@ impl<D: Dialect> Run<'_, '_, D> {
         }
     }
 
-    /// The first pass of a loop that never ends. Where it changes data, a second pass shows whether all passes go to the same places.
+    /// The first pass of a loop that never ends. A second pass shows whether all passes go to the same places.
     fn one_pass(&mut self, header: &Range<usize>, block: &[Statement]) -> Flow {
-        let Scope::Routine(routine) = self.scope else {
-            return Flow::Next;
-        };
-        let changed: Vec<Root> = self.assigned_in(routine, block);
-        let before: Vec<Option<Datum>> = changed.iter().map(|root| self.stored(*root)).collect();
         let begin = self.motions.len();
         let flow = self.block(block);
-        let after: Vec<Option<Datum>> = changed.iter().map(|root| self.stored(*root)).collect();
-        if !matches!(flow, Flow::Next) || before == after {
+        if !matches!(flow, Flow::Next) || self.motions.len() == begin {
             return flow;
         }
         let (end, here, logged) = (
@@ -430,10 +437,14 @@ impl<D: Dialect> Run<'_, '_, D> {
         let [first, second] = [&self.motions[begin..end], &self.motions[end..]];
         let is_same = first.len() == second.len()
             && first.iter().zip(second).all(|(first, second)| {
-                let places = [first, second].map(|of| (&of.kind, &of.target));
-                let frames = [first, second].map(|of| (&of.tool, &of.work_object));
+                let places = [first, second].map(|of| (&of.kind, &of.target, &of.zone));
+                let frames = [first, second].map(|of| (&of.tool, &of.work_object, &of.speed));
                 places[0] == places[1] && frames[0] == frames[1]
             });
+        // The way to the first place of a pass is another than that of the next pass.
+        let starts = [begin, end].map(|of| of.checked_sub(1).map(|of| &self.motions[of]));
+        let starts = starts.map(|start| start.map(|of| (&of.target, &of.tool, &of.work_object)));
+        let begins_elsewhere = starts[0] != starts[1];
         self.repeated_motions -= (self.motions.len() - end).min(self.repeated_motions);
         self.motions.truncate(end);
         self.routines.truncate(end);
@@ -441,14 +452,19 @@ impl<D: Dialect> Run<'_, '_, D> {
         if let (Some(log), Some(length)) = (&mut self.log, logged) {
             log.truncate(length);
         }
+        if begins_elsewhere {
+            let site = &mut self.motions[begin].site;
+            site.indivisible = (site.indivisible).or(Some(
+                "the next pass of its loop comes to it from another place",
+            ));
+        }
         if !is_same {
-            let reason =
-                "the loop never ends, and its second pass goes to other places than its first";
+            let reason = "the loop never ends, and its second pass is another than its first: places, frames, speeds or zones";
             self.fault(
                 header,
                 (
                     reason.to_owned(),
-                    "write a loop that ends, or give the data their values at the begin of each pass",
+                    "write a loop that ends, or state at the begin of each pass what it goes by",
                 ),
             );
         }
@@ -516,6 +532,15 @@ impl<D: Dialect> Run<'_, '_, D> {
             flow = self.block(block);
             if !matches!(flow, Flow::Next) || !self.counts_statement() {
                 break;
+            }
+            if own.is_none() {
+                // The block may change the variable.
+                let now = self.value(&variable);
+                let Some(number) = now.as_number() else {
+                    self.pass_over_loop(block, header, &now);
+                    break;
+                };
+                value = number;
             }
             // Numbers of robots have single precision.
             value = f64::from(value as f32 + step as f32);

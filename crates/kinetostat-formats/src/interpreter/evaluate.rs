@@ -16,8 +16,13 @@ pub(crate) trait Names {
         two(operator, left, right)
     }
 
-    /// The value that the caller states for an element of an array.
-    fn stated(&mut self, _element: &Expression) -> Option<Datum> {
+    /// True for operands of which the quotient is a whole number.
+    fn divides_whole(&self, _operands: &[Expression; 2]) -> bool {
+        false
+    }
+
+    /// The value that the caller states for an element of an array, with its indices.
+    fn stated(&mut self, _element: &Expression, _at: &[Datum]) -> Option<Datum> {
         None
     }
 
@@ -96,13 +101,13 @@ pub(crate) fn evaluate(
             })
         }
         Node::Element(inner, indices) => {
-            if let Some(stated) = names.stated(expression) {
-                return stated;
-            }
             let at: Vec<Datum> = indices
                 .iter()
                 .map(|index| evaluate(file, index, names))
                 .collect();
+            if let Some(stated) = names.stated(expression, &at) {
+                return stated;
+            }
             let of = match &inner.node {
                 Node::Word(name) => {
                     // Of an index that is not known nothing is used.
@@ -126,6 +131,10 @@ pub(crate) fn evaluate(
         Node::One(operator, operand) => one(*operator, &evaluate(file, operand, names)),
         Node::Two(operator, operands) => {
             let [left, right] = &**operands;
+            let operator = match operator {
+                Operator::Over if names.divides_whole(operands) => &Operator::WholeQuotient,
+                operator => operator,
+            };
             let left = evaluate(file, left, names);
             let right = evaluate(file, right, names);
             names.operation(*operator, &left, &right)

@@ -34,6 +34,11 @@ pub(crate) fn two(operator: Operator, left: &Datum, right: &Datum) -> Datum {
         return not_computed(&[left, right]);
     }
     match (operator, &left.value, &right.value) {
+        (Equal | Unequal, left_value, right_value)
+            if std::mem::discriminant(left_value) != std::mem::discriminant(right_value) =>
+        {
+            not_computed(&[left, right])
+        }
         (Equal, left, right) => Datum::truth(same(left, right)),
         (Unequal, left, right) => Datum::truth(!same(left, right)),
         (_, Value::Number(left), Value::Number(right)) => of_numbers(operator, *left, *right),

@@ -5,7 +5,7 @@ use std::ops::Range;
 
 use crate::interpreter::expression::{Argument, Expression, Node};
 use crate::interpreter::flow::Leave;
-use crate::interpreter::run::{Dialect, Place, Root, Run};
+use crate::interpreter::run::{Dialect, Place, Root, Run, Slot};
 use crate::interpreter::symbols::{Meaning, Scope};
 use crate::interpreter::token::TokenFile;
 use crate::interpreter::tree::{LoopKind, Statement};
@@ -90,8 +90,21 @@ impl<D: Dialect> Run<'_, '_, D> {
                 let reason = format!("`{name}` is changed while the program runs (line {line})");
                 let value = self.stated_value(root);
                 let value = value.unwrap_or_else(|| Datum::unknown(reason));
-                let path = Vec::new();
-                self.put(&Place { root, path }, value);
+                // A parameter may stand for data of the caller.
+                let slot = match root {
+                    Root::Routine(depth, name) => {
+                        (self.calls.get(depth)).and_then(|called| called.slots.get(&name))
+                    }
+                    _ => None,
+                };
+                let place = match slot {
+                    Some(Slot::Of(place)) => place.clone(),
+                    _ => Place {
+                        root,
+                        path: Vec::new(),
+                    },
+                };
+                self.put(&place, value);
             }
         }
     }

@@ -113,6 +113,21 @@ pub(crate) trait Dialect: Sized {
         false
     }
 
+    /// A value as a datum of a type holds it.
+    fn converted(_type_name: &Name, value: Datum) -> Datum {
+        value
+    }
+
+    /// True for operands of which the quotient is a whole number.
+    fn divides_whole(_run: &Run<'_, '_, Self>, _operands: &[Expression; 2]) -> bool {
+        false
+    }
+
+    /// True for data that the controller changes while the program runs.
+    fn changes_by_itself(_name: &Name) -> bool {
+        false
+    }
+
     /// The result of an operator with two operands.
     fn operation(
         _run: &Run<'_, '_, Self>,

@@ -126,7 +126,9 @@ impl<D: Dialect> Run<'_, '_, D> {
     /// The first value of a datum.
     pub(crate) fn initial(&mut self, index: usize) -> Datum {
         let datum = &self.symbols.data[index];
-        if let Some(value) = self.values.ask(&datum.node.name) {
+        if datum.node.change != Change::Constant
+            && let Some(value) = self.values.ask(&datum.node.name)
+        {
             return value;
         }
         if self.left_changed.contains(&index) {
@@ -277,23 +279,46 @@ impl<D: Dialect> Run<'_, '_, D> {
         index.is_some_and(|index| self.symbols.data[index].node.initial.is_some())
     }
 
+    /// The type of stored data, where they are declared.
+    pub(crate) fn type_of(&self, root: Root) -> Option<Name> {
+        match root {
+            Root::Module(index) => Some(self.symbols.data[index].node.type_name),
+            Root::Undeclared(_) => None,
+            Root::Routine(depth, name) => {
+                let routine = self.symbols.routines[self.calls.get(depth)?.routine].routine;
+                let node = routine.data.iter().find(|node| node.name == name);
+                node.map(|node| node.type_name)
+            }
+        }
+    }
+
     /// Stores a value.
     pub(crate) fn put(&mut self, place: &Place, value: Datum) {
-        // The parts beside the place stay.
-        let whole = match place.path.is_empty() {
-            true => value,
-            false => {
-                let Some(mut whole) = self.stored(place.root) else {
-                    return;
-                };
-                whole.put(&place.path, value);
-                whole
+        let Place { root, path } = place;
+        // The parts beside the place stay: the whole is taken out, so that it is not copied.
+        let mut whole = match path.is_empty() {
+            true => value.clone(),
+            false if self.stored(*root).is_none() => return,
+            false => match root {
+                Root::Module(index) => self.data.remove(index),
+                Root::Undeclared(name) => self.undeclared.remove(name),
+                Root::Routine(depth, name) => {
+                    let called = self.calls.get_mut(*depth);
+                    match called.and_then(|called| called.slots.remove(name)) {
+                        Some(Slot::Own(datum)) => Some(datum),
+                        _ => None,
+                    }
+                }
             }
+            .unwrap_or_else(|| Datum::unknown("it has no value")),
         };
-        match place.root {
+        if !path.is_empty() {
+            whole.put(path, value);
+        }
+        match *root {
             Root::Module(index) => {
                 let given = self.given.entry(index).or_insert_with(|| Some(Ways::new()));
-                match (place.path.as_slice(), given.as_mut()) {
+                match (path.as_slice(), given.as_mut()) {
                     ([], _) => *given = None,
                     (path, Some(ways)) if !ways.contains(path) => {
                         ways.insert(path.to_vec());
@@ -408,19 +433,47 @@ impl<D: Dialect> Names for Run<'_, '_, D> {
         }
     }
 
-    fn stated(&mut self, element: &Expression) -> Option<Datum> {
+    fn divides_whole(&self, operands: &[Expression; 2]) -> bool {
+        D::divides_whole(self, operands)
+    }
+
+    fn stated(&mut self, element: &Expression, at: &[Datum]) -> Option<Datum> {
         if self.values.is_empty() {
             return None;
         }
-        let text = self.file().text(&element.tokens);
+        let Node::Element(of, _) = &element.node else {
+            return None;
+        };
+        // By the numbers of its indices, where they are known.
+        let numbers: Option<Vec<String>> = (at.iter())
+            .map(|index| index.as_number().map(|number| number.to_string()))
+            .collect();
+        let file = self.file();
+        let text = match numbers {
+            Some(numbers) => {
+                let open = file.text(&(of.tokens.end..of.tokens.end + 1));
+                let close = file.text(&(element.tokens.end - 1..element.tokens.end));
+                format!(
+                    "{}{open}{}{close}",
+                    file.text(&of.tokens),
+                    numbers.join(",")
+                )
+            }
+            None => file.text(&element.tokens),
+        };
         let letters: String = text.chars().filter(|own| !own.is_whitespace()).collect();
-        let name = Name::of(letters.as_bytes())?;
-        self.values.ask(&name)
+        self.values.ask(&Name::of(letters.as_bytes())?)
     }
 
     fn word(&mut self, name: &Name, whole: &Expression) -> Datum {
         let file = self.file();
         let shown = || String::from_utf8_lossy(file.word(whole.tokens.start)).into_owned();
+        if D::changes_by_itself(name) {
+            let stated = self.values.ask(name);
+            return stated.unwrap_or_else(|| {
+                Datum::unknown(format!("`{}` is known to the controller alone", shown()))
+            });
+        }
         let root = self.root(name);
         let stored = root.map(|root| self.stored(root));
         match stored {

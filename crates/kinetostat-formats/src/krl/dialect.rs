@@ -101,6 +101,35 @@ impl Dialect for Krl {
         motion_row(word).is_some()
     }
 
+    /// Source: KUKA System Software 8.x, data types: a REAL is rounded where an INT takes it.
+    fn converted(type_name: &Name, value: Datum) -> Datum {
+        match value.as_number() {
+            Some(number) if type_name.is("INT") && number.fract() != 0.0 => {
+                Datum::number(number.round())
+            }
+            _ => value,
+        }
+    }
+
+    /// Two INT have an INT as their quotient.
+    fn divides_whole(run: &Run<'_, '_>, operands: &[Expression; 2]) -> bool {
+        operands.iter().all(|operand| is_whole(run, operand))
+    }
+
+    fn changes_by_itself(name: &Name) -> bool {
+        const RUNNING: [&str; 8] = [
+            "$TIMER",
+            "$TIMER_FLAG",
+            "$CYCFLAG",
+            "$IN",
+            "$ANIN",
+            "$POS_ACT",
+            "$AXIS_ACT",
+            "$ROB_TIMER",
+        ];
+        RUNNING.iter().any(|own| name.is(own))
+    }
+
     fn operation(run: &Run<'_, '_>, operator: Operator, left: &Datum, right: &Datum) -> Datum {
         if operator != Operator::Behind {
             return two(operator, left, right);
@@ -266,6 +295,24 @@ impl Dialect for Krl {
             }
             Value::List(_) | Value::Unknown(_) => return None,
         })
+    }
+}
+
+/// True for an expression of the type INT.
+fn is_whole(run: &Run<'_, '_>, expression: &Expression) -> bool {
+    match &expression.node {
+        Node::Number(_) => {
+            let text = run.file().text(&expression.tokens);
+            !text.contains(['.', 'e', 'E'])
+        }
+        Node::Word(name) => {
+            let root = run.root(name);
+            let type_name = root.and_then(|root| run.type_of(root));
+            type_name.is_some_and(|type_name| type_name.is("INT"))
+        }
+        Node::Element(of, _) | Node::One(_, of) => is_whole(run, of),
+        Node::Two(_, operands) => operands.iter().all(|operand| is_whole(run, operand)),
+        _ => false,
     }
 }
 

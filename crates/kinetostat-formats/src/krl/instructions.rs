@@ -4,10 +4,13 @@ use std::ops::Range;
 
 use crate::error::excerpt;
 use crate::interpreter::flow::Flow;
+use crate::interpreter::run::{Place, Root};
 use crate::interpreter::symbols::Scope;
 use crate::krl::ends::ends_of;
 use crate::krl::expression::{arguments_of, expression_of};
 use crate::krl::folds::{contradiction, folds_of, text_of};
+use crate::krl::lex::assignment;
+use crate::krl::settings::is_in_force;
 use crate::krl::state::Run;
 use crate::krl::table::{Ends, MotionRow, OPERATORS, motion_row, row};
 use crate::model::motion::Zone;
@@ -136,6 +139,12 @@ impl Run<'_, '_> {
     /// has `IR_STOPM`, which stops the robot.
     fn interrupt(&mut self, tokens: &Range<usize>) {
         let file = self.file();
+        let done = tokens.clone().find(|at| file.is_word(*at, "DO"));
+        if let Some(done) = done
+            && let Some(equals) = assignment(file, &(done + 1..tokens.end))
+        {
+            self.assigned_at_any_time(tokens, done + 1..equals);
+        }
         for at in tokens.clone() {
             let Some(name) = file.name(at).filter(|_| file.is(at + 1, b'(')) else {
                 continue;
@@ -159,6 +168,26 @@ impl Run<'_, '_> {
                     (reason, "take the interrupt into a program of its own"),
                 );
             }
+        }
+    }
+
+    /// An assignment that an interrupt or a trigger makes: what it sets is not known behind it.
+    fn assigned_at_any_time(&mut self, tokens: &Range<usize>, to: Range<usize>) {
+        let file = self.file();
+        if file.name(to.start).is_some_and(|name| is_in_force(&name)) {
+            let reason = "it sets at any time what the motions behind it go by".to_owned();
+            let remedy = "take the interrupt into a program of its own";
+            return self.fault(tokens, (reason, remedy));
+        }
+        let to = expression_of(file, to);
+        let reason = self.changed(&to);
+        self.lose(&to, &reason);
+        if let Some(Place {
+            root: Root::Module(index),
+            ..
+        }) = self.place(&to)
+        {
+            self.volatile.insert(index);
         }
     }
 

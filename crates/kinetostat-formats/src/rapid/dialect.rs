@@ -60,6 +60,11 @@ impl Dialect for Rapid {
         })
     }
 
+    fn decides_places(node: &DatumNode) -> bool {
+        const KINDS: [&str; 5] = ["ROBTARGET", "JOINTTARGET", "POS", "POSE", "ORIENT"];
+        node.change == Change::Persistent && KINDS.iter().any(|kind| node.type_name.is(kind))
+    }
+
     fn function(
         run: &mut Run<'_, '_>,
         name: &Name,

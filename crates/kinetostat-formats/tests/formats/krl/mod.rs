@@ -15,6 +15,7 @@ mod partial;
 mod pieces;
 mod properties;
 mod random;
+mod runs;
 mod segments;
 mod turns;
 mod zero_change;

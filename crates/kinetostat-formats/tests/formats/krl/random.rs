@@ -145,7 +145,10 @@ fn statements(chance: &mut Chance, depth: usize) -> String {
                 statements(chance, depth + 1),
                 statements(chance, depth + 1)
             ),
-            1 if depth < 3 => format!("FOR i = 1 TO 3\n{}ENDFOR\n", statements(chance, depth + 1)),
+            1 if depth < 3 => format!(
+                "FOR i{depth} = 1 TO 3\n{}ENDFOR\n",
+                statements(chance, depth + 1)
+            ),
             2 if depth < 3 => format!("REPEAT\n{}UNTIL TRUE\n", statements(chance, depth + 1)),
             3 => "$OUT[1]=TRUE\nWAIT SEC 0.5\n".to_owned(),
             4 if depth < 2 => "sub()\n".to_owned(),
@@ -169,7 +172,10 @@ fn statements(chance: &mut Chance, depth: usize) -> String {
 pub fn module(chance: &mut Chance) -> [String; 2] {
     let mut source = String::from("&ACCESS RVP\n");
     for (name, depth) in [("part", 0), ("sub", 2)] {
-        source += &format!("DEF {name}()\nINT i\n{}END\n", statements(chance, depth));
+        source += &format!(
+            "DEF {name}()\nINT i,i0,i1,i2\n{}END\n",
+            statements(chance, depth)
+        );
     }
     let mut data = String::from("&ACCESS RVP\nDEFDAT part\n");
     for name in ["XP1", "XP2", "XP_3"] {
