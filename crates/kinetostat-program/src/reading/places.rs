@@ -12,10 +12,8 @@ use nalgebra::Vector3;
 pub(crate) enum Cause {
     /// G43, G43.1, G43.2, G49.
     ToolLength,
-    /// G53.
+    /// G28, G30, G53.
     Machine,
-    /// G28, G30, or G53 with zero: where no part is along Z.
-    Home,
     /// Rotary axes at an angle, without tool centre point control.
     Rotary,
 }
@@ -56,8 +54,7 @@ impl Places {
 
     /// An axis is unknown from here on.
     pub fn lose(&mut self, axis: usize, cause: Cause, line: usize) {
-        // It leaves the height of home, too.
-        if self.known[axis] || matches!(self.lost[axis], Some((Cause::Home, _))) {
+        if self.known[axis] {
             self.known[axis] = false;
             self.lost[axis] = Some((cause, line));
         }
@@ -68,19 +65,12 @@ impl Places {
         (0..3).find_map(|axis| self.lost[axis].map(|(cause, line)| (axis, cause, line)))
     }
 
-    /// Whether X and Y are not lost, and Z is so by no turn of a rotary axis.
-    pub fn only_lost_along_z(&self) -> bool {
-        matches!(self.lost, [None, None, Some((cause, _))] if cause != Cause::Rotary)
-    }
-
     /// Why an axis that was known is so no more, in words; none where it never was or still is.
     pub fn why_lost(&self, axis: usize) -> Option<String> {
         let (cause, line) = self.lost[axis]?;
         Some(match cause {
             Cause::ToolLength => format!("line {line} changed the tool length"),
-            Cause::Machine | Cause::Home => {
-                format!("line {line} sent the tool to a place of the machine")
-            }
+            Cause::Machine => format!("line {line} sent the tool to a place of the machine"),
             Cause::Rotary => format!("line {line} turned a rotary axis"),
         })
     }

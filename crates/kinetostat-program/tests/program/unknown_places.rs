@@ -57,7 +57,7 @@ fn the_same_length_once_more_changes_nothing() {
         ("G49\nG43 H1", false),
         ("G43.1 Z5\nG43 H1", false),
     ] {
-        let text = format!("G21 G90\nG43 H1\nG0 X0 Y0 Z5\n{again}\nG1 X1 F100\n");
+        let text = format!("G21 G90\nG43 H1\nG0 X0 Y0 Z5\n{again}\nG1 Z-1 F100\n");
         let path = read(&text, &ReadOptions::default());
         assert_eq!(path.is_ok(), same, "{text}");
     }
@@ -161,7 +161,7 @@ fn with_the_places_of_the_machine_a_cut_may_follow() {
     );
     // Of the third and fourth point, of letters alone, and with a tool's length nothing is known.
     for block in ["G30 P3 Z5", "G28 Z", "G43 H1 G0 Z5\nG28 Z5"] {
-        let text = format!("G21 G90\nG0 X0 Y0 Z5\n{block}\nG2 X1 R9 F100\n");
+        let text = format!("G21 G90\nG0 X0 Y0 Z5\n{block}\nG1 Z-1 F100\n");
         let error = read(&text, &reading).expect_err(block);
         assert!(
             error
@@ -171,46 +171,6 @@ fn with_the_places_of_the_machine_a_cut_may_follow() {
         );
     }
     assert!(read("G21 G90\nG0 X0 Y0 Z5\nG30 P2 Z5\nG1 Z-1 F100\n", &reading).is_ok());
-}
-
-/// A line that states the height ends where it says, and at the height of home nothing is cut: what is refused is a cut from a height that is not known.
-#[test]
-fn a_plunge_and_feeds_at_home_need_no_known_height() {
-    let tool = "G43 H2\nG0 X5 Y0\n";
-    for plunge in [tool, "G53 G0 Z-90\nX5\n", "G91 G28 Z0\nG90 X5\n"] {
-        let text = format!("G21 G90\nG43 H1\nG0 X0 Y0 Z5\n{plunge}G1 Z-1 F100\nX9\n");
-        let (output, result) = written(&text);
-        assert!(
-            output.ends_with("G1 Z-0.7500 X5.2500 F100\nX9.2500\n"),
-            "{output}"
-        );
-        let line = text.lines().count() - 1;
-        assert_eq!(warned(&result, "cuts from where the machine is"), [line]);
-    }
-    let home = "G21 G90\nG0 X0 Y0 Z5\nG53 G0 Z0\nT2 M6\nG1 X5 Y1 F5000\nG0 G43 Z5 H2\nX6\n";
-    let (output, result) = written(home);
-    assert!(
-        output.contains("\nG1 X5 Y1 F5000\nG0 G43 Z5.2500 X5.2500 H2"),
-        "{output}"
-    );
-    assert_eq!(warned(&result, "along Z is not known here"), [5]);
-    for text in [
-        "G43 H2\nG1 X5",
-        "G43 H2\nG91 G1 Z-1",
-        "G43 H2\nG1 Z-1 A5",
-        "G53 G0 Z-90\nG1 X5",
-        "G53 G0 X0\nG1 X5",
-        "G53 G0 Z0\nG2 X5 R9",
-        "G28\nG1 X5",
-        "G53 G0 Z0\nG43 H2\nG1 X5",
-        "G53 G0 Z0\nG53 G0 Z-90\nG1 X5",
-    ] {
-        let mut reading = ReadOptions::default();
-        reading.other_axes = OtherAxes::StandStill;
-        let text = format!("G21 G90 F100\nG43 H1\nG0 X0 Y0 Z5 A0\n{text}\n");
-        let error = read(&text, &reading).expect_err(&text);
-        assert!(error.reason.contains("this block cuts"), "{error}");
-    }
 }
 
 /// LinuxCNC dwells, then moves.

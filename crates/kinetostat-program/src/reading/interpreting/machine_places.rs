@@ -41,14 +41,9 @@ impl Interpreter<'_> {
         let known_before = self.places.known;
         for axis in (0..3).filter(|axis| place.axes[*axis]) {
             self.places.position[axis] = place.places_mm[axis].unwrap_or(0.0);
-            let to_a_number = block.codes.machine == Some(530);
-            let cause = match to_a_number && block.value(COORDINATES[axis]) != Some(0.0) {
-                true => Cause::Machine,
-                false => Cause::Home,
-            };
             match place.places_mm[axis] {
                 Some(_) => self.places.state(axis),
-                None => self.places.lose(axis, cause, block.line_number),
+                None => self.places.lose(axis, Cause::Machine, block.line_number),
             }
         }
         self.modes.extra.forget(block, place.all);

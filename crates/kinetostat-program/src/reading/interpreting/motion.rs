@@ -9,7 +9,6 @@ use crate::reading::arc::{self, ArcFrame};
 use crate::reading::beside::{COORDINATES, check_codes_beside_motion};
 use crate::reading::block::Block;
 use crate::reading::directions::with_circle;
-use crate::reading::extra::ExtraAxes;
 use crate::reading::interpreting::interpreter::Interpreter;
 use crate::reading::places::Cause;
 
@@ -44,7 +43,7 @@ impl Interpreter<'_> {
         }
 
         if kind == MoveKind::Feed {
-            self.refuse_cut_from_lost_place(block, motion)?;
+            self.refuse_cut_from_lost_place(block)?;
         }
         self.modes.use_units();
         let start = self.places.position;
@@ -99,13 +98,8 @@ impl Interpreter<'_> {
         Ok(())
     }
 
-    /// What is cut from an unknown place is cut somewhere else than the program says, but for a line that states
-    /// the height that is not known, and so ends where it says, and for lines across at the height that the machine goes home to.
-    fn refuse_cut_from_lost_place(
-        &mut self,
-        block: &Block<'_>,
-        motion: Motion,
-    ) -> Result<(), ProgramError> {
+    /// What is cut from an unknown place is cut somewhere else than the program says.
+    fn refuse_cut_from_lost_place(&self, block: &Block<'_>) -> Result<(), ProgramError> {
         let Some((axis, cause, _)) = self.places.first_lost() else {
             return Ok(());
         };
@@ -115,24 +109,10 @@ impl Interpreter<'_> {
                 .refuse_cut_at_angles(block, &self.modes, &angles)?;
         }
         let letter = char::from(COORDINATES[axis]);
-        let turns = self.modes.directions.is_some()
-            || ExtraAxes::LETTERS
-                .iter()
-                .any(|own| block.value(*own).is_some());
-        if motion == Motion::Feed && !turns && self.places.only_lost_along_z() {
-            let names_z = block.value(b'Z').is_some();
-            if names_z && !self.modes.incremental {
-                self.repeated.note(block.line_number, "the block cuts from where the machine is along Z, which is not known here: its end is corrected, and the way there is not looked at");
-                return Ok(());
-            }
-            if !names_z && cause == Cause::Home {
-                return Ok(());
-            }
-        }
         let why = self.places.why_lost(axis).unwrap_or_default();
         let also = match cause {
             Cause::ToolLength | Cause::Rotary => "",
-            Cause::Machine | Cause::Home => {
+            Cause::Machine => {
                 ", or give the machine's zero and its reference points (--machine-zero-mm, --g28-mm, --g30-mm, or machine_zero_mm, g28_mm, g30_mm under [reading] in the job file)"
             }
         };
