@@ -226,7 +226,7 @@ impl Program {
     ///
     /// let program = Program::read("G21 G90\nN5 G4 P1.50 (cool down)\n")?;
     /// let words: Vec<(char, f64)> = program.words_on(2).collect();
-    /// assert_eq!(words, [('G', 4.0), ('P', 1.5)]);
+    /// assert_eq!(words, [('N', 5.0), ('G', 4.0), ('P', 1.5)]);
     /// # Ok::<(), kinetostat_program::ProgramError>(())
     /// ```
     pub fn words_on(&self, line: usize) -> impl Iterator<Item = (char, f64)> {
