@@ -11,7 +11,7 @@ use crate::interpreter::storage::behind;
 use crate::interpreter::token::Kind;
 use crate::interpreter::tree::RoutineKind;
 use crate::interpreter::value::{Datum, Step, Value};
-use crate::model::motion::Runs;
+use crate::model::motion::{Runs, mark_repeated};
 use crate::model::site::TargetSite;
 use crate::text::finding::Finding;
 use crate::text::line_words::in_words;
@@ -43,7 +43,7 @@ impl<D: Dialect> Run<'_, '_, D> {
         }
         self.findings.extend(self.values.findings());
         self.say_of_unreached();
-        self.mark_repeated();
+        mark_repeated(&mut self.motions);
         self.fix_what_others_call();
         let targets = std::mem::take(&mut self.targets);
         self.targets = targets.with_other_uses(self.files, self.symbols);
@@ -159,20 +159,6 @@ impl<D: Dialect> Run<'_, '_, D> {
             }
         });
         self.findings.extend(all);
-    }
-
-    /// Statements that ran several times say so at each of their motions.
-    fn mark_repeated(&mut self) {
-        let mut count: BTreeMap<(usize, usize), usize> = BTreeMap::new();
-        for motion in &self.motions {
-            *count.entry((motion.file, motion.span.start)).or_default() += 1;
-        }
-        for motion in &mut self.motions {
-            let runs = count.get(&(motion.file, motion.span.start));
-            if runs.is_some_and(|runs| *runs > 1) && motion.runs < Runs::Repeatedly {
-                motion.runs = Runs::Repeatedly;
-            }
-        }
     }
 
     /// Refuses data that decide where the tool goes, that began with the values of the files, and end with others: the next run begins with

@@ -12,7 +12,7 @@ use crate::ls::motion::End;
 use crate::ls::positions::{Held, Positions};
 use crate::ls::program::Program;
 use crate::ls::step::Step;
-use crate::model::motion::{Motion, Runs};
+use crate::model::motion::{Motion, Runs, mark_repeated};
 use crate::model::outside_call::OutsideCall;
 use crate::model::site::OffsetAxes;
 use crate::text::line_words::in_words;
@@ -199,7 +199,9 @@ impl<'o, 'p> Run<'o, 'p> {
         self.reader.findings.extend(self.stated.findings());
         self.refuse_open_frames();
         self.say_of_unreached();
-        self.mark_repeated();
+        if self.repeated_motions > 0 {
+            mark_repeated(&mut self.motions);
+        }
         self
     }
 
@@ -258,23 +260,6 @@ impl<'o, 'p> Run<'o, 'p> {
                     "the run of the program does not come to the motions on {named}: they stay as they are written"
                 );
                 self.reader.finding(index, first, message);
-            }
-        }
-    }
-
-    /// Statements that ran several times say so at each of their motions.
-    fn mark_repeated(&mut self) {
-        if self.repeated_motions == 0 {
-            return;
-        }
-        let mut count: BTreeMap<(usize, usize), usize> = BTreeMap::new();
-        for motion in &self.motions {
-            *count.entry((motion.file, motion.span.start)).or_default() += 1;
-        }
-        for motion in &mut self.motions {
-            let runs = count.get(&(motion.file, motion.span.start));
-            if runs.is_some_and(|runs| *runs > 1) && motion.runs < Runs::Repeatedly {
-                motion.runs = Runs::Repeatedly;
             }
         }
     }

@@ -1,5 +1,6 @@
 //! One motion of a program.
 
+use std::collections::BTreeMap;
 use std::ops::Range;
 
 use nalgebra::{Isometry3, Vector3};
@@ -123,5 +124,19 @@ impl Motion {
     #[must_use]
     pub fn base_pose(&self) -> Option<Isometry3<f64>> {
         Some(self.work_object.known()? * self.target.pose()?.isometry())
+    }
+}
+
+/// Statements that ran several times say so at each of their motions.
+pub(crate) fn mark_repeated(motions: &mut [Motion]) {
+    let mut count: BTreeMap<(usize, usize), usize> = BTreeMap::new();
+    for motion in motions.iter() {
+        *count.entry((motion.file, motion.span.start)).or_default() += 1;
+    }
+    for motion in motions.iter_mut() {
+        let runs = count.get(&(motion.file, motion.span.start));
+        if runs.is_some_and(|runs| *runs > 1) && motion.runs < Runs::Repeatedly {
+            motion.runs = Runs::Repeatedly;
+        }
     }
 }

@@ -8,6 +8,7 @@ use std::ops::Range;
 use nalgebra::{UnitQuaternion, Vector3};
 
 use crate::interpreter::expression::{Argument, Node};
+use crate::interpreter::functions::function;
 use crate::interpreter::token::TokenFile;
 use crate::interpreter::value::{Datum, Step, Value};
 use crate::model::frame::FrameUse;
@@ -78,15 +79,11 @@ impl Given {
 pub(super) fn computed(name: &Name, given: &Given) -> Option<Datum> {
     let name = std::str::from_utf8(name.letters()).ok()?;
     let of_one: Option<fn(f64) -> f64> = match name {
-        "ABS" | "ABSDNUM" => Some(f64::abs),
-        "SQRT" | "SQRTDNUM" => Some(f64::sqrt),
-        "SIN" | "SINDNUM" => Some(|angle| angle.to_radians().sin()),
-        "COS" | "COSDNUM" => Some(|angle| angle.to_radians().cos()),
-        "TAN" | "TANDNUM" => Some(|angle| angle.to_radians().tan()),
-        "ASIN" | "ASINDNUM" => Some(|value| value.asin().to_degrees()),
-        "ACOS" | "ACOSDNUM" => Some(|value| value.acos().to_degrees()),
+        "ABS" | "SQRT" | "SIN" | "COS" | "TAN" | "ASIN" | "ACOS" | "EXP" => function(name),
+        "ABSDNUM" | "SQRTDNUM" | "SINDNUM" | "COSDNUM" | "TANDNUM" | "ASINDNUM" | "ACOSDNUM" => {
+            function(name.trim_end_matches("DNUM"))
+        }
         "ATAN" | "ATANDNUM" => Some(|value| value.atan().to_degrees()),
-        "EXP" => Some(f64::exp),
         "NUMTODNUM" | "DNUMTONUM" => Some(|value| value),
         _ => None,
     };
