@@ -7,31 +7,39 @@ use anyhow::{Context, Result, bail};
 use crate::{cargo, step};
 
 /// Runs a program of rounds, optimised and with panics that can be caught.
-fn example(what: &str, package: &str, name: &str, words: &[&str]) -> Result<()> {
+fn example(what: &str, package: &str, words: &[&str]) -> Result<()> {
+    let (name, words) = words.split_first().context("no example")?;
     let mut command = cargo();
     command.args(["run", "--quiet", "--profile", "fuzz", "--package", package]);
     command.args(["--example", name, "--"]).args(words);
     step(what, &mut command)
 }
 
-/// What is run for a twelfth of the time each, by package and example: these are thousands of cases in a second. One case is
-/// repeated with `cargo run --package kinetostat-program --example fuzz_codes -- case SEED`, and so of the others.
-const QUICK: [(&str, &str, &str); 10] = [
-    ("codes", "kinetostat-program", "fuzz_codes"),
-    ("programs with macros", "kinetostat-program", "fuzz_expand"),
-    ("errors in pairs", "kinetostat-model", "fuzz_errors"),
-    ("RAPID programs", "kinetostat-formats", "fuzz_rapid"),
-    ("TP programs", "kinetostat-formats", "fuzz_ls"),
-    ("APT files", "kinetostat-formats", "fuzz_apt"),
-    ("KRL programs", "kinetostat-formats", "fuzz_krl"),
-    ("lists of poses", "kinetostat-formats", "fuzz_poses"),
-    ("SINUMERIK programs", "kinetostat-formats", "fuzz_siemens"),
+/// Fuzz of thousands of cases in a second, by package and words of its example: a twelfth of the time each. One case is repeated with
+/// `cargo run --package kinetostat-program --example fuzz_codes -- case SEED`, and so of the others.
+const QUICK: [(&str, &str, &[&str]); 10] = [
+    ("codes", "kinetostat-program", &["fuzz_codes"]),
+    (
+        "programs with macros",
+        "kinetostat-program",
+        &["fuzz_expand"],
+    ),
+    ("errors in pairs", "kinetostat-model", &["fuzz_errors"]),
+    ("RAPID programs", FORMATS, &["fuzz_programs", "rapid"]),
+    ("TP programs", FORMATS, &["fuzz_programs", "ls"]),
+    ("APT files", FORMATS, &["fuzz_programs", "apt"]),
+    ("KRL programs", FORMATS, &["fuzz_programs", "krl"]),
+    ("lists of poses", FORMATS, &["fuzz_programs", "poses"]),
+    ("SINUMERIK programs", FORMATS, &["fuzz_programs", "siemens"]),
     (
         "Heidenhain programs",
-        "kinetostat-formats",
-        "fuzz_heidenhain",
+        FORMATS,
+        &["fuzz_programs", "heidenhain"],
     ),
 ];
+
+/// The package whose programs are those of robots and controls.
+const FORMATS: &str = "kinetostat-formats";
 
 /// `--minutes M` (10 if not given), `--seed N` (1), or `--case N` to repeat one.
 pub fn run(options: &[&str]) -> Result<()> {
@@ -56,8 +64,9 @@ pub fn run(options: &[&str]) -> Result<()> {
     }
     let time: f64 = minutes.parse()?;
     let twelfth = (time / 12.0).to_string();
-    for (what, package, name) in QUICK {
-        example(&format!("fuzz of {what}"), package, name, &[&twelfth, seed])?;
+    for (what, package, words) in QUICK {
+        let words = [words, &[&twelfth, seed]].concat();
+        example(&format!("fuzz of {what}"), package, &words)?;
     }
     // Programs are many more cases in a minute: a sixth of the time does.
     maps(&[&(time / 6.0).to_string(), seed])?;
@@ -85,7 +94,8 @@ fn commands(what: &str, test: &str, (minutes, seed): (f64, &str)) -> Result<()> 
 
 /// Chains under loads, through every query.
 fn chains(words: &[&str]) -> Result<()> {
-    example("fuzz of chains", "kinetostat", "fuzz_chains", words)
+    let words = [&["fuzz_chains"], words].concat();
+    example("fuzz of chains", "kinetostat", &words)
 }
 
 /// One figure of a good job or model at a time, in every wrong unit.
@@ -107,10 +117,10 @@ fn absurd_units() -> Result<()> {
 /// Programs under ridged tables, looked at in random places. One case is repeated with
 /// `cargo run --package kinetostat-program --example fuzz_maps -- case SEED`.
 fn maps(words: &[&str]) -> Result<()> {
+    let words = [&["fuzz_maps"], words].concat();
     example(
         "fuzz of programs under tables",
         "kinetostat-program",
-        "fuzz_maps",
-        words,
+        &words,
     )
 }

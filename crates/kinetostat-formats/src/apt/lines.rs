@@ -2,6 +2,8 @@
 
 use std::ops::Range;
 
+use crate::text::source::beginning;
+
 /// A statement.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Statement {
@@ -28,7 +30,7 @@ const TEXTS: [&[u8]; 9] = [
 /// The statements of a file in their order; comments and empty lines are none. Comments of Creo (`$$->`) go on in further lines, as its statements do.
 pub(crate) fn statements_of(bytes: &[u8]) -> Vec<Statement> {
     let mut statements = Vec::with_capacity(bytes.len() / 24);
-    let mut at = 0;
+    let mut at = beginning(bytes);
     while at < bytes.len() {
         let first = at;
         let mut next = next_line(bytes, at);

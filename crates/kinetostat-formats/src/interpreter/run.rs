@@ -221,8 +221,8 @@ pub(crate) struct Run<'r, 'p, D> {
     pub(crate) calls: Vec<Called>,
     /// Where the expression stands that is evaluated.
     pub(crate) scope: Scope,
-    /// Nesting of declarations that rest on others.
-    pub(crate) depth_of_data: usize,
+    /// Declarations that are evaluated, each for the one before.
+    pub(crate) open_data: BTreeSet<usize>,
     /// Nesting of blocks and calls.
     pub(crate) depth: usize,
     /// Modal state of the language, and what it keeps beside.
@@ -279,7 +279,7 @@ impl<'r, 'p, D: Dialect> Run<'r, 'p, D> {
             volatile: BTreeSet::new(),
             calls: Vec::new(),
             scope: Scope::Module(0),
-            depth_of_data: 0,
+            open_data: BTreeSet::new(),
             depth: 0,
             own,
             runs: Runs::Once,

@@ -137,13 +137,20 @@ impl<D: Dialect> Run<'_, '_, D> {
                 self.shown(index)
             ));
         }
+        if self.open_data.len() >= DEEPEST || !self.open_data.insert(index) {
+            return Datum::unknown("its declaration rests on itself, or on too many others");
+        }
+        let value = self.declared_value(index);
+        self.open_data.remove(&index);
+        value
+    }
+
+    fn declared_value(&mut self, index: usize) -> Datum {
+        let datum = &self.symbols.data[index];
         let Some(tokens) = datum.node.initial.clone() else {
             let whole = self.without_value(index);
             return self.with_elements(index, whole);
         };
-        if self.depth_of_data >= DEEPEST {
-            return Datum::unknown("its declaration rests on too many others");
-        }
         let node = datum.node;
         if let Some(message) = D::kept(self, index) {
             let file = &self.files[datum.file];
@@ -157,10 +164,8 @@ impl<D: Dialect> Run<'_, '_, D> {
             }
         }
         let outer = std::mem::replace(&mut self.scope, datum.scope);
-        self.depth_of_data += 1;
         let expression = D::expression_of(&self.files[datum.file], tokens);
         let value = self.value(&expression);
-        self.depth_of_data -= 1;
         self.scope = outer;
         value
     }
@@ -169,7 +174,6 @@ impl<D: Dialect> Run<'_, '_, D> {
     fn with_elements(&mut self, index: usize, mut whole: Datum) -> Datum {
         let datum = &self.symbols.data[index];
         let outer = std::mem::replace(&mut self.scope, datum.scope);
-        self.depth_of_data += 1;
         for (number, preset) in &datum.elements {
             let expression = D::expression_of(&self.files[datum.file], preset.value.clone());
             let value = self.value(&expression);
@@ -189,7 +193,6 @@ impl<D: Dialect> Run<'_, '_, D> {
             }
             whole.put(&[Step::Index(element)], value);
         }
-        self.depth_of_data -= 1;
         self.scope = outer;
         whole
     }

@@ -24,6 +24,9 @@ const WRITE_IT: &str =
 const GIVE_IT: &str = "give the .dat file that declares it as well (or $config.dat)";
 const STATE_IT: &str = "give the .dat file that states it as well";
 
+/// Reason of an end whose numbers are computed, and not all of them.
+pub(crate) const ONLY_SOME: &str = "statements before it give it only some of X, Y, Z, A, B and C";
+
 /// A further declaration beside one that shares its statement, or beside an element of an array.
 const AROUND: Around = Around {
     before: |node| {
@@ -187,7 +190,7 @@ impl Run<'_, '_> {
                 place: span,
                 numbers,
             })),
-            _ => TargetSite::Fixed("statements before it give it only some of X, Y, Z, A, B and C"),
+            _ => TargetSite::Fixed(ONLY_SOME),
         }
     }
 

@@ -29,7 +29,8 @@ impl<'s> Open<'s> {
         Self {
             actions: Vec::new(),
             from: at + 1,
-            to,
+            // A block that is not whole may lead nowhere.
+            to: to.max(at + 1),
         }
     }
 

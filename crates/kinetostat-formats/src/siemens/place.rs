@@ -60,6 +60,8 @@ pub(crate) struct Place<'p> {
     pub least: usize,
     /// From where the tool was at the start to where it is, and then at the end; in the frame's axes, mm.
     pub off: [f64; 3],
+    /// Axes that were stated since their last word in the program.
+    pub stated: [bool; 3],
 }
 
 impl Place<'_> {
@@ -85,14 +87,20 @@ impl Place<'_> {
                     false => format!(" {letter}{}", number.text),
                 });
                 self.off[axis] = number.value * unit - old;
+                self.stated[axis] = true;
             }
             return;
         };
+        let is_elsewhere = self.written.counts_behind_frame(axis, self.stated[axis]);
+        self.stated[axis] = false;
         let value = put(
             self.file,
             word,
             (old, wanted_mm),
-            self.off[axis],
+            match is_elsewhere {
+                true => f64::INFINITY,
+                false => self.off[axis],
+            },
             unit,
             least,
             edits,

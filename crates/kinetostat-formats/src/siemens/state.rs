@@ -7,6 +7,9 @@ use nalgebra::{Isometry3, UnitQuaternion, Vector3};
 
 use crate::standing::Standing;
 
+/// Shift of a frame that is none, mm.
+pub(crate) const NO_SHIFT_MM: f64 = 1e-9;
+
 /// How the tool goes to the next place.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(crate) enum Code {

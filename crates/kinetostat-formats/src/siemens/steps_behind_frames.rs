@@ -6,14 +6,12 @@
 //! SINUMERIK programs, which quotes the setting's name, its factory default TRUE and "changes to work offsets are traversed after a frame
 //! change". Of frames that are turned it says nothing, and neither is said here.
 
-use crate::siemens::state::Counted;
+use crate::siemens::state::{Counted, NO_SHIFT_MM};
 use crate::siemens::walker::Reader;
 use crate::siemens::words::Words;
 use crate::text::finding::Finding;
 use crate::text::line_words::in_words;
 
-/// Shift of a frame that is none, mm.
-const NO_SHIFT_MM: f64 = 1e-9;
 /// Turn of a frame that is none, rad.
 const NO_TURN: f64 = 1e-9;
 

@@ -13,7 +13,7 @@ use crate::model::stated_axes::StatedAxes;
 use crate::options::ReadOptions;
 use crate::siemens::block::How;
 use crate::siemens::expression::Expression;
-use crate::siemens::state::{Angles, Code, Coordinate, Feed, State};
+use crate::siemens::state::{Angles, Code, Coordinate, Feed, NO_SHIFT_MM, State};
 use crate::siemens::tokens::Broken;
 use crate::siemens::values::Variables;
 use crate::text::finding::Finding;
@@ -88,6 +88,18 @@ pub(crate) struct Written {
     pub normal: usize,
     /// What its corner to the next motion becomes, where corners are followed.
     pub corner: Option<(Range<usize>, Cut)>,
+}
+
+impl Written {
+    /// True for a step that counts from the last word of its axis before a frame, where the writer stated the axis since.
+    pub(crate) fn counts_behind_frame(&self, axis: usize, is_stated: bool) -> bool {
+        let word = self.axes[axis]
+            .as_ref()
+            .filter(|word| is_stated && word.step);
+        let ends = self.start[axis].zip(self.end[axis]);
+        word.zip(ends)
+            .is_some_and(|(word, (start, end))| (end - start - word.mm).abs() > NO_SHIFT_MM)
+    }
 }
 
 /// What becomes of RND, CHF and CHR.

@@ -17,6 +17,7 @@ mod axis_counts;
 mod chance;
 mod circles;
 mod closed_circles;
+mod conformance;
 mod corners;
 mod correcting;
 mod directions_evenly;

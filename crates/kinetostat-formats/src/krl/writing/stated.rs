@@ -7,6 +7,7 @@ use std::ops::Range;
 use nalgebra::Vector3;
 
 use crate::error::WriteError;
+use crate::krl::ends::ONLY_SOME;
 use crate::krl::kept::kept_angles;
 use crate::krl::position::PLACE;
 use crate::krl::reader::read_krl;
@@ -26,6 +27,9 @@ const SAME_MM: f64 = 1e-9;
 /// Orientations nearer than this are one, rad.
 const SAME_RAD: f64 = 1e-9;
 
+/// Reason of an end that keeps other numbers in each of its runs.
+const EACH_TIME: &str = "it keeps numbers of before, and needs another correction each time";
+
 /// The program with all ends stated that corrections change; none where it is as it must be.
 pub(super) fn with_stated_ends(
     program: &RobotProgram,
@@ -40,9 +44,20 @@ pub(super) fn with_stated_ends(
         of_motion,
         edits: program.files.iter().map(|_| Edits::default()).collect(),
         first: None,
+        open: None,
+        stated: BTreeMap::new(),
     };
     for index in 0..program.motions.len() {
         stating.motion(index);
+    }
+    let refused = |motion: &Motion, reason: &str| WriteError::Motion {
+        file: program.files[motion.file].name().to_owned(),
+        line: motion.line,
+        reason: reason.to_owned(),
+        remedy: "write all of X, Y, Z, A, B and C as numbers".to_owned(),
+    };
+    if let Some((motion, reason)) = stating.open {
+        return Err(refused(motion, reason));
     }
     let Some(first) = stating.first else {
         return Ok(None);
@@ -62,12 +77,9 @@ pub(super) fn with_stated_ends(
     };
     let again = files.and_then(|files| read_krl(files, &reading).ok());
     let again = again.filter(|again| again.motions.len() == program.motions.len());
-    again.map(Some).ok_or_else(|| WriteError::Motion {
-        file: program.files[first.file].name().to_owned(),
-        line: first.line,
-        reason: "what its end keeps of before could not be stated".to_owned(),
-        remedy: "write all of X, Y, Z, A, B and C".to_owned(),
-    })
+    again
+        .map(Some)
+        .ok_or_else(|| refused(first, "what its end keeps of before could not be stated"))
 }
 
 struct Stating<'a> {
@@ -76,6 +88,10 @@ struct Stating<'a> {
     edits: Vec<Edits>,
     /// The first motion with an end that is stated.
     first: Option<&'a Motion>,
+    /// The first motion whose end keeps numbers of before that become others, and why it cannot state them.
+    open: Option<(&'a Motion, &'static str)>,
+    /// Numbers that are stated further, by the file and the place of the end.
+    stated: BTreeMap<(usize, usize), [Option<String>; 6]>,
 }
 
 /// An end and what is stated of it.
@@ -114,6 +130,11 @@ impl<'a> Stating<'a> {
             state_step(self.program, motion, (straight, pose), &mut self.edits);
             self.first.get_or_insert(motion);
             return;
+        }
+        let via = motion.site.via.iter().map(|(_, site)| site);
+        let mut ends = via.chain([&motion.site.target]);
+        if from.is_some() && ends.any(|site| *site == TargetSite::Fixed(ONLY_SOME)) {
+            self.open.get_or_insert((motion, ONLY_SOME));
         }
         let turned = self.turns(index) || from.is_some_and(|from| self.turns(from));
         if let Some(pose) = motion.target.pose()
@@ -161,6 +182,16 @@ impl<'a> Stating<'a> {
         }
         if added.iter().all(Option::is_none) {
             return;
+        }
+        // A statement that runs again states its end once.
+        let statement = (motion.file, open.text.place.start);
+        match self.stated.insert(statement, added.clone()) {
+            Some(before) if before == added => return,
+            Some(_) => {
+                self.open.get_or_insert((motion, EACH_TIME));
+                return;
+            }
+            None => {}
         }
         let home = &self.program.files[open.text.file];
         let own_edits = insertions(home, &open.text, &added);

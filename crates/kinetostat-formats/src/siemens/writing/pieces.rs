@@ -34,6 +34,7 @@ impl Writer<'_> {
             written,
             least: digits_of(self.options, written.unit_mm),
             off: off.into(),
+            stated: self.held.stated,
         };
         let end = self.in_frame(first.position_mm);
         for (axis, wanted) in end.iter().enumerate() {
@@ -46,6 +47,7 @@ impl Writer<'_> {
             }
         }
         self.held.off = written.frame.rotation * Vector3::from(place.off);
+        self.held.stated = place.stated;
         self.direction(first, &mut added);
         self.angles_of_own(first, &mut added);
         self.insert(anchor, &added);
@@ -99,6 +101,7 @@ impl Writer<'_> {
                 }
             }
             self.held.off = written.frame.rotation * Vector3::from(off);
+            self.held.stated = [true; 3];
             self.direction_of(piece, &mut line);
             self.angles_of_further(piece, &mut line);
             if let Some(feed) = self.feed_text(piece.speed_factor)? {

@@ -131,7 +131,8 @@ impl Writer<'_> {
         if !pieces.is_empty() {
             return self.pieces(pieces);
         }
-        let displaced = self.held.off.norm() > SAME;
+        let is_elsewhere = |axis: usize| written.counts_behind_frame(axis, self.held.stated[axis]);
+        let displaced = self.held.off.norm() > SAME || (0..3).any(is_elsewhere);
         let is_arc = matches!(self.motion.kind, MotionKind::Arc { .. });
         // The last digit of the place before: controls take arcs that are off by more.
         let last_digit = 0.1_f64.powi(self.options.position_decimals as i32);
@@ -154,6 +155,7 @@ impl Writer<'_> {
         match displaced || !keeps_direction || !keeps_angles {
             true => self.pieces(&[&own]),
             false => {
+                self.keep_stated();
                 self.angles_left();
                 self.code(written.code);
                 self.feed(1.0)?;
@@ -162,9 +164,17 @@ impl Writer<'_> {
         }
     }
 
+    /// Steps of axes that a motion has words of count from these.
+    fn keep_stated(&mut self) {
+        for (stated, word) in self.held.stated.iter_mut().zip(&self.written.axes) {
+            *stated &= word.is_none();
+        }
+    }
+
     /// A motion that stays as it is written.
     fn left(&mut self) {
         let written = self.written;
+        self.keep_stated();
         let mut off = written.frame.rotation.inverse() * self.held.off;
         for axis in 0..3 {
             let reset = written.axes[axis]

@@ -28,6 +28,8 @@ pub(crate) struct Held {
     pub direction: Option<Vector3<f64>>,
     /// By how much rotary axes stand otherwise, deg.
     pub turned_deg: Vec<f64>,
+    /// Axes that were stated since their last word in the program: a step behind a frame does not count from that word.
+    pub stated: [bool; 3],
 }
 
 /// The writer at a motion.

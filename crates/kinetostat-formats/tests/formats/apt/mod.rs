@@ -6,8 +6,7 @@ mod corrections;
 mod creo;
 mod feeds;
 mod holes;
-mod properties;
-mod random;
+pub mod random;
 mod zero_change;
 
 use kinetostat_formats::*;

@@ -2,14 +2,10 @@
 
 use kinetostat_formats::*;
 
-use crate::harness::{Chance, Kind, PLACE_MM, broken};
+use crate::harness::{Chance, Kind};
 
 pub fn kind() -> Kind {
     Kind {
-        language: Language::Apt,
-        options: ReadOptions::default(),
-        turns: false,
-        speeds: false,
         words: &[
             "GOTO/",
             "GOTO/1,2,3\n",
@@ -28,8 +24,9 @@ pub fn kind() -> Kind {
             "GOHOME/",
             ",0,0,1",
         ],
-        place_mm: PLACE_MM,
-        turn_rad: 4e-7,
+        ..Kind::of(Language::Apt, ReadOptions::default(), |chance| {
+            vec![program(chance)]
+        })
     }
 }
 
@@ -160,13 +157,4 @@ pub fn program(chance: &mut Chance) -> String {
         0 => writer.text.replace('\n', "\r\n"),
         _ => writer.text,
     }
-}
-
-/// One case of the fuzz.
-pub fn check(seed: u64) -> Result<bool, String> {
-    let mut chance = Chance::new(seed);
-    let kind = kind();
-    let whole = program(&mut chance);
-    let bytes = broken(&mut chance, &whole, &kind);
-    crate::harness::check(seed, &mut chance, std::slice::from_ref(&bytes), &kind)
 }

@@ -8,7 +8,7 @@ mod expanding;
 mod paths;
 mod planes;
 mod properties;
-mod random;
+pub mod random;
 mod real;
 mod refused_words;
 mod sides;

@@ -3,7 +3,7 @@
 use kinetostat_formats::internal::expand_heidenhain_within as expand_within;
 use kinetostat_formats::*;
 
-use crate::harness::{Chance, Kind, PLACE_MM, broken};
+use crate::harness::{Chance, Kind, broken};
 
 /// With two rotary axes in the model.
 fn followed() -> ReadOptions {
@@ -14,10 +14,6 @@ fn followed() -> ReadOptions {
 
 pub fn kind() -> Kind {
     Kind {
-        language: Language::Heidenhain,
-        options: followed(),
-        turns: false,
-        speeds: false,
         words: &[
             "L X+1 Y+2 Z+3 FMAX\n",
             "L IX+1\n",
@@ -60,8 +56,11 @@ pub fn kind() -> Kind {
             " A+20 ",
             " IC-30 ",
         ],
-        place_mm: PLACE_MM,
-        turn_rad: 4e-7,
+        said: &REFUSED,
+        own: flattened,
+        ..Kind::of(Language::Heidenhain, followed(), |chance| {
+            vec![program(chance)]
+        })
     }
 }
 
@@ -341,8 +340,21 @@ pub fn repeating(chance: &mut Chance) -> (String, Vec<[f64; 3]>) {
     (text, places)
 }
 
-/// Whether what comes out of flattening is in order.
-fn flattened(bytes: &[u8], options: &ReadOptions) -> Result<(), String> {
+/// The flat text of the program, or of one that repeats, has a line of the file for each of its own.
+fn flattened(chance: &mut Chance, kind: &mut Kind, files: &[Vec<u8>]) -> Result<(), String> {
+    if chance.below(2) == 0 {
+        kind.options.unknown_targets = UnknownTargets::LeftAsWritten;
+    }
+    kind.place_mm *= largest_scaling(&files[0]);
+    let repeating = repeating(chance).0;
+    let repeating = broken(chance, &repeating, kind);
+    for bytes in [&files[0], &repeating] {
+        is_flattened(bytes, &kind.options)?;
+    }
+    Ok(())
+}
+
+fn is_flattened(bytes: &[u8], options: &ReadOptions) -> Result<(), String> {
     let file = SourceFile::new("a.h", bytes);
     // Loops by chance are many.
     match expand_within(vec![file], options, 20_000) {
@@ -381,27 +393,6 @@ fn largest_scaling(bytes: &[u8]) -> f64 {
         rest[..length].parse().ok()
     });
     kinetostat_testing::largest(factors.chain([1.0]))
-}
-
-/// One case of the fuzz.
-pub fn check(seed: u64) -> Result<bool, String> {
-    let mut chance = Chance::new(seed);
-    let mut kind = kind();
-    if chance.below(2) == 0 {
-        kind.options.unknown_targets = UnknownTargets::LeftAsWritten;
-    }
-    let whole = match chance.below(4) {
-        0 => repeating(&mut chance).0,
-        _ => program(&mut chance),
-    };
-    let bytes = broken(&mut chance, &whole, &kind);
-    kind.place_mm *= largest_scaling(&bytes);
-    flattened(&bytes, &kind.options).map_err(|what| format!("case {seed}: {what}"))?;
-    match crate::harness::check(seed, &mut chance, std::slice::from_ref(&bytes), &kind) {
-        // Corrections by chance of what such a block begins with are refused by line.
-        Err(what) if REFUSED.iter().any(|reason| what.contains(reason)) => Ok(true),
-        result => result,
-    }
 }
 
 const REFUSED: [&str; 2] = [

@@ -227,3 +227,24 @@ proptest! {
         prop_assert!(found.is_ok(), "{found:?}\n{text}");
     }
 }
+
+/// A routine whose end keeps X and Y of before, called twice, states them once; a value that rests on itself ends in words.
+#[test]
+fn an_end_that_keeps_numbers_of_before_states_them_once() {
+    let cut = "LIN {X 10,Y 20,Z 5,A 0,B 0,C 180}\nLIN {Z 1}\n";
+    let text = format!("DEF part()\nINT i\nFOR i=1 TO 2\n{cut}ENDFOR\nEND\n");
+    let program = super::read_both(&text, "DEFDAT part\nENDDAT\n");
+    assert_eq!(program.motions.len(), 4);
+    let to = |motion: usize, z: f64| Piece::to(motion, nalgebra::Vector3::new(10.25, 20.0, z));
+    let pieces = [to(0, 5.0), to(1, 1.0), to(2, 5.0), to(3, 1.0)];
+    let written = super::written(&program, &pieces);
+    assert!(written.contains("LIN {X 10.250,Y 20,Z 1}"), "{written}");
+
+    let itself = "DECL FRAME way[2]\nway[1]={X 1,Y 2,Z way[2]}\nway[2]={X way[1],Y 2,Z way[1]}\n";
+    let files = vec![
+        SourceFile::new("part.src", "DEF part()\nLIN way[1]\nEND\n"),
+        SourceFile::new("part.dat", format!("DEFDAT part\n{itself}ENDDAT\n")),
+    ];
+    let errors = read_krl(files, &ReadOptions::default()).unwrap_err();
+    assert_eq!(errors[0].line, 2, "{errors:?}");
+}

@@ -3,8 +3,7 @@
 mod beside;
 mod broken;
 mod corrections;
-mod properties;
-mod random;
+pub mod random;
 mod registers;
 mod runs;
 mod zero_change;

@@ -2,17 +2,14 @@
 
 use kinetostat_formats::*;
 
-use crate::harness::{Chance, Kind, PLACE_MM, broken};
+use crate::harness::{Chance, Kind};
 
 pub fn kind() -> Kind {
     let mut options = ReadOptions::default();
     let on = StatedValue::Truth(true);
     options.values.insert("DI[1]".to_owned(), on);
     Kind {
-        language: Language::FanucLs,
-        options,
         turns: true,
-        speeds: false,
         words: &[
             "/POS\n",
             "/MN\n",
@@ -35,9 +32,9 @@ pub fn kind() -> Kind {
             "CALL A ;",
             "R[",
         ],
-        place_mm: PLACE_MM,
         // Half of the fifth decimal of three angles.
         turn_rad: 3.0e-7,
+        ..Kind::of(Language::FanucLs, options, |chance| vec![program(chance)])
     }
 }
 
@@ -138,13 +135,4 @@ pub fn program(chance: &mut Chance) -> String {
         0 => text.replace('\n', "\r\n"),
         _ => text,
     }
-}
-
-/// One case of the fuzz.
-pub fn check(seed: u64) -> Result<bool, String> {
-    let mut chance = Chance::new(seed);
-    let kind = kind();
-    let whole = program(&mut chance);
-    let bytes = broken(&mut chance, &whole, &kind);
-    crate::harness::check(seed, &mut chance, std::slice::from_ref(&bytes), &kind)
 }

@@ -5,27 +5,6 @@ use kinetostat_formats::*;
 use super::{EVERYTHING, decided, read_with};
 
 #[test]
-fn every_byte_comes_back_with_any_line_ending_and_any_coding() {
-    let latin: Vec<u8> = EVERYTHING
-        .replace("here", "l\u{e0}")
-        .chars()
-        .map(|c| c as u8)
-        .collect();
-    let all = [
-        EVERYTHING.as_bytes().to_vec(),
-        EVERYTHING.replace('\n', "\r\n").into_bytes(),
-        EVERYTHING.trim_end().as_bytes().to_vec(),
-        [EVERYTHING.as_bytes(), b"\r\n\t \xff\xfe after the end"].concat(),
-        latin,
-    ];
-    for bytes in all {
-        let program = read_with(&bytes, &decided()).unwrap();
-        let files = write(&program, &[], &WriteOptions::default()).unwrap();
-        assert_eq!(files, [("part.ls".to_owned(), bytes)]);
-    }
-}
-
-#[test]
 fn every_construct_is_what_the_manual_says() {
     let program = read_with(EVERYTHING.as_bytes(), &decided()).unwrap();
     assert_eq!(program.motions.len(), 15);

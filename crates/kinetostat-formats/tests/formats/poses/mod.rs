@@ -5,8 +5,7 @@ mod corrections;
 mod joints;
 #[cfg(feature = "parquet")]
 mod parquet;
-mod properties;
-mod random;
+pub mod random;
 pub mod real;
 mod units;
 mod zero_change;
@@ -14,7 +13,7 @@ mod zero_change;
 use kinetostat_formats::*;
 
 /// A slot with all columns that are understood, and two that are carried.
-const TABLE: &str = "\
+pub const TABLE: &str = "\
 # slot, by hand
 note,x_mm,y_mm,z_mm,qw,qx,qy,qz,speed_mm_per_s,rapid,tool,frame,external_1_mm,seen
 above,0,0,20,0,0,1,0,,1,tMill,wPart,9E9,\"a, \"\"b\"\"\"

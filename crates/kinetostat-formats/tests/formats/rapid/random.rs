@@ -4,7 +4,7 @@
 use kinetostat_formats::*;
 use nalgebra::UnitQuaternion;
 
-use crate::harness::{Chance, Kind, PLACE_MM, broken};
+use crate::harness::{Chance, Kind};
 
 pub fn kind() -> Kind {
     let mut options = ReadOptions::default();
@@ -12,8 +12,6 @@ pub fn kind() -> Kind {
         .values
         .insert("di1".into(), StatedValue::Number(1.0));
     Kind {
-        language: Language::Rapid,
-        options,
         turns: true,
         speeds: true,
         words: &[
@@ -29,9 +27,8 @@ pub fn kind() -> Kind {
             ":=",
             "ERROR ",
         ],
-        place_mm: PLACE_MM,
-        // Half of the seventh decimal in each of four parts, doubled.
-        turn_rad: 4e-7,
+        said: &["called by code that does not run here"],
+        ..Kind::of(Language::Rapid, options, |chance| vec![program(chance)])
     }
 }
 
@@ -159,13 +156,4 @@ pub fn program(chance: &mut Chance) -> String {
         0 => text.replace('\n', "\r\n"),
         _ => text,
     }
-}
-
-/// One case of the fuzz: whether it was read.
-pub fn check(seed: u64) -> Result<bool, String> {
-    let mut chance = Chance::new(seed);
-    let kind = kind();
-    let whole = program(&mut chance);
-    let bytes = broken(&mut chance, &whole, &kind);
-    crate::harness::check(seed, &mut chance, std::slice::from_ref(&bytes), &kind)
 }

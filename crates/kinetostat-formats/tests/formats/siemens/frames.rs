@@ -243,3 +243,19 @@ fn corrections_are_written_in_the_axes_of_the_frame() {
     );
     assert_eq!(output, text.replace("G1 X10 F100", "G1 X10 Y-0.250 F100"));
 }
+
+/// Behind a frame the step of an axis counts from the last word of it: where the writer states the axis, the step becomes a place.
+#[test]
+fn a_step_behind_a_frame_becomes_a_place_where_its_axis_is_stated() {
+    let own = program("G17 G90 G94 F600\nG0 X1 Y2 Z80\nATRANS Z3.5\nG1 X5\nG91\nG1 Z-20\n");
+    let ends: Vec<[f64; 3]> = (0..3).map(|at| place(&own, at)).collect();
+    assert_eq!(ends, [[1.0, 2.0, 80.0], [5.0, 2.0, 80.0], [5.0, 2.0, 63.5]]);
+    let up = Piece::to(1, nalgebra::Vector3::new(5.0, 2.0, 80.25));
+    let text = written(&own, &[up]);
+    let again = program(&text);
+    let ends: Vec<[f64; 3]> = (0..3).map(|at| place(&again, at)).collect();
+    assert_eq!(
+        ends,
+        [[1.0, 2.0, 80.0], [5.0, 2.0, 80.25], [5.0, 2.0, 63.5]]
+    );
+}

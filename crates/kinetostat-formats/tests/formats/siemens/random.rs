@@ -2,7 +2,7 @@
 
 use kinetostat_formats::*;
 
-use crate::harness::{Chance, Kind, PLACE_MM, broken};
+use crate::harness::{Chance, Kind, broken};
 
 /// With two rotary axes in the model.
 fn followed() -> ReadOptions {
@@ -13,10 +13,6 @@ fn followed() -> ReadOptions {
 
 pub fn kind() -> Kind {
     Kind {
-        language: Language::Siemens,
-        options: followed(),
-        turns: false,
-        speeds: false,
         words: &[
             "G1 X1 Y2 Z3\n",
             "G91 ",
@@ -53,8 +49,10 @@ pub fn kind() -> Kind {
             " C=ACP(R1) ",
             "ORIAXES\n",
         ],
-        place_mm: PLACE_MM,
-        turn_rad: 4e-7,
+        own: runs_flat,
+        ..Kind::of(Language::Siemens, followed(), |chance| {
+            vec![program(chance)]
+        })
     }
 }
 
@@ -285,7 +283,10 @@ pub fn looping(chance: &mut Chance) -> (String, usize) {
 }
 
 /// One case of a program that is run flat, whole or broken: it is refused by line, or what it gives is read.
-fn check_flat(seed: u64, chance: &mut Chance, kind: &Kind) -> Result<bool, String> {
+fn runs_flat(chance: &mut Chance, kind: &mut Kind, _: &[Vec<u8>]) -> Result<(), String> {
+    if chance.below(3) > 0 {
+        return Ok(());
+    }
     let (whole, count) = looping(chance);
     let bytes = broken(chance, &whole, kind);
     let same = bytes == whole.as_bytes();
@@ -296,32 +297,18 @@ fn check_flat(seed: u64, chance: &mut Chance, kind: &Kind) -> Result<bool, Strin
             let lines = files[0].line_count();
             let fits = |error: &ProgramError| (1..=lines).contains(&error.line);
             return match same || !errors.iter().all(fits) || errors.is_empty() {
-                true => Err(format!("case {seed}: {errors:?}")),
-                false => Ok(false),
+                true => Err(format!("{errors:?}")),
+                false => Ok(()),
             };
         }
     };
     if !flat.changed && flat.file.bytes() != bytes {
-        return Err(format!(
-            "case {seed}: bytes changed where nothing was to do"
-        ));
+        return Err("bytes changed where nothing was to do".to_owned());
     }
     let read = read_siemens(vec![flat.file], &kind.options);
     match (same, read) {
-        (true, Ok(program)) if program.motions.len() == count => Ok(true),
-        (true, found) => Err(format!("case {seed}: {:?}", found.map(|p| p.motions.len()))),
-        (false, found) => Ok(found.is_ok()),
+        (true, Ok(program)) if program.motions.len() == count => Ok(()),
+        (true, found) => Err(format!("{:?}", found.map(|p| p.motions.len()))),
+        (false, _) => Ok(()),
     }
-}
-
-/// One case of the fuzz.
-pub fn check(seed: u64) -> Result<bool, String> {
-    let mut chance = Chance::new(seed);
-    let kind = kind();
-    if chance.below(3) == 0 {
-        return check_flat(seed, &mut chance, &kind);
-    }
-    let whole = program(&mut chance);
-    let bytes = broken(&mut chance, &whole, &kind);
-    crate::harness::check(seed, &mut chance, std::slice::from_ref(&bytes), &kind)
 }

@@ -3,22 +3,7 @@
 use kinetostat_formats::*;
 use nalgebra::Vector3;
 
-use super::{EVERYTHING, place, program, read_with};
-
-#[test]
-fn every_byte_comes_back_with_any_line_ending() {
-    for bytes in [
-        EVERYTHING.as_bytes().to_vec(),
-        EVERYTHING.replace('\n', "\r\n").into_bytes(),
-        EVERYTHING.trim_end().as_bytes().to_vec(),
-        [b"\xef\xbb\xbf", EVERYTHING.as_bytes()].concat(),
-        [EVERYTHING.as_bytes(), b"\n; \xff\xfe\n\n"].concat(),
-    ] {
-        let program = read_with(&bytes, &ReadOptions::default()).unwrap();
-        let files = write(&program, &[], &WriteOptions::default()).unwrap();
-        assert_eq!(files, [("part.mpf".to_owned(), bytes)]);
-    }
-}
+use super::{EVERYTHING, place, program};
 
 #[test]
 fn places_are_those_of_the_part() {

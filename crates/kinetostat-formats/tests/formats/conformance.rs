@@ -1,0 +1,220 @@
+//! The same suite for each language: bytes that come back, ends that do not change, random programs whole and broken, and files of
+//! nothing but one word.
+
+use kinetostat_formats::*;
+use proptest::prelude::any;
+use proptest::test_runner::{Config, TestCaseError, TestRunner};
+
+use crate::harness::{self, Kind};
+
+/// Bytes of a text.
+type Change<'c> = &'c dyn Fn(&str) -> Vec<u8>;
+
+/// A program with most of what a language has.
+struct Example {
+    files: &'static [(&'static str, &'static str)],
+    /// A remark behind its last line, in no coding.
+    remark: &'static [u8],
+    /// Values that the caller states.
+    values: &'static [(&'static str, f64)],
+    /// Lines of motions that state only a part of their ends, or state them otherwise than in X, Y and Z.
+    partial: &'static [usize],
+    /// Ends that are stated again as they are; arcs stay.
+    ends: usize,
+}
+
+impl Example {
+    fn options(&self) -> ReadOptions {
+        let mut options = ReadOptions::default();
+        let values = self.values.iter();
+        options.values = values
+            .map(|(name, value)| ((*name).to_owned(), StatedValue::Number(*value)))
+            .collect();
+        options
+    }
+
+    fn read(&self, language: Language, change: Change<'_>) -> RobotProgram {
+        let files = self.files.iter();
+        let files = files.map(|(name, text)| SourceFile::new(*name, change(text)));
+        let read = read(language, files.collect(), &self.options());
+        read.unwrap_or_else(|errors| panic!("{errors:#?}"))
+    }
+}
+
+/// Without pieces every byte comes back, with any line ending and any coding.
+fn every_byte_comes_back(language: Language, example: &Example) {
+    let changes: [Change<'_>; 6] = [
+        &|text| text.as_bytes().to_vec(),
+        &|text| text.replace('\n', "\r\n").into_bytes(),
+        &|text| text.trim_end().as_bytes().to_vec(),
+        &|text| [b"\xef\xbb\xbf", text.as_bytes()].concat(),
+        &|text| [text.as_bytes(), b"\n", example.remark, b"\n\n"].concat(),
+        &|text| {
+            let latin = text.replace("first", "prem\u{e9}re");
+            latin.chars().map(|letter| letter as u8).collect()
+        },
+    ];
+    for change in changes {
+        let program = example.read(language, change);
+        let files = write(&program, &[], &WriteOptions::default()).unwrap();
+        for ((name, text), written) in example.files.iter().zip(files) {
+            assert!(written == ((*name).to_owned(), change(text)), "{name}");
+        }
+    }
+}
+
+/// Ends that are stated as they were change no byte.
+fn unchanged_ends_change_no_byte(kind: &Kind, example: &Example) {
+    let program = example.read(kind.language, &|text| text.as_bytes().to_vec());
+    let mut pieces = Vec::new();
+    for (index, motion) in program.motions.iter().enumerate() {
+        let is_arc = matches!(motion.kind, MotionKind::Arc { .. });
+        let end = motion.target.pose().filter(|_| !is_arc);
+        let Some(end) = end.filter(|_| !example.partial.contains(&motion.line)) else {
+            continue;
+        };
+        let mut piece = Piece::to(index, end.position_mm);
+        piece.orientation = kind.turns.then_some(end.orientation);
+        if let MotionKind::Circular { via } = &motion.kind {
+            piece.via_mm = via.pose().map(|pose| pose.position_mm);
+        }
+        pieces.push(piece);
+    }
+    assert_eq!(pieces.len(), example.ends);
+    let files = write(&program, &pieces, &WriteOptions::default()).unwrap();
+    for ((name, text), (_, written)) in example.files.iter().zip(files) {
+        assert_eq!(String::from_utf8_lossy(&written), *text, "{name}");
+    }
+}
+
+fn random(check: impl Fn(u64) -> Result<(), String>) {
+    let mut runner = TestRunner::new(Config::with_cases(200));
+    let found = runner.run(&any::<u64>(), |seed| {
+        check(seed).map_err(TestCaseError::fail)
+    });
+    found.unwrap_or_else(|error| panic!("{error}"));
+}
+
+/// A word that stands ten thousand times in a program: it is read, or refused with bounded words.
+fn one_word_again_and_again(kind: &Kind, example: &Example) {
+    let more = ["(", "[", "{", "-", "IF ", "9", "\"", "\n"];
+    for word in kind.words.iter().chain(&more) {
+        let files = example.files.iter().map(|(name, text)| {
+            let middle = text.len() / 2;
+            let at = text[middle..]
+                .find('\n')
+                .map_or(text.len(), |at| middle + at + 1);
+            SourceFile::new(
+                *name,
+                [&text[..at], &word.repeat(10_000), &text[at..]].concat(),
+            )
+        });
+        if let Err(errors) = read(kind.language, files.collect(), &example.options()) {
+            let words: usize = errors.iter().map(|error| error.to_string().len()).sum();
+            assert!((1..40_000_000).contains(&words), "{word:?}: {words} bytes");
+        }
+    }
+}
+
+/// The suite for a language: its folder, and its example.
+macro_rules! conforms {
+    ($($language:ident: $example:expr;)*) => {$(
+        mod $language {
+            use super::Example;
+            use crate::$language::random::kind;
+
+            const EXAMPLE: Example = $example;
+
+            #[test]
+            fn every_byte_comes_back_with_any_line_ending_and_any_coding() {
+                super::every_byte_comes_back(kind().language, &EXAMPLE);
+            }
+
+            #[test]
+            fn ends_that_do_not_change_change_no_byte() {
+                super::unchanged_ends_change_no_byte(&kind(), &EXAMPLE);
+            }
+
+            #[test]
+            fn whole_programs_come_back_and_take_corrections() {
+                super::random(|seed| super::harness::whole(seed, &kind()));
+            }
+
+            #[test]
+            fn broken_programs_are_refused_with_a_place_or_come_back() {
+                super::random(|seed| super::harness::case(seed, kind()).map(|_| ()));
+            }
+
+            #[test]
+            fn a_word_again_and_again_ends_in_words() {
+                super::one_word_again_and_again(&kind(), &EXAMPLE);
+            }
+        }
+    )*
+
+    /// No language is left out.
+    #[test]
+    fn all_languages_conform() {
+        let all = [$(crate::$language::random::kind().language),*];
+        for language in Language::ALL {
+            assert!(all.contains(&language), "{language:?}");
+        }
+    }
+    };
+}
+
+conforms! {
+    rapid: Example {
+        files: &[("everything.mod", include_str!("fixtures/everything.mod"))],
+        remark: b"! \xff\xfe",
+        values: &[("diReady", 1.0)],
+        partial: &[],
+        ends: 16,
+    };
+    krl: Example {
+        files: &[
+            ("R1/everything.src", include_str!("fixtures/everything.src")),
+            ("R1/Everything.DAT", include_str!("fixtures/everything.dat")),
+            ("$config.dat", include_str!("fixtures/$config.dat")),
+        ],
+        remark: b"; \xff\xfe",
+        values: &[],
+        partial: &[49],
+        ends: 16,
+    };
+    ls: Example {
+        files: &[("part.ls", include_str!("fixtures/everything.ls"))],
+        remark: b"\t \xff\xfe",
+        values: &[("DI[1]", 1.0), ("R[1]", 3.0)],
+        partial: &[],
+        ends: 14,
+    };
+    apt: Example {
+        files: &[("part.apt", include_str!("fixtures/solidworks.apt"))],
+        remark: b"$$ \xff\xfe",
+        values: &[],
+        partial: &[],
+        ends: 6,
+    };
+    poses: Example {
+        files: &[("a.csv", crate::poses::TABLE)],
+        remark: b"# \xff\xfe",
+        values: &[],
+        partial: &[],
+        ends: 4,
+    };
+    siemens: Example {
+        files: &[("part.mpf", include_str!("fixtures/everything.mpf"))],
+        remark: b"; \xff\xfe",
+        values: &[],
+        partial: &[30],
+        ends: 15,
+    };
+    heidenhain: Example {
+        files: &[("part.h", include_str!("fixtures/everything.h"))],
+        remark: b"; \xff\xfe",
+        values: &[],
+        partial: &[23, 24],
+        ends: 10,
+    };
+}
