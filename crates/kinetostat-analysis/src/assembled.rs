@@ -7,22 +7,22 @@ use serde::Serialize;
 /// and the first-order answer [R 6.15-6.20], which knows no weights and preloads.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct Cases<T> {
-    /// As built.
+    /// Value of the machine as built.
     pub without_load: T,
-    /// As built less as drawn.
+    /// Difference between the machine as built and as drawn.
     pub without_load_by_deviations: T,
-    /// To first order in the deviations.
+    /// First-order value in the deviations.
     pub without_load_linear: T,
-    /// None without a force or moment.
+    /// Value under load; `None` without a force or moment.
     pub under_load: Option<T>,
-    /// As built less as drawn.
+    /// Difference between the machine as built and as drawn.
     pub under_load_by_deviations: Option<T>,
-    /// To first order in the deviations.
+    /// First-order value in the deviations.
     pub under_load_linear: Option<T>,
 }
 
 impl Cases<[f64; 3]> {
-    /// One of three components.
+    /// Selects component `i` of every case.
     #[must_use]
     pub fn component(&self, i: usize) -> Cases<f64> {
         Cases {
@@ -54,15 +54,15 @@ impl Cases<f64> {
 /// The four equilibria of one place, and the first-order assembly.
 #[derive(Clone, Debug)]
 pub struct AssembledMachine {
-    /// Of the machine as built.
+    /// Posture of the machine as built.
     pub posture: Posture,
-    /// As drawn and as built, without load.
+    /// Equilibria as drawn and as built, without load.
     pub rest: [MechanismEquilibrium; 2],
-    /// The same under load.
+    /// Equilibria as drawn and as built, under load.
     pub loaded: Option<[MechanismEquilibrium; 2]>,
-    /// To first order in the deviations, without load.
+    /// First-order solution in the deviations, without load.
     pub linear: LinearAssembly,
-    /// The same under load.
+    /// First-order solution under load.
     pub linear_loaded: Option<LinearAssembly>,
 }
 

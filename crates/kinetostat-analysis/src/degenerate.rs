@@ -8,12 +8,12 @@ use nalgebra::DMatrix;
 
 use crate::serial_chain::SerialChain;
 
-/// Whether an equilibrium is at a limit, locked, or one of a family that moves for nothing.
+/// True if an equilibrium is at a limit, locked, or one of a family of neutral equilibria.
 ///
-/// The search calls an equilibrium singular by the condition of its equations, which is bad already
-/// where a chain is nearly stretched out and its forces are large. Here the two causes are looked at
-/// apart: a held direction in which the chain is locked (its joints move the tool there 1e-4 times
-/// less than elsewhere: within 0.006 degrees of the straight line), or a motion that needs no force.
+/// The search calls an equilibrium singular by the condition of its equations, which is poor already where a chain is
+/// nearly stretched and its forces are large. This function tells two causes apart: a held direction in which the chain
+/// is locked (its joints move the tool there 1e-4 times less than elsewhere: within 0.006 degrees of the straight
+/// line), or a motion that needs no force.
 #[must_use]
 pub fn is_degenerate(
     chain: &SerialChain,
@@ -73,8 +73,8 @@ pub fn is_degenerate(
 /// Rotations (rad) and displacements of springs (m) that differ by less are the same.
 const SAME: f64 = 1e-6;
 
-/// Of degenerate equilibria with the same coordinates only the one with the least wrench is kept, with the starts that
-/// ended at the others: a chain that is stretched out and locked is one shape under every force along itself.
+/// Keeps, among degenerate equilibria with equal coordinates, the one with the smallest wrench, and adds the starts
+/// that ended at the others: a stretched, locked chain has one shape under every force along itself.
 pub fn keep_one_of_each_shape(found: &mut Vec<FoundEquilibrium>) {
     let mut kept: Vec<FoundEquilibrium> = Vec::with_capacity(found.len());
     for next in found.drain(..) {

@@ -13,7 +13,7 @@ pub struct ForwardKinematics<'m> {
 }
 
 impl<'m> ForwardKinematics<'m> {
-    /// Of a machine.
+    /// Prepares forward kinematics of a machine.
     #[must_use]
     pub fn of(mechanism: &'m Mechanism) -> Self {
         let limbs = mechanism.limbs();

@@ -1,17 +1,17 @@
-//! How near a load brings a machine to instability: its limbs with their ends held, its links, and
-//! the whole while nothing holds its tool. All shares are 0 unloaded and 1 where stability is lost.
+//! Closeness of a machine to instability under load: of its limbs with their ends held, of its links, and of the whole
+//! with its tool free. All shares are 0 unloaded and 1 where stability is lost.
 
 use kinetostat::number::larger;
 use kinetostat::{MechanismEquilibrium, Posture, PostureRequest, machine::LimbPosture};
 use nalgebra::{DMatrix, Matrix6};
 
-/// From this share on, a load is near buckling.
+/// Share from which a load is near buckling.
 pub const NEAR_BUCKLING: f64 = 0.5;
 
-/// From this share to buckling on the stiffness changes noticeably.
+/// Share to buckling from which the stiffness changes noticeably.
 pub const NOTICEABLE: f64 = 0.1;
 
-/// How near one state of a machine is to instability.
+/// Load factors (1 / buckling factor) of one state of a machine.
 #[derive(Clone, Copy, Debug)]
 pub struct InstabilityShares<'e> {
     state: &'e MechanismEquilibrium,
@@ -19,11 +19,11 @@ pub struct InstabilityShares<'e> {
     pub limb: Option<LimbShare<'e>>,
     /// The link with the largest compression.
     pub link: Option<LinkShare<'e>>,
-    /// Of the machine with its tool free, see [`share_to_instability`].
+    /// Share of the machine with its tool free, see [`share_to_instability`].
     pub free: Option<f64>,
 }
 
-/// How near a limb is to buckling.
+/// Load factor of the limb nearest to buckling.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LimbShare<'e> {
     /// Share of the load at which it buckles.
@@ -32,14 +32,14 @@ pub struct LimbShare<'e> {
     pub limb: &'e str,
 }
 
-/// How near a link is to its Euler load.
+/// Compression of a link relative to its Euler load.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LinkShare<'e> {
     /// Compression as a share of its Euler load.
     pub share: f64,
     /// Name of its limb.
     pub limb: &'e str,
-    /// Its own name.
+    /// Name of the link.
     pub link: &'e str,
 }
 
@@ -121,13 +121,11 @@ fn finite(share: Option<f64>) -> Option<f64> {
     share.filter(|s| s.is_finite())
 }
 
-/// How near a state is to where the machine with its tool free is not stable any more, 1 is there.
-/// It is at least as near as each of its limbs is while the tool is held; the motions of the tool
-/// are assessed by the stiffness condensed to it. The share is that of the state itself: a limit point
-/// of the load, where the machine snaps, is seen as the stiffness falls towards it and not sooner,
-/// and of a state beyond a snap it is the share of that state. Where the state is not stable the
-/// share is at least 1, and none where the condensed stiffness, which comes back from infinity beyond
-/// the buckling of a limb, does not tell it.
+/// Load factor of a state with the tool free; 1 where stability is lost. It is at least that of each limb with the tool
+/// held; motions of the tool are assessed by the stiffness condensed to it. The factor belongs to the state itself: a
+/// limit point of the load (snap-through) shows only as the stiffness falls towards it, and a state beyond a snap has
+/// the factor of that state. An unstable state has a factor of at least 1; `None` where the condensed stiffness, which
+/// returns from infinity beyond the buckling of a limb, cannot give it.
 #[must_use]
 pub fn share_to_instability(posture: &Posture, loaded: &MechanismEquilibrium) -> Option<f64> {
     let limbs = loaded.limbs.iter();
@@ -138,11 +136,10 @@ pub fn share_to_instability(posture: &Posture, loaded: &MechanismEquilibrium) ->
     most.filter(|s| loaded.stable() || *s >= 1.0)
 }
 
-/// How far a dead load has brought the tool, no limb having buckled: 0 unloaded, 1 where its stiffness
-/// is lost, negative where the load stiffens it. `1 - s` of the smallest `s` in `K v = s K_e v`, with
-/// the stiffness under load `K` and that of the same bent machine with its springs alone, `K_e`.
-/// Both are condensed to the tool, which makes the share nearly straight in the load. `None` where
-/// no direction is elastic.
+/// Load factor of a dead load while no limb has buckled: 0 unloaded, 1 where the tool's stiffness is lost, negative
+/// where the load stiffens it. It is `1 - s` of the smallest `s` in `K v = s K_e v`, with the stiffness under load `K`
+/// and the elastic stiffness of the same deformed machine, `K_e`. Both are condensed to the tool, which makes the
+/// factor nearly linear in the load. `None` where no direction is elastic.
 fn condensed(posture: &Posture, loaded: &MechanismEquilibrium) -> Option<f64> {
     let limbs = posture.limbs().iter().zip(&loaded.limbs);
     let joints = limbs.map(|(own, bent)| LimbPosture {

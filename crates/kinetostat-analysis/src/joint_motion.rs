@@ -1,4 +1,4 @@
-//! What one actuator does to the tool.
+//! Motion of the tool by one actuator.
 
 use kinetostat::{Mechanism, Pose, PostureRequest, Twist, spatial::pose_residual};
 use nalgebra::Vector3;

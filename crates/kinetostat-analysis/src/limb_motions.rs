@@ -1,4 +1,4 @@
-//! What the joints of one limb can do while the tool stays, and what one limb holds.
+//! Self-motions of one limb with the tool fixed, and directions that one limb holds.
 
 use kinetostat::{
     Mechanism, Posture, PostureRequest,

@@ -15,11 +15,11 @@ pub struct MovableDirections {
 }
 
 impl MovableDirections {
-    /// Of a machine: all directions but those in which it is rigid. Those that only stretched limbs lock count as movable if
-    /// every limb can move that way near the posture: the limbs give way there as a single chain does.
+    /// Finds the movable directions of a machine: all but the rigid ones. A direction that only stretched limbs lock is
+    /// movable if every limb can move that way near the posture: the limbs give way there as a single chain does.
     ///
     /// # Errors
-    /// Its stiffness cannot be computed.
+    /// The stiffness cannot be computed.
     pub fn of(posture: &Posture) -> kinetostat::Result<Self> {
         let own = posture.stiffness()?;
         let rigid: Vec<DVector<f64>> = own
@@ -41,8 +41,8 @@ impl MovableDirections {
         })
     }
 
-    /// Of a chain whose tip carries the tool: whatever it can do near a posture, whatever moves. What is missing is rigid
-    /// everywhere: a planar chain does not leave its plane.
+    /// Finds the movable directions of a chain whose tip carries the tool, from all its motions near a posture. A
+    /// missing direction is rigid everywhere: a planar chain does not leave its plane.
     pub(crate) fn near(steps: &[DMatrix<f64>], length: f64) -> Self {
         Self {
             basis: SingularValues::of(&side_by_side(steps)).range(1e-8),
@@ -104,8 +104,8 @@ pub(crate) fn motions_near(
     motions.collect()
 }
 
-/// What all limbs from the base to the tool can do beside the posture; `None` unless some limb moves the tool in fewer ways
-/// there than beside it.
+/// Common motions of all limbs from the base to the tool near the posture; `None` unless some limb has fewer motions of
+/// the tool at the posture than near it.
 fn beside_stretched_limbs(posture: &Posture, length: f64) -> Option<DMatrix<f64>> {
     let (limbs, tool) = (posture.mechanism().limbs(), posture.mechanism().tool());
     let (mut stretched, mut locked) = (false, DMatrix::zeros(6, 0));

@@ -1,4 +1,4 @@
-//! How stiff a tool is against a force, free to turn, and against a moment, free to move.
+//! Stiffness of the tool against a force, free to turn, and against a moment, free to move.
 
 use kinetostat::number::smaller;
 use nalgebra::{Matrix3, Matrix6};
@@ -6,14 +6,14 @@ use nalgebra::{Matrix3, Matrix6};
 /// Stiffnesses of a tool against pushes of both kinds; none where no push of the kind moves it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PushStiffnesses {
-    /// Against a force, the tool free to turn, N/m.
+    /// Stiffness against a force, the tool free to turn, N/m.
     pub force: Option<PushStiffness>,
-    /// Against a moment, the tool free to move, N m/rad.
+    /// Stiffness against a moment, the tool free to move, N m/rad.
     pub moment: Option<PushStiffness>,
 }
 
 impl PushStiffnesses {
-    /// From a compliance (m and rad per N and N m) and the natural length, m.
+    /// Evaluates a compliance (m and rad per N and N m) with the natural length, m.
     #[must_use]
     pub fn of(compliance: &Matrix6<f64>, length: f64) -> Self {
         let force: Matrix3<f64> = compliance.fixed_view::<3, 3>(0, 0).into_owned();
@@ -31,7 +31,7 @@ impl PushStiffnesses {
 /// Compliances below this share of the largest, rotations at the natural length, are rounding.
 const NO_MOTION: f64 = 1e-12;
 
-/// What a push of one kind does to the tool.
+/// Response of the tool to a force or a moment.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum PushStiffness {
     /// Stiffnesses, the softest and the stiffest, N/m or N m/rad.
@@ -40,9 +40,9 @@ pub enum PushStiffness {
     Against,
 }
 
-/// What a block of a compliance says of the motion along a push; parts up to `nothing` are rounding.
+/// Evaluates a block of a compliance along the load; parts up to `nothing` are rounding.
 fn push_stiffness(block: &Matrix3<f64>, nothing: f64) -> Option<PushStiffness> {
-    // Along the push acts the symmetric part alone; loads without a potential leave another.
+    // The symmetric part alone acts along the push; loads without a potential leave another.
     let values = (0.5 * (block + block.transpose())).symmetric_eigenvalues();
     let nothing = nothing.max(1e-9 * values.amax());
     if values.min() < -nothing {

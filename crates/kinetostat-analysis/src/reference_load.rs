@@ -11,15 +11,15 @@ pub const REFERENCE_N: f64 = 1000.0;
 /// by about as much.
 pub const SMALL: f64 = 0.01;
 
-/// From this share of the natural length on, to first order, an assumed load is not even tried.
+/// Share of the natural length from which, to first order, an assumed load is not even tried.
 pub const TOO_MUCH: f64 = 0.2;
 
-/// What became of a load.
+/// Outcome of a load.
 #[derive(Debug)]
 pub enum LoadOutcome {
     /// Not tried: to first order the tool would move this far, m.
     TooMuch(f64),
-    /// It pushes in a free direction.
+    /// Not carried: the load acts in a free direction.
     Free,
     /// No equilibrium was found.
     NoEquilibrium(Error),
@@ -33,9 +33,9 @@ pub enum LoadOutcome {
 pub struct CarriedLoad {
     /// Equilibrium under the force on the tool and the loads of the model.
     pub state: MechanismEquilibrium,
-    /// How far the tool moves from where it is at rest, m.
+    /// Displacement of the tool from its place at rest, m.
     pub moved: f64,
-    /// By how much the compliance at rest would tell a wrong motion, as a share of the motion.
+    /// Error of the motion by the compliance at rest, as a share of the motion.
     pub linear_error: f64,
 }
 
@@ -54,7 +54,7 @@ pub fn reference_forces() -> Vec<Vector3<f64>> {
         .collect()
 }
 
-/// Where forces on a tool come from.
+/// Source of forces on the tool.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ForcesFrom {
     /// They were given: each of them is answered.

@@ -13,7 +13,7 @@ use nalgebra::{UnitQuaternion, Vector3};
 #[derive(Clone, Debug)]
 pub struct ContinuousRotation {
     start: UnitQuaternion<f64>,
-    /// Of every point of every branch; empty where no rotation is shown.
+    /// Rotation vectors of every point of every branch; empty where no rotation is shown.
     branches: Vec<Vec<Vector3<f64>>>,
 }
 
@@ -27,7 +27,7 @@ impl ContinuousRotation {
         }
     }
 
-    /// Of all branches, the first of which starts the curve.
+    /// Computes the rotation of all branches, the first of which starts the curve.
     #[must_use]
     pub fn of<E: CurveEquilibrium>(branches: &[Branch<E>], specials: &[Special<E>]) -> Self {
         let Some(start) = branches.first().and_then(|own| own.points.get(own.start)) else {
@@ -40,8 +40,7 @@ impl ContinuousRotation {
         };
         for branch in branches {
             let points = &branch.points;
-            // Where its number of turns is known: where it leaves another branch, or nearest to the
-            // start.
+            // Point with a known number of turns: where the branch leaves another one, or nearest to the start.
             let crossing = branch.origin.and_then(|s| specials.get(s));
             let (anchor, known) = match crossing {
                 Some(s) => (branch.start, turns.whole(branches, &s.point)),
@@ -67,7 +66,7 @@ impl ContinuousRotation {
         turns
     }
 
-    /// Within half a turn.
+    /// Rotation vector within half a turn.
     fn within<E: CurveEquilibrium>(&self, p: &CurvePoint<E>) -> Vector3<f64> {
         (p.equilibrium.tool().rotation * self.start.inverse()).scaled_axis()
     }
@@ -91,8 +90,8 @@ impl ContinuousRotation {
         continued(here, &best.1)
     }
 
-    /// What the continuous rotation vector of point `i` of branch `k` has more than the one within
-    /// half a turn; zero where no rotation is shown.
+    /// Whole turns of point `i` of branch `k`: its continuous rotation vector minus the one within half a turn; zero
+    /// where no rotation is shown.
     #[must_use]
     pub fn of_point<E: CurveEquilibrium>(
         &self,
@@ -108,7 +107,7 @@ impl ContinuousRotation {
         }
     }
 
-    /// The same for any equilibrium.
+    /// Whole turns of any equilibrium.
     #[must_use]
     pub fn at<E: CurveEquilibrium>(
         &self,

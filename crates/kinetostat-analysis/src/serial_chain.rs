@@ -7,9 +7,9 @@ use crate::movable::{MovableDirections, motions_near};
 /// A serial chain from the base to the tool's tip.
 #[derive(Clone, Debug)]
 pub struct SerialChain {
-    /// With the tool's tip as its end.
+    /// Chain with the tool's tip as its end.
     pub chain: Chain,
-    /// Where it begins.
+    /// Pose where the chain begins.
     pub base: Pose,
     /// Commands of its actuators, m or rad.
     pub commands: Vec<f64>,
@@ -17,11 +17,11 @@ pub struct SerialChain {
     pub posture: Vec<f64>,
     /// Gravity and everything else that acts all the time.
     pub loads: Vec<Load>,
-    /// Where the tool is commanded to be.
+    /// Commanded pose of the tool.
     pub place: Pose,
 }
 
-/// Whether a machine is one chain from the base to the tool.
+/// True if a machine is one chain from the base to the tool.
 #[must_use]
 pub fn is_serial_chain(mechanism: &Mechanism) -> bool {
     matches!(mechanism.limbs(), [limb] if limb.from == 0 && limb.to == mechanism.tool())

@@ -9,7 +9,7 @@ use crate::response::ToolResponse;
 const PER_WIDTH: f64 = 12.0;
 /// Frequencies that are looked at in each octave beside the peaks.
 const PER_OCTAVE: f64 = 48.0;
-/// How far above the fastest mode is looked.
+/// Upper end of the search, as a multiple of the fastest mode's frequency.
 const BEYOND: f64 = 4.0;
 /// Eigenvalues smaller than this share of the largest that was found are none: the tool does not give way there.
 const NONE: f64 = 1e-12;
@@ -17,9 +17,9 @@ const NONE: f64 = 1e-12;
 /// A tool and a process that pushes back without delay: force by displacement.
 pub(crate) struct Branches<'a> {
     pub(crate) response: &'a ToolResponse,
-    /// Its receptance at an angular frequency, rad/s, m/N.
+    /// Receptance of the tool at an angular frequency, rad/s, m/N.
     pub(crate) receptance: Box<dyn Fn(f64) -> Matrix3<Complex64> + 'a>,
-    /// Of rank 2 at most.
+    /// Mean matrix of the process, of rank 2 at most.
     pub(crate) mean: Matrix3<f64>,
 }
 
@@ -95,7 +95,7 @@ impl Branches<'_> {
         }
     }
 
-    /// Between two places of a branch, that at which a function that grows or falls there passes 0.
+    /// Place between two places of a branch at which a monotonic function passes 0.
     pub(crate) fn closed_in(&self, from: &Place, to: &Place, of: impl Fn(&Place) -> f64) -> Place {
         // Illinois' rule: secants that stay inside.
         let (mut a, mut b) = (*from, *to);
@@ -206,7 +206,7 @@ pub(crate) fn grid(response: &ToolResponse) -> Vec<f64> {
     all
 }
 
-/// By how much `1/mu` turns.
+/// Rotation of `1/mu`, rad.
 fn turned(before: Complex64, now: Complex64) -> f64 {
     let angle = (before / now).arg();
     if angle.is_finite() { angle } else { 0.0 }

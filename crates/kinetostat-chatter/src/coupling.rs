@@ -15,7 +15,7 @@ use crate::number::smaller;
 use crate::response::{ToolResponse, first_order};
 use crate::stability::eigenvalues;
 
-/// How a process without delay makes a tool unstable.
+/// Instability of a tool by a process without delay.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Coupled {
@@ -30,7 +30,7 @@ pub enum Coupled {
 pub struct CoupledLimit {
     /// Factor of the process: `Kc`, N/m, of a unit process, or the depth of cut, m.
     pub factor: f64,
-    /// How it does so.
+    /// Type of the instability.
     pub kind: Coupled,
     /// Frequency of the vibration, Hz; 0 for static loss.
     pub frequency_hz: f64,
@@ -133,7 +133,7 @@ pub fn coupled_limit(response: &ToolResponse, process: &Process) -> Result<Optio
     Ok(best)
 }
 
-/// Where `1 + Kc n^T K_C^-1 f` vanishes.
+/// Zero of `1 + Kc n^T K_C^-1 f`.
 fn static_loss(branches: &Branches<'_>) -> Option<CoupledLimit> {
     let real = branches.eigenvalues(0.0).into_iter();
     let factors = real

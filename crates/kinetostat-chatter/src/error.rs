@@ -1,9 +1,9 @@
-//! What is wrong with modal data, a cut or a measured file: which quantity, what was found, what was expected.
+//! Error of modal data, a cut or a measured file: quantity, value found, value expected.
 
 /// Result of this crate.
 pub type Result<T> = std::result::Result<T, ChatterError>;
 
-/// What an error is about.
+/// Subject of an error.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum ChatterErrorKind {
@@ -34,15 +34,15 @@ pub enum ChatterErrorKind {
 #[error("{}{quantity}: {found}; expected {expected}", place(.line))]
 #[non_exhaustive]
 pub struct ChatterError {
-    /// What it is about.
+    /// Subject of the error.
     pub kind: ChatterErrorKind,
     /// Line of the text that was read, from 1, where the quantity stands in one.
     pub line: Option<usize>,
-    /// Which quantity.
+    /// Name of the quantity.
     pub quantity: String,
-    /// What was found.
+    /// Value found.
     pub found: String,
-    /// What was expected, or what to do.
+    /// Expected value, or the remedy.
     pub expected: String,
 }
 
@@ -64,7 +64,7 @@ impl ChatterError {
         }
     }
 
-    /// The same, of a line of a text (from 1).
+    /// Adds the line of a text (from 1).
     #[must_use]
     pub fn at_line(mut self, line: usize) -> Self {
         self.line = Some(line);

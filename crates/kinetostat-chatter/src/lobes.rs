@@ -9,10 +9,10 @@ use crate::number::larger;
 use crate::stability::{LeftOut, Regeneration, SpeedStability};
 use crate::zeroth_order::{self, ZerothOrderLimit};
 
-/// Most speeds of a diagram.
+/// Maximum number of speeds of a diagram.
 const MOST_SPEEDS: usize = 100_000;
 
-/// What a lobe diagram is asked for.
+/// Request for a lobe diagram.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct LobeRequest {
     /// Slowest spindle speed, rpm.
@@ -23,14 +23,14 @@ pub struct LobeRequest {
     pub speeds: usize,
     /// Largest depth of cut that is looked at, m.
     pub up_to: f64,
-    /// How often a gap between speeds is halved where the limit changes fast or in kind; 0 adds none.
+    /// Maximum number of halvings of a gap between speeds where the limit changes fast or in kind; 0 adds none.
     pub refinements: usize,
     /// A change of the limit between neighbours by more than this share is fast.
     pub fast: f64,
 }
 
 impl LobeRequest {
-    /// So many speeds between two, without more where lobes change fast.
+    /// Requests evenly spaced speeds between two, without refinement.
     #[must_use]
     pub fn new(from_rpm: f64, to_rpm: f64, speeds: usize, up_to: f64) -> Self {
         Self {
@@ -43,7 +43,7 @@ impl LobeRequest {
         }
     }
 
-    /// The same with gaps halved so often where the limit changes fast or in kind.
+    /// Halves gaps up to `refinements` times where the limit changes fast or in kind.
     #[must_use]
     pub fn refined(self, refinements: usize) -> Self {
         Self {
@@ -133,7 +133,7 @@ impl LobeDiagram {
         each.fold(0.0, larger)
     }
 
-    /// Of the modes that are springs although they count, the one with the largest share, and the spindle speed, rpm.
+    /// Mode with the largest share among those treated as springs although they contribute, and the spindle speed, rpm.
     #[must_use]
     pub fn left_out(&self) -> Option<(LeftOut, f64)> {
         let of = |point: &LobePoint| Some((point.exact.left_out?, point.exact.speed_rpm));
@@ -206,7 +206,7 @@ impl Regeneration {
     }
 }
 
-/// Whether something may happen between two speeds that neither shows.
+/// True if the limit may change between two speeds in a way that neither shows.
 fn changes_fast(a: &LobePoint, b: &LobePoint, request: &LobeRequest) -> bool {
     let (a, b) = (&a.exact, &b.exact);
     if a.crossings.len() != b.crossings.len() {

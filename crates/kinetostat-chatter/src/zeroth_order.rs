@@ -47,7 +47,7 @@ pub(crate) fn steps(regeneration: &Regeneration) -> Vec<(Place, Place)> {
     steps
 }
 
-/// As [`limit`], with the [`steps`] of the branches.
+/// Limit as by [`limit`], with the [`steps`] of the branches.
 pub(crate) fn limit_on(
     steps: &[(Place, Place)],
     regeneration: &Regeneration,

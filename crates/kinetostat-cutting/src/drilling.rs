@@ -23,9 +23,9 @@ pub struct Drill {
 /// Force on a drill, and the chip of a lip.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DrillForce {
-    /// Along the axis towards the spindle, the chisel's part included, N.
+    /// Thrust along the axis towards the spindle, the chisel's part included, N.
     pub thrust_n: f64,
-    /// That of the lips alone, N.
+    /// Thrust of the lips alone, N.
     pub lips_thrust_n: f64,
     /// Torque that the spindle must give, N mm.
     pub torque_n_mm: f64,
@@ -70,8 +70,7 @@ impl Drill {
         })
     }
 
-    /// The same in a hole of this diameter, mm, that is there already. The chisel then cuts nothing, and its factor does not
-    /// count.
+    /// Opens an existing hole of this diameter, mm. The chisel then cuts nothing, and its factor has no effect.
     ///
     /// ```
     /// use kinetostat_cutting::{Drill, Linear};
@@ -93,8 +92,8 @@ impl Drill {
         Ok(self)
     }
 
-    /// The same with a thrust of the lips and the chisel together that is this many times that of the lips: 1 where the point
-    /// is thinned to nothing, about 2 where the chisel takes as much as the lips do. Measure it: no law of force knows it.
+    /// Sets the ratio of the thrust of lips and chisel together to that of the lips: 1 where the point is thinned to
+    /// nothing, about 2 where the chisel takes as much as the lips. Measure it: no law of force gives it.
     ///
     /// ```
     /// use kinetostat_cutting::{Drill, Linear};

@@ -1,9 +1,9 @@
-//! Where the edges of a tool are in the material.
+//! Contact of a tool's edges with the material.
 //!
-//! Seen along the tool axis from the spindle, in the frame of the cut: x along the feed, z along the tool axis towards the
-//! spindle, y to the left of the feed. An angle counts from +y clockwise, so that the point of the tool at an angle `phi`
-//! lies at `r (sin phi, cos phi)`; the half from 0 to pi looks where the feed goes. These are places, whichever way the
-//! spindle turns.
+//! Seen along the tool axis from the spindle, in the frame of the cut: x along the feed, z along the tool axis towards
+//! the spindle, y to the left of the feed. An angle counts from +y clockwise, so that the point of the tool at an angle
+//! `phi` lies at `r (sin phi, cos phi)`; the half from 0 to pi faces the feed. Angles are places, independent of the
+//! spindle's rotation.
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize};
 use crate::error::{CutError, CutErrorKind, Result};
 use crate::number::larger;
 
-/// Which edge of the tool is in contact, and along what its extent counts.
+/// Edge of the tool in contact, and the direction of its extent.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Edge {
@@ -25,11 +25,11 @@ pub enum Edge {
 /// A patch of the tool's envelope in the material: an extent of one edge times an arc.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Contact {
-    /// Which edge.
+    /// Edge in contact.
     pub edge: Edge,
-    /// Where it begins: height above the tip, or radius, mm.
+    /// Start of the contact: height above the tip, or radius, mm.
     pub from_mm: f64,
-    /// Where it ends, mm.
+    /// End of the contact, mm.
     pub to_mm: f64,
     /// Angle at which the arc begins, rad, from 0 below one turn.
     pub entry: f64,
@@ -64,7 +64,7 @@ impl Contact {
 }
 
 impl Contact {
-    /// Whether an angle (rad) lies on its arc, or so near to it (rad).
+    /// True if an angle (rad) lies on the arc, or within a tolerance (rad) of it.
     #[must_use]
     pub fn reaches(&self, angle: f64, within: f64) -> bool {
         let past = (angle - self.entry + within).rem_euclid(TAU);
@@ -81,13 +81,13 @@ impl Contact {
     }
 }
 
-/// On which side of the tool the part is, seen along the feed.
+/// Side of the tool on which the part is, seen along the feed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Side {
-    /// To the left of the feed: conventional milling (up) with a spindle that turns clockwise.
+    /// Left of the feed: conventional milling (up) with a spindle that turns clockwise.
     Left,
-    /// To the right of the feed: climb milling (down) with a spindle that turns clockwise.
+    /// Right of the feed: climb milling (down) with a spindle that turns clockwise.
     Right,
 }
 
@@ -100,7 +100,7 @@ pub struct Engagement {
 }
 
 impl Engagement {
-    /// No contact.
+    /// Engagement without contact.
     #[must_use]
     pub fn air() -> Self {
         Self::default()
@@ -159,7 +159,7 @@ impl Engagement {
         }
     }
 
-    /// No contact at all.
+    /// True without any contact.
     #[must_use]
     pub fn is_air(&self) -> bool {
         self.contacts.is_empty()
@@ -201,7 +201,7 @@ impl Engagement {
             .fold(0.0, larger)
     }
 
-    /// The same engagement in a mirror whose plane holds the feed and the axis: left is right.
+    /// Mirrors the engagement at the plane of the feed and the axis: left becomes right.
     #[must_use]
     pub fn mirrored(&self) -> Self {
         let mirror = |contact: &Contact| {

@@ -1,11 +1,11 @@
-//! What is wrong with a tool, a material, a cut or a stock: which quantity, what was found, what was expected.
+//! Error of a tool, a material, a cut or a stock: quantity, value found, value expected.
 
 use crate::number::plain;
 
 /// Result of this crate.
 pub type Result<T> = std::result::Result<T, CutError>;
 
-/// What an error is about.
+/// Subject of an error.
 ///
 /// ```
 /// use kinetostat_cutting::{CutErrorKind, Shape, Tool};
@@ -38,17 +38,17 @@ pub enum CutErrorKind {
 #[error("{}{quantity}: {found}; {}", place(.file, .line), advice(.expected))]
 #[non_exhaustive]
 pub struct CutError {
-    /// What it is about.
+    /// Subject of the error.
     pub kind: CutErrorKind,
     /// File, where the quantity stands in one.
     pub file: Option<String>,
     /// Line of the file, from 1.
     pub line: Option<usize>,
-    /// Which quantity.
+    /// Name of the quantity.
     pub quantity: String,
-    /// What was found.
+    /// Value found.
     pub found: String,
-    /// What was expected, or what to do.
+    /// Expected value, or the remedy.
     pub expected: String,
 }
 
@@ -71,7 +71,7 @@ impl CutError {
         }
     }
 
-    /// The same, of a line of a file (from 1).
+    /// Adds the file and its line (from 1).
     #[must_use]
     pub fn at(mut self, file: impl Into<String>, line: Option<usize>) -> Self {
         self.file = Some(file.into());
@@ -80,7 +80,7 @@ impl CutError {
     }
 }
 
-/// What was expected; a nearer name stands for itself.
+/// Phrase with the expected value; a suggested name is used as it is.
 fn advice(expected: &str) -> String {
     match expected.starts_with("did you mean") {
         true => expected.to_owned(),

@@ -6,10 +6,10 @@
 use crate::error::{CutError, CutErrorKind, Result};
 use crate::names::{bare, nearest};
 
-/// How cells are written, for messages.
+/// Separators of cells, for messages.
 const SEPARATED: &str = "with commas or semicolons between them";
 
-/// What stands between two cells: semicolons where the header has one, else commas.
+/// Separator of two cells: a semicolon if the header has one, else a comma.
 fn separator(text: &str) -> u8 {
     let mut lines = text.lines();
     let header = lines.find(|line| !line.trim().is_empty() && !line.starts_with('#'));
@@ -63,7 +63,7 @@ impl NumberColumns<'_> {
         }
     }
 
-    /// Where each of the known columns stands.
+    /// Positions of the known columns.
     fn places(
         &self,
         headers: &csv::StringRecord,

@@ -34,14 +34,14 @@ impl Source<'_> {
     }
 }
 
-/// Where the TOML reader stopped, and its message in one line, without names of types of the programming language.
+/// Position of a TOML error, and its message in one line, without names of Rust types.
 pub(crate) fn described(error: &toml::de::Error) -> (usize, String) {
     let byte = error.span().map_or(0, |span| span.start);
     let message = error.message().lines().collect::<Vec<_>>().join(", ");
     (byte, in_words(&message))
 }
 
-/// What a message of [`described`] says was found, and what should stand there; `None` where it says neither.
+/// Found and expected value in a message of [`described`]; `None` if it names neither.
 pub(crate) fn found_and_expected(message: &str) -> Option<(String, String)> {
     let (found, expected) = message.split_once(", expected ")?;
     Some((found.to_owned(), expected.to_owned()))

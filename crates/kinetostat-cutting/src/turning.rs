@@ -18,11 +18,11 @@ pub struct Turning {
 /// Force on a turning tool, and its chip.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TurningForce {
-    /// Along the speed of the part at the edge, N.
+    /// Force along the speed of the part at the edge, N.
     pub cutting_n: f64,
-    /// Against the feed, N.
+    /// Force against the feed, N.
     pub feed_n: f64,
-    /// Across the feed, away from the part, N. It does no work, and it is what bends the part.
+    /// Force across the feed, away from the part, N. It does no work, and it bends the part.
     pub passive_n: f64,
     /// Thickness of the chip, mm.
     pub chip_mm: f64,

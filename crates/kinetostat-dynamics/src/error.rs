@@ -1,10 +1,10 @@
-//! What can be wrong with a question about vibrations. A physical finding (unstable, neutral, free) is no error.
+//! Errors of the vibration analysis. A physical finding (unstable, neutral, free) is no error.
 
 /// A question without an answer, or a wrong input.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
-    /// From the statics: a state that is none of this machine, numbers that are not finite.
+    /// Error of the statics: a state that is none of this machine, numbers that are not finite.
     #[error(transparent)]
     Statics(#[from] kinetostat::Error),
     /// Nothing that moves has a mass.
@@ -15,7 +15,7 @@ pub enum Error {
     Inertia {
         /// Name of the body or platform.
         part: String,
-        /// What is wrong.
+        /// Description of the error.
         reason: String,
     },
     /// A damping that is not meant.
@@ -24,9 +24,9 @@ pub enum Error {
     /// A name that does not exist.
     #[error("there is no {what} '{name}'; there are: {known}")]
     UnknownName {
-        /// What was looked for.
+        /// Kind of the unknown object.
         what: &'static str,
-        /// Its name.
+        /// Unknown name.
         name: String,
         /// The names that exist.
         known: String,
@@ -36,7 +36,7 @@ pub enum Error {
     Rotor {
         /// Name of the actuator.
         joint: String,
-        /// What is wrong.
+        /// Description of the error.
         reason: String,
     },
     /// The question does not fit: lists of the wrong length, frequencies that are no numbers.

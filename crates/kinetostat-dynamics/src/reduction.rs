@@ -84,7 +84,7 @@ impl LinearDynamics {
                 self.name
             )));
         }
-        // Held: modes in the null space.
+        // Modes with the point held: those in the null space.
         let within = |a: &DMatrix<f64>| symmetric(free.tr_mul(&(a * &free)));
         let held = pencil::solve(&within(&mass), &within(&tangent)).ok_or_else(|| {
             Error::NotSolved(format!(

@@ -28,7 +28,7 @@ pub fn exact_toml<T: serde::de::DeserializeOwned>(text: &str) -> Result<T, toml:
     exact(toml::de::Deserializer::parse(text)?)
 }
 
-/// What is said of a list of the wrong length.
+/// Message for a list of the wrong length.
 pub fn wrong_length(needed: usize, given: usize) -> String {
     format!("{needed} values are needed, {given} are given")
 }

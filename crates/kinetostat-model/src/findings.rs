@@ -1,8 +1,8 @@
-//! What is found while a document becomes a machine: every mistake with its place, so that one run shows them all.
+//! Findings while a document becomes a machine: every mistake with its place, so that one run reports them all.
 
 use crate::problem::{Finding, KeyPath};
 
-/// What went wrong and what looks wrong.
+/// Errors and warnings found in a document.
 #[derive(Default)]
 pub(crate) struct Findings {
     pub(crate) errors: Vec<Finding>,
@@ -22,7 +22,7 @@ impl Findings {
         self.errors.push(Finding::new(place, message, help));
     }
 
-    /// With this many errors the file is no model; the rest is not looked at.
+    /// True if the number of errors shows that the file is no model; the rest is not examined.
     pub(crate) fn enough(&self) -> bool {
         self.errors.len() >= 100
     }

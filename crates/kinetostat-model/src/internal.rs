@@ -1,5 +1,5 @@
-//! What this crate's own tests reach inside it, in `tests/model/internal`. It is no part of the interface and changes
-//! without a word.
+//! Access to internals for this crate's own tests in `tests/model/internal`. It is not part of the interface and
+//! changes without notice.
 
 use kinetostat::Pose;
 use nalgebra::{Unit, Vector3};
@@ -10,7 +10,7 @@ use crate::schema::{Axis, Placement};
 
 pub use crate::exact::wrong_length;
 
-/// What is wrong with a table, as the message of a model file says it.
+/// Error of a table, worded as in the messages for model files.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Fault(pub String);
 

@@ -25,17 +25,17 @@ use crate::text::source::Source;
 /// A machine, as written and as the core sees it.
 #[derive(Clone, Debug)]
 pub struct Model {
-    /// What the file says.
+    /// Document as written in the file.
     pub document: Document,
-    /// What it means, in SI.
+    /// Mechanism that it describes, in SI units.
     pub mechanism: Mechanism,
-    /// What the controller shows of the joints, where the file declares it.
+    /// Map to the coordinates of the controller, if the file declares it.
     pub controller: Option<Controller>,
     /// The file's text (without a byte order mark).
     pub text: String,
     /// The file's name as it was given, or `preset NAME`.
     pub file: String,
-    /// What looks wrong although it can be computed.
+    /// Implausible figures that can be computed with.
     pub warnings: Vec<Problem>,
 }
 
@@ -183,7 +183,7 @@ impl Model {
         require_stiffness(&self.mechanism, &self.file)
     }
 
-    /// How the file says that vibrations are damped; [`Damping::Undamped`] where it says nothing.
+    /// Returns the damping of the file; [`Damping::Undamped`] if it has none.
     ///
     /// ```
     /// use kinetostat_dynamics::Damping;
@@ -218,7 +218,7 @@ impl Model {
         source.problem(Severity::Warning, &found).line
     }
 
-    /// Whether the machine is an arm: three turning drives follow one another in a limb.
+    /// True for an arm: three revolute drives follow one another in a limb.
     #[must_use]
     pub fn is_arm(&self) -> bool {
         let turning = |limb: &kinetostat::Limb| {
@@ -250,9 +250,8 @@ impl Model {
         axes.filter_map(Result::ok).collect()
     }
 
-    /// The same machine with one more error of manufacture or assembly: the actual geometry of
-    /// `limb` is moved by `motion` (m, in the frame reached behind the element) at the rigid element
-    /// or link `at`, or at its `start` or `end`.
+    /// Adds an error of manufacture or assembly: the actual geometry of `limb` is moved by `motion` (m, in the frame
+    /// reached behind the element) at the rigid element or link `at`, or at its `start` or `end`.
     ///
     /// # Errors
     /// [`ModelError`] if there is no such limb or element, if it has a deviation already, or if the motion is not finite.
@@ -265,7 +264,7 @@ impl Model {
         })
     }
 
-    /// The same machine with one more error of manufacture or assembly, as a file says it.
+    /// Adds an error of manufacture or assembly in the form of a file.
     ///
     /// # Errors
     /// [`ModelError`] as for a file with this deviation, also where the element has one already: the order of both motions is
@@ -285,10 +284,10 @@ impl Model {
         }
     }
 
-    /// The same machine as drawn, without errors of manufacture and assembly.
+    /// Returns the machine as drawn, without errors of manufacture and assembly.
     ///
     /// # Errors
-    /// As [`from_toml`](Self::from_toml); cannot happen for a model that was read.
+    /// See [`from_toml`](Self::from_toml); cannot happen for a model that was read.
     pub fn without_deviations(&self) -> Result<Self, ModelError> {
         let mut document = self.document.clone();
         document.deviation.clear();
@@ -305,7 +304,7 @@ impl Model {
     }
 }
 
-/// As [`Model::require_stiffness`], of a machine whose file is named in the message.
+/// Checks a mechanism like [`Model::require_stiffness`]; the message names its file.
 ///
 /// # Errors
 /// [`ModelError`] that says what is to be filled in.
@@ -330,7 +329,7 @@ pub fn read_model(path: &Path) -> Result<Model, ModelError> {
     Model::from_toml(&text, &file)
 }
 
-/// How far a written home may lie from what the machine can take, m.
+/// Largest distance of a written home from a pose that the machine can take, m.
 const ROUGH_HOME_M: f64 = 5e-3;
 
 /// A home that is off by a few millimetres, only where the machine cannot move, is taken to the

@@ -3,8 +3,8 @@
 use crate::problem::{ModelError, Problem};
 use crate::text::hints;
 
-/// What kind of machine a preset is: families of the report's chapter 2 (figures 2.5 to 2.8), or
-/// an example that teaches one effect. In the order in which lists show them.
+/// Kind of machine of a preset: a family of the report's chapter 2 (figures 2.5 to 2.8), or an example of one effect.
+/// The order is that of lists.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[non_exhaustive]
 pub enum PresetKind {
@@ -39,9 +39,9 @@ impl PresetKind {
 pub struct Preset {
     /// Name, as taken by [`crate::Model::preset`].
     pub name: &'static str,
-    /// What kind of machine it is.
+    /// Kind of machine.
     pub kind: PresetKind,
-    /// What it is, in one line.
+    /// Description in one line.
     pub description: &'static str,
     text: &'static str,
 }

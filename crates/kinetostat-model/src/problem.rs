@@ -60,11 +60,11 @@ pub(crate) struct Finding {
     pub(crate) span: Option<Range<usize>>,
     pub(crate) message: String,
     pub(crate) help: String,
-    /// How the file may be read on.
+    /// Replacement with which the file can be read on.
     pub(crate) remedy: Box<Remedy>,
 }
 
-/// What makes a file readable beyond a finding, so that others are found in the same run.
+/// Replacement of a faulty part, so that further mistakes are found in the same run.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Remedy {
     /// A key that the table at the place should have.
@@ -94,7 +94,7 @@ impl Finding {
     }
 }
 
-/// How grave a [`Problem`] is.
+/// Severity of a [`Problem`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Severity {
@@ -109,9 +109,9 @@ pub enum Severity {
 pub struct Problem {
     /// Error or warning.
     pub severity: Severity,
-    /// What is wrong.
+    /// Description of the mistake.
     pub message: String,
-    /// What to do; may be empty.
+    /// Remedy; may be empty.
     pub help: String,
     /// File as it was named.
     pub file: String,
@@ -125,12 +125,12 @@ pub struct Problem {
     styled: String,
 }
 
-/// How a message is written.
+/// Style of a message.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TextStyle {
     /// Characters only.
     Plain,
-    /// With the colours of a terminal.
+    /// Text with the colours of a terminal.
     Terminal,
 }
 
@@ -364,17 +364,17 @@ fn floor_boundary(text: &str, index: usize) -> usize {
         .unwrap_or(0)
 }
 
-/// Why a model could not be used: one or more problems, each with its line.
+/// Error of a model file: one or more problems, each with its line.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ModelError {
     problems: Vec<Problem>,
 }
 
 impl ModelError {
-    /// More than this many are counted, not shown.
+    /// Maximum number of problems that are shown; more are counted.
     const SHOWN: usize = 100;
 
-    /// For readers of other formats that lead to a model.
+    /// Creates the error for readers of other formats that lead to a model.
     #[must_use]
     pub fn new(problems: Vec<Problem>) -> Self {
         Self { problems }

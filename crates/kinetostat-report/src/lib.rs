@@ -59,7 +59,7 @@ pub use paper::language::Language;
 pub use paper::question::{Paper, VerifiedProgram};
 pub use vibration::{DrawnMotion, ReceptanceCurve};
 
-/// Why a report could not be made.
+/// Reason why a report could not be made.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ReportError {

@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-/// What holds for dark pages, and begins the second half of a sheet.
+/// Media query of dark pages, which begins the second half of a sheet.
 const DARK: &str = "@media screen and (prefers-color-scheme:dark)";
 
 /// A style sheet without variables: first with the values of light pages, then, for dark ones, once more what the variables
@@ -10,7 +10,7 @@ const DARK: &str = "@media screen and (prefers-color-scheme:dark)";
 /// where they would draw all in black.
 pub(crate) fn without_variables(style: &str) -> String {
     let (mut light, mut dark) = (BTreeMap::new(), BTreeMap::new());
-    // Whether a rule is one of dark pages alone, its head and its body.
+    // True for a rule of dark pages alone, its head and its body.
     let mut rules = Vec::new();
     for (head, body) in blocks(style) {
         if head == DARK {
@@ -30,7 +30,7 @@ pub(crate) fn without_variables(style: &str) -> String {
         .filter(|(_, value)| value.contains("var("))
         .map(|(name, _)| name)
         .collect();
-    // What has no other value on dark pages has that of light ones.
+    // Variables without a dark value have their light one.
     let has_dark = !dark.is_empty();
     let mut dark_or_light = light.clone();
     dark_or_light.append(&mut dark);
@@ -40,7 +40,7 @@ pub(crate) fn without_variables(style: &str) -> String {
         if !at_night {
             rule(&mut out, head, own(), &light);
         }
-        // In the order of the sheet, so that what stands behind goes over it there, too.
+        // Keeps the order of the sheet, so that later rules override earlier ones there, too.
         let kept = own().filter(|(name, _)| at_night || coloured.contains(name));
         rule(&mut night, head, kept, &dark_or_light);
     }

@@ -67,7 +67,7 @@ pub(crate) fn count(value: usize) -> String {
     group(&value.to_string())
 }
 
-/// How many of something, thousands apart.
+/// Number of things, thousands apart.
 pub(crate) fn counted(value: usize, one: &str) -> String {
     plain::counted(value, one).replacen(&value.to_string(), &count(value), 1)
 }

@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use crate::literal::without_variables;
 use crate::text::escape;
 
-/// Where a text is held.
+/// Anchor of a text.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Anchor {
     Start,
@@ -92,12 +92,12 @@ impl Svg {
         );
     }
 
-    /// Another drawing, so many pixels below the top of this one.
+    /// Draws another drawing, so many pixels below the top of this one.
     pub(crate) fn below(&mut self, down: f64, other: &Self) {
         self.at((0.0, down), other);
     }
 
-    /// Another drawing with its corner at a place of this one.
+    /// Draws another drawing with its corner at a place of this one.
     pub(crate) fn at(&mut self, (right, down): (f64, f64), other: &Self) {
         let _ = write!(
             self.body,
@@ -108,7 +108,7 @@ impl Svg {
         );
     }
 
-    /// What of another drawing lies in a rectangle of this one.
+    /// Shows the part of another drawing in a rectangle of this one.
     pub(crate) fn window(&mut self, corner: (f64, f64), size: (f64, f64), other: &Self) {
         let [x, y, width, height] = [corner.0, corner.1, size.0, size.1].map(pixel);
         let _ = write!(

@@ -27,7 +27,7 @@ pub(crate) fn or_unknown(text: &str) -> String {
     }
 }
 
-/// At most `most` characters; what is cut is marked.
+/// Shortens to at most `most` characters; the cut is marked.
 pub(crate) fn shorten(text: &str, most: usize) -> String {
     let text = clean(text);
     if text.chars().count() <= most {
@@ -71,7 +71,7 @@ pub(crate) fn width(text: &str, size: f64) -> f64 {
     units * size
 }
 
-/// The same in bold type.
+/// Width in bold type.
 pub(crate) fn bold_width(text: &str, size: f64) -> f64 {
     1.22 * width(text, size)
 }

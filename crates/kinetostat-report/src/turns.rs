@@ -5,7 +5,7 @@ use kinetostat_machining::TurnChoice;
 use crate::chart::plot::PlotLine;
 use crate::chart::section::{Cell, Section};
 
-/// Most columns and rows of cells; of more stations and turns those nearest to them are shown.
+/// Maximum number of columns and rows of cells; of more stations and turns those nearest to them are shown.
 const MOST: usize = 360;
 
 /// Evenly spaced numbers from the first to the last.
@@ -97,7 +97,7 @@ fn chosen(choice: &TurnChoice, (low, high): (f64, f64)) -> PlotLine {
         let (at, turn) = (station.way_mm, station.turn_deg);
         let own = circles(turn);
         if let Some((way, before)) = last {
-            // Both ends of a step across the border, each outside the picture, and nothing between them.
+            // Draws both ends of a step across the border, each outside the picture, and nothing between them.
             if circles(before) != own {
                 points.push((at, turn - circles(before)));
                 points.push((f64::NAN, f64::NAN));

@@ -1,5 +1,5 @@
-//! How numbers look in text: one formatter for messages, for the terminal and for the report, so that a
-//! figure has the same digits wherever it stands.
+//! Formats of numbers in text: one formatter for messages, for the terminal and for the report, so that a figure has
+//! the same digits everywhere.
 //!
 //! Text is plain ASCII with a point, `um` for micrometres and engineering notation (`12.5e6`, powers in
 //! steps of three) outside 1e-5 to 1e7. The report sets the same text in type (`µm`, thousands apart,
@@ -9,17 +9,17 @@
 //! Lengths, angles and shares have a smallest figure (0.001 um, 0.0001 deg, 0.0001 %): a largest value
 //! below it is stated as that figure, which is an upper bound; a mean or a least value is "below" it.
 //!
-//! The extremes of measured numbers are here too, for what is stated must not have lost a NaN on its way.
+//! The extremes of measured numbers are here, too, because they must not lose a NaN.
 
 use std::borrow::Borrow;
 
-/// What stands where there is no number.
+/// Text in place of a missing number.
 pub const MISSING: &str = "not available";
 
 /// Digits of a figure: enough for what a model knows.
 pub const DIGITS: usize = 3;
 
-/// Which way a figure is rounded: a largest value must not be stated too small.
+/// Direction of rounding: a largest value must not be stated too small.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Rounding {
     /// To the nearest: means, settings, coordinates.
@@ -87,7 +87,7 @@ pub fn fixed(value: f64, decimals: usize) -> String {
     }
 }
 
-/// As [`fixed`], without zeros at the end: what fills the cells of long tables.
+/// Formats like [`fixed`], without zeros at the end: for the cells of long tables.
 ///
 /// ```
 /// use kinetostat::number::fixed_and_short;
@@ -155,7 +155,7 @@ pub fn without_zeros(text: &str) -> &str {
     }
 }
 
-/// How many of something: "1 point", "3 points".
+/// Number with its noun: "1 point", "3 points".
 ///
 /// ```
 /// use kinetostat::number::counted;
@@ -237,7 +237,7 @@ fn above(value: f64, smallest: f64, digits: usize, rounding: Rounding) -> String
     }
     match rounding {
         Rounding::Up if value > 0.0 => setting(smallest),
-        // What is no less than a value a little below zero.
+        // Upper bound of a value a little below zero.
         Rounding::Up => "0".to_owned(),
         _ => format!("below {}", setting(smallest)),
     }
@@ -267,7 +267,7 @@ pub fn largest_angle(value_deg: f64) -> String {
     angle(value_deg, DIGITS, Rounding::Up)
 }
 
-/// How far one pose is from another; a part that is the rounding of the search for it is zero.
+/// Distance of one pose from another; a part that is the rounding of the search for it is zero.
 #[must_use]
 pub fn apart(distance_mm: f64, angle_deg: f64) -> String {
     /// Searches end at about this share of what they began with (mm and deg).
@@ -316,7 +316,7 @@ pub fn against(value_mm: f64, bound_mm: f64) -> (String, String) {
             return (value, with_unit(without_zeros(number), unit));
         }
     }
-    // Beyond nine digits they are the same length.
+    // Both are equally long beyond nine digits.
     let digits = 9;
     (
         length(value_mm, digits, Rounding::Nearest),

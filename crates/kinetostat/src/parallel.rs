@@ -3,7 +3,7 @@
 #[cfg(feature = "parallel")]
 use rayon::prelude::*;
 
-/// What `answer` returns for each item, in their order.
+/// Maps the items in parallel, in their order.
 #[cfg(feature = "parallel")]
 pub(crate) fn map<I: Send, T: Send>(
     items: Vec<I>,
@@ -12,7 +12,7 @@ pub(crate) fn map<I: Send, T: Send>(
     items.into_par_iter().map(answer).collect()
 }
 
-/// What `answer` returns for each item, in their order.
+/// Maps the items one after the other, in their order.
 #[cfg(not(feature = "parallel"))]
 pub(crate) fn map<I, T>(items: Vec<I>, answer: impl Fn(I) -> T) -> Vec<T> {
     items.into_iter().map(answer).collect()

@@ -80,7 +80,7 @@ impl Fit<'_> {
         if let Some(plain) = plain.min_by_key(Mapping::changes) {
             return Some(plain);
         }
-        // Of those with about the same residual, the one that reverses least.
+        // Prefers, among mappings with about the same residual, the one that reverses fewest joints.
         let least = others
             .iter()
             .map(|m| self.rank(m))
@@ -101,8 +101,9 @@ impl Fit<'_> {
             .max(self.length * m.largest_difference.1)
     }
 
-    /// The same mapping with as few frames moved as possible: what the first joint does to the base,
-    /// and the last one to the tool, is given to the joint where it is all that the frame does.
+    /// Returns an equal mapping with as few frames moved as possible: a base displacement along the first joint, or a
+    /// tool displacement along the last one, becomes that joint's offset where it is the whole displacement of the
+    /// frame.
     fn plainest(&self, full: Mapping) -> Mapping {
         let last = full.offsets.len() - 1;
         let zero = vec![0.0; last + 1];
@@ -182,7 +183,7 @@ impl Fit<'_> {
         Some(m)
     }
 
-    /// Least squares by Gauss and Newton with damping.
+    /// Refines a mapping by damped Gauss-Newton least squares.
     fn refined(&self, mut at: Mapping) -> Option<Mapping> {
         let mut residual = self.residual(&at)?;
         let mut damping = 1e-6;
@@ -243,7 +244,7 @@ impl Fit<'_> {
         1..count.max(2) - 1
     }
 
-    /// One of the numbers that are fitted, changed: inner offsets, base, tool.
+    /// Changes parameter `k` of the fit by `by`; the order is inner offsets, base, tool.
     fn changed(&self, m: &Mapping, k: usize, by: f64) -> Mapping {
         let mut out = m.clone();
         let inner = self.inner();
@@ -292,7 +293,7 @@ impl Fit<'_> {
         let first = self.axes(self.b, &offsets)?;
         let mut turn = UnitQuaternion::rotation_between(&(first[0].0 * signs[0]), &a[0].0)
             .unwrap_or_else(|| half_turn(&a[0].0));
-        // Which rotation is still open: about this axis of `a`, by this joint (none: by the base).
+        // Undetermined rotation: about this axis of `a`, by this joint (`None`: by the base).
         let mut open: Option<(usize, Option<usize>)> = Some((0, None));
         for j in 1..count {
             let b = self.axes(self.b, &offsets)?;
@@ -310,7 +311,7 @@ impl Fit<'_> {
                     let angle = u.dot(&from.cross(&to)).atan2(from.dot(&to));
                     match owner {
                         None => turn = UnitQuaternion::from_scaled_axis(u * angle) * turn,
-                        // About the axis of `b`, which is `signs` times that of `a`.
+                        // The turn is about the axis of `b`, which is `signs` times that of `a`.
                         Some(joint) => offsets[joint] += signs[joint] * angle,
                     }
                     open = None;

@@ -2,7 +2,7 @@
 
 use kinetostat::Pose;
 
-/// How machine `b` has to be taken to be machine `a`: `T_a(q) = base * T_b(s q + o) * tool` for all `q`.
+/// Mapping of machine `b` to machine `a`: `T_a(q) = base * T_b(s q + o) * tool` for all `q`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mapping {
     /// -1 or 1 for each joint.

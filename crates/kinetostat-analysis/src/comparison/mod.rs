@@ -24,26 +24,26 @@ const SAME: f64 = 1e-7;
 /// Two machines compared.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Comparison {
-    /// How `b` has to be taken to be `a`, with the least differences that were found.
+    /// Mapping from `b` to `a` with the least differences that were found.
     pub mapping: Mapping,
-    /// The same machine but for constant offsets.
+    /// True if the machines are equal up to constant offsets.
     pub same: bool,
     /// Postures at which they were compared.
     pub postures: usize,
-    /// Of machines that are the same; none where one of them is rigid or free.
+    /// Stiffness of equal machines; `None` where one of them is rigid or free.
     pub stiffness: Option<StiffnessComparison>,
 }
 
-/// How many actuators slide, and how many turn.
+/// Numbers of prismatic and revolute actuators.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ActuatorCounts {
-    /// That slide.
+    /// Number of prismatic actuators.
     pub prismatic: usize,
-    /// That turn.
+    /// Number of revolute actuators.
     pub revolute: usize,
 }
 
-/// Why two machines cannot be compared.
+/// Reason why two machines cannot be compared.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ComparisonError {
@@ -53,15 +53,15 @@ pub enum ComparisonError {
     /// Only machines of the same joints in the same order can be mapped on each other.
     #[error("the actuators differ, or their order")]
     DifferentActuators {
-        /// Of the first machine.
+        /// Actuators of the first machine.
         a: ActuatorCounts,
-        /// Of the second.
+        /// Actuators of the second machine.
         b: ActuatorCounts,
     },
     /// The loops of the first machine close at too few postures around home.
     #[error("the loops of the first machine close at too few postures around home")]
     TooFewPostures,
-    /// With no signs of its joints does the second machine stand where the first one stands.
+    /// The second machine does not stand where the first one stands with any signs of its joints.
     #[error("the second machine cannot take the posture of the first, with no sign of its joints")]
     NoMapping,
 }

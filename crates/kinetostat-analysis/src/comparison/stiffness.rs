@@ -13,13 +13,13 @@ use crate::comparison::mapping::Mapping;
 pub struct StiffnessComparison {
     /// Commands of `a` there, m or rad.
     pub commands: Vec<f64>,
-    /// Of `a`, the softest direction first, N/mm.
+    /// Stiffness of `a`, the softest direction first, N/mm.
     pub a_n_per_mm: [f64; 3],
-    /// Of `b`, likewise.
+    /// Stiffness of `b`, likewise.
     pub b_n_per_mm: [f64; 3],
 }
 
-/// None where one of the two is singular there, free or rigid.
+/// Compares the stiffnesses; `None` where one machine is singular, free or rigid there.
 pub(crate) fn stiffness(
     m: &Mechanism,
     n: &Mechanism,
@@ -34,7 +34,7 @@ pub(crate) fn stiffness(
         |k: UnloadedStiffness| (k.rank() == 6).then(|| k.cartesian.compliance()).flatten();
     let a = compliance(one.stiffness().ok()?)?;
     let b = compliance(other.stiffness().ok()?)?;
-    // To A's axes, then from B's tool to A's.
+    // Transforms to A's axes, then from B's tool to A's.
     let turn = turn_matrix(&mapping.base.rotation.to_rotation_matrix());
     let arm = one.target().translation.vector - (mapping.base * other.target()).translation.vector;
     let shift = shift_matrix(&arm);

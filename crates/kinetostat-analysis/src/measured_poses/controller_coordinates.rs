@@ -1,4 +1,4 @@
-//! What a controller shows, and where the model's tool is then.
+//! Controller coordinates, and the tool pose of the model at them.
 
 use kinetostat::{MotionKind, Pose, PostureRequest};
 use kinetostat_model::Model;
@@ -14,11 +14,11 @@ pub struct ControllerCoordinates<'m> {
     forward: ForwardKinematics<'m>,
 }
 
-/// Why the model has no pose for what a controller shows.
+/// Reason why the model has no pose at given controller coordinates.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ControllerPoseError {
-    /// Another number of values than axes.
+    /// Number of values that differs from the number of axes.
     #[error("the number of joints does not fit")]
     JointCount,
     /// The machine cannot stand there.
@@ -36,7 +36,7 @@ impl<'m> ControllerCoordinates<'m> {
         }
     }
 
-    /// How many explanations can be tried.
+    /// Effort that the search for explanations can afford.
     #[must_use]
     pub fn effort(&self) -> Effort {
         match self.forward.is_plain_product() {
@@ -45,7 +45,7 @@ impl<'m> ControllerCoordinates<'m> {
         }
     }
 
-    /// What the model says of each axis; `kinds` are those of the axes.
+    /// Axes as the model declares them; `kinds` are their motions.
     #[must_use]
     pub fn axes(&self, kinds: &[MotionKind]) -> Vec<Axis> {
         let turns = |i: usize| kinds[i] == MotionKind::Revolute;
@@ -102,7 +102,7 @@ impl<'m> ControllerCoordinates<'m> {
             .target())
     }
 
-    /// As [`Self::pose`], as fast as it can be.
+    /// Tool pose as by [`Self::pose`], computed as fast as possible.
     #[must_use]
     pub fn tool(&self, shown: &[f64]) -> Option<Pose> {
         self.forward.tool(&self.commands(shown)?)

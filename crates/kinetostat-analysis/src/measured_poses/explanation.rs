@@ -1,4 +1,5 @@
-//! What may explain the difference of measured poses from computed ones: a sign, an offset, a coupling, a frame.
+//! Candidate explanations for the difference between measured and computed poses: a sign, an offset, a coupling, a
+//! frame.
 
 use kinetostat::Pose;
 
@@ -7,37 +8,37 @@ use kinetostat::Pose;
 pub enum Frame {
     /// Model's base from the machine's: measured = base * computed.
     Base(Pose),
-    /// Behind the model's tool: measured = computed * tool.
+    /// Tool frame after the model's tool: measured = computed * tool.
     Tool(Pose),
 }
 
-/// Where the model's tool is for what the controller shows (m, rad).
+/// Forward kinematics: tool pose of the model at controller coordinates (m, rad).
 pub type Forward<'a> = dyn Fn(&[f64]) -> Option<Pose> + 'a;
 
 /// An axis of the controller, as the file declares it; m and rad.
 #[derive(Clone, Debug)]
 pub struct Axis {
-    /// It turns; if not, it slides.
+    /// True for a revolute axis, false for a prismatic one.
     pub turns: bool,
-    /// What it shows while the model's joints are at zero.
+    /// Controller coordinate while the model's joints are at zero.
     pub zero: f64,
-    /// What it shows per unit of its own joint.
+    /// Controller coordinate per unit of the axis' own joint.
     pub ratio: f64,
     /// Axes whose joints it shows too, with what it shows per unit of theirs. Only axes that show
     /// nothing but their own joint.
     pub coupled: Vec<(usize, f64)>,
 }
 
-/// What is taken to be wrong about the coupling of an axis with the joint of another one.
+/// Assumed error in the coupling of an axis with another joint.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Coupling {
-    /// None is declared; to what is shown the other axis' joint has to be added, `share` times.
+    /// Undeclared coupling: the other axis' joint has to be added to the controller coordinate, `share` times.
     Missing {
         /// Index of the coupled axis, from 0.
         axis: usize,
         /// Index of the axis whose joint it shows too, from 0.
         other: usize,
-        /// How many times the other joint is added.
+        /// Factor of the other joint.
         share: f64,
     },
     /// Declared, and the machine has it with the other sign.
@@ -56,23 +57,23 @@ pub enum Coupling {
     },
 }
 
-/// What the controller is taken to show instead: `s x + o`, one axis with a share of another; and a frame.
+/// Assumed controller map instead of the declared one: `s x + o`, one axis with a share of another; and a frame.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Explanation {
     /// Axes whose sign is the other one.
     pub reversed: Vec<usize>,
     /// Axis and offset, m or rad.
     pub offsets: Vec<(usize, f64)>,
-    /// At most one coupling.
+    /// Assumed error of a coupling; at most one.
     pub coupling: Option<Coupling>,
-    /// At most one frame.
+    /// Constant frame; at most one.
     pub frame: Option<Frame>,
 }
 
 impl Explanation {
-    /// What the controller would show if the machine were as the file declares it. The machine shows
-    /// `x = s a q + k c p + z` for its joint `q` and the coupled joint `p`, the file says
-    /// `a q + c p + z`: that is `s (x - z) + z + (1 - s k) c p`.
+    /// Returns the coordinates of the controller if the machine were as the file declares it. The machine shows
+    /// `x = s a q + k c p + z` for its joint `q` and the coupled joint `p`; the file declares `a q + c p + z`, which is
+    /// `s (x - z) + z + (1 - s k) c p`.
     pub(crate) fn applied(&self, joints: &[f64], axes: &[Axis]) -> Vec<f64> {
         let mut out = joints.to_vec();
         for &i in &self.reversed {

@@ -17,18 +17,18 @@ pub struct MeasuredPose {
 /// A difference of two poses, m and rad.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Difference {
-    /// Of the positions, m.
+    /// Distance of the positions, m.
     pub distance: f64,
-    /// Of the orientations, rad; none where no orientation was measured.
+    /// Angle between the orientations, rad; `None` where no orientation was measured.
     pub angle: Option<f64>,
 }
 
-/// What counts as the same place, m and rad.
+/// Tolerance for equal poses, m and rad.
 #[derive(Clone, Copy, Debug)]
 pub struct Tolerance {
-    /// Of the positions, m.
+    /// Largest distance of the positions, m.
     pub distance: f64,
-    /// Of the orientations, rad.
+    /// Largest angle between the orientations, rad.
     pub angle: f64,
 }
 

@@ -43,12 +43,12 @@ pub fn remaining_differences(
 /// Rows that screen an explanation before all are computed.
 const SCREEN: usize = 8;
 
-/// How many explanations are tried.
+/// Number of explanations that are tried.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Effort {
     /// Thousands: the machine is a plain product of joints, whose pose takes a microsecond.
     Thousands,
-    /// Those that change little: the machine has loops, which are closed for every pose.
+    /// Small changes only: the machine has loops, which are closed for every pose.
     Few,
 }
 

@@ -10,28 +10,28 @@ use rayon::prelude::*;
 use crate::reach::by_commands::{CommandReach, reach_by_commands};
 use crate::reach::error::ReachError;
 
-/// How far the tool gets from home by inverse kinematics, within the limits of the actuators.
+/// Reach of the tool from home by inverse kinematics, within the limits of the actuators.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ReachAlongAxes {
     /// The tool turns on these paths as the machine turns it, kept as near to its orientation at home as can
     /// be; if not, it does not turn.
     pub orientation_follows: bool,
-    /// How far it gets from home along -x, +x, -y, +y, -z, +z of the base, mm.
+    /// Reach from home along -x, +x, -y, +y, -z, +z of the base, mm.
     pub along_axes_mm: [[f64; 2]; 3],
-    /// What ends these paths.
+    /// Reasons why these paths end.
     pub ends: [[ReachEnd; 2]; 3],
     /// Two corners of a box around home of which corners, edges and faces were reached, mm, base axes; none
     /// if even a small one has gaps.
     pub box_mm: Option<[[f64; 3]; 2]>,
-    /// Of a machine that moves only while its tool turns: where its commands lead, whatever the orientation.
+    /// Reach over all commands with free orientation, of a machine that moves only while its tool turns.
     pub by_commands: Option<CommandReach>,
 }
 
-/// What ends a path of the tool.
+/// Reason why a path of the tool ends.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum ReachEnd {
-    /// Nothing within ten times the machine.
+    /// No end within ten times the machine.
     NotFollowedFarther,
     /// The limbs cannot follow.
     #[default]
@@ -115,7 +115,7 @@ fn at(
     }
 }
 
-/// How far (m) along a direction, and what ends it.
+/// Follows a direction; returns the reach (m) and the reason of its end.
 fn march(home: &Posture, follows: bool, direction: &Vector3<f64>, length: f64) -> (f64, ReachEnd) {
     let origin = *home.target();
     let mut last = home.clone();
@@ -171,7 +171,7 @@ fn filled_box(home: &Posture, follows: bool, along: &[[f64; 2]; 3]) -> Option<[[
                 shifts.push(shift);
             }
         }
-        // In steps, so that every limb stays in its own way of assembly.
+        // Goes in steps, so that every limb keeps its assembly mode.
         shifts.par_iter().all(|shift| {
             let mut last = home.clone();
             [0.35, 0.7, 1.0].into_iter().all(|share| {

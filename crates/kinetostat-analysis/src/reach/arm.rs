@@ -9,13 +9,13 @@ use nalgebra::{Translation3, Unit, UnitQuaternion, Vector3};
 
 use crate::reach::error::ReachError;
 
-/// How far an arm gets: the largest distances that a search over the ranges of its joints found. A joint that
-/// turns without limits makes one turn.
+/// Reach of an arm: the largest distances found by a search over the ranges of its joints. A joint without limits makes
+/// one turn.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ArmReach {
     /// Farthest that the tool's reference point gets from the base's origin, m.
     pub from_base: f64,
-    /// Of an arm whose first actuator turns: farthest it gets from that axis, m.
+    /// Farthest distance from the first axis, if the first actuator turns, m.
     pub from_first_axis: Option<f64>,
     /// Starts of the search.
     pub starts: usize,
@@ -146,8 +146,8 @@ fn product(m: &Mechanism, limb: &Limb, commands: &[f64], coordinates: &[f64], wh
 /// Starts of the search.
 const STARTS: usize = 16;
 
-/// Most elements that one search visits: an arm of six joints needs far less, a chain of ninety
-/// is not searched from all starts.
+/// Maximum number of elements that one search visits: an arm of six joints needs far fewer, a chain of ninety is not
+/// searched from all starts.
 const MOST_STEPS: usize = 25_000_000;
 
 /// Largest value over the joints' ranges: one joint after the other, from evenly spread starts; and
@@ -209,7 +209,7 @@ fn farthest(limb: &Limb, joints: &[Joint], value: &dyn Fn(&[f64], &[f64]) -> f64
 /// Values that one joint's turn takes, about.
 const VALUES: usize = 98;
 
-/// Where a smooth function is largest in a range: samples, then thirds around the best of them.
+/// Maximises a smooth function over a range: samples, then a ternary search around the best one.
 fn largest_in_range((low, high): (f64, f64), here: f64, f: &mut dyn FnMut(f64) -> f64) -> f64 {
     const SAMPLES: usize = 12;
     let step = (high - low) / SAMPLES as f64;

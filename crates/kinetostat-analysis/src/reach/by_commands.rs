@@ -1,12 +1,12 @@
-//! Where the tool of a machine with loops gets while it turns as it must: a search over the commands
-//! of the actuators, by forward kinematics.
+//! Reach of a machine with loops while its tool turns as it must: a search over the commands of the actuators by
+//! forward kinematics.
 
 use kinetostat::{Mechanism, MotionKind, PostureRequest};
 use nalgebra::Vector3;
 
 use crate::reach::error::ReachError;
 
-/// What the search found, m.
+/// Result of the search, m.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CommandReach {
     /// Farthest that the tool's origin gets from the base's origin.
@@ -15,7 +15,7 @@ pub struct CommandReach {
     pub span: [Vector3<f64>; 2],
 }
 
-/// Most postures that are solved.
+/// Maximum number of postures that are solved.
 const MOST: usize = 400;
 
 /// The commands are spread over their ranges first, then the best of them are pushed on, one
@@ -37,7 +37,7 @@ pub fn reach_by_commands(m: &Mechanism) -> Result<CommandReach, ReachError> {
     let Some(start) = tool(&home) else {
         return Err(ReachError::OpenLoops);
     };
-    // What is to be large: the distance, and both ways along each axis.
+    // Objectives: the distance, and both ways along each axis.
     let value = |goal: usize, p: &Vector3<f64>| match goal {
         0 => p.norm(),
         k if k % 2 == 1 => p[(k - 1) / 2],

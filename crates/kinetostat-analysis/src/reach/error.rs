@@ -1,6 +1,6 @@
-//! Why there is no reach.
+//! Errors of the reach.
 
-/// Why there is no reach.
+/// Reason why there is no reach.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ReachError {
@@ -13,19 +13,19 @@ pub enum ReachError {
     /// An actuator slides without limits.
     #[error("not bounded: the actuator '{actuator}' slides without limits")]
     UnlimitedActuator {
-        /// Its name.
+        /// Name of the actuator.
         actuator: String,
     },
     /// A passive joint slides without limits.
     #[error("not bounded: the passive joint '{joint}' slides without limits")]
     UnlimitedPassiveJoint {
-        /// Its name.
+        /// Name of the joint.
         joint: String,
     },
     /// The machine is outside its limits where the search would begin.
     #[error("not searched: at home the actuator '{actuator}' is outside its limits")]
     HomeOutsideLimits {
-        /// Its name.
+        /// Name of the actuator.
         actuator: String,
     },
     /// No actuator has limits, and the tool goes on and on.

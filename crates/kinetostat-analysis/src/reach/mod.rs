@@ -1,8 +1,7 @@
-//! How far the tool gets: an arm's reach by search over its joints, a parallel machine's by inverse
-//! kinematics around home.
+//! Reach of the tool: of an arm by search over its joints, of a parallel machine by inverse kinematics around home.
 //!
-//! It takes the posture at home and gives lengths in mm, base axes. Collisions are not looked at, nor are
-//! limits of passive joints where the machine has loops.
+//! The posture at home is given; lengths are in mm, base axes. Collisions are ignored, and so are limits of passive
+//! joints where the machine has loops.
 
 mod along_axes;
 mod arm;
@@ -19,7 +18,7 @@ pub use error::ReachError;
 /// Machines of more limbs take too long.
 const MOST_LIMBS: usize = 24;
 
-/// How far the tool gets.
+/// Reach of the tool.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Reach {
     /// A machine of one limb between base and tool.

@@ -4,7 +4,7 @@ use kinetostat_model::{Parameter, ParameterKind};
 
 /// Shares of the largest step.
 pub(crate) const STEPS: [f64; 3] = [1.0, 0.5, 0.25];
-/// Of central differences with these steps in the derivative of sixth order.
+/// Weights of central differences with these steps in the derivative of sixth order.
 pub(crate) const WEIGHTS: [f64; 3] = [1.0 / 45.0, -20.0 / 45.0, 64.0 / 45.0];
 
 /// A step that is small beside what the number does, in its unit.

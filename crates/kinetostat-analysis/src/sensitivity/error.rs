@@ -1,9 +1,9 @@
-//! Why there are no derivatives at all.
+//! Errors of the sensitivity analysis.
 
 use kinetostat::Error;
 use kinetostat_model::ModelError;
 
-/// Why there are no derivatives at all.
+/// Reason why there are no derivatives at all.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum SensitivityError {

@@ -1,11 +1,12 @@
-//! What every number of a model file changes: derivatives of deflection, compliance, stiffness and margin.
+//! Sensitivity to every number of a model file: derivatives of deflection, compliance, stiffness and margin.
 //!
-//! By the implicit function theorem at the equilibrium `R(z, p) = 0`: the state moves by `dz/dp = -A^-1 dR/dp`, with the machine's
-//! own tangent `A`, factorised once for all parameters; nothing is solved anew, and no iteration is differentiated. What is explicit - the
-//! residual at a fixed state, stiffness and margin at the state that goes along - is differentiated by central differences of three
-//! steps, extrapolated (sixth order), whose disagreement is given as the error. Commands follow the parameter: the tool
-//! is commanded for the same place, as a controller that knows the machine does. The margin is that of the limb that is nearest to
-//! buckling, also where another one overtakes it within a step; figures that are the largest of equal ones are told ([`Sharp`]).
+//! By the implicit function theorem at the equilibrium `R(z, p) = 0`, the state moves by `dz/dp = -A^-1 dR/dp`, with
+//! the machine's own tangent `A`, factorised once for all parameters; no equilibrium is solved again, and no iteration
+//! is differentiated. The explicit derivatives - of the residual at a fixed state, of stiffness and margin along the
+//! moving state - are central differences of three steps, extrapolated (sixth order); their disagreement is given as
+//! the error. Commands follow the parameter: the tool is commanded to the same place, as a controller that knows the
+//! machine does. The margin is that of the limb nearest to buckling, also where another one overtakes it within a step;
+//! figures that are the largest of equal ones are marked ([`Sharp`]).
 
 mod differences;
 mod error;
@@ -27,14 +28,14 @@ pub use self::sharp::Sharp;
 use self::sharp::Sides;
 pub use self::values::Values;
 
-/// What is differentiated.
+/// Definition of a sensitivity analysis.
 #[derive(Clone, Debug)]
 pub struct SensitivityTask<'a> {
     /// The model whose numbers are changed.
     pub model: &'a Model,
     /// Flange from tool.
     pub tool: Pose,
-    /// Where the tool is commanded.
+    /// Commanded place of the tool.
     pub place: CommandedPlace,
     /// Load on the tool, about its origin, base axes.
     pub wrench: Wrench,
@@ -49,7 +50,7 @@ pub struct Sensitivity {
     pub parameter: Parameter,
     /// Derivatives, none where there are none.
     pub derivatives: Result<Values, String>,
-    /// How far the extrapolated differences of what is explicit disagree, of the same quantities.
+    /// Disagreement of the extrapolated differences of the explicit terms, in the same quantities.
     pub errors: Option<Values>,
     /// Figures that have no derivative by this number: theirs above is the mean of those to both sides.
     pub sharp: Sharp,
@@ -77,9 +78,9 @@ impl Sensitivity {
 /// The answer.
 #[derive(Clone, Debug)]
 pub struct Sensitivities {
-    /// At the equilibrium.
+    /// Values at the equilibrium.
     pub values: Values,
-    /// Of every number, in the order of the file.
+    /// Sensitivities to every number, in the order of the file.
     pub list: Vec<Sensitivity>,
 }
 
@@ -198,7 +199,7 @@ impl Tangent<'_> {
         let residual = MachineResidual::combined(&parts).ok_or("no residual")?;
         let motion = self.tangent.removing(&residual);
         let motion = motion.ok_or("the tangent of the machine is singular here")?;
-        // Along the tangent of the path of equilibria.
+        // Steps along the tangent of the path of equilibria.
         let at_step = |k: usize| -> Result<Sides, String> {
             let one = |posture: &Posture, h: f64| {
                 let state = self.state.moved_by(&motion, h);

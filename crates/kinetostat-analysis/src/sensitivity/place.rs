@@ -1,4 +1,4 @@
-//! Where the tool is commanded while the machine changes.
+//! Commanded place of the tool while the machine changes.
 
 use kinetostat::{Mechanism, Pose, Posture, PostureRequest, Result};
 use nalgebra::{UnitQuaternion, Vector3};

@@ -6,7 +6,7 @@
 
 use crate::sensitivity::values::Values;
 
-/// Which figures have no derivative by a number, only one to each side.
+/// Figures without a derivative by a number: both one-sided derivatives differ.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Sharp {
     /// Two limbs, or two shapes of a limb, are equally near to buckling.
@@ -22,26 +22,27 @@ pub(crate) struct Sides {
     pub minus: Values,
 }
 
-/// Least difference of the slopes over a step beside the figure: above what rounding leaves.
+/// Threshold of the difference of the slopes over a step relative to the figure: above rounding.
 const OF_FIGURE: f64 = 1e-7;
-/// Least difference of the slopes beside the derivative.
+/// Threshold of the difference of the slopes relative to the derivative.
 const OF_DERIVATIVE: f64 = 1e-5;
 
 impl Sharp {
-    /// Whether any of them is without a derivative.
+    /// True if any of them has no derivative.
     #[must_use]
     pub fn any(&self) -> bool {
         self.share_to_buckling || self.stiffness_against_force
     }
 
-    /// Of the figures now and at steps `h`, `h / 2` and `h / 4`, with the derivatives by central differences.
+    /// Detects kinks from the figures now and at steps `h`, `h / 2` and `h / 4`, with the derivatives by central
+    /// differences.
     pub(crate) fn of(now: &Values, sides: &[Sides; 3], derivatives: &Values) -> Self {
         let is_sharp = |of: fn(&Values) -> f64| {
             let middle = of(now);
             let [a, b, c] = sides
                 .each_ref()
                 .map(|s| (of(&s.plus) + of(&s.minus) - 2.0 * middle) / s.step);
-            // Without the terms of first and third order in the step, which smooth figures have.
+            // Removes the terms of first and third order in the step, which smooth figures have.
             let slopes = ((a - 10.0 * b + 16.0 * c) / 7.0).abs();
             slopes * sides[0].step > OF_FIGURE * middle.abs()
                 && slopes > OF_DERIVATIVE * of(derivatives).abs()

@@ -1,31 +1,31 @@
-//! What is differentiated.
+//! Figures that are differentiated.
 
 use kinetostat::number::larger;
 use kinetostat::{MechanismEquilibrium, Wrench};
 
-/// What is differentiated is known to so much of itself.
+/// Relative rounding error of the differentiated figures.
 const RELATIVE_ROUNDING: f64 = 1e-9;
 
 /// Figures of an equilibrium, or their derivatives by a number, or their errors.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Values {
-    /// From the commanded to the loaded pose of the tool: m and rad, base axes.
+    /// Motion from the commanded to the loaded pose of the tool: m and rad, base axes.
     pub displacement: [f64; 6],
-    /// Its component in the direction, m or rad.
+    /// Component of the displacement in the direction, m or rad.
     pub deflection: f64,
     /// Tangent compliance in the direction, m/N or rad/(N m).
     pub compliance: f64,
-    /// Its inverse, N/m or N m/rad.
+    /// Inverse of the compliance in the direction, N/m or N m/rad.
     pub stiffness: f64,
-    /// Against a force in the softest direction, the tool free to turn, N/m.
+    /// Stiffness against a force in the softest direction, the tool free to turn, N/m.
     pub stiffness_against_force: f64,
     /// Largest share of the way to buckling of all limbs, 1 is buckling; none where nothing is on it.
     pub share_to_buckling: Option<f64>,
 }
 
 impl Values {
-    /// At an equilibrium; `direction` is a unit force or moment.
+    /// Takes the values of an equilibrium; `direction` is a unit force or moment.
     #[must_use]
     pub fn of(found: &MechanismEquilibrium, direction: &Wrench) -> Self {
         let compliance = direction.0.dot(&(found.compliance().springs * direction.0));
@@ -39,7 +39,7 @@ impl Values {
         }
     }
 
-    /// The same with the share of the way to buckling of one limb alone, if one is named.
+    /// Figures with the load factor of one limb alone, if one is named.
     pub(crate) fn of_limb(
         found: &MechanismEquilibrium,
         direction: &Wrench,
@@ -52,7 +52,7 @@ impl Values {
         values
     }
 
-    /// Whether these derivatives by a number of this size are below rounding of all figures.
+    /// True if these derivatives by a number of this size are below rounding of all figures.
     #[must_use]
     pub fn is_nothing(&self, size: f64, figures: &Self) -> bool {
         let below = |derivative: f64, figure: f64| {
@@ -71,7 +71,7 @@ impl Values {
             && margin.is_none_or(|(derivative, share)| below(derivative, share))
     }
 
-    /// Both, figure by figure.
+    /// Combines both, figure by figure.
     #[must_use]
     pub fn combined(&self, other: &Self, with: impl Fn(f64, f64) -> f64) -> Self {
         let pair = self.share_to_buckling.zip(other.share_to_buckling);

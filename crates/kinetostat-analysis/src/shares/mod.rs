@@ -1,4 +1,4 @@
-//! Which link, drive, joint, and which load, gives how much of the deflection in a direction.
+//! Shares of each link, drive, joint and load in the deflection along a direction.
 //!
 //! A small load `f` along the direction moves the tool by `u = C f`. By virtual work its compliance along itself is
 //!
@@ -6,9 +6,9 @@
 //! f . C f = sum over springs x_b^T K_b x_b + what loads add (geometric stiffness)        [R 4.15-4.16, 5.28 corrected]
 //! ```
 //!
-//! with `x_b` the motion of a spring under `f`. The sum is exact, for serial and parallel machines, with passive joints (they store
-//! nothing) and under load, where it is the *tangent* compliance that is divided: what a further small load meets. Under load the
-//! second part is not zero; it stands beside the elastic shares under its own names, and may be negative.
+//! with `x_b` the motion of a spring under `f`. The sum is exact, for serial and parallel machines, with passive joints
+//! (they store nothing) and under load, where the *tangent* compliance is divided, that for a further small load. Under
+//! load the second part is not zero; it is listed beside the elastic shares under its own names, and may be negative.
 
 pub mod stiffening;
 
@@ -18,7 +18,7 @@ use kinetostat::machine::{LinearisedMachine, MachineMotion, WorkOf};
 use kinetostat::{Mechanism, MechanismEquilibrium, Posture, Wrench};
 use serde::Serialize;
 
-/// What a part of a machine is.
+/// Kind of a part of a machine.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "snake_case")]
 #[non_exhaustive]
@@ -38,13 +38,13 @@ pub enum PartKind {
 }
 
 impl PartKind {
-    /// Whether it stores the deflection: it is no share of a load that turns.
+    /// True if the part is elastic and no load.
     #[must_use]
     pub fn is_elastic(self) -> bool {
         matches!(self, Self::Link | Self::Drive | Self::Spring)
     }
 
-    /// In a word or two.
+    /// Name in a word or two.
     #[must_use]
     pub fn word(self) -> &'static str {
         match self {
@@ -58,18 +58,18 @@ impl PartKind {
     }
 }
 
-/// What one part gives.
+/// Share of one part.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Part {
     /// Name of the limb; none for what acts on platforms.
     pub limb: Option<String>,
     /// Name of the element as in the model file.
     pub name: String,
-    /// What it is.
+    /// Kind of the part.
     pub kind: PartKind,
-    /// Its part of the compliance along the direction, m/N for a force, rad/(N m) for a moment.
+    /// Part's contribution to the compliance along the direction, m/N for a force, rad/(N m) for a moment.
     pub compliance: f64,
-    /// That by the whole; all shares add to 1.
+    /// Contribution relative to the whole; all shares add to 1.
     pub share: f64,
     /// Springs of the limb that it consists of: limb, indices among its springs.
     pub springs: Vec<(usize, usize)>,
@@ -89,11 +89,11 @@ pub struct Shares {
     pub passive_joints: Vec<(String, String)>,
 }
 
-/// Why there are no shares.
+/// Reason why there are no shares.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum SharesError {
-    /// No length.
+    /// The direction has no length.
     #[error("the direction has no length")]
     NoDirection,
     /// Nothing holds the tool along it.
@@ -108,7 +108,8 @@ pub enum SharesError {
 }
 
 impl Shares {
-    /// Of the unloaded machine as drawn: without weights, loads of the model, preloads and deviations.
+    /// Computes the shares of the unloaded machine as drawn: without weights, loads of the model, preloads and
+    /// deviations.
     ///
     /// `direction` is a force or a moment on the tool about its origin, base axes; only its direction counts.
     ///
@@ -133,10 +134,11 @@ impl Shares {
         Self::of(&drawn, &mut drawn.linearised_at_rest(), direction, held)
     }
 
-    /// Of the tangent at an equilibrium: what a further small load along `direction` meets.
+    /// Computes the shares of the tangent compliance at an equilibrium, that for a further small load along
+    /// `direction`.
     ///
     /// # Errors
-    /// As [`Self::unloaded`].
+    /// [`SharesError`], as for [`Self::unloaded`].
     pub fn at(
         posture: &Posture,
         equilibrium: &MechanismEquilibrium,
@@ -244,7 +246,7 @@ fn parts(m: &Mechanism, tangent: &LinearisedMachine<'_>, motion: &MachineMotion)
     for part in &mut parts {
         part.share = part.compliance / sum;
     }
-    // What turns without a load, or no load at all, is no part.
+    // Passive joints, and loads without effect, are not listed.
     parts.retain(|p| p.kind.is_elastic() || p.compliance != 0.0);
     parts
 }

@@ -17,7 +17,7 @@ use super::{Part, Shares, SharesError};
 pub struct Stiffened {
     /// The part as it was.
     pub part: Part,
-    /// How many times as stiff.
+    /// Factor of the stiffness.
     pub factor: f64,
 }
 
@@ -116,7 +116,7 @@ pub fn stiffen(
             .map(|p| p.compliance)
             .collect();
         let met = (after.compliance / wanted - 1.0).abs() < 1e-9;
-        // What each would give at its old stiffness, for the way that the load takes now.
+        // Contribution of each part at its old stiffness, along the present path of the load.
         for ((c, own), k) in effective.iter_mut().zip(now).zip(&found) {
             *c = own * k;
         }
@@ -146,5 +146,5 @@ pub fn stiffen(
     }))
 }
 
-/// Most corrections by the shares of the stiffened machine.
+/// Maximum number of corrections by the shares of the stiffened machine.
 const ROUNDS: usize = 60;

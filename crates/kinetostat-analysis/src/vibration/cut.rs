@@ -11,29 +11,29 @@ use crate::vibration::machine::VibratingMachine;
 /// A machine, how it is damped, and what its tool cuts.
 #[derive(Clone, Debug)]
 pub struct MachineCut<'m> {
-    /// At the place of the cut, the tool free.
+    /// Machine at the place of the cut, the tool free.
     pub machine: &'m VibratingMachine,
-    /// How it is damped.
+    /// Law of damping of the machine.
     pub damping: &'m Damping,
     /// Feed and tool axis.
     pub frame: FeedFrame,
-    /// What is cut.
+    /// Geometry and conditions of the cut.
     pub cut: MillingCut,
-    /// Which of its modes swing; the others count by their flexibility at rest.
+    /// Selection of the modes kept dynamic; the others enter as residual flexibility.
     pub swinging: Swinging,
 }
 
-/// Why a machine has no lobes.
+/// Reason why a machine has no stability lobes.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum MachineCutError {
     /// The equilibrium is unstable or free: there is no vibration about it, and nothing that chatters.
     #[error("{0}")]
     NoVibration(String),
-    /// From the machine: damping, loads without a potential.
+    /// Error of the machine: damping, loads without a potential.
     #[error(transparent)]
     Machine(#[from] Error),
-    /// From the cut: no damping, a tool that does not give way, numbers that are none.
+    /// Error of the cut: no damping, a tool that does not give way, numbers that are not finite.
     #[error(transparent)]
     Cut(#[from] ChatterError),
 }
@@ -82,7 +82,7 @@ impl MachineCut<'_> {
             _ => false,
         };
         let (mut modes, mut odd) = (Vec::with_capacity(own_hz.len()), Vec::new());
-        // Where each mode stands in the data.
+        // Index of each mode in the data.
         let mut places = Vec::with_capacity(own_hz.len());
         let each = data.shapes.iter().zip(&data.squared).zip(&data.ratios);
         for (place, (((shape, squared), ratio), hz)) in each.zip(own_hz).enumerate() {
@@ -98,7 +98,7 @@ impl MachineCut<'_> {
                 other => odd.push((place, (shape, *squared, *hz, other))),
             }
         }
-        // At rest, in the measure of the peaks of those that swing.
+        // Compliance at rest, in the measure of the peaks of the dynamic modes.
         let across = |shape: &Vector3<f64>| {
             let turned = self.frame.rotation().transpose() * shape;
             turned.xy().norm() * shape.norm()

@@ -10,16 +10,17 @@ use kinetostat_dynamics::{
 /// A machine that vibrates about the equilibrium under a load.
 #[derive(Clone, Debug)]
 pub struct VibratingMachine {
-    /// Where it stands.
+    /// Equilibrium about which the machine vibrates.
     pub equilibrium: MechanismEquilibrium,
     /// Mass, tangent and motions there.
     pub dynamics: LinearDynamics,
-    /// Its modes without damping.
+    /// Undamped modes of the machine.
     pub modes: Modes,
 }
 
 impl VibratingMachine {
-    /// At a posture under a wrench on the tool (N, N m, base axes), the tool held in some directions while it vibrates.
+    /// Vibrations at a posture under a wrench on the tool (N, N m, base axes), the tool held in some directions while
+    /// it vibrates.
     ///
     /// # Errors
     /// [`kinetostat_dynamics::Error`]: no equilibrium, no mass anywhere, an inertia that no body has.
@@ -57,8 +58,8 @@ impl VibratingMachine {
             .map(Some)
     }
 
-    /// Whether a small disturbance does not grow: by its modes, and where loads have no potential by the complex ones, as far
-    /// as these are judged ([`Verdict::NotJudged`]).
+    /// True if small disturbances do not grow: by the modes, and where loads have no potential by the complex modes, as
+    /// far as these are judged ([`Verdict::NotJudged`]).
     #[must_use]
     pub fn stable(&self, complex: Option<&ComplexModes>) -> bool {
         match complex.map(|found| &found.verdict) {
@@ -83,7 +84,7 @@ impl VibratingMachine {
             .map(|limb| format!("limb '{}'", limb.name))
             .chain(
                 platforms
-                    // What one limb carries may be part of its last body, as the flange of an arm is.
+                    // The mass on a single limb may be part of its last body, as the flange of an arm is.
                     .filter(|p| several && p.mass == 0.0)
                     .map(|p| format!("platform '{}'", p.name)),
             )
@@ -99,7 +100,7 @@ impl VibratingMachine {
         let limbs = posture.mechanism().limbs().len();
         let (of_limbs, of_platforms) = motions.split_at(limbs);
         for (own, motion) in state.coordinates.iter_mut().zip(of_limbs) {
-            // Behind a limb's own coordinates may stand those of the platform that it is on.
+            // Coordinates of the platform that carries the limb may follow its own.
             for (x, moves) in own.iter_mut().zip(motion.iter()) {
                 *x += step * moves;
             }

@@ -28,16 +28,16 @@ pub struct MeasuredModes {
     pub curves: Vec<String>,
     /// Names of the curves by other forces, which are not fitted: shapes are those of curves by the same force.
     pub others: Vec<String>,
-    /// Of each curve the axis of its motion, 0 to 2 for x, y, z of the base, and its sign.
+    /// Axis of the motion of each curve, 0 to 2 for x, y, z of the base, and its sign.
     directions: Vec<(usize, f64)>,
-    /// The same of the force, where it is known to act where the motion is.
+    /// Axis and sign of the force, if it is known to act at the place of the motion.
     reference: Option<(usize, f64)>,
 }
 
 /// The model's modes that the tool can show, as they are compared.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ShownModes {
-    /// Which modes of the machine they are.
+    /// Numbers of these modes among those of the machine.
     pub numbers: Vec<usize>,
     /// Their frequencies, damping and shapes along the measured directions.
     pub modes: Vec<ShapedMode>,
@@ -122,9 +122,9 @@ impl MeasuredModes {
         turned.then_some(self.curves[own].as_str())
     }
 
-    /// By which factor measured constants (products of mass-normalised shapes at motion and force) are those of the model, of
-    /// each pair; by least squares over the curves. 1 where mass and units are right; nothing where the force is not at
-    /// the place of the motions, or its direction is not known.
+    /// Factors from measured constants (products of mass-normalised shapes at motion and force) to those of the model,
+    /// one per pair, by least squares over the curves. A factor is 1 where mass and units are right, `None` where the
+    /// force does not act at the place of the motions or its direction is unknown.
     #[must_use]
     pub fn amplitudes(&self, shown: &ShownModes, pairs: &[ModePair]) -> Vec<Option<f64>> {
         let of = |pair: &ModePair| {
@@ -232,7 +232,7 @@ impl MeasuredModes {
                 lost("machine", "no answer of the model")
             })?;
             let shown = self.shown(&machine, ratios.as_deref());
-            // On its way a mode may be far off.
+            // A mode may be far off during the iteration.
             let pairs = pair_modes(&self.shaped(), &shown.modes)?;
             if pairs.len() < modes.len() {
                 return Err(lost("modes of the model", "fewer than were measured"));

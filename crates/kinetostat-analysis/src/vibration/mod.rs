@@ -1,4 +1,5 @@
-//! How a machine vibrates at a place under a load: equilibrium, modes, parts without mass, motion of all parts in a mode, and the cut that it makes.
+//! Vibration of a machine at a place under a load: equilibrium, modes, parts without mass, motion of all parts in a
+//! mode, and chatter stability of its cut.
 //!
 //! Sections of the theory of vibrations are cited as [D 3]. SI units.
 

@@ -6,11 +6,11 @@ use kinetostat_dynamics::{
 
 use crate::vibration::machine::VibratingMachine;
 
-/// How a machine's tool gives way to what acts on it, ready for any frequency.
+/// Receptance of a machine's tool, ready for any frequency.
 pub enum ToolReceptance<'m> {
-    /// By modes, each with its own damping, and the residual flexibility of those left out.
+    /// Modal superposition, each mode with its own damping, and the residual flexibility of the others.
     ByModes(Box<ModalResponse>),
-    /// By solving all coordinates at each frequency.
+    /// Direct solution of all coordinates at each frequency.
     Direct(Box<DirectResponse<'m>>, Point),
 }
 
@@ -39,12 +39,12 @@ impl VibratingMachine {
         })
     }
 
-    /// By how much the response of the tool's tip along axes by modes, with what viscous damping couples, is off at the frequencies
-    /// of the vibrations up to one, Hz: the largest share of the direct response. 0 where no damping couples modes. What dampers do
-    /// on parts without mass is not in the modes, nor what structural damping couples.
+    /// Error of the tip's translational response by modes, viscous coupling included, at the frequencies of the
+    /// vibrations up to one, Hz: the largest share of the direct response. 0 where no damper couples modes. Effects of
+    /// dampers on massless parts and the coupling by structural damping are not in the modes.
     ///
     /// # Errors
-    /// As [`Self::tool_receptance`].
+    /// See [`Self::tool_receptance`].
     pub fn lost_coupling(&self, damping: &Damping, up_to_hz: f64) -> Result<f64> {
         if !self.dynamics.modes_are_coupled_by(damping) || self.dynamics.is_circulatory() {
             return Ok(0.0);
@@ -74,7 +74,7 @@ impl ToolReceptance<'_> {
         }
     }
 
-    /// How it is solved, in a word.
+    /// Name of the method of solution.
     #[must_use]
     pub fn solution(&self) -> &'static str {
         match self {

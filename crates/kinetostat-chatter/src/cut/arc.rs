@@ -26,7 +26,7 @@ pub struct Arc {
 }
 
 impl Arc {
-    /// From entry to exit, rad.
+    /// Arc from entry to exit, rad.
     ///
     /// # Errors
     /// Angles that are not finite, an entry outside 0 to one turn, an exit that is not beyond the entry, or is so by more
@@ -88,13 +88,13 @@ impl Arc {
         }
     }
 
-    /// Where a tooth comes in, rad.
+    /// Entry angle of a tooth, rad.
     #[must_use]
     pub fn entry(&self) -> f64 {
         self.entry
     }
 
-    /// Where it leaves, rad; beyond the entry.
+    /// Exit angle, rad; beyond the entry.
     #[must_use]
     pub fn exit(&self) -> f64 {
         self.exit

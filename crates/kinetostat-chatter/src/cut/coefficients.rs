@@ -29,11 +29,11 @@ pub struct Coefficients {
 /// A law of force as a straight line near one thickness of chip.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Linearised {
-    /// Its slope.
+    /// Slope of the law.
     pub coefficients: Coefficients,
     /// Thickness at which the slope was taken, m.
     pub chip: f64,
-    /// Whether the law was measured at this thickness; `None` where its range is not known.
+    /// True if the law was measured at this thickness; `None` if its range is unknown.
     pub within_measured: Option<bool>,
 }
 
@@ -152,19 +152,19 @@ impl Coefficients {
         })
     }
 
-    /// Along the tooth's way, N/m^2.
+    /// Coefficient along the tooth's motion, N/m^2.
     #[must_use]
     pub fn tangential(&self) -> f64 {
         self.tangential
     }
 
-    /// Along the outward normal, N/m^2.
+    /// Coefficient along the outward normal, N/m^2.
     #[must_use]
     pub fn radial(&self) -> f64 {
         self.radial
     }
 
-    /// Along the tool axis, N/m^2; positive pushes the tool towards the spindle.
+    /// Coefficient along the tool axis, N/m^2; positive pushes the tool towards the spindle.
     #[must_use]
     pub fn axial(&self) -> f64 {
         self.axial

@@ -46,7 +46,7 @@ impl MillingCut {
         })
     }
 
-    /// The same with a helix angle, rad, on a tool of a diameter, m: the edge lags behind its tip by `tan(helix)/radius` for
+    /// Sets the helix angle, rad, on a tool of a diameter, m: the edge lags behind its tip by `tan(helix)/radius` for
     /// each metre of height. The lag is integrated in closed form, without slices.
     ///
     /// # Errors
@@ -140,7 +140,7 @@ impl MillingCut {
         breaks.windows(2).map(piece).collect()
     }
 
-    /// What is in the material when tooth 0 is at this turn.
+    /// Edges in the material when tooth 0 is at this turn.
     fn active(&self, turn: f64, lag: f64) -> Vec<Active> {
         let pitch = TAU / self.teeth as f64;
         let mut all = Vec::new();

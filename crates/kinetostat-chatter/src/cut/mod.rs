@@ -1,4 +1,4 @@
-//! What the cut does with a displacement of the tool: force per depth and displacement, tooth by tooth.
+//! Force of the cut per depth and displacement of the tool, tooth by tooth.
 //!
 //! Takes teeth, engagement, helix and coefficients; gives the directional matrix [D 8] over the turn of the spindle, smooth
 //! piece by piece. Straight or helical edges of a cylinder, even pitch, a force that is linear in the chip.

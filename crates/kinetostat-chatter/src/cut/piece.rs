@@ -8,9 +8,9 @@ use crate::cut::directional;
 /// An end of the stretch of one edge in the material, as an angle of its places.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum End {
-    /// At a border of the arc.
+    /// End at a border of the arc.
     Fixed(f64),
-    /// At the tip or at the top of the edge, which move as the spindle turns: turn plus this.
+    /// End at the tip or at the top of the edge, which move as the spindle turns: turn plus this.
     Moving(f64),
 }
 
@@ -23,7 +23,7 @@ impl End {
     }
 }
 
-/// What is in the material on a piece.
+/// Edge in the material on a piece.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Active {
     /// A straight edge at turn plus this angle.
@@ -37,7 +37,7 @@ pub(crate) enum Active {
         /// One over the lag from tip to top, positive.
         per_lag: f64,
     },
-    /// The same matrix at all times, N/m^2.
+    /// Constant matrix, N/m^2.
     Constant(Matrix3<f64>),
 }
 
@@ -46,9 +46,9 @@ pub(crate) enum Active {
 pub(crate) struct Piece {
     /// Turn at which it begins, rad.
     pub(crate) start: f64,
-    /// Its length, rad.
+    /// Length, rad.
     pub(crate) length: f64,
-    /// What is in the material; nothing in air.
+    /// Edges in the material; empty in air.
     pub(crate) active: Vec<Active>,
 }
 

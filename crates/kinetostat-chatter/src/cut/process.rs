@@ -88,7 +88,7 @@ impl Cut {
         self.pieces(0.0).into_iter().map(length).fold(0.0, larger)
     }
 
-    /// Whether the pieces change with the depth.
+    /// True if the pieces depend on the depth.
     pub(crate) fn pieces_depend_on_depth(&self) -> bool {
         match self {
             Self::Milling(cut) => cut.lag_per_depth() != 0.0,

@@ -16,7 +16,7 @@ pub struct PeriodicForce {
     harmonics: Vec<Vector3<Complex<f64>>>,
 }
 
-/// Most harmonics that are kept.
+/// Maximum number of harmonics that are kept.
 const MOST: usize = 4096;
 
 pub(crate) fn checked_harmonics(harmonics: usize) -> Result<usize> {
@@ -39,7 +39,7 @@ impl PeriodicForce {
         }
     }
 
-    /// From forces (N) at evenly spaced turns of one period, of which there are so many a revolution.
+    /// Expands forces (N) at evenly spaced turns of one period, of which there are so many a revolution.
     ///
     /// # Errors
     /// No period a revolution, fewer than two samples for each harmonic (they would be read as lower ones), forces that are

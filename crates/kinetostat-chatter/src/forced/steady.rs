@@ -70,7 +70,7 @@ impl Regeneration {
         })
     }
 
-    /// By how much each tooth stands out from the one before it, m.
+    /// Offset of each tooth relative to the one before it, m.
     fn steps(&self, feed: f64, stands_out: &[f64]) -> Result<Vec<f64>> {
         let kind = ChatterErrorKind::Cut;
         let teeth = match self.cut() {

@@ -1,4 +1,4 @@
-//! What a tool does under a periodic force.
+//! Vibration of a tool under a periodic force.
 
 use std::f64::consts::{PI, TAU};
 
@@ -13,7 +13,7 @@ use crate::response::ToolResponse;
 /// One harmonic of a vibration.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct VibrationHarmonic {
-    /// Its frequency, Hz; 0 is the mean.
+    /// Frequency, Hz; 0 is the mean.
     pub frequency_hz: f64,
     /// Amplitude of each component with its phase, m.
     pub displacement: Vector3<Complex<f64>>,

@@ -18,12 +18,12 @@ const UNITS: [(&str, Motion, f64); 8] = [
     ("_m_per_n", Motion::Displacement, 1.0),
 ];
 
-/// What names of columns say of the part of a complex number: short, and as `kinetostat frf --csv` writes it.
+/// Suffixes of columns for the parts of a complex number: short ones, and those of `kinetostat frf --csv`.
 const REAL: [&str; 2] = ["_re", "_real"];
 const IMAGINARY: [&str; 2] = ["_im", "_imaginary"];
 const MAGNITUDE: [&str; 2] = ["_mag", "_magnitude"];
 
-/// How two columns make a complex number.
+/// Representation of a complex number by two columns.
 #[derive(Clone, Copy, PartialEq)]
 enum Parts {
     Cartesian,
@@ -129,7 +129,7 @@ pub fn read_columns(text: &str) -> Result<Vec<MeasuredResponse>> {
     columns.into_iter().zip(values).map(whole).collect()
 }
 
-/// Whether a column is that of a turn, or of what a moment does.
+/// True for a column of a rotation, or of the response to a moment.
 fn is_turning(name: &str) -> bool {
     name.contains("_rad_per_") || name.ends_with("_per_n_m")
 }
@@ -203,7 +203,7 @@ fn columns(names: &[String], frequency: usize, head: usize) -> Result<Vec<Column
             continue;
         } else if let Some((stem, _)) = parted(MAGNITUDE) {
             let second = other(format!("{stem}_phase_deg"), name)?;
-            // The same numbers once more, as `frf --csv` writes them.
+            // Duplicate of other columns, as `frf --csv` writes them.
             if REAL
                 .iter()
                 .any(|real| names.contains(&format!("{stem}{real}{unit}")))

@@ -22,9 +22,9 @@ pub struct FittedMode {
     pub frequency_hz: f64,
     /// Share of critical damping.
     pub damping_ratio: f64,
-    /// Of each curve, the product of the mass-normalised shape at response and reference, 1/kg.
+    /// Constant of each curve: product of the mass-normalised shape at response and reference, 1/kg.
     pub constants: Vec<f64>,
-    /// Of each curve, the part of its constant that is out of phase, as a share of the largest constant: 0 for a mode whose
+    /// Part of each curve's constant that is out of phase, as a share of the largest constant: 0 for a mode whose
     /// places all move in phase.
     pub out_of_phase: Vec<f64>,
 }
@@ -45,9 +45,9 @@ impl FittedMode {
 pub struct Fit {
     /// The modes in the band, by frequency.
     pub modes: Vec<FittedMode>,
-    /// Of each curve, the static flexibility that is left for faster modes, m/N.
+    /// Residual flexibility of each curve for faster modes, m/N.
     pub residual: Vec<f64>,
-    /// Of each curve, what is left of it by the fit: root of the mean square, share of the curve's.
+    /// Misfit of each curve: root mean square of its residual, as a share of the curve's.
     pub misfit: Vec<f64>,
     /// Poles that were found but are none of a vibration in the band: frequencies, Hz.
     pub left_out_hz: Vec<f64>,

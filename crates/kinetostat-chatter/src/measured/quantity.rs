@@ -1,4 +1,4 @@
-//! What was measured, and in which unit.
+//! Measured motions and their units.
 
 use serde::{Deserialize, Serialize};
 
@@ -15,7 +15,7 @@ pub enum Motion {
 }
 
 impl Motion {
-    /// How often a displacement is differentiated for it.
+    /// Order of the time derivative of the displacement.
     pub(crate) fn order(self) -> i32 {
         match self {
             Self::Displacement => 0,

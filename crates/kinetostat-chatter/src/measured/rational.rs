@@ -123,7 +123,7 @@ pub(crate) fn poles(
             let product = real(&DMatrix::from_fn(n, order + 1, |i, k| {
                 weighted(k, i) * curves[(i, o)] / size
             }));
-            // What no numerator can follow.
+            // Component that no numerator can follow.
             let rest = &product - &q * (q.transpose() * &product);
             rows.view_mut((2 * n * o, 0), (2 * n, order + 1))
                 .copy_from(&rest);
@@ -153,7 +153,7 @@ pub(crate) fn poles(
             return found;
         }
         for weight in &mut weights {
-            // No frequency is forgotten.
+            // Every frequency keeps some weight.
             *weight = crate::number::larger(*weight / most, 1e-12);
         }
     }

@@ -12,7 +12,7 @@ use crate::response::ToolResponse;
 /// A measured frequency response by a force of 1 N, in SI units.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MeasuredResponse {
-    /// Where and along what it was measured, in the words of its file.
+    /// Place and direction of the measurement, in the words of its file.
     pub name: String,
     /// Number of the place that moves.
     pub response_node: i64,
@@ -22,13 +22,13 @@ pub struct MeasuredResponse {
     pub reference_node: i64,
     /// Direction of the force, as that of the motion.
     pub reference_direction: i32,
-    /// What was measured.
+    /// Measured motion.
     pub motion: Motion,
     /// Frequencies, Hz, rising.
     pub frequencies_hz: Vec<f64>,
     /// Motion by force at each: m, m/s or m/s^2 by N.
     pub values: Vec<Complex<f64>>,
-    /// Whether its units stand in its file; where not, SI units were taken for granted.
+    /// True if the file states its units; otherwise SI units are assumed.
     pub units_stated: bool,
 }
 
@@ -80,7 +80,7 @@ impl MeasuredResponse {
             .collect()
     }
 
-    /// Its numbers, if they can be worked with.
+    /// Returns the response if its numbers are valid.
     pub(crate) fn checked(self, line: usize) -> Result<Self> {
         let fault = |quantity: &str, found: String, expected: &str| {
             let kind = ChatterErrorKind::File;

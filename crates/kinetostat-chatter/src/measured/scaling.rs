@@ -12,7 +12,7 @@ use crate::number::larger;
 /// A positive parameter and its bounds.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Parameter {
-    /// Its name.
+    /// Name of the parameter.
     pub name: String,
     /// Value to begin with.
     pub start: f64,
@@ -30,14 +30,14 @@ pub struct Scaled {
     /// Standard deviation of each as a share of its value, from the stated deviations of what was measured, or from what is
     /// left where that is more than they explain; `None` where the measurement does not tell it, or where a bound holds it.
     pub deviations: Vec<Option<f64>>,
-    /// Whether a bound holds the parameter.
+    /// True for a parameter at a bound.
     pub at_bound: Vec<bool>,
     /// Singular values of the measured numbers (by their deviations) over the logarithms of the parameters, largest first.
     pub singular_values: Vec<f64>,
     /// Combinations of logarithms that the measurement does not tell: changes of the parameters that change nothing of it
     /// by one deviation while they change by a factor of e.
     pub untold: Vec<Vec<f64>>,
-    /// What is left, each by its deviation: the model less what was measured.
+    /// Residuals: model minus measurement, each divided by its deviation.
     pub left: Vec<f64>,
     /// Number of evaluations of the model.
     pub evaluations: usize,
@@ -168,7 +168,7 @@ fn slopes(
     Ok(DMatrix::from_columns(&columns))
 }
 
-/// What is told of the parameters.
+/// Statistics of the fitted parameters.
 fn judged(
     logs: &DVector<f64>,
     bounds: &[(f64, f64)],

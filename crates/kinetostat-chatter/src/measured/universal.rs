@@ -9,12 +9,12 @@ use crate::error::{ChatterError, ChatterErrorKind, Result};
 use crate::measured::quantity::{Motion, force_unit, frequency_unit, motion_unit, response_unit};
 use crate::measured::response::MeasuredResponse;
 
-/// What was read of a universal file.
+/// Contents of a universal file.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct UniversalFile {
-    /// Its frequency responses, in SI units.
+    /// Frequency responses, in SI units.
     pub responses: Vec<MeasuredResponse>,
-    /// What else stands in it, by line, in words: not read.
+    /// Other contents that were not read, by line, in words.
     pub left_out: Vec<String>,
 }
 
@@ -111,7 +111,7 @@ fn unit_factors(body: &[Line<'_>], at: usize) -> Result<[f64; 2]> {
     Ok([numbers[0], numbers[1]])
 }
 
-/// What a column of a line holds; nothing beyond its end or inside a letter.
+/// Text of a column of a line; empty beyond its end or inside a letter.
 fn column(text: &str, from: usize, to: usize) -> &str {
     let end = to.min(text.len());
     text.get(from.min(end)..end).unwrap_or("").trim()
@@ -217,7 +217,7 @@ fn function(
     response.checked(body[6].0).map(Ok)
 }
 
-/// What moves by the force, the size of its unit in SI, and whether the file states it.
+/// Motion per force, the size of its unit in SI, and true if the file states it.
 fn unit(body: &[Line<'_>], units: Option<[f64; 2]>) -> Result<(Motion, f64, bool)> {
     let (numerator, line, moved) = axis(body, 8)?;
     let (denominator, below, by) = axis(body, 9)?;

@@ -8,7 +8,7 @@ use crate::response::mode::Mode;
 
 /// Rates between two motions below this share of their own are rounding.
 const SAME: f64 = 1e-9;
-/// What a matrix may be off of what it should be, as a share.
+/// Tolerance of the tests of a matrix, as a share.
 const OFF: f64 = 1e-6;
 
 /// Directions without mass relax at most so many times as fast as the fastest mode swings, rad/s.
@@ -23,7 +23,7 @@ pub(crate) struct Coupling {
 }
 
 impl Coupling {
-    /// Of modes; `None` where nothing is coupled.
+    /// Couples modes; `None` where nothing is coupled.
     pub(crate) fn new(
         modes: &[Mode],
         rates: DMatrix<f64>,
@@ -65,7 +65,7 @@ impl Coupling {
                 "positive ones: what no damper holds is residual flexibility",
             ));
         }
-        // In units in which the diagonal is one.
+        // Scaled to units in which the diagonal is one.
         let unit = |i: usize, j: usize| match (i == j, size(i, j)) {
             (true, own) => f64::from(u8::from(own > 0.0)),
             (false, 0.0) => 0.0,
@@ -100,7 +100,7 @@ impl Coupling {
         &self.held
     }
 
-    /// The same in other axes.
+    /// Rotates the coupling into other axes.
     pub(crate) fn turned(&self, turned: &Matrix3<f64>) -> Self {
         Self {
             rates: self.rates.clone(),
@@ -108,7 +108,8 @@ impl Coupling {
         }
     }
 
-    /// Of some of the modes, with the directions that relax at most [`FASTEST`] times as fast as the fastest of these swings: others are springs.
+    /// Restricts the coupling to some of the modes, with the directions that relax at most [`FASTEST`] times as fast as
+    /// the fastest of these oscillates: others are springs.
     pub(crate) fn of(&self, (modes, kept): (&[Mode], &[usize])) -> Option<Self> {
         let fastest = modes.iter().map(Mode::angular_frequency).fold(0.0, larger);
         let before = self.rates.nrows() - self.held.len();
@@ -126,7 +127,8 @@ impl Coupling {
         })
     }
 
-    /// What modes and directions without mass give way by at an angular frequency; no numbers exactly at an undamped resonance.
+    /// Receptance of modes and massless directions at an angular frequency; not finite exactly at an undamped
+    /// resonance.
     pub(crate) fn receptance(&self, modes: &[Mode], w: f64) -> Matrix3<Complex64> {
         let n = self.rates.nrows();
         let own = |k: usize| {
@@ -148,7 +150,7 @@ impl Coupling {
         }
     }
 
-    /// How the cutting point moves in a mode or in a direction without mass.
+    /// Motion of the cutting point in a mode or in a massless direction.
     pub(crate) fn point(&self, modes: &[Mode], k: usize) -> Vector3<f64> {
         match modes.get(k) {
             Some(mode) => mode.shape(),

@@ -19,12 +19,12 @@ pub struct FeedFrame {
     rotation: Matrix3<f64>,
 }
 
-/// How far columns may be from right angles and unit length.
+/// Tolerance of the columns' right angles and unit lengths.
 const TOLERANCE: f64 = 1e-6;
 
 impl FeedFrame {
-    /// From the feed and the tool axis (from the tip towards the spindle), in base axes; what of the feed lies along the axis
-    /// does not count.
+    /// Frame from the feed and the tool axis (from the tip towards the spindle), in base axes; a component of the feed
+    /// along the axis is ignored.
     ///
     /// # Errors
     /// A direction that is not finite or has no length; a feed along the tool axis, which has no left side.

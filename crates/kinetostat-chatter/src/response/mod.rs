@@ -1,4 +1,4 @@
-//! How the tool gives way to a force: modes with damping, and the flexibility of what is left out.
+//! Response of the tool to a force: modes with damping, and the residual flexibility of the omitted ones.
 //!
 //! Takes modal data at the cutting point; gives receptances in any frame. Sources: `dynamics.md` sections 3, 7 and 8.
 

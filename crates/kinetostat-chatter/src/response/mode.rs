@@ -61,9 +61,9 @@ impl Mode {
         })
     }
 
-    /// As [`Self::new`], of a mode that dampers may hold beyond the critical damping, so that it creeps back and does not swing: by its
-    /// rate `2 zeta w`, 1/s. For a tool with [coupled damping](crate::ToolResponse::with_coupled_damping), whose complex modes
-    /// are its vibrations.
+    /// Creates a mode like [`Self::new`] that dampers may hold beyond critical damping, so that it decays without
+    /// oscillating: by its rate `2 zeta w`, 1/s. For a tool with [coupled
+    /// damping](crate::ToolResponse::with_coupled_damping), whose complex modes are its vibrations.
     ///
     /// ```
     /// use kinetostat_chatter::Mode;
@@ -74,7 +74,7 @@ impl Mode {
     /// ```
     ///
     /// # Errors
-    /// As [`Self::new`]; a rate that is negative or none.
+    /// Those of [`Self::new`]; a rate that is negative or not a number.
     pub fn with_rate(shape: Vector3<f64>, squared_frequency: f64, rate: f64) -> Result<Self> {
         above(
             ChatterErrorKind::Response,
@@ -189,7 +189,7 @@ impl Mode {
         across / (least * self.angular_frequency * self.angular_frequency)
     }
 
-    /// The same with another shape.
+    /// Returns the mode with another shape.
     pub(crate) fn with_shape(&self, shape: Vector3<f64>) -> Self {
         Self { shape, ..*self }
     }

@@ -10,17 +10,17 @@ use crate::response::coupling::Coupling;
 use crate::response::frame::FeedFrame;
 use crate::response::mode::Mode;
 
-/// How the cutting point gives way to a force there: some modes, and the flexibility of all that is left out.
+/// Response of the cutting point to a force there: some modes, and the residual flexibility of the omitted ones.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ToolResponse {
     modes: Vec<Mode>,
     residual: Matrix3<f64>,
-    /// Where damping couples modes.
+    /// Coupling of the modes by damping.
     coupling: Option<Coupling>,
 }
 
 impl ToolResponse {
-    /// From modes that are all there is.
+    /// Response by these modes alone.
     ///
     /// # Errors
     /// No mode.
@@ -40,7 +40,7 @@ impl ToolResponse {
         })
     }
 
-    /// The same with damping that couples the modes, as dampers at joints do, with each other and with what has no mass.
+    /// Adds damping that couples the modes, as dampers at joints do, with each other and with massless directions.
     ///
     /// `held` are directions without mass of unit stiffness that dampers hold, as translations of the cutting point, m per
     /// sqrt(N m), in the axes of the shapes; their flexibility `h h^T` is a part of the residual one. `rates` is the damping by modes in
@@ -72,7 +72,7 @@ impl ToolResponse {
         Ok(self)
     }
 
-    /// Where damping couples modes.
+    /// Coupling of the modes by damping.
     pub(crate) fn coupling(&self) -> Option<&Coupling> {
         self.coupling.as_ref()
     }
@@ -83,8 +83,8 @@ impl ToolResponse {
         held.fold(self.residual, |sum, h| sum - h * h.transpose())
     }
 
-    /// The same with the static flexibility of the modes that are left out, m/N, in the axes of the shapes:
-    /// `K_C^-1 - sum phi phi^T / w^2` (MacNeal 1971, Rubin 1975; `dynamics.md` section 8). It acts without inertia.
+    /// Adds the static flexibility of the omitted modes, m/N, in the axes of the shapes: `K_C^-1 - sum phi phi^T / w^2`
+    /// (MacNeal 1971, Rubin 1975; `dynamics.md` section 8). It acts without inertia.
     ///
     /// # Errors
     /// Entries that are not finite.
@@ -126,7 +126,7 @@ impl ToolResponse {
         self.at(TAU * frequency_hz)
     }
 
-    /// As [`Self::receptance`], at an angular frequency, rad/s.
+    /// Receptance as by [`Self::receptance`], at an angular frequency, rad/s.
     pub(crate) fn at(&self, angular_frequency: f64) -> Matrix3<Complex64> {
         if let Some(coupling) = &self.coupling {
             let of_all = coupling.receptance(&self.modes, angular_frequency);
@@ -140,7 +140,7 @@ impl ToolResponse {
         })
     }
 
-    /// The same response in the axes of the cut: `R^T G R`.
+    /// Transforms the response to the axes of the cut: `R^T G R`.
     ///
     /// ```
     /// use kinetostat_chatter::{FeedFrame, Mode, ToolResponse};
@@ -165,7 +165,7 @@ impl ToolResponse {
         }
     }
 
-    /// The same with the modes in the order of their frequencies, of which all but the lowest `count` (at least one) are springs.
+    /// Sorts the modes by frequency and turns all but the lowest `count` (at least one) into springs.
     pub(crate) fn with_lowest(&self, count: usize) -> Self {
         let mut order: Vec<usize> = (0..self.modes.len()).collect();
         let hz = |k: usize| self.modes[k].frequency_hz();
@@ -174,7 +174,7 @@ impl ToolResponse {
         self.of(&order, &rest)
     }
 
-    /// The same with some of its modes, in this order, and others as springs.
+    /// Keeps some of the modes, in this order, and turns others into springs.
     fn of(&self, kept: &[usize], springs: &[usize]) -> Self {
         let springs = springs.iter().map(|k| &self.modes[*k]);
         let modes: Vec<Mode> = kept.iter().map(|k| self.modes[*k]).collect();
@@ -186,7 +186,7 @@ impl ToolResponse {
         }
     }
 
-    /// The same with the modes above a frequency taken as springs: what they give statically joins the residual flexibility.
+    /// Turns the modes above a frequency into springs: their static flexibility joins the residual flexibility.
     ///
     /// # Errors
     /// No mode at or below the frequency.

@@ -19,7 +19,7 @@ pub(crate) struct Along<'a> {
     pub(crate) fineness: f64,
     /// The period, where it does not depend on the depth.
     period: Option<Period>,
-    /// Where the search for the largest multiplier began at the depth before.
+    /// Start vector of the search for the largest multiplier, from the previous depth.
     last: RefCell<Option<DVector<f64>>>,
 }
 

@@ -14,7 +14,7 @@ pub(crate) struct Chebyshev {
 }
 
 impl Chebyshev {
-    /// So many nodes, the beginning not counted.
+    /// Creates so many nodes, the beginning not counted.
     pub(crate) fn new(points: usize) -> Self {
         let n = points.max(1);
         let node = |i: usize| (0.5 * PI * i as f64 / n as f64).sin().powi(2);
@@ -63,7 +63,7 @@ impl Chebyshev {
     pub(crate) fn to(&self, others: &[f64]) -> DMatrix<f64> {
         let n = self.nodes.len();
         let weight = |i: usize| {
-            // Those of all nodes, times the distance from the beginning, which is none.
+            // Weights of all nodes, times the distance from the beginning, which is no node here.
             let sign = if i.is_multiple_of(2) { 1.0 } else { -1.0 };
             let end = if i + 1 == n { 0.5 } else { 1.0 };
             sign * end * self.nodes[i]

@@ -35,11 +35,11 @@ impl Regeneration {
         self.stability_beyond(None, speed_rpm, (up_to, Search::All))
     }
 
-    /// As [`Self::stability_at`] at the speed of `known`, which was found for this cut up to a smaller depth: where no limit was
-    /// found there and the same modes swing, only the depths beyond are looked at.
+    /// Continues [`Self::stability_at`] at the speed of `known`, a result for this cut up to a smaller depth: if it has
+    /// no limit and the same modes are dynamic, only the depths beyond are searched.
     ///
     /// # Errors
-    /// As [`Self::stability_at`].
+    /// See [`Self::stability_at`].
     pub fn stability_continued(
         &self,
         known: &SpeedStability,
@@ -48,11 +48,11 @@ impl Regeneration {
         self.stability_beyond(Some(known), known.speed_rpm, (up_to, Search::All))
     }
 
-    /// As [`Self::stability_at`] or, with what is known of smaller depths, [`Self::stability_continued`], up to the limit:
-    /// depths above it are not looked at.
+    /// Finds the limit like [`Self::stability_at`] or, with a result for smaller depths, [`Self::stability_continued`]:
+    /// depths above the limit are not searched.
     ///
     /// # Errors
-    /// As [`Self::stability_at`].
+    /// See [`Self::stability_at`].
     pub fn first_limit(
         &self,
         known: Option<&SpeedStability>,
@@ -103,7 +103,8 @@ impl Regeneration {
         }
     }
 
-    /// With the modes that count; more of them swing where they could chatter by themselves below the limit that is found.
+    /// Stability with the contributing modes; more of them are dynamic if they could chatter by themselves below the
+    /// limit that is found.
     fn stability_of(
         &self,
         selected: &Selected,

@@ -13,11 +13,12 @@ use crate::stability::legendre::Answer;
 use crate::stability::resolution::points;
 use crate::stability::states::State;
 
-/// At a node, of each difference: the force on the tool by depth and difference, N/m^2, and the direction of the displacement.
+/// Vectors at a node, for each difference: the force on the tool by depth and difference, N/m^2, and the direction of
+/// the displacement.
 type Factors = Vec<(Vector3<f64>, Vector3<f64>)>;
 
-/// What a stretch in the cut does: displacements along the chip at its nodes are `state u_0 + force (a d)`, where `d` is
-/// their difference from one period before.
+/// Response of a stretch in the cut: displacements along the chip at its nodes are `state u_0 + force (a d)`, where `d`
+/// is their difference from one period before.
 #[derive(Clone, Debug)]
 pub(crate) struct Cutting {
     /// Displacements by the state at the beginning (real and imaginary parts in turn).
@@ -28,7 +29,7 @@ pub(crate) struct Cutting {
     pub(crate) end: DMatrix<f64>,
     /// Times of the nodes from the beginning of the period, s.
     pub(crate) times: Vec<f64>,
-    /// At each node.
+    /// Factors at each node.
     pub(crate) factors: Vec<Factors>,
     /// Weights of an integral over the stretch, s.
     pub(crate) weights: DVector<f64>,
@@ -97,10 +98,10 @@ fn free(
     free
 }
 
-/// What forces at the nodes make of the states.
+/// States as functions of the forces at the nodes.
 ///
-/// Modes add up as coefficients of polynomials, one matrix for each direction of the force and each of the displacement:
-/// what goes from nodes to coefficients and back is done once for all modes.
+/// Modes add up as coefficients of polynomials, one matrix for each direction of the force and each of the
+/// displacement: the transformations between nodes and coefficients are done once for all modes.
 struct Through {
     /// Displacement along an axis (row) at the nodes by a force along an axis (column) at the nodes, m/N.
     axes: [[Option<DMatrix<f64>>; 3]; 3],
@@ -124,7 +125,7 @@ impl Through {
         let mut axes: [[Option<DMatrix<f64>>; 3]; 3] = Default::default();
         for (m, mode) in states.iter().enumerate() {
             let answer = Answer::of(mode.root * duration, n)?;
-            // At the end every polynomial is 1.
+            // Every polynomial is 1 at the end.
             for (row, part) in [(2 * m, &answer.real), (2 * m + 1, &answer.imaginary)] {
                 end.set_row(row, &(part.column_sum() * duration).transpose());
             }
@@ -172,7 +173,7 @@ impl Through {
                 }
             }
         }
-        // What acts without inertia.
+        // Response without inertia.
         let at_once = response.at_once();
         for (i, factors) in factors.iter().enumerate() {
             for (k, (_, along)) in factors.iter().enumerate() {

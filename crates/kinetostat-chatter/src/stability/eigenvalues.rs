@@ -10,7 +10,7 @@ const ROUNDS: usize = 60;
 /// Matrices with the same eigenvalues from which the iteration begins anew where it does not end: it has no shifts for that, and
 /// cycles for some matrices whose eigenvalues are all apart.
 const BEGUN: usize = 6;
-/// What counts as rounding below the diagonal in each of them, in units of it: the last steps may end a little above one.
+/// Threshold of rounding below the diagonal in each attempt, in units of it: the last steps may end a little above one.
 const ROUNDING: [f64; BEGUN] = [1.0, 1.0, 1.0, 8.0, 8.0, 64.0];
 
 /// All eigenvalues of a real matrix, the largest first.

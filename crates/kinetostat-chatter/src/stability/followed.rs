@@ -10,7 +10,7 @@ use crate::stability::eigenvalues::{eigenvalues, start};
 pub(crate) struct Followed {
     pub(crate) value: Complex64,
     pub(crate) vector: DVector<Complex64>,
-    /// What is left of `A x - value x` in the small matrix.
+    /// Norm of the residual `A x - value x` in the small matrix.
     left: f64,
     /// The QR iteration has found no larger one.
     pub(crate) is_largest: bool,
@@ -29,7 +29,7 @@ impl Followed {
         })
     }
 
-    /// The same one in a matrix that has grown.
+    /// Follows the eigenvalue into a matrix that has grown.
     pub(crate) fn in_larger(self, matrix: &DMatrix<f64>) -> Result<Self> {
         let from = self
             .vector
@@ -86,7 +86,8 @@ fn inverse_iteration(
 /// A matrix with nothing below its first subdiagonal, less a number on its diagonal, eliminated row by row with pivots.
 struct Shifted {
     upper: DMatrix<Complex64>,
-    /// Of each row: whether it changed places with the next one, and how much of it was taken from that.
+    /// Elimination steps of each row: true if it was swapped with the next one, and the multiple of that subtracted
+    /// from it.
     steps: Vec<(bool, Complex64)>,
 }
 

@@ -20,8 +20,8 @@ pub(crate) const ROUGH: f64 = 1e-6;
 
 /// Periods after which the largest eigenvalue is looked for, at most.
 const SETTLED: usize = 48;
-/// The same where the first vector of a depth nearby is known, and the share of numbers without order in it: what is larger at
-/// this depth grows out of that share, or out of the space, long before a residual is accepted.
+/// Periods if the first vector of a nearby depth is known, and the random share of it: a larger eigenvector at this
+/// depth grows out of that share, or out of the space, long before a residual is accepted.
 const SETTLED_AGAIN: usize = 28;
 const FRESH: f64 = 1e-4;
 

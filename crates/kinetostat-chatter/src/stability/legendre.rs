@@ -26,7 +26,8 @@ pub(crate) fn polynomials(degree: usize, shares: &[f64]) -> DMatrix<f64> {
     values
 }
 
-/// What `u' = z u + g` with `u = 0` at the beginning, over a stretch of length 1, makes of the coefficients of `g`.
+/// Solution of `u' = z u + g` with `u = 0` at the beginning, over a stretch of length 1, as a map from the coefficients
+/// of `g`.
 pub(crate) struct Answer {
     /// Real parts of the coefficients of `u` (a column each) by those of `g` (a row each).
     pub(crate) real: DMatrix<f64>,
@@ -35,7 +36,7 @@ pub(crate) struct Answer {
 }
 
 impl Answer {
-    /// For so many coefficients of `g`; `u` has one more. `None` where the system is singular.
+    /// Solves for so many coefficients of `g`; `u` has one more. `None` where the system is singular.
     pub(crate) fn of(z: Complex64, count: usize) -> Option<Self> {
         let mut answer = Self {
             real: DMatrix::zeros(count, count + 1),

@@ -10,15 +10,15 @@ use crate::stability::swinging::LeftOut;
 pub struct Crossing {
     /// Depth of cut, m.
     pub depth: f64,
-    /// Whether the cut is unstable above it.
+    /// True if the cut is unstable above it.
     pub unstable_above: bool,
-    /// How it becomes so.
+    /// Type of the instability.
     pub kind: Instability,
     /// Strongest frequency of the vibration there, Hz.
     pub frequency_hz: f64,
     /// The multiplier there, real and imaginary part.
     pub multiplier: (f64, f64),
-    /// By how much the depth changed with the last third more points of collocation, share of it.
+    /// Relative change of the depth when the points of collocation were last increased by a third.
     pub resolved: f64,
 }
 
@@ -29,11 +29,11 @@ pub struct SpeedStability {
     pub speed_rpm: f64,
     /// Largest depth that was looked at, m.
     pub up_to: f64,
-    /// Where stability changes, from the smallest depth upwards; the first is the limit.
+    /// Changes of stability, from the smallest depth upwards; the first is the limit.
     pub crossings: Vec<Crossing>,
     /// Frequency of the fastest mode that swings in the calculation, Hz; those above are springs.
     pub modes_up_to_hz: f64,
-    /// Of the modes that are springs although they count, the one with the largest share ([`crate::Swinging`]).
+    /// Mode with the largest share among those treated as springs although they contribute ([`crate::Swinging`]).
     pub left_out: Option<LeftOut>,
 }
 
@@ -63,7 +63,7 @@ impl SpeedStability {
         all
     }
 
-    /// Whether a depth, m, is stable; `None` beyond what was looked at.
+    /// True if a depth, m, is stable; `None` beyond the searched depths.
     #[must_use]
     pub fn is_stable(&self, depth: f64) -> Option<bool> {
         let within = (0.0..=self.up_to).contains(&depth);

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use crate::number::{Complex64, cis};
 use crate::stability::operator::Operator;
 
-/// How a cut becomes unstable.
+/// Type of a cut's instability.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Instability {
@@ -21,18 +21,18 @@ pub enum Instability {
 /// The largest multiplier of one period.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Multiplier {
-    /// Its real part.
+    /// Real part.
     pub real: f64,
-    /// Its imaginary part, not negative.
+    /// Imaginary part, not negative.
     pub imaginary: f64,
-    /// What it is where it leaves the unit circle.
+    /// Type of the instability where it leaves the unit circle.
     pub kind: Instability,
     /// Strongest frequency of this vibration at the tool, Hz.
     pub frequency_hz: f64,
 }
 
 impl Multiplier {
-    /// Its size: below 1 the cut is stable, and a disturbance is so much smaller after each tooth.
+    /// Modulus: below 1 the cut is stable, and a disturbance shrinks by this factor with each tooth.
     #[must_use]
     pub fn size(&self) -> f64 {
         self.real.hypot(self.imaginary)

@@ -89,18 +89,18 @@ impl<'a> Operator<'a> {
         Ok((after, chips))
     }
 
-    /// What one period makes of a disturbance.
+    /// Applies one period to a disturbance.
     pub(crate) fn apply(&self, before: &DVector<f64>) -> Result<DVector<f64>> {
         Ok(self.driven(before, None)?.0)
     }
 
-    /// Its largest multiplier to a residual by its size, with its vector; `last` is where the search began at a depth nearby.
+    /// Largest multiplier to a residual by its size, with its vector; `last` is the start vector of a nearby depth.
     pub(crate) fn largest(
         &self,
         accuracy: f64,
         last: &mut Option<DVector<f64>>,
     ) -> Result<(Complex64, DVector<Complex64>)> {
-        // Of many modes most die away.
+        // With many modes, most decay.
         let of = (self.size(), 2 * self.period.states.len());
         krylov::largest(of, accuracy, last, |x| self.apply(x))
     }

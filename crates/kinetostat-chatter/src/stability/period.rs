@@ -14,11 +14,11 @@ use crate::stability::states::State;
 pub(crate) struct Stretch {
     /// Time at which it begins, from the beginning of the period, s.
     pub(crate) begins: f64,
-    /// Its length, s.
+    /// Duration, s.
     pub(crate) duration: f64,
-    /// By what each mode's state is multiplied over it, without force.
+    /// Factor of each mode's state over the stretch, without force.
     pub(crate) decay: Vec<Complex64>,
-    /// In the cut; `None` in air.
+    /// Response in the cut; `None` in air.
     pub(crate) cutting: Option<Cutting>,
 }
 

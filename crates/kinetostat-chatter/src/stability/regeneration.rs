@@ -37,11 +37,11 @@ const FINEST: f64 = 4.0;
 pub struct Regeneration {
     response: ToolResponse,
     cut: Cut,
-    /// Its modes, or why they cannot be told apart.
+    /// States of the modes, or the reason why they cannot be separated.
     states: Result<Vec<State>>,
-    /// Most that a force of 1 N moves the tool by at any frequency, at most, m/N.
+    /// Upper bound of the displacement by a force of 1 N at any frequency, m/N.
     gain: f64,
-    /// Which modes swing; without it all do.
+    /// Selection of the dynamic modes; without it all are.
     selected: Option<Box<Selected>>,
 }
 
@@ -97,7 +97,7 @@ impl Regeneration {
         Ok(Self::of_all(response, cut))
     }
 
-    /// Of what has been looked at, all modes swinging.
+    /// Builds from valid data, all modes dynamic.
     fn of_all(response: ToolResponse, cut: Cut) -> Self {
         let all = Self {
             states: states(&response),
@@ -131,7 +131,7 @@ impl Regeneration {
         1.05 * all.fold(size(0.0), larger)
     }
 
-    /// The same, where stability is asked for with modes that count swinging, and the others as springs.
+    /// Selects the modes kept dynamic for stability; the others enter as residual flexibility.
     ///
     /// ```
     /// use kinetostat_chatter::{Arc, Coefficients, MillingCut, Mode, Regeneration, Swinging, ToolResponse};
@@ -155,7 +155,7 @@ impl Regeneration {
         Self { selected, ..self }
     }
 
-    /// The same with its lowest modes swinging, the others as springs.
+    /// Keeps the lowest modes dynamic, the others as springs.
     pub(crate) fn lowest(&self, count: usize) -> Self {
         Self::of_all(self.response.with_lowest(count), self.cut.clone())
     }
@@ -207,10 +207,11 @@ impl Regeneration {
         }
     }
 
-    /// As [`Self::multiplier`], with so many times the usual points of collocation: the difference says how exact it is.
+    /// Multiplier as by [`Self::multiplier`], with so many times the usual points of collocation: the difference shows
+    /// the accuracy.
     ///
     /// # Errors
-    /// As [`Self::multiplier`]; a factor outside 0.3 to 10.
+    /// Those of [`Self::multiplier`]; a factor outside 0.3 to 10.
     pub fn multiplier_with(&self, speed_rpm: f64, depth: f64, fineness: f64) -> Result<Multiplier> {
         let period = self.period(speed_rpm, checked_depth(depth)?, fineness)?;
         let operator = Operator::new(&period, depth);

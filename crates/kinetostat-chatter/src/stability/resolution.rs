@@ -1,4 +1,4 @@
-//! How many points a stretch of the period wants, and which modes that resolves.
+//! Number of collocation points of a stretch of the period, and the modes that it resolves.
 
 use std::f64::consts::TAU;
 
@@ -14,13 +14,13 @@ const POINTS_PER_CYCLE: f64 = 5.0;
 /// Share of the largest peak of all states from which a state is resolved: what a stretch makes of a smaller one, which is small
 /// and acts through itself once more, is off by about the square of its share. More points show whether that is so.
 const RESOLVED: f64 = 1e-3;
-/// More points than this cost more than a stretch is worth.
+/// Maximum number of points: more cost more than a stretch is worth.
 const MOST_POINTS: f64 = 400.0;
 
-/// More points by which an answer is checked.
+/// Factor on the points by which a result is checked.
 const CHECKED: f64 = 4.0 / 3.0;
 
-/// How often a mode may vibrate on a stretch with so many times the usual points.
+/// Maximum number of cycles of a mode on a stretch with so many times the usual points.
 fn most_cycles(fineness: f64) -> f64 {
     (MOST_POINTS / fineness - LEAST_POINTS) / POINTS_PER_CYCLE
 }
@@ -34,8 +34,8 @@ pub(crate) fn resolved_hz(cut: &Cut, speed_rpm: f64, up_to: f64) -> f64 {
 
 /// Number of nodes of a stretch.
 pub(crate) fn points(states: &[State], duration: f64, turn: f64, fineness: f64) -> Result<usize> {
-    // How fast it dies away counts as how fast it swings; what only dies away is a layer at the beginning, of which polynomials need
-    // the square root (the coefficients of exp(-a x) fall as exp(-n^2/a)).
+    // Decay counts like oscillation; a state that only decays is a boundary layer at the beginning, of which
+    // polynomials need the square root (the coefficients of exp(-a x) fall as exp(-n^2/a)).
     let cycles_of = |state: &State| match state.root.im == 0.0 {
         true => (state.root.norm() * duration).sqrt(),
         false => state.root.norm() * duration / TAU,
@@ -50,7 +50,7 @@ pub(crate) fn points(states: &[State], duration: f64, turn: f64, fineness: f64) 
     match wanted <= MOST_POINTS {
         true => Ok(wanted.ceil() as usize),
         false => Err(ChatterError::new(
-            // With the points of a check it is one speed that has no answer, and not a question without sense.
+            // With the points of a check, a single speed has no answer; the request itself is valid.
             match fineness > CHECKED {
                 true => ChatterErrorKind::NotConverged,
                 false => ChatterErrorKind::Setting,

@@ -28,7 +28,7 @@ const CLOSED: f64 = 1e-9;
 const RESOLVED: f64 = 1e-6;
 /// Share of the usual points with which the depth is scanned; each crossing is then closed in on with more.
 const SCANNED: f64 = 0.75;
-/// Most times the usual points.
+/// Largest multiple of the usual points.
 const FINEST: f64 = 3.5;
 
 /// The changes of stability that are looked for.
@@ -47,7 +47,7 @@ struct Sample {
 }
 
 impl Regeneration {
-    /// As [`Self::stability_at`] or [`Self::stability_continued`], all modes swinging.
+    /// Stability as by [`Self::stability_at`] or [`Self::stability_continued`], all modes dynamic.
     pub(crate) fn stability_of_all(
         &self,
         known: Option<&SpeedStability>,
@@ -71,7 +71,7 @@ impl Regeneration {
                 crossings.push(self.crossing(&along, low, high)?);
             }
         } else {
-            // Nothing can chatter; a speed without sense is still one.
+            // If nothing can chatter, an invalid speed is still an error.
             self.cut().delay(speed_rpm)?;
         }
         Ok(SpeedStability {
@@ -117,7 +117,7 @@ impl Regeneration {
     }
 }
 
-/// Where the logarithm is 0 near a place where it nearly is: secants from there.
+/// Zero of the logarithm near a place where it is nearly zero, by the secant method.
 fn followed(along: &Along<'_>, start: f64, slope: f64) -> Result<f64> {
     let mut last = Sample {
         at: start,
@@ -166,7 +166,7 @@ fn changes(
             let least = SLOPE[usize::from(last.log >= 0.0)];
             slope = larger(least, larger(0.5 * slope, 1.5 * steep));
             let change = (last.log < 0.0) != (next.log < 0.0);
-            // Between two samples the line may come so much nearer to the circle than the mean of its ends.
+            // The line may come so much nearer to the circle between two samples than the mean of its ends.
             let near = 0.5 * (last.log.abs() + next.log.abs()) < 0.5 * slope * step;
             let divide = match change {
                 true => step > ALONE,
@@ -189,7 +189,7 @@ fn changes(
     Ok(found)
 }
 
-/// Where the logarithm is 0 between two samples of different sign: Illinois' rule, which never leaves the step.
+/// Zero of the logarithm between two samples of different sign: Illinois method, which never leaves the interval.
 fn root(along: &Along<'_>, mut low: Sample, mut high: Sample) -> Result<f64> {
     let mut side = 0;
     for _ in 0..80 {

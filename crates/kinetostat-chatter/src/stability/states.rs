@@ -17,7 +17,7 @@ use crate::stability::eigenvalues::{by_qr, start};
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct State {
     pub(crate) root: Complex64,
-    /// Of length one; real where the mode has its own damping alone.
+    /// Unit vector; real where the mode has its own damping alone.
     pub(crate) direction: Vector3<Complex64>,
     /// m/(N s).
     pub(crate) gain: Vector3<Complex64>,
@@ -34,7 +34,7 @@ pub(crate) fn states(response: &ToolResponse) -> Result<Vec<State>> {
     }
 }
 
-/// Of modes with their own damping alone.
+/// States of modes with their own damping alone.
 fn of_modes(modes: &[Mode]) -> Vec<State> {
     let moving = modes.iter().filter(|mode| mode.shape().norm() > 0.0);
     let state = |mode: &Mode| {
@@ -52,7 +52,7 @@ fn of_modes(modes: &[Mode]) -> Vec<State> {
 const CLOSE: f64 = 1e-6;
 /// Steps of inverse iteration to a shape.
 const STEPS: usize = 3;
-/// By how much the states may miss the response, as a share of it.
+/// Tolerance of the states' receptance, as a share of the response.
 const MISSED: f64 = 1e-7;
 
 /// A root with its shape in the modes.
@@ -78,7 +78,7 @@ fn of_complex_modes(response: &ToolResponse, coupling: &Coupling) -> Result<Vec<
     };
     let all = by_qr(&first_order(response, &Matrix3::zeros()))
         .ok_or_else(|| fault("no convergence of the QR iteration".to_owned()))?;
-    // Of each pair the one that turns forward.
+    // Keeps one root of each conjugate pair.
     let roots: Vec<Complex64> = all.into_iter().filter(|root| root.im >= 0.0).collect();
     let mut found: Vec<Root> = Vec::with_capacity(roots.len());
     for (index, root) in roots.into_iter().enumerate() {
@@ -117,7 +117,8 @@ fn of_complex_modes(response: &ToolResponse, coupling: &Coupling) -> Result<Vec<
     }
 }
 
-/// What the states give way by at an angular frequency, rad/s: a sum, where the response itself solves a system of equations.
+/// Receptance of the states at an angular frequency, rad/s: a sum, whereas the response itself solves a system of
+/// equations.
 pub(crate) fn receptance(states: &[State], w: f64) -> Matrix3<Complex64> {
     // Im(direction u) of a force that turns: half of both, the second from the conjugate.
     let half = Complex64::new(0.0, -0.5);
@@ -190,7 +191,7 @@ impl Pencil<'_> {
         let begin = start(2 * n * (index + 1));
         let at = |k: usize| Complex64::new(begin[2 * n * index + k], begin[2 * n * index + n + k]);
         let mut shape = DVector::from_fn(n, |k, _| at(k));
-        // Beside the root: exactly there the matrix is singular.
+        // Shifted beside the root, where the matrix would be singular.
         let beside = self.at(root * (1.0 + 1e-11)).lu();
         for _ in 0..STEPS {
             shape = beside.solve(&shape)?;

@@ -1,11 +1,11 @@
-//! Which modes of a tool swing in a cut: those that count. The others are springs.
+//! Selects the modes of a tool that are kept dynamic in a cut; the others enter as residual flexibility.
 
 use serde::{Deserialize, Serialize};
 
 use crate::number::larger;
 use crate::response::{Mode, ToolResponse};
 
-/// Which modes swing where stability is asked for; the others give way as at rest.
+/// Modes kept dynamic in a stability analysis; the others enter by their static flexibility.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Swinging {
     /// All.
@@ -15,7 +15,7 @@ pub enum Swinging {
     /// largest or more, or that could chatter by itself at depths that would else be called stable. As far as the calculation
     /// resolves them at the speed: about 57 vibrations while a tooth cuts.
     AtLeastTo(f64),
-    /// Those up to a frequency, Hz.
+    /// Modes up to a frequency, Hz.
     UpTo(f64),
 }
 
@@ -27,9 +27,9 @@ impl Swinging {
 /// A mode that is taken as a spring although it counts.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct LeftOut {
-    /// Its frequency, Hz.
+    /// Frequency, Hz.
     pub frequency_hz: f64,
-    /// Its peak flexibility across the tool axis by the largest of all modes.
+    /// Peak flexibility across the tool axis by the largest of all modes.
     pub share: f64,
 }
 
@@ -42,7 +42,7 @@ pub(crate) struct Selection {
     pub(crate) count: usize,
 }
 
-/// What is known of a mode.
+/// Data of a mode for the selection.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Known {
     pub(crate) of: LeftOut,
@@ -57,7 +57,8 @@ impl Known {
 }
 
 impl Selection {
-    /// Of the modes of a response in axes of the cut, whose stiffness is at most `bound`, N/m^2; nothing where all swing.
+    /// Selects modes of a response in axes of the cut, whose stiffness is at most `bound`, N/m^2; `None` if all are
+    /// dynamic.
     pub(crate) fn new(response: &ToolResponse, bound: f64, swinging: Swinging) -> Option<Self> {
         let sorted = response.with_lowest(usize::MAX);
         let peaks = sorted.modes().iter().map(Mode::peak_flexibility);
@@ -85,7 +86,7 @@ impl Selection {
         })
     }
 
-    /// How many of them are not above a frequency, Hz; at least one.
+    /// Number of modes up to a frequency, Hz; at least one.
     pub(crate) fn up_to(&self, hz: f64) -> usize {
         let below = |mode: &&Known| mode.of.frequency_hz <= hz;
         self.modes.iter().filter(below).count().max(1)

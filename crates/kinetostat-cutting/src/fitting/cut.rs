@@ -124,7 +124,7 @@ impl MeasuredCut {
         feed_mm_per_tooth * (self.entry.cos() - self.exit.cos()) / (self.exit - self.entry)
     }
 
-    /// What multiplies `K_tc`, `K_rc`, `K_te` and `K_re` in the mean force along x and along y.
+    /// Coefficients of `K_tc`, `K_rc`, `K_te` and `K_re` in the mean force along x and along y.
     pub(crate) fn plane_rows(&self, feed: f64) -> [[f64; 4]; 2] {
         let between = |of: fn(f64) -> f64| of(self.exit) - of(self.entry);
         let double_cosine = between(|phi| (2.0 * phi).cos());
@@ -148,7 +148,7 @@ impl MeasuredCut {
         ]
     }
 
-    /// What multiplies `K_ac` and `K_ae` in the mean force along z.
+    /// Coefficients of `K_ac` and `K_ae` in the mean force along z.
     pub(crate) fn axial_row(&self, feed: f64) -> [f64; 2] {
         let edge = self.teeth * self.depth_mm / (2.0 * PI);
         let cosine = self.exit.cos() - self.entry.cos();

@@ -16,9 +16,9 @@ const NAMES: [(&str, &str); 6] = [
     ("K_re", "N/mm"),
     ("K_ae", "N/mm"),
 ];
-/// Where those stand that act in the plane, in the order of [`crate::fitting::cut::MeasuredCut::plane_rows`].
+/// Indices of the coefficients that act in the plane, in the order of [`crate::fitting::cut::MeasuredCut::plane_rows`].
 const PLANE: [usize; 4] = [0, 1, 3, 4];
-/// Where those stand that act along the axis.
+/// Indices of the coefficients that act along the axis.
 const AXIAL: [usize; 2] = [2, 5];
 
 /// A coefficient and how well it is known.
@@ -29,7 +29,7 @@ pub struct Coefficient {
     pub symbol: &'static str,
     /// N/mm2 for the part that grows with the chip, N/mm for that of the edge.
     pub unit: &'static str,
-    /// Its value.
+    /// Value of the coefficient.
     pub value: f64,
     /// Standard error; `None` where there are no more forces than coefficients.
     pub standard_error: Option<f64>,
@@ -37,7 +37,7 @@ pub struct Coefficient {
     pub half_width_95: Option<f64>,
 }
 
-/// What a fit gives.
+/// Result of a fit.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct CoefficientFit {
@@ -52,7 +52,7 @@ pub struct CoefficientFit {
     pub least_mean_chip_mm: f64,
     /// Largest thickness of chip that occurred, mm: the law is not measured beyond it.
     pub largest_chip_mm: f64,
-    /// What solved for tangential and radial coefficients, and for axial ones.
+    /// Solutions for tangential and radial coefficients, and for axial ones.
     plane: Solution,
     axial: Solution,
 }

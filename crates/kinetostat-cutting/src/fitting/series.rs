@@ -14,7 +14,7 @@ const MOST_ROWS: usize = 100_000;
 pub struct MeanForce {
     /// Feed per tooth, mm.
     pub feed_mm_per_tooth: f64,
-    /// Along the feed, to its left and towards the spindle, N; `None` where it was not measured.
+    /// Force along the feed, to its left and towards the spindle, N; `None` where it was not measured.
     pub force_n: [Option<f64>; 3],
 }
 
@@ -136,7 +136,7 @@ fn most_rows(count: usize) -> Result<()> {
     }
 }
 
-/// With one feed, the part of the force that grows with it cannot be told from the part that does not.
+/// Checks for different feeds: with one feed, the part of the force that grows with it cannot be told from the rest.
 fn different_feeds(rows: &[MeanForce]) -> Result<()> {
     let first = rows.first().map(|row| row.feed_mm_per_tooth);
     let differs = |row: &MeanForce| {

@@ -8,7 +8,7 @@ const TABLE: [f64; 30] = [
     2.059_539, 2.055_529, 2.051_831, 2.048_407, 2.045_230, 2.042_272,
 ];
 
-/// The same of the normal distribution.
+/// Quantile of the normal distribution.
 const NORMAL: f64 = 1.959_963_985;
 
 /// `t` with 95 % of Student's distribution between `-t` and `t`; `None` without a degree of freedom.

@@ -24,10 +24,10 @@ pub enum Law {
 }
 
 impl Law {
-    /// The same, if its coefficients are such as a material can have.
+    /// Returns the law if a material can have its coefficients.
     ///
     /// # Errors
-    /// The coefficient that is not.
+    /// Names the implausible coefficient.
     pub fn checked(self) -> Result<Self> {
         match self {
             Self::Linear(law) => law.checked().map(Self::Linear),
@@ -37,7 +37,7 @@ impl Law {
         }
     }
 
-    /// The same law with the opposite axial part.
+    /// Reverses the axial part of the law.
     pub(crate) fn with_axial_turned(mut self) -> Self {
         let (force, edge) = match &mut self {
             Self::Linear(law) => (&mut law.cutting_n_per_mm2, Some(&mut law.edge_n_per_mm)),
@@ -52,7 +52,7 @@ impl Law {
         self
     }
 
-    /// Its name and formula.
+    /// Name and formula of the law.
     #[must_use]
     pub fn description(&self) -> &'static str {
         match self {

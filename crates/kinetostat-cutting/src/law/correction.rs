@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use crate::error::{CutErrorKind, Result, within};
 use crate::law::force_law::{EdgeForce, ForceLaw};
 
-/// What the edge is made of [R Table 2.1].
+/// Material of the edge [R Table 2.1].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum CuttingMaterial {
@@ -18,7 +18,7 @@ pub enum CuttingMaterial {
     Ceramic,
 }
 
-/// How the cut is cooled [R Table 2.1].
+/// Coolant of the cut [R Table 2.1].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Coolant {
@@ -31,7 +31,7 @@ pub enum Coolant {
     Oil,
 }
 
-/// Which line of the rake factor holds [R Table 2.1].
+/// Row of the rake factor [R Table 2.1].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum RakeReference {
@@ -55,7 +55,7 @@ pub struct Correction {
     pub cutting_speed_m_per_min: Option<f64>,
     /// Rake angle, degrees, and to which line it belongs.
     pub rake_deg: Option<f64>,
-    /// Which line of the rake factor.
+    /// Row of the rake factor.
     pub rake_reference: RakeReference,
     /// `K_CM`.
     pub cutting_material: CuttingMaterial,
@@ -147,7 +147,7 @@ impl Correction {
 pub struct Corrected<L> {
     /// The law of the reference test.
     pub law: L,
-    /// What it is multiplied by.
+    /// Factor of the law.
     pub factor: f64,
 }
 

@@ -1,4 +1,4 @@
-//! What a law of force must give.
+//! Interface of a law of force.
 
 use std::fmt::Debug;
 use std::ops::{Add, Mul};
@@ -10,11 +10,11 @@ use std::ops::{Add, Mul};
 /// Literature on ball ends often has the opposite sign of the last.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct EdgeForce {
-    /// Along the tooth's way.
+    /// Force along the tooth's motion.
     pub tangential: f64,
-    /// Along the normal of the envelope: radially on a cylinder.
+    /// Force along the normal of the envelope: radially on a cylinder.
     pub radial: f64,
-    /// Along the edge: axially on a cylinder.
+    /// Force along the edge: axially on a cylinder.
     pub axial: f64,
 }
 

@@ -16,11 +16,11 @@ const PROCESS_SPREAD: f64 = 0.1;
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct AppliedFactor {
-    /// Its symbol in the report, such as `K_PRO`.
+    /// Symbol in the report, such as `K_PRO`.
     pub symbol: &'static str,
-    /// What the force was multiplied by.
+    /// Factor on the force.
     pub value: f64,
-    /// Why, in words.
+    /// Reason in words.
     pub reason: String,
 }
 
@@ -36,8 +36,8 @@ impl fmt::Display for AppliedFactor {
 pub struct Applied {
     /// The law times the product of all factors.
     pub law: Corrected<Material>,
-    /// How far the force may lie from that law: half width, as a share of the force. The material's own, and that of
-    /// `K_PRO` where nobody gave it, as the root of the sum of their squares.
+    /// Uncertainty of the force by that law: half width, as a share of the force. It is the root of the sum of squares
+    /// of the material's own and, unless given, of that of `K_PRO`.
     pub spread: f64,
     /// The factors, in the order of the report; none where the coefficients hold as they are.
     pub factors: Vec<AppliedFactor>,
@@ -74,7 +74,7 @@ impl Material {
             rake_reference: self.group.rake_reference(),
             ..*correction
         };
-        // Its own product, with all its bounds; what the test has of it is divided out below.
+        // The factor of the cut, with all its bounds; the conditions of the test are divided out below.
         let mut factor = correction.factor()?;
         let mut factors = Vec::new();
         let mut spread = self.spread;

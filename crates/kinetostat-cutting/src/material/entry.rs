@@ -34,7 +34,7 @@ pub enum Group {
 }
 
 impl Group {
-    /// Which line of the rake factor of [R Table 2.1] holds: cast iron has its own, all others take that of steel.
+    /// Row of the rake factor of [R Table 2.1]: cast iron has its own, all others take that of steel.
     ///
     /// The report gives no line for other metals.
     #[must_use]
@@ -86,19 +86,19 @@ pub struct MeasuredIn {
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Material {
-    /// Its name.
+    /// Name of the material.
     pub name: String,
     /// Other designations of it.
     pub aliases: Vec<String>,
-    /// Its family.
+    /// Family of the material.
     pub group: Group,
     /// Force per length of edge as measured.
     pub law: Law,
-    /// How far the force of another batch, tool or table may lie from the law: half width, as a share of the force.
+    /// Spread of the force between batches, tools or tables: half width, as a share of the force.
     pub spread: f64,
-    /// Where the coefficients were read.
+    /// Source of the coefficients.
     pub source: String,
-    /// What nobody measured.
+    /// Assumptions in place of measurements.
     pub assumptions: Vec<String>,
     /// The test.
     pub measured_in: MeasuredIn,

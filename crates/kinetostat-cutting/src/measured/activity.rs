@@ -1,4 +1,4 @@
-//! What is expected of the size of a force over time.
+//! Expected magnitude of a force over time.
 
 use crate::error::{CutError, CutErrorKind, Result};
 

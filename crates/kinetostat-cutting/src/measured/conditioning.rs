@@ -16,18 +16,18 @@ const MOST_OUTLIERS: f64 = 0.01;
 /// Outliers that are named; the others are counted.
 const MOST_NAMED: usize = 1000;
 
-/// What is done with outliers.
+/// Treatment of outliers.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum OutlierTreatment {
     /// Each is replaced by the median of the rows around it.
     #[default]
     Replace,
-    /// They are not looked for: for logs in which a peak of a tooth is as narrow as a row or two.
+    /// Outliers are not searched for: for logs in which a peak of a tooth is as narrow as a row or two.
     Keep,
 }
 
-/// What is done to a log, in this order:
+/// Conditioning of a log, in this order:
 ///
 /// 1. Outliers (Hampel filter: eleven rows, six scaled median deviations) are replaced by the median of the rows around them.
 ///    A peak that is narrower than five rows counts as one; where more than one row in a hundred would, nothing is replaced and
@@ -69,13 +69,13 @@ pub struct Conditioning {
 pub struct Conditioned {
     /// The log.
     pub log: ForceLog,
-    /// What was done.
+    /// Record of the steps.
     pub report: ConditioningReport,
 }
 
 impl Conditioning {
-    /// With the window of the moving mean, s or mm as the log is counted; 0 takes no mean. One revolution of the spindle takes
-    /// out the ripple of the teeth whatever their run-out is.
+    /// Conditioning with a window of the moving mean, s or mm as the log is counted; 0 takes no mean. One revolution of
+    /// the spindle takes out the ripple of the teeth whatever their run-out is.
     #[must_use]
     pub fn new(window: f64) -> Self {
         Self {
@@ -84,19 +84,19 @@ impl Conditioning {
         }
     }
 
-    /// The same with stretches in which the tool is in air, from and to, s or mm of the log.
+    /// Sets stretches in which the tool is in air, from and to, s or mm of the log.
     #[must_use]
     pub fn with_air(self, air: Vec<[f64; 2]>) -> Self {
         Self { air, ..self }
     }
 
-    /// The same with a course of the drift.
+    /// Sets the model of the drift.
     #[must_use]
     pub fn with_drift(self, drift: DriftModel) -> Self {
         Self { drift, ..self }
     }
 
-    /// The same with a treatment of outliers.
+    /// Sets the treatment of outliers.
     #[must_use]
     pub fn with_outliers(self, outliers: OutlierTreatment) -> Self {
         Self { outliers, ..self }
@@ -133,7 +133,7 @@ impl Conditioning {
             }
         }
         let drift = drift::remove(&mut log, &self.air, self.drift)?;
-        // Of the log itself: smoothing may put places between its rows.
+        // These figures are those of the log itself: smoothing may add places between its rows.
         let (rows, spacing, longest_step) = (log.rows(), log.spacing(), longest_step(&log.at));
         if self.window > 0.0 {
             let places = places_of_mean(&log.at, self.window);
@@ -187,7 +187,7 @@ fn worst(found: &[Outlier]) -> Option<Outlier> {
         .cloned()
 }
 
-/// Where the longest step from row to row begins, and its length.
+/// Start of the longest step from row to row, and its length.
 fn longest_step(at: &[f64]) -> [f64; 2] {
     let steps = at.windows(2).map(|pair| [pair[0], pair[1] - pair[0]]);
     steps

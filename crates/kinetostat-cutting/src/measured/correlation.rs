@@ -21,7 +21,7 @@ impl<'a> Sums<'a> {
         Self { of, sums }
     }
 
-    /// Up to a time.
+    /// Integrals up to a time.
     fn to(&self, at: f64) -> [f64; 2] {
         let [first, last] = self.of.range();
         let at = at.clamp(first, last);
@@ -57,7 +57,7 @@ pub(crate) struct Correlation<'a> {
 }
 
 impl<'a> Correlation<'a> {
-    /// Of a course with at least two rows.
+    /// Prepares the correlation with a signal of at least two rows.
     pub fn new(at: &'a [f64], values: &'a [f64], expected: &'a Activity) -> Self {
         let range = [at[0], at[at.len() - 1]];
         let length = range[1] - range[0];

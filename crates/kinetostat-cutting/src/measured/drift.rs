@@ -6,7 +6,7 @@ use crate::error::{CutError, CutErrorKind, Result};
 use crate::measured::log::{CHANNELS, ForceLog};
 use crate::number::larger;
 
-/// How drift is drawn from stretch to stretch of air.
+/// Model of the drift between stretches of air.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum DriftModel {
@@ -24,7 +24,7 @@ pub struct DriftRemoved {
     pub stretches: usize,
     /// Drift of each channel at the first row of the log, N and N m.
     pub at_start: Vec<f64>,
-    /// At the last row.
+    /// Drift at the last row.
     pub at_end: Vec<f64>,
     /// Largest mean of a stretch that is left, of the forces, N.
     pub left_n: f64,

@@ -5,14 +5,14 @@
 pub(crate) struct Integral<'a> {
     at: &'a [f64],
     values: &'a [f64],
-    /// Up to each row.
+    /// Integral up to each row.
     sum: Vec<f64>,
-    /// Of the signal times the time since the first row, up to each row; empty where it was not asked for.
+    /// Integral of the signal times the time since the first row, up to each row; empty if not requested.
     first_moment: Vec<f64>,
 }
 
 impl<'a> Integral<'a> {
-    /// Of a signal alone.
+    /// Integrates a signal.
     pub fn of(at: &'a [f64], values: &'a [f64]) -> Self {
         let mut sum = Vec::with_capacity(at.len());
         let mut total = 0.0;
@@ -31,7 +31,7 @@ impl<'a> Integral<'a> {
         }
     }
 
-    /// Of a signal, and of itself times the time.
+    /// Integrates a signal, and its product with the time.
     pub fn with_first_moment(at: &'a [f64], values: &'a [f64]) -> Self {
         let mut own = Self::of(at, values);
         let mut total = 0.0;
@@ -58,7 +58,7 @@ impl<'a> Integral<'a> {
         }
     }
 
-    /// From row `i - 1` to a time before row `i`, of the signal times the time since the first row.
+    /// Integral from row `i - 1` to a time before row `i`, of the signal times the time since the first row.
     fn first_moment_in(&self, i: usize, at: f64) -> f64 {
         let (a, b) = (self.at[i - 1] - self.at[0], at - self.at[0]);
         let (x, y) = (self.values[i - 1], self.value_in(i, at));

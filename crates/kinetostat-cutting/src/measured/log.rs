@@ -2,14 +2,14 @@
 
 use crate::error::{CutError, CutErrorKind, Result, within};
 
-/// Most rows of a log. With forces alone a row takes 36 bytes (720 MB for all of them), with moments 60 (1.2 GB), as much again
-/// while it is conditioned.
+/// Maximum number of rows of a log. With forces alone a row takes 36 bytes (720 MB for all of them), with moments 60
+/// (1.2 GB), as much again while it is conditioned.
 pub(crate) const MOST_ROWS: usize = 20_000_000;
 
 /// Names of the channels, in their order.
 pub(crate) const CHANNELS: [&str; 6] = ["fx_n", "fy_n", "fz_n", "mx_n_m", "my_n_m", "mz_n_m"];
 
-/// What the rows of a log are counted by.
+/// Abscissa of a log.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LoggedBy {
     /// Time, s.
@@ -118,19 +118,19 @@ impl ForceLog {
         })
     }
 
-    /// What its rows are counted by.
+    /// Abscissa of the log.
     #[must_use]
     pub fn by(&self) -> LoggedBy {
         self.by
     }
 
-    /// How many rows.
+    /// Number of rows.
     #[must_use]
     pub fn rows(&self) -> usize {
         self.at.len()
     }
 
-    /// Whether it has moments beside the forces.
+    /// True if it has moments in addition to forces.
     #[must_use]
     pub fn has_moments(&self) -> bool {
         self.channels.len() == 6

@@ -8,7 +8,7 @@ use crate::measured::search::Shifts;
 
 /// Smallest correlation that a match may have.
 const LEAST_CORRELATION: f64 = 0.5;
-/// By how much the best shift must be better than the next peak.
+/// Required lead of the best shift over the next peak.
 const LEAST_LEAD: f64 = 0.05;
 /// A peak stands out from its surroundings by so much.
 const RIPPLE: f64 = 0.02;
@@ -128,13 +128,13 @@ fn refined(correlation: &Correlation<'_>, from: f64, grid: f64, rows: f64) -> (f
     best
 }
 
-/// How far a shift can be off before that leaves measured force where none is expected: in steps that double, up to a quarter of
-/// what is compared. Correlation itself would not do: it grows, too, where the part of the program that does not fit is pushed
-/// over the end of the log.
+/// Uncertainty of the shift: the error at which measured force remains where none is expected, in doubling steps up to
+/// a quarter of the compared length. Correlation itself would not do: it also grows where the part of the program that
+/// does not fit is pushed over the end of the log.
 fn within(correlation: &Correlation<'_>, log: &ForceLog, expected: &Activity, shift: f64) -> f64 {
     let [from, to] = log.range();
     let (at, values) = expected.between(from - shift, to - shift);
-    // What a log that is exactly as expected would lose; it has no shift of its own.
+    // Loss of a log that is exactly as expected, for reference; its shift is zero.
     let with_itself = Correlation::new(&at, &values, expected);
     let lost = |of: &Correlation<'_>, from: f64, to: f64| 1.0 - of.product(to) / of.product(from);
     let [first, last] = expected.range();

@@ -11,7 +11,7 @@ use crate::number::larger;
 
 /// Rows on each side of the one that is looked at.
 pub(crate) const SIDE: usize = 5;
-/// In logs of fewer rows no value can be told from its neighbours.
+/// Minimum number of rows in which a value can be told from its neighbours.
 pub(crate) const FEWEST_ROWS: usize = 50;
 /// Spreads from the median.
 pub(crate) const SPREADS: f64 = 6.0;
@@ -26,13 +26,13 @@ const NEGLIGIBLE: f64 = 1e-3;
 pub struct Outlier {
     /// Row of the log, from 1, the header not counted.
     pub row: usize,
-    /// Its line in the file, if it was read from one.
+    /// Line in the file, if it was read from one.
     pub line: Option<usize>,
     /// Time (s) or length (mm) of the row.
     pub at: f64,
     /// Column.
     pub channel: &'static str,
-    /// What was logged, N or N m.
+    /// Logged value, N or N m.
     pub value: f64,
     /// Median of the rows around it, N or N m.
     pub median: f64,

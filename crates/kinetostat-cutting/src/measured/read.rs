@@ -67,7 +67,7 @@ impl ForceLog {
     }
 }
 
-/// Which channels a file has.
+/// Channels of a file.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Found {
     Forces,

@@ -1,14 +1,14 @@
-//! What was done to a log, in words.
+//! Record of a log's conditioning, in words.
 
 use crate::measured::drift::DriftRemoved;
 use crate::measured::log::{CHANNELS, LoggedBy};
 use crate::measured::outliers::{FEWEST_ROWS, Outlier, SIDE, SPREADS};
 
-/// What was done to a log.
+/// Record of a log's conditioning.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct ConditioningReport {
-    /// What its rows are counted by.
+    /// Abscissa of the log.
     pub by: LoggedBy,
     /// Rows of the log.
     pub rows: usize,
@@ -16,11 +16,11 @@ pub struct ConditioningReport {
     pub channels: usize,
     /// Values that were replaced by the median of the rows around them: the first thousand, by channel and row.
     pub outliers: Vec<Outlier>,
-    /// How many there were.
+    /// Number of outliers.
     pub outlier_count: usize,
     /// The one farthest from its median.
     pub worst_outlier: Option<Outlier>,
-    /// Whether they were looked for.
+    /// True if outliers were searched for.
     pub outliers_looked_for: bool,
     /// Drift that was removed; `None` where no air was stated.
     pub drift: Option<DriftRemoved>,
@@ -33,7 +33,7 @@ pub struct ConditioningReport {
 }
 
 impl ConditioningReport {
-    /// What was done, in the order in which it was done, one sentence each.
+    /// Describes the steps in their order, one sentence each.
     ///
     /// ```
     /// use kinetostat_cutting::{Conditioning, ForceLog};

@@ -6,7 +6,7 @@ use rustfft::num_complex::Complex;
 use crate::measured::correlation::{Correlation, coefficient};
 use crate::number::larger;
 
-/// Most cells of the grid, of the log and of the program together.
+/// Maximum number of cells of the grid, of the log and of the program together.
 const MOST_CELLS: f64 = 524_288.0;
 
 /// Correlation at shifts of equal distance.
@@ -17,7 +17,7 @@ pub(crate) struct Shifts {
 }
 
 impl Shifts {
-    /// Of a log (from, to) and what is expected (from, to), s, on cells no shorter than the rows.
+    /// Correlates a log (from, to) with the expected signal (from, to), s, on cells no shorter than the rows.
     pub fn of(correlation: &Correlation<'_>, log: [f64; 2], expected: [f64; 2], rows: f64) -> Self {
         let lengths = [log[1] - log[0], expected[1] - expected[0]];
         let step = larger(rows, (lengths[0] + lengths[1]) / MOST_CELLS);

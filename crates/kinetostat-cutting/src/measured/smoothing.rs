@@ -16,7 +16,7 @@ pub(crate) fn moving_mean(at: &[f64], values: &[f64], window: f64) -> Vec<f64> {
         let half = [0.5 * window, place - first, last - place]
             .into_iter()
             .fold(f64::INFINITY, |a, b| if b < a { b } else { a });
-        // Both ends of the window only go on, from row to row.
+        // The ends of the window only move forward, from row to row.
         let mut to = |end: usize, at_end: f64| {
             while ends[end] + 2 < at.len() && at[ends[end] + 1] <= at_end {
                 ends[end] += 1;

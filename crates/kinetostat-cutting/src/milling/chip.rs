@@ -16,10 +16,10 @@ struct Line {
     offset: f64,
 }
 
-/// What a tooth finds.
+/// Chip of a tooth.
 #[derive(Clone, Debug)]
 pub(crate) struct Tooth {
-    /// How many teeth have the same chips.
+    /// Number of teeth with equal chips.
     pub(crate) alike: f64,
     /// The lines of the least, each from its own place to the next one's.
     lines: Vec<Line>,
@@ -79,7 +79,7 @@ impl Tooth {
     #[inline]
     pub(crate) fn thickness(&self, feed: &Feed, place: &Meridian, sin_phi: f64) -> f64 {
         let way = feed.level_mm * sin_phi * place.sin + feed.down_mm * place.cos;
-        // On the flat end the normal is the axis: teeth that stand out sideways find nothing else there.
+        // The normal is the axis on the flat end: teeth that protrude sideways find nothing else there.
         if let [line] = self.lines[..] {
             return line.feeds * way + line.offset * place.sin;
         }

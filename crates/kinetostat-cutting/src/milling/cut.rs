@@ -10,7 +10,7 @@ use crate::milling::chip::Chips;
 use crate::milling::feed::Feed;
 use crate::tool::Tool;
 
-/// Which way the spindle turns, seen from it down to the tool.
+/// Sense of rotation of the spindle, seen from it down to the tool.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Rotation {
@@ -46,7 +46,7 @@ impl<'a, L: ForceLaw + ?Sized> Milling<'a, L> {
         }
     }
 
-    /// The same with a spindle that turns this way: counter-clockwise is the mirror image of clockwise.
+    /// Sets the sense of rotation: counter-clockwise is the mirror image of clockwise.
     #[must_use]
     pub fn turning(mut self, rotation: Rotation) -> Self {
         if rotation != self.rotation {
@@ -56,7 +56,7 @@ impl<'a, L: ForceLaw + ?Sized> Milling<'a, L> {
         self
     }
 
-    /// What the sums give for a clockwise spindle, as it is with this one.
+    /// Converts a result for a clockwise spindle to the actual sense of rotation.
     pub(crate) fn as_it_turns<T>(&self, of: T, mirrored: impl FnOnce(&T) -> T) -> T {
         match self.rotation {
             Rotation::Clockwise => of,

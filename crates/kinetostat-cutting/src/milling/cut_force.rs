@@ -41,7 +41,7 @@ impl CutForce {
         self.moment_n_mm.z += r_x * y - r_y * x;
     }
 
-    /// Seen in a mirror whose plane holds the feed and the axis.
+    /// Mirrors the force at the plane of the feed and the axis.
     #[must_use]
     pub fn mirrored(&self) -> Self {
         let (f, m) = (self.force_n, self.moment_n_mm);

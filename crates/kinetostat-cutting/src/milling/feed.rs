@@ -1,18 +1,18 @@
-//! How far the tool goes from tooth to tooth.
+//! Feed from tooth to tooth.
 
 use crate::error::{CutErrorKind, Result, within};
 
-/// How far the tool goes from tooth to tooth.
+/// Feed from tooth to tooth.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Feed {
-    /// Across the tool axis, mm per tooth.
+    /// Feed across the tool axis, mm per tooth.
     pub level_mm: f64,
-    /// Down along the tool axis, mm per tooth; negative where the tool rises.
+    /// Feed down along the tool axis, mm per tooth; negative where the tool rises.
     pub down_mm: f64,
 }
 
 impl Feed {
-    /// Across the tool axis, mm per tooth.
+    /// Feed across the tool axis, mm per tooth.
     ///
     /// # Errors
     /// Negative, or more than 10 mm.
@@ -20,7 +20,7 @@ impl Feed {
         Self::ramp(per_tooth_mm, 0.0)
     }
 
-    /// Across the tool axis and down along it, mm per tooth.
+    /// Feed across the tool axis and down along it, mm per tooth.
     ///
     /// # Errors
     /// Negative across, or more than 10 mm either way.

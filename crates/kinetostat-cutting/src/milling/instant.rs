@@ -10,7 +10,7 @@ use crate::milling::cut_force::CutForce;
 use crate::number::integrate;
 use crate::tool::{Meridian, Piece};
 
-/// Whether an angle lies on an arc, whatever turns are between.
+/// True if an angle lies on an arc, modulo full turns.
 fn on_arc(contact: &Contact, phi: f64) -> bool {
     (phi - contact.entry).rem_euclid(TAU) <= contact.exit - contact.entry
 }

@@ -50,8 +50,8 @@ pub struct MeanTable {
     rotation: Rotation,
     /// Above the corner: up to each angle.
     straight: Vec<Sums>,
-    /// On the corner, up to each angle of the normal and each angle: integrals with width, radius and height, and how they
-    /// grow from one angle of the normal to the next.
+    /// Integrals on the corner, up to each angle of the normal and each angle: with width, radius and height, and their
+    /// growth from one angle of the normal to the next.
     corner: Vec<Row>,
 }
 

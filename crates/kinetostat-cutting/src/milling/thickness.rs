@@ -1,4 +1,4 @@
-//! How thick the chips of a cut are: whether a law of force knows them, and whether the tool bears them.
+//! Chip thickness of a cut, to be compared with the range of a law of force and with the tool's limit.
 
 use crate::engagement::Edge;
 use crate::law::ForceLaw;
@@ -20,7 +20,7 @@ pub struct ChipThickness {
 }
 
 impl<L: ForceLaw + ?Sized> Milling<'_, L> {
-    /// How thick the chips are; `None` where nothing is cut.
+    /// Chip thickness; `None` without a cut.
     ///
     /// ```
     /// use kinetostat_cutting::{Engagement, Feed, Linear, Milling, Shape, Side, Tool};
@@ -105,8 +105,8 @@ impl<L: ForceLaw + ?Sized> Milling<'_, L> {
                     for (piece, from, to) in
                         Piece::between(self.tool, contact.from_mm, contact.to_mm)
                     {
-                        // On a corner the parameter is the angle of the normal: the way along it is longest where it points
-                        // along the feed.
+                        // The parameter on a corner is the angle of the normal: the way along it is longest where it
+                        // points along the feed.
                         let along = (self.feed.level_mm * sine).atan2(self.feed.down_mm);
                         for at in [from, to, along.clamp(from, to)] {
                             look(&piece.point(at));

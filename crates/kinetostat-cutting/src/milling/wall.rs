@@ -17,9 +17,9 @@ use crate::number::integrate;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Wall {
-    /// On the left of the feed.
+    /// Left of the feed.
     Left,
-    /// On the right of the feed.
+    /// Right of the feed.
     Right,
 }
 

@@ -3,14 +3,14 @@
 use crate::error::{CutError, CutErrorKind, Result, within};
 use crate::spindle::limit::{SpindleFinding, SpindleLimit, SpindlePoint, turn_rate};
 
-/// Most points of a curve.
+/// Maximum number of points of a curve.
 const MOST_POINTS: usize = 10_000;
 
 /// Torque of a spindle over its speed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SpindleCurve {
     points: Vec<SpindlePoint>,
-    /// Between the last two points the power is constant, not the slope of the torque.
+    /// True if the power between the last two points is constant, not the slope of the torque.
     ends_at_constant_power: bool,
 }
 
@@ -110,7 +110,7 @@ impl SpindleCurve {
         self.points.last().map_or(0.0, |point| point.speed_rpm)
     }
 
-    /// What the spindle can give at a speed in rpm; `None` above its largest speed, below zero and for what is no number.
+    /// Limit of the spindle at a speed in rpm; `None` above its largest speed, below zero and for NaN.
     #[must_use]
     pub fn limit_at(&self, speed_rpm: f64) -> Option<SpindleLimit> {
         if !(0.0..=self.most_rpm()).contains(&speed_rpm) {
@@ -127,7 +127,7 @@ impl SpindleCurve {
             }
             Some(lower) => {
                 let share = (speed_rpm - lower.speed_rpm) / (upper.speed_rpm - lower.speed_rpm);
-                // In this form it is exact at both points.
+                // This form is exact at both points.
                 (1.0 - share) * lower.torque_n_m + share * upper.torque_n_m
             }
         };
@@ -137,8 +137,8 @@ impl SpindleCurve {
         })
     }
 
-    /// What a cut of a torque (N mm, as [`crate::DrillForce`] and the forces of milling give it) at a speed (rpm) exceeds;
-    /// `None` where the spindle gives it.
+    /// Limit that a cut of a torque (N mm, as [`crate::DrillForce`] and the forces of milling give it) at a speed (rpm)
+    /// exceeds; `None` if the spindle can drive it.
     ///
     /// ```
     /// use kinetostat_cutting::{SpindleCurve, SpindleFinding};

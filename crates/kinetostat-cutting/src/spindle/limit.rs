@@ -36,7 +36,7 @@ impl SpindlePoint {
     }
 }
 
-/// What a spindle can give at a speed.
+/// Limit of a spindle at a speed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SpindleLimit {
     /// Largest torque, N m.
@@ -45,7 +45,7 @@ pub struct SpindleLimit {
     pub power_w: f64,
 }
 
-/// What a cut asks of a spindle that it cannot give.
+/// Limit of a spindle that a cut exceeds.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum SpindleFinding {
@@ -62,7 +62,7 @@ pub enum SpindleFinding {
         speed_rpm: f64,
         /// Torque of the cut, N m.
         torque_n_m: f64,
-        /// What there is.
+        /// Available torque and power.
         limit: SpindleLimit,
     },
 }

@@ -1,6 +1,7 @@
-//! What a spindle can give: torque and power over its speed.
+//! Limits of a spindle: torque and power over its speed.
 //!
-//! Takes what its data sheet states, at the spindle's nose; gives the limit at a speed, and what a cut exceeds as a finding.
+//! Takes the values of the data sheet, at the spindle's nose; returns the limit at a speed, and what a cut exceeds as a
+//! finding.
 
 mod curve;
 mod limit;

@@ -19,7 +19,7 @@ pub(crate) struct Sliver {
     pub depth: f64,
 }
 
-/// Which part of a circle is looked at, and how densely.
+/// Range of a circle, and the number of samples on it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Range {
     pub from: f64,
@@ -28,7 +28,7 @@ pub(crate) struct Range {
 }
 
 impl Range {
-    /// From one angle to another, with samples no farther apart than `step` on a circle of this radius.
+    /// Range from one angle to another, with samples no farther apart than `step` on a circle of this radius.
     pub fn new(from: f64, to: f64, radius: f64, step: f64) -> Self {
         let samples = ((to - from) * radius / step).ceil();
         Self {
@@ -43,8 +43,8 @@ impl Range {
         Self::new(0.0, TAU, radius, step)
     }
 
-    /// Where the outward normal of a tool looks where the tool goes: `normal` is its angle from the axis, the motion has a
-    /// horizontal and a vertical part (up).
+    /// Range of angles in which the outward normal of a tool faces its motion: `normal` is its angle from the axis, the
+    /// motion has a horizontal and a vertical part (up).
     pub fn facing(
         normal: f64,
         [horizontal, vertical]: [f64; 2],
@@ -84,7 +84,7 @@ impl Range {
         self.arcs_but(Sliver::default(), value, arcs);
     }
 
-    /// The same but for slivers.
+    /// Finds the arcs without slivers.
     #[inline]
     pub fn arcs_but(
         &self,
@@ -140,7 +140,7 @@ impl Range {
     }
 }
 
-/// Where a function changes its sign between two angles with their values (Dowell and Jarratt, "A modified regula falsi",
+/// Root of a function between two angles with values of opposite sign (Dowell and Jarratt, "A modified regula falsi",
 /// 1971: the Illinois method).
 fn root(value: &impl Fn([f64; 2]) -> f64, mut a: [f64; 2], mut b: [f64; 2]) -> f64 {
     let close = 1e-3 * (a[1] - b[1]).abs();
@@ -161,7 +161,7 @@ fn root(value: &impl Fn([f64; 2]) -> f64, mut a: [f64; 2], mut b: [f64; 2]) -> f
     (a[0] * b[1] - b[0] * a[1]) / (b[1] - a[1])
 }
 
-/// The same arcs within rounding.
+/// True if both lists of arcs are equal within rounding.
 pub(crate) fn same(a: &[[f64; 2]], b: &[[f64; 2]]) -> bool {
     a.len() == b.len()
         && a.iter()

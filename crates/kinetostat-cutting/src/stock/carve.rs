@@ -7,7 +7,7 @@ use crate::stock::sweep::{Seen, Sweep};
 /// Cuts that lower a point by less than this share of a cell leave the wall above where it is.
 const SKIN: f64 = 0.25;
 
-/// Whether the move begins where the last one ended.
+/// Start of a move, relative to the last one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Start {
     /// The tool has cut here already.
@@ -55,7 +55,7 @@ impl Stock {
         }
     }
 
-    /// Whether a tool meets material on a move.
+    /// True if a tool meets material on a move.
     pub(crate) fn is_touched(&self, profile: &Profile, sweep: &Sweep) -> bool {
         let reach = profile.reach(self.height - sweep.lowest());
         let tolerance = self.tolerance();
@@ -116,7 +116,7 @@ impl Stock {
         let skin = (SKIN * self.cell) as f32;
         let (wall_square, reach_square) = (wall * wall, reach * reach);
         let deep_square = (wall - known).max(0.0) * (wall - known);
-        // Behind the start of a move that goes on, all is done but for the distances outside.
+        // On a continued move, points behind the start lack only their distances outside.
         let all_done = start == Start::Continued && sweep.never_down();
         // Out of the struct while it is read for the geometry; no column is copied.
         let mut columns = std::mem::take(&mut self.columns);
@@ -147,7 +147,7 @@ impl Stock {
             let height = sweep.height(profile, &seen, reach).max(0.0) as f32;
             let column = &mut columns[index];
             let lowered = column.top - height;
-            // Beside the stock, the outline stands below a tool that passes above the bottom.
+            // Outside the stock, the outline remains below a tool that passes above the bottom.
             let beside = column.top <= 0.0 && height > skin;
             if !beside && (lowered > skin || depth > column.rise) {
                 column.rise = depth;
@@ -167,7 +167,7 @@ impl Stock {
     }
 }
 
-/// Whether a neighbour is lower than this: the wall down there still stands.
+/// True if a neighbour is lower than this: the wall down there still exists.
 fn falls_off(columns: &[super::grid::Column], index: usize, nx: usize, level: f32) -> bool {
     let rows = [index.wrapping_sub(nx), index, index + nx];
     rows.iter().any(|row| {

@@ -1,8 +1,8 @@
-//! Where the corner of a tool (ball, bull nose, cone of a face mill) is in the material.
+//! Contact of a tool's corner (ball, bull nose, cone of a face mill) with the material.
 //!
-//! At the grid points under the tool the height of the stock over the envelope is taken, or, where the envelope is steep,
-//! how much wider the tool is at the height of the stock than at the point. Both vanish at every point that this tool has
-//! cut from the same place, so that what is interpolated between them vanishes too.
+//! At the grid points under the tool, the height of the stock over the envelope is taken, or, where the envelope is
+//! steep, the excess of the tool's radius at the height of the stock over that at the point. Both vanish at every point
+//! that this tool has cut from the same place, so that what is interpolated between them vanishes too.
 
 use crate::engagement::{Contact, Engagement};
 use crate::stock::arcs::{Range, same};
@@ -20,9 +20,9 @@ struct Node {
     over: f64,
     /// Top of the stock above the tip.
     top: f64,
-    /// Where the wall down is: radius up to which it is material.
+    /// Radius of the wall down, up to which there is material.
     drop: f64,
-    /// Where the wall up is.
+    /// Radius of the wall up.
     rise: f64,
 }
 
@@ -228,7 +228,7 @@ impl Node {
     }
 }
 
-/// One of the bands of equal length along the meridian up to a height.
+/// Returns one of the bands of equal length along the meridian up to a height.
 fn band(profile: &Profile, top: f64, k: usize, count: usize) -> Band {
     let share = |k: f64| k / count as f64;
     let (at, middle) = (k as f64, k as f64 + 0.5);

@@ -1,4 +1,4 @@
-//! Where the flat end of a tool that goes down is in the material.
+//! Contact of the flat end of a descending tool with the material.
 
 use crate::engagement::{Contact, Engagement};
 use crate::stock::arcs::{Range, same};

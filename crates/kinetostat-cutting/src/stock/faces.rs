@@ -29,7 +29,7 @@ pub(crate) struct OnRim {
     pub place: [f64; 2],
 }
 
-/// What a point says of the wall next to it.
+/// Information of a point on the wall next to it.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Seen {
     pub point: [f64; 2],
@@ -45,11 +45,11 @@ pub(crate) struct Seen {
 struct Face {
     normal: [f64; 2],
     weight: f64,
-    /// Of the differences, with half of the way to the place by their own gradients.
+    /// Weighted sum of the differences, plus half of the way to the place times their own gradients.
     sum: f64,
-    /// Of the ways to the place.
+    /// Weighted sum of the ways to the place.
     ways: [f64; 2],
-    /// Of the gradients at the place.
+    /// Weighted sum of the gradients at the place.
     gradients: [f64; 2],
 }
 
@@ -76,7 +76,7 @@ impl Faces {
                 Bend::Straight => {
                     [0, 1].map(|i| normal[i] - (rim.place[i] - rim.centre[i]) / rim.radius)
                 }
-                // As the rim itself.
+                // The wall bends like the rim itself.
                 Bend::Round => own,
             };
         }
@@ -109,7 +109,7 @@ impl Faces {
         self.count <= 1
     }
 
-    /// How far the place is in the material, from the nearest wall; infinite where no point sees one.
+    /// Depth of the place in the material, from the nearest wall; infinite if no point sees one.
     #[inline]
     pub fn nearest(&self) -> f64 {
         let mut nearest = f64::INFINITY;

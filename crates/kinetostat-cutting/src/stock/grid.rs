@@ -22,23 +22,23 @@ pub(crate) struct Column {
     pub drop: f32,
     /// Distance of the next wall up, mm; `known` where none is near.
     pub rise: f32,
-    /// Where the next wall down looks.
+    /// Normal of the next wall down.
     pub drop_normal: Normal,
-    /// Where the next wall up looks.
+    /// Normal of the next wall up.
     pub rise_normal: Normal,
 }
 
 const _: () = assert!(size_of::<Column>() as u64 == BYTES_PER_CELL);
 
-/// What is left of the material: heights at the points of a square grid parallel to x and y of the part.
+/// Remaining stock: heights at the points of a square grid parallel to x and y of the part.
 ///
-/// Every point holds the top of the material (below it all is material down to the bottom) and distance and direction of
-/// the next wall down and the next wall up as the tools have left them. So the place of a vertical wall is known between the
-/// points, and where two walls meet in a cell both are.
-/// With a cell of a twentieth of the tool's diameter the ends of arcs were found to 0.0005 rad on straight cuts and to 0.008 rad
-/// on circles of short chords, and to a quarter of that or less with half the cell. Along `tball-pocket` (40 000 moves of
-/// 0.2 mm) 98 % of all arcs are within 0.017 rad of those of the swept area itself, the worst is 0.27 rad off: where more than two
-/// walls meet in a cell, a place of the rim may be off by as much as that cell.
+/// Every point holds the top of the material (solid from there down to the bottom), and distance and direction of the
+/// next wall down and the next wall up as the tools have left them. So vertical walls are located between the points,
+/// and where two walls meet in a cell both are. With a cell of a twentieth of the tool's diameter the ends of arcs were
+/// found to 0.0005 rad on straight cuts and to 0.008 rad on circles of short chords, and to a quarter of that or less
+/// with half the cell. Along `tball-pocket` (40 000 moves of 0.2 mm) 98 % of all arcs are within 0.017 rad of those of
+/// the swept area itself, the worst is 0.27 rad off: where more than two walls meet in a cell, a place of the rim may
+/// be off by as much as that cell.
 ///
 /// **Slivers are air**: an arc of at most 1.2 cells that is nowhere deeper than `cell^2 / (2 radius)` in the material (0.015 mm at
 /// D/20). By so much a circle leaves its tangent within a cell. Its force is below 1 % of that of a slot with a law without edge
@@ -50,9 +50,9 @@ const _: () = assert!(size_of::<Column>() as u64 == BYTES_PER_CELL);
 /// or a map of heights. On ramps, what was cut already may seem to be in contact by up to a cell and a quarter on the rim at each
 /// side; on steep ones by more.
 ///
-/// **What it cannot know**: undercuts and cavities (the greatest height counts), tools whose axis is not z, what is cut by
-/// T-slot or lollipop cutters, shanks and holders that rub, the cone of a face mill beyond twice its diameter at the tip.
-/// Numbers are held as `f32` above the bottom: heights are rounded by less than 6e-8 of the stock's height.
+/// **Limits**: undercuts and cavities (only the greatest height is kept), tools whose axis is not z, cuts by T-slot or
+/// lollipop cutters, shanks and holders that rub, the cone of a face mill beyond twice its diameter at the tip. Numbers
+/// are stored as `f32` above the bottom: heights are rounded by less than 6e-8 of the stock's height.
 ///
 /// ```
 /// use kinetostat_cutting::{Engagement, Probe, Shape, Side, Stock, StockSettings, Tool};
@@ -273,7 +273,7 @@ impl Stock {
         (1e-4 * self.cell).max(4e-7 * self.height)
     }
 
-    /// What the walls do not show of a rim of this radius.
+    /// Sliver below the resolution of the walls, for a rim of this radius.
     pub(crate) fn sliver(&self, radius: f64) -> Sliver {
         Sliver {
             arc: SLIVER_CELLS * self.cell / radius,

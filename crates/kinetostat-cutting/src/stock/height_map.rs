@@ -5,7 +5,7 @@ use crate::number::larger;
 use crate::stock::grid::{FAR_MM, Stock};
 use crate::stock::settings::StockSettings;
 
-/// Most numbers of a map.
+/// Maximum number of entries in a map.
 const MOST: usize = 50_000_000;
 
 impl Stock {

@@ -6,7 +6,7 @@ use crate::error::{CutError, CutErrorKind, Result};
 use crate::stock::grid::{FAR_MM, Stock};
 use crate::stock::settings::StockSettings;
 
-/// Most triangles of a mesh.
+/// Maximum number of triangles of a mesh.
 const MOST: usize = 20_000_000;
 /// Bytes before the triangles of a binary STL, and of one triangle.
 const BINARY: [usize; 2] = [84, 50];

@@ -1,15 +1,15 @@
-//! Where walls look, and how they bend: four bytes at a point of the grid.
+//! Normals and curvature of walls: four bytes at a point of the grid.
 
-/// Where a wall looks, seen from above: out of the air, into the material; and how it bends.
+/// Normal of a wall, seen from above, out of the air into the material; and its type of curvature.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Normal([i16; 2]);
 
-/// How a wall bends.
+/// Curvature of a wall.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Bend {
-    /// It was left by a tool that went along it.
+    /// Left by a tool that moved along it.
     Straight,
-    /// It was left by a tool that stood, or turned, there.
+    /// Left by a tool that stood, or turned, there.
     Round,
 }
 
@@ -17,7 +17,7 @@ pub(crate) enum Bend {
 const NORMAL: f64 = i16::MAX as f64;
 
 impl Normal {
-    /// Of a vector of length one; none (of length zero) of what is not finite.
+    /// Encodes a unit vector; a vector that is not finite becomes zero.
     pub fn new(vector: [f64; 2], bend: Bend) -> Self {
         // A cast holds at the greatest number, and makes 0 of what is no number.
         let [x, y] = vector.map(|part| (part * NORMAL).round() as i16);
@@ -43,7 +43,7 @@ impl Normal {
     }
 }
 
-/// Where the outline of a blank looks, into it: the gradient of its distance.
+/// Normal of the outline of a blank, inwards: the gradient of its distance.
 pub(crate) fn outline_normal(
     at: &impl Fn(f64, f64) -> (f64, f64),
     [x, y]: [f64; 2],

@@ -22,7 +22,7 @@ pub struct Probe {
     corner: Corner,
     end: End,
     pub(crate) found: Engagement,
-    /// Where the last move ended, and whether in contact.
+    /// End of the last move, and true if in contact there.
     pub(crate) last: Option<([f64; 3], bool)>,
 }
 
@@ -92,7 +92,7 @@ impl Probe {
         Ok(())
     }
 
-    /// The same along a list of places: chords of arcs, for instance.
+    /// Cuts along a list of places: chords of arcs, for instance.
     ///
     /// # Errors
     /// A place beyond 100 m.

@@ -1,25 +1,25 @@
-//! Where the rim of a cylinder is in the material.
+//! Contact of a cylinder's rim with the material.
 //!
-//! At each point of the grid stands the distance of the next wall; the distance of the rim from the point is known exactly.
-//! The difference of both is interpolated, not the two themselves: where the wall was made by the same circle it vanishes at
-//! every point, and so between them. A tool that passes the same way again finds nothing.
+//! Each point of the grid stores the distance of the next wall; the distance of the rim from the point is known
+//! exactly. Their difference is interpolated, not the two themselves: where the wall was made by the same circle it
+//! vanishes at every point, and so between them. A tool that passes the same way again finds nothing.
 
 use crate::engagement::{Contact, Engagement};
 use crate::stock::arcs::{Range, same};
 use crate::stock::faces::{Faces, OnRim, Seen};
 use crate::stock::grid::{Column, Stock};
 
-/// Most bands of height at one place.
+/// Maximum number of bands of height at one place.
 const BANDS: usize = 16;
-/// Where a short or shallow arc is looked at again, as shares of it.
+/// Shares of a short or shallow arc at which it is checked again.
 const SHARES: [f64; 3] = [0.25, 0.5, 0.75];
 /// Depth of a shallow arc, as a share of a cell: where a wall begins to bend, its place is off by half of that.
 const SHALLOW: f64 = 2e-3;
 /// Tops that differ by less than this share of a cell are in one band.
 const BAND: f64 = 0.1;
 
-/// Where a tool stands: its axis, the height of its tip above the stock's bottom, and the direction of the feed seen from
-/// above.
+/// Position of a tool: its axis, the height of its tip above the stock's bottom, and the direction of the feed seen
+/// from above.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Stand {
     pub centre: [f64; 2],
@@ -30,7 +30,7 @@ pub(crate) struct Stand {
 }
 
 impl Stand {
-    /// Where a radius and the `(sin, cos)` of an angle of the tool lie.
+    /// Position of a radius at the `(sin, cos)` of an angle of the tool.
     #[inline]
     pub fn place(&self, radius: f64, [sin, cos]: [f64; 2]) -> [f64; 2] {
         let [fx, fy] = self.feed;
@@ -42,8 +42,8 @@ impl Stand {
 }
 
 impl Stand {
-    /// How much higher than now the tip is on a ramp when the end of the tool leaves a point (downwards) or comes to it
-    /// (upwards): the floor there is not lower.
+    /// Rise of the tip on a ramp from now until the end of the tool leaves a point (downwards) or reaches it (upwards):
+    /// the floor there is not lower.
     #[inline]
     pub fn floor_above(&self, [x, y]: [f64; 2], radius: f64) -> f64 {
         let (dx, dy) = (x - self.centre[0], y - self.centre[1]);
@@ -87,7 +87,7 @@ impl Cell {
         })
     }
 
-    /// Its columns, in the order of the shares.
+    /// Columns of the cell, in the order of the shares.
     #[inline]
     pub fn columns(&self, stock: &Stock) -> [Column; 4] {
         let (nx, first) = (stock.points[0], self.j * stock.points[0] + self.i);
@@ -105,7 +105,7 @@ impl Cell {
     }
 }
 
-/// Which points of a cell are in the material at a height above the bottom.
+/// Marks the points of a cell that are in the material at a height above the bottom.
 #[inline]
 fn inside(
     stock: &Stock,
@@ -142,7 +142,8 @@ fn depth_in(stock: &Stock, place: [f64; 2], level: f64, stand: &Stand, radius: f
     });
     let seen = walls.map(|wall| wall < known);
     match inside {
-        // Where a wall passes between points, all of them see it: a rib, or a rim outside of all of them.
+        // With all points on one side, a wall passes between them only if all see it: a rib, or a rim outside of all of
+        // them.
         [false, false, false, false] if seen != [true; 4] => return -stock.cell,
         [true, true, true, true] if seen != [true; 4] => return stock.cell,
         _ => {}
@@ -304,7 +305,7 @@ impl Rim {
                 }
             }
         });
-        // From above; the highest of those that lie close together stands for them.
+        // Sorts from above; the highest of those that lie close together represents them.
         levels.sort_by(|a, b| b.total_cmp(a));
         let (Some(highest), Some(lowest)) = (levels.first(), levels.last()) else {
             return;

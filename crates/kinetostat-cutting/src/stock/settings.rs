@@ -1,4 +1,4 @@
-//! How fine a stock is, and how much memory it may take.
+//! Resolution of a stock, and its limit of memory.
 
 use crate::error::{CutError, CutErrorKind, Result, within};
 use crate::tool::Tool;
@@ -8,7 +8,7 @@ const MEMORY: u64 = 500_000_000;
 /// Bytes of one point of the grid.
 pub(crate) const BYTES_PER_CELL: u64 = 20;
 
-/// What happens where the cells that were asked for need more memory than is allowed.
+/// Behaviour when the requested cells need more memory than allowed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Overflow {
     Coarser,
@@ -56,15 +56,14 @@ impl StockSettings {
         })
     }
 
-    /// The same with another bound on the memory, bytes.
+    /// Sets the limit of memory, bytes.
     #[must_use]
     pub fn with_memory_bytes(mut self, bytes: u64) -> Self {
         self.memory_bytes = bytes;
         self
     }
 
-    /// The same, but where the memory does not do the cells become larger until it does: [`Stock::coarsened_from_mm`] says
-    /// so.
+    /// Enlarges the cells where the memory does not suffice, until it does: [`Stock::coarsened_from_mm`] tells.
     ///
     /// [`Stock::coarsened_from_mm`]: crate::Stock::coarsened_from_mm
     #[must_use]

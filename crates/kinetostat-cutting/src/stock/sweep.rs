@@ -1,4 +1,4 @@
-//! Which points of a grid the sweep of a tool along a straight move covers, and how.
+//! Coverage of grid points by the sweep of a tool along a straight move.
 
 use crate::stock::normal::{Bend, Normal};
 use crate::stock::profile::Profile;
@@ -15,7 +15,7 @@ pub(crate) struct Sweep {
     lowest: f64,
     /// Rise per length.
     slope: f64,
-    /// It goes down, if only straight down.
+    /// True if the tool goes down, even if only straight down.
     down: bool,
 }
 
@@ -55,12 +55,12 @@ impl Sweep {
         self.lowest
     }
 
-    /// It does not go down.
+    /// True if the tool does not go down.
     pub fn never_down(&self) -> bool {
         !self.down
     }
 
-    /// Least and greatest y within a distance of the move.
+    /// Smallest and greatest y within a distance of the move.
     pub fn rows(&self, reach: f64) -> [f64; 2] {
         let end = self.from[1] + self.length * self.along[1];
         let (low, high) = if end < self.from[1] {
@@ -71,7 +71,7 @@ impl Sweep {
         [low - reach, high + reach]
     }
 
-    /// Least and greatest x of a row within a distance of the move.
+    /// Smallest and greatest x of a row within a distance of the move.
     #[inline]
     pub fn span(&self, y: f64, reach: f64) -> Option<[f64; 2]> {
         let [ux, uy] = self.along;
@@ -102,7 +102,7 @@ impl Sweep {
         (span[0] <= span[1]).then_some(span)
     }
 
-    /// Least and greatest x of a row within a distance of the start.
+    /// Smallest and greatest x of a row within a distance of the start.
     #[inline]
     pub fn start_span(&self, y: f64, reach: f64) -> Option<[f64; 2]> {
         let dy = y - self.from[1];
@@ -130,7 +130,7 @@ impl Sweep {
         }
     }
 
-    /// From the nearest place of the axis to a point, seen from above: where a wall of the move looks.
+    /// Direction from the nearest place of the axis to a point, seen from above: the normal of a wall of the move.
     #[inline]
     pub fn outward(&self, seen: &Seen) -> Normal {
         let (rest, bend) = match seen.along {
@@ -183,7 +183,7 @@ impl Sweep {
         self.tip + self.slope * way + profile.height(outer)
     }
 
-    /// Where along the way a round tool is lowest over a point.
+    /// Position along the move at which a round tool is lowest over a point.
     fn lowest_way(&self, profile: &Profile, seen: &Seen, ends: [f64; 2]) -> f64 {
         let [mut low, mut high] = ends;
         if profile.end == 0.0 && profile.cone.is_none() {

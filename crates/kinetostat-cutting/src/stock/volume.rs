@@ -40,7 +40,7 @@ impl Stock {
         if (drop >= near && rise >= near) || i == 0 || j == 0 || i + 1 == nx || j + 1 == ny {
             return top;
         }
-        // Of two walls near the point, as where a slot leaves the block, each leads to its own level: its normal says where.
+        // Two walls near the point, as where a slot leaves the block, lead to different levels: the normal tells which.
         let beyond = |distance: f64, normal: Normal, sign: f64| {
             let [x, y] = normal.vector();
             let [along_x, along_y] = [x.abs(), y.abs()];

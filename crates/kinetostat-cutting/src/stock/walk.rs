@@ -16,11 +16,11 @@ const PLACE: f64 = 0.5;
 pub struct Station {
     /// Share of the move, 0 to 1.
     pub share: f64,
-    /// What it has in contact from the station before up to here.
+    /// Engagement from the previous station up to this one.
     pub engagement: Engagement,
 }
 
-/// Where a stretch of a move ends, and whether the tool is in contact there.
+/// End of a stretch of a move, and true if the tool is in contact there.
 #[derive(Clone, Copy, Debug)]
 struct Mark {
     share: f64,
@@ -76,9 +76,9 @@ impl Probe {
         self.walk_turning(stock, from, to, None, at)
     }
 
-    /// The same along a chord of a curve: the tool is looked at on the chord, and goes the way of the curve, of which
-    /// `tangents` (of the same length) are those at its ends. Without them the ends of the arcs in contact would be off by half of
-    /// what the chord turns.
+    /// Walks along a chord of a curve: the tool is placed on the chord, but moves along the curve, whose tangents (of
+    /// the same length) at both ends are `tangents`. Without them the ends of the arcs in contact would be off by half
+    /// of the chord's turn.
     ///
     /// ```
     /// use kinetostat_cutting::{Probe, Shape, Stock, StockSettings, Tool};
@@ -197,7 +197,7 @@ impl Probe {
         }
     }
 
-    /// Whether the tool is in contact where a move begins.
+    /// True if the tool is in contact at the start of a move.
     fn was_in_contact(&mut self, stock: &Stock, way: &Move, first: f64) -> bool {
         match self.last {
             Some((place, in_contact)) if place == way.from => in_contact,

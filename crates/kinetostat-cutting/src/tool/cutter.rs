@@ -27,7 +27,7 @@ pub enum Shape {
 }
 
 impl Shape {
-    /// Its word: `flat`, `ball`, `bull` or `face`.
+    /// Keyword of the shape: `flat`, `ball`, `bull` or `face`.
     ///
     /// ```
     /// use kinetostat_cutting::Shape;
@@ -50,8 +50,7 @@ impl Shape {
 pub struct RunOut {
     /// Distance of the two axes, mm.
     pub offset_mm: f64,
-    /// Where the offset points, seen from tooth 0, rad: tooth `j` of `N` stands out by
-    /// `offset cos(angle - 2 pi j/N)`.
+    /// Direction of the offset, seen from tooth 0, rad: tooth `j` of `N` protrudes by `offset cos(angle - 2 pi j/N)`.
     pub angle: f64,
 }
 
@@ -113,7 +112,7 @@ impl Tool {
         })
     }
 
-    /// The same with a helix angle, rad. Positive lifts the chip: the edge lags behind the tip as it rises.
+    /// Sets the helix angle, rad. Positive lifts the chip: the edge lags behind the tip as it rises.
     ///
     /// # Errors
     /// An angle beyond 70 degrees.
@@ -129,7 +128,7 @@ impl Tool {
         Ok(self)
     }
 
-    /// The same with run-out.
+    /// Sets the run-out.
     ///
     /// # Errors
     /// An offset that is negative or more than a tenth of the diameter, an angle that is no number.
@@ -201,7 +200,7 @@ impl Tool {
         TAU / self.teeth as f64
     }
 
-    /// By how much a tooth stands out from the mean, mm.
+    /// Protrusion of a tooth over the mean, mm.
     #[must_use]
     pub fn stands_out_mm(&self, tooth: usize) -> f64 {
         self.run_out.offset_mm * (self.run_out.angle - self.pitch() * tooth as f64).cos()

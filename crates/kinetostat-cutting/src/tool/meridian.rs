@@ -13,7 +13,7 @@ pub(crate) struct Meridian {
     pub(crate) radius: f64,
     /// Sine of the angle between the axis and the outward normal.
     pub(crate) sin: f64,
-    /// Its cosine: the normal is `(sin radially, -cos along the axis)`.
+    /// Cosine of the normal's angle: the normal is `(sin radially, -cos along the axis)`.
     pub(crate) cos: f64,
     /// Width of the edge per parameter.
     pub(crate) width: f64,

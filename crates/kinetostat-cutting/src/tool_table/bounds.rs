@@ -1,6 +1,6 @@
-//! How much a file may hold.
+//! Limits of a file's size.
 
-/// Most bytes of a file.
+/// Maximum number of bytes of a file.
 pub(crate) const MOST_BYTES: usize = 10_000_000;
-/// Most tools of a file.
+/// Maximum number of tools of a file.
 pub(crate) const MOST_TOOLS: usize = 10_000;

@@ -1,4 +1,4 @@
-//! What a table says about one tool.
+//! Entry of a table for one tool.
 
 use crate::tool::Tool;
 
@@ -8,9 +8,9 @@ use crate::tool::Tool;
 pub struct ToolEntry {
     /// Number by which the program calls it (T).
     pub number: u32,
-    /// Its name; the comment of `tool.tbl` where the table gives none, empty where neither does.
+    /// Name of the tool; the comment of `tool.tbl` if the table has none, empty if neither has one.
     pub name: String,
-    /// Its edges.
+    /// Geometry of the tool.
     pub tool: Tool,
     /// Length outside the holder, mm.
     pub stick_out_mm: Option<f64>,

@@ -43,7 +43,7 @@ pub struct LinuxCncTool {
     pub diameter_mm: Option<f64>,
     /// Z, length offset, mm.
     pub length_mm: Option<f64>,
-    /// What follows the semicolon.
+    /// Comment after the semicolon.
     pub comment: String,
 }
 

@@ -1,4 +1,4 @@
-//! What is wrong in a table of tools, with its line.
+//! Messages about errors in a table of tools, with their lines.
 
 use std::ops::RangeInclusive;
 

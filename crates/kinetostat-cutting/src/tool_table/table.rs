@@ -50,8 +50,8 @@ impl ToolTable {
         })
     }
 
-    /// The same beside a `tool.tbl`, which gives each tool of the same number its length offset, diameter and name where
-    /// this table leaves them out.
+    /// Reads the table beside a `tool.tbl`, which gives each tool of the same number its length offset, diameter and
+    /// name where this table leaves them out.
     ///
     /// A D of `tool.tbl` near zero is the wear and is not added to the diameter.
     ///
@@ -72,7 +72,7 @@ impl ToolTable {
     /// ```
     ///
     /// # Errors
-    /// As [`ToolTable::read`], and a diameter that is not that of `tool.tbl` within a tenth.
+    /// Those of [`ToolTable::read`], and a diameter that is not that of `tool.tbl` within a tenth.
     pub fn completing(file: &str, text: &str, machine: LinuxCncTable) -> Result<Self> {
         Ok(Self {
             file: file.to_owned(),

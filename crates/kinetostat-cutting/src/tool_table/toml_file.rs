@@ -216,7 +216,7 @@ impl ToolEntry {
     }
 }
 
-/// Whether the first line with something in it is one of a `tool.tbl`.
+/// True if the first line that is not empty is one of a `tool.tbl`.
 fn is_of_linuxcnc(text: &str) -> bool {
     let mut lines = text.lines().map(str::trim);
     let first = lines.find(|line| !line.is_empty() && !line.starts_with([';', '#']));

@@ -11,7 +11,7 @@ use crate::error::{Error, Result};
 use crate::linear::LinearDynamics;
 use crate::modes::{ModeKind, Modes};
 
-/// How vibrations are damped.
+/// Law of damping.
 ///
 /// ```
 /// use kinetostat_dynamics::Damping;
@@ -22,12 +22,12 @@ use crate::modes::{ModeKind, Modes};
 #[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Damping {
-    /// None.
+    /// No damping.
     #[default]
     Undamped,
-    /// The same ratio `zeta` in every vibration about the loaded equilibrium: typical robots have 0.01 to 0.04. Where loads
-    /// have no potential, in every complex pair: `q'' + 2 zeta |lambda| q' - lambda^2 q = 0` of one that swings undamped as
-    /// `lambda`.
+    /// Equal ratio `zeta` in every vibration about the loaded equilibrium: typical robots have 0.01 to 0.04. If loads
+    /// have no potential, it applies to every complex pair: `q'' + 2 zeta |lambda| q' - lambda^2 q = 0` for a pair with
+    /// the undamped eigenvalue `lambda`.
     Ratio(f64),
     /// Ratios of the lowest vibrations, as measured; the last one counts for all above.
     Ratios(Vec<f64>),
@@ -48,7 +48,7 @@ pub enum Damping {
 }
 
 impl Damping {
-    /// Its name, for results.
+    /// Name of the law, for results.
     #[must_use]
     pub fn name(&self) -> &'static str {
         match self {
@@ -99,20 +99,20 @@ impl Damping {
     }
 }
 
-/// What damps one mode: a share of critical damping, and a loss factor.
+/// Damping of one mode: a ratio to critical damping, and a loss factor.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct ModalDamping {
     pub ratio: f64,
     pub loss: f64,
 }
 
-/// What loads and bowing change of the springs' stiffness below this share of it is rounding.
+/// Relative rounding: smaller changes of the springs' stiffness by loads and bowing are ignored.
 const SAME: f64 = 1e-10;
 
 impl LinearDynamics {
-    /// Whether what damping does in one mode drives others, so that a sum of modes with their own ratios is no longer exact:
-    /// dampers at joints do, and where loads or bowing change the stiffness Rayleigh's and structural damping, which go by
-    /// that of the springs (`K` is not diagonal in the modes of `K - H`).
+    /// True if damping couples the modes, so that a sum of modes with their own ratios is no longer exact: by dampers
+    /// at joints, and, where loads or bowing change the stiffness, by Rayleigh's and structural damping, which use the
+    /// stiffness of the springs alone (`K` is not diagonal in the modes of `K - H`).
     #[must_use]
     pub fn modes_are_coupled_by(&self, damping: &Damping) -> bool {
         match damping {
@@ -126,7 +126,7 @@ impl LinearDynamics {
         }
     }
 
-    /// Whether `K - H` is another matrix than `K`.
+    /// True if `K - H` differs from `K`.
     fn differs_from_springs(&self) -> bool {
         let (k, e) = (&self.tangent, &self.elastic);
         let size = |i: usize| larger(k[(i, i)].abs(), e[(i, i)].abs());
@@ -180,7 +180,7 @@ impl LinearDynamics {
         Ok(matrix)
     }
 
-    /// How much a joint or spring coordinate moves by the independent ones.
+    /// Motion of a joint or spring coordinate by the independent ones.
     pub(crate) fn motion_of_coordinate(&self, name: &str) -> Result<nalgebra::DVector<f64>> {
         let found = self.coordinates.iter().find(|c| c.name == name);
         let found = found.ok_or_else(|| Error::UnknownName {

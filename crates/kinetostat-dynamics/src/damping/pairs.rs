@@ -20,14 +20,14 @@ use crate::modes::quadratic::Quadratic;
 
 /// Pairs whose `w^2` differ by a smaller share are damped as one: near flutter their shapes are nearly the same.
 const CLOSE: f64 = 1e-5;
-/// How far beside it the iteration looks, so that all of a cluster grow alike.
+/// Relative offset of the shift in inverse iteration, so that all eigenvectors of a cluster grow alike.
 const BESIDE: f64 = 1e-9;
 
-/// What an undamped eigenvalue becomes.
+/// Damped eigenvalue from an undamped one.
 pub(crate) fn damped(value: Complex<f64>, ratio: f64) -> Complex<f64> {
     let rate = ratio * value.norm();
     let root = (value * value + rate * rate).sqrt();
-    // Of both roots that on the side of the undamped one.
+    // Picks the root on the side of the undamped eigenvalue.
     let root = match (root * value.conj()).re < 0.0 {
         true => -root,
         false => root,
@@ -64,7 +64,7 @@ impl LinearDynamics {
             let rate = 2.0 * ratio_of(ratios, k) * mean.norm().sqrt();
             sum += projector(&pencil, mean, own.len()).map(|x| x.re) * rate;
         }
-        // From coordinates of the pencil: r = back x, and l^T M r is the same in both.
+        // Transforms from coordinates of the pencil: r = back x, and l^T M r is the same in both.
         let mass = &self.mass * &pencil.back;
         Ok(&mass * sum * mass.transpose())
     }

@@ -1,4 +1,4 @@
-//! What the tool is held by, and the motions that are left: null spaces of closures and held directions [D 3, D5].
+//! Constraints on the tool, and the motions that are left: null spaces of closures and held directions [D 3, D5].
 
 pub(crate) mod null_space;
 
@@ -6,7 +6,7 @@ use kinetostat::chain::Prescribed;
 use kinetostat::{Directions, EndCondition};
 use nalgebra::Rotation3;
 
-/// Which motions of the tool (or of the end of a chain) are held while the machine vibrates.
+/// Directions of the tool (or of the end of a chain) that are held while the machine vibrates.
 ///
 /// ```
 /// use kinetostat::Directions;
@@ -43,7 +43,7 @@ impl Held {
         }
     }
 
-    /// These directions of the base's axes are held.
+    /// Holds these directions of the base's axes.
     #[must_use]
     pub fn directions(directions: Directions) -> Self {
         Self {
@@ -52,7 +52,7 @@ impl Held {
         }
     }
 
-    /// What an end condition of the statics prescribes as a pose is held.
+    /// Holds the directions whose pose an end condition of the statics prescribes.
     #[must_use]
     pub fn of_end(end: &EndCondition) -> Self {
         Self {
@@ -61,7 +61,7 @@ impl Held {
         }
     }
 
-    /// Nothing is held.
+    /// True if nothing is held.
     #[must_use]
     pub fn is_free(&self) -> bool {
         self.directions == [false; 6]

@@ -11,7 +11,7 @@ pub(crate) fn null_space(rows: &DMatrix<f64>) -> (DMatrix<f64>, usize) {
     null_space_below(rows, DEPENDENT)
 }
 
-/// The same with a threshold of one's own for pivots, relative to the largest.
+/// Null space with an explicit threshold for pivots, relative to the largest.
 pub(crate) fn null_space_below(rows: &DMatrix<f64>, dependent: f64) -> (DMatrix<f64>, usize) {
     let n = rows.ncols();
     if rows.nrows() == 0 || n == 0 {

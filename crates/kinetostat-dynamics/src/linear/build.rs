@@ -1,4 +1,4 @@
-//! From blocks of limbs and platforms, with conditions on them, to independent coordinates.
+//! Transforms blocks of limbs and platforms, with conditions on them, to independent coordinates.
 
 use nalgebra::DMatrix;
 

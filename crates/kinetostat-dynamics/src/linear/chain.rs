@@ -69,7 +69,7 @@ pub(crate) fn lumped_links(chain: &Chain, prefix: &str) -> Vec<LumpedLink> {
     found
 }
 
-/// Whether a place, seen from the far end of a link, lies beside it: well before its end, and nearer than its length.
+/// True if a place, seen from the far end of a link, lies beside it: well before its end, and nearer than its length.
 fn is_along(link: &Segment, place: &Vector3<f64>) -> bool {
     let back = -place.dot(&link.along) / link.link_length;
     let aside = (place + link.along * (back * link.link_length)).norm();

@@ -1,4 +1,4 @@
-//! What one limb brings: its masses, springs and places, by its coordinates and the motions of its base.
+//! Contribution of one limb: its masses, springs and places, by its coordinates and the motions of its base.
 
 use kinetostat::Chain;
 use kinetostat::chain::ChainTangent;

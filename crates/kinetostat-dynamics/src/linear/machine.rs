@@ -46,10 +46,10 @@ impl LinearDynamics {
         Self::of_state(posture, &at.state, &at.wrench, held)
     }
 
-    /// The same at a state that is known to be in equilibrium under a wrench on the tool.
+    /// Linearises at a state that is known to be in equilibrium under a wrench on the tool.
     ///
     /// # Errors
-    /// As [`Self::of_machine`].
+    /// See [`Self::of_machine`].
     pub fn of_state(
         posture: &Posture,
         state: &kinetostat::machine::MechanismState,
@@ -191,8 +191,7 @@ fn closed(
     Ok(without_rounding(own, held))
 }
 
-/// What rounding leaves of the tool's motions along held directions is taken out: it would look like a motion where there
-/// is no other.
+/// Removes rounding from the tool's motions along held directions: it would look like a motion where there is no other.
 fn without_rounding(mut own: LinearDynamics, held: &Held) -> LinearDynamics {
     let tool = &own.blocks[own.places[own.tool].block];
     let (Some(basis), Some(&first)) = (&mut own.basis, tool.first()) else {

@@ -91,7 +91,7 @@ pub struct LinearDynamics {
     pub(crate) basis: Option<DMatrix<f64>>,
     /// Natural units of the independent coordinates: metres and radians become comparable.
     pub(crate) units: Vec<f64>,
-    /// Which of all coordinates each block has.
+    /// Indices of the coordinates of each block.
     pub(crate) blocks: Vec<Vec<usize>>,
     pub(crate) masses: Vec<MassPart>,
     pub(crate) springs: Vec<SpringPart>,
@@ -113,7 +113,7 @@ impl LinearDynamics {
         self.mass.nrows()
     }
 
-    /// Nothing can move.
+    /// True if nothing can move.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.mass.nrows() == 0
@@ -177,7 +177,7 @@ impl LinearDynamics {
             .sum()
     }
 
-    /// The same motion by all coordinates.
+    /// Returns a motion in terms of all coordinates.
     pub(crate) fn all(&self, independent: &DVector<f64>) -> DVector<f64> {
         match &self.basis {
             Some(basis) => basis * independent,
@@ -226,5 +226,6 @@ impl LinearDynamics {
     }
 }
 
-/// From this asymmetry on, see [`LinearDynamics::asymmetry`]; rounding stays a thousand times below.
+/// Smallest asymmetry of a circulatory system, see [`LinearDynamics::asymmetry`]; rounding stays a thousand times
+/// below.
 pub(crate) const CIRCULATORY: f64 = 1e-10;

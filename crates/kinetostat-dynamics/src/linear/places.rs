@@ -11,7 +11,7 @@ use crate::linear::LinearDynamics;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Point {
     pub(crate) place: usize,
-    /// From the place's origin, base axes, m.
+    /// Arm from the place's origin, base axes, m.
     pub(crate) arm: Vector3<f64>,
 }
 

@@ -56,8 +56,8 @@ pub(crate) fn rotors_of(machine: &Mechanism) -> Vec<Rotor> {
 }
 
 impl LinearDynamics {
-    /// The same machine with rotors of its drives, each with a coordinate of its own, last. Those that the drives of the model
-    /// state ([`kinetostat::model::DriveRotor`]) are there already.
+    /// Adds rotors to drives, each with a coordinate of its own, last. Rotors that drives of the model state
+    /// ([`kinetostat::model::DriveRotor`]) are included already.
     ///
     /// # Errors
     /// [`Error::Rotor`]: a joint without a spring, an inertia below zero, a servo softer than the whole joint.

@@ -1,4 +1,4 @@
-//! What spins: its momentum couples turns about the two other axes [D 6].
+//! Gyroscopic terms: the angular momentum of rotors couples rotations about the two other axes [D 6].
 
 use kinetostat::spatial::hat;
 use nalgebra::{DMatrix, Vector3};

@@ -6,8 +6,8 @@ use kinetostat::{Chain, Mechanism, Pose};
 use crate::error::{Error, Result};
 use crate::mass::body;
 
-/// Whether a machine can vibrate: something that moves has a mass, and every inertia is that of a body. It is asked once,
-/// before many postures.
+/// Checks that a machine can vibrate: something that moves has a mass, and every inertia is that of a body. Call it
+/// once, before many postures.
 ///
 /// # Errors
 /// [`Error::NoMass`] and [`Error::Inertia`].

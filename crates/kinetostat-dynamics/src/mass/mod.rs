@@ -6,7 +6,7 @@ pub(crate) mod segment;
 
 use nalgebra::{DMatrix, DVector};
 
-/// What a part with mass is.
+/// Kind of a part with mass.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "snake_case")]
 #[non_exhaustive]
@@ -26,18 +26,18 @@ pub enum MassKind {
 pub struct MassPart {
     /// Name of the body, link, platform or actuator.
     pub name: String,
-    /// What it is.
+    /// Kind of the part.
     pub kind: MassKind,
     /// Block of coordinates that move it, see [`crate::LinearDynamics`].
     pub(crate) block: usize,
-    /// Its motions by the coordinates of the block, k x n.
+    /// Motions of the part by the coordinates of the block, k x n.
     pub(crate) motions: DMatrix<f64>,
     /// Inertia in these motions, k x k.
     pub(crate) inertia: DMatrix<f64>,
 }
 
 impl MassPart {
-    /// Its kinetic energy at unit velocity along `motion` (coordinates of its block), J per (1/s)^2.
+    /// Kinetic energy of the part at unit velocity along `motion` (coordinates of its block), J per (1/s)^2.
     pub(crate) fn kinetic(&self, motion: &DVector<f64>) -> f64 {
         let own = &self.motions * motion;
         0.5 * own.dot(&(&self.inertia * &own))

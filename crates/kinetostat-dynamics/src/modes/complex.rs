@@ -14,9 +14,9 @@ use crate::modes::quadratic::Quadratic;
 pub struct ComplexMode {
     /// `lambda`, 1/s: the imaginary part is the angular frequency, a positive real part grows.
     pub eigenvalue: Complex<f64>,
-    /// Its shape by independent coordinates, largest entry one.
+    /// Right eigenvector by independent coordinates, largest entry one.
     pub right: DVector<Complex<f64>>,
-    /// Left shape: by which forces it is driven.
+    /// Left shape: forces that drive it.
     pub left: DVector<Complex<f64>>,
 }
 
@@ -33,13 +33,13 @@ impl ComplexMode {
         -self.eigenvalue.re / self.eigenvalue.norm()
     }
 
-    /// Whether a disturbance in it grows, beyond rounding.
+    /// True if a disturbance in this mode grows, beyond rounding.
     #[must_use]
     pub fn grows(&self) -> bool {
         grows(self.eigenvalue)
     }
 
-    /// Whether it swings at all.
+    /// True if the mode oscillates.
     #[must_use]
     pub fn swings(&self) -> bool {
         swings(self.eigenvalue)
@@ -52,16 +52,16 @@ impl ComplexMode {
     }
 }
 
-/// What becomes of a small disturbance.
+/// Stability of small disturbances.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "snake_case")]
 #[non_exhaustive]
 pub enum Verdict {
-    /// It dies away, or (without damping) stays as small.
+    /// Disturbances decay, or (without damping) stay as small.
     Stable,
-    /// It swings with growing amplitude.
+    /// Disturbances oscillate with growing amplitude.
     Flutter,
-    /// It goes away without swinging.
+    /// Disturbances grow without oscillating.
     Divergence,
     /// Loads without a potential on links of one segment: what a coarse link says of them depends on its convention, and
     /// so it is not judged. Give these links two segments and more.
@@ -75,13 +75,14 @@ pub enum Verdict {
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct ComplexModes {
-    /// One of every pair, by ascending `|lambda|`; where a pair grows without damping, also that which dies away beside it.
+    /// One mode of every pair, by ascending `|lambda|`; where a pair grows without damping, also its decaying
+    /// counterpart.
     pub modes: Vec<ComplexMode>,
-    /// How many there are in all.
+    /// Number of all modes.
     pub count: usize,
     /// Eigenvalues of all of them that grow, the fastest first.
     pub growing: Vec<Complex<f64>>,
-    /// What becomes of a small disturbance.
+    /// Stability of small disturbances.
     pub verdict: Verdict,
     /// Largest `|Im w^2| / |w^2|` of the undamped machine: how far loads without a potential make modes complex. Zero with
     /// damping, which is looked at by its ratios.
@@ -153,7 +154,7 @@ impl LinearDynamics {
     }
 }
 
-/// Those that grow, the fastest first.
+/// Growing eigenvalues, the fastest first.
 pub(crate) fn growing(values: &[Complex<f64>]) -> Vec<Complex<f64>> {
     let mut own: Vec<_> = values.iter().copied().filter(|v| grows(*v)).collect();
     own.sort_by(|a, b| b.re.total_cmp(&a.re));

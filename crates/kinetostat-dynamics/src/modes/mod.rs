@@ -16,7 +16,7 @@ use crate::linear::LinearDynamics;
 pub use mode::{Mode, ModeKind};
 pub use shares::EnergyShare;
 
-/// How many directions there are of each kind.
+/// Numbers of directions of each kind.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[non_exhaustive]
 pub struct DirectionCounts {
@@ -40,7 +40,7 @@ pub struct DirectionCounts {
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct Modes {
-    /// By ascending `w^2`: unstable ones first, then free ones.
+    /// Modes by ascending `w^2`: unstable ones first, then free ones.
     pub modes: Vec<Mode>,
     /// Directions of each kind.
     pub counts: DirectionCounts,
@@ -55,7 +55,7 @@ impl Modes {
         self.modes.iter().map(Mode::frequency_hz).collect()
     }
 
-    /// No mode goes away and no massless direction does; free directions are allowed. For loads with a potential.
+    /// True if no mode and no massless direction diverges; free directions are allowed. For loads with a potential.
     #[must_use]
     pub fn stable(&self) -> bool {
         self.counts.unstable == 0 && self.counts.massless_unstable == 0
@@ -65,8 +65,8 @@ impl Modes {
 /// Below this share of the stiffnesses that act in a mode, what is left of them is rounding.
 const NOTHING: f64 = 1e-11;
 
-/// What a mode is, and its `w^2`, zero where it is rounding: `size` is what stiffnesses do in the mode, `shift` was
-/// added to find it.
+/// Kind of a mode, and its `w^2`, set to zero where it is rounding: `size` is the magnitude of the stiffnesses in the
+/// mode, `shift` was added to find it.
 pub(crate) fn kind_of(squared: f64, size: f64, shift: f64) -> (ModeKind, f64) {
     if squared.abs() <= NOTHING * size + 1e-12 * shift {
         return (ModeKind::Free, 0.0);
@@ -86,7 +86,7 @@ pub(crate) fn rigid_of(gram: &Matrix6<f64>, most: f64) -> usize {
 }
 
 impl DirectionCounts {
-    /// Of the lowest modes, all unstable and free ones among them, out of `all`.
+    /// Counts the lowest modes, all unstable and free ones among them, out of `all`.
     pub(crate) fn of(lowest: &[Mode], all: usize) -> Self {
         let of = |kind| lowest.iter().filter(|m| m.kind == kind).count();
         let (free, unstable) = (of(ModeKind::Free), of(ModeKind::Unstable));
@@ -162,7 +162,7 @@ impl LinearDynamics {
             motions
         };
         let motions = scaled(self.motions_of(self.tool));
-        // What cancels where the tool is held is rounding of these.
+        // Contributions that cancel where the tool is held leave rounding of this size.
         let parts = scaled(self.motion_sizes_of(self.tool));
         let gram = &motions * motions.transpose();
         let most = parts.row_iter().map(|row| row.norm_squared());

@@ -2,16 +2,16 @@
 
 use nalgebra::{DVector, Vector6};
 
-/// What a mode is.
+/// Kind of a mode.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "snake_case")]
 #[non_exhaustive]
 pub enum ModeKind {
-    /// It swings about the equilibrium.
+    /// Vibration about the equilibrium.
     Vibration,
     /// Nothing holds it: mass without stiffness. Its frequency is zero within rounding.
     Free,
-    /// It goes away: negative stiffness. Its frequency is written with a minus sign.
+    /// Negative stiffness: the motion diverges. Its frequency is written with a minus sign.
     Unstable,
 }
 
@@ -21,9 +21,9 @@ pub enum ModeKind {
 pub struct Mode {
     /// `w^2`, (rad/s)^2; negative where the equilibrium is unstable. Zero exactly for a free direction.
     pub squared: f64,
-    /// What it is.
+    /// Kind of the mode.
     pub kind: ModeKind,
-    /// Its shape by the independent coordinates, normalised by mass: `phi^T M phi = 1`.
+    /// Shape by the independent coordinates, normalised by mass: `phi^T M phi = 1`.
     pub shape: DVector<f64>,
     /// Motion of the tool in it, base axes at the tool's origin: m and rad, in units of `1 / sqrt(kg)`.
     pub tool: Vector6<f64>,

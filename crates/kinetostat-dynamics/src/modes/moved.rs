@@ -1,4 +1,4 @@
-//! How limbs and platforms move in a mode: what a drawing of it needs.
+//! Motions of limbs and platforms in a mode, for drawings.
 
 use nalgebra::DVector;
 

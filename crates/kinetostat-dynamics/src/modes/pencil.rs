@@ -13,7 +13,7 @@ use crate::ends::null_space::{null_space, null_space_below};
 
 /// Pivots of a matrix with ones on its diagonal below this are none.
 const PIVOT: f64 = 1e-13;
-/// The same for masses: what is lighter by so much has no mass.
+/// Threshold of masses: a smaller ratio counts as massless.
 const MASSLESS: f64 = 1e-11;
 
 /// All finite modes of a pencil.
@@ -88,7 +88,7 @@ impl Shifted {
             // Masses alone: any shift will do.
             return Self::new(mass, tangent, 1.0);
         }
-        // Where even this does not help, none does.
+        // If this shift fails, so does any other.
         let last = 1e3 * most;
         let far = Self::new(mass, tangent, last)?;
         let mut shift = 1e-6 * least;

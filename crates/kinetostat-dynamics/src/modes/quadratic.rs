@@ -183,7 +183,7 @@ fn normalised(x: DVector<Complex<f64>>) -> DVector<Complex<f64>> {
 }
 
 impl LinearDynamics {
-    /// Why there are no complex modes.
+    /// Error if the complex modes were not found.
     pub(crate) fn not_found(&self) -> Error {
         Error::NotSolved(format!(
             "the complex modes of '{}' were not found: a direction without stiffness, or a load at which one loses it",

@@ -1,4 +1,4 @@
-//! Which body moves in a mode, and which spring bends: shares of kinetic and elastic energy.
+//! Shares of bodies in the kinetic energy and of springs in the elastic energy of a mode.
 
 use nalgebra::DVector;
 use serde::{Deserialize, Serialize};

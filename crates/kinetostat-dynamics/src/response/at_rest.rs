@@ -1,4 +1,4 @@
-//! What a machine gives way by at rest, by its independent coordinates.
+//! Static flexibility of a machine, by its independent coordinates.
 
 use nalgebra::DMatrix;
 

@@ -15,7 +15,7 @@ use crate::modes::Modes;
 /// Times of relaxation below this share of what all of the flexibility at the dampers would make them are rounding.
 const RELAXING: f64 = 1e-10;
 
-/// What viscous damping couples: modes with each other and with directions without mass that dampers hold.
+/// Coupling by viscous damping: of modes with each other and with massless directions that dampers hold.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CoupledDamping {
     /// Motion of the point in each direction without mass, of unit stiffness, m per sqrt(N m), base axes. Their flexibility at rest is a
@@ -27,8 +27,8 @@ pub struct CoupledDamping {
 }
 
 impl LinearDynamics {
-    /// Of the lowest modes, at a point with these motions; `None` where nothing is coupled, where it is not viscous (structural
-    /// damping), and where the machine does not hold its place.
+    /// Coupling of the lowest modes, at a point with these motions; `None` if nothing is coupled, if damping is not
+    /// viscous (structural), and if the machine does not hold its place.
     pub(crate) fn coupled_damping(
         &self,
         modes: &Modes,
@@ -92,7 +92,7 @@ impl LinearDynamics {
             return Ok(DMatrix::from_columns(&columns));
         }
         let matrix = self.damping_matrix(modes, damping)?;
-        // In units in which the diagonal is one.
+        // Scaled to units in which the diagonal is one.
         let units = matrix
             .diagonal()
             .map(|own| if own > 0.0 { own.sqrt() } else { 1.0 });

@@ -105,10 +105,10 @@ impl DirectResponse<'_> {
         Ok(self.over(at, from, &[hz], Quantity::Displacement)?[0])
     }
 
-    /// The same at many frequencies, Hz.
+    /// Receptances at many frequencies, Hz.
     ///
     /// # Errors
-    /// As [`Self::at_hz`].
+    /// See [`Self::at_hz`].
     pub fn over(
         &self,
         at: Point,

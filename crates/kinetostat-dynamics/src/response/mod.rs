@@ -11,7 +11,7 @@ use nalgebra::{Complex, Matrix6};
 /// 6 x 6: motion (m, rad) of one point by force and moment (N, N m) on another, base axes.
 pub type Receptance = Matrix6<Complex<f64>>;
 
-/// Which motion is asked for.
+/// Motion that a response describes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Quantity {
@@ -25,7 +25,7 @@ pub enum Quantity {
 }
 
 impl Quantity {
-    /// What a displacement is multiplied with at `w` (rad/s).
+    /// Factor from a displacement to this quantity at `w` (rad/s).
     #[must_use]
     pub fn factor(self, w: f64) -> Complex<f64> {
         match self {

@@ -126,7 +126,7 @@ impl ModalResponse {
         out
     }
 
-    /// The same into a list that exists already; of the two the shorter counts.
+    /// Writes the receptances into an existing list; the shorter of both lists limits the number.
     pub fn over_into(&self, hz: &[f64], quantity: Quantity, out: &mut [Receptance]) {
         let mut factors = vec![Complex::default(); self.terms.len()];
         for (hz, into) in hz.iter().zip(out) {
@@ -217,7 +217,7 @@ impl LinearDynamics {
         kept: usize,
     ) -> Result<Matrix6<f64>> {
         let kept = kept.max(modes.counts.free + modes.counts.unstable);
-        // What is free would have no flexibility at rest: with s M everything has one, and modes are taken out by theirs.
+        // Free directions have no static flexibility: with s M all have one, and modes are taken out by theirs.
         let shift = match modes.counts.free {
             0 => 0.0,
             _ => modes

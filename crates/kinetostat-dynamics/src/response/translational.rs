@@ -17,7 +17,7 @@ pub struct TranslationalModes {
     pub ratios: Vec<f64>,
     /// Residual flexibility of everything else, m/N.
     pub residual: Matrix3<f64>,
-    /// What damping couples, where it does.
+    /// Coupling by damping, if there is any.
     pub coupling: Option<CoupledDamping>,
 }
 

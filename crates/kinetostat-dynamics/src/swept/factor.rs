@@ -31,7 +31,7 @@ struct Eliminated {
     across: Matrix6xX<f64>,
 }
 
-/// What the held end adds.
+/// Contribution of the held end.
 struct Border {
     /// `P^-1 J^T W`, n x r.
     moved: DMatrix<f64>,
@@ -193,7 +193,7 @@ fn inverted(a: &DMatrix<f64>) -> Option<(DMatrix<f64>, usize)> {
     }
     let eigen = scaled.symmetric_eigen();
     let most = eigen.eigenvalues.amax();
-    // What is no number is no pivot either.
+    // NaN is no pivot.
     let is_pivot = |v: &f64| v.abs() > PIVOT * most;
     if !eigen.eigenvalues.iter().all(is_pivot) {
         return None;

@@ -5,7 +5,7 @@ use nalgebra::{DMatrix, DVector};
 use crate::swept::factor::Factor;
 use crate::swept::stages::Stages;
 
-/// What is left of a vector beside this share of it is rounding.
+/// Relative size of a vector's remainder that counts as rounding.
 const EXHAUSTED: f64 = 1e-9;
 
 /// Vectors orthonormal by mass, and the operator in them.

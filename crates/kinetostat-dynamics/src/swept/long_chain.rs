@@ -30,10 +30,10 @@ pub struct LongChain {
 }
 
 impl LongChain {
-    /// As [`crate::LinearDynamics::of_chain`]; `None` of a chain that it does not serve.
+    /// Linearises like [`crate::LinearDynamics::of_chain`]; `None` for a chain that this method does not support.
     ///
     /// # Errors
-    /// As [`crate::LinearDynamics::of_chain`].
+    /// See [`crate::LinearDynamics::of_chain`].
     ///
     /// ```
     /// # use kinetostat::nalgebra::vector;
@@ -101,10 +101,11 @@ impl LongChain {
         }))
     }
 
-    /// As [`crate::LinearDynamics::of_machine`], of a machine that is one limb with a platform; `None` of one that it does not serve.
+    /// Linearises like [`crate::LinearDynamics::of_machine`] a machine of one limb with a platform; `None` for a
+    /// machine that this method does not support.
     ///
     /// # Errors
-    /// As [`crate::LinearDynamics::of_machine`].
+    /// See [`crate::LinearDynamics::of_machine`].
     pub fn of_machine(
         posture: &Posture,
         at: &MechanismEquilibrium,
@@ -135,7 +136,7 @@ impl LongChain {
         body::check(&platform.name, platform.mass, &platform.inertia)?;
         let pose = state.platforms[limb.to];
         let rotation = *pose.rotation.to_rotation_matrix().matrix();
-        // From the platform's origin to the tip, and to its centre of mass.
+        // Arms from the platform's origin to the tip, and to its centre of mass.
         let arm = pose.rotation * limb.platform_from_tip.translation.vector;
         let centre = rotation * platform.centre_of_mass;
         let weight = machine.gravity() * platform.mass;

@@ -62,7 +62,7 @@ impl LongChain {
         if let Some(found) = stable(0.0) {
             return Some(found);
         }
-        // Of some motion: energies of springs and of speed.
+        // Rayleigh quotient of some motion: energies of springs and of speed.
         let x = &self.units;
         let mass = self.stages.mass_times(x);
         let mass: f64 = mass.iter().zip(x).map(|(m, x)| m * x).sum();

@@ -27,10 +27,10 @@ pub fn lowest_modes(
     lowest_modes_of_state(posture, &at.state, &at.wrench, held, count)
 }
 
-/// As [`lowest_modes`], of a state in equilibrium under a wrench on the tool ([`Posture::rest_under`]).
+/// Finds modes like [`lowest_modes`], at a state in equilibrium under a wrench on the tool ([`Posture::rest_under`]).
 ///
 /// # Errors
-/// As [`lowest_modes`].
+/// See [`lowest_modes`].
 pub fn lowest_modes_of_state(
     posture: &Posture,
     state: &MechanismState,

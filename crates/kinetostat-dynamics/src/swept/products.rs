@@ -1,10 +1,10 @@
-//! What masses and springs do in motions of a chain.
+//! Products of the mass and stiffness matrices of a chain with motions.
 
 use nalgebra::{DMatrix, Matrix6, Vector6};
 
 use crate::swept::stages::{Stage, Stages};
 
-/// What is lighter by so much than what it moves with has no mass, as in `modes::pencil`.
+/// Relative mass below which a part counts as massless, as in `modes::pencil`.
 const MASSLESS: f64 = 1e-11;
 
 impl Stages {

@@ -20,11 +20,11 @@ pub(crate) struct Stage {
     pub first: usize,
     /// Twists at the tip's place by its coordinates, 6 x k.
     pub twists: Matrix6xX<f64>,
-    /// Its spring, k x k.
+    /// Stiffness of the spring, k x k.
     pub spring: DMatrix<f64>,
     /// `A / 2` of the loads beyond it.
     pub outer: Matrix6<f64>,
-    /// What loads and masses add that depends on both its near side and its own coordinates.
+    /// Terms of loads and masses that depend on both its near side and its own coordinates.
     pub loads: Both,
     pub masses: Both,
 }
@@ -49,7 +49,7 @@ impl Forms {
 #[derive(Clone, Debug)]
 pub(crate) struct Stages {
     pub stages: Vec<Stage>,
-    /// At nodes before the first stage, beyond the first, beyond the second, ...
+    /// Forms at nodes before the first stage, beyond the first, beyond the second, ...
     pub between: Vec<Forms>,
     pub count: usize,
 }
@@ -185,7 +185,7 @@ impl Stages {
                 self.between[on].loads += symmetric(&form);
                 continue;
             }
-            // One of both moves with the near side alone: t^T G (t + s x), symmetric.
+            // The form couples two nodes, and the nearer moves with the near side alone: t^T G (t + s x), symmetric.
             let stage = &mut self.stages[on.min(by)];
             stage.loads.near += symmetric(&form);
             let turned = if on < by { form } else { form.transpose() };

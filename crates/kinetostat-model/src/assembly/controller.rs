@@ -12,18 +12,18 @@ use crate::schema::{
 };
 use crate::text::hints::unknown;
 
-/// One of the values that a controller shows, and the actuator it belongs to.
+/// Axis that a controller displays, and its actuator.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ControllerAxis {
     /// Name as the controller shows it.
     pub name: String,
-    /// Its actuator, by its place in the order of [`kinetostat::Mechanism::actuator_names`].
+    /// Index of its actuator in the order of [`kinetostat::Mechanism::actuator_names`].
     pub joint: usize,
     /// Unit that the controller shows.
     pub unit: ControllerUnit,
 }
 
-/// What the controller shows: `shown = S model + offset`, in m and rad, `S` square and regular.
+/// Map from joint values to controller coordinates: `shown = S model + offset`, in m and rad, `S` square and regular.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Controller {
     axes: Vec<ControllerAxis>,
@@ -46,9 +46,9 @@ impl Controller {
         &self.map
     }
 
-    /// What the controller shows for the model's joint values (m, rad, in the order of
-    /// [`kinetostat::Mechanism::actuator_names`]): one number per axis, in the axis' unit. `None` if
-    /// there are not as many values as actuators.
+    /// Returns the controller coordinates of the model's joint values (m, rad, in the order of
+    /// [`kinetostat::Mechanism::actuator_names`]), each in the unit of its axis. `None` if there are not as many values
+    /// as actuators.
     #[must_use]
     pub fn coordinates(&self, joints: &[f64]) -> Option<Vec<f64>> {
         if joints.len() != self.axes.len() {
@@ -73,7 +73,7 @@ impl Controller {
         Some(joints.iter().copied().collect())
     }
 
-    /// How an axis follows the model's joints, in words: `joint_3 - joint_2`, `-joint_1 + 90 deg`.
+    /// Formula of an axis by the model's joints: `joint_3 - joint_2`, `-joint_1 + 90 deg`.
     #[must_use]
     pub fn description(&self, axis: usize, joints: &[String]) -> String {
         let own = self.axes[axis].joint;

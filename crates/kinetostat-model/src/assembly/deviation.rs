@@ -13,7 +13,7 @@ use crate::problem::{Finding, KeyPath};
 use crate::schema::{Deviation, Document};
 use crate::text::hints::unknown;
 
-/// What is wrong at one place.
+/// Geometric error at one place.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Misfit {
     /// Everything behind it is moved.
@@ -31,7 +31,7 @@ const ONE_DEVIATION: &str =
 /// Deviations of one limb, by the name of their place.
 pub(crate) type Own<'d> = BTreeMap<&'d str, (KeyPath, Misfit)>;
 
-/// How the actual chain differs from the nominal one.
+/// Deviations of the actual chain from the nominal one.
 #[derive(Default)]
 pub(crate) struct AsBuilt {
     pub(crate) start: Option<Pose>,
@@ -286,7 +286,7 @@ fn nowhere(place: &KeyPath, at: &str, misfit: &Misfit, parts: &[(usize, Part)]) 
     )
 }
 
-/// What is wrong, in a sentence without the limb's name.
+/// Describes the deviation in a sentence without the limb's name.
 fn words(d: &Deviation) -> String {
     let place = match d.at.as_str() {
         "start" => "at its start".to_owned(),
@@ -353,7 +353,7 @@ fn words(d: &Deviation) -> String {
 }
 
 impl Deviation {
-    /// What is wrong with the limb, as a sentence: `limb 'leg x': 'bar' is 0.2 mm longer`.
+    /// Describes the deviation in a sentence: `limb 'leg x': 'bar' is 0.2 mm longer`.
     #[must_use]
     pub fn description(&self) -> String {
         words(self)

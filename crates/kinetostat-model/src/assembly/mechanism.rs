@@ -1,5 +1,5 @@
-//! From the document to the mechanism: the only module that knows the schema and the core's
-//! builder. Every mistake found on the way is kept with its place, so that one run shows them all.
+//! Assembles the mechanism from the document: the only module that knows the schema and the core's builder. Every
+//! mistake found on the way is kept with its place, so that one run shows them all.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -19,7 +19,7 @@ use crate::plausibility::home::check_plausibility;
 use crate::problem::{Finding, KeyPath};
 use crate::schema::{Document, Element, SCHEMA_VERSION, Spring6};
 
-/// What a machine's repeatability can be, mm: from that of stages for optics to what no machine is built for.
+/// Plausible repeatability of a machine, mm: from that of stages for optics to more than any machine has.
 const REPEATABILITY_MM: [f64; 2] = [1e-5, 10.0];
 
 /// The mechanism, or `None` with errors in `findings`; looked at for what is implausible.

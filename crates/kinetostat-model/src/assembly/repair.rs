@@ -13,7 +13,7 @@ use crate::text::source::Source;
 /// Keys by which other parts of a file are found: without one of them nothing else can be checked.
 const BEARING: [&str; 6] = ["schema", "name", "from", "to", "chain", "elements"];
 
-/// What else is wrong than `findings`; empty where nothing can be said without guessing.
+/// Finds mistakes besides `findings`; empty where they could only be guessed.
 pub(crate) fn others(source: &Source<'_>, findings: &[Finding]) -> Vec<Finding> {
     search(source, findings).unwrap_or_default()
 }
@@ -78,7 +78,7 @@ fn take_out<'t>(tree: &mut DeTable<'t>, finding: &'t Finding) -> Option<KeyPath>
             return None;
         }
         table.remove(&found);
-        // Of a list with a wrong entry the whole goes: what would stand for the entry is no list.
+        // A list with a wrong entry is replaced as a whole: the stand-in for the entry is no list.
         if let (true, Some(text)) = (last + 1 == place.0.len(), &finding.remedy.stand_in) {
             table.insert(found, DeValue::parse(text).ok()?);
         }

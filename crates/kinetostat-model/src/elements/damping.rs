@@ -8,7 +8,7 @@ use crate::elements::quantity::{ReadResult, by_kind, choice};
 use crate::problem::{Finding, KeyPath};
 use crate::schema::{ActuatorKind, DampingTable, Document, Element, PassiveKind};
 
-/// What the file says; [`Damping::Undamped`] where it says nothing.
+/// Reads the damping of the file; [`Damping::Undamped`] if it has none.
 pub(crate) fn damping(document: &Document) -> ReadResult<Damping> {
     let root = KeyPath::root();
     let dampers = dampers(document)?;
@@ -38,7 +38,7 @@ pub(crate) fn damping(document: &Document) -> ReadResult<Damping> {
     Ok(law)
 }
 
-/// Where the law stands, or of several dampers the strongest; nothing where there is none.
+/// Place of the law of damping, or of the strongest of several dampers; `None` if there is none.
 pub(crate) fn damping_place(document: &Document) -> Option<KeyPath> {
     let root = KeyPath::root();
     if let Some(table) = &document.damping {
@@ -125,7 +125,7 @@ fn dampers(document: &Document) -> ReadResult<Vec<(String, f64)>> {
     Ok(all)
 }
 
-/// What the names of its coordinates have behind that of an element.
+/// Suffixes of the names of an element's coordinates.
 fn ends_of(element: &Element) -> impl Iterator<Item = &'static str> {
     let ends: &[&str] = match element {
         Element::Passive(e) => match e.passive {

@@ -1,4 +1,4 @@
-//! What the name of a link's elasticity may stand for: a section, a tapered beam, a matrix.
+//! Meanings of the name of a link's elasticity: a section, a tapered beam, a matrix.
 
 use kinetostat::BeamSection;
 use kinetostat_links::Shear;
@@ -10,7 +10,7 @@ use crate::elements::shape::{Beam, far_end, root};
 use crate::problem::{Finding, KeyPath};
 use crate::schema::{Section, ShearWord};
 
-/// What a link's name may stand for.
+/// Elasticity that a link's name refers to.
 #[derive(Clone, Debug)]
 pub(crate) enum Elasticity {
     /// A section: the stiffness follows from the length.
@@ -41,7 +41,7 @@ impl Elasticity {
     }
 }
 
-/// What a section is for the links that name it.
+/// Elasticity of the links that name this section.
 pub(crate) fn elasticity(
     place: &KeyPath,
     s: &Section,
@@ -70,7 +70,7 @@ pub(crate) fn elasticity(
         None => root,
     };
     let beam = Beam::new(root, tip, &plain, shear);
-    // Whether it is a beam at all does not depend on the length.
+    // The validity of a beam does not depend on its length.
     beam.cantilever(place, 1.0)?;
     Ok(Elasticity::Beam(Box::new(beam)))
 }

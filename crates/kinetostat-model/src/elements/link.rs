@@ -13,7 +13,7 @@ use crate::elements::quantity::{DEG, MM, choices, forbid, pick, positive};
 use crate::problem::{Finding, KeyPath};
 use crate::schema::{Convention, LinkElement, MassModelWord, ParallelogramElement};
 
-/// More pieces of one link are a typing error.
+/// Maximum number of pieces of one link; more are a typing error.
 const MOST_SEGMENTS: u32 = 100;
 
 pub(crate) fn link(
@@ -42,7 +42,7 @@ pub(crate) fn link(
     let convention = convention(e.convention.unwrap_or_default());
     let mass = mass(place, e, &elasticity)?;
     if convention == LinkConvention::TranslationsFirst && segments == 1 && mass.is_none() {
-        // In the axes of the frame, which does not turn.
+        // Matrix in the axes of the frame, which does not turn.
         let matrix = match elasticity {
             Elasticity::Matrix(matrix) => *matrix,
             section if slanted => along(&section.cantilever(place, length)?, &axis),
@@ -56,7 +56,7 @@ pub(crate) fn link(
             Part::LinkSpring(name, Box::new(matrix), offset),
         ]);
     }
-    // In the link's own axes, there and back.
+    // Rotation to the link's own axes, and back.
     let turn = match slanted {
         true => UnitQuaternion::from_rotation_matrix(&frame_along(&axis)),
         false => UnitQuaternion::identity(),
@@ -87,7 +87,7 @@ pub(crate) fn link(
     Ok(parts)
 }
 
-/// From the near to the far end of a link, m: along x, or as a vector.
+/// Offset from the near to the far end of a link, m: along x, or as a vector.
 fn offset(place: &KeyPath, e: &LinkElement) -> Result<Vector3<f64>, Option<Finding>> {
     let lengths = choices!(e, (length_mm, MM), (length_m, 1.0));
     let vectors = choices!(e, (vector_mm, MM), (vector_m, 1.0));

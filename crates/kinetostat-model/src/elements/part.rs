@@ -12,10 +12,10 @@ pub(crate) enum Part {
     /// Lead in m per turn.
     Screw(String, ActuatorSpec, f64),
     Passive(String, MotionKind, Vector3<f64>, f64),
-    /// Then the deflections at rest and at home.
+    /// Spring, then its deflections at rest and at home.
     Spring(String, MotionKind, Vector3<f64>, SpringLaw, [f64; 2]),
     Spring6(String, Box<Matrix6<f64>>, [f64; 6]),
-    /// Along local x, with its offset; stiffnesses of its segments where they differ.
+    /// Link along local x, with its offset; stiffnesses of its segments where they differ.
     Link(String, Box<LinkSpec>, Option<Vec<Matrix6<f64>>>),
     /// Matrix in the frame reached, offset from near to far end (written before it).
     LinkSpring(String, Box<Matrix6<f64>>, Vector3<f64>),

@@ -37,7 +37,7 @@ pub(crate) struct Given<T> {
     pub(crate) value: T,
 }
 
-/// What can be multiplied by the factor of its unit.
+/// Quantity that can be multiplied by the factor of its unit.
 pub(crate) trait Scaled: Copy {
     fn scaled(self, factor: f64) -> Self;
     fn finite(self) -> bool;
@@ -69,7 +69,7 @@ fn keys<T>(choices: &[Choice<T>]) -> String {
         .join(" or ")
 }
 
-/// At most one of the keys.
+/// Picks at most one of the keys.
 pub(crate) fn pick<T: Scaled>(
     place: &KeyPath,
     what: &str,

@@ -10,15 +10,15 @@ use crate::schema::{CarriesWord, Document, RotaryAxisTable};
 /// A rotary axis of a machine, base axes, where all of them stand at zero.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RotaryAxis {
-    /// Its word in programs: A, B or C.
+    /// Letter of the axis in programs: A, B or C.
     pub letter: char,
-    /// What it turns.
+    /// Body that the axis turns.
     pub carries: CarriesWord,
-    /// About which a positive word turns that, right-handed.
+    /// Axis about which a positive word turns it, right-handed.
     pub direction: Unit<Vector3<f64>>,
     /// A point on it, m; zero where it does not matter.
     pub point: Vector3<f64>,
-    /// Least and largest angle of its word, deg.
+    /// Lower and upper limit of its angle, deg.
     pub limits_deg: Option<[f64; 2]>,
 }
 

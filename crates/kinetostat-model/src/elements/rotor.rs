@@ -48,7 +48,7 @@ pub(crate) fn rotor(
         };
         return Err(Finding::new(place, reason, remedy));
     };
-    // Which way the rotor turns does not matter.
+    // The direction of rotation does not matter.
     let value = above_zero(given.key, &format!("'{}'", given.key), given.value.abs())?;
     let ratio = match kind {
         MotionKind::Prismatic => TAU / value,

@@ -51,7 +51,7 @@ impl Moduli {
         }
     }
 
-    /// None may be given: something else holds the material already.
+    /// Rejects moduli where the material is defined elsewhere.
     fn forbidden(&self, place: &KeyPath, reason: &str, help: &str) -> ReadResult<()> {
         for moduli in [&self.young[..], &self.shear[..], &self.poisson[..]] {
             forbid(place, moduli, reason, help)?;

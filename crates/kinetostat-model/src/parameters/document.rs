@@ -7,7 +7,7 @@ use crate::schema::Document;
 pub(crate) fn walk(document: &mut Document, visit: &mut dyn Visit) {
     let Document {
         schema: _,
-        // It is no part of statics.
+        // Damping has no effect in statics.
         damping: _,
         mechanism,
         workspace,

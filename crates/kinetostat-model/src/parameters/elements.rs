@@ -1,4 +1,4 @@
-//! Which numbers the elements of a chain have, and what bends in them.
+//! Numbers and elasticities of the elements of a chain.
 
 use kinetostat_links::material;
 

@@ -8,13 +8,13 @@ use crate::schema::Document;
 /// A number of a model file, by a name that people can type.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Parameter {
-    /// Where it stands: `chain.arm.joint 2.stiffness_n_m_per_rad`, `section.tube.tube.outer_diameter_mm`.
+    /// Path of the number: `chain.arm.joint 2.stiffness_n_m_per_rad`, `section.tube.tube.outer_diameter_mm`.
     pub path: String,
-    /// As the file says it, in its unit; 1 for a factor (`...scale`), which no file says.
+    /// Value in the unit of the file; 1 for a factor (`...scale`), which no file contains.
     pub value: f64,
-    /// As people write it (`N/mm`); empty where there is none.
+    /// Usual notation of the unit (`N/mm`); empty for a number without unit.
     pub unit: &'static str,
-    /// What it is of.
+    /// Kind of the quantity.
     pub kind: ParameterKind,
     /// The SI unit in one of its unit: `value * in_si` is in SI (m, rad, N, kg).
     pub in_si: f64,
@@ -54,7 +54,7 @@ impl Visit for Lister {
     }
 }
 
-/// What a number is of, from the last steps of its path: a key, or a key and components.
+/// Kind and unit of a number from the last steps of its path: a key, or a key and components.
 fn of_steps(steps: &[String]) -> (ParameterKind, &'static str, f64) {
     let last = |back: usize| steps.len().checked_sub(back).and_then(|i| steps.get(i));
     let (one, two, three) = (last(1), last(2), last(3));

@@ -1,4 +1,4 @@
-//! What a limb has of its own: copies of the chain, the sections and the stiffnesses that it shares with other limbs.
+//! Private copies of the chain, the sections and the stiffnesses that a limb shares with other limbs.
 
 use std::collections::BTreeMap;
 

@@ -1,4 +1,4 @@
-//! From paths to places in the walk over a document.
+//! Resolves paths to places in the walk over a document.
 
 use std::cmp::Reverse;
 
@@ -12,7 +12,7 @@ use crate::schema::{Deviation, Document, Placement};
 /// A document, and where some of its numbers stand.
 #[derive(Clone, Debug)]
 pub(crate) struct Resolved {
-    /// With copies for single limbs and with deviations of zero.
+    /// Document with copies for single limbs and with deviations of zero.
     document: Document,
     copies: Vec<OwnCopies>,
     pub(crate) parameters: Vec<Parameter>,
@@ -141,7 +141,7 @@ impl Visit for Setter<'_> {
     }
 }
 
-/// What a number may be called: by its table; where that is a copy for one limb, by what it was copied from and, last, by the limb.
+/// Names accepted for a number: by its table; for a copy of one limb, by its original and, last, by the limb.
 fn names(path: &str, copies: &[OwnCopies]) -> Vec<String> {
     for copy in copies {
         let (new, old) = &copy.chain;
@@ -245,11 +245,11 @@ fn refused(file: &str, message: String, help: &str) -> ModelError {
     ModelError::new(vec![Problem::without_text(file, message, help.into())])
 }
 
-/// No such parameter: the nearest ones.
+/// Error for a missing parameter, with the nearest ones.
 fn unknown(file: &str, path: &str, listed: &[(Parameter, Vec<String>)]) -> ModelError {
     let lower = path.to_lowercase();
     let known = listed.iter().flat_map(|(_, names)| names);
-    // Those with which most steps are shared, then the least misspelt.
+    // Orders by the number of equal leading steps, then by the distance in spelling.
     let mut near: Vec<(Reverse<usize>, usize, &str)> = known
         .map(|name| {
             let steps = path.split('.').zip(name.split('.'));

@@ -1,4 +1,4 @@
-//! Which numbers the tables of a document have.
+//! Numbers in the tables of a document.
 
 use crate::parameters::walk::{Numbers, Visit, numbers, step};
 use crate::schema::{

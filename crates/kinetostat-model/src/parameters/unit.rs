@@ -3,7 +3,7 @@
 use crate::elements::quantity::{DEG, MM};
 use crate::parameters::elements::SCALE;
 
-/// What a number is of.
+/// Kind of a quantity.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 #[non_exhaustive]
 pub enum ParameterKind {
@@ -48,7 +48,7 @@ pub enum ParameterKind {
 }
 
 impl ParameterKind {
-    /// In a word or two.
+    /// Name in a word or two.
     ///
     /// ```
     /// use kinetostat_model::ParameterKind;
@@ -85,7 +85,7 @@ pub(crate) type Unit = (ParameterKind, &'static str, f64);
 
 use ParameterKind as K;
 
-/// By the end of the key, the longest first.
+/// Units by the end of the key, the longest first.
 const BY_ENDING: [(&str, Unit); 34] = [
     ("_n_mm_per_rad", (K::RotationalStiffness, "N mm/rad", MM)),
     ("_n_m_per_rad", (K::RotationalStiffness, "N m/rad", 1.0)),
@@ -123,7 +123,7 @@ const BY_ENDING: [(&str, Unit); 34] = [
     (SCALE, (K::Factor, "", 1.0)),
 ];
 
-/// Of a number under `key`; `row` and `column` are its components where it stands in a matrix.
+/// Unit of a number under `key`; `row` and `column` are its components in a matrix.
 pub(crate) fn unit(key: &str, row: Option<&str>, column: Option<&str>) -> Unit {
     let of_matrix = match key {
         "matrix_n_mm_rad" | "diagonal_n_mm_rad" => Some(MM),

@@ -3,7 +3,7 @@
 
 use std::collections::BTreeMap;
 
-/// What is told of the numbers on the way.
+/// Visitor of the numbers of a document.
 pub(crate) trait Visit {
     /// A key, a name or a component.
     fn enter(&mut self, step: &str);
@@ -13,7 +13,7 @@ pub(crate) trait Visit {
     fn number(&mut self, value: &mut f64, written: bool);
 }
 
-/// What has numbers.
+/// Part of a document that contains numbers.
 pub(crate) trait Numbers {
     /// Goes to all numbers; `key` is the one under which this is written.
     fn walk(&mut self, key: &'static str, visit: &mut dyn Visit);
@@ -56,7 +56,7 @@ pub(crate) fn step(name: &str, value: &mut dyn Numbers, key: &'static str, visit
 
 const AXES: [&str; 6] = ["x", "y", "z", "rx", "ry", "rz"];
 
-/// What the entries of a list are called.
+/// Names of the entries of a list.
 fn components(key: &str, count: usize) -> &'static [&'static str] {
     match (key, count) {
         ("a_b_c_kuka_deg", _) => &["a", "b", "c"],

@@ -1,4 +1,4 @@
-//! Where the parts of a limb are when the machine is at home, and which weight its joints carry.
+//! Frames of the parts of a limb with the machine at home, and loads of the weight on its joints.
 
 use kinetostat::linalg::SingularValues;
 use kinetostat::number::larger;
@@ -75,8 +75,8 @@ pub(crate) fn reach(chain: &Chain) -> f64 {
     at.windows(2).skip(1).map(|w| (w[1] - w[0]).norm()).sum()
 }
 
-/// Least over largest singular value of the Jacobian of an arm of six drives or more at home, rotations at its reach; none of other
-/// machines.
+/// Inverse condition number of the Jacobian at home of an arm of six drives or more, rotations at its reach; `None` for
+/// other machines.
 pub(crate) fn conditioning(mechanism: &Mechanism) -> Option<f64> {
     let [limb] = mechanism.limbs() else {
         return None;
@@ -138,11 +138,11 @@ pub(crate) fn farthest(chain: &Chain) -> Option<(String, f64)> {
         .max_by(|a, b| a.1.total_cmp(&b.1))
 }
 
-/// What the weight does to a coordinate.
+/// Load of the weight on a coordinate.
 pub(crate) struct Load {
     /// Index of the coordinate.
     pub(crate) coordinate: usize,
-    /// Its force (N) or moment (N m), without sign.
+    /// Magnitude of the force (N) or moment (N m).
     pub(crate) size: f64,
 }
 

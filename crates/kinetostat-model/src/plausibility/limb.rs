@@ -10,7 +10,7 @@ pub(crate) struct LimbCheck<'a> {
     pub(crate) document: &'a Document,
     pub(crate) mechanism: &'a Mechanism,
     pub(crate) limb: usize,
-    /// Of the machine, m.
+    /// Size of the machine, m.
     pub(crate) size: f64,
 }
 

@@ -1,5 +1,5 @@
-//! What speaks against a 6 x 6 matrix being the stiffness of a link at its far end: a direction that
-//! is nearly free, couplings of the wrong end, a size out of proportion.
+//! Signs that a 6 x 6 matrix is not the stiffness of a link at its far end: a nearly free direction, couplings of the
+//! wrong end, a size out of proportion.
 
 use kinetostat::number::larger;
 use kinetostat::number::short;

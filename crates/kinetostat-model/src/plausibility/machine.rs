@@ -14,7 +14,7 @@ use crate::schema::Document;
 /// Looks at figures beside the rest of the machine.
 pub(crate) fn of_machine(document: &Document, mechanism: &Mechanism, warnings: &mut Vec<Finding>) {
     let size = machine_size(mechanism);
-    // Of axes that meet in one point nothing can be said beside their size.
+    // A machine whose axes meet in one point has no size to compare with.
     let sized = size > 0.0 && size.is_finite();
     // Limbs of the same chain would say the same again.
     let mut seen: Vec<&str> = Vec::new();

@@ -44,7 +44,7 @@ fn without_mass(
     })
 }
 
-/// Of inertias in files, as the dynamics allow it.
+/// Rounding of inertias in files, the same as in the dynamics.
 const ROUNDING: f64 = 1e-6;
 
 /// A body that weighs next to nothing, kg: a hundredth of a gram. What has no mass is written with 0.
@@ -183,7 +183,7 @@ impl LimbCheck<'_> {
     fn neighbours(&self, warnings: &mut Vec<Finding>) {
         let limbs = self.mechanism.limbs();
         let chain = &limbs[self.limb].nominal;
-        // Where other limbs carry too, a light bar may lead to a heavy arm.
+        // If other limbs carry too, a light bar may lead to a heavy arm.
         let only_limb = limbs.iter().filter(|l| l.to == limbs[self.limb].to).count() == 1;
         let mut bodies: Vec<&kinetostat::model::Body> = chain.bodies().iter().collect();
         bodies.retain(|b| b.mass > 0.0);
@@ -194,7 +194,7 @@ impl LimbCheck<'_> {
             let lightest = before.into_iter().chain(after);
             let lightest = lightest.min_by(|a, b| a.mass.total_cmp(&b.mass));
             let (other, said) = match (before, lightest) {
-                // Beside one that weighs next to nothing that one is reported.
+                // If the neighbour is almost massless, the neighbour is reported.
                 (Some(before), _) if body.mass > BESIDE * before.mass => continue,
                 (Some(before), _) if only_limb && body.mass > CARRIED * before.mass => {
                     (before, "which carries it")

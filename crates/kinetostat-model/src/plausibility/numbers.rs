@@ -55,7 +55,7 @@ const SECTION_KEYS: [&str; 8] = [
     "wall",
 ];
 
-/// What speaks against a number under its key, and what to do; none where it is usual.
+/// Doubt about a number under its key, and its remedy; `None` for a usual value.
 fn doubt_of(key: &str, x: f64) -> Option<(String, &'static str)> {
     if key == "repeatability_mm" && !(5e-4..=1.0).contains(&x) {
         return Some((
@@ -84,7 +84,7 @@ fn doubt_of(key: &str, x: f64) -> Option<(String, &'static str)> {
         Some(_) => 1e-12 * x,
         None => x,
     });
-    // Of a section 2 m wide.
+    // Area moment of a section about 2 m wide.
     if let Some(m4) = moment.filter(|m4| *m4 > 1.0) {
         return Some((
             format!("a second moment of {} m^4", short(m4)),

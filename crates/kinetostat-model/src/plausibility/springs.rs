@@ -43,7 +43,7 @@ impl LimbCheck<'_> {
     /// Joints that give way far under the weight alone.
     pub(crate) fn sag(&self, warnings: &mut Vec<Finding>) {
         let limb = &self.mechanism.limbs()[self.limb];
-        // With several limbs the others carry too.
+        // The other limbs carry too, if there are several.
         if self.mechanism.limbs().len() > 1 || limb.nominal.springs().is_empty() {
             return;
         }

@@ -13,7 +13,7 @@ pub(crate) trait Tree: Sized {
     /// The number that it is; none for tables, lists and words.
     fn number(&self) -> Option<f64>;
 
-    /// What it holds, in order: with its key in a table, without in a list.
+    /// Children in order, with their keys in a table, without in a list.
     fn children(&self) -> Vec<(Option<&str>, &Self)>;
 }
 
@@ -54,7 +54,7 @@ impl Tree for Spanned<DeValue<'_>> {
 
 /// A number of a tree.
 pub(crate) struct Number<'t, T> {
-    /// Its key, or that of the list in which it stands.
+    /// Key of the number, or of the list that contains it.
     pub(crate) key: &'t str,
     /// The path to it from the root.
     pub(crate) place: KeyPath,

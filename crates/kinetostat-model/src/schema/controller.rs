@@ -1,20 +1,20 @@
-//! What the machine's controller shows instead of the model's joint values.
+//! Coordinates of the machine's controller as a function of the model's joint values.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// How the controller counts: it shows a linear map of the model's joints.
+/// Map of the controller: its coordinates are linear functions of the model's joints.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ControllerTable {
-    /// Which controller, in a few words.
+    /// Name of the controller, in a few words.
     pub name: Option<String>,
     /// The axes in the order of the controller, one for every actuator, external axes included.
     #[schemars(length(min = 1, max = 1000))]
     pub axis: Vec<ControllerAxisTable>,
-    /// Where the figures come from.
+    /// Source of the figures.
     pub source: Option<String>,
-    /// What is assumed.
+    /// Assumption behind the figures.
     pub assumption: Option<String>,
 }
 
@@ -24,19 +24,19 @@ pub struct ControllerTable {
 pub struct ControllerAxisTable {
     /// Name as on the controller: A1, J1, E1.
     pub name: String,
-    /// Its actuator; in a machine of several limbs LIMB.ACTUATOR.
+    /// Name of its actuator; in a machine of several limbs LIMB.ACTUATOR.
     pub joint: String,
     /// true: the controller counts against the model's joint.
     pub reversed: Option<bool>,
     /// Motion on the controller per motion of the joint, above zero; 1 if not given.
     pub ratio: Option<f64>,
-    /// What the controller shows while the model's joints are at zero, mm.
+    /// Controller coordinate while the model's joints are at zero, mm.
     pub zero_offset_mm: Option<f64>,
-    /// What the controller shows while the model's joints are at zero, m.
+    /// Controller coordinate while the model's joints are at zero, m.
     pub zero_offset_m: Option<f64>,
-    /// What the controller shows while the model's joints are at zero, degrees.
+    /// Controller coordinate while the model's joints are at zero, degrees.
     pub zero_offset_deg: Option<f64>,
-    /// What the controller shows while the model's joints are at zero, rad.
+    /// Controller coordinate while the model's joints are at zero, rad.
     pub zero_offset_rad: Option<f64>,
     /// Unit that the controller shows; mm for a joint that slides, deg for one that turns if not given.
     pub unit: Option<ControllerUnit>,
@@ -76,7 +76,7 @@ pub enum ControllerUnit {
 }
 
 impl ControllerUnit {
-    /// As it is written: `mm`, `m`, `deg`, `rad`.
+    /// Unit as written: `mm`, `m`, `deg`, `rad`.
     #[must_use]
     pub fn word(self) -> &'static str {
         match self {

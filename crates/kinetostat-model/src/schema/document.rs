@@ -25,7 +25,7 @@ pub struct Document {
     pub schema: u32,
     /// Name, origin and gravity of the machine.
     pub mechanism: MechanismTable,
-    /// Where the machine works, as a box in base axes; flat for a machine that moves in a plane.
+    /// Workspace of the machine, a box in base axes; flat for a machine that moves in a plane.
     pub workspace: Option<Workspace>,
     /// Moving bodies. The base exists without being written; the last one carries the tool.
     #[schemars(length(min = 1, max = 64))]
@@ -44,7 +44,7 @@ pub struct Document {
     /// Chains between two platforms.
     #[schemars(length(min = 1, max = 256))]
     pub limb: Vec<LimbTable>,
-    /// What pulls and pushes on platforms: wrenches, and springs between bodies of different limbs.
+    /// Loads on platforms: wrenches, and springs between bodies of different limbs.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     #[schemars(length(max = 256))]
     pub load: Vec<PlatformLoadTable>,
@@ -56,9 +56,9 @@ pub struct Document {
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     #[schemars(length(max = 3))]
     pub rotary_axis: Vec<RotaryAxisTable>,
-    /// What the controller shows instead of the model's joint values.
+    /// Coordinates of the controller as a function of the model's joint values.
     pub controller: Option<ControllerTable>,
-    /// How vibrations are damped, unless joints and springs have dampers of their own.
+    /// Damping of vibrations, unless joints and springs have dampers of their own.
     pub damping: Option<DampingTable>,
 }
 
@@ -68,11 +68,11 @@ pub struct Document {
 pub struct MechanismTable {
     /// Name of the machine.
     pub name: String,
-    /// What it is, in a sentence.
+    /// Description of the machine in a sentence.
     pub description: Option<String>,
-    /// Where the figures come from.
+    /// Source of the figures.
     pub source: Option<String>,
-    /// What is assumed.
+    /// Assumption behind the figures.
     pub assumption: Option<String>,
     /// Gravity in base axes, m/s^2: [0, 0, -9.81] for a machine on the floor, z up. Needed as soon
     /// as anything has a mass; [0, 0, 0] leaves the weights out.
@@ -95,9 +95,9 @@ pub struct Workspace {
     pub opposite_corner_mm: Option<[f64; 3]>,
     /// The corner diagonally opposite to it, base axes, m.
     pub opposite_corner_m: Option<[f64; 3]>,
-    /// Where the figures come from.
+    /// Source of the figures.
     pub source: Option<String>,
-    /// What is assumed.
+    /// Assumption behind the figures.
     pub assumption: Option<String>,
 }
 
@@ -117,9 +117,9 @@ pub struct PlatformTable {
     pub centre_of_mass_m: Option<[f64; 3]>,
     /// Inertia about the centre of mass in platform axes, kg m^2, three rows.
     pub inertia_kg_m2: Option<[[f64; 3]; 3]>,
-    /// Where the figures come from.
+    /// Source of the figures.
     pub source: Option<String>,
-    /// What is assumed.
+    /// Assumption behind the figures.
     pub assumption: Option<String>,
 }
 
@@ -127,14 +127,14 @@ pub struct PlatformTable {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ChainTable {
-    /// What the chain is, in a sentence.
+    /// Description of the chain in a sentence.
     pub description: Option<String>,
     /// The elements from the base to the tip, each in the frame reached by those before it.
     #[schemars(length(min = 1, max = 2000))]
     pub elements: Vec<Element>,
-    /// Where the figures come from.
+    /// Source of the figures.
     pub source: Option<String>,
-    /// What is assumed.
+    /// Assumption behind the figures.
     pub assumption: Option<String>,
 }
 
@@ -154,11 +154,11 @@ pub struct LimbTable {
     pub start: Option<Placement>,
     /// Pose of the chain's tip in the frame of `to`.
     pub end: Option<Placement>,
-    /// Where the figures come from.
+    /// Source of the figures.
     pub source: Option<String>,
-    /// What is assumed.
+    /// Assumption behind the figures.
     pub assumption: Option<String>,
-    /// What pulls and pushes on the limb besides its weight.
+    /// Loads on the limb besides its weight.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     #[schemars(length(max = 100))]
     pub load: Vec<LoadTable>,
@@ -176,16 +176,15 @@ pub struct Deviation {
     pub at: String,
     /// Moves all that follows, in the frame reached behind that element.
     pub moved_by: Option<Placement>,
-    /// By how much a link, a parallelogram or the offset of a rigid element is longer than drawn,
-    /// mm; shorter if negative.
+    /// Excess length of a link, a parallelogram or the offset of a rigid element, mm; negative if shorter than drawn.
     pub longer_by_mm: Option<f64>,
     /// Tilt, degrees: of a joint's axis, where `at` names a joint (what follows stays in place while the
     /// joint is at zero); else of all that follows.
     pub tilted_by_deg: Option<f64>,
     /// Axis of the tilt, in the frame reached there.
     pub about: Option<Axis>,
-    /// Where the figures come from.
+    /// Source of the figures.
     pub source: Option<String>,
-    /// What is assumed.
+    /// Assumption behind the figures.
     pub assumption: Option<String>,
 }

@@ -1,4 +1,4 @@
-//! What bends: sections, materials and stiffness matrices as a file writes them.
+//! Elastic properties: sections, materials and stiffness matrices as a file writes them.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -45,9 +45,9 @@ pub struct Section {
     pub shear_modulus_pa: Option<f64>,
     /// Poisson's ratio, from which the shear modulus of an isotropic material follows.
     pub poissons_ratio: Option<f64>,
-    /// Where the figures come from.
+    /// Source of the figures.
     pub source: Option<String>,
-    /// What is assumed.
+    /// Assumption behind the figures.
     pub assumption: Option<String>,
 }
 
@@ -93,7 +93,7 @@ pub struct Rectangle {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct IBeam {
-    /// Of the flanges, along y, mm.
+    /// Width of the flanges, along y, mm.
     pub width_mm: Option<f64>,
     /// Over the flanges, along z, mm.
     pub height_mm: Option<f64>,
@@ -135,14 +135,14 @@ pub struct Tip {
     pub hollow_box: Option<HollowBox>,
 }
 
-/// How shear bends a link.
+/// Shear deformation of a link.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum ShearWord {
     /// Not at all (Euler-Bernoulli).
     #[default]
     None,
-    /// By the section's shear areas (Timoshenko).
+    /// Shear by the section's shear areas (Timoshenko).
     Timoshenko,
 }
 
@@ -210,9 +210,9 @@ pub struct Stiffness {
     /// Direction of the stiffness's own x axis in the frame where the spring sits; x if not given.
     /// Its y axis is chosen as for `x_axis` of a pose.
     pub along: Option<Axis>,
-    /// Where the figures come from.
+    /// Source of the figures.
     pub source: Option<String>,
-    /// What is assumed.
+    /// Assumption behind the figures.
     pub assumption: Option<String>,
 }
 

@@ -42,9 +42,9 @@ pub struct RigidElement {
     pub rigid: Placement,
     /// Name, by which a deviation finds it.
     pub name: Option<String>,
-    /// Where the figures come from.
+    /// Source of the figures.
     pub source: Option<String>,
-    /// What is assumed.
+    /// Assumption behind the figures.
     pub assumption: Option<String>,
 }
 
@@ -108,9 +108,9 @@ pub struct ActuatorElement {
     pub limits_deg: Option<[f64; 2]>,
     /// Smallest and largest command, rad.
     pub limits_rad: Option<[f64; 2]>,
-    /// Where the figures come from.
+    /// Source of the figures.
     pub source: Option<String>,
-    /// What is assumed.
+    /// Assumption behind the figures.
     pub assumption: Option<String>,
 }
 
@@ -159,9 +159,9 @@ pub struct PassiveElement {
     pub damping_n_s_per_m: Option<f64>,
     /// Damper of a joint that turns, N m s/rad, for vibrations; about every axis of a universal or spherical one.
     pub damping_n_m_s_per_rad: Option<f64>,
-    /// Where the figures come from.
+    /// Source of the figures.
     pub source: Option<String>,
-    /// What is assumed.
+    /// Assumption behind the figures.
     pub assumption: Option<String>,
 }
 
@@ -184,7 +184,8 @@ pub struct SpringElement {
     pub stiffness_n_m_per_rad: Option<f64>,
     /// Stiffness of a spring that turns, about its axis, N mm/rad.
     pub stiffness_n_mm_per_rad: Option<f64>,
-    /// Where its stiffness changes, and what it is beyond: the one written here is that at rest.
+    /// Knee of the spring: deflection at which its stiffness changes, and the stiffness beyond it; the one written here
+    /// is that at rest.
     pub knee: Option<Knee>,
     /// Damper beside a spring that slides, N s/m, for vibrations.
     pub damping_n_s_per_m: Option<f64>,
@@ -207,9 +208,9 @@ pub struct SpringElement {
     pub home_deg: Option<f64>,
     /// Deflection when the machine is at home without load, rad.
     pub home_rad: Option<f64>,
-    /// Where the figures come from.
+    /// Source of the figures.
     pub source: Option<String>,
-    /// What is assumed.
+    /// Assumption behind the figures.
     pub assumption: Option<String>,
 }
 
@@ -230,9 +231,9 @@ pub struct Spring6Element {
     pub rest_rotation_deg: Option<[f64; 3]>,
     /// Rotations at rest, rad (a preload where they are not zero).
     pub rest_rotation_rad: Option<[f64; 3]>,
-    /// Where the figures come from.
+    /// Source of the figures.
     pub source: Option<String>,
-    /// What is assumed.
+    /// Assumption behind the figures.
     pub assumption: Option<String>,
 }
 
@@ -258,7 +259,7 @@ pub struct LinkElement {
     /// Number of equal pieces, 1 if not given. One is enough far below the Euler load, 8 give
     /// buckling loads to 0.1 %, 32 give deflections as large as the link.
     pub segments: Option<u32>,
-    /// How a piece bends, 'bowing' if not given. All have the same unloaded stiffness.
+    /// Bending convention of a piece, 'bowing' if not given. All have the same unloaded stiffness.
     pub convention: Option<Convention>,
     /// Density of the material, kg/m^3: the link of a section gets its mass along it, which weighs and swings. Without it
     /// the link has no mass, and its bodies have it all.
@@ -266,15 +267,15 @@ pub struct LinkElement {
     /// Mass per length, kg/m, instead of a density: for links that are known by a matrix, by rigidities or by a shape that
     /// changes.
     pub mass_kg_per_m: Option<f64>,
-    /// Where the mass is, 'along_the_link' if not given.
+    /// Distribution of the mass, 'along_the_link' if not given.
     pub mass_model: Option<MassModelWord>,
-    /// Where the figures come from.
+    /// Source of the figures.
     pub source: Option<String>,
-    /// What is assumed.
+    /// Assumption behind the figures.
     pub assumption: Option<String>,
 }
 
-/// Where the mass of a link is.
+/// Distribution of a link's mass.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum MassModelWord {
@@ -286,7 +287,7 @@ pub enum MassModelWord {
     HalvesAtEnds,
 }
 
-/// How a piece of a link bends, and what energy that costs.
+/// Kinematics and energy of a bent piece of a link.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Convention {
@@ -327,9 +328,9 @@ pub struct ParallelogramElement {
     pub home_deg: Option<f64>,
     /// Swing at home, rad.
     pub home_rad: Option<f64>,
-    /// Where the figures come from.
+    /// Source of the figures.
     pub source: Option<String>,
-    /// What is assumed.
+    /// Assumption behind the figures.
     pub assumption: Option<String>,
 }
 
@@ -347,9 +348,9 @@ pub struct CoupledElement {
     pub axis: Axis,
     /// Motion per motion of the coordinate, in m and rad.
     pub ratio: f64,
-    /// Where the figures come from.
+    /// Source of the figures.
     pub source: Option<String>,
-    /// What is assumed.
+    /// Assumption behind the figures.
     pub assumption: Option<String>,
 }
 
@@ -378,9 +379,9 @@ pub struct BodyElement {
     /// Inertia about the centre of mass, axes of the frame reached so far, kg m^2, three rows.
     /// Statics does not use it.
     pub inertia_kg_m2: Option<[[f64; 3]; 3]>,
-    /// Where the figures come from.
+    /// Source of the figures.
     pub source: Option<String>,
-    /// What is assumed.
+    /// Assumption behind the figures.
     pub assumption: Option<String>,
 }
 

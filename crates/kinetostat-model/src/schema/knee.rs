@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// Where a spring's stiffness changes, in both senses alike, and what it is beyond.
+/// Bilinear spring: knee, the same in both senses, and the stiffness beyond it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Knee {

@@ -1,5 +1,5 @@
-//! What pulls and pushes on a limb. Each load has exactly one word that says what it is; the word
-//! is the key and its value the load's name.
+//! Loads on a limb. Each load has exactly one word that says what it is; the word is the key and its value the load's
+//! name.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -15,7 +15,7 @@ pub enum LoadTable {
     Spring(SpringLoad),
     /// Gas spring between two points.
     GasSpring(GasSpringLoad),
-    /// The same pull at every length between two points.
+    /// Constant pull at every length between two points.
     ConstantTension(ConstantTensionLoad),
     /// Mass on a lever.
     Counterweight(CounterweightLoad),
@@ -99,7 +99,7 @@ pub enum PlatformLoadTable {
     Spring(SpringLoad<PlatformPoint>),
     /// Gas spring between points of two platforms.
     GasSpring(GasSpringLoad<PlatformPoint>),
-    /// The same pull at every length between points of two platforms.
+    /// Constant pull at every length between points of two platforms.
     ConstantTension(ConstantTensionLoad<PlatformPoint>),
 }
 
@@ -135,9 +135,9 @@ pub struct PlatformWrench {
     pub moment_n_m: Option<[f64; 3]>,
     /// Moment about that point, N mm.
     pub moment_n_mm: Option<[f64; 3]>,
-    /// Where the figures come from.
+    /// Source of the figures.
     pub source: Option<String>,
-    /// What is assumed.
+    /// Assumption behind the figures.
     pub assumption: Option<String>,
 }
 
@@ -164,7 +164,7 @@ impl PlatformLoadTable {
         }
     }
 
-    /// What it does, in a sentence without its name.
+    /// Describes the effect in a sentence without the name of the load.
     #[must_use]
     pub fn description(&self) -> String {
         match self {
@@ -278,9 +278,9 @@ pub struct WrenchLoad {
     pub moment_n_m: Option<[f64; 3]>,
     /// Moment on the node about its origin, N mm.
     pub moment_n_mm: Option<[f64; 3]>,
-    /// Where the figures come from.
+    /// Source of the figures.
     pub source: Option<String>,
-    /// What is assumed.
+    /// Assumption behind the figures.
     pub assumption: Option<String>,
 }
 
@@ -307,9 +307,9 @@ pub struct SpringLoad<A = Anchor> {
     pub free_length_m: Option<f64>,
     /// Pull at the free length, N; negative pushes.
     pub preload_n: Option<f64>,
-    /// Where the figures come from.
+    /// Source of the figures.
     pub source: Option<String>,
-    /// What is assumed.
+    /// Assumption behind the figures.
     pub assumption: Option<String>,
 }
 
@@ -338,9 +338,9 @@ pub struct GasSpringLoad<A = Anchor> {
     pub column_m: Option<f64>,
     /// 1 for slow motion (isothermal), 1.4 for fast motion of nitrogen (adiabatic).
     pub exponent: f64,
-    /// Where the figures come from.
+    /// Source of the figures.
     pub source: Option<String>,
-    /// What is assumed.
+    /// Assumption behind the figures.
     pub assumption: Option<String>,
 }
 
@@ -357,9 +357,9 @@ pub struct ConstantTensionLoad<A = Anchor> {
     pub to: A,
     /// Pull between the ends, N; negative pushes.
     pub tension_n: f64,
-    /// Where the figures come from.
+    /// Source of the figures.
     pub source: Option<String>,
-    /// What is assumed.
+    /// Assumption behind the figures.
     pub assumption: Option<String>,
 }
 
@@ -370,13 +370,13 @@ pub struct ConstantTensionLoad<A = Anchor> {
 pub struct CounterweightLoad {
     /// Name of the load, unique in the limb.
     pub counterweight: String,
-    /// Where its centre is.
+    /// Position of its centre.
     pub at: Anchor,
     /// Mass, kg, whose weight acts at its centre.
     pub mass_kg: f64,
-    /// Where the figures come from.
+    /// Source of the figures.
     pub source: Option<String>,
-    /// What is assumed.
+    /// Assumption behind the figures.
     pub assumption: Option<String>,
 }
 
@@ -405,7 +405,7 @@ impl LoadTable {
         }
     }
 
-    /// What it does, in a sentence without its name: `spring of 5 N/mm from the base at ...`.
+    /// Describes the effect in a sentence without the name of the load: `spring of 5 N/mm from the base at ...`.
     #[must_use]
     pub fn description(&self) -> String {
         match self {

@@ -1,4 +1,4 @@
-//! What a model file says, one type per table, in the order in which it is written.
+//! Schema of a model file, one type per table, in the order in which it is written.
 //!
 //! These types are the only description of the format: reading, writing and the JSON Schema are
 //! generated from them. They hold the numbers as written, each with its unit in the field's name;

@@ -58,7 +58,7 @@ pub enum Axis {
     Vector([f64; 3]),
 }
 
-/// By hand, so that what is wrong is said: the reader of alternatives says only that none of them fits.
+/// Written by hand for precise messages: the derived reader of alternatives reports only that none of them fits.
 impl<'de> Deserialize<'de> for Axis {
     fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
         from.deserialize_any(AxisVisitor)

@@ -19,7 +19,7 @@ pub enum RotaryWord {
 }
 
 impl RotaryWord {
-    /// As programs write it.
+    /// Letter of the axis in programs.
     ///
     /// ```
     /// assert_eq!(kinetostat_model::schema::RotaryWord::B.letter(), 'B');
@@ -34,7 +34,7 @@ impl RotaryWord {
     }
 }
 
-/// What a rotary axis turns.
+/// Body that a rotary axis turns.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum CarriesWord {
@@ -49,9 +49,9 @@ pub enum CarriesWord {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RotaryAxisTable {
-    /// Its word in programs.
+    /// Letter of the axis in programs.
     pub word: RotaryWord,
-    /// What it turns.
+    /// Body that the axis turns.
     pub carries: CarriesWord,
     /// About which a positive word turns that, right-handed, base axes, where all rotary axes stand at zero. Where a table turns
     /// against its word (as ISO 841 has it), write the axis with a minus.
@@ -60,10 +60,11 @@ pub struct RotaryAxisTable {
     pub point_mm: Option<[f64; 3]>,
     /// A point on the axis there, base axes, m.
     pub point_m: Option<[f64; 3]>,
-    /// Least and largest angle of its word, deg; without them it turns without end, or a head as far as the joint of its chain does.
+    /// Lower and upper limit of its angle, deg; without them it turns without end, or a head as far as the joint of its
+    /// chain does.
     pub limits_deg: Option<[f64; 2]>,
-    /// Where the figures come from.
+    /// Source of the figures.
     pub source: Option<String>,
-    /// What is assumed.
+    /// Assumption behind the figures.
     pub assumption: Option<String>,
 }

@@ -1,9 +1,9 @@
-//! What vibrations need beside masses: damping, and rotors of drives.
+//! Data of vibrations besides masses: damping, and rotors of drives.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// How all vibrations of the machine are damped: one of `ratio`, `ratios`, `rayleigh` and `loss_factor`. Dampers of single
+/// Damping of all vibrations of the machine: one of `ratio`, `ratios`, `rayleigh` and `loss_factor`. Dampers of single
 /// joints and springs are written there instead.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -17,9 +17,9 @@ pub struct DampingTable {
     pub rayleigh: Option<RayleighTable>,
     /// Loss factor of all springs: a force that goes with the deflection, a quarter of a period late.
     pub loss_factor: Option<f64>,
-    /// Where the figures come from.
+    /// Source of the figures.
     pub source: Option<String>,
-    /// What is assumed.
+    /// Assumption behind the figures.
     pub assumption: Option<String>,
 }
 
@@ -42,9 +42,9 @@ pub struct RotorTable {
     pub inertia_kg_m2: f64,
     /// Turns of the rotor for one turn of the joint.
     pub ratio: Option<f64>,
-    /// How far a sliding joint goes for one turn of the rotor, mm.
+    /// Travel of a sliding joint per turn of the rotor, mm.
     pub lead_mm_per_turn: Option<f64>,
-    /// How far a sliding joint goes for one turn of the rotor, m.
+    /// Travel of a sliding joint per turn of the rotor, m.
     pub lead_m_per_turn: Option<f64>,
     /// Stiffness of the servo along a sliding joint, N/m.
     pub servo_stiffness_n_per_m: Option<f64>,
@@ -54,8 +54,8 @@ pub struct RotorTable {
     pub servo_stiffness_n_m_per_rad: Option<f64>,
     /// Stiffness of the servo about a turning joint, as the joint feels it, N mm/rad.
     pub servo_stiffness_n_mm_per_rad: Option<f64>,
-    /// Where the figures come from.
+    /// Source of the figures.
     pub source: Option<String>,
-    /// What is assumed.
+    /// Assumption behind the figures.
     pub assumption: Option<String>,
 }

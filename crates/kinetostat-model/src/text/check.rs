@@ -77,7 +77,7 @@ impl Checker {
             .push(Finding::new(place, message, help).at(span));
     }
 
-    /// What may stand where the last finding is, for reading on.
+    /// Sets the stand-in for the value of the last finding, for reading on.
     fn stand_in(&mut self, value: Option<String>) {
         if let Some(finding) = self.findings.last_mut() {
             finding.remedy.stand_in = value;

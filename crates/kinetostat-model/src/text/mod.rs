@@ -1,4 +1,4 @@
-//! From bytes to a document that follows the schema, with messages that name line and remedy.
+//! Reads bytes into a document that follows the schema, with messages that name line and remedy.
 //!
 //! Takes a path or a text; gives a document, or problems with their places in the text. Knows the words of the format
 //! and nothing of mechanics.

@@ -50,7 +50,7 @@ impl<'t> Source<'t> {
         .at(error.span().unwrap_or(0..0))
     }
 
-    /// Where a value is written; for one that is missing, the table that should hold it.
+    /// Byte range of a value; for a missing one, the table that should contain it.
     pub(crate) fn span(&self, place: &KeyPath) -> Range<usize> {
         let mut span = 0..0;
         let mut steps = place.0.iter();

@@ -2,7 +2,7 @@
 
 use crate::number;
 
-/// From the smallest to the largest value shown.
+/// Range from the smallest to the largest value shown.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Span {
     pub(crate) low: f64,
@@ -81,7 +81,7 @@ impl Span {
         }
     }
 
-    /// With room at the ends, as shares of the length; an end at zero stays.
+    /// Adds room at the ends, as shares of the length; an end at zero stays.
     pub(crate) fn padded(self, below: f64, above: f64) -> Self {
         let length = self.length();
         Self {

@@ -22,7 +22,7 @@ const STYLE: &str = concat!(
 /// Bars from zero, in the order in which they are given.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Bars {
-    /// What is shown.
+    /// Title of the chart.
     pub title: String,
     /// The bars.
     pub bars: Vec<Bar>,
@@ -31,16 +31,16 @@ pub struct Bars {
 /// A bar with its name and its figure in words.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Bar {
-    /// Before the bar.
+    /// Text before the bar.
     pub name: String,
-    /// Its length; below zero it goes to the left. What is not finite has no bar.
+    /// Length of the bar, to the left if negative. A value that is not finite has no bar.
     pub value: f64,
-    /// Behind the bar.
+    /// Text behind the bar.
     pub figure: String,
 }
 
 impl Bars {
-    /// As an SVG document with its own style.
+    /// Draws an SVG document with its own style.
     #[must_use]
     pub fn svg(&self) -> String {
         let mut svg = Svg::default();

@@ -6,7 +6,7 @@ use crate::chart::outline::Pixel;
 /// Nearer than this two lines are drawn as one, pixels.
 const NEAR: f64 = 0.6;
 
-/// What has been drawn in one style.
+/// Lines drawn so far in one style.
 #[derive(Default)]
 pub(crate) struct Drawn {
     pieces: Vec<(Pixel, Pixel)>,

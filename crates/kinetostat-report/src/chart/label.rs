@@ -50,7 +50,7 @@ pub(crate) struct Labels {
 }
 
 impl Labels {
-    /// Nothing may be written here.
+    /// Reserves a frame in which nothing may be written.
     pub(crate) fn reserve(&mut self, frame: Frame) {
         self.taken.push(frame);
     }

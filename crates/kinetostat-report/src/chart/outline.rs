@@ -7,7 +7,7 @@ use crate::svg::{tenths, to_tenths};
 /// A point on the drawing, in pixels.
 pub(crate) type Pixel = (f64, f64);
 
-/// How far a line may move when points are left out, in pixels: less than half of its own width.
+/// Largest displacement of a line by omitted points, in pixels: less than half of its own width.
 const TOLERANCE: f64 = 0.2;
 
 /// Path data of a line through points; `None` lifts the pen.
@@ -20,8 +20,8 @@ pub(crate) fn path_data(points: &[Option<Pixel>]) -> String {
     data
 }
 
-/// The same line without stretches that cover only what earlier ones cover already: a pocket of a hundred
-/// thousand blocks has no more to show than there are places on the drawing.
+/// Omits stretches that cover only places covered already: a pocket of a hundred thousand blocks has no more to show
+/// than there are places on the drawing.
 pub(crate) fn first_time(points: &[Option<Pixel>]) -> Vec<Option<Pixel>> {
     // Below this, everything is kept: short programs lose nothing.
     const MANY: usize = 4000;
@@ -118,7 +118,7 @@ impl Covered {
 /// one stay, joined by a stroke, from the nearer end on. The drawn line covers the same pixels, however
 /// many points there were; a pen that is lifted within a column is not. Points go from left to right.
 pub(crate) fn per_column(points: &[Option<Pixel>]) -> Vec<Option<Pixel>> {
-    /// Up to this many points of a column are all kept.
+    /// Number of points of a column up to which all are kept.
     const FEW: usize = 4;
     let mut out: Vec<Option<Pixel>> = Vec::new();
     let mut rest = points;

@@ -46,7 +46,7 @@ impl Sheet {
 pub(crate) trait OnPath {
     /// Length of the path up to it, mm.
     fn path_mm(&self) -> f64;
-    /// What happens there.
+    /// Kind of the point.
     fn kind(&self) -> PointKind;
 }
 
@@ -71,15 +71,15 @@ impl OnPath for CutPlace {
 /// The axis along the path, common to all panels of a report.
 pub(crate) struct Along {
     pub(crate) span: Span,
-    /// From mm to the unit of the axis.
+    /// Factor from mm to the unit of the axis.
     pub(crate) factor: f64,
     pub(crate) label: &'static str,
-    /// Where rapids lie, in the unit of the axis.
+    /// Ranges of rapids, in the unit of the axis.
     rapids: Vec<(f64, f64)>,
 }
 
 impl Along {
-    /// None if no point has a place on the path.
+    /// Builds the axis; `None` if no point has a place on the path.
     pub(crate) fn of<P: OnPath>(points: &[P]) -> Option<Self> {
         let span = Span::of(points.iter().map(OnPath::path_mm))?;
         let (factor, label) = unit_of(span);
@@ -100,7 +100,7 @@ impl Along {
         Some(Self::over(span, (factor, label), rapids))
     }
 
-    /// Of points of which the envelope is drawn; none if there are none.
+    /// Builds the axis of an envelope; `None` if it has no points.
     pub(crate) fn of_envelope(envelope: &Envelope) -> Option<Self> {
         let span =
             Span::of([0.0, envelope.length_mm()].into_iter()).filter(|_| envelope.points() > 0)?;
@@ -188,7 +188,7 @@ impl Along {
     }
 }
 
-/// From mm to the unit of a path of this length, and the label of its axis.
+/// Factor from mm to the unit of a path of this length, and the label of its axis.
 fn unit_of(span: Span) -> (f64, &'static str) {
     if span.high > 20_000.0 {
         (0.001, "length of the path, m")
@@ -254,7 +254,7 @@ impl Panel {
         TITLE_LINE * (title_lines(&self.title, width).len() as f64 - 1.0)
     }
 
-    /// From the frame's left edge, or farther left where the title needs the room.
+    /// Draws the title from the frame's left edge, or farther left where it needs the room.
     fn draw_title(&self, svg: &mut Svg, frame: &Frame, room: (f64, f64)) {
         let lines = title_lines(&self.title, room.1 - room.0);
         let widest = lines.iter().map(|l| text::bold_width(l, TITLE_SIZE));
@@ -359,7 +359,7 @@ impl Panel {
                 width,
                 height: 16.0,
             };
-            // On the left if a marked point with its label needs the right end.
+            // Placed on the left if a marked point with its label needs the right end.
             let busy = marks
                 .iter()
                 .any(|mark| mark.0 > right.x - 60.0 && (mark.1 - base).abs() < 40.0);

@@ -26,7 +26,7 @@ const STYLE: &str = concat!(
     include_str!("../template/plot.css")
 );
 
-/// How a plot is drawn beside what it says.
+/// Style of a plot.
 #[derive(Clone, Copy, Default)]
 pub(crate) struct Look<'a> {
     /// One unit is as long on both axes.
@@ -56,7 +56,7 @@ const COLOURS: [&str; 6] = ["c0", "c1", "c2", "c3", "c4", "c5"];
 /// Curves in one frame with two axes, and named points on them.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Plot {
-    /// What is shown, above the frame.
+    /// Title above the frame.
     pub title: String,
     /// Quantity and unit of the horizontal axis, as in `displacement along x, mm`.
     pub x_label: String,
@@ -111,7 +111,7 @@ pub struct PlotMark {
     pub at: (f64, f64),
     /// Short name, written beside it where there is room.
     pub name: String,
-    /// More words, shown when the pointer rests on it.
+    /// Additional text, shown when the pointer rests on it.
     pub detail: String,
 }
 
@@ -123,7 +123,8 @@ impl Plot {
             .document(SIZE, &self.title, STYLE)
     }
 
-    /// This plot and, below it, others over the same horizontal quantity, less high and with their frames in line.
+    /// Draws this plot and, below it, others over the same horizontal quantity, less high and with their frames in
+    /// line.
     #[must_use]
     pub fn svg_above(&self, others: &[Self]) -> String {
         let all: Vec<(&Self, Look<'_>)> = std::iter::once(self)
@@ -133,7 +134,7 @@ impl Plot {
         stacked(&all, "")
     }
 
-    /// As [`Plot::svg`] with one unit as long on both axes: for shapes.
+    /// Draws like [`Plot::svg`] with equal units on both axes: for shapes.
     #[must_use]
     pub fn shape_svg(&self) -> String {
         let look = Look {
@@ -195,7 +196,7 @@ impl Plot {
             svg.text("title", (18.0, base), Anchor::Start, &line);
             base += 18.0;
         }
-        // What is solid first, each in the order of the lines.
+        // Solid lines first, each group in the order of the lines.
         let mut entries: Vec<(String, String)> = Vec::new();
         for dashed in [false, true] {
             for line in &self.lines {
@@ -309,7 +310,7 @@ impl Plot {
         pixel: impl Fn(&(f64, f64)) -> Option<(f64, f64)>,
     ) {
         let mut drawn: BTreeMap<String, Drawn> = BTreeMap::new();
-        // What is solid lies on top of what is dashed.
+        // Solid lines lie on top of dashed ones.
         for dashed in [true, false] {
             for line in self.lines.iter().filter(|l| l.dashed == dashed) {
                 let pixels: Vec<_> = line.points.iter().map(&pixel).collect();

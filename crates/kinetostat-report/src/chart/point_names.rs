@@ -21,7 +21,7 @@ const FAR: f64 = 11.0;
 const HEIGHT: f64 = 15.0;
 const RISE: f64 = 4.3;
 
-/// What is in the way of names.
+/// Obstacles for names.
 pub(crate) struct Names {
     frame: Frame,
     /// Never covered: marks and other names.
@@ -30,7 +30,7 @@ pub(crate) struct Names {
     lines: Vec<(Pixel, f64)>,
 }
 
-/// What a name stands beside.
+/// Anchor of a name.
 #[derive(Clone, Copy)]
 pub(crate) struct Beside {
     pub(crate) at: Pixel,
@@ -90,13 +90,13 @@ impl Names {
         }
     }
 
-    /// Whether a round thing lies within the frame.
+    /// True if a circle lies within the frame.
     pub(crate) fn room_for(&self, at: Pixel, radius: f64) -> bool {
         let corner = (at.0 - radius, at.1 - radius);
         self.frame.holds(corner) && self.frame.holds((at.0 + radius, at.1 + radius))
     }
 
-    /// How much is in the way of a line: marks count more than lines.
+    /// Cost of obstacles in the way of a line: marks count more than lines.
     pub(crate) fn in_the_way(&self, from: Pixel, to: Pixel, half: f64) -> f64 {
         let mut cost = 0.0;
         along(from, to, STEP, |at| {
@@ -210,7 +210,7 @@ impl Names {
         self.frame.contains(area) && !self.taken.iter().any(|t| t.covers(area))
     }
 
-    /// What a name there costs for the lines below it.
+    /// Cost of a name there for the lines below it.
     fn covered(&self, area: &Frame) -> f64 {
         let on = |(p, half): &&(Pixel, f64)| {
             let half = half + 1.0;

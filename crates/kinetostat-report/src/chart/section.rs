@@ -43,7 +43,7 @@ const BAR: f64 = 18.0;
 /// A section through a field.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Section {
-    /// What is shown, above the frame.
+    /// Title above the frame.
     pub title: String,
     /// Quantity and unit of the horizontal axis, as in `x, mm`.
     pub x_label: String,
@@ -59,7 +59,7 @@ pub struct Section {
     pub cells: Vec<Cell>,
     /// Names of cells without a value, at most three kinds.
     pub others: Vec<String>,
-    /// What grey cells are, with what their shades mean; empty without such cells.
+    /// Meaning of grey cells and of their shades; empty without such cells.
     pub grey_label: String,
     /// A value at which the scale of colours begins at the latest.
     pub scale_from: Option<f64>,
@@ -69,21 +69,21 @@ pub struct Section {
     pub marks: Vec<PlotMark>,
 }
 
-/// How long the units of the two axes are.
+/// Units of the two axes.
 #[derive(Clone, Copy)]
 enum Shape {
-    /// As long on both.
+    /// Equal units on both axes.
     True,
-    /// As they come when both axes fill the picture.
+    /// Units with which both axes fill the picture.
     Filled,
 }
 
-/// What is known at a place.
+/// Content of a cell.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Cell {
     /// A value; one that is not finite is left blank.
     Value(f64),
-    /// None, for a reason: its number in [`Section::others`].
+    /// No value, for a reason: its number in [`Section::others`].
     Other(usize),
     /// A shade of grey, from 0 (dark) to 1 (light): what is there and is not in question.
     Grey(f64),
@@ -108,7 +108,8 @@ impl Section {
             .document(SIZE, &self.title, &style)
     }
 
-    /// This section and others below it, as one document. Where the two axes of one are not the same quantity, they fill the picture.
+    /// Draws this section and others below it, as one document. Where the two axes of one are not the same quantity,
+    /// they fill the picture.
     #[must_use]
     pub fn svg_above(&self, others: &[Self]) -> String {
         let style = [STYLE, OVER].concat();
@@ -129,19 +130,19 @@ impl Section {
         svg.document((SIZE.0, down - 8.0), &self.title, &style)
     }
 
-    /// The same as an element for a page, which has the style of plots and [`Self::filled_style`]; `description` is for those who
-    /// cannot see it.
+    /// Draws the section as an element for a page, which has the style of plots and [`Self::filled_style`];
+    /// `description` is its text alternative.
     pub(crate) fn filled_element(&self, description: &str) -> String {
         self.draw(SIZE.1, Shape::Filled)
             .inline("plot framed", SIZE, description)
     }
 
-    /// What the cells and lines of such an element need beside the style of plots.
+    /// Style of the cells and lines of such an element, in addition to that of plots.
     pub(crate) fn filled_style() -> String {
         [Self::style(), BOLD, FRAMED].concat()
     }
 
-    /// What its cells and lines need beside the style of plots.
+    /// Style of the cells and lines, in addition to that of plots.
     pub(crate) fn style() -> &'static str {
         concat!(
             include_str!("../template/section.css"),
@@ -340,7 +341,7 @@ fn key(line: &PlotLine) -> &'static str {
     }
 }
 
-/// From half a step before the first place to half a step after the last.
+/// Range from half a step before the first place to half a step after the last.
 fn edges(places: &[f64]) -> Option<Span> {
     let (first, last) = (*places.first()?, *places.last()?);
     let half = 0.5 * (last - first) / (places.len() as f64 - 1.0);

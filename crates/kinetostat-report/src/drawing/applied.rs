@@ -18,21 +18,21 @@ const LENGTH: f64 = 66.0;
 const SHORTEST: f64 = 40.0;
 /// Share of a direction that lies on the drawing, below which it is one to the eye.
 const TO_THE_EYE: f64 = 0.15;
-/// Between the tool and an arrow: close to it, and beyond the axes of its frame.
+/// Gaps between the tool and an arrow: close to it, and beyond the axes of its frame.
 const GAPS: [f64; 2] = [7.0, 58.0];
 /// Room that the head needs at the edge, pixels.
 const HEAD: f64 = 14.0;
 const RING: f64 = 8.5;
 
-/// What acts on the tool, as it is drawn.
+/// Force or moment on the tool, as it is drawn.
 struct Kind {
     class: &'static str,
     heads: usize,
-    /// With its size, and what lies square to the drawing.
+    /// Size, and the component square to the drawing.
     label: String,
 }
 
-/// What acts on the tool at this point of the drawing; `see` gives a direction as the drawing sees it.
+/// Draws force and moment on the tool at this point of the drawing; `see` projects a direction.
 pub(super) fn draw(
     svg: &mut Svg,
     names: &mut Names,
@@ -69,7 +69,7 @@ pub(super) fn draw(
     }
 }
 
-/// From where to where: the side of the tool on which less is in the way.
+/// Ends of the arrow: on the side of the tool on which less is in the way.
 fn arrow_at(names: &Names, tool: Pixel, seen: &Point) -> (Pixel, Pixel) {
     let share = seen.xy().norm();
     let (x, y) = (seen.x / share, seen.y / share);
@@ -111,7 +111,7 @@ fn arrow(svg: &mut Svg, names: &mut Names, kind: &Kind, from: Pixel, to: Pixel) 
         );
     }
     names.bar(from, to, 7.0);
-    // Beside the tail, away from the head.
+    // Placed at the tail, away from the head.
     let beside = Beside {
         at: from,
         radius: 5.0,
@@ -121,7 +121,7 @@ fn arrow(svg: &mut Svg, names: &mut Names, kind: &Kind, from: Pixel, to: Pixel) 
     names.write_as(svg, &class, &beside, &kind.label);
 }
 
-/// What points to the eye is seen from its tip, what points away from its feathers.
+/// Arrow along the line of sight: its tip if it points to the eye, else its feathers.
 fn ring(svg: &mut Svg, names: &mut Names, at: Pixel, kind: &Kind, toward: f64) {
     svg.path(
         &format!("{} ring", kind.class),

@@ -19,12 +19,12 @@ pub(super) struct Run<'a> {
     /// Rigid offsets before its first motion are a link of their own (a pedestal), not a part of a
     /// plate.
     pub(super) start_is_link: bool,
-    /// The same behind its last motion.
+    /// Rigid offsets behind its last motion are a link of their own.
     pub(super) end_is_link: bool,
     pub(super) on_base: bool,
 }
 
-/// Where a limb holds on to its platforms.
+/// Points of a limb's attachment to its platforms.
 pub(super) struct Ends {
     pub(super) start: Vector3<f64>,
     pub(super) end: Vector3<f64>,
@@ -36,7 +36,7 @@ const MOTOR: f64 = 12.0;
 const CARRIAGE: f64 = 12.0;
 const RAIL: f64 = 48.0;
 
-/// How far a motion goes, m or rad, and the step from the frame before it to that behind it.
+/// Displacement of a motion, m or rad, and the step from the frame before it to that behind it.
 pub(super) fn step(motion: &Motion, coordinates: &[f64], commands: &[f64]) -> (f64, Pose) {
     let coordinate = motion.coordinate.map(|d| d.ratio * coordinates[d.index]);
     let command = motion.command.map(|d| d.ratio * commands[d.index]);
@@ -52,12 +52,12 @@ pub(super) fn step(motion: &Motion, coordinates: &[f64], commands: &[f64]) -> (f
     (displacement, pose)
 }
 
-/// How far a limb has been traced.
+/// State of the tracing of a limb.
 struct Trace<'a, 'b> {
     run: &'b Run<'a>,
     scene: &'b mut Scene,
     pose: Pose,
-    /// Where a link that bends begins: its spring comes behind its offset.
+    /// Start of an elastic link: its spring comes behind its offset.
     bending: Option<(Pose, Vector3<f64>)>,
     /// Links whose spring lies in their middle: name and the length drawn so far.
     drawn: f64,
@@ -161,8 +161,8 @@ impl Trace<'_, '_> {
         });
     }
 
-    /// Whether the offset at this index belongs to a link that bends: springs in several directions
-    /// follow it, or it is the rest of a link whose springs lie in the middle.
+    /// True if the offset at this index belongs to an elastic link: springs in several directions follow it, or it is
+    /// the rest of a link whose springs lie in the middle.
     fn bends(&self, index: usize) -> bool {
         let chain = self.run.chain;
         let elements = chain.elements();

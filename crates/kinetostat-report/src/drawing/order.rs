@@ -1,5 +1,5 @@
-//! What is drawn first: what lies behind. Where two things cross on the drawing, the place of the
-//! crossing decides; else their middles.
+//! Order of painting, from back to front. If two things cross on the drawing, the depths at the crossing decide; else
+//! those of their middles.
 
 use nalgebra::{Vector2, Vector3};
 
@@ -55,7 +55,7 @@ pub(super) fn painting_order(things: &[Thing]) -> Vec<usize> {
     order
 }
 
-/// How much nearer the first is where both meet on the drawing; none where they do not.
+/// Depth by which the first is nearer where both meet on the drawing; `None` if they do not meet.
 fn nearer(a: &Thing, b: &Thing) -> Option<f64> {
     match (a, b) {
         (Thing::Line(a), Thing::Line(b)) => {
@@ -82,7 +82,7 @@ fn nearer(a: &Thing, b: &Thing) -> Option<f64> {
         }
         (Thing::Plate(corners), Thing::Line(line)) => {
             let plane = plane(corners)?;
-            // By the part of the line within the plate.
+            // Compares the part of the line within the plate.
             let inside = (1..10)
                 .map(|k| at(line, f64::from(k) / 10.0))
                 .filter(|p| contains(corners, p));
@@ -117,7 +117,7 @@ fn nearest(p: &Vector3<f64>, line: &[Vector3<f64>; 2]) -> f64 {
     }
 }
 
-/// Where two straight pieces cross, away from common ends.
+/// Crossing of two straight segments, away from common ends.
 pub(super) fn crossing(a: &[Vector3<f64>; 2], b: &[Vector3<f64>; 2]) -> Option<(f64, f64)> {
     let (u, v) = ((a[1] - a[0]).xy(), (b[1] - b[0]).xy());
     let area = u.perp(&v);
@@ -144,7 +144,7 @@ fn plane(corners: &[Vector3<f64>]) -> Option<impl Fn(&Vector3<f64>) -> f64 + use
     })
 }
 
-/// Whether a place lies within a convex polygon, whichever way round.
+/// True if a place lies within a convex polygon of either orientation.
 fn contains(corners: &[Vector3<f64>], p: &Vector3<f64>) -> bool {
     let mut sides = [false; 2];
     for (k, a) in corners.iter().enumerate() {

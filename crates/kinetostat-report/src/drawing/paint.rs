@@ -30,7 +30,7 @@ const FOOT: f64 = 54.0;
 /// Length of axes, pixels of the machine's diagonal in [`Scene`].
 const AXIS: f64 = 44.0;
 
-/// From space to paper.
+/// Projection from space to paper.
 struct Paper {
     camera: Camera,
     scale: f64,
@@ -542,7 +542,7 @@ fn legend(svg: &mut Svg, entries: &[(Key, String)], left: f64, height: f64) {
     let total: f64 = entries.iter().map(width).sum();
     let two = total > WIDTH - 14.0 - left;
     let mut y = height - if two { 34.0 } else { 24.0 };
-    // At the right, so that it stays away from the scale.
+    // Placed at the right, so that it stays away from the scale.
     let mut x = if two { left } else { WIDTH - 6.0 - total };
     for entry in entries {
         if two && x > left && x + width(entry) > WIDTH - 4.0 {

@@ -19,13 +19,13 @@ pub(super) enum BarKind {
     Rigid,
     /// A link with springs.
     Elastic,
-    /// What comes out of a sleeve.
+    /// Rod that comes out of a sleeve.
     Rod,
     /// A rod with its sleeve, as one line of the drawn motion; the machine itself shows its parts.
     Ram,
     /// Goes where another bar is already: a side branch on its way back.
     Twice,
-    /// What a carriage runs on.
+    /// Rail of a carriage.
     Rail,
     /// A compensator between two points, or a drawn line that pulls.
     Spring,
@@ -50,7 +50,7 @@ impl Bar {
         (self.ends[1] - self.ends[0]).norm()
     }
 
-    /// How far the middle of the cubic with these ends and tangents lies from that of the chord.
+    /// Offset of the middle of the cubic with these ends and tangents from that of the chord.
     pub(super) fn bow(&self) -> Vector3<f64> {
         (self.tangents[0] - self.tangents[1]) / 8.0
     }
@@ -96,11 +96,11 @@ pub(super) struct Plate {
     pub(super) base: bool,
 }
 
-/// Where the base holds something.
+/// Attachment to the base.
 #[derive(Clone, Debug)]
 pub(super) struct Ground {
     pub(super) at: Vector3<f64>,
-    /// Into the ground.
+    /// Direction into the ground.
     pub(super) away: Vector3<f64>,
 }
 
@@ -108,7 +108,7 @@ pub(super) struct Ground {
 #[derive(Clone, Debug)]
 pub(super) struct Word {
     pub(super) at: Vector3<f64>,
-    /// Of the symbol at the point, pixels.
+    /// Radius of the symbol at the point, pixels.
     pub(super) radius: f64,
     pub(super) text: String,
 }
@@ -124,6 +124,6 @@ pub(super) struct Scene {
     pub(super) tool: Pose,
     /// Diagonal of the box around it, m.
     pub(super) size: f64,
-    /// What is about a pixel long on the drawing, m.
+    /// Length of about a pixel on the drawing, m.
     pub(super) unit: f64,
 }

@@ -1,17 +1,17 @@
-//! What is drawn: a machine in a state, from where, and what of it moved.
+//! Request for a drawing: a machine in a state, the view, and its displaced shape.
 
 use kinetostat::{Chain, Limb, Mechanism, Pose, Posture, Wrench, machine::MechanismState};
 
-/// From where to look.
+/// Direction of view.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum View {
     /// Obliquely from above: the one of several directions in which the least coincides.
     Iso,
-    /// Along y of the base: x to the right, z up.
+    /// View along y of the base: x to the right, z up.
     Front,
-    /// Against x of the base: y to the right, z up.
+    /// View against x of the base: y to the right, z up.
     Side,
-    /// From above: x to the right, y up.
+    /// View from above: x to the right, y up.
     Top,
 }
 
@@ -59,27 +59,27 @@ impl Placed {
     }
 }
 
-/// How much larger a motion is drawn than it is.
+/// Magnification of a motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Magnified {
-    /// By this factor.
+    /// Given factor.
     Times(f64),
-    /// By a round factor that makes it well visible.
+    /// Round factor that makes it well visible.
     Round,
-    /// As large as is well visible: the motion is a direction, its size says nothing.
+    /// Factor that makes it well visible: the motion is a direction, without a size.
     Direction,
 }
 
 /// A motion of the machine, drawn over it.
 #[derive(Clone, Debug)]
 pub struct Moved {
-    /// Where the motion starts (usually, but not always, the state that is drawn).
+    /// State at the start of the motion (usually, but not always, the state that is drawn).
     pub from: Placed,
-    /// Where it ends: close by; it is continued along straight lines.
+    /// State at its end, close by; the motion is continued along straight lines.
     pub to: Placed,
-    /// How it is drawn.
+    /// Magnification.
     pub magnified: Magnified,
-    /// What it is, for the legend: `deflection`, say.
+    /// Name in the legend: `deflection`, say.
     pub name: String,
 }
 
@@ -88,13 +88,13 @@ pub struct Moved {
 pub struct Drawing<'m> {
     /// The machine.
     pub mechanism: &'m Mechanism,
-    /// Its state.
+    /// State of the machine.
     pub placed: Placed,
-    /// What it is, above the drawing.
+    /// Title above the drawing.
     pub title: String,
-    /// More words below the title.
+    /// Note below the title.
     pub note: String,
-    /// From where to look; where there is none, square to a machine in one plane, obliquely else.
+    /// Direction of view; if there is none, square to a machine in one plane, obliquely else.
     pub view: Option<View>,
     /// A motion drawn over it.
     pub moved: Option<Moved>,

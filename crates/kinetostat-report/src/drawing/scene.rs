@@ -1,4 +1,4 @@
-//! What there is to draw, in space: bars, joints, plates and ground marks, in metres and base axes.
+//! Spatial scene of a drawing: bars, joints, plates and ground marks, in metres and base axes.
 
 use kinetostat::{Anchor, Load, Mechanism, PlatformLoad, model::Kinematics};
 use nalgebra::Vector3;
@@ -11,7 +11,7 @@ use crate::drawing::symbol::MOTOR;
 /// Pixels of the drawing along the diagonal of the machine.
 const PIXELS: f64 = 470.0;
 
-/// More limbs than this have no names in the drawing.
+/// Maximum number of limbs with names in the drawing.
 const MOST_NAMES: usize = 14;
 
 impl Scene {
@@ -21,7 +21,7 @@ impl Scene {
         Self::with_unit(mechanism, placed, first.extent() / PIXELS)
     }
 
-    /// With symbols of the size that another scene of the same machine has.
+    /// Scene with symbols of the size that another scene of the same machine has.
     pub(super) fn with_unit(mechanism: &Mechanism, placed: &Placed, unit: f64) -> Self {
         let mut scene = Self {
             tool: placed.platforms[mechanism.tool()],
@@ -72,7 +72,7 @@ impl Scene {
                     |k: usize| close(&a.ends[0], &b.ends[k]) && close(&a.ends[1], &b.ends[1 - k]);
                 let plain = |kind| matches!(kind, BarKind::Rigid | BarKind::Elastic);
                 if plain(a.kind) && plain(b.kind) && (same(0) || same(1)) {
-                    // What bends says more.
+                    // The elastic bar is kept.
                     let worse = if a.kind == BarKind::Elastic { j } else { i };
                     self.bars[worse].kind = BarKind::Twice;
                 }
@@ -184,7 +184,7 @@ impl Scene {
             ground.away = match normal {
                 Some(z) if rail == Vector3::zeros() => z * out.dot(&z).signum(),
                 _ => {
-                    // Along the axis that leads out most, square to the rail.
+                    // Uses the axis that leads out most, square to the rail.
                     let across = out - rail * rail.dot(&out);
                     let mut axis = Vector3::zeros();
                     let most = across.iamax();
@@ -249,7 +249,7 @@ impl Scene {
     }
 }
 
-/// How many limbs touch every platform.
+/// Number of limbs at every platform.
 fn attachments(mechanism: &Mechanism) -> Vec<usize> {
     let mut count = vec![0; mechanism.platforms().len()];
     for limb in mechanism.limbs() {
@@ -259,7 +259,7 @@ fn attachments(mechanism: &Mechanism) -> Vec<usize> {
     count
 }
 
-/// Whether points span a plane that is rather horizontal.
+/// True if points span a plane that is rather horizontal.
 fn faces_up(points: &[Vector3<f64>]) -> bool {
     let middle = points.iter().sum::<Vector3<f64>>() / points.len() as f64;
     let mut spread = nalgebra::Matrix3::zeros();

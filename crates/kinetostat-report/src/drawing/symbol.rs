@@ -196,7 +196,7 @@ pub(super) fn spring_joint(svg: &mut Svg, at: Pixel) {
     svg.path("coil fine", &data);
 }
 
-/// Where the base holds something; `away` leads into the ground.
+/// Symbol of an attachment to the base; `away` leads into the ground.
 pub(super) fn ground(svg: &mut Svg, at: Pixel, away: &Point) {
     let length = away.xy().norm();
     // Seen from above, the ground is below on the paper too.

@@ -52,7 +52,7 @@ fn no_limb_of_a_preset_points_to_the_eye() {
     }
 }
 
-/// Where the first joint of a limb without lengths sits, base axes, m.
+/// Position of the first joint of a limb without lengths, base axes, m.
 fn limb_start(limb: &kinetostat::Limb, from: &kinetostat::Pose) -> Vector3<f64> {
     let home = limb.nominal.home_coordinates();
     kinetostat::model::unloaded_tip(&limb.nominal, from, &home, &limb.nominal.home_commands())

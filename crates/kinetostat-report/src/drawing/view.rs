@@ -1,4 +1,4 @@
-//! From where the machine is looked at: parallel projection along a direction.
+//! View of the machine: parallel projection along a direction.
 
 use nalgebra::Vector3;
 
@@ -12,12 +12,12 @@ use crate::drawing::scene::corners;
 pub(super) struct Camera {
     right: Vector3<f64>,
     up: Vector3<f64>,
-    /// To the eye.
+    /// Direction to the eye.
     pub(super) toward: Vector3<f64>,
 }
 
 impl Camera {
-    /// From a direction about the vertical (degrees from x to y) and a height above the horizon.
+    /// Camera from a direction about the vertical (degrees from x to y) and a height above the horizon.
     fn from_angles(azimuth: f64, elevation: f64) -> Self {
         let (sa, ca) = azimuth.to_radians().sin_cos();
         let (se, ce) = elevation.to_radians().sin_cos();
@@ -64,7 +64,7 @@ impl Camera {
         })
     }
 
-    /// Of some oblique views the one in which the least coincides.
+    /// Picks, among some oblique views, the one with the fewest overlaps.
     fn clearest(scene: &Scene, motions: &[Vec<Vector3<f64>>]) -> Self {
         let mut best: Option<(f64, Self)> = None;
         for (turn, azimuth) in [-62.0, -50.0, -38.0, -72.0, -26.0, -118.0, -130.0, 28.0]
@@ -100,7 +100,7 @@ impl Camera {
         if all > 0.0 { 1.0 - seen / all } else { 0.0 }
     }
 
-    /// How much of a scene lies behind or along something else.
+    /// Amount of a scene that lies behind or along something else.
     fn clutter(&self, scene: &Scene) -> f64 {
         let size = scene.size;
         let mut cost = 0.0;
@@ -167,7 +167,7 @@ impl Camera {
     }
 }
 
-/// On the drawing, of a point from a straight piece.
+/// Distance on the drawing of a point from a straight piece.
 pub(super) fn distance(p: &Vector3<f64>, ends: &[Vector3<f64>; 2]) -> f64 {
     let (from, along) = (ends[0].xy(), (ends[1] - ends[0]).xy());
     let square = along.norm_squared();

@@ -1,4 +1,4 @@
-//! What a paper holds, before anybody decides where it stands on a page: the same for PDF and HTML.
+//! Contents of a paper before its layout on pages: the same for PDF and HTML.
 
 use kinetostat_machining::Level;
 
@@ -11,7 +11,7 @@ pub(crate) struct Contents {
     /// Stands small above the title.
     pub(crate) kind: String,
     pub(crate) title: String,
-    /// On every page: the program, and who made the paper.
+    /// Text on every page: the program, and who made the paper.
     pub(crate) running: [String; 2],
     /// `page {page} of {pages}`.
     pub(crate) page_of: &'static str,
@@ -73,11 +73,11 @@ pub(crate) struct Table {
 pub(crate) struct Column {
     pub(crate) head: String,
     pub(crate) side: Side,
-    /// Its text may be broken into lines; the width of others is that of their widest cell.
+    /// True if its text may be broken into lines; the width of others is that of their widest cell.
     pub(crate) wraps: bool,
 }
 
-/// To which side text goes.
+/// Alignment of text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Side {
     Left,
@@ -129,7 +129,7 @@ impl From<String> for Cell {
 }
 
 impl Cell {
-    /// In bold type.
+    /// Cell in bold type.
     pub(crate) fn strong(text: String) -> Self {
         Self { text, strong: true }
     }

@@ -75,9 +75,9 @@ impl Language {
 
 /// Words in place of figures.
 pub(crate) struct FigureWords {
-    /// No figure.
+    /// Text without a figure.
     pub(crate) missing: &'static str,
-    /// Of a figure too small to be shown, before its bound.
+    /// Word before the bound of a figure too small to be shown.
     pub(crate) below: &'static str,
 }
 

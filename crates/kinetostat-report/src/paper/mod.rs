@@ -46,7 +46,7 @@ impl Paper<'_> {
         Err(ReportError::NoPdf)
     }
 
-    /// Whether this build makes PDF.
+    /// True if this build makes PDF.
     #[must_use]
     pub fn makes_pdf() -> bool {
         cfg!(feature = "pdf")

@@ -1,10 +1,10 @@
-//! What a paper is asked for.
+//! Request for a paper.
 
 use kinetostat_machining::{FileRead, RunResult};
 
 use crate::paper::language::Language;
 
-/// What a paper is made of.
+/// Request for a paper on a run.
 ///
 /// ```
 /// use kinetostat_machining::RunResult;
@@ -22,14 +22,15 @@ pub struct Paper<'a> {
     pub(crate) verified: Option<VerifiedProgram>,
 }
 
-/// What `verify` adds to a run: the run's errors before are those of the original, those after those of the program.
+/// Results of `verify` in addition to a run: the run's errors before are those of the original, its errors after those
+/// of the program.
 #[derive(Clone, Debug, Default)]
 pub struct VerifiedProgram {
     /// File name of the original.
     pub original: String,
-    /// Whether everything is as it should be.
+    /// True if the program passes.
     pub held: bool,
-    /// What is allowed in all, mm.
+    /// Total tolerance, mm.
     pub allowed_mm: f64,
     /// Lines of the original that are not cut, first and last, with their length, mm.
     pub uncut: Vec<([usize; 2], f64)>,
@@ -42,7 +43,7 @@ pub struct VerifiedProgram {
 }
 
 impl<'a> Paper<'a> {
-    /// Of a run, in English.
+    /// Creates a paper on a run, in English.
     #[must_use]
     pub fn of(result: &'a RunResult) -> Self {
         Self {
@@ -53,19 +54,19 @@ impl<'a> Paper<'a> {
         }
     }
 
-    /// In another language.
+    /// Sets another language.
     #[must_use]
     pub fn in_language(self, language: Language) -> Self {
         Self { language, ..self }
     }
 
-    /// With files that the run wrote, and their hashes.
+    /// Adds files that the run wrote, and their hashes.
     #[must_use]
     pub fn with_written(self, written: Vec<FileRead>) -> Self {
         Self { written, ..self }
     }
 
-    /// Of a program that was verified.
+    /// Adds the results of a verified program.
     #[must_use]
     pub fn of_verified(self, verified: VerifiedProgram) -> Self {
         Self {

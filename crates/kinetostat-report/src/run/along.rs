@@ -1,4 +1,4 @@
-//! What changes along the path: errors, forces and corrections of actuators, stiffness and the share of the way to buckling.
+//! Figures along the path: errors, forces and corrections of actuators, stiffness and load factor.
 
 use kinetostat_machining::number::larger;
 use kinetostat_machining::{PointResult, Quantity};
@@ -13,7 +13,7 @@ use crate::run::{force_band, uncertainty};
 use crate::svg::Svg;
 use crate::text;
 
-/// Most actuators drawn; more are in the result file.
+/// Maximum number of actuators drawn; more are in the result file.
 pub(crate) const MOST_ACTUATORS: usize = 12;
 
 /// The error before and after compensation, one above the other; empty without points.

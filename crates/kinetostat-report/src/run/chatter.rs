@@ -1,4 +1,4 @@
-//! Where a program chatters, and how the teeth shake the tool where it does not.
+//! Chatter of a program, and forced vibrations of the tool where it is stable.
 
 use kinetostat_machining::{ChatterLines, ChatterPlace, ChatterResult};
 use minijinja::{Value, context};
@@ -8,7 +8,7 @@ use crate::number::{self, MISSING, Rounding};
 use crate::run::shown::Shown;
 use crate::text;
 
-/// Most stretches shown; more are in the result file.
+/// Maximum number of stretches shown; more are in the result file.
 pub(crate) const MOST: usize = 20;
 
 /// Places farther apart have air between them, or a move that nothing is known of, mm.
@@ -48,7 +48,7 @@ fn row(stretch: &ChatterLines) -> Value {
     context! { lines, rpm, depth, stable, chatter, other }
 }
 
-/// Of a stretch: lines, speed, depth, stable depth, frequency, stable speed; numbers in type, without units.
+/// Cells of a stretch: lines, speed, depth, stable depth, frequency, stable speed; numbers in type, without units.
 pub(crate) fn cells(stretch: &ChatterLines) -> [String; 6] {
     let digits = |value, digits| number::significant(value, digits, Rounding::Nearest);
     // A speed without room is no advice for a page.
@@ -65,7 +65,7 @@ pub(crate) fn cells(stretch: &ChatterLines) -> [String; 6] {
         digits(stretch.depth_mm, 3),
         digits(stretch.stable_depth_mm, 3),
         digits(stretch.chatter_hz, 3),
-        // With the feed that keeps the feed per tooth.
+        // Adds the feed that keeps the feed per tooth.
         match (with_room, stretch.stable_feed_mm_per_min) {
             (None, _) => MISSING.to_owned(),
             (Some(rpm), Some(feed)) => format!("{} (F {})", digits(rpm, 4), digits(feed, 4)),
@@ -113,7 +113,7 @@ fn depths(title: &str, chatter: &ChatterResult) -> Plot {
     let line = |name: &str, colour: usize, of: &dyn Fn(&ChatterPlace) -> f64| {
         PlotLine::solid(name, colour, steps(&chatter.places, of))
     };
-    // Where nothing becomes unstable up to the largest depth that was looked at, that is a bound.
+    // If nothing becomes unstable up to the largest searched depth, that is a bound.
     let limit = |p: &ChatterPlace| match p.chatters {
         None => f64::NAN,
         Some(_) => p.limit_mm.unwrap_or(p.looked_up_to_mm),

@@ -1,4 +1,4 @@
-//! What the report says of the cut besides its charts: a sentence and the lines with the largest forces.
+//! Section on the cut besides its charts: a sentence and the lines with the largest forces.
 
 use kinetostat_machining::{CutPlace, CuttingResult};
 use minijinja::{Value, context};

@@ -1,5 +1,5 @@
-//! What the cut asks along the path: force with its band, its parts, depth and arc in the material, torque and what the
-//! spindle gives.
+//! Charts of the cut along the path: force with its band, its parts, depth and arc in the material, torque and the
+//! spindle's limit.
 
 use kinetostat_machining::{CutPlace, CuttingResult};
 
@@ -198,7 +198,7 @@ fn torque(cutting: &CuttingResult, along: &Along) -> Option<Panel> {
                 value: high,
                 label: format!("the spindle gives {}", with_unit(high, "N m")),
             }),
-            // With several speeds, the limit of each where it is used.
+            // Draws, for several speeds, the limit of each where it is used.
             false => panel.series.push(Series {
                 class: "limit",
                 values: along.values(&cutting.places, |p| p.spindle_torque_n_m),

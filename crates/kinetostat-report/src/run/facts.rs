@@ -168,7 +168,7 @@ fn worst_places(result: &Shown<'_>, (title, order): (&str, &str), points: &[Poin
     context! { title, order, rows, before_unit => before.0, after_unit => after.0 }
 }
 
-/// Of a line of a flat program the one that it came from.
+/// Source of a line of a flat program.
 fn source_of(result: &Shown<'_>, line: usize) -> Option<String> {
     let (file, from) = result.run_inputs.flat.as_ref()?.source_of(line)?;
     let file = text::shorten(file, 40);
@@ -218,7 +218,7 @@ pub(crate) fn uncertain_number(n: &UncertainNumber) -> String {
     )
 }
 
-/// What is uncertain, and how far linear propagation goes.
+/// Uncertain figures, and validity of linear propagation.
 fn uncertain_words(band: &UncertaintyBand) -> String {
     let numbers = band.uncertain.iter().map(uncertain_number);
     let numbers: Vec<String> = numbers.collect();
@@ -251,7 +251,7 @@ pub(crate) enum Left {
     CornerSteps,
     /// Steps where a rapid ends.
     EntrySteps,
-    /// How fast the correction changes.
+    /// Rate of change of the correction.
     Change,
     /// Steps against the motion.
     Backwards,
@@ -259,7 +259,7 @@ pub(crate) enum Left {
     FeedLimited,
 }
 
-/// What is to be said of a run, in its order.
+/// Remarks on a run, in order.
 pub(crate) fn left(result: &Shown<'_>) -> Vec<Left> {
     let summary = &result.summary;
     let written = result.run_inputs.compensated;
@@ -287,7 +287,7 @@ pub(crate) fn left(result: &Shown<'_>) -> Vec<Left> {
     said.map(|(_, left)| left).collect()
 }
 
-/// What the written program leaves: name, size, explanation.
+/// Uncorrected errors of the written program: name, size, explanation.
 pub(crate) fn uncorrected(result: &Shown<'_>) -> Vec<Value> {
     let all = left(result).into_iter();
     all.map(|left| context! { name => left.name(), size => left.size(result), text => left.text(result) })
@@ -295,7 +295,7 @@ pub(crate) fn uncorrected(result: &Shown<'_>) -> Vec<Value> {
 }
 
 impl Left {
-    /// What it is, in English.
+    /// Name in English.
     pub(crate) fn name(self) -> &'static str {
         match self {
             Self::Tilt => "Tilt of the tool",
@@ -310,7 +310,7 @@ impl Left {
         }
     }
 
-    /// Its figure; of steps the longest one, of limited feeds the slowest speed.
+    /// Figure; of steps the longest one, of limited feeds the slowest speed.
     pub(crate) fn figure(self, result: &Shown<'_>) -> String {
         let figures = &result.figures;
         let summary = &result.summary;
@@ -348,7 +348,7 @@ impl Left {
         }
     }
 
-    /// How many of it there are; none of what is not counted.
+    /// Number of occurrences; `None` for what is not counted.
     pub(crate) fn counted(self, result: &Shown<'_>) -> Option<usize> {
         match self {
             Self::CornerSteps => Some(result.summary.corner_steps),
@@ -358,7 +358,7 @@ impl Left {
         }
     }
 
-    /// How much it is, in English.
+    /// Size in English.
     pub(crate) fn size(self, result: &Shown<'_>) -> String {
         match (self, self.counted(result)) {
             (Self::FeedLimited, Some(pieces)) => number::counted(pieces, "piece"),
@@ -370,7 +370,7 @@ impl Left {
         }
     }
 
-    /// What it means, in English.
+    /// Explanation in English.
     pub(crate) fn text(self, result: &Shown<'_>) -> String {
         let summary = &result.summary;
         match self {
@@ -516,7 +516,7 @@ fn file(file: &FileRead) -> String {
     format!("{} {}: {}", file.what, file.name, file.sha256)
 }
 
-/// What was requested and how the program was written.
+/// Inputs of the run, and the way in which the program was written.
 pub(crate) fn inputs_of_run(result: &Shown<'_>) -> Vec<Value> {
     let (summary, run_inputs) = (&result.summary, &result.run_inputs);
     let deviations: Vec<String> = run_inputs
@@ -683,8 +683,8 @@ fn actuator_names(run_inputs: &RunInputs) -> String {
     }
 }
 
-/// What stands under every plot if it does not show everything: points left out because they are many, and
-/// points that cannot be drawn because they have no number.
+/// Caption under every plot that does not show everything: points left out because they are many, and points that
+/// cannot be drawn because they have no number.
 pub(crate) fn caption(result: &Shown<'_>) -> Option<String> {
     let (shown, all) = (result.points.len(), result.summary.points);
     let mut sentences = Vec::new();

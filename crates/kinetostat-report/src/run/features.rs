@@ -7,7 +7,7 @@ use crate::number::{MISSING, typeset};
 use crate::run::shown::Shown;
 use crate::text;
 
-/// Most features shown; more are in the result file.
+/// Maximum number of features shown; more are in the result file.
 const MOST: usize = 200;
 
 /// Rows of features; nothing where the job names none.

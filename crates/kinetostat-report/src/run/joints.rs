@@ -74,7 +74,7 @@ fn tenths(value: f64) -> String {
     number::setting((10.0 * value).round() / 10.0 + 0.0)
 }
 
-/// Where the joint is nearest to its limit, if it is the joint that comes nearest of all and cuts there.
+/// Mark where the joint is nearest to its limit, if it is the joint that comes nearest of all and cuts there.
 fn nearest(result: &Shown<'_>, along: &Along, index: usize) -> Option<Mark> {
     let found = result.joints.nearest_limit.as_ref()?;
     if found.limit.actuator != index {
@@ -98,8 +98,8 @@ fn nearest(result: &Shown<'_>, along: &Along, index: usize) -> Option<Mark> {
     })
 }
 
-/// What is nearest to its limit, most loaded, and how an arm stands: name, size, explanation. Empty for machines whose model states
-/// neither limits nor ratings and which are no arms.
+/// Facts on joints (nearest to its limit, most loaded, configuration of an arm): name, size, explanation. Empty for
+/// machines whose model states neither limits nor ratings and which are no arms.
 pub(crate) fn facts(result: &Shown<'_>) -> Vec<Value> {
     let row = |name: &str, size: String, text: String| context! { name, size, text };
     let figures = &result.figures;

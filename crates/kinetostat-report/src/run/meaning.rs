@@ -1,4 +1,4 @@
-//! What a run means, in plain words.
+//! Assessment of a run in plain words.
 
 use kinetostat_machining::{AssumptionKind, Level, PointKind, RunResult, Warning, WarningCode};
 
@@ -35,7 +35,7 @@ pub(crate) struct RunAssessment {
     pub(crate) statements: Vec<Statement>,
 }
 
-/// What is said of a run. It holds no words, so that every language says the same.
+/// Statement on a run. It holds no words, so that every language says the same.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Statement {
     /// The written program never starts the spindle.
@@ -147,7 +147,7 @@ impl RunAssessment {
 }
 
 impl Statement {
-    /// In English.
+    /// Sentence in English.
     pub(crate) fn sentence(self, result: &RunResult) -> String {
         match self {
             Self::SpindleNotStarted => "SPINDLE NOT STARTED by this program.".to_owned(),
@@ -266,7 +266,7 @@ fn missed(result: &RunResult, better: bool) -> String {
     };
     match &result.tolerance.missed {
         Some(missed) => {
-            // Of a program of others the reason is not known.
+            // The reason is unknown for a program by others.
             let reason = match crate::text::clean(&missed.reason) {
                 reason if reason.is_empty() => reason,
                 reason => format!(": {reason}"),

@@ -20,7 +20,7 @@ const STYLE: &str = concat!(
     include_str!("../template/page.css")
 );
 
-/// Most warnings shown; more are in the result file.
+/// Maximum number of warnings shown; more are in the result file.
 const MOST_WARNINGS: usize = 100;
 
 /// Fills the page.

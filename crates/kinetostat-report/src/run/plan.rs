@@ -17,14 +17,14 @@ const ABOVE: View = (0, 1);
 const SIDE: View = (0, 2);
 const NAMES: [&str; 3] = ["X, mm", "Y, mm", "Z, mm"];
 
-/// Most whiskers from the path to the magnified place of the tool.
+/// Maximum number of whiskers from the path to the magnified place of the tool.
 const WHISKERS: usize = 72;
 
-/// From this multiple of the frame's width and height on, a line is drawn thin: it fills the frame.
+/// Multiple of the frame's width and height from which a line is drawn thin: it fills the frame.
 const DENSE: f64 = 8.0;
 
-/// How much larger than true the deviation is drawn: a round number, so that the largest one takes about
-/// an eighth of the path's size. None if there is no deviation or no path.
+/// Magnification of the deviation: a round number, so that the largest one takes about an eighth of the path's size.
+/// `None` if there is no deviation or no path.
 pub(crate) fn magnification(result: &Shown<'_>) -> Option<f64> {
     let size = [0, 1, 2]
         .into_iter()
@@ -41,7 +41,7 @@ pub(crate) fn magnification(result: &Shown<'_>) -> Option<f64> {
         .then(|| number::round_number(share).clamp(1.0, 1e9))
 }
 
-/// Both views on one sheet; empty without points.
+/// Draws both views on one sheet; empty without points.
 pub(crate) fn views(result: &Shown<'_>, sheet: Sheet) -> String {
     let magnification = magnification(result);
     let Some(above) = Extent::of(result, ABOVE, magnification) else {
@@ -89,7 +89,7 @@ pub(crate) fn views(result: &Shown<'_>, sheet: Sheet) -> String {
     )
 }
 
-/// What a view has to show.
+/// Extent of a view.
 struct Extent {
     view: View,
     across: Span,
@@ -162,7 +162,7 @@ impl Extent {
     }
 }
 
-/// What both views of a path share.
+/// Common data of both views of a path.
 struct Panels<'a> {
     result: &'a Shown<'a>,
     magnification: Option<f64>,
@@ -451,7 +451,7 @@ fn draw_legend(
     height - 8.0
 }
 
-/// Where the tool is without compensation, the deviation magnified; none for rapids.
+/// Uncompensated place of the tool, the deviation magnified; `None` for rapids.
 fn displaced(point: &PointResult, magnification: f64) -> Option<[f64; 3]> {
     if point.kind == PointKind::Rapid {
         return None;

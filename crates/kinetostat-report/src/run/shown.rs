@@ -1,4 +1,4 @@
-//! What a report is drawn from.
+//! Data of a report.
 
 use std::ops::Deref;
 

@@ -69,7 +69,7 @@ fn lines(diagram: &LobeDiagram, depth: impl Fn(f64) -> f64 + Copy) -> Vec<PlotLi
         let mut points = Vec::new();
         for pair in diagram.points.windows(2) {
             for (a, b) in neighbours(&pair[0], &pair[1]) {
-                // Between two kinds the line is that of the second half's: both are drawn to the middle.
+                // The line between two kinds is that of the second half's: both are drawn to the middle.
                 let (from, to) = (
                     (pair[0].exact.speed_rpm, depth(a.depth)),
                     (pair[1].exact.speed_rpm, depth(b.depth)),
@@ -105,7 +105,8 @@ fn lines(diagram: &LobeDiagram, depth: impl Fn(f64) -> f64 + Copy) -> Vec<PlotLi
     all
 }
 
-/// Along the largest depth where there is no limit up to it: to the middle between a speed that has none and one that has.
+/// Line along the largest depth where there is no limit up to it: to the middle between a speed that has none and one
+/// that has.
 fn without_limit(diagram: &LobeDiagram, top: f64) -> Vec<(f64, f64)> {
     let has_none = |point: &LobePoint| point.exact.limit().is_none();
     let mut points = Vec::new();
@@ -169,7 +170,7 @@ fn unstable(point: &LobePoint) -> Vec<(f64, f64)> {
     all
 }
 
-/// What is unstable between the speeds: joined where both have as many stretches, each up to the middle where not.
+/// Unstable areas between the speeds: joined where both have as many stretches, each up to the middle where not.
 fn areas(diagram: &LobeDiagram, depth: impl Fn(f64) -> f64) -> Vec<Vec<(f64, f64)>> {
     let mut all = Vec::new();
     for pair in diagram.points.windows(2) {

@@ -7,7 +7,7 @@ use crate::chart::plot::{Look, Plot, PlotLine, stacked};
 /// One curve of a receptance.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ReceptanceCurve {
-    /// Its name in the legend, as `x by force along x`.
+    /// Name in the legend, as `x by force along x`.
     pub name: String,
     /// Dashed, as for what is measured beside a model.
     pub dashed: bool,
@@ -17,7 +17,7 @@ pub struct ReceptanceCurve {
     pub receptance: Vec<Complex<f64>>,
 }
 
-/// Which motion by force is drawn.
+/// Motion by force that is drawn.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum DrawnMotion {
     /// Displacement by force.
@@ -30,7 +30,7 @@ pub enum DrawnMotion {
 }
 
 impl DrawnMotion {
-    /// Its axis, how often a displacement is differentiated for it, and its unit by that of SI.
+    /// Axis label, order of the derivative of a displacement, and unit by that of SI.
     fn axis(self) -> (&'static str, i32, f64) {
         match self {
             Self::Receptance => ("receptance, \u{b5}m/N", 0, 1e6),

@@ -22,7 +22,7 @@ const EVENLY: f64 = 3e-8;
 /// Share of the machine's size (rad, or of the largest load) by which places (orientations, loads) of a stretch may lie off what is between its ends.
 const STRAIGHT: f64 = 1e-8;
 
-/// Beyond this share of the way to buckling every posture is looked at.
+/// Share of the way to buckling beyond which every posture is computed.
 const FAR_FROM_BUCKLING: f64 = 0.8;
 
 /// Numbers of a posture's stability: stable, stiffness, share to buckling, as in [`BatchEquilibrium`].
@@ -32,12 +32,12 @@ type Numbers = [f64; 3];
 pub(crate) struct Way {
     /// Numbers in which a stretch is to go evenly, in units in which one is all of the machine, of the turn or of the load.
     inputs: Vec<[f64; 13]>,
-    /// Its length up to each posture.
+    /// Length of the path up to each posture.
     length: Vec<f64>,
 }
 
 impl Way {
-    /// Of postures under loads, of a machine of so many metres.
+    /// Path of postures under loads, of a machine of so many metres.
     pub fn of(poses: &[Pose], wrenches: &[Wrench], size: f64) -> Self {
         let inputs = inputs(poses, wrenches, size);
         let mut sum = 0.0;
@@ -116,7 +116,7 @@ impl Way {
         known.into_iter().collect()
     }
 
-    /// Where a posture is between two others, 0 to 1.
+    /// Position of a posture between two others, 0 to 1.
     fn share(&self, [a, i, b]: [usize; 3]) -> f64 {
         let whole = self.length[b] - self.length[a];
         match whole > 0.0 {
@@ -164,7 +164,7 @@ impl Way {
         parts
     }
 
-    /// What the parabola through three known ones is at another. The middle one stands where its index is, in the length of the way.
+    /// Interpolates at `i` by the parabola through three known postures, over the length of the path.
     fn parabola(&self, [a, m, b]: [usize; 3], i: usize, of: [&Numbers; 3]) -> Numbers {
         let (x, y) = (self.share([a, i, b]), self.share([a, m, b]));
         // A tool that rests has the same numbers everywhere.
@@ -196,7 +196,7 @@ fn inputs(poses: &[Pose], wrenches: &[Wrench], size: f64) -> Vec<[f64; 13]> {
     all.collect()
 }
 
-/// Where a stretch is looked at: everywhere if it is short, else at ends, middle and quarters.
+/// Sampled indices of a stretch: all if it is short, else ends, middle and quarters.
 fn places([a, b]: [usize; 2]) -> Vec<usize> {
     let m = a.midpoint(b);
     match b - a < FEWEST {
@@ -205,7 +205,7 @@ fn places([a, b]: [usize; 2]) -> Vec<usize> {
     }
 }
 
-/// Whether two of them are the same but for [`EVENLY`].
+/// True if two of them are equal within [`EVENLY`].
 fn agrees(expected: &Numbers, found: &Numbers) -> bool {
     let near = |a: f64, b: f64, least: f64| (a - b).abs() <= EVENLY * b.abs().max(least);
     let share = match (expected[2].is_nan(), found[2].is_nan()) {

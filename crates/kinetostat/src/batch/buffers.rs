@@ -11,7 +11,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 pub(crate) struct Buffers(Arc<Mutex<Vec<Box<dyn Any + Send>>>>);
 
 impl Buffers {
-    /// The same buffers, for a machine that differs in numbers.
+    /// Shares the buffers with a machine that differs in numbers.
     pub fn shared(&self) -> Self {
         Self(Arc::clone(&self.0))
     }

@@ -19,11 +19,11 @@ use crate::spatial::{Pose, Wrench, pose_residual};
 #[derive(Clone, Debug)]
 pub struct Commanded {
     pub(crate) poses: Vec<Pose>,
-    /// Of each pose, limb after limb: commands, passive joints; not numbers where no search of the kernels leads there.
+    /// Joints of each pose, limb after limb: commands, passive joints; NaN where no search of the kernels leads there.
     pub(crate) joints: Table,
-    /// Of whose plans the joints are; none where no kernel knows the machine.
+    /// Plans to which the joints belong; `None` where no kernel supports the machine.
     pub(crate) of: Option<Arc<[Plan]>>,
-    /// Where the machine as it is stands under a load, and with which wrenches on its limbs' tips.
+    /// Equilibrium of the actual machine under a load, with the wrenches on its limbs' tips.
     pub(crate) standing: Option<Box<Standing>>,
 }
 
@@ -34,7 +34,7 @@ impl Commanded {
         &self.poses
     }
 
-    /// With the joints where they are those of a batch, else the poses alone; `deviations` as
+    /// Places with the joints if they are those of a batch, else the poses alone; `deviations` as
     /// [`Batch::equilibrium_foretold_into`] has them.
     pub(crate) fn places<'a>(&'a self, batch: &Batch, deviations: &'a [f64]) -> Places<'a> {
         match (&self.of, &batch.nominal) {
@@ -119,12 +119,12 @@ impl Batch {
         }
     }
 
-    /// The same, for many machines that are loaded about like this one by `wrenches`: their equilibria are searched from where
-    /// this one stands, or from where derivatives say that they stand ([`Commanded::go_along`]), with the corrections of this one, and
-    /// found as along a path, to a millionth of a tenth of a micrometre.
+    /// Prepares many machines that are loaded about like this one by `wrenches`: their equilibria are searched from
+    /// that of this one, or from those predicted by derivatives ([`Commanded::go_along`]), with the corrections of this
+    /// one, to the accuracy of a path, a millionth of a tenth of a micrometre.
     ///
     /// # Errors
-    /// As [`Self::equilibrium`].
+    /// See [`Self::equilibrium`].
     pub fn commanded_under(&self, poses: &[Pose], wrenches: &[Wrench]) -> Result<Commanded> {
         let mut commanded = self.commanded(poses);
         let standing = self.standing(&commanded.places(self, &[]), wrenches)?;
@@ -174,10 +174,10 @@ impl Batch {
         })
     }
 
-    /// As [`Self::equilibrium_into`], with joints that are known.
+    /// Solves like [`Self::equilibrium_into`], with known joints.
     ///
     /// # Errors
-    /// As [`Self::equilibrium`].
+    /// See [`Self::equilibrium`].
     pub fn equilibrium_commanded_into(
         &self,
         places: &Commanded,
@@ -188,11 +188,11 @@ impl Batch {
         self.equilibrium_foretold_into(places, &[], wrenches, details, out)
     }
 
-    /// The same of a machine whose numbers differ from those of the drawing by `deviations`, in the order in which
-    /// [`Commanded::go_along`] has learnt of them: searched from where derivatives say that it stands.
+    /// Solves a machine whose numbers differ from those of the drawing by `deviations`, in the order in which
+    /// [`Commanded::go_along`] has learnt of them: the search starts from the prediction by derivatives.
     ///
     /// # Errors
-    /// As [`Self::equilibrium`].
+    /// See [`Self::equilibrium`].
     pub fn equilibrium_foretold_into(
         &self,
         places: &Commanded,

@@ -20,7 +20,8 @@ use crate::parallel;
 /// Blocks of eight postures that a thread takes at a time.
 pub(crate) const BLOCKS: usize = 32;
 
-/// The same of loaded postures, each of which takes longer: both cores then end at nearly the same time.
+/// Blocks of loaded postures that a thread takes at a time: each takes longer, and both cores then end at nearly the
+/// same time.
 pub(crate) const LOADED_BLOCKS: usize = 8;
 
 /// A machine compiled for many postures.
@@ -49,12 +50,12 @@ pub(crate) const LOADED_BLOCKS: usize = 8;
 #[derive(Clone, Debug)]
 pub struct Batch {
     pub(crate) mechanism: Mechanism,
-    /// Of every limb as drawn (unloaded) and as it is (loaded), or why there are none.
+    /// Plans of every limb as drawn (unloaded) and as it is (loaded), or the reason why there are none.
     pub(crate) nominal: std::result::Result<Arc<[Plan]>, NoKernel>,
     pub(crate) actual: std::result::Result<Arc<[Plan]>, NoKernel>,
     /// Loaded postures lie along a path: see [`crate::batch::path`].
     pub(crate) along: bool,
-    /// Of kernels that have run.
+    /// Buffers of kernels that have run.
     pub(crate) buffers: Buffers,
 }
 
@@ -71,13 +72,13 @@ impl Batch {
         }
     }
 
-    /// Which engine loaded postures of this machine are solved by, and why.
+    /// Engine that solves loaded postures of this machine, with the reason.
     #[must_use]
     pub fn engine(&self) -> Engine {
         Engine::of(&self.actual)
     }
 
-    /// Which engine unloaded postures of this machine are solved by, and why.
+    /// Engine that solves unloaded postures of this machine, with the reason.
     #[must_use]
     pub fn engine_unloaded(&self) -> Engine {
         Engine::of(&self.nominal)
@@ -109,13 +110,13 @@ impl Batch {
         Ok(Places::Joints { commands, each })
     }
 
-    /// For postures that lie along a path, each a start for the next: see [`crate::batch::path`].
+    /// Prepares for postures that lie along a path, each a start for the next: see [`crate::batch::path`].
     pub(crate) fn along_path(mut self) -> Self {
         self.along = true;
         self
     }
 
-    /// As if no kernel knew the machine without load.
+    /// Disables the kernels of the machine without load.
     pub(crate) fn without_unloaded_kernels(mut self) -> Self {
         self.nominal = Err(NoKernel::LoadedPlatform);
         self
@@ -153,7 +154,7 @@ pub(crate) fn in_parallel<'a>(jobs: impl Iterator<Item = Job<'a>>, count: usize)
     }
 }
 
-/// Nothing but weight acts on limbs and platforms, or what else.
+/// Checks that only weight acts on limbs and platforms; the error names another load.
 pub(crate) fn unburdened(mechanism: &Mechanism) -> std::result::Result<(), NoKernel> {
     for (i, limb) in mechanism.limbs().iter().enumerate() {
         if !mechanism.loads(i).is_empty() {
@@ -197,7 +198,7 @@ pub(crate) fn left<T: Send>(
     let left: Vec<usize> = (0..status.len())
         .filter(|i| status[*i] != Status::Vectorised)
         .collect();
-    // None or one calls no threads.
+    // Fewer than two postures need no threads.
     if left.len() < 2 {
         return left.into_iter().map(|i| (i, scalar(i).ok())).collect();
     }

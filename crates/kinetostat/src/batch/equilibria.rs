@@ -41,16 +41,16 @@ pub struct BatchEquilibrium {
     pub stiffness: Table,
     /// See [`Self::stability`]. Empty unless wanted: [`Details::Stability`].
     pub stability: Table,
-    /// What became of each.
+    /// Outcome of each posture.
     pub status: Vec<Status>,
-    /// How each was found. Kernels find directly; with [`Details::Rest`] the scalar fallback does not record it, and it is
-    /// [`FoundBy::Directly`] there too.
+    /// Method by which each was found. Kernels find directly; with [`Details::Rest`] the scalar fallback does not
+    /// record it, and it is [`FoundBy::Directly`] there too.
     pub found_by: Vec<FoundBy>,
-    /// Which engine postures of this machine are solved by.
+    /// Engine that solves postures of this machine.
     pub engine: Engine,
 }
 
-/// Whether an equilibrium holds, and how well.
+/// Stability of an equilibrium, with its margins.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct PostureStability {
@@ -75,15 +75,15 @@ pub struct BatchTargets {
     pub equilibrium: BatchEquilibrium,
 }
 
-/// How much is wanted of the equilibria of many postures; each includes those before it.
+/// Requested details of the equilibria of many postures; each includes those before it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 #[non_exhaustive]
 pub enum Details {
-    /// Where the tool goes, coordinates, wrenches and commands.
+    /// Tool poses, coordinates, wrenches and commands.
     Rest,
     /// The tangent stiffness at the tool, too.
     Stiffness,
-    /// Whether it is stable, too, see [`BatchEquilibrium::stability`].
+    /// Stability, too, see [`BatchEquilibrium::stability`].
     Stability,
 }
 
@@ -286,10 +286,10 @@ impl Batch {
         Ok(out)
     }
 
-    /// The same into a result that is written over: a loop over blocks of postures allocates once.
+    /// Overwrites an existing result: a loop over blocks of postures allocates once.
     ///
     /// # Errors
-    /// As [`Self::equilibrium`].
+    /// See [`Self::equilibrium`].
     ///
     /// ```
     /// # use kinetostat::nalgebra::{Vector3, vector};
@@ -325,10 +325,10 @@ impl Batch {
         self.loaded(&Places::Poses(poses), wrenches, details, out)
     }
 
-    /// The same for a serial machine with its actuators commanded to `commands`.
+    /// Solves a serial machine with its actuators commanded to `commands`.
     ///
     /// # Errors
-    /// As [`Self::stiffness_at_joints`] and [`Self::equilibrium`].
+    /// See [`Self::stiffness_at_joints`] and [`Self::equilibrium`].
     pub fn equilibrium_at_joints(
         &self,
         commands: &[f64],
@@ -340,10 +340,10 @@ impl Batch {
         Ok(out)
     }
 
-    /// The same into a result that is written over.
+    /// Overwrites an existing result.
     ///
     /// # Errors
-    /// As [`Self::equilibrium_at_joints`].
+    /// See [`Self::equilibrium_at_joints`].
     pub fn equilibrium_at_joints_into(
         &self,
         commands: &[f64],
@@ -459,7 +459,7 @@ impl Batch {
             (false, true) => FROM_DRAWN,
             (false, false) => EXACT,
         };
-        // On a path only the first posture of each lane's run has no start from its neighbour.
+        // Only the first posture of each lane's run on a path has no start from its neighbour.
         let blocks = if self.along { BLOCKS } else { LOADED_BLOCKS };
         let mut tables = [
             &mut out.tool,
@@ -548,7 +548,7 @@ impl Batch {
         })
     }
 
-    /// Those equilibria that kernels find; the tool's numbers are none where they find nothing.
+    /// Equilibria that kernels find; the tool's numbers are NaN where they find nothing.
     pub(crate) fn standing(&self, places: &Places<'_>, wrenches: &[Wrench]) -> Result<Standing> {
         self.as_many(places, wrenches)?;
         let count = places.len();

@@ -32,7 +32,7 @@ pub struct AlongPath {
     compared: Compared,
 }
 
-/// What neighbours are compared by.
+/// Criteria for comparing neighbours.
 struct Compared {
     /// Kind and limits of every actuator.
     actuators: Vec<(MotionKind, (f64, f64))>,
@@ -120,7 +120,7 @@ impl AlongPath {
             .then_some(found.targets)
     }
 
-    /// Where the tool goes when commanded to `poses` under `wrenches`.
+    /// Tool poses when commanded to `poses` under `wrenches`.
     #[must_use]
     pub fn rest(&self, poses: &[Pose], wrenches: &[Wrench]) -> Option<BatchEquilibrium> {
         let found = self
@@ -130,8 +130,8 @@ impl AlongPath {
         found.ok().filter(|found| self.continued(poses, found))
     }
 
-    /// As [`Self::rest`], with the stability ([`BatchEquilibrium::stability`]): in some of the places, and in between from a parabola where
-    /// it is shown to be one, to a ten-millionth.
+    /// Tool poses as by [`Self::rest`], with the stability ([`BatchEquilibrium::stability`]): in some of the places,
+    /// and in between from a parabola where it is verified, to a ten-millionth.
     #[must_use]
     pub fn with_stability(&self, poses: &[Pose], wrenches: &[Wrench]) -> Option<BatchEquilibrium> {
         let batch = self.batch.as_ref().filter(|_| self.stability_by_kernels)?;
@@ -144,7 +144,7 @@ impl AlongPath {
             return all_at_once();
         }
         let mut found = self.rest(poses, wrenches)?;
-        // What kernels do not decide is found by the general engine, one after the other.
+        // The general engine solves what kernels do not decide, one after the other.
         let by_kernels = found.status.iter().all(|s| *s == Status::Vectorised);
         let evenly = by_kernels.then(|| {
             way.stabilities(|wanted| {

@@ -1,4 +1,4 @@
-//! From lists of postures to lanes and back.
+//! Runs lists of postures in lanes.
 
 use std::sync::Arc;
 
@@ -20,7 +20,7 @@ use crate::batch::status::Status;
 use crate::batch::table::BLOCK;
 use crate::spatial::{Directions, Pose, Wrench};
 
-/// What one thread does at a time: as many postures as `status` has places.
+/// Task of one thread: as many postures as `status` has places.
 #[expect(
     clippy::large_enum_variant,
     reason = "one for hundreds of postures, and used up where it is made"
@@ -41,7 +41,7 @@ pub(crate) enum Job<'a> {
         poses: &'a [Pose],
         joints: &'a mut [f64],
     },
-    /// Where commands lead the tool of a serial machine as it is drawn, 12 numbers as [`Answers::tool`].
+    /// Tool poses of a serial machine as it is drawn, at given commands, 12 numbers as [`Answers::tool`].
     Targets {
         plan: &'a Plan,
         commands: &'a [f64],
@@ -65,7 +65,7 @@ pub(crate) enum Job<'a> {
     },
 }
 
-/// Where the numbers of loaded postures go, as in [`crate::batch::BatchEquilibrium`].
+/// Output of loaded postures, as in [`crate::batch::BatchEquilibrium`].
 pub(crate) struct Answers<'a> {
     pub tool: &'a mut [f64],
     pub coordinates: &'a mut [f64],
@@ -75,7 +75,7 @@ pub(crate) struct Answers<'a> {
     pub stability: &'a mut [f64],
     /// Commanded poses, 12 numbers as `tool`.
     pub targets: &'a mut [f64],
-    /// On the tips of all limbs, six numbers each, about the tip, base axes.
+    /// Wrenches on the tips of all limbs, six numbers each, about the tip, base axes.
     pub wrenches: &'a mut [f64],
     /// See [`crate::batch::machine::kept`].
     pub correctors: &'a mut [f64],
@@ -83,7 +83,7 @@ pub(crate) struct Answers<'a> {
 }
 
 impl Job<'_> {
-    /// In the widest registers that the postures fill at least by half.
+    /// Runs in the widest registers that the postures fill at least by half.
     pub fn run(self) {
         InstructionSet::of(self.len()).run(self);
     }
@@ -151,7 +151,7 @@ impl WithSimd for Job<'_> {
                 }
                 machine.precision = precision;
                 let count = answers.status.len();
-                // As many runs as a block has lanes, so that a run is the same on every instruction set.
+                // Uses as many runs as a block has lanes, so that a run is the same on every instruction set.
                 let run = if along { count.div_ceil(BLOCK) } else { 1 };
                 for from in (0..count).step_by(S::F64_LANES * run) {
                     for first in from..count.min(from + run) {
@@ -276,7 +276,7 @@ fn known<S: Simd>(simd: S, nominal: &[Plan], poses: &[Pose], joints: &mut [f64])
     }
 }
 
-/// Where the commands of a serial machine lead.
+/// Tool poses of a serial machine at given commands.
 #[inline(always)]
 fn aimed<S: Simd>(simd: S, plan: &Plan, commands: &[f64], targets: &mut [f64]) {
     let mut forward = ForwardPass::new(simd, plan);

@@ -1,6 +1,6 @@
-//! How the answer of a posture was found, and by which engine.
+//! Outcome of a posture, and the engine that solved it.
 
-/// What became of one posture of many.
+/// Outcome of one posture of many.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Status {
@@ -14,14 +14,14 @@ pub enum Status {
 }
 
 impl Status {
-    /// There is an answer, whichever engine found it.
+    /// True if there is an answer, from either engine.
     #[must_use]
     pub fn is_solved(self) -> bool {
         self != Self::Unsolved
     }
 }
 
-/// What about a machine no vectorised kernel knows.
+/// Feature of a machine that no vectorised kernel supports.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum NoKernel {
@@ -50,12 +50,12 @@ pub enum NoKernel {
         limb: String,
         /// Name of the spring in its chain.
         spring: String,
-        /// What it is or does.
+        /// Description of the spring.
         what: &'static str,
     },
 }
 
-/// Which engine a machine's postures are solved by.
+/// Engine that solves a machine's postures.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Engine {
@@ -64,13 +64,13 @@ pub enum Engine {
     Vectorised,
     /// The general engine, one posture at a time.
     Scalar {
-        /// What about the machine no kernel knows.
+        /// Feature that no kernel supports.
         reason: NoKernel,
     },
 }
 
 impl Engine {
-    /// Of a machine compiled into `plans`, or why it was not.
+    /// Engine of a machine compiled into `plans`, or with the reason why it was not.
     pub(crate) fn of<T>(plans: &std::result::Result<T, NoKernel>) -> Self {
         match plans {
             Ok(_) => Self::Vectorised,
@@ -80,7 +80,7 @@ impl Engine {
         }
     }
 
-    /// Why not the vectorised kernels, if it is not them.
+    /// Reason why the vectorised kernels are not used, if they are not.
     #[must_use]
     pub fn reason(&self) -> Option<&NoKernel> {
         match self {

@@ -24,9 +24,9 @@ pub struct BatchStiffness {
     /// Commands of all actuators (m, rad), in the mechanism's order, as [`Posture::commands`]. Empty
     /// where they were given.
     pub commands: Table,
-    /// What became of each.
+    /// Outcome of each posture.
     pub status: Vec<Status>,
-    /// Which engine postures of this machine are solved by.
+    /// Engine that solves postures of this machine.
     pub engine: Engine,
 }
 
@@ -50,7 +50,7 @@ impl Batch {
         out
     }
 
-    /// The same into a result that is written over: a loop over blocks of postures allocates once.
+    /// Overwrites an existing result: a loop over blocks of postures allocates once.
     pub fn stiffness_into(&self, poses: &[Pose], out: &mut BatchStiffness) {
         self.unloaded(&Places::Poses(poses), false, out);
     }
@@ -67,10 +67,10 @@ impl Batch {
         Ok(out)
     }
 
-    /// The same into a result that is written over.
+    /// Overwrites an existing result.
     ///
     /// # Errors
-    /// As [`Self::stiffness_at_joints`].
+    /// See [`Self::stiffness_at_joints`].
     pub fn stiffness_at_joints_into(
         &self,
         commands: &[f64],
@@ -80,20 +80,20 @@ impl Batch {
         Ok(())
     }
 
-    /// As [`Self::stiffness_at_joints`], with the Jacobian of the tool by the coordinates.
+    /// Solves like [`Self::stiffness_at_joints`], with the Jacobian of the tool by the coordinates.
     ///
     /// # Errors
-    /// As [`Self::stiffness_at_joints`].
+    /// See [`Self::stiffness_at_joints`].
     pub fn stiffness_and_jacobian(&self, commands: &[f64]) -> Result<BatchStiffness> {
         let mut out = BatchStiffness::default();
         self.stiffness_and_jacobian_into(commands, &mut out)?;
         Ok(out)
     }
 
-    /// The same into a result that is written over.
+    /// Overwrites an existing result.
     ///
     /// # Errors
-    /// As [`Self::stiffness_at_joints`].
+    /// See [`Self::stiffness_at_joints`].
     pub fn stiffness_and_jacobian_into(
         &self,
         commands: &[f64],

@@ -22,7 +22,7 @@ pub struct Table {
 /// Bytes of a cache line, and of the widest register.
 const LINE: usize = 64;
 
-/// So many numbers of each posture, as in a [`Table`].
+/// Numbers of each posture, `width` of them, as in a [`Table`].
 #[derive(Clone, Copy)]
 pub(crate) struct Columns<'a> {
     pub numbers: &'a [f64],
@@ -30,7 +30,7 @@ pub(crate) struct Columns<'a> {
 }
 
 impl Columns<'_> {
-    /// Without the first postures, which are whole blocks.
+    /// Drops the first postures, which are whole blocks.
     pub fn from(self, first: usize) -> Self {
         Self {
             numbers: &self.numbers[first * self.width..],
@@ -60,7 +60,7 @@ impl Table {
         self.padded.truncate(self.start + numbers);
     }
 
-    /// Of so many rows without numbers.
+    /// Table of so many rows without numbers.
     pub(crate) fn none(count: usize) -> Self {
         Self {
             count,
@@ -122,7 +122,7 @@ impl Table {
         }
     }
 
-    /// One of the commands in this row lies outside its actuator's limits.
+    /// True if a command in this row lies outside its actuator's limits.
     pub(crate) fn outside_limits(&self, mechanism: &Mechanism, posture: usize) -> bool {
         let limbs = mechanism.limbs().iter();
         let mut own = limbs

@@ -1,4 +1,4 @@
-//! Where commands lead the tool of a serial machine as it is drawn.
+//! Tool poses of a serial machine as it is drawn, at given commands.
 
 use crate::batch::compiled::{BLOCKS, Batch, in_parallel};
 use crate::batch::equilibria::pose;

@@ -97,9 +97,9 @@ impl CartesianCompliance {
         self.rigid.iter().map(wrench).collect()
     }
 
-    /// Of a stiffness (base axes, at the tip) within those of its principal directions that are
-    /// neither free nor rigid: with rotations times `length` (m) and `N` an orthonormal basis of
-    /// them, `C = N (N^T K N)^-1 N^T`. The inverse of `K` if there are no others.
+    /// Inverts a stiffness (base axes, at the tip) within those of its principal directions that are neither free nor
+    /// rigid: with rotations times `length` (m) and `N` an orthonormal basis of them, `C = N (N^T K N)^-1 N^T`. It is
+    /// the inverse of `K` if there are no others.
     pub(crate) fn of(stiffness: &Matrix6<f64>, directions: &[Direction], length: f64) -> Self {
         let unit = |i: usize| if i < 3 { 1.0 } else { length };
         let of_kind = |wanted: DirectionKind| -> Vec<Twist> {

@@ -35,11 +35,11 @@ pub struct Share {
     pub name: String,
     /// Passive joint or spring.
     pub role: Role,
-    /// Whether it slides or turns.
+    /// Kind of the motion, prismatic or revolute.
     pub kind: MotionKind,
-    /// Its motion while the end moves by the direction's twist, m or rad.
+    /// Motion while the end moves by the direction's twist, m or rad.
     pub motion: f64,
-    /// Its square as a share of all squares, rotations at the natural length: 0 to 1.
+    /// Squared motion as a share of all squares, rotations at the natural length: 0 to 1.
     pub share: f64,
 }
 
@@ -54,9 +54,9 @@ pub struct Direction {
     pub stiffness_n_per_m: f64,
     /// The motion, scaled so that its longest part (m, or rad times the natural length) is 1 m.
     pub twist: Twist,
-    /// For free and negative directions: joints and springs that move, the most first; those below
-    /// 0.1 % are left out. Empty where limbs hang on platforms in between.
-    /// [`crate::ChainStiffness::participation`] tells it of any motion.
+    /// Participation for free and negative directions: joints and springs that move, the most first; those below 0.1 %
+    /// are left out. Empty where limbs hang on platforms in between. [`crate::ChainStiffness::participation`] tells it
+    /// of any motion.
     #[cfg_attr(feature = "serde", serde(default, rename = "behind"))]
     pub participation: Vec<Share>,
 }

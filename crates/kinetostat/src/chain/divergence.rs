@@ -29,7 +29,7 @@ use crate::linalg::krylov::largest_eigenvalues;
 use crate::linalg::saddle::inertia;
 use crate::number::larger;
 
-/// Which motions of a shape its tangent stiffness has.
+/// Motions of a shape that are in its tangent stiffness.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TangentMotions {
     /// All.
@@ -56,7 +56,7 @@ pub fn diverging_motions(tangent: &DMatrix<f64>, zero: f64, motions: TangentMoti
     }
     let symmetric = 0.5 * (tangent + tangent.transpose());
     let turns = (tangent - tangent.transpose()).amax() > TURNS_NOTHING * symmetric.amax();
-    // Those above `zero` of the negative matrix.
+    // Counts the eigenvalues above `zero` of the negative matrix.
     let shifted = DMatrix::from_fn(n, n, |i, j| {
         -symmetric[(i, j)] - if i == j { zero } else { 0.0 }
     });

@@ -45,11 +45,11 @@ pub struct Equilibrium {
     pub conservative: bool,
     /// Tangent stiffness at the end, with what is free, rigid, negative and redundant.
     pub stiffness: ChainStiffness,
-    /// Whether the chain keeps its shape while its end is held.
+    /// Stability of the chain's shape while its end is held.
     pub stability: ShapeStability,
-    /// How well the conditions hold.
+    /// Residual of the conditions of equilibrium.
     pub residual: Residual,
-    /// How it was found: whether a restart may have changed the branch.
+    /// Method by which it was found: a restart may have changed the branch.
     pub found_by: FoundBy,
 }
 

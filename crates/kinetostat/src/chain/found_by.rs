@@ -1,9 +1,9 @@
-//! How an equilibrium was found, which tells whether a load that grows from rest leads to it.
+//! Method by which an equilibrium was found, which tells if a load that grows from rest leads to it.
 
 #[cfg(feature = "serde")]
 use serde::{Deserialize, Serialize};
 
-/// How an equilibrium was found. Where several equilibria exist, it tells which of them this is.
+/// Method by which an equilibrium was found. Where several equilibria exist, it tells which of them this is.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
@@ -25,7 +25,7 @@ pub enum FoundBy {
 }
 
 impl FoundBy {
-    /// What is worth saying of it: nothing where it was found directly.
+    /// Returns the method, unless the equilibrium was found directly.
     ///
     /// ```
     /// use kinetostat::chain::FoundBy;
@@ -44,7 +44,7 @@ impl FoundBy {
         matches!(self, Self::OutOfLine | Self::OtherStart)
     }
 
-    /// What it means, in a sentence without its full stop.
+    /// Explains the method, in a sentence without its full stop.
     #[must_use]
     pub fn sentence(self) -> &'static str {
         match self {

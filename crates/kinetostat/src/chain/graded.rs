@@ -95,8 +95,7 @@ impl Graded {
         Some(Self::from_motions(scales, &own, r, inner, &moved))
     }
 
-    /// The same of a long chain by sweeps, `turned` by [`Sweep::by_spring_roots`]; `None` where they
-    /// lose a pivot.
+    /// Grades a long chain by sweeps, `turned` by [`Sweep::by_spring_roots`]; `None` where they lose a pivot.
     pub fn swept(sweep: &Sweep, scales: &[f64], turned: &DMatrix<f64>) -> Option<Self> {
         let n = turned.ncols();
         let own = SingularValues::of(turned);
@@ -119,7 +118,7 @@ impl Graded {
         })
     }
 
-    /// From `G` and the coordinates (scaled, n x r) while the tip moves by `U S`.
+    /// Grades by `G` and the coordinates (scaled, n x r) while the tip moves by `U S`.
     fn from_motions(
         scales: &[f64],
         own: &SingularValues,
@@ -257,8 +256,8 @@ pub(crate) fn spread(list: &[Direction]) -> f64 {
 /// Stiffnesses of principal directions that differ by more lose digits in a 6 x 6 matrix.
 const SAID: f64 = 1e9;
 
-/// What very different stiffnesses of principal directions mean for a 6 x 6 matrix, in a sentence; `None`
-/// where they differ by less than 1e9.
+/// Warns of very different principal stiffnesses in a 6 x 6 matrix, in a sentence; `None` where they differ by less
+/// than 1e9.
 #[must_use]
 pub fn uneven_stiffness(directions: &[Direction]) -> Option<String> {
     let spread = spread(directions);
@@ -275,9 +274,8 @@ pub fn uneven_stiffness(directions: &[Direction]) -> Option<String> {
 /// numbers of 16 digits hold it to fewer than nine.
 const COUPLED: f64 = 1e-7;
 
-/// Which springs of a machine have a matrix that couples stiff motions so closely that the soft one among them
-/// is lost in rounding, a sentence for each. A diagonal matrix has no such motion, however different its
-/// entries are.
+/// Warns of springs whose matrix couples stiff motions so closely that the soft one among them is lost in rounding, a
+/// sentence for each. A diagonal matrix has no such motion, however different its entries are.
 #[must_use]
 pub fn uneven_springs(mechanism: &Mechanism) -> Vec<String> {
     let limbs = mechanism.limbs().iter();

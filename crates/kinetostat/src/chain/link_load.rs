@@ -1,4 +1,4 @@
-//! How near every link is to buckling: its axial force as a share of its Euler load.
+//! Closeness of every link to buckling: its axial force as a share of its Euler load.
 
 use nalgebra::Vector3;
 #[cfg(feature = "serde")]
@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use crate::chain::equilibrium::Equilibrium;
 use crate::model::chain::Chain;
 
-/// How a link is loaded along its axis.
+/// Axial load of a link.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 #[non_exhaustive]

@@ -22,11 +22,11 @@ enum Tangent<'s> {
     Dense(Saddle),
 }
 
-/// How the end comes to its prescribed pose; at the whole load it does not matter.
+/// Path of the end to its prescribed pose; it has no effect at the whole load.
 pub(crate) enum EndPath {
     /// The closure at the start shrinks evenly.
     Straight(Twist),
-    /// On the screw that leads there from a pose.
+    /// Path on the screw that leads there from a pose.
     Screw(Pose),
 }
 
@@ -38,7 +38,7 @@ pub(crate) struct Attempt<'p, 'a> {
     system: System,
     /// Stages that are not needed at the moment.
     spare: Option<Box<Sweep>>,
-    /// How the end moves to its prescribed pose while the load grows.
+    /// Path of the end to its prescribed pose while the load grows.
     pub path: EndPath,
     /// Rotation residual of the end (vector, rad).
     turned: Vector3<f64>,
@@ -137,7 +137,7 @@ impl<'p, 'a> Attempt<'p, 'a> {
 
     fn converged(&self, b: &ResidualNorms) -> bool {
         let unit = natural(self.problem.chain);
-        // Of numbers beyond all sense the squares are infinite, on either side.
+        // Squares of absurdly large numbers are infinite, on either side.
         b.torque.is_finite()
             && b.closure <= self.settings.closure * unit
             && b.exceeding() <= self.settings.torque * b.loads + 1e-16 * unit

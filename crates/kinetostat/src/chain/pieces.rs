@@ -1,5 +1,5 @@
-//! What acts in a chain at one state, piece by piece: nothing is put together, so that cost and memory grow with the number
-//! of coordinates and no faster. [`crate::chain::ChainTangent`] is the same as dense matrices.
+//! Springs and loads of a chain at one state, piece by piece: nothing is assembled, so that cost and memory grow with
+//! the number of coordinates and no faster. [`crate::chain::ChainTangent`] is the same as dense matrices.
 
 use nalgebra::{DMatrix, Matrix6};
 
@@ -21,16 +21,16 @@ pub struct ChainPieces {
     pub geometric: Vec<(usize, Matrix6<f64>)>,
     /// Wrenches of all loads on nodes, that on the end included: node, wrench about it, base axes.
     pub wrenches: Vec<(usize, Wrench)>,
-    /// How these change as nodes move, where they do.
+    /// Derivatives of these by motions of nodes, where they change.
     pub tangents: Vec<NodeTangent>,
 }
 
 impl ChainPieces {
-    /// Of a chain at coordinates (m, rad) under a wrench on its end; nothing is solved. The end condition of the
-    /// problem is not looked at.
+    /// Evaluates a chain at coordinates (m, rad) under a wrench on its end; nothing is solved. The end condition of the
+    /// problem is ignored.
     ///
     /// # Errors
-    /// As [`crate::solve_chain`] for wrong input.
+    /// Those of [`crate::solve_chain`] for wrong input.
     ///
     /// ```
     /// # use kinetostat::nalgebra::{Vector3, vector};

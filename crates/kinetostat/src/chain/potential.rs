@@ -22,8 +22,7 @@ pub(crate) fn prescribed_wrench(problem: &ChainProblem<'_>) -> Wrench {
     own.rotated(&end.axes)
 }
 
-/// Whether statements about energy hold for a problem: every load and what its end condition
-/// prescribes is conservative.
+/// True if statements about energy are valid for a problem: every load and the prescribed end wrench is conservative.
 #[must_use]
 pub fn is_conservative(problem: &ChainProblem<'_>) -> bool {
     let (chain, end) = (problem.chain, prescribed_wrench(problem));

@@ -1,4 +1,4 @@
-//! What decides the equilibrium of one chain: its commands, its loads and what is prescribed at its end.
+//! Problem of one chain's equilibrium: its commands, its loads and its end condition.
 
 use nalgebra::{Rotation3, Vector6};
 #[cfg(feature = "serde")]
@@ -41,7 +41,7 @@ pub(crate) fn check_loads(problem: &ChainProblem<'_>) -> Result<()> {
         .try_for_each(|load| check_load(chain, &kinematics, base, x, commands, load))
 }
 
-/// What is prescribed in one direction of the end.
+/// Prescribed quantity in one direction of the end.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
@@ -79,7 +79,7 @@ pub enum Prescribed {
 pub struct EndCondition {
     /// Axes of the six directions, base from these axes.
     pub axes: Rotation3<f64>,
-    /// Per direction `x y z rx ry rz` of those axes.
+    /// Prescribed quantity per direction `x y z rx ry rz` of those axes.
     pub prescribed: [Prescribed; 6],
     /// Target where the pose is prescribed, base from tip.
     pub pose: Pose,
@@ -125,7 +125,7 @@ pub struct ChainProblem<'a> {
     pub posture: Vec<f64>,
     /// Loads on nodes.
     pub loads: Vec<Load>,
-    /// What is prescribed at the end in each of six directions, its motion or its wrench.
+    /// Prescribed quantity at the end in each of six directions, its motion or its wrench.
     pub end: EndCondition,
 }
 

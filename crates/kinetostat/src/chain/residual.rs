@@ -1,4 +1,4 @@
-//! How well the conditions of equilibrium hold.
+//! Residuals of the conditions of equilibrium.
 
 #[cfg(feature = "serde")]
 use serde::{Deserialize, Serialize};
@@ -10,7 +10,7 @@ use crate::chain::scaling::beyond;
 pub(crate) struct ResidualNorms {
     pub closure: f64,
     pub torque: f64,
-    /// What torques are measured against.
+    /// Reference of the torques.
     pub loads: f64,
     /// The part of `torque` that is rounding, see [`crate::chain::system::rounding`].
     pub rounding: f64,
@@ -20,14 +20,14 @@ pub(crate) struct ResidualNorms {
 const MOST_ROUNDING: f64 = 1e-3;
 
 impl ResidualNorms {
-    /// What is unbalanced and no rounding: a state that has run away may have coordinates whose digits are worth more
-    /// than all loads, and balances nothing.
+    /// Unbalanced torque beyond rounding: a diverged state may have coordinates whose digits are worth more than all
+    /// loads, and balances nothing.
     pub fn exceeding(&self) -> f64 {
         beyond(self.torque, self.rounding.min(MOST_ROUNDING * self.loads))
     }
 }
 
-/// How well the conditions of equilibrium hold.
+/// Residual of the conditions of equilibrium.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 #[non_exhaustive]

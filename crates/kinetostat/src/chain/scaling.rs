@@ -9,11 +9,11 @@ pub(crate) fn beyond(whole: f64, part: f64) -> f64 {
     ((whole - part) * (whole + part)).max(0.0).sqrt()
 }
 
-/// From this ratio of the stiffest to the softest spring on, pivots of dense matrices are lost among
-/// the numbers that they come from; a sweep takes spring by spring.
+/// Ratio of the stiffest to the softest spring from which pivots of dense matrices are lost among the numbers that they
+/// come from; a sweep takes spring by spring.
 const DISPARATE: f64 = 1e7;
 
-/// Whether the springs' stiffnesses (rotations at the natural length) differ by more than [`DISPARATE`].
+/// True if the springs' stiffnesses (rotations at the natural length) differ by more than [`DISPARATE`].
 pub(crate) fn disparate(scales: &[f64], chain: &Chain) -> bool {
     let length = chain.scale().length;
     let own = chain.coordinates().iter().zip(&scales[6..]);
@@ -124,8 +124,8 @@ pub(crate) const FAR: f64 = 0.2;
 /// Share of the load by which it grows on the way that must not be lost.
 pub(crate) const SHORT_STEP: f64 = 0.02;
 
-/// How far the joints are put aside where a load begins to grow, rad: in short steps the way itself counts, and what
-/// buckles stays on it.
+/// Initial perturbation of the joints where a load begins to grow, rad: none in short steps, where the path itself
+/// matters and a buckling chain stays on it.
 pub(crate) fn aside(longest_step: f64) -> f64 {
     if longest_step < 1.0 { 0.0 } else { 1e-3 }
 }

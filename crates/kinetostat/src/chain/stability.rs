@@ -27,16 +27,16 @@ use crate::linalg::saddle::{Inertia, RANK_TOLERANCE, column_space, inertia};
 use crate::model::chain::Chain;
 use crate::number::largest_size;
 
-/// Whether a chain keeps its shape while its end is held.
+/// Stability of a chain's shape while its end is held.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 #[non_exhaustive]
 pub struct ShapeStability {
-    /// No neighbouring shape of the held chain has less energy; for loads without a potential: it does
-    /// not go away (divergence), but see [`may_flutter`](Self::may_flutter).
+    /// True if no neighbouring shape of the held chain has less energy; for loads without a potential: if it does not
+    /// diverge, but see [`may_flutter`](Self::may_flutter).
     pub stable: bool,
-    /// Of the bordered matrix, symmetric part; with a potential stable iff `positive` equals the rank of
-    /// the Jacobian.
+    /// Inertia of the bordered matrix, symmetric part; with a potential stable iff `positive` equals the rank of the
+    /// Jacobian.
     pub inertia: Inertia,
     /// Number of motions in which the shape goes away.
     #[cfg_attr(feature = "serde", serde(default))]
@@ -66,7 +66,7 @@ impl ShapeStability {
                 .is_some_and(|mu| mu > 1.0 + AT_CRITICAL)
     }
 
-    /// At the critical load within rounding: some motion neither stores nor frees energy.
+    /// True at the critical load within rounding: some motion neither stores nor frees energy.
     pub(crate) fn is_critical(&self) -> bool {
         self.share_to_buckling
             .is_some_and(|mu| (mu - 1.0).abs() <= AT_CRITICAL)
@@ -83,8 +83,8 @@ pub(crate) fn shape_stability(
     stability_within(chain, system, scales, &held, conservative)
 }
 
-/// The same by sweeps along a long chain without redundant passive joints; `None` where they cannot. They
-/// know the symmetric part of the tangent alone.
+/// Stability by sweeps along a long chain without redundant passive joints; `None` where they cannot. Sweeps use the
+/// symmetric part of the tangent alone.
 pub(crate) fn swept_stability(
     system: &System,
     sweep: &Sweep,
@@ -94,7 +94,7 @@ pub(crate) fn swept_stability(
     swept_stability_within(sweep, scales, &EndMotions::held(range))
 }
 
-/// The same while some motions of the end are held.
+/// Stability by sweeps while some motions of the end are held.
 pub(crate) fn swept_stability_within(
     sweep: &Sweep,
     scales: &[f64],
@@ -230,7 +230,7 @@ pub(crate) fn neutral_motions(
 /// Share of the largest entry of the loads' Hessian that counts as nothing.
 const NEUTRAL: f64 = 1e-7;
 
-/// What products of orthonormal columns may differ from one by rounding.
+/// Rounding of products of orthonormal columns.
 const ORTHONORMAL: f64 = 1e-13;
 
 /// Largest eigenvalue of the pencil `a v = mu b v`, `b` positive semi-definite, and its vector.

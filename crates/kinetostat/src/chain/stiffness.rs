@@ -87,14 +87,14 @@ impl ChainStiffness {
         self.directions.iter().filter(|d| d.kind == kind).count()
     }
 
-    /// What moves when the end of `chain` (the one that this is the stiffness of) moves by a small
-    /// twist (m, rad): passive joints and springs in the chain's order, nothing left out.
+    /// Motions of passive joints and springs in the chain's order, when the end of `chain` (the one that this is the
+    /// stiffness of) moves by a small twist (m, rad); none is omitted.
     #[must_use]
     pub fn participation(&self, chain: &Chain, twist: &Twist) -> Vec<Share> {
         self.participation_named(chain, "", twist)
     }
 
-    /// As [`Self::participation`], with `prefix` in front of every name.
+    /// Participation as by [`Self::participation`], with `prefix` in front of every name.
     pub(crate) fn participation_named(
         &self,
         chain: &Chain,
@@ -196,8 +196,8 @@ fn scaled_stiffness(scales: &[f64], answer: &DMatrix<f64>) -> Matrix6<f64> {
     Matrix6::from_fn(|i, j| answer[(i, j)] / (scales[i] * scales[j]))
 }
 
-/// What the end can do (orthonormal, scaled, 6 x r), and wrench and coordinates per unit motion of
-/// it, (6 + n) x 6.
+/// Possible motions of the end (orthonormal, scaled, 6 x r), and wrench and coordinates per unit motion of it, (6 + n)
+/// x 6.
 pub(crate) fn motions_of_end(
     chain: &Chain,
     system: &System,
@@ -210,8 +210,8 @@ pub(crate) fn motions_of_end(
     }
 }
 
-/// The same where no direction is much stiffer than others by its springs. A direction so
-/// stiff that all others would drown in its rounding (a chain pulled straight) counts as rigid.
+/// Motions of the end where no direction is much stiffer than others by its springs. A direction so stiff that all
+/// others would drown in its rounding (a chain pulled straight) counts as rigid.
 fn evenly_stiff_motions(
     chain: &Chain,
     system: &System,
@@ -252,8 +252,8 @@ fn evenly_stiff_motions(
 /// Joints that move the end less than this share of their largest motion make it nearly rigid.
 const STRAIGHT: f64 = 1e-3;
 
-/// The same by sweeps along a long chain; `None` where they cannot. `solved` are wrench and
-/// coordinates per unit motion of the tip, (6 + n) x 6, where the caller has them already.
+/// Stiffness by sweeps along a long chain; `None` where they cannot. `solved` are wrench and coordinates per unit
+/// motion of the tip, (6 + n) x 6, if the caller has them already.
 pub fn swept_stiffness(
     chain: &Chain,
     system: &System,
@@ -286,7 +286,7 @@ pub fn swept_stiffness(
     Some(described(chain, &jacobian, &redundant, &answer, list))
 }
 
-/// From wrench and coordinates per unit motion of the tip, (6 + n) x 6.
+/// Describes the stiffness by wrench and coordinates per unit motion of the tip, (6 + n) x 6.
 fn described(
     chain: &Chain,
     jacobian: &DMatrix<f64>,

@@ -12,12 +12,12 @@ use crate::model::loads::load::Load;
 use crate::number::larger;
 use crate::spatial::{Pose, Wrench};
 
-/// Whether a matrix has the Hessian of the loads.
+/// Treatment of the loads' Hessian in a matrix.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Hessian {
     /// Newton's matrix.
     Kept,
-    /// That of the report's iteration [R 4.15].
+    /// Matrix of the report's iteration [R 4.15].
     LeftOut,
 }
 
@@ -30,7 +30,7 @@ impl Hessian {
         }
     }
 
-    /// The same of a sweep.
+    /// Form of the tangent in a sweep.
     pub(crate) fn form(self) -> Form {
         match self {
             Self::Kept => Form::Exact,
@@ -47,18 +47,18 @@ pub struct System {
     pub jacobian: Matrix6xX<f64>,
     /// Generalised torque of all loads, the end wrench included.
     pub torque: Vec<f64>,
-    /// Its derivative.
+    /// Derivative of the torque.
     pub hessian: DMatrix<f64>,
     /// Gradient of the springs' energy, n.
     pub spring_torque: Vec<f64>,
-    /// Its derivative, n x n.
+    /// Derivative of the springs' torque, n x n.
     pub spring_tangent: DMatrix<f64>,
     /// Sum of the magnitudes of what the coordinates contribute to the gradient by its derivative, n: its rounding
     /// is a few units of the last place of these.
     pub spring_turnover: Vec<f64>,
     /// Change of the tangent since rest, per block of six coordinates: first coordinate, matrix.
     pub spring_geometric: Vec<(usize, Matrix6<f64>)>,
-    /// Of the springs and loads, J.
+    /// Energy of the springs and loads, J.
     pub energy: f64,
     /// Loads that grow along a curve, on top of those given to [`Self::evaluate`], and their factor.
     pub pattern: (Vec<Load>, f64),
@@ -139,7 +139,7 @@ impl System {
         self.spring_tangent = DMatrix::zeros(n, n);
     }
 
-    /// Which of the two paths solves this system.
+    /// Method that solves this system.
     pub fn method(&self) -> ChainMethod {
         match self.sweep {
             Some(_) => ChainMethod::Sweep,

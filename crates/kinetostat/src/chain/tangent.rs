@@ -26,7 +26,7 @@ pub struct ChainTangent {
 }
 
 impl ChainTangent {
-    /// Of a system that was evaluated, dense.
+    /// Takes the tangent from an evaluated dense system.
     pub(crate) fn of(system: System) -> Self {
         let n = system.spring_torque.len();
         Self {
@@ -38,11 +38,11 @@ impl ChainTangent {
         }
     }
 
-    /// Of a chain at coordinates (m, rad) under a wrench on its end; nothing is solved. The end condition of the
-    /// problem is not looked at.
+    /// Evaluates a chain at coordinates (m, rad) under a wrench on its end; nothing is solved. The end condition of the
+    /// problem is ignored.
     ///
     /// # Errors
-    /// As [`crate::solve_chain`] for wrong input.
+    /// Those of [`crate::solve_chain`] for wrong input.
     ///
     /// ```
     /// # use kinetostat::nalgebra::{Vector3, vector};

@@ -125,7 +125,7 @@ fn corrected<T>(
         }
         state = solver.state.clone();
         goal += Vector3::new(distance[0], distance[1], distance[2]);
-        // On a curved surface of places the goal lies beside it by second order.
+        // The goal lies beside a curved surface of places by second order.
         let (next, _) = mechanism.followed_to_nearest(&posture, &goal, wanted)?;
         posture = carry(next);
     }

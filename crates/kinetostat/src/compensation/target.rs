@@ -24,9 +24,9 @@ use crate::spatial::{Directions, Pose, Twist, Wrench, pose_residual};
 pub struct Compensation {
     /// Posture commanded for the modified target `t0F`.
     pub posture: Posture,
-    /// From the desired pose to the modified target: what is added to the program.
+    /// Motion from the desired pose to the modified target: the correction of the program.
     pub correction: Twist,
-    /// From the desired pose to the pose reached under load: what was not corrected.
+    /// Motion from the desired pose to the pose reached under load: the uncorrected rest.
     pub left_over: Twist,
     /// The equilibrium at the modified target.
     pub equilibrium: MechanismEquilibrium,
@@ -71,10 +71,10 @@ pub fn compensate(
     compensate_from(&posture, desired, wrench, directions, start)
 }
 
-/// As [`compensate`], starting from the posture and state of a neighbouring answer.
+/// Compensates like [`compensate`], starting from the posture and state of a neighbouring answer.
 ///
 /// # Errors
-/// As [`compensate`].
+/// See [`compensate`].
 ///
 /// ```
 /// # use kinetostat::nalgebra::{Vector3, vector};
@@ -178,8 +178,8 @@ fn solve_target<'m>(
     check_state(mechanism, &start)?;
     let mut state = start;
     let tool = mechanism.tool();
-    // Held directions start exactly where they must end; the nominal target moves along with them
-    // and takes its other directions from the desired pose.
+    // Starts held directions exactly where they must end; the nominal target moves along with them and takes its other
+    // directions from the desired pose.
     let mut pose = state.platforms[tool];
     let mut target = *near.target();
     for k in 0..3 {
@@ -218,7 +218,7 @@ fn solve_target<'m>(
         None => match fixed_point(&mut solver, desired, directions) {
             Ok(residual) => residual,
             Err(error) => {
-                // Where nothing holds the tool, no target helps.
+                // If nothing holds the tool, no target helps.
                 return Err(match near.rest_under(wrench, near.rest_state()) {
                     Err(free @ Error::FreeDirection { .. }) => free,
                     _ => error,

@@ -21,7 +21,7 @@ use crate::continuation::linear::family::Family;
 use crate::continuation::parameter::Parameter;
 use crate::continuation::settings::CurveSettings;
 
-/// Why a branch ends.
+/// Reason why a branch ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
@@ -31,7 +31,7 @@ pub enum BranchEnd {
     Range,
     /// A joint reached the largest angle.
     Angle,
-    /// As many points as allowed.
+    /// Maximum number of points.
     Points,
     /// The branch came back to where it started.
     Closed,
@@ -39,7 +39,7 @@ pub enum BranchEnd {
     Lost,
     /// Ever shorter steps made no progress.
     Stalled,
-    /// What was looked for has been found.
+    /// Searched point was found.
     Found,
 }
 
@@ -101,7 +101,7 @@ impl<E: CurveEquilibrium> CurvePoint<E> {
     }
 }
 
-/// What is special about a point of a curve.
+/// Kind of a special point of a curve.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
@@ -164,13 +164,13 @@ pub struct Special<E: CurveEquilibrium = Equilibrium> {
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct Branch<E: CurveEquilibrium = Equilibrium> {
-    /// In order along the path.
+    /// Points in order along the path.
     pub points: Vec<CurvePoint<E>>,
     /// Index of the point from which it was followed both ways.
     pub start: usize,
     /// Bifurcation point (index into [`Curves::specials`]) it was found from; `None`: the start.
     pub origin: Option<usize>,
-    /// Why it ends, at the first and at the last point.
+    /// Reasons of its ends, at the first and at the last point.
     pub ends: [BranchEnd; 2],
 }
 

@@ -1,4 +1,4 @@
-//! What is known of an equilibrium and of its stability, of a chain and of a machine alike.
+//! Interface of equilibria and of their stability, of a chain and of a machine alike.
 
 use std::fmt::Debug;
 
@@ -11,10 +11,10 @@ use crate::spatial::{Pose, Wrench};
 
 /// An equilibrium of a chain or of a machine.
 pub trait CurveEquilibrium: Clone + Debug {
-    /// What is known of its stability on a curve.
+    /// Stability of the equilibrium on a curve.
     type Stability: CurveStability;
 
-    /// Where the tool is (of a chain: its end), base axes.
+    /// Pose of the tool (of a chain: its end), base axes.
     fn tool(&self) -> &Pose;
     /// Wrench on the tool, about its origin, base axes (N, N m).
     fn wrench(&self) -> &Wrench;
@@ -36,12 +36,12 @@ pub trait CurveEquilibrium: Clone + Debug {
 
 /// Stability of an equilibrium on a curve.
 pub trait CurveStability: Clone + Debug {
-    /// It stays.
+    /// True if the equilibrium is stable.
     fn stable(&self) -> bool;
     /// Number of independent motions in which it goes away.
     fn unstable_modes(&self) -> usize;
-    /// Under loads without a potential it does not go away, but may swing with growing amplitude (flutter), which
-    /// depends on the masses.
+    /// True if, under loads without a potential, it does not diverge but may oscillate with growing amplitude
+    /// (flutter), which depends on the masses.
     fn may_flutter(&self) -> bool;
 }
 

@@ -1,10 +1,10 @@
-//! What happens at special points and ends of curves, in sentences for people.
+//! Descriptions of special points and ends of curves, in sentences for people.
 
 use crate::continuation::curve::{BranchEnd, Special, SpecialKind};
 use crate::continuation::curve_equilibrium::CurveEquilibrium;
 
 impl BranchEnd {
-    /// Why the branch ends.
+    /// Reason why the branch ends.
     #[must_use]
     pub fn description(self) -> &'static str {
         match self {
@@ -18,7 +18,7 @@ impl BranchEnd {
         }
     }
 
-    /// Nothing that was requested ends the branch there: it may go on.
+    /// True if nothing that was requested ends the branch there: it may continue.
     #[must_use]
     pub fn may_go_on(self) -> bool {
         matches!(self, Self::Points | Self::Lost | Self::Stalled)
@@ -26,7 +26,7 @@ impl BranchEnd {
 }
 
 impl<E: CurveEquilibrium> Special<E> {
-    /// Whether stability ends here: under a dead load, under prescribed motion.
+    /// True if stability ends here: under a dead load, under prescribed motion.
     #[must_use]
     pub fn ends_stability(&self) -> [bool; 2] {
         if !self.stable_side {
@@ -40,7 +40,7 @@ impl<E: CurveEquilibrium> Special<E> {
         }
     }
 
-    /// What happens here; `subject` is what the curve belongs to: "chain" or "machine".
+    /// Describes the event here; `subject` is the owner of the curve: "chain" or "machine".
     #[must_use]
     pub fn description(&self, subject: &str) -> String {
         let text = match self.kind {

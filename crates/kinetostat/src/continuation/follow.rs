@@ -92,9 +92,8 @@ impl Curves<'_> {
         Ok(points_at(&mut self.system()?, &self.branches, value, true))
     }
 
-    /// Where the chain goes from every limit point that a stable part of a branch runs into: stable
-    /// equilibria on the computed branches at the same dead load (load limits) or at the same
-    /// displacement (displacement limits), nearest first.
+    /// Jumps from every limit point that a stable part of a branch runs into: to stable equilibria on the computed
+    /// branches at the same dead load (load limits) or at the same displacement (displacement limits), nearest first.
     ///
     /// # Errors
     /// None in practice: the problem was accepted when the curve was followed.

@@ -1,4 +1,4 @@
-//! What grows along a curve of equilibria: a displacement of the end, or a pattern of loads.
+//! Parameter of a curve of equilibria: a displacement of the end, or a pattern of loads.
 
 use nalgebra::Vector6;
 
@@ -27,7 +27,7 @@ impl LoadPattern {
     }
 }
 
-/// What grows along a curve of equilibria.
+/// Parameter of a curve of equilibria.
 ///
 /// # Examples
 ///

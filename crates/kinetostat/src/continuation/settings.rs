@@ -1,4 +1,4 @@
-//! How far and how finely curves of equilibria are followed.
+//! Range and resolution of curves of equilibria.
 
 use std::cmp::Ordering;
 use std::f64::consts::PI;
@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 use crate::error::{Place, Result};
 use crate::settings::{Settings, wrong};
 
-/// How far and how finely curves are followed.
+/// Range and resolution of curves.
 ///
 /// # Examples
 ///
@@ -51,7 +51,7 @@ use crate::settings::{Settings, wrong};
 pub struct CurveSettings {
     /// The parameter stays between these values (m, rad or a factor).
     pub range: (f64, f64),
-    /// Its conjugate stays between these values (N, N m or J). Default: no limit.
+    /// Range of the conjugate (N, N m or J). Default: no limit.
     pub conjugate_range: (f64, f64),
     /// Joint rotations stay within plus and minus this angle, rad. Default pi.
     pub largest_angle: f64,

@@ -24,7 +24,7 @@ use crate::model::chain::{Chain, Coordinate, Role};
 use crate::settings::Settings;
 use crate::spatial::MotionKind;
 
-/// How long to search.
+/// Limits of the search.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 #[non_exhaustive]

@@ -13,7 +13,7 @@ use crate::error::Result;
 use crate::machine::equilibrium::MechanismEquilibrium;
 use crate::machine::posture::Posture;
 
-/// How long to search.
+/// Limits of the search.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct SpreadSettings {
@@ -41,7 +41,7 @@ impl Default for SpreadSettings {
 const LIMB_STARTS: usize = 4;
 
 impl SpreadSettings {
-    /// For limbs that are searched one by one.
+    /// Settings for limbs that are searched one by one.
     fn of_limbs(self) -> SearchSettings {
         SearchSettings::default()
             .with_starts(LIMB_STARTS * self.starts)

@@ -81,7 +81,7 @@ impl Bounds {
         }
     }
 
-    /// Whether the springs among the coordinates stay within them.
+    /// True if the springs among the coordinates stay within the bounds.
     pub(crate) fn hold_springs(&self, chain: &Chain, x: &[f64]) -> bool {
         let springs = chain.springs().iter();
         let mut springs = springs.flat_map(|s| s.first..s.first + s.len());

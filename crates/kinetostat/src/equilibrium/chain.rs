@@ -67,7 +67,7 @@ pub fn solve_along(
             }
         }
     };
-    // As given; then slightly out of line, because a straight or flat posture has no linear answer.
+    // Starts as given; then slightly out of line, because a straight or flat posture has no linear answer.
     for nudge in [0.0, 1e-3, 3e-2] {
         let Some((x, wrench, iterations, norms)) = direct(&mut attempt, nudge) else {
             continue;
@@ -85,7 +85,7 @@ pub fn solve_along(
         }
         Err(failure) => failure,
     };
-    // On a straight path to a bent shape the chain is pressed and buckles; on a screw it is pulled.
+    // The chain is pressed on a straight path to a bent shape, and buckles; on a screw it is pulled.
     if problem.end.prescribed == [Prescribed::Pose; 6] {
         match grow_load(&mut attempt, true, 1.0) {
             Ok((x, wrench, iterations, norms)) => {
@@ -125,19 +125,19 @@ pub fn solve_along(
     })
 }
 
-/// The same, and how it was found.
+/// Records the method by which an equilibrium was found.
 fn found_by(mut found: (Equilibrium, ChainMethod), by: FoundBy) -> (Equilibrium, ChainMethod) {
     found.0.found_by = by;
     found
 }
 
-/// How far the growing load came.
+/// Progress of the growing load.
 struct Failure {
     /// Largest share with an equilibrium.
     share: f64,
     /// Coordinates of that equilibrium.
     last: Vec<f64>,
-    /// Its residual at the full load.
+    /// Residual of that equilibrium at the full load.
     norms: ResidualNorms,
     iterations: usize,
 }
@@ -162,13 +162,13 @@ fn by_growing_load(
     stays(problem, settings, &grown.0).then_some(grown)
 }
 
-/// Whether an equilibrium stays as its end is prescribed: free where a wrench is, held where the pose is.
+/// True if an equilibrium is stable under its end condition: free where a wrench is prescribed, held where the pose is.
 fn stays(problem: &ChainProblem<'_>, settings: &Settings, found: &Equilibrium) -> bool {
     let held = problem.end.prescribed == [Prescribed::Pose; 6];
     if held || !found.stability.stable {
         return found.stability.stable;
     }
-    // What no motion of the end makes go away, goes away by none of those that are free.
+    // If no motion of the end is unstable, none of the free ones is.
     if found.stiffness.count(DirectionKind::Negative) == 0 {
         return true;
     }

@@ -25,8 +25,8 @@ use crate::model::chain::{Chain, Role};
 use crate::settings::Settings;
 use crate::spatial::{MotionKind, Twist};
 
-/// What is varied to connect equilibria with each other: the distance of the end from the base
-/// where it is held, else all loads together.
+/// Parameter that connects equilibria with each other: the distance of the end from the base where it is held, else all
+/// loads together.
 fn sweep_parameter(problem: &ChainProblem<'_>) -> Option<Parameter> {
     let end = &problem.end;
     let back = end.axes.inverse();
@@ -94,14 +94,14 @@ pub(crate) struct Known {
     pub may_flutter: bool,
     /// Number of unstable modes under the conditions as prescribed.
     unstable: usize,
-    /// Least singular value of the conditions' derivative, scaled.
+    /// Smallest singular value of the conditions' derivative, scaled.
     least: f64,
     /// Share of the loads that is not in equilibrium: of very stiff springs, what rounding allows.
     residual: f64,
 }
 
 impl Known {
-    /// At a limit or bifurcation point, or one of a family that moves for nothing.
+    /// True at a limit or bifurcation point, or for one of a family of neutral equilibria.
     pub fn singular(&self) -> bool {
         self.least < SINGULAR
     }
@@ -117,12 +117,12 @@ pub(crate) struct Candidate {
     stability: ShapeStability,
 }
 
-/// See above.
+/// Search for the equilibria of a chain.
 pub(crate) struct ChainSearch<'p, 'a, 'b> {
     system: ChainSystem<'p, 'a>,
     bounds: &'b Bounds,
     turns: Vec<f64>,
-    /// What is varied along curves, if they are followed.
+    /// Parameter of the curves, if they are followed.
     along: Option<Parameter>,
     /// The last start and its state.
     guessed: Option<(Vec<f64>, Option<DVector<f64>>)>,
@@ -247,7 +247,7 @@ impl<'p, 'a, 'b> ChainSearch<'p, 'a, 'b> {
             if !best.0.is_finite() {
                 return None;
             }
-            // Where no length lowers it, the best one still leads out of a bad place.
+            // If no length lowers it, the best one still leads out of a bad place.
             z = self.system.strained(&z, &z + &whole * best.1);
             (residual, norms) = self.system.evaluate(&z);
             small = whole.norm() * best.1 < 1e-7 * (1.0 + z.norm()) || norms.torque < 1e-14;
@@ -307,7 +307,7 @@ impl<'p, 'a, 'b> ChainSearch<'p, 'a, 'b> {
             .collect()
     }
 
-    /// Without full turns of passive joints, and with those that turn for nothing where the posture has them.
+    /// Normalises: without full turns of passive joints, and with neutral ones where the posture has them.
     fn normalised(&mut self, mut c: Corrected) -> SearchOutcome<Candidate> {
         let offset = self.system.reactions();
         let turns = self.scaled_turns();
@@ -409,8 +409,8 @@ impl Searched for ChainSearch<'_, '_, '_> {
         let near = if k.unstable == candidate.stability.unstable_modes || k.least < 1e-8 {
             (1e-8 / k.least.max(1e-12)).clamp(1e-6, 1e-2)
         } else {
-            // Another number of unstable modes is another shape, however near (the partner at a
-            // fold), except where neither is known better.
+            // A different number of unstable modes means a different shape, however near (the partner at a fold),
+            // except where neither is known better.
             (1e-11 / k.least).clamp(1e-10, 1e-4)
         };
         let d = wrapped(&candidate.c.z, &k.z, &self.scaled_turns());
@@ -482,7 +482,7 @@ impl Searched for ChainSearch<'_, '_, '_> {
         }
     }
 
-    /// Where the curve through it comes back to the problem's own conditions.
+    /// Equilibria where the curve through it returns to the problem's own conditions.
     fn connected(&mut self, from: Option<&Known>) -> Vec<SearchOutcome<Candidate>> {
         let (Some(parameter), Some(known)) = (self.along.clone(), from) else {
             return Vec::new();

@@ -1,4 +1,4 @@
-//! Where a search of a chain's equilibria starts: postures that a person would try, what an equilibrium suggests, and a
+//! Starts of a search of a chain's equilibria: postures that a person would try, variations of an equilibrium, and a
 //! sequence that fills the coordinates' bounds evenly.
 
 use nalgebra::DVector;

@@ -29,14 +29,13 @@ use crate::error::Result;
 use crate::number::larger;
 use crate::spatial::Wrench;
 
-/// Where stability is lost.
+/// Point where stability is lost.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct CriticalPoint {
     /// Load factor, 1 for the pattern as given.
     pub factor: f64,
-    /// What happens there; `None` where the held shape alone becomes critical, which is no special
-    /// point of the path.
+    /// Kind of the point; `None` where the held shape alone becomes critical, which is no special point of the path.
     pub kind: Option<SpecialKind>,
     /// Motion of all coordinates in the critical mode (m, rad), largest component 1.
     pub mode: Vec<f64>,
@@ -60,14 +59,14 @@ pub struct CriticalLoad {
     /// All loads have a potential. If not, `exact` is the first divergence (a zero of the tangent's
     /// determinant), and flutter, for which masses are needed, may come before.
     pub conservative: bool,
-    /// Without a potential: the factor at which the symmetric part of the tangent turns indefinite. Below
-    /// it nothing goes away, whatever the masses are (every small motion takes work on the straight path
-    /// there). `None` with a potential (then `exact` says it), or if it stays definite up to `reached`.
+    /// Factor at which, without a potential, the symmetric part of the tangent turns indefinite. Below it nothing goes
+    /// away, whatever the masses are (every small motion takes work on the straight path there). `None` with a
+    /// potential (then `exact` says it), or if it stays definite up to `reached`.
     pub definite_until: Option<f64>,
 }
 
 impl CriticalLoad {
-    /// What a load without a potential leaves open; `None` for one that has a potential.
+    /// Caution about a load without a potential; `None` for one that has a potential.
     #[must_use]
     pub fn caution(&self) -> Option<String> {
         if self.conservative {
@@ -197,7 +196,7 @@ struct GrowingLoad<'p, 'a> {
     start: Equilibrium,
     /// State at factor 0.
     z: DVector<f64>,
-    /// For tangents of points of the path, which are looked at one after the other.
+    /// System for tangents of points of the path, which are computed one after the other.
     there: RefCell<ChainSystem<'p, 'a>>,
 }
 
@@ -216,7 +215,7 @@ impl GrowingLoad<'_, '_> {
         }
     }
 
-    /// Of the symmetric part, below whose critical factor nothing happens.
+    /// True if the symmetric part is indefinite; before that, the chain is stable whatever its masses.
     fn indefinite(&self, p: &CurvePoint) -> bool {
         let stability = self.stability(p);
         !stability.stable || stability.may_flutter()
@@ -230,7 +229,7 @@ impl GrowingLoad<'_, '_> {
         !self.stability(p).stable && (self.conservative || self.diverged_before || diverged())
     }
 
-    /// Where stability changes between a point and the one before it.
+    /// Change of stability between a point and the one before it.
     fn change(
         &self,
         points: &[CurvePoint],
@@ -259,7 +258,7 @@ impl GrowingLoad<'_, '_> {
         largest_one(&there.motion(&motion))
     }
 
-    /// Where stability is lost: before the first unstable point of the path.
+    /// Point where stability is lost: before the first unstable point of the path.
     fn critical_point(&self, curves: &Curves<'_>, first: usize) -> Result<CriticalPoint> {
         let points = &curves.branches[0].points;
         if first == 0 {

@@ -13,7 +13,7 @@ use crate::linalg::saddle::{Saddle, column_space};
 use crate::linalg::singular_values::SingularValues;
 use crate::number::larger;
 
-/// What must stay stable.
+/// Object whose stability is demanded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
@@ -33,12 +33,12 @@ pub(crate) struct Tangent {
     springs: DMatrix<f64>,
     /// `N^T H N` of the loads and reactions at factor 0; unsymmetric without a potential.
     staying: DMatrix<f64>,
-    /// The same of what has come on top.
+    /// Part `N^T H N` of the growing loads.
     growing: DMatrix<f64>,
 }
 
 impl Tangent {
-    /// At the state `z` of a path that starts at `start`.
+    /// Tangent at the state `z` of a path that starts at `start`.
     pub fn at(
         system: &mut ChainSystem<'_, '_>,
         z: &DVector<f64>,
@@ -47,7 +47,7 @@ impl Tangent {
     ) -> Self {
         let (r, n) = (system.reactions(), system.coordinates_count());
         let last = system.count();
-        // This posture under what acts at the start.
+        // Posture `z` under the loads of the start.
         let mut before = z.clone();
         before.rows_mut(0, r).copy_from(&start.rows(0, r));
         before[last] = start[last];
@@ -201,7 +201,7 @@ pub(crate) fn linear_prediction(
     let stress = null.transpose() * stress * &null;
     let stiff = -(null.transpose() * at_rest * &null);
     let (mu, mode) = share_to_buckling(&stress, &stiff);
-    // What is positive by rounding only destabilises nothing.
+    // Values that are positive only by rounding destabilise nothing.
     let (opposite, _) = share_to_buckling(&-stress, &stiff);
     let least = 1e-9 * opposite.filter(|o| o.is_finite()).unwrap_or(0.0).max(0.0);
     match (mu, mode) {

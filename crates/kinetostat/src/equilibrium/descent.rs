@@ -1,5 +1,5 @@
-//! Down the potential from where the tool is held to where it stays when let go: Newton's steps of the
-//! tool with its stiffness made positive, everything else in equilibrium at every step.
+//! Descends the potential from where the tool is held to where it is stable when released: Newton's steps of the tool
+//! with its stiffness made positive, everything else in equilibrium at every step.
 
 use nalgebra::{DMatrix, DVector, Vector6};
 
@@ -20,7 +20,7 @@ const LAST: f64 = 1e-7;
 const LONGEST: f64 = 0.2;
 
 impl ToolConditions<'_> {
-    /// Where the machine goes to from a state in which its tool is held, if it is let go; `None` where
+    /// Equilibrium to which the machine moves from a state in which its tool is held, if it is released; `None` where
     /// its loads have no potential.
     pub(crate) fn descend(&self, start: MechanismEquilibrium) -> Option<MechanismEquilibrium> {
         let size = self.posture.mechanism.size();
@@ -105,7 +105,7 @@ impl ToolConditions<'_> {
         self.without(e, &possible, DirectionKind::Free)
     }
 
-    /// What holds the tool along motions besides the dead wrench, scaled.
+    /// Holding force of the tool along motions besides the dead wrench, scaled.
     fn unbalanced_force(&self, e: &MechanismEquilibrium, motions: &DMatrix<f64>) -> DVector<f64> {
         motions.transpose() * self.unscaled(&(e.wrench.0 - self.dead.0))
     }
@@ -142,7 +142,7 @@ impl ToolConditions<'_> {
             hands,
         };
         let (next, _) = self.converge(state, here.wrench, guide, false).ok()?;
-        // Not another one of the shapes at the same place.
+        // Rejects another one of the shapes at the same place.
         let went = self.scaled(&pose_residual(&next.tool, &here.tool).0).norm();
         (went <= 3.0 * parts.norm()).then_some(next)
     }

@@ -10,16 +10,16 @@ use crate::equilibrium::search::Coverage;
 pub struct FoundEquilibrium<E: CurveEquilibrium = Equilibrium> {
     /// Coordinates (rotations of passive joints within the bounds), wrench, stiffness, shape.
     pub equilibrium: E,
-    /// Whether it holds under the conditions as prescribed: dead wrench where the wrench is
-    /// prescribed, held where the pose is.
+    /// True if it is stable under the conditions as prescribed: dead wrench where the wrench is prescribed, held where
+    /// the pose is.
     pub stable: bool,
-    /// Under loads without a potential it does not go away, but may swing with growing amplitude
+    /// True if, under loads without a potential, it does not diverge but may oscillate with growing amplitude
     /// (flutter), which depends on the masses.
     pub may_flutter: bool,
     /// Potential energy of springs and loads, J, up to a constant of the problem; `None` where a
     /// load has none (see [`crate::chain::is_conservative`]).
     pub potential: Option<f64>,
-    /// How many evenly spread starts ended here; 0: found from another equilibrium only.
+    /// Number of evenly spread starts that ended here; 0: found from another equilibrium only.
     pub hits: usize,
     /// True if the equilibrium is degenerate: at a limit or bifurcation point, or one of a family
     /// that moves for nothing.
@@ -31,7 +31,7 @@ pub struct FoundEquilibrium<E: CurveEquilibrium = Equilibrium> {
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct Equilibria<E: CurveEquilibrium = Equilibrium> {
-    /// By rising potential energy.
+    /// Equilibria by rising potential energy.
     pub found: Vec<FoundEquilibrium<E>>,
     /// Evenly spread starts made.
     pub starts: usize,
@@ -65,7 +65,7 @@ pub struct LimbShapes {
     pub name: String,
     /// Shapes that were found.
     pub shapes: usize,
-    /// Those of them that keep their place.
+    /// Number of the stable ones.
     pub stable: usize,
     /// Evenly spread starts made.
     pub starts: usize,
@@ -92,8 +92,7 @@ impl LimbShapes {
 }
 
 impl<E: CurveEquilibrium> Equilibria<E> {
-    /// By rising energy.
-    /// `has_minimum`: the conditions give the energy a minimum, if all loads have a potential.
+    /// Sorts by rising energy. `has_minimum`: the conditions give the energy a minimum, if all loads have a potential.
     pub(crate) fn of(
         mut found: Vec<FoundEquilibrium<E>>,
         coverage: &Coverage,

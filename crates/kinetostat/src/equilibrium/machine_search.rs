@@ -22,7 +22,7 @@ use crate::model::kinematics::unloaded_tip;
 use crate::parallel;
 use crate::spatial::{MotionKind, Pose, Twist, moved, pose_residual};
 
-/// How far tools are put from the target, as shares of the machine's size.
+/// Displacements of the tool from the target, as shares of the machine's size.
 const AMPLITUDES: [f64; 4] = [0.05, 0.2, 0.5, 1.0];
 
 /// Starts that are made side by side.
@@ -31,7 +31,7 @@ const TOGETHER: usize = 16;
 /// Curves are followed through so many equilibria at most.
 const FOLLOWED: usize = 24;
 
-/// How far curves are followed from the target, in sizes of the machine.
+/// Length of the curves from the target, in sizes of the machine.
 const FOLLOWED_SIZES: f64 = 2.0;
 
 /// Starts in a row without a new shape after which the search at one place ends, see [`limb_shapes`].
@@ -43,7 +43,7 @@ const COMBINATIONS: usize = 100;
 /// Places of a free tool at which the limbs' shapes are starts.
 const PLACES: usize = 24;
 
-/// Where an iteration starts.
+/// Start of an iteration.
 pub(crate) enum Start {
     /// Number in the sequence of spread places.
     Spread(usize),
@@ -54,10 +54,10 @@ pub(crate) enum Start {
 /// An equilibrium that is known.
 pub(crate) struct Known {
     pub equilibrium: MechanismEquilibrium,
-    /// Whether it stays under the conditions as prescribed.
+    /// True if it is stable under the conditions as prescribed.
     pub stable: bool,
     pub may_flutter: bool,
-    /// At a limit: a motion of the tool that needs no force and is free.
+    /// True at a limit: a motion of the tool that needs no force and is free.
     pub singular: bool,
     /// Energy of springs and loads less the work of the dead wrench, J; `None` where a load has no potential.
     pub potential: Option<f64>,
@@ -82,7 +82,7 @@ impl Candidate {
     }
 }
 
-/// See above.
+/// Search for the equilibria of a machine.
 pub(crate) struct MachineSearch<'p> {
     conditions: ToolConditions<'p>,
     bounds: Vec<Bounds>,
@@ -114,8 +114,8 @@ impl<'p> MachineSearch<'p> {
         }
     }
 
-    /// Where the machine comes to rest from a spread start: from the tool put aside by a motion, in every second start
-    /// with joints turned.
+    /// Equilibrium after a release at a spread start: from the tool displaced by a motion, in every second start with
+    /// joints turned.
     fn let_go(&self, k: usize) -> Option<MechanismEquilibrium> {
         let path = &self.conditions;
         let posture = path.posture;
@@ -152,7 +152,7 @@ impl<'p> MachineSearch<'p> {
         if k % 4 == 3
             && let Some((i, limb)) = carriers.get(k / 4 % carriers.len().max(1))
         {
-            // Held where its turned joints bring it: loops close there differently.
+            // Holds the tool where its turned joints bring it: loops close there differently.
             let (joints, commands) = (&state.coordinates[*i], &posture.limbs[*i].commands);
             let tip = unloaded_tip(&limb.actual, &Pose::identity(), joints, commands);
             state.platforms[tool] = tip * limb.platform_from_tip.inverse();
@@ -340,7 +340,7 @@ fn spread(free: &DMatrix<f64>, k: usize, path: &ToolConditions<'_>) -> Vector6<f
 }
 
 impl ToolConditions<'_> {
-    /// With its stability and energy.
+    /// Adds stability and energy to an equilibrium.
     pub(crate) fn described(&self, e: MechanismEquilibrium) -> Known {
         let k = self.scaled_stiffness(&e);
         let possible = self.possible(&e, &self.free);

@@ -1,4 +1,4 @@
-//! Why a chain has no equilibrium, where the question itself rules one out.
+//! Reasons why a chain has no equilibrium that follow from the problem itself.
 
 use nalgebra::{DMatrix, DVector, Vector6};
 

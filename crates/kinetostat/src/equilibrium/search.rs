@@ -12,9 +12,9 @@ pub(crate) struct Entry<K> {
 
 /// A system whose equilibria are searched.
 pub(crate) trait Searched {
-    /// Where an iteration starts.
+    /// Start of an iteration.
     type Start;
-    /// What an iteration ends at.
+    /// Result of an iteration.
     type Candidate;
     /// An equilibrium that counts.
     type Known;
@@ -23,22 +23,22 @@ pub(crate) trait Searched {
     fn structured(&mut self) -> Vec<Self::Start>;
     /// Starts that a new equilibrium suggests: its mirror image, along its critical mode.
     fn suggested(&mut self, known: &Self::Known) -> Vec<Self::Start>;
-    /// So many starts of a sequence that fills their space evenly, after the first `from`.
+    /// Takes `count` starts of a sequence that fills their space evenly, after the first `from`.
     fn spread(&mut self, from: usize, count: usize) -> Vec<Self::Start>;
-    /// How many spread starts are made side by side.
+    /// Number of spread starts that are made side by side.
     fn side_by_side(&self) -> usize;
-    /// How many times as long a search goes on while some equilibrium was hit at most once.
+    /// Factor on the length of a search while some equilibrium was hit at most once.
     fn patience(&self) -> usize;
 
     /// An equilibrium from every start whose iteration converges, in the form in which equilibria are compared.
     fn solve(&mut self, starts: &[Self::Start]) -> Vec<SearchOutcome<Self::Candidate>>;
-    /// The same from one start, repelled by what is known (deflation).
+    /// Solves from one start, repelled by known equilibria (deflation).
     fn deflated(
         &mut self,
         start: &Self::Start,
         known: &[Entry<Self::Known>],
     ) -> SearchOutcome<Self::Candidate>;
-    /// Whether a candidate is an equilibrium that is known.
+    /// True if a candidate is an equilibrium that is known.
     fn same(&self, known: &Self::Known, candidate: &Self::Candidate) -> bool;
     /// A candidate was recognised as this one.
     fn recognised(&self, _known: &mut Self::Known, _candidate: &Self::Candidate) {}
@@ -49,21 +49,21 @@ pub(crate) trait Searched {
     fn curves_first(&self) -> bool;
     /// Curves are followed through so many equilibria at most.
     fn most_curves(&self) -> usize;
-    /// What curves through a known equilibrium connect with it, or (`None`) through the commanded place.
+    /// Equilibria on curves through a known one, or (`None`) through the commanded place.
     fn connected(&mut self, from: Option<&Self::Known>) -> Vec<SearchOutcome<Self::Candidate>>;
 }
 
-/// How an iteration ended.
+/// Outcome of an iteration.
 pub(crate) enum SearchOutcome<C> {
-    /// At an equilibrium that counts.
+    /// Equilibrium that counts.
     Equilibrium(C),
-    /// At an equilibrium outside of what counts.
+    /// Equilibrium outside of the searched region.
     Outside,
     /// Nowhere.
     Nothing,
 }
 
-/// How long to search.
+/// Limits of the search.
 pub(crate) struct Limits {
     /// Spread starts in a row that found nothing new.
     pub fruitless: usize,
@@ -73,7 +73,7 @@ pub(crate) struct Limits {
     pub most: usize,
 }
 
-/// How much was searched, and how sure it is that there are no more.
+/// Extent of the search, and certainty that there are no more equilibria.
 pub(crate) struct Coverage {
     pub starts: usize,
     /// Starts that ended at an equilibrium that counts.
@@ -150,7 +150,7 @@ struct EquilibriumSearch<'s, S: Searched> {
 }
 
 impl<S: Searched> EquilibriumSearch<'_, S> {
-    /// Nothing new for long enough; longer while some equilibrium was hit only once.
+    /// True if nothing new was found for long enough; longer while some equilibrium was hit only once.
     fn enough(&self, limits: &Limits) -> bool {
         let rare = self.known.iter().any(|k| k.hits <= 1);
         let patience = if rare { self.system.patience() } else { 1 };

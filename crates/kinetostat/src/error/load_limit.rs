@@ -1,4 +1,4 @@
-//! How far a load can grow.
+//! Limit of a growing load.
 
 use crate::spatial::Twist;
 

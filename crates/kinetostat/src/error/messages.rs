@@ -19,8 +19,8 @@ pub(super) fn joint_values<const N: usize>(kind: MotionKind, values: [f64; N]) -
     format!("{} {unit}", numbers.join(" .. "))
 }
 
-/// No equilibrium was found: beyond a limit point there is none on the branch, else one says how
-/// far the iteration came.
+/// Error without an equilibrium: beyond a limit point there is none on the branch, else it tells how far the iteration
+/// came.
 pub(super) fn not_converged(
     place: &Place,
     iterations: usize,

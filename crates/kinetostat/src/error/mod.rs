@@ -1,7 +1,7 @@
-//! What can go wrong. `Err` means a wrong input, or an iteration that did not converge; a physical
-//! finding (singular, unstable, redundant) is a field of a result.
+//! Errors of this crate. `Err` means a wrong input, or an iteration that did not converge; a physical finding
+//! (singular, unstable, redundant) is a field of a result.
 //!
-//! Takes nothing from the other rooms; gives them one `Error`, with the place (`place`: mechanism, chain or limb and the
+//! Independent of the other modules. Provides one `Error`, with the place (`place`: mechanism, chain or limb and the
 //! part at fault) as types that a program can match, and the sentences for people (`messages`).
 
 mod load_limit;
@@ -52,7 +52,7 @@ pub enum Error {
     Size {
         /// Chain, limb or function.
         place: Place,
-        /// Which list.
+        /// Name of the list.
         what: &'static str,
         /// Needed length.
         expected: usize,
@@ -76,15 +76,15 @@ pub enum Error {
     Model {
         /// Chain, joint or spring.
         place: Place,
-        /// What is wrong and what was expected.
+        /// Description of the fault and of what was expected.
         reason: String,
     },
     /// A number is not finite.
     #[error("{place}: {what} is {value}, a finite number is needed")]
     NotFinite {
-        /// Where.
+        /// Place of the number.
         place: Place,
-        /// Which quantity.
+        /// Name of the quantity.
         what: String,
         /// Value found.
         value: f64,
@@ -131,7 +131,7 @@ pub enum Error {
         share: f64,
         /// Largest closure residual of a limb just beyond that share, m.
         gap_m: f64,
-        /// Its angle, rad.
+        /// Angle of the gap, rad.
         gap_rad: f64,
     },
     /// A command lies outside the limits of its actuator.
@@ -156,7 +156,7 @@ pub enum Error {
     FreeDirection {
         /// Mechanism.
         place: Place,
-        /// Which direction.
+        /// Description of the direction.
         reason: String,
         /// Wrench that pushes there, N and N m.
         wrench: Box<Wrench>,
@@ -171,7 +171,7 @@ impl Error {
         }
     }
 
-    /// The same failure, reported to be beyond a limit point of the load.
+    /// Reports the failure as one beyond a limit point of the load.
     pub(crate) fn at_limit(mut self, found: LoadLimit) -> Self {
         if let Self::NotConverged {
             load_factor, limit, ..
@@ -183,7 +183,7 @@ impl Error {
         self
     }
 
-    /// Where it went wrong; `None` for an actuator's limits, which name the actuator.
+    /// Place of the fault; `None` for an actuator's limits, which name the actuator.
     #[must_use]
     pub fn place(&self) -> Option<&Place> {
         match self {

@@ -1,8 +1,8 @@
-//! Where something went wrong, as types that a program can match.
+//! Place of a fault, as types that a program can match.
 
 use std::fmt;
 
-/// What is described or solved, by its name.
+/// Object that is described or solved, by its name.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Whole {
@@ -38,7 +38,7 @@ pub enum Part {
     Body(String),
 }
 
-/// Where something went wrong: in what, in which part, and during which task.
+/// Place of a fault: the object, its part, and the task.
 ///
 /// # Examples
 ///
@@ -67,7 +67,7 @@ struct Parts {
     part: Option<Part>,
     /// The task, if it is not just an equilibrium or a description: `compensation on `.
     task: &'static str,
-    /// What is particular about it, after its name.
+    /// Detail of the part, after its name.
     detail: String,
 }
 
@@ -119,13 +119,13 @@ impl Place {
         place
     }
 
-    /// The same place during a task.
+    /// Adds a task to the place.
     pub(crate) fn during(mut self, task: &'static str) -> Self {
         self.0.task = task;
         self
     }
 
-    /// The same place with something particular about it.
+    /// Adds a detail to the place.
     pub(crate) fn with_detail(mut self, detail: String) -> Self {
         self.0.detail = detail;
         self

@@ -15,23 +15,23 @@ pub struct ChainCurve<'p, 'a>(ChainSystem<'p, 'a>);
 
 /// The direction in which equilibrium persists, with sign and logarithm of the determinant.
 pub struct CurveTangent {
-    /// Of length one.
+    /// Unit vector along the curve.
     pub direction: DVector<f64>,
-    /// Of the determinant of the matrix with this direction below it.
+    /// Sign of the determinant of the matrix with this direction below it.
     pub sign: f64,
-    /// Of that determinant's size.
+    /// Logarithm of that determinant's size.
     pub logarithm: f64,
 }
 
-/// What the equations are to first order at one state.
+/// First-order equations at one state.
 pub struct CurveState {
-    /// What is missing for an equilibrium, scaled.
+    /// Residual of the equilibrium, scaled.
     pub residual: DVector<f64>,
     matrix: CurveMatrix,
 }
 
 impl<'p, 'a> ChainCurve<'p, 'a> {
-    /// By dense matrices.
+    /// Solves by dense matrices.
     ///
     /// # Errors
     /// A problem that cannot be solved as it is stated.
@@ -39,10 +39,10 @@ impl<'p, 'a> ChainCurve<'p, 'a> {
         ChainSystem::new(problem, Some(parameter), &Settings::default()).map(Self)
     }
 
-    /// By sweeps along the chain.
+    /// Solves by sweeps along the chain.
     ///
     /// # Errors
-    /// As [`ChainCurve::dense`].
+    /// See [`ChainCurve::dense`].
     pub fn swept(problem: &'p ChainProblem<'a>, parameter: &'p Parameter) -> Result<Self> {
         Self::dense(problem, parameter).map(|own| Self(own.0.by_sweeps()))
     }
@@ -75,7 +75,7 @@ impl<'p, 'a> ChainCurve<'p, 'a> {
 }
 
 impl CurveState {
-    /// Whether the matrix is that of a sweep.
+    /// True if the matrix is that of a sweep.
     #[must_use]
     pub fn is_swept(&self) -> bool {
         matches!(self.matrix, CurveMatrix::Swept(_))

@@ -1,5 +1,5 @@
-//! What this crate's own tests reach inside it, in `tests/core/internal`. It is no part of the interface and changes
-//! without a word.
+//! Access to internals for this crate's own tests in `tests/core/internal`. It is not part of the interface and changes
+//! without notice.
 //!
 //! A module of tests inside a source would compile the whole crate once more.
 

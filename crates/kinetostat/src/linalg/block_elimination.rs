@@ -14,7 +14,7 @@ use crate::linalg::saddle::{Inertia, RANK_TOLERANCE};
 use crate::linalg::sparse::Sparse;
 use crate::number::{larger, largest_size, smaller};
 
-/// What blocks may be eliminated.
+/// Blocks that may be eliminated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Pivots {
     /// Regular ones that do not magnify.
@@ -197,7 +197,7 @@ impl Active {
         let moved = std::mem::take(&mut self.members[node]);
         self.members[into].extend(moved);
         let size = first + more;
-        // What the two blocks share.
+        // Diagonal block of the two together.
         let mut own = DMatrix::zeros(size, size);
         own.view_mut((0, 0), (first, first))
             .copy_from(&self.rows[into][&into]);

@@ -5,7 +5,7 @@ use nalgebra::DMatrix;
 /// Orthonormal basis of everything orthogonal to the (independent) columns of `a`, n x (n - k).
 pub fn complement(a: &DMatrix<f64>) -> DMatrix<f64> {
     let (n, k) = a.shape();
-    // As many columns as rows span all there is; more can only be rounding's.
+    // Columns as many as rows have no complement; more can only be rounding.
     if k >= n {
         return DMatrix::zeros(n, 0);
     }
@@ -16,8 +16,8 @@ pub fn complement(a: &DMatrix<f64>) -> DMatrix<f64> {
     q.columns(k, n - k).into_owned()
 }
 
-/// The same of few columns in many rows, in a number of steps that grows with `n^2 k` only; a basis whose
-/// columns lie along no axes.
+/// Complement of few columns in many rows, in a number of steps that grows with `n^2 k` only; a basis whose columns lie
+/// along no axes.
 pub(crate) fn complement_of_few(a: &DMatrix<f64>) -> DMatrix<f64> {
     let (n, k) = a.shape();
     if k >= n {

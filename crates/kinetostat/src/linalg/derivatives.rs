@@ -8,7 +8,7 @@
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-/// What a law does with numbers.
+/// Operations of a law with numbers.
 pub trait Number:
     Copy
     + Add<Output = Self>
@@ -32,7 +32,7 @@ pub trait Number:
     fn angle_per_sine(self) -> Self;
     /// `c = (1 - sqrt(t)/2 cot(sqrt(t)/2)) / t` for this `t`, and `dc/dt`.
     fn logarithm_factor(self) -> [Self; 2];
-    /// Between `-most` and `most`.
+    /// Clamps between `-most` and `most`.
     fn clamped(self, most: f64) -> Self;
     /// Below zero. Several postures in one never are: what asks for it turns by more than their springs do.
     fn is_negative(self) -> bool;
@@ -53,7 +53,7 @@ pub trait Real: Number {
 pub struct Forward<R, const K: usize> {
     /// The number.
     pub value: R,
-    /// Its derivatives.
+    /// Derivatives.
     pub rate: [R; K],
 }
 

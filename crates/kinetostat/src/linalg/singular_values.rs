@@ -227,7 +227,7 @@ pub fn shortest_and_free(
         let shortest = own.shortest(b, share * own.largest());
         return Some((shortest, own.null_space(share)));
     };
-    // Of the rows of A in the order of the triangle: R^T y = b with rank columns, then x = Q y.
+    // Rows of A in the order of the triangle: R^T y = b with rank columns, then x = Q y.
     let ordered = DVector::from_fn(a.nrows(), |i, _| b[triangle.order[i]]);
     let mut shares = triangle.a.rows(0, rank).transpose();
     for i in 0..rank {
@@ -335,7 +335,7 @@ impl Triangle {
             if k == 0 {
                 first = size;
             }
-            // What is left would change no value by more than rounding.
+            // Smaller remainders change no value by more than rounding.
             if size <= f64::EPSILON * first {
                 break;
             }
@@ -422,7 +422,7 @@ fn rotate(columns: &mut DMatrix<f64>, turns: &mut DMatrix<f64>) -> Vec<f64> {
     order.sort_by(|&i, &j| sizes[j].total_cmp(&sizes[i]));
     *columns = columns.select_columns(&order);
     *turns = turns.select_columns(&order);
-    // What many rotations have added up to, by one step towards the nearest orthonormal matrix.
+    // Removes the accumulated rounding of many rotations, by one step towards the nearest orthonormal matrix.
     let off = turns.transpose() * &*turns - DMatrix::identity(k, k);
     *turns -= &*turns * off * 0.5;
     order.into_iter().map(|i| sizes[i]).collect()

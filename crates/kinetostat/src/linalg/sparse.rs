@@ -14,7 +14,7 @@ pub struct Sparse {
 }
 
 impl Sparse {
-    /// Without entries.
+    /// Matrix without entries.
     pub fn zeros(rows: usize, columns: usize) -> Self {
         Self {
             rows,
@@ -40,7 +40,7 @@ impl Sparse {
         }
     }
 
-    /// With every zero written out.
+    /// Dense matrix with every zero written out.
     pub fn dense(&self) -> DMatrix<f64> {
         let mut a = DMatrix::zeros(self.rows, self.columns);
         for &(i, j, value) in &self.entries {
@@ -49,7 +49,7 @@ impl Sparse {
         a
     }
 
-    /// Its diagonal entries.
+    /// Diagonal entries.
     pub fn diagonal(&self) -> Vec<f64> {
         let mut list = vec![0.0; self.rows];
         for &(i, j, value) in &self.entries {

@@ -26,8 +26,8 @@ pub struct LinearAssembly {
 }
 
 impl Posture {
-    /// How far the tip of every unloaded actual limb is from its nominal place, `eps_i`, base axes,
-    /// its base where it is nominally.
+    /// Displacement of the tip of every unloaded actual limb from its nominal place, `eps_i`, base axes, its base where
+    /// it is nominally.
     ///
     /// ```
     /// # use kinetostat::nalgebra::{Vector3, vector};
@@ -101,9 +101,9 @@ impl Posture {
         self.linear_assembly_under(errors, &Wrench::zero())
     }
 
-    /// As [`Self::linear_assembly`] with a wrench on the tool (about its origin, base axes) besides:
-    /// `Dt = (sum A^T K A)^-1 (sum A^T K eps + W)`. Weights, preloads and loads on limbs are left out.
-    /// A direction of the tool that is free does not move.
+    /// Assembles like [`Self::linear_assembly`] with a wrench on the tool (about its origin, base axes) besides:
+    /// `Dt = (sum A^T K A)^-1 (sum A^T K eps + W)`. Weights, preloads and loads on limbs are left out. Free directions
+    /// of the tool do not move.
     ///
     /// # Errors
     /// Wrong sizes; a wrench that is not finite.

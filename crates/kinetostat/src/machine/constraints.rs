@@ -1,5 +1,5 @@
-//! What the limbs of a posture forbid with their actuators locked and their springs stiff: whether
-//! that is too little (a singular posture), or more than needed (over-constraint).
+//! Constraints by the limbs of a posture with their actuators locked and their springs stiff: too few (a singular
+//! posture), or more than needed (over-constraint).
 
 use nalgebra::{DMatrix, DVector, Vector3};
 
@@ -38,7 +38,7 @@ pub struct SelfStress {
 }
 
 impl SelfStress {
-    /// Which limbs fight, and how: `x: force along z and moment about x; y: ...`.
+    /// Describes the self-stressed limbs: `x: force along z and moment about x; y: ...`.
     #[must_use]
     pub fn description(&self, posture: &Posture) -> String {
         let length = posture.mechanism.scale().length;
@@ -128,8 +128,8 @@ impl Constraints {
 }
 
 impl Posture {
-    /// Over-constraint of the nominal machine at this posture, actuators locked: how many
-    /// self-stresses, and in which directions the limbs fight.
+    /// Over-constraint of the nominal machine at this posture, actuators locked: number of self-stresses, and their
+    /// directions in the limbs.
     ///
     /// ```
     /// # use kinetostat::nalgebra::{Vector3, vector};
@@ -238,7 +238,7 @@ impl Posture {
     }
 }
 
-/// The same space by a basis with zeros: every vector has an entry of its own.
+/// Sparse basis of the same space: every vector has an entry of its own.
 fn sparse(mut basis: DMatrix<f64>) -> DMatrix<f64> {
     for k in 0..basis.ncols() {
         // The largest entry of all vectors not yet treated.

@@ -116,8 +116,8 @@ fn possible_motions(rigid: &DMatrix<f64>, units: &[f64]) -> Option<DMatrix<f64>>
     Some(complement(&independent_columns(&rows)))
 }
 
-/// Whether the platforms' tangent has no negative direction among the motions that no row of
-/// `rigid` forbids; with `held`, while the tool is held.
+/// True if the platforms' tangent has no negative direction among the motions that no row of `rigid` forbids; with
+/// `held`, while the tool is held.
 pub(crate) fn others_hold(
     tangent: &Sparse,
     graded: Option<&GradedPlatforms>,
@@ -148,8 +148,8 @@ pub(crate) fn others_hold(
     eigenvalues.min() >= -ZERO_STIFFNESS * eigenvalues.amax()
 }
 
-/// Whether no platform goes away under loads without a potential (divergence), whatever the tangent's symmetric
-/// part is; with `held`, while the tool is held. `motions`: all, if the limbs have none of their own besides.
+/// True if no platform diverges under loads without a potential, whatever the tangent's symmetric part is; with `held`,
+/// while the tool is held. `motions`: all, if the limbs have none of their own besides.
 pub(crate) fn none_diverges(
     tangent: &Sparse,
     directions: &[Direction],
@@ -160,7 +160,7 @@ pub(crate) fn none_diverges(
     motions: TangentMotions,
 ) -> bool {
     let mut scaled = scaled_tangent(tangent, rigid, platform, scale, held);
-    // Of the limbs of a single platform the directions say which motions are impossible.
+    // For the limbs of a single platform the directions tell which motions are impossible.
     if scaled.nrows() == 6 && tangent.rows == 6 {
         let all = DMatrix::identity(6, 6);
         let possible = without(directions, DirectionKind::Rigid, scale.length, &all);
@@ -170,7 +170,7 @@ pub(crate) fn none_diverges(
     diverging_motions(&scaled, zero, motions) == 0
 }
 
-/// Those of some motions (scaled, orthonormal, by a natural length) across all directions of a kind.
+/// Restricts some motions (scaled, orthonormal, by a natural length) to those across all directions of a kind.
 pub(crate) fn without(
     directions: &[Direction],
     kind: DirectionKind,
@@ -255,7 +255,7 @@ const SKEW: f64 = 1e-11;
 
 /// Stiffness of one platform with all others free.
 struct Condensed {
-    /// What it cannot move along contributes nothing.
+    /// Condensed stiffness; impossible motions contribute nothing.
     matrix: Matrix6<f64>,
     /// Motions that it can make: orthonormal basis, 6 x r, scaled.
     range: DMatrix<f64>,
@@ -358,8 +358,8 @@ fn condensed_sparse(
     Some(answer)
 }
 
-/// Within the possible motions `Z`, scaled: `[Z^T K Z, -S^T; S, 0] [z; f] = [0; 1]` with `S` the
-/// part of `Z` that is the platform's own, in a basis of what it can do.
+/// Stiffness within the possible motions `Z`, scaled: `[Z^T K Z, -S^T; S, 0] [z; f] = [0; 1]` with `S` the part of `Z`
+/// that is the platform's own, in a basis of its motions.
 fn among(
     tangent: &DMatrix<f64>,
     possible: &DMatrix<f64>,

@@ -30,7 +30,7 @@ impl Ends {
     }
 }
 
-/// Where a limb begins and ends while the platforms are in these poses.
+/// Ends of a limb while the platforms are in these poses.
 pub(crate) fn ends(mechanism: &Mechanism, platforms: &[Pose], limb: usize) -> Ends {
     let l = &mechanism.limbs()[limb];
     let (base, end) = (&platforms[l.from], &platforms[l.to]);

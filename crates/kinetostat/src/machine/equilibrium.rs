@@ -34,7 +34,7 @@ use crate::model::mechanism::Mechanism;
 use crate::number::smaller;
 use crate::spatial::{CartesianStiffness, Pose, Twist, Wrench, pose_residual};
 
-/// Whether the platform stays where it is.
+/// Stability of the platform.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 #[non_exhaustive]
@@ -52,7 +52,7 @@ pub struct PlatformStability {
     pub free: usize,
 }
 
-/// What one limb does in an equilibrium.
+/// State of one limb in an equilibrium.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct LimbEquilibrium {
@@ -84,7 +84,7 @@ pub struct LimbEquilibrium {
 }
 
 impl LimbEquilibrium {
-    /// It has no motion while its end is held, so that its end's motions are all that it has.
+    /// True if it has no motion while its end is held, so that its end's motions are all that it has.
     fn follows_its_end(&self) -> bool {
         self.stability.stable && self.stability.share_to_buckling.is_none()
     }
@@ -129,7 +129,7 @@ impl LimbEquilibrium {
 pub struct MechanismEquilibrium {
     /// Pose of the tool platform, base from tool.
     pub tool: Pose,
-    /// From the nominal target to that pose.
+    /// Motion from the nominal target to that pose.
     pub displacement: Twist,
     /// External wrench on the tool, about its origin, base axes: given (`f^-1`) or found (`f`).
     pub wrench: Wrench,
@@ -147,13 +147,13 @@ pub struct MechanismEquilibrium {
     pub directions: Vec<Direction>,
     /// Natural length, m: what a rotation is multiplied with to be compared with a translation.
     pub length: f64,
-    /// Whether the free platform stays.
+    /// Stability of the free platform.
     pub platform: PlatformStability,
     /// Limbs in the mechanism's order.
     pub limbs: Vec<LimbEquilibrium>,
-    /// How well the conditions of equilibrium hold.
+    /// Residual of the conditions of equilibrium.
     pub residual: Residual,
-    /// How it was found: whether a restart may have changed the branch.
+    /// Method by which it was found: a restart may have changed the branch.
     pub found_by: FoundBy,
     /// State from which a neighbouring equilibrium can be started.
     pub state: MechanismState,
@@ -186,7 +186,7 @@ impl MechanismEquilibrium {
         self.platform.stable && self.shapes_stable()
     }
 
-    /// Under loads without a potential nothing goes away, but the machine may swing with growing amplitude
+    /// True if, under loads without a potential, nothing diverges but the machine may oscillate with growing amplitude
     /// (flutter), which depends on the masses.
     #[must_use]
     pub fn may_flutter(&self) -> bool {
@@ -285,7 +285,7 @@ pub(crate) fn conclude(
     })
 }
 
-/// What one limb does at a solved state.
+/// State of one limb at a solved state.
 fn limb_equilibrium(
     solver: &PlatformSolver<'_>,
     i: usize,
@@ -362,11 +362,11 @@ fn potential_of_platforms(solver: &PlatformSolver<'_>) -> Option<f64> {
 
 /// Tangent stiffness of a machine at its tool, and the whole tangent from which it comes.
 struct ToolStiffness {
-    /// Of all moving platforms, 6P x 6P.
+    /// Tangent of all moving platforms, 6P x 6P.
     tangent: Sparse,
     rigid: RigidRows,
     graded: Option<GradedPlatforms>,
-    /// Of the tool with all other platforms free, 6 x 6.
+    /// Stiffness of the tool with all other platforms free, 6 x 6.
     matrix: Matrix6<f64>,
     directions: Vec<Direction>,
 }
@@ -406,7 +406,7 @@ impl ToolStiffness {
         }
     }
 
-    /// Whether the tool's platform stays, and whether the other platforms do while the tool is held.
+    /// Stability of the tool's platform, and true if the other platforms are stable while the tool is held.
     fn stability(
         &self,
         solver: &PlatformSolver<'_>,
@@ -474,7 +474,7 @@ impl Posture {
 }
 
 impl MechanismEquilibrium {
-    /// As [`UnloadedStiffness::participation`](crate::UnloadedStiffness::participation), under load.
+    /// Participation as by [`UnloadedStiffness::participation`](crate::UnloadedStiffness::participation), under load.
     #[must_use]
     pub fn participation(&self, mechanism: &Mechanism, twist: &Twist) -> Vec<Share> {
         let limbs = self.limbs.iter().map(|limb| &limb.stiffness);

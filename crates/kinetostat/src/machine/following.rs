@@ -19,13 +19,13 @@ use crate::model::mechanism::Mechanism;
 
 /// Motions of unit length that move less than this (scaled) do not move.
 const NOTHING: f64 = 1e-9;
-/// The same where freedoms are counted, beside a posture that may be singular.
+/// Smallest such motion where freedoms are counted, beside a posture that may be singular.
 const COUNTED: f64 = 1e-6;
 /// A position moves, for a correction, if a motion of unit length (of all joints and platforms,
 /// rotations at the natural length) moves it by this at least: less would turn the machine far for
 /// a small correction.
 const CORRECTS: f64 = 1e-2;
-/// Most steps of Newton's iteration.
+/// Maximum number of Newton steps.
 const STEPS: usize = 60;
 /// Largest step of the position (share of the natural length) that is taken at once.
 const STRIDE: f64 = 0.1;
@@ -63,7 +63,7 @@ fn surface_normal(at: &Posture) -> Option<Vector3<f64>> {
     let gram = (&here.position * here.position.transpose()).symmetric_eigen();
     let least = gram.eigenvalues.imin();
     let normal = Vector3::from_iterator(gram.eigenvectors.column(least).iter().copied());
-    // One of the two, the same every time.
+    // Either sign would do, but always the same.
     Some(normal * normal[normal.iamax()].signum())
 }
 
@@ -127,7 +127,7 @@ impl LostMotionSearch<'_> {
         closed.then_some(left)
     }
 
-    /// Along free motions, irregularly, the same every time, and closed again.
+    /// Moves along free motions, irregularly, the same every time, and closes again.
     fn beside(&mut self, by: f64, round: usize) -> Option<()> {
         let (_, free) = self.freedoms()?;
         let k = free.all.ncols();
@@ -167,7 +167,7 @@ impl Mechanism {
         self.followed(&home, position, wanted)
     }
 
-    /// As [`Self::posture_following`], along the straight line from the other posture and no other.
+    /// Follows like [`Self::posture_following`], along the straight line from the other posture and no other.
     pub(crate) fn posture_following_straight(
         &self,
         position: &Vector3<f64>,
@@ -268,7 +268,7 @@ impl Mechanism {
         Ok((self.taken(found, left, position)?, left))
     }
 
-    /// What was found at (or `left` beside) a position as a posture like any other.
+    /// Completes a posture that was found at (or `left` beside) a position.
     fn taken(&self, mut found: Posture, left: f64, position: &Vector3<f64>) -> Result<Posture> {
         if left <= 1e-10 * self.scale().length {
             found.target.translation.vector = *position;
@@ -364,7 +364,7 @@ fn by_continuation(
         }
         step *= 0.5;
         if step * steps < 0.1 {
-            // What is nearest to the position from here on.
+            // Nearest point to the position from here on.
             let mut search = LostMotionSearch::new(&at);
             let left = search.follow(position, wanted)?;
             return Some((search.at, left));

@@ -21,9 +21,9 @@ use crate::model::chain::Scale;
 /// Stiffnesses of limbs that differ by more are kept apart when limbs are added.
 const UNEVEN: f64 = 1e6;
 
-/// Of more platforms only stiffnesses that differ by more than [`UNEVEN_OF_MANY`] are kept apart: rows of all limbs cost the
-/// cube of the number of platforms (a minute and more for 240), and legs under load have a stiffness of `F/L` across them
-/// that a platform on six legs does not feel.
+/// Number of platforms above which only stiffnesses that differ by more than [`UNEVEN_OF_MANY`] are kept apart: rows of
+/// all limbs cost the cube of the number of platforms (a minute and more for 240), and legs under load have a stiffness
+/// of `F/L` across them that a platform on six legs does not feel.
 const MANY: usize = 12;
 
 /// Leaves four digits of the soft ones in a sum.
@@ -34,7 +34,7 @@ pub(crate) struct GradedPlatforms {
     scale: Scale,
     /// Signs and rows over the motions of all moving platforms.
     rows: Vec<(f64, DVector<f64>)>,
-    /// What no limb has by itself, 6P x 6P.
+    /// Stiffness that no limb has by itself, 6P x 6P.
     more: DMatrix<f64>,
 }
 
@@ -45,7 +45,7 @@ struct Parts {
 }
 
 impl GradedPlatforms {
-    /// Of limbs with their natural sizes and ends; `None` where their stiffnesses are of similar size.
+    /// Grades limbs with their natural sizes and ends; `None` where their stiffnesses are of similar size.
     pub fn of<'a>(
         scale: Scale,
         moving: usize,
@@ -73,7 +73,7 @@ impl GradedPlatforms {
         Some(Self { scale, rows, more })
     }
 
-    /// With a stiffness (SI) that the limbs' own do not hold.
+    /// Adds a stiffness (SI) that is not in the limbs' own.
     pub fn with(mut self, more: &Sparse) -> Self {
         let units = motion_units(self.more.nrows(), self.scale);
         for &(i, j, value) in &more.entries {
@@ -84,7 +84,7 @@ impl GradedPlatforms {
         self
     }
 
-    /// In coordinates of the columns of `basis`, the longest rows first.
+    /// Expresses the stiffness in coordinates of the columns of `basis`, the longest rows first.
     fn among(&self, basis: &DMatrix<f64>) -> Parts {
         let r = basis.ncols();
         let more = basis.transpose() * &self.more * basis;
@@ -120,8 +120,8 @@ impl GradedPlatforms {
         principal(self.scale, &back, &inner, range)
     }
 
-    /// Whether no motion has a negative stiffness, among the columns of `possible` (all, if `None`) over the
-    /// platforms that are not `held`.
+    /// True if no motion has a negative stiffness, among the columns of `possible` (all, if `None`) over the platforms
+    /// that are not `held`.
     pub fn hold(&self, possible: Option<&DMatrix<f64>>, held: Option<usize>) -> bool {
         let size = self.more.nrows();
         let kept: Vec<usize> = (0..size).filter(|i| Some(i / 6) != held).collect();
@@ -179,7 +179,7 @@ impl GradedPlatforms {
 }
 
 impl Parts {
-    /// Without the first coordinates, which are free to move.
+    /// Eliminates the first coordinates, which are free to move.
     fn without(self, first: usize) -> Self {
         let (count, columns) = self.back.shape();
         if first == 0 || count == 0 {

@@ -35,7 +35,7 @@ pub struct LimbStiffness {
     pub name: String,
     /// Platform at its end.
     pub platform: String,
-    /// From the platform's reference point to the limb's end, m: the `s_i` of `T_i`.
+    /// Arm from the platform's reference point to the limb's end, m: the `s_i` of `T_i`.
     pub arm_m: [f64; 3],
     /// `K_C`, NaN along axes that the limb cannot move along.
     pub stiffness_n_m_rad: [[f64; 6]; 6],

@@ -54,23 +54,23 @@ pub struct LinearisedMachine<'p> {
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct MachineMotion {
-    /// Of every platform, the base included, about its origin, base axes, m and rad.
+    /// Motions of every platform, the base included, about its origin, base axes, m and rad.
     pub platforms: Vec<Twist>,
-    /// Of every coordinate of every limb, m or rad.
+    /// Motions of every coordinate of every limb, m or rad.
     pub coordinates: Vec<Vec<f64>>,
     /// Change of the wrench on every limb's tip, N and N m.
     pub wrenches: Vec<Wrench>,
 }
 
-/// What is missing for an equilibrium, or its derivative by a parameter.
+/// Residual of an equilibrium, or its derivative by a parameter.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct MachineResidual {
-    /// From the tip of every limb to where its platform wants it, m and rad.
+    /// Motions from the tip of every limb to where its platform wants it, m and rad.
     pub closures: Vec<Vector6<f64>>,
     /// Torque of the loads less that of the springs, by limb and coordinate, N or N m.
     pub torques: Vec<Vec<f64>>,
-    /// On every platform, the base included, about its origin, N and N m.
+    /// Wrenches on every platform, the base included, about its origin, N and N m.
     pub platforms: Vec<Wrench>,
 }
 
@@ -99,13 +99,13 @@ impl MachineResidual {
     }
 }
 
-/// Who does a work of [`LinearisedMachine::work`].
+/// Source of a work in [`LinearisedMachine::work`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[non_exhaustive]
 pub enum WorkOf {
     /// A spring of a limb: its material stiffness. Limb, and index among [`crate::Chain::springs`].
     Spring(usize, usize),
-    /// What the load of a spring adds to it (a link that bows), see [`crate::chain`]: limb, spring.
+    /// Geometric stiffness of a spring (a link that bows), see [`crate::chain`]: limb, spring.
     SpringLoad(usize, usize),
     /// Loads on a limb, weights among them, and the force at its end, as its coordinates and its platform turn.
     LimbLoads(usize),
@@ -129,10 +129,10 @@ pub struct WorkTerm {
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct MachineTangents {
-    /// Of every limb, as it is built; with six motions of its base where it starts at a platform that moves.
+    /// Tangents of every limb, as it is built; with six motions of its base where it starts at a platform that moves.
     pub limbs: Vec<ChainTangent>,
-    /// What the arms of the limbs' forces, weights and loads on platforms add, 6P x 6P (moving platforms, about their
-    /// origins, base axes): `hat(f) hat(s)` and the like [R 5.28 corrected].
+    /// Contribution of the arms of the limbs' forces, of weights and of loads on platforms, 6P x 6P (moving platforms,
+    /// about their origins, base axes): `hat(f) hat(s)` and the like [R 5.28 corrected].
     pub platforms: DMatrix<f64>,
 }
 
@@ -222,7 +222,7 @@ impl Posture {
         })
     }
 
-    /// The same posture of the machine as drawn: without weights and other loads of its model, without deviations.
+    /// Returns the posture of the machine as drawn: without weights and other loads of its model, without deviations.
     #[must_use]
     pub fn as_drawn(&self) -> Self {
         let mut drawn = self.clone();
@@ -263,7 +263,7 @@ impl Posture {
         self.linearised_state(&at.state, &at.wrench)
     }
 
-    /// The same at a state that is known to be in equilibrium under a wrench on the tool.
+    /// Linearises at a state that is known to be in equilibrium under a wrench on the tool.
     ///
     /// # Errors
     /// A state of another machine.
@@ -307,7 +307,7 @@ impl Posture {
         solver
     }
 
-    /// What is missing for an equilibrium at a state, under a wrench on the tool: nothing is solved.
+    /// Residual at a state, under a wrench on the tool: nothing is solved.
     ///
     /// # Errors
     /// A state of another machine.
@@ -366,8 +366,8 @@ impl MechanismState {
 }
 
 impl LinearisedMachine<'_> {
-    /// What moves under a small wrench on the tool (N, N m), about its origin, base axes. `None` if the system has no finite
-    /// solution. Of motions that nothing holds there are none in it.
+    /// Motion under a small wrench on the tool (N, N m), about its origin, base axes. `None` if the system has no
+    /// finite solution. Free motions are not in it.
     #[must_use]
     pub fn under(&mut self, push: &Wrench) -> Option<MachineMotion> {
         let mut platforms = vec![Wrench::zero(); self.solver.state.platforms.len()];
@@ -379,8 +379,8 @@ impl LinearisedMachine<'_> {
         self.step(&platforms)
     }
 
-    /// Where the equilibrium goes if `residual` comes up: the motion that removes it. With the derivative of the residual by a
-    /// parameter at a fixed state, the derivative of the equilibrium (implicit function theorem). `None` as for [`Self::under`].
+    /// Motion of the equilibrium that removes `residual`. With the derivative of the residual by a parameter at a fixed
+    /// state it is the derivative of the equilibrium (implicit function theorem). `None` as for [`Self::under`].
     #[must_use]
     pub fn removing(&mut self, residual: &MachineResidual) -> Option<MachineMotion> {
         let own = residual.closures.iter().zip(&residual.torques);

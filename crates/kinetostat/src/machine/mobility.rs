@@ -1,4 +1,4 @@
-//! Which motions of the tool the nominal machine has, and which of them its actuators drive.
+//! Motions of the tool of the nominal machine, and those of them that its actuators drive.
 
 use nalgebra::DMatrix;
 
@@ -46,7 +46,7 @@ impl Posture {
         let mut blocked = DMatrix::zeros(6 * moving, 6 * moving);
         for (i, (limb, joints)) in m.limbs().iter().zip(&self.limbs).enumerate() {
             let own = limb.nominal.scale().length;
-            // From the mechanism's units to SI, to the tip, to the limb's units.
+            // Converts from the mechanism's units to SI, to the tip, to the limb's units.
             let mut to_limb = ends(&self.mechanism, &self.platforms, i).matrix(moving);
             to_limb.rows_mut(3, 3).scale_mut(own);
             for (j, mut column) in to_limb.column_iter_mut().enumerate() {
@@ -71,7 +71,7 @@ impl Posture {
             return all;
         }
         let tool = all.rows(6 * (m.tool() - 1), 6).into_owned();
-        // What moves other platforms only leaves nothing here; its rounding is no motion.
+        // Motions of other platforms alone leave rounding here, which is no motion.
         if tool.amax() < 1e-6 {
             return DMatrix::zeros(6, 0);
         }

@@ -1,4 +1,4 @@
-//! Which joints and springs of which limb move when a machine's tool moves.
+//! Participation of joints and springs of each limb in the motion of a machine's tool.
 //!
 //! ```text
 //! share of coordinate i = x_i^2 / sum x_j^2, x the motion of all coordinates with the tool, turns at the natural length

@@ -21,7 +21,7 @@ pub(crate) struct RigidRows {
 }
 
 impl RigidRows {
-    /// None yet, for a number of moving platforms.
+    /// Empty rows, for a number of moving platforms.
     pub fn none(moving: usize) -> Self {
         Self {
             matrix: Sparse::zeros(0, 6 * moving),

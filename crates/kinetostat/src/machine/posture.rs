@@ -151,7 +151,7 @@ impl Mechanism {
                 if before[limb.from] == before[limb.to] || (known[limb.from] && known[limb.to]) {
                     continue;
                 }
-                // Of the limb from its own base.
+                // Tip of the limb from its own base.
                 let own = unloaded_tip(
                     &limb.nominal,
                     &Pose::identity(),
@@ -201,15 +201,15 @@ impl Posture {
             .collect()
     }
 
-    /// The same posture with other tolerances.
+    /// Sets other tolerances.
     #[must_use]
     pub fn with_settings(mut self, settings: Settings) -> Self {
         self.settings = settings;
         self
     }
 
-    /// The same posture with a dead wrench on a platform (its index), about the platform's origin,
-    /// base axes, besides what acts already. It is there in every equilibrium of this posture.
+    /// Adds a dead wrench on a platform (its index), about the platform's origin, base axes. It acts in every
+    /// equilibrium of this posture.
     ///
     /// # Errors
     /// [`Error::Model`] for the base or a platform that does not exist; [`Error::NotFinite`].
@@ -275,7 +275,7 @@ impl Posture {
             .collect()
     }
 
-    /// That no command lies outside its limits.
+    /// Checks that no command lies outside its limits.
     ///
     /// # Errors
     /// [`Error::OutsideLimits`] for the first that does.

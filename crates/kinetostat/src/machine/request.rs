@@ -1,5 +1,4 @@
-//! What a posture is requested by: a pose of the tool, a position, commands, or joints that are known; and from
-//! where they are looked for.
+//! Request of a posture: a pose of the tool, a position, commands, or known joints; and the start of the search.
 
 use nalgebra::{UnitQuaternion, Vector3};
 
@@ -17,7 +16,7 @@ enum Query<'a> {
     Joints(Pose, Vec<LimbPosture>),
 }
 
-/// From where joints are looked for.
+/// Start of the search for joints.
 #[derive(Clone, Copy, Debug)]
 enum Start<'a> {
     Home,
@@ -25,7 +24,7 @@ enum Start<'a> {
     StraightFrom(&'a Posture),
 }
 
-/// Which posture of a machine is meant, for [`Mechanism::posture`]. A pose alone (`&Pose`) is one, too.
+/// Request of a machine's posture, for [`Mechanism::posture`]. A pose alone (`&Pose`) is one, too.
 ///
 /// ```
 /// use kinetostat::{ActuatorSpec, Chain, Mechanism, MotionKind, Pose, PostureRequest};
@@ -158,8 +157,8 @@ impl<'a> PostureRequest<'a> {
         self
     }
 
-    /// As [`Self::near`], for a position along the straight line from the other posture and no other: where many
-    /// positions are tried that cannot be taken, a search around each would be dear.
+    /// Starts like [`Self::near`], for a position along the straight line from the other posture and no other: where
+    /// many positions are tried that cannot be taken, a search around each would be expensive.
     ///
     /// ```
     /// # use kinetostat::nalgebra::{Vector3, vector};

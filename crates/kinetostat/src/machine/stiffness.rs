@@ -43,7 +43,7 @@ impl Posture {
         let m = &self.mechanism;
         let network = Network::new(self)?;
         let scale = m.scale();
-        // Nothing acts: no more than the limbs' own.
+        // The stiffness without loads is that of the limbs.
         let scales = m.limbs().iter().map(|limb| limb.nominal.scale());
         let own = network.limbs.iter().zip(scales.clone());
         let own = own.zip(&network.motions).map(|((k, s), e)| (k, s, e));
@@ -121,7 +121,8 @@ impl UnloadedStiffness {
         CartesianCompliance::of(&self.cartesian.matrix, &self.directions, self.length)
     }
 
-    /// As [`MechanismEquilibrium::stiffness_against_force`](crate::MechanismEquilibrium::stiffness_against_force).
+    /// Stiffness as by
+    /// [`MechanismEquilibrium::stiffness_against_force`](crate::MechanismEquilibrium::stiffness_against_force).
     #[must_use]
     pub fn stiffness_against_force(&self) -> f64 {
         let own = self.cartesian.symmetric();

@@ -1,5 +1,5 @@
-//! What forces add to the stiffness of platforms as limbs turn: all of the platforms' tangent that the limbs'
-//! own stiffnesses do not hold.
+//! Contribution of forces to the stiffness of platforms as limbs turn: the part of the platforms' tangent that is not
+//! in the limbs' own stiffnesses.
 //!
 //! A limb holds its tip by `W = (f, m)`. Where its base turns by `phi`, the whole limb turns and `dW = (phi x f,
 //! phi x m)`; where its ends move against each other, the arms of `f` change. A limb that carries loads of its
@@ -16,7 +16,7 @@ use crate::model::loads::load::Load;
 use crate::spatial::hat;
 
 impl PlatformSolver<'_> {
-    /// Where the limbs begin and end now.
+    /// Ends of the limbs now.
     fn ends(&self) -> Vec<Ends> {
         let limbs = 0..self.mechanism.limbs().len();
         limbs
@@ -35,8 +35,8 @@ impl PlatformSolver<'_> {
         Some(graded.with(&self.turned_loads(tangent, limbs, &ends)))
     }
 
-    /// What forces of limbs and loads on platforms add to the limbs' stiffnesses at the present state, 6P x 6P;
-    /// `tangent` is that of [`Self::tangents`].
+    /// Contribution of the limbs' forces and of loads on platforms to the limbs' stiffnesses at the present state, 6P x
+    /// 6P; `tangent` is that of [`Self::tangents`].
     fn turned_loads(&self, tangent: &Sparse, limbs: &[&ChainStiffness], ends: &[Ends]) -> Sparse {
         let (m, at) = (self.mechanism, &self.state);
         let mut sum = Sparse::zeros(tangent.rows, tangent.columns);

@@ -29,7 +29,7 @@ fn unit(axis: usize) -> Vector3<f64> {
     v
 }
 
-/// What is wrong, and in which part of the chain.
+/// Mistake: part of the chain, and description.
 type Mistake = (Option<Part>, String);
 
 /// Builds a [`Chain`], base first. Mistakes are collected and reported by [`Self::build`].

@@ -54,14 +54,14 @@ pub enum Element {
     Node(usize),
 }
 
-/// What holds a coordinate.
+/// Support of a coordinate.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum Role {
     /// A spring, `theta`.
     Spring,
-    /// Nothing: a passive joint, `q`.
+    /// Passive joint without support, `q`.
     Passive,
 }
 
@@ -93,7 +93,7 @@ pub struct Actuator {
     pub limits: Option<(f64, f64)>,
     /// The spring coordinate in series with it; `None` for a rigid drive.
     pub coordinate: Option<usize>,
-    /// Its rotor, for vibrations.
+    /// Rotor of the drive, for vibrations.
     pub rotor: Option<DriveRotor>,
 }
 
@@ -174,7 +174,7 @@ pub struct Scale {
 }
 
 impl Chain {
-    /// This chain, as errors name it.
+    /// Place of this chain in errors.
     pub(crate) fn place(&self) -> Place {
         Place::chain(self.name.as_str())
     }
@@ -334,9 +334,8 @@ impl Chain {
         Ok(whole.select_rows(&indices).select_columns(&indices))
     }
 
-    /// The same chain with its end moved on by a rigid offset (old end from new end): a tool, say.
-    /// The old end stays a node under the name `name`, with what acts on it. Natural length and
-    /// stiffness stay those of the chain without it.
+    /// Moves the end by a rigid offset (old end from new end): a tool, say. The old end stays a node under the name
+    /// `name`, with its loads. Natural length and stiffness stay those of the chain without it.
     ///
     /// # Errors
     /// [`Error::Model`] if a node has that name already.

@@ -1,4 +1,4 @@
-//! What is checked before a chain is frozen, and its natural units.
+//! Checks before a chain is frozen, and its natural units.
 
 use crate::model::chain::{Chain, Element, Scale};
 use crate::model::limits::LARGEST;
@@ -14,7 +14,7 @@ pub(crate) fn usable(x: f64) -> bool {
 /// Smallest eigenvalue of a scaled stiffness matrix that is distinct from rounding.
 const SINGULAR: f64 = 1e-12;
 
-/// What is wrong with a spring.
+/// Describes the fault of a spring.
 pub(crate) fn spring_fault(block: &SpringBlock) -> Option<String> {
     let posture = vec![0.3; block.first + 6];
     let k = block.stiffness_at(&posture);

@@ -1,5 +1,5 @@
-//! Where the frames of a chain are, how they move, and how the loads' torques change with the
-//! coordinates: `g_j`, `J`, `J_j` and the Hessian `H` of [R 4.3-4.6, 4.21].
+//! Frames of a chain, their motions, and the derivatives of the loads' torques by the coordinates: `g_j`, `J`, `J_j`
+//! and the Hessian `H` of [R 4.3-4.6, 4.21].
 //!
 //! Generalised velocities are, in this order, the chain's `n` coordinates, its `r` commands and,
 //! for a chain whose base moves, six motions of the base (translation of its origin, rotation
@@ -47,13 +47,13 @@ pub struct Kinematics {
 }
 
 impl Kinematics {
-    /// At the given base pose, coordinates (m, rad) and commands (m, rad); the base does not move.
+    /// Evaluates at the given base pose, coordinates (m, rad) and commands (m, rad); the base does not move.
     #[must_use]
     pub fn new(chain: &Chain, base: &Pose, coordinates: &[f64], commands: &[f64]) -> Self {
         Self::of_limb(chain, base, coordinates, commands, false)
     }
 
-    /// As [`Self::new`], with six generalised velocities more: those of a base that moves.
+    /// Evaluates like [`Self::new`], with six generalised velocities more: those of a base that moves.
     #[must_use]
     pub fn with_moving_base(
         chain: &Chain,
@@ -64,7 +64,7 @@ impl Kinematics {
         Self::of_limb(chain, base, coordinates, commands, true)
     }
 
-    /// One of the two.
+    /// Evaluates with a fixed or a moving base.
     pub(crate) fn of_limb(
         chain: &Chain,
         base: &Pose,
@@ -192,7 +192,7 @@ impl Kinematics {
         jacobian
     }
 
-    /// Into a matrix of the right size that exists already.
+    /// Writes into an existing matrix of the right size.
     pub(crate) fn jacobian_into(&self, node: usize, jacobian: &mut Matrix6xX<f64>) {
         jacobian.fill(0.0);
         let p = self.nodes[node].1;

@@ -34,7 +34,7 @@ use crate::model::springs::logarithm::LogarithmLaw;
 use crate::model::uniform::{NoSegment, compliance_per_length, moved, segment_compliance};
 use crate::spatial::{Pose, turn_matrix};
 
-/// How a segment moves, and what energy that costs. Unloaded stiffness does not depend on it.
+/// Kinematics and energy of a segment. Unloaded stiffness does not depend on it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
@@ -56,7 +56,7 @@ pub enum LinkConvention {
     ConstantStrain,
 }
 
-/// What a link's stiffness is known from.
+/// Source of a link's stiffness.
 #[allow(clippy::large_enum_variant)] // one per link, gone when the chain is built
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
@@ -138,14 +138,14 @@ impl LinkSpec {
         }
     }
 
-    /// The same link in `count` segments.
+    /// Divides the link into `count` segments.
     #[must_use]
     pub fn segments(mut self, count: usize) -> Self {
         self.segments = count;
         self
     }
 
-    /// The same link with a mass along it. Its segments then have a node at each end: `NAME.near` at the root, and
+    /// Adds a mass along the link. Its segments then have a node at each end: `NAME.near` at the root, and
     /// `SEGMENT.far` behind every segment.
     ///
     /// ```
@@ -166,7 +166,7 @@ impl LinkSpec {
         self
     }
 
-    /// The same link by another convention.
+    /// Sets the convention.
     #[must_use]
     pub fn convention(mut self, convention: LinkConvention) -> Self {
         self.convention = convention;
@@ -273,13 +273,13 @@ impl ChainBuilder {
         self.link_in_pieces(name, spec, |_| spec.segment_stiffness())
     }
 
-    /// As [`ChainBuilder::link_with`] for a link that changes along its way: `pieces` are the stiffnesses
-    /// of its equal segments, from the root on, each at the segment's far end with its near end clamped,
-    /// 6 x 6 (N/m, N/rad, N m/m, N m/rad), axes of the link. `whole` has the link's own matrix, length
-    /// and convention; its number of segments is that of the pieces. Every piece bends like a uniform
-    /// beam of its stiffness; the buckling load of a cone converges with the fourth power of the pieces.
+    /// Adds a link like [`ChainBuilder::link_with`] that changes along its length: `pieces` are the stiffnesses of its
+    /// equal segments, from the root on, each at the segment's far end with its near end clamped, 6 x 6 (N/m, N/rad, N
+    /// m/m, N m/rad), axes of the link. `whole` has the link's own matrix, length and convention; its number of
+    /// segments is that of the pieces. Every piece bends like a uniform beam of its stiffness; the buckling load of a
+    /// cone converges with the fourth power of the pieces.
     ///
-    /// A fault where there is no piece, or a matrix is no stiffness of a piece.
+    /// It is a fault if there is no piece, or if a matrix is no stiffness of a piece.
     ///
     /// ```
     /// # use kinetostat::nalgebra::{Vector3, vector};

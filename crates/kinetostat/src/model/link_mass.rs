@@ -20,7 +20,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::model::beam::BeamSection;
 
-/// Where the mass of a link is.
+/// Distribution of a link's mass.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
@@ -42,7 +42,7 @@ pub struct LinkMass {
     /// Inertia of a slice about its three axes (x along the link) by its thickness, kg m: `rho (Iy + Iz)`, `rho Iy`,
     /// `rho Iz`. Zero for a thin link.
     pub rotary: [f64; 3],
-    /// Where it is.
+    /// Distribution of the mass.
     pub model: MassModel,
 }
 
@@ -67,21 +67,21 @@ impl LinkMass {
         }
     }
 
-    /// The same without inertia of the slices about their own axes.
+    /// Removes the inertia of the slices about their own axes.
     #[must_use]
     pub fn thin(mut self) -> Self {
         self.rotary = [0.0; 3];
         self
     }
 
-    /// The same mass in another place.
+    /// Sets the distribution of the mass.
     #[must_use]
     pub fn with_model(mut self, model: MassModel) -> Self {
         self.model = model;
         self
     }
 
-    /// What is wrong with its numbers.
+    /// Describes the fault of its numbers.
     pub(crate) fn fault(&self) -> Option<String> {
         let m = self.per_length;
         if !(m.is_finite() && m >= 0.0) {
@@ -154,7 +154,7 @@ fn bending(x: f64, h: f64, phi: f64) -> ([f64; 2], [f64; 2]) {
 }
 
 impl SegmentMass {
-    /// Its slices.
+    /// Slices of the segment.
     #[must_use]
     pub fn slices(&self) -> [Slice; 4] {
         GAUSS.map(|(place, weight)| {

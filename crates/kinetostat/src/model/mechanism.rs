@@ -137,14 +137,14 @@ impl Limb {
         }
     }
 
-    /// The same limb with its tip fixed elsewhere on the second platform (platform from tip).
+    /// Fixes the tip elsewhere on the second platform (platform from tip).
     #[must_use]
     pub fn fixed_at(mut self, platform_from_tip: Pose) -> Self {
         self.platform_from_tip = platform_from_tip;
         self
     }
 
-    /// The same limb with the geometry that exists, errors included.
+    /// Sets the geometry that exists, errors included.
     #[must_use]
     pub fn with_actual(mut self, actual: Chain) -> Self {
         self.actual = actual;
@@ -203,7 +203,7 @@ pub struct Mechanism {
     parts: Arc<MechanismParts>,
 }
 
-/// What a mechanism is made of.
+/// Parts of a mechanism.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename = "Mechanism"))]
@@ -352,12 +352,12 @@ impl Mechanism {
         })
     }
 
-    /// To change it; where it is shared, a copy.
+    /// Mutable parts; a copy if they are shared.
     pub(crate) fn parts_mut(&mut self) -> &mut MechanismParts {
         Arc::make_mut(&mut self.parts)
     }
 
-    /// This mechanism, as errors name it.
+    /// Place of this mechanism in errors.
     pub(crate) fn place(&self) -> Place {
         Place::mechanism(self.name())
     }
@@ -381,7 +381,7 @@ impl Mechanism {
         sum / self.limbs().len() as f64
     }
 
-    /// Whether anything acts on it without a load on its tool: gravity on its masses, or loads of the model.
+    /// True if anything acts on it without a load on its tool: gravity on its masses, or loads of the model.
     #[must_use]
     pub fn has_own_loads(&self) -> bool {
         let loads =
@@ -390,8 +390,8 @@ impl Mechanism {
         has_weight || loads > 0
     }
 
-    /// The same machine without gravity and without the loads of its model (springs between nodes,
-    /// counterweights and so on). Deviations and preloads of springs inside its limbs stay.
+    /// Removes gravity and the loads of the model (springs between nodes, counterweights and so on). Deviations and
+    /// preloads of springs inside its limbs stay.
     ///
     /// ```
     /// # use kinetostat::nalgebra::{Vector3, vector};
@@ -434,8 +434,8 @@ impl Mechanism {
         parts.into()
     }
 
-    /// The same machine with springs so many times as stiff: limb, index among [`Chain::springs`], factor. Nominal and actual
-    /// chains change alike; what does not exist is left out.
+    /// Scales the stiffness of springs: limb, index among [`Chain::springs`], factor. Nominal and actual chains change
+    /// alike; missing ones are skipped.
     ///
     /// ```
     /// # use kinetostat::nalgebra::{Vector3, vector};
@@ -650,12 +650,13 @@ impl Mechanism {
             {
                 return differ("a limb has other elements");
             }
-            // Where it is fixed to its platform is an error of the limb for who believes in the drawing.
+            // A different attachment to the platform is an error of the limb for a controller that believes in the
+            // drawing.
             if own.platform_from_tip != other.platform_from_tip {
                 let tip = own.platform_from_tip.inverse() * other.platform_from_tip;
                 own.nominal = other.nominal.clone();
                 for (chain, offset) in [(a, tip), (&mut own.nominal, Pose::identity())] {
-                    // Behind everything but the node of the tip, which is the last element.
+                    // Inserted behind everything but the node of the tip, which is the last element.
                     let at = chain.elements.len().saturating_sub(1);
                     let rigid = crate::model::chain::Element::Rigid(offset);
                     chain.elements.insert(at, rigid);
@@ -671,8 +672,8 @@ impl Mechanism {
         Ok(built.into())
     }
 
-    /// The same mechanism with its tool platform's reference point and axes moved to `tool`
-    /// (platform from tool): a spindle's tip, say. Results then refer to that point.
+    /// Moves the tool platform's reference point and axes to `tool` (platform from tool): a spindle's tip, say. Results
+    /// then refer to that point.
     ///
     /// ```
     /// # use kinetostat::nalgebra::{Vector3, vector};

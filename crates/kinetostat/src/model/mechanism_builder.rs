@@ -258,7 +258,7 @@ fn add_load(m: &mut MechanismParts, name: &str, load: Load) -> Result<()> {
 }
 
 impl Mechanism {
-    /// The same machine with one more load on the limb of this name, see [`MechanismBuilder::load`].
+    /// Adds a load on the limb of this name, see [`MechanismBuilder::load`].
     ///
     /// # Errors
     /// [`Error::UnknownName`] for a limb that does not exist, [`Error::Model`] for a load that does not fit it.

@@ -1,5 +1,4 @@
-//! Whether the numbers of a mechanism's platforms, of the loads on them, and of a state to start from are
-//! numbers that can be calculated with.
+//! Checks the numbers of a mechanism's platforms, of the loads on them, and of a state to start from.
 
 use crate::error::{Error, Part, Place, Result};
 use crate::model::limits::{check_numbers, check_pose};
@@ -44,7 +43,7 @@ pub(crate) fn check_platform_load(mechanism: &MechanismParts, load: &PlatformLoa
         .try_for_each(|tangent| check_numbers(&place, what, &tangent.matrix))
 }
 
-/// That a load fits the platforms.
+/// Checks that a load fits the platforms.
 fn check_platforms(mechanism: &MechanismParts, load: &PlatformLoad) -> Result<()> {
     let fault = |reason: String| {
         let place = Place::mechanism(mechanism.name.as_str());

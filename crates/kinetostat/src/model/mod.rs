@@ -1,4 +1,4 @@
-//! What a robot is made of: chains and mechanisms, the laws of their springs, the loads on them.
+//! Model of a robot: chains and mechanisms, the laws of their springs, the loads on them.
 //!
 //! Takes descriptions in the words of the field (actuator, passive joint, link, spring, platform, limb), checks them once
 //! and freezes them; nothing here changes after `build()`. Gives positions, Jacobians and the Hessian of loads of a

@@ -7,7 +7,7 @@ use crate::model::link_mass::SegmentMass;
 use crate::spatial::Wrench;
 
 impl SegmentMass {
-    /// What the far end does relative to the near one at these poses: `eta`, m and rad.
+    /// Motion of the far end relative to the near one at these poses: `eta`, m and rad.
     #[must_use]
     pub fn deflection(&self, kinematics: &Kinematics) -> Vector6<f64> {
         let (near, far) = (kinematics.frame(self.near), kinematics.frame(self.far));
@@ -145,7 +145,7 @@ impl Weight {
                 - slide.cross(&force)
                 - arm.cross(&dforce)
                 - dturning;
-            // In fixed axes the wrench turns with the near end.
+            // The wrench turns with the near end in fixed axes.
             let fixed = |wrench: &Wrench, force: Vector3<f64>, moment: Vector3<f64>| {
                 let (f, m) = (
                     force + w.cross(&wrench.force()),

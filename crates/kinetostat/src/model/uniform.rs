@@ -43,7 +43,7 @@ fn bending_part(per_length: &Matrix6<f64>) -> Matrix6<f64> {
     part
 }
 
-/// Why a link has no stiffness of one segment.
+/// Reason why a link has no stiffness of one segment.
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum NoSegment {
     #[error("its stiffness matrix is not positive definite")]

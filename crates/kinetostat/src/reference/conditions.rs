@@ -1,6 +1,6 @@
 //! Conditions under which the closed forms of a stiffness hold.
 
-/// Why a form has no answer here.
+/// Reason why a form has no answer here.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Inapplicable {

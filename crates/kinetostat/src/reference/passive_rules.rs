@@ -1,5 +1,5 @@
-//! What one passive joint does to the stiffness of a link: the rank-1 elimination [R 3.11, 3.16]
-//! and its cases with names [R Tables 3.1-3.3].
+//! Effect of one passive joint on the stiffness of a link: the rank-1 elimination [R 3.11, 3.16] and its cases with
+//! names [R Tables 3.1-3.3].
 //!
 //! Spatial matrices are 6 x 6 (N/m, N/rad, N m/m, N m/rad), order `x y z rx ry rz`, at the far end
 //! of a link whose x axis points there; planar ones are 3 x 3, order `x y rz`.
@@ -16,7 +16,7 @@ const FREE: f64 = 1e-12;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Elimination<const N: usize> {
-    /// What is left; the same as before if the joint was free already.
+    /// Remaining stiffness; unchanged if the joint was free already.
     pub matrix: SMatrix<f64, N, N>,
     /// `mu = J^T K J`: stiffness that the joint gave up, N/m or N m/rad.
     pub pivot: f64,
@@ -101,7 +101,7 @@ pub(crate) fn eliminated<const N: usize>(
     let matrix = SMatrix::from_fn(|i, j| {
         let (own, less) = (stiffness[(i, j)], force[i] * row[j] / pivot);
         let left = own - less;
-        // What cancels is zero, not rounding: the next joint must not divide by it.
+        // Cancelled entries are zero, not rounding: the next joint must not divide by them.
         if left.abs() <= FREE * (own.abs() + less.abs()) {
             0.0
         } else {
@@ -115,7 +115,7 @@ pub(crate) fn eliminated<const N: usize>(
     }
 }
 
-/// One of the link's axes.
+/// Axis of a link.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Axis {
     /// Along the link.

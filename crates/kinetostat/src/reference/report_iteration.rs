@@ -80,29 +80,29 @@ pub struct ChainState {
     pub wrench: Wrench,
 }
 
-/// How an iteration ended.
+/// Outcome of an iteration.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum IterationOutcome {
-    /// On the equilibrium that exact Newton finds from the same start.
+    /// Converged to the equilibrium that exact Newton finds from the same start.
     #[cfg_attr(feature = "serde", serde(rename = "settled"))]
     Converged,
-    /// On another equilibrium than exact Newton from the same start.
+    /// Converged to another equilibrium than exact Newton from the same start.
     Leaves,
-    /// It alternates between two states, neither of which is an equilibrium.
+    /// Alternation between two states, neither of which is an equilibrium.
     Cycle([ChainState; 2]),
     /// The states grew beyond all bounds, or a linear system had no finite solution.
     Diverged,
-    /// None of these after all steps allowed.
+    /// Maximum number of steps without any of these.
     Spent,
 }
 
 /// Every step of an iteration and what became of it.
 #[derive(Clone, Debug)]
 pub struct ReportIteration {
-    /// How it ended.
+    /// Outcome.
     pub outcome: IterationOutcome,
     /// Steps made.
     pub steps: usize,
@@ -116,7 +116,7 @@ pub struct ReportIteration {
     /// a chain without inner freedom, infinite where a load holds or pushes a purely passive motion;
     /// `None` where no equilibrium is known.
     pub expected_rate: Option<f64>,
-    /// The same at the equilibrium nearest to the start (found by exact Newton).
+    /// Largest `|mu|` at the equilibrium nearest to the start (found by exact Newton).
     pub rate_at_start: Option<f64>,
     /// The equilibrium to which the iteration came, refined to rounding.
     pub equilibrium: Option<Equilibrium>,

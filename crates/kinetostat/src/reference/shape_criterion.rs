@@ -24,8 +24,7 @@ use crate::spatial::MotionKind;
 pub struct ShapeCriterion {
     /// `S_c`, k x k, J: symmetric, negative definite if the shape holds.
     pub matrix: DMatrix<f64>,
-    /// Its eigenvalues, J, from the smallest to the largest; they do not depend on the choice of
-    /// the orthonormal basis.
+    /// Eigenvalues, J, from the smallest to the largest; they do not depend on the choice of the orthonormal basis.
     pub eigenvalues: Vec<f64>,
     /// The motions `V`, n x k, in rad and in units of [`length`](Self::length): orthonormal columns.
     pub basis: DMatrix<f64>,

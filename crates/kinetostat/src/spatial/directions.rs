@@ -40,13 +40,13 @@ impl Directions {
     /// About the three axes: an orientation.
     pub const ORIENTATION: Self = Self([false, false, false, true, true, true]);
 
-    /// Whether a direction (0 to 5) belongs to the set.
+    /// True if a direction (0 to 5) belongs to the set.
     #[must_use]
     pub fn contains(self, direction: usize) -> bool {
         self.0[direction]
     }
 
-    /// The same set with a direction (0 to 5) added.
+    /// Adds a direction (0 to 5).
     #[must_use]
     pub fn with(mut self, direction: usize) -> Self {
         self.0[direction] = true;
@@ -58,19 +58,19 @@ impl Directions {
         (0..6).filter(move |&k| self.0[k])
     }
 
-    /// How many there are.
+    /// Number of directions.
     #[must_use]
     pub fn len(self) -> usize {
         self.iter().count()
     }
 
-    /// Whether no direction belongs to the set.
+    /// True if no direction belongs to the set.
     #[must_use]
     pub fn is_empty(self) -> bool {
         self == Self::NONE
     }
 
-    /// Whether each direction belongs to the set.
+    /// Membership of each direction.
     #[must_use]
     pub fn as_array(self) -> [bool; 6] {
         self.0

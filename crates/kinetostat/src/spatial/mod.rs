@@ -72,7 +72,7 @@ pub struct Wrench(pub Vector6<f64>);
 macro_rules! six_vector {
     ($name:ident, $linear:ident, $angular:ident) => {
         impl $name {
-            /// From the linear and the angular part.
+            /// Creates it from the linear and the angular part.
             #[must_use]
             pub fn new($linear: Vector3<f64>, $angular: Vector3<f64>) -> Self {
                 let mut vector = Vector6::zeros();
@@ -99,7 +99,7 @@ macro_rules! six_vector {
                 self.0.fixed_rows::<3>(3).into_owned()
             }
 
-            /// The same quantity expressed in axes turned by `rotation` (`new = rotation * old`).
+            /// Expresses the quantity in axes turned by `rotation` (`new = rotation * old`).
             #[must_use]
             pub fn rotated(&self, rotation: &Rotation3<f64>) -> Self {
                 Self::new(rotation * self.$linear(), rotation * self.$angular())
@@ -125,7 +125,7 @@ impl Twist {
 }
 
 impl Wrench {
-    /// The same load about the point that lies at `arm` (m) from the present reference point.
+    /// Expresses the load about the point that lies at `arm` (m) from the present reference point.
     #[must_use]
     pub fn shifted(&self, arm: &Vector3<f64>) -> Self {
         Self::new(self.force(), self.moment() - arm.cross(&self.force()))
@@ -240,7 +240,7 @@ impl CartesianStiffness {
         }
     }
 
-    /// The same stiffness in axes turned by `rotation`.
+    /// Expresses the stiffness in axes turned by `rotation`.
     #[must_use]
     pub fn rotated(&self, rotation: &Rotation3<f64>) -> Self {
         let turn = turn_matrix(rotation);

@@ -16,10 +16,10 @@ use crate::vibration::program::stretches::{ChatterStretch, stretches};
 
 /// Share of the work that other spindle speeds are reckoned with: one in so many of the judged cuts.
 const SPEEDS_SHARE: usize = 3;
-/// And that of cuts near their limit: one in so many.
+/// Share of the work on cuts near their limit: one in so many of the judged cuts.
 const NEAR_SHARE: usize = 3;
 
-/// Where a program chatters.
+/// Chatter of a program along its path.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ProgramChatter {
     /// All places that were judged, in the order of the path.
@@ -30,7 +30,7 @@ pub struct ProgramChatter {
     pub places: usize,
     /// Places at which a force acts and the side of the tool is not in the cut.
     pub without_side: Option<WithoutSide>,
-    /// How many times more than usual places in one group may differ, so that they are no more than was asked for: 1 as usual.
+    /// Factor on the usual tolerances of a group, so that the groups do not exceed the requested number; 1 by default.
     pub wider: f64,
 }
 
@@ -141,15 +141,14 @@ impl ProgramChatter {
         self.sites.iter().filter(of_one).map(|s| s.places).sum()
     }
 
-    /// By how much the response by modes with their own damping alone is off, at the worst of the places
-    /// ([`JudgedSite::lost_coupling`]).
+    /// Error of the response by modes with their own damping alone, at the worst place ([`JudgedSite::lost_coupling`]).
     #[must_use]
     pub fn lost_coupling(&self) -> f64 {
         let each = self.sites.iter().map(|site| site.lost_coupling);
         each.fold(0.0, kinetostat::number::larger)
     }
 
-    /// Of the modes that are taken as springs although they count, the one with the largest share, and the place.
+    /// Mode with the largest share among those treated as springs although they contribute, and its place.
     #[must_use]
     pub fn left_out(&self) -> Option<(LeftOut, &JudgedSite)> {
         let each = self.sites.iter().filter_map(|s| Some((s.left_out?, s)));

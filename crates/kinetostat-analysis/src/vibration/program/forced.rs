@@ -1,7 +1,8 @@
-//! How the teeth shake the tool in a cut that does not chatter, and what that leaves on the wall [D 9].
+//! Forced vibration of the tool in a stable cut, and the error that it leaves on the wall [D 9].
 //!
-//! The force is that of the cut's own law over a revolution, edge forces and run-out included, with the arc and the depth of the place.
-//! A vibration that comes back with every tooth is not regenerated; that of a run-out would be, and is taken as if it were not.
+//! The force is that of the cut's own law over a revolution, edge forces and run-out included, with the arc and the
+//! depth of the place. A vibration with the tooth period is not regenerative; that of a run-out would be, but is
+//! treated as if it were not.
 
 use std::f64::consts::PI;
 
@@ -30,8 +31,8 @@ pub struct ForcedVibration {
     pub strongest_hz: f64,
     /// Frequency of the machine's mode nearest to that (by their ratio), Hz.
     pub nearest_mode_hz: f64,
-    /// What it leaves on the wall over its height, mm, least and most, positive where the tool has cut too deep; `None` where the
-    /// cut makes no wall. Of a slot over both walls.
+    /// Error on the wall over its height, mm, least and most, positive where the tool has cut too deep; `None` where
+    /// the cut makes no wall. In a slot it covers both walls.
     pub wall_mm: Option<[f64; 2]>,
 }
 
@@ -43,7 +44,7 @@ impl ForcedVibration {
         Some(if -least > most { least } else { most })
     }
 
-    /// At a place in the cut, with the response of the machine there.
+    /// Forced vibration at a place in the cut, with the response of the machine there.
     pub(crate) fn of(
         regeneration: &Regeneration,
         tool: &CuttingTool,
@@ -92,7 +93,7 @@ impl ForcedVibration {
     }
 }
 
-/// Of a revolution; of one tooth where all are alike.
+/// Harmonics over a revolution, or over one tooth period where all teeth are alike.
 fn of_milling(revolution: &Revolution, teeth: usize) -> Result<PeriodicForce> {
     let forces: Vec<Vector3<f64>> = revolution.forces.iter().map(|f| f.force_n).collect();
     let of_tooth = forces.len() / teeth;

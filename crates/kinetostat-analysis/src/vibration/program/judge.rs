@@ -1,4 +1,4 @@
-//! Whether the cut at one place chatters.
+//! Chatter stability of the cut at one place.
 
 use kinetostat::Wrench;
 use kinetostat_chatter::{Arc, Coefficients, FeedFrame, MillingCut, Regeneration, SpeedStability};
@@ -16,8 +16,8 @@ use crate::vibration::program::site::{CutSite, SiteGroup};
 /// Depths are looked at up to so many times that of the program first.
 const FIRST_DEPTH: f64 = 0.125;
 
-/// And then, one after the other until there is a limit, up to so many times: far beyond their limits cuts grow by so much in one
-/// period that nothing can be said in numbers.
+/// Multiples of the program's depth searched next, one after the other until there is a limit: far beyond their limits
+/// cuts grow by so much in one period that nothing can be said in numbers.
 const DEPTHS: [f64; 3] = [0.5, 1.0, 3.0];
 
 /// The cut at a place with the machine in its posture.
@@ -42,7 +42,7 @@ pub(crate) fn limit_at(
         }
         match regeneration.first_limit(Some(&found), rpm, share * depth) {
             Ok(deeper) => found = deeper,
-            // What is beyond the depth of the program need not be known.
+            // A limit beyond the depth of the program need not be known.
             Err(_) if is_deeper => break,
             Err(error) => return Err(error),
         }
@@ -209,7 +209,7 @@ impl ChatterQuestion<'_> {
         let [entry, exit] = contact.unwrap_or([0.0, 0.0]);
         let arc = Arc::new(entry, exit).map_err(of_cut)?;
         let tool = self.tool_of(site)?;
-        // Where a tooth goes backwards over the arc, the chip is as thick as elsewhere on it.
+        // A tooth that moves backwards over the arc gets the mean chip thickness of the arc.
         let mean_mm = site.station.feed_per_tooth_mm * arc.mean_sine().abs();
         let thinnest_mm = 1e-3 * site.station.feed_per_tooth_mm;
         let chip_mm = if mean_mm > thinnest_mm {

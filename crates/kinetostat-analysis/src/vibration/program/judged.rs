@@ -1,4 +1,4 @@
-//! What was found at a place of a program.
+//! Result at a place of a program.
 
 use kinetostat_chatter::{Instability, LeftOut};
 
@@ -8,14 +8,14 @@ use crate::vibration::program::site::{CutSite, SiteGroup};
 /// Limits within this factor are near each other: those of cuts that are alike differ by up to 9 %.
 const NEAR: f64 = 1.1;
 
-/// What is said of the cut at a place.
+/// Verdict on the cut at a place.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Verdict {
     /// Vibrations die away.
     Stable,
     /// They grow.
     Chatters,
-    /// Why nothing is said.
+    /// Not judged, with the reason.
     NotJudged(String),
 }
 
@@ -24,7 +24,7 @@ pub enum Verdict {
 pub struct JudgedSite {
     /// The place.
     pub site: CutSite,
-    /// What is said of it.
+    /// Verdict on the cut.
     pub verdict: Verdict,
     /// Depth at which the cut becomes unstable at the speed of the program, mm; `None` where it does not up to `looked_up_to_mm`.
     pub limit_mm: Option<f64>,
@@ -32,39 +32,39 @@ pub struct JudgedSite {
     pub looked_up_to_mm: f64,
     /// Strongest frequency of the vibration at the limit, Hz.
     pub chatter_hz: Option<f64>,
-    /// How the cut becomes unstable there.
+    /// Type of the instability at the limit.
     pub kind: Option<Instability>,
     /// Lowest frequency of the machine there, Hz.
     pub first_hz: Option<f64>,
-    /// How the teeth shake the tool; `None` where it chatters or nothing is said.
+    /// Forced vibration of the tool; `None` where it chatters or is not judged.
     pub forced: Option<ForcedVibration>,
     /// Frequency of the fastest mode that swings in the calculation, Hz; those above are springs.
     pub modes_up_to_hz: Option<f64>,
-    /// Of the modes that are springs although they count, the one with the largest share.
+    /// Mode with the largest share among those treated as springs although they contribute.
     pub left_out: Option<LeftOut>,
-    /// By how much the force of the cut may be more or less than its law says, share of it.
+    /// Uncertainty of the force of the cut, as a share of it.
     pub force_spread: f64,
-    /// By how much the response by modes with their own damping alone is off at the frequencies of the modes, share of it; 0
+    /// Error of the response by modes with their own damping alone at the frequencies of the modes, as a share of it; 0
     /// where no damper couples modes.
     pub lost_coupling: f64,
-    /// Nothing is said because its limit was not found: it may chatter.
+    /// True if its limit was not found, so that it may chatter.
     pub(crate) is_open: bool,
     /// Number of the cluster of groups that are alike.
     pub(crate) cluster: usize,
     /// Places of the program that this one stands for.
     pub places: usize,
-    /// From where to where along the path these lie, mm.
+    /// Start and end of these along the path, mm.
     pub path_mm: [f64; 2],
 }
 
 impl JudgedSite {
-    /// Whether something is said of it.
+    /// True if the cut was judged.
     #[must_use]
     pub fn is_judged(&self) -> bool {
         !matches!(self.verdict, Verdict::NotJudged(_))
     }
 
-    /// Whether it is stable, and not so with a force larger by its spread: the force is the product of depth and law.
+    /// True if the cut is stable, but not with a force larger by its spread: the force is the product of depth and law.
     #[must_use]
     pub fn is_within_spread(&self) -> bool {
         let reached =
@@ -84,8 +84,8 @@ impl JudgedSite {
         self.is_open || self.limit_mm.is_some_and(decides)
     }
 
-    /// Whether it is worse than another one of the same group: it chatters, or its limit was not found, or is nearer to its
-    /// depth; of places with neither the first stands.
+    /// True if it is worse than another one of the same group: it chatters, or its limit was not found, or is nearer to
+    /// its depth; of places with neither the first is kept.
     pub(crate) fn is_worse_than(&self, other: &Self) -> bool {
         let rank = |judged: &Self| match judged.verdict {
             Verdict::Chatters => 3,
@@ -100,7 +100,7 @@ impl JudgedSite {
         rank(self) > rank(other) || (rank(self) == rank(other) && share(self) < share(other))
     }
 
-    /// What was found, for a group of the same cluster.
+    /// Result for a group of the same cluster.
     pub(crate) fn for_group(&self, group: SiteGroup<'_>, cluster: usize) -> Self {
         let (deepest, _) = group.judged(1.0);
         Self {

@@ -1,9 +1,10 @@
-//! Where a program chatters, and with which spindle speed and depth it does not [D 10].
+//! Chatter of a program, and spindle speeds and depths that are stable [D 10].
 //!
-//! The cut of a program changes slowly: places that follow each other with the same tool, speed, arc, depth, heading and posture are one
-//! group and judged once, at the deepest of them; groups that are alike in this way are judged once, too, but for those near their
-//! limit and those that set the stable depth of a line. At each the modes are those of the machine in its posture there, under the
-//! mean force of the cut (without its moment about the tip); the limit of depth at the speed of the program is exact for one arc at all heights.
+//! The cut of a program changes slowly: consecutive places with the same tool, speed, arc, depth, heading and posture
+//! are one group and judged once, at the deepest of them; similar groups are judged once, too, except those near their
+//! limit and those that set the stable depth of a line. The modes at each are those of the machine in its posture
+//! there, under the mean force of the cut (without its moment about the tip); the limit of depth at the speed of the
+//! program is exact for one arc at all heights.
 
 mod along;
 mod cluster;

@@ -15,37 +15,37 @@ pub struct ChatterQuestion<'a> {
     pub forces: &'a ForceAlongPath,
     /// Tools with their laws of force.
     pub cut: &'a CutQuestion,
-    /// How the machine is damped.
+    /// Law of damping of the machine.
     pub damping: &'a Damping,
-    /// Which modes of the machine swing; the others count by their flexibility at rest.
+    /// Selection of the modes kept dynamic; the others enter as residual flexibility.
     pub swinging: Swinging,
     /// Places farther apart than this are judged by themselves, mm.
     pub every_mm: f64,
-    /// Most places that are judged.
+    /// Maximum number of places that are judged.
     pub most: usize,
 }
 
-/// Why there is no answer.
+/// Reason why there is no result.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ProgramChatterError {
-    /// From the machine: no mass, damping, a place that it does not reach, no equilibrium.
+    /// Error of the machine: no mass, damping, a place that it does not reach, no equilibrium.
     #[error("line {line}: {error}")]
     Machine {
         /// Line of the program, from 1.
         line: usize,
-        /// What is wrong.
+        /// Error of the machine.
         error: Error,
     },
-    /// From the cut: a tool that is not a flat end mill, no damping, a law of force that falls.
+    /// Error of the cut: a tool that is not a flat end mill, no damping, a law of force that falls.
     #[error("line {line}: {error}")]
     Cut {
         /// Line of the program, from 1.
         line: usize,
-        /// What is wrong.
+        /// Error of the stability analysis.
         error: ChatterError,
     },
-    /// From the tools of the program.
+    /// Error of the program's tools.
     #[error(transparent)]
     Tool(#[from] CutFailure),
     /// Stopped on request.

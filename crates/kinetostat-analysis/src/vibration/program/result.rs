@@ -1,4 +1,4 @@
-//! What was found along a program, as plain data for reports and files.
+//! Result along a program, as plain data for reports and files.
 
 use kinetostat_machining::{ChatterLines, ChatterPlace, ChatterResult};
 
@@ -7,7 +7,7 @@ use crate::vibration::program::judged::{JudgedSite, Verdict};
 use crate::vibration::program::stretches::ChatterStretch;
 
 impl ProgramChatter {
-    /// As it stands in results, with the law of damping in words.
+    /// Converts to the form in result files, with the law of damping in words.
     #[must_use]
     pub fn result(&self, damping: String) -> ChatterResult {
         let places: Vec<ChatterPlace> = self.sites.iter().map(place).collect();

@@ -25,7 +25,7 @@ pub struct CutSite {
     pub path_mm: f64,
     /// Place of the tip, mm, part frame.
     pub position_mm: Vector3<f64>,
-    /// Of the motion, a unit vector in axes of the part.
+    /// Unit vector along the motion, in axes of the part.
     pub direction: Vector3<f64>,
     /// The cut.
     pub station: CutStation,
@@ -61,7 +61,7 @@ pub(crate) fn sites(forces: &ForceAlongPath, path: &Path) -> Vec<CutSite> {
                 station: *station,
             });
         }
-        // Of a move without a known place the length is none.
+        // A move without a known place adds no length.
         start_mm += if length.is_finite() { length } else { 0.0 };
     }
     all
@@ -70,7 +70,7 @@ pub(crate) fn sites(forces: &ForceAlongPath, path: &Path) -> Vec<CutSite> {
 /// Places at which a force acts and the side of the tool is not in the cut (a plunge, drilling): nothing is said of them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WithoutSide {
-    /// How many.
+    /// Number of places.
     pub places: usize,
     /// Line of the largest force, from 1.
     pub line: usize,
@@ -106,12 +106,12 @@ impl WithoutSide {
 /// Places that are alike, one of which is judged for all.
 #[derive(Clone, Copy)]
 pub(crate) struct SiteGroup<'s> {
-    /// In the order of the path.
+    /// Places in the order of the path.
     sites: &'s [CutSite],
 }
 
 impl<'s> SiteGroup<'s> {
-    /// Of a range of places that is not empty.
+    /// Takes a non-empty range of places.
     pub fn of(all: &'s [CutSite], range: Range<usize>) -> Self {
         Self { sites: &all[range] }
     }
@@ -151,7 +151,7 @@ impl<'s> SiteGroup<'s> {
         self.sites.len()
     }
 
-    /// From where to where along the path they lie, mm.
+    /// Start and end along the path, mm.
     pub fn path_mm(&self) -> [f64; 2] {
         [&self.sites[0], &self.sites[self.sites.len() - 1]].map(|site| site.path_mm)
     }

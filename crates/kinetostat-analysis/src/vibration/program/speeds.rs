@@ -27,8 +27,8 @@ const SAME_FEED: f64 = 2e-3;
 pub struct StableSpeed {
     /// rpm.
     pub rpm: f64,
-    /// Whether a speed beside it, 5 % of that of the program away, chatters: of such ones it is that with the largest limit by its
-    /// depth. Else it is the nearest one.
+    /// True if a neighbouring speed, 5 % of the program's speed away, chatters. In this case the speed is the one with
+    /// the largest limit relative to its depth, otherwise the nearest one.
     pub is_narrow: bool,
     /// Feed, mm/min, that keeps the feed per tooth; `None` where this changes along the stretch.
     pub feed_mm_per_min: Option<f64>,
@@ -39,7 +39,7 @@ struct Tried {
     regeneration: Regeneration,
     /// m.
     depth: f64,
-    /// By the index of the speed.
+    /// Stability by the index of the speed.
     stable: [OnceLock<bool>; SPEEDS.2],
     room: [OnceLock<f64>; SPEEDS.2],
 }
@@ -185,7 +185,7 @@ impl Tried {
         })
     }
 
-    /// Its limit by its depth at a speed, as far as it is looked for.
+    /// Limit relative to the depth at a speed, as far as the search went.
     fn room(&self, k: usize, rpm: f64) -> f64 {
         *self.room[k].get_or_init(|| {
             let found = limit_at(&self.regeneration, rpm, self.depth, true);
@@ -204,7 +204,7 @@ fn one_of_each<'j>(places: &[&'j JudgedSite]) -> Vec<&'j JudgedSite> {
     places.iter().filter(is_first).copied().collect()
 }
 
-/// Which of so many places are tried, evenly; the last one, too: the machine stands otherwise there.
+/// Selects about `most` of the places, evenly; the last one always, as the machine is in another posture there.
 fn some_of(places: usize, most: usize) -> impl Iterator<Item = bool> {
     let step = places.div_ceil(most).max(1);
     (0..places).map(move |k| k.is_multiple_of(step) || k + 1 == places)

@@ -15,7 +15,7 @@ const MOST: usize = 12;
 pub struct ChatterStretch {
     /// First and last line, from 1.
     pub lines: [usize; 2],
-    /// From where to where along the path, mm.
+    /// Start and end along the path, mm.
     pub path_mm: [f64; 2],
     /// Speed of the program, rpm.
     pub rpm: f64,
@@ -23,12 +23,12 @@ pub struct ChatterStretch {
     pub depth_mm: f64,
     /// Depth that does not chatter anywhere there at this speed, mm.
     pub stable_depth_mm: f64,
-    /// Another spindle speed; `None` where of those from half to one and a half times that of the program, in steps of 5 % of
-    /// it, none is stable.
+    /// Stable spindle speed; `None` if none is stable among those from half to one and a half times that of the
+    /// program, in steps of 5 % of it.
     pub stable_speed: Option<StableSpeed>,
-    /// Whether speeds were tried: they are for the worst stretches.
+    /// True if speeds were tried, which is done for the worst stretches.
     pub speeds_tried: bool,
-    /// Of the worst place: frequency of the chatter at its limit, Hz, and how it begins.
+    /// Chatter frequency of the worst place at its limit, Hz.
     pub chatter_hz: f64,
     /// Flip or Hopf.
     pub kind: Instability,
@@ -91,7 +91,7 @@ pub(crate) fn stretches(
             return Err(ProgramChatterError::Cancelled);
         }
         let (stretch, sites) = &mut all[i];
-        // At another speed other places of the same lines may chatter.
+        // Other places of the same lines may chatter at another speed.
         let [first, last] = stretch.lines;
         let is_beside = |site: &&JudgedSite| {
             site.verdict == Verdict::Stable

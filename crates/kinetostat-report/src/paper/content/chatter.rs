@@ -1,4 +1,4 @@
-//! Where the program chatters, and how the teeth shake the tool.
+//! Chatter of the program, and forced vibrations of the tool.
 
 use crate::number;
 use crate::paper::block::{Block, Cell, Column, Remark, Table};

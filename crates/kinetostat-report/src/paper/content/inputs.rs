@@ -1,4 +1,4 @@
-//! What was asked: model, tool, load, tolerances and files.
+//! Inputs of a run: model, tool, load, tolerances and files.
 
 use crate::number;
 use crate::paper::block::{Block, Cell, Column, Table};

@@ -1,4 +1,4 @@
-//! What stands in a paper, in its order.
+//! Contents of a paper, in order.
 
 mod chatter;
 mod inputs;
@@ -74,7 +74,7 @@ pub(crate) fn contents(paper: &Paper<'_>, result: &Shown<'_>) -> Contents {
     }
 }
 
-/// Whether the tolerance is kept along the program and by every feature of it.
+/// True if the tolerance is kept along the program and by every feature of it.
 fn keeps_tolerances(of: &Of<'_>) -> bool {
     let features = &of.result.features;
     of.result.tolerance.held == Some(true) && features.iter().all(|f| f.held != Some(false))

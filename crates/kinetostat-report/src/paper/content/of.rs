@@ -1,4 +1,4 @@
-//! What every section of a paper is made from.
+//! Common data of the sections of a paper.
 
 use crate::number::{self, Rounding};
 use crate::paper::block::Block;
@@ -8,10 +8,10 @@ use crate::paper::words::table::{Words, fill};
 use crate::run::shown::Shown;
 use crate::text::clean;
 
-/// Most warnings and features shown; more are in the result file.
+/// Maximum number of warnings and features shown; more are in the result file.
 pub(super) const MOST: usize = 100;
 
-/// What every section is made from.
+/// Common data of all sections.
 pub(super) struct Of<'a> {
     pub(super) paper: &'a Paper<'a>,
     pub(super) result: &'a Shown<'a>,
@@ -46,13 +46,13 @@ impl Of<'_> {
         }
     }
 
-    /// There is a second program: written, or verified.
+    /// True if there is a second program: written, or verified.
     pub(super) fn has_after(&self) -> bool {
         self.result.run_inputs.compensated || self.paper.verified.is_some()
     }
 }
 
-/// How many are not shown.
+/// Note on the number of entries that are not shown.
 pub(super) fn more(words: &str, all: usize) -> Option<Block> {
     let more = all.checked_sub(MOST).filter(|more| *more > 0)?;
     let count = number::count(more);

@@ -74,7 +74,7 @@ pub(super) fn results(of: &Of<'_>) -> Vec<Block> {
     blocks
 }
 
-/// What is not corrected, and what no figure covers.
+/// Uncorrected errors, and effects that no figure covers.
 pub(super) fn left(of: &Of<'_>) -> Vec<Block> {
     let words = of.words;
     // A program that was verified was written by others: of its steps nothing is known.

@@ -208,7 +208,7 @@ pub(super) fn drives(of: &Of<'_>) -> Vec<Block> {
     blocks
 }
 
-/// What is nearest to its limit, most loaded, and how an arm stands.
+/// Joint nearest to its limit, most loaded joint, and configuration of an arm.
 fn joints(of: &Of<'_>) -> Vec<Remark> {
     let (words, result) = (of.words, of.result);
     let name = |at: usize| {

@@ -1,4 +1,4 @@
-//! Where everything stands: blocks one below the other, on as many pages as they need. Points, from the upper left corner.
+//! Layout of pages: blocks one below the other, on as many pages as they need. Points, from the upper left corner.
 
 use kinetostat_machining::Level;
 
@@ -96,7 +96,7 @@ impl<'a> Setter<'a> {
                 setter.room(WITH_TABLE + SIZE * LEADING * lines.len() as f32);
             }
             if let [Block::Heading(_), Block::Signatures(all), ..] = &blocks[at..] {
-                // Who signs sees what for.
+                // Keeps the signatures on the page of their heading.
                 setter.room(HEADED + SIGNATURE * all.len() as f32);
             }
             setter.block(block);
@@ -149,7 +149,7 @@ impl<'a> Setter<'a> {
         match block {
             Block::Heading(text) => {
                 self.y += 10.0;
-                // Not alone at the foot of a page.
+                // Keeps a heading from standing alone at the foot of a page.
                 self.room(64.0);
                 self.text(text, (LEFT, RIGHT), 11.0, Weight::Bold);
                 self.y += 2.0;

@@ -15,7 +15,7 @@ pub(super) enum Weight {
     Bold,
 }
 
-/// Both kinds.
+/// Regular and bold type.
 pub(super) struct Letters {
     regular: Face,
     bold: Face,

@@ -80,7 +80,7 @@ fn day(text: &str) -> Option<DateTime> {
     whole.then(|| DateTime::new(year).month(month).day(day))
 }
 
-/// What stands on every page: the program, who made the paper, and the number of the page.
+/// Head and foot of every page: the program, who made the paper, and the number of the page.
 fn running(letters: &Letters, contents: &Contents, page: usize, pages: usize) -> Vec<Mark> {
     let [program, made_by] = &contents.running;
     let [page, pages] = [page, pages].map(|number| number.to_string());

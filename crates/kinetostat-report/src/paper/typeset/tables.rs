@@ -6,10 +6,10 @@ use crate::paper::typeset::letters::Weight;
 
 /// Size of text in tables, and how far its lines are apart.
 const SIZE: f32 = 8.0;
-/// In tables with hashes and in wide ones.
+/// Smallest size, in tables with hashes and in wide ones.
 const SMALLEST: f32 = 6.0;
 const LEADING: f32 = 1.3;
-/// Between columns.
+/// Gap between columns.
 const GAP: f32 = 10.0;
 /// The narrowest column whose text wraps.
 const NARROWEST: f32 = 56.0;
@@ -52,7 +52,7 @@ impl Setter<'_> {
         self.y += 4.0;
     }
 
-    /// Whether all columns stand side by side and no word, nor the name of a file, is broken.
+    /// True if all columns fit side by side and no word, nor the name of a file, is broken.
     fn fits(&self, table: &Table, widths: &[f32], size: f32) -> bool {
         let gaps = GAP * widths.len().saturating_sub(1) as f32;
         let whole = |row: &Vec<Cell>| {
@@ -94,7 +94,7 @@ impl Setter<'_> {
         (0..wanted.len())
             .map(|at| match wraps(at) {
                 false => wanted[at],
-                // What is left over goes to words, so that figures stand to the right.
+                // Columns of words get the remaining width, so that figures stand to the right.
                 true if wish <= free => wanted[at] + (free - wish) / count,
                 true => (free * wanted[at] / wish).max(NARROWEST),
             })

@@ -23,9 +23,9 @@ pub(crate) fn missed_place(result: &Shown<'_>) -> Option<String> {
 
 /// Steps of a program, and what is assumed of the load on them.
 pub(crate) struct Corners {
-    /// How many there are at corners, and the length of the longest, mm.
+    /// Number of steps at corners, and the length of the longest, mm.
     pub(crate) corner: Option<(usize, f64)>,
-    /// The same where a rapid ends.
+    /// Number of steps at the ends of rapids, and the length of the longest, mm.
     pub(crate) entry: Option<(usize, f64)>,
     /// The reading of the load; none where tools have different ones.
     pub(crate) reading: Option<CornerLoad>,
@@ -37,7 +37,7 @@ pub(crate) struct Corners {
     pub(crate) percent: String,
 }
 
-/// None for a program without steps.
+/// Collects the steps; `None` for a program without steps.
 pub(crate) fn corners(result: &Shown<'_>) -> Option<Corners> {
     let s = &result.summary;
     let steps = |count: usize, mm: f64| (count > 0).then_some((count, mm));
@@ -64,7 +64,7 @@ pub(crate) fn corners(result: &Shown<'_>) -> Option<Corners> {
     })
 }
 
-/// How far errors scatter.
+/// Scatter of errors.
 pub(crate) struct Uncertain {
     pub(crate) numbers: String,
     pub(crate) file: String,
@@ -78,7 +78,7 @@ pub(crate) struct Uncertain {
     pub(crate) unstable: usize,
 }
 
-/// None where nothing is uncertain.
+/// Collects the scatter; `None` if nothing is uncertain.
 pub(crate) fn uncertain(result: &Shown<'_>) -> Option<Uncertain> {
     let band = result.uncertainty.as_ref()?;
     let shown = band.after.as_ref().unwrap_or(&band.before);

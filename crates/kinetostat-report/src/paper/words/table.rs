@@ -14,7 +14,7 @@ pub(crate) struct Words {
     pub(crate) title: &'static str,
     pub(crate) page_of: &'static str,
     pub(crate) made_by: &'static str,
-    /// Said of text in English inside a paper of another language; empty in English.
+    /// Note on text in English inside a paper of another language; empty in English.
     pub(crate) quoted: &'static str,
     pub(crate) not_stated: &'static str,
     pub(crate) none: &'static str,
@@ -27,7 +27,7 @@ pub(crate) struct Words {
     pub(crate) stop: &'static str,
     pub(crate) verified: &'static str,
     pub(crate) missed: &'static str,
-    /// Of a verified program that keeps its tolerance and is wrong otherwise.
+    /// Verdict on a verified program that keeps its tolerance and has other faults.
     pub(crate) not_verified: &'static str,
     pub(crate) model_only: &'static str,
     pub(crate) read_back: &'static str,
@@ -138,16 +138,16 @@ pub(crate) struct Words {
     pub(crate) chatter_columns: [&'static str; 5],
     pub(crate) chatter_nearest: &'static str,
     pub(crate) chatter_nearest_text: &'static str,
-    /// Behind it, where the limit lies within the spread of the force.
+    /// Addition if the limit lies within the spread of the force.
     pub(crate) chatter_spread_text: &'static str,
     pub(crate) shaken: &'static str,
     pub(crate) shaken_text: &'static str,
     pub(crate) wall: &'static str,
     pub(crate) wall_text: &'static str,
-    /// Too deep, and left standing.
+    /// Sides of a wall error: too deep, and left standing.
     pub(crate) wall_sides: [&'static str; 2],
     pub(crate) chatter_note: &'static str,
-    /// What figures do not cover.
+    /// Effects that figures do not cover.
     pub(crate) not_covered: &'static str,
     pub(crate) not_covered_beside_chatter: &'static str,
     pub(crate) more_warnings: &'static str,
@@ -165,13 +165,13 @@ pub(crate) struct Words {
     pub(crate) signed_by: [&'static str; 3],
     pub(crate) name_and_date: &'static str,
     pub(crate) signature: &'static str,
-    /// Of `verify`: what of the original is not cut, of one line and of several.
+    /// Words of `verify` on uncut parts of the original, of one line and of several.
     pub(crate) uncut: [&'static str; 2],
     /// A rapid that goes elsewhere: `{line}`, `{length}`.
     pub(crate) rapid_elsewhere: &'static str,
     /// A move at feed that the original does not make: `{line}`, `{length}`.
     pub(crate) extra_cut: &'static str,
-    /// Another feed, spindle, tool or frame than in the original: `{line}`.
+    /// Feed, spindle, tool or frame that differs from the original: `{line}`.
     pub(crate) other_word: &'static str,
 }
 
@@ -184,7 +184,7 @@ impl Words {
         }
     }
 
-    /// How an arm stands.
+    /// Configuration of an arm.
     pub(crate) fn arm(&self, arm: &ArmConfiguration) -> String {
         let bit = |bit: u8| usize::from(arm.number & bit != 0);
         format!(
@@ -195,7 +195,7 @@ impl Words {
         )
     }
 
-    /// What a file is: some words are those of this table, others stay as they are.
+    /// Kind of a file: some words are those of this table, others stay as they are.
     pub(crate) fn file(&self, what: &str) -> String {
         match what {
             "program" => self.file_program,
@@ -212,7 +212,7 @@ impl Words {
 
 /// A text with what stands in it in curly brackets put in.
 pub(crate) fn fill(text: &str, values: &[(&str, &str)]) -> String {
-    // From the left, so that what is put in is never looked at again.
+    // Proceeds from the left, so that inserted text is never searched again.
     let mut out = String::with_capacity(text.len() + 32);
     let mut rest = text;
     while let Some(start) = rest.find('{') {

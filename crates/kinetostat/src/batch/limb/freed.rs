@@ -96,7 +96,7 @@ fn reflect_back<S: Simd>(joints: usize, v: &Mat6<S>, u: &Mat6<S>, k: &mut Mat6<S
 #[inline(always)]
 fn solve<S: Simd>(simd: S, joints: usize, z: &mut Mat12<S>, x: &mut Mat6<S>) -> Lanes<S> {
     let (zero, one) = (Lanes::new(simd, 0.0), Lanes::new(simd, 1.0));
-    // Of wrench `i`: its row among those of torques and other motions.
+    // Row of wrench `i` among those of torques and other motions.
     let row = |i: usize| if i < joints { 6 + i } else { i };
     let mut size = [one; 6];
     for i in 0..6 {

@@ -11,7 +11,7 @@ use crate::batch::numbers::wrenches::{back, lever, rotated_back, slid};
 use crate::batch::plan::steps::{Joint, Law, Plan, Spring, Step, Support};
 use crate::spatial::MotionKind;
 
-/// What a pass back has with it at a place.
+/// State of an inward pass at a place.
 #[derive(Clone, Copy)]
 struct Reached<S: Simd> {
     force: Vec3<S>,
@@ -28,7 +28,8 @@ impl<S: Simd> LoadedLimb<S> {
         self.backward::<false>(plan, active);
     }
 
-    /// The same, with what the tip moves by that (m, rad, base axes), to first order: the limb is not swept outwards again.
+    /// Passes inwards and returns the motion of the tip (m, rad, base axes), to first order: the limb is not swept
+    /// outwards again.
     #[inline(always)]
     pub fn inwards_moving(&mut self, plan: &Plan, active: Lanes<S>) -> [Lanes<S>; 6] {
         self.backward::<true>(plan, active);
@@ -48,7 +49,7 @@ impl<S: Simd> LoadedLimb<S> {
                 change: zero,
                 largest: zero,
             };
-            // Of the tip as the frame reached sees it: a twist is carried as a wrench is.
+            // Motion of the tip as the frame reached sees it: a twist is transported as a wrench is.
             let mut motion = Motion {
                 turn: [zero; 3],
                 shift: [zero; 3],
@@ -165,7 +166,7 @@ impl<S: Simd> LoadedLimb<S> {
         weight
     }
 
-    /// What a joint bears along its motion; force and moment go on to where it begins.
+    /// Load on a joint along its motion; force and moment are transported to its start.
     #[inline(always)]
     pub fn joint_bears(
         &self,
@@ -216,7 +217,7 @@ impl<S: Simd> LoadedLimb<S> {
         }
     }
 
-    /// How far the joint goes.
+    /// Change of the joint's displacement.
     #[inline(always)]
     fn joint_follows(
         &mut self,
@@ -310,7 +311,7 @@ impl<S: Simd> LoadedLimb<S> {
         }
     }
 
-    /// How far the spring goes in its six directions.
+    /// Changes of the spring's displacements in its six directions.
     #[inline(always)]
     fn spring_follows(
         &mut self,
@@ -321,7 +322,7 @@ impl<S: Simd> LoadedLimb<S> {
         tally: &mut Tally<S>,
     ) -> [Lanes<S>; 6] {
         let zero = Lanes::new(self.simd, 0.0);
-        // Where the spring is, what it bears there, and what its compliance is multiplied with.
+        // Deflection of the spring, its load there, and the residual to multiply by its compliance.
         let (mut from, mut borne, mut residual) = ([zero; 6], [zero; 6], torque);
         if let Law::Curved(law, _) = &spring.law {
             for d in 0..6 {

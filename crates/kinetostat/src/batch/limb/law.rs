@@ -35,7 +35,7 @@ pub(crate) fn torque<S: Simd>(law: &SpringLaw, at: &[Lanes<S>; 6]) -> ([Lanes<S>
     if_curved!(law, own => own.torque_at(at), else (*at, at[0] * f64::NAN))
 }
 
-/// Its tangent stiffness.
+/// Tangent stiffness of the law.
 #[inline(always)]
 pub(crate) fn tangent<S: Simd>(law: &SpringLaw, at: &[Lanes<S>; 6]) -> Mat6<S> {
     apart!(at[0].simd(), {
@@ -43,7 +43,7 @@ pub(crate) fn tangent<S: Simd>(law: &SpringLaw, at: &[Lanes<S>; 6]) -> Mat6<S> {
     })
 }
 
-/// Its geometric stiffness, which its forces add to the tangent, and the inverse of the rates of its strains by
+/// Geometric stiffness of the law, which its forces add to the tangent, and the inverse of the rates of its strains by
 /// the six motions.
 #[inline(always)]
 pub(crate) fn geometric<S: Simd>(law: &SpringLaw, at: &[Lanes<S>; 6]) -> (Mat6<S>, Mat6<S>) {

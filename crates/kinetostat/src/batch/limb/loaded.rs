@@ -26,12 +26,12 @@ pub(crate) const MOST_PASSES: usize = 30;
 pub(crate) struct Precision {
     /// Relative change of the torques that the next pass would bring.
     pub torque: f64,
-    /// And the most that the last pass has brought, however fast the passes contract.
+    /// Largest change by the last pass, however fast the passes contract.
     pub last: f64,
-    /// Most of what a limb is off its platform, share of the natural length or rad.
+    /// Largest distance of a limb from its platform, share of the natural length or rad.
     pub place: f64,
-    /// How many times `place` a limb may be off, and `torque` its wrench may change, in the last pass, if the next one would be
-    /// within them by how fast the passes contract.
+    /// Factor on `place` and `torque` in the last pass, if by the rate of contraction the next one would be within
+    /// them.
     pub ahead: f64,
     /// The target is corrected where the tool is off by more than this, share of the natural length or rad.
     pub tool: f64,
@@ -50,7 +50,7 @@ impl Precision {
     }
 }
 
-/// To rounding.
+/// Precision up to rounding.
 pub(crate) const EXACT: Precision = Precision {
     torque: 1e-13,
     last: 1e-10,
@@ -59,7 +59,8 @@ pub(crate) const EXACT: Precision = Precision {
     tool: 3e-13,
 };
 
-/// Of machines that start from where the drawn one stands: what is left of a place is a millionth of a tenth of a micrometre.
+/// Precision of machines that start from the equilibrium of the drawn one: a millionth of a tenth of a micrometre in
+/// place.
 pub(crate) const FROM_DRAWN: Precision = Precision {
     torque: 1e-10,
     last: 1e-7,
@@ -68,8 +69,8 @@ pub(crate) const FROM_DRAWN: Precision = Precision {
     tool: 3e-13,
 };
 
-/// Along a path. A program is written in tenths of micrometres, and so are tolerances: what is left of a place is less than a
-/// thousandth of that.
+/// Precision along a path. A program is written in tenths of micrometres, and so are tolerances: what is left of a
+/// place is less than a thousandth of that.
 pub(crate) const ALONG_PATH: Precision = Precision {
     torque: 1e-8,
     last: 1e-6,
@@ -90,9 +91,9 @@ pub(crate) struct LoadedLimb<S: Simd> {
     pub unloaded: Vec<Lanes<S>>,
     /// Torque on every coordinate.
     pub torque: Vec<Lanes<S>>,
-    /// Of the platform on the limb's tip, about the tip, base axes.
+    /// Wrench of the platform on the limb's tip, about the tip, base axes.
     pub wrench: [Lanes<S>; 6],
-    /// Of every motion, where [`Self::frames`] has looked.
+    /// Axes of every motion, after [`Self::frames`].
     pub places: Vec<MotionAxis<S>>,
     /// Centres of the masses, where [`Self::frames`] has looked.
     pub masses: Vec<Vec3<S>>,
@@ -102,18 +103,18 @@ pub(crate) struct LoadedLimb<S: Simd> {
     pub moved: Vec<[Lanes<S>; 2]>,
     /// Gravity at every mass, m/s^2, axes of the frame there.
     pub gravity: Vec<Vec3<S>>,
-    /// Of the springs that depend on the commanded posture, in the order of the steps.
+    /// Compliances of the springs that depend on the commanded posture, in the order of the steps.
     pub laws: Vec<Symmetric<S>>,
     /// Springs are deflected. The first pass finds them as they are drawn.
     pub bent: bool,
     /// One in the lanes where springs may turn more than the short series of [`crate::batch::limb::outwards`] knows, if there are any.
     pub far: Option<Lanes<S>>,
-    /// By how much the wrench has changed since the last pass, and in which lanes.
+    /// Change of the wrench since the last pass, and the lanes in which it changed.
     pub change: [Lanes<S>; 6],
     pub changed: Lanes<S>,
-    /// Of the tip in the last pass, as the base sees it.
+    /// Motion of the tip in the last pass, as the base sees it.
     pub motion: Motion<S>,
-    /// Of the last pass.
+    /// Sums of the last pass.
     pub tally: Tally<S>,
     /// Square of the change in the one before.
     pub before: Lanes<S>,
@@ -127,7 +128,7 @@ pub(crate) struct Motion<S: Simd> {
     pub shift: Vec3<S>,
 }
 
-/// What a pass finds, summed up over the springs.
+/// Sums of a pass over the springs.
 #[derive(Clone, Copy)]
 pub(crate) struct Tally<S: Simd> {
     /// Squares of the torques and of their changes.
@@ -213,7 +214,7 @@ impl<S: Simd> LoadedLimb<S> {
         }
     }
 
-    /// As it is bent, with other joints: the passive ones go as far as those of the unloaded limb.
+    /// Follows other joints in the bent state: the passive ones change as those of the unloaded limb.
     #[inline(always)]
     pub fn follow(&mut self, plan: &Plan, joints: &Joints<S>) {
         self.commands.copy_from_slice(&joints.commands);
@@ -253,7 +254,7 @@ impl<S: Simd> LoadedLimb<S> {
         self.coordinates[own] = select(active, to, self.coordinates[own]);
     }
 
-    /// What a spring deflects under small torques in its six directions.
+    /// Deflection of a spring under small torques in its six directions.
     #[inline(always)]
     pub fn yields(&self, spring: &Spring, law: usize, torque: &[Lanes<S>; 6]) -> [Lanes<S>; 6] {
         match &spring.law {

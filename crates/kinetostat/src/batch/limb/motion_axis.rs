@@ -1,4 +1,4 @@
-//! Where motions are, and how far they go, several postures at once.
+//! Axes and displacements of motions, several postures at once.
 
 use pulp::Simd;
 

@@ -26,7 +26,7 @@ pub(crate) struct Stage<S: Simd> {
     pub slid: [Lanes<S>; 3],
 }
 
-/// The same for a spring of one direction.
+/// Elimination of a spring of one direction.
 #[derive(Clone, Copy)]
 pub(crate) struct Single<S: Simd> {
     pub reciprocal: Lanes<S>,

@@ -14,15 +14,15 @@ use crate::batch::plan::steps::{Joint, Law, Plan, Spring, Step, Support};
 use crate::spatial::MotionKind;
 
 impl<S: Simd> LoadedLimb<S> {
-    /// Where the tip is at the present coordinates, and which way gravity points at the masses.
+    /// Outward pass: the tip at the present coordinates, and the direction of gravity at the masses.
     #[inline(always)]
     pub fn outwards(&mut self, plan: &Plan, gravity: &[f64; 3]) {
         self.forward::<false, false>(plan, gravity);
     }
 
-    /// The same after the wrench has changed by `change`: springs follow by their compliance in the same pass, so that
-    /// torques and tip are of one state. Torques in the geometry that the springs had under the wrench before would be
-    /// late by a pass, and an iteration whose corrections come late contracts by the root of what it could.
+    /// Outward pass after the wrench has changed by `change`: springs follow by their compliance in the same pass, so
+    /// that torques and tip are of one state. Torques in the geometry that the springs had under the wrench before
+    /// would be late by a pass, and with late corrections the rate of contraction is only the root of what it could be.
     #[inline(always)]
     pub fn outwards_after(
         &mut self,
@@ -35,7 +35,7 @@ impl<S: Simd> LoadedLimb<S> {
         self.forward::<false, true>(plan, gravity);
     }
 
-    /// The same, with the places of all motions and masses.
+    /// Outward pass with the places of all motions and masses.
     #[inline(always)]
     pub fn frames(&mut self, plan: &Plan, gravity: &[f64; 3]) {
         self.forward::<true, false>(plan, gravity);

@@ -1,4 +1,4 @@
-//! What the weight of a mass along a segment of a link bends it by [D 5].
+//! Bending by the weight of a mass along a segment of a link [D 5].
 //!
 //! Half of the mass at either end of the segment are points ([`crate::batch::plan::segments`]). The rest of its weight
 //! has the potential `V = -g . c` with gravity `g` and `c = k (0, -rz, ry)` in the axes of the near end:
@@ -54,7 +54,7 @@ impl<S: Simd> LoadedLimb<S> {
         [z.same(0.0), -(self.coordinates[rz] * own.moment), z]
     }
 
-    /// The same in base axes, from the axes `y` and `z` of the near end there.
+    /// Lean `c` in base axes, from the axes `y` and `z` of the near end there.
     #[inline(always)]
     pub fn lean_along(&self, own: &OwnWeight, axes: &[Vec3<S>; 2]) -> Vec3<S> {
         let [_, y, z] = self.lean(own);

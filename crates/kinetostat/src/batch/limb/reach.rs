@@ -18,7 +18,7 @@ pub(crate) const MOST_STEPS: usize = 24;
 /// Nearer than this (share of the natural length), one more step of a quadratic iteration is exact.
 const NEAR: f64 = 1e-8;
 
-/// Where the platform shall be.
+/// Target of the platform.
 #[derive(Clone, Copy)]
 pub(crate) struct Target<S: Simd> {
     pub rotation: Mat3<S>,
@@ -45,7 +45,7 @@ impl<S: Simd> Joints<S> {
         }
     }
 
-    /// At home in the lanes where `lost` is one.
+    /// Moves to home in the lanes where `lost` is one.
     #[inline(always)]
     pub fn home(&mut self, simd: S, plan: &Plan, lost: Lanes<S>) {
         for (x, home) in self.commands.iter_mut().zip(&plan.home_commands) {
@@ -141,7 +141,7 @@ impl<S: Simd> Joints<S> {
             let near = s.times_plus(one * home.0, c * home.1);
             reached = near.where_less(one * 0.1, zero, reached);
         }
-        // Where the length is zero no direction is a number.
+        // At zero length the direction is undefined.
         reached = reached.least_of(length.abs());
         forward.known = Some((polar.first, [first, (sine, cosine)]));
         self.commands[polar.command] = (length - polar.fixed) * (1.0 / polar.ratio);
@@ -242,7 +242,7 @@ impl<S: Simd> Joints<S> {
     }
 }
 
-/// Where the centre of the spherical joint at the limb's end shall be; the platform's point without one.
+/// Target of the centre of the spherical joint at the limb's end; the platform's point without one.
 #[inline(always)]
 fn sphere_centre<S: Simd>(simd: S, plan: &Plan, target: &Target<S>) -> Vec3<S> {
     let [x, y, z] = match &plan.sphere {

@@ -511,7 +511,7 @@ impl<S: Simd> Shape<S> {
                 }
                 let under = (squares * order - sum * sum) * (order - 1.0);
                 let step = one * order / (sum + under.max(zero).sqrt());
-                // From above all pivots are positive: one that is not is rounding at the eigenvalue.
+                // All pivots are positive from above: one that is not is rounding at the eigenvalue.
                 let step = least.where_less(one * LEAST, zero, step);
                 x = active.where_less(one * 0.5, x, x - step);
                 active = step.where_less(one * ROUNDING, zero, active);
@@ -560,7 +560,7 @@ const LEAST: f64 = 1e-30;
 /// A step after which the next one would be rounding, in the same units.
 const ROUNDING: f64 = 1e-14;
 
-/// What acts beyond a place, about the tip's place.
+/// Loads beyond a place, about the tip's place.
 struct Loads<S: Simd> {
     /// Symmetric part of `G`.
     g: Mat6<S>,
@@ -596,7 +596,7 @@ impl<S: Simd> Loads<S> {
         self.turning(gravity, c);
     }
 
-    /// Its part of turns: that of a pair of forces with the moment `arm x f`.
+    /// Adds the rotational part: that of a pair of forces with the moment `arm x f`.
     #[inline(always)]
     fn turning(&mut self, force: &Vec3<S>, arm: &Vec3<S>) {
         let along = dot(force, arm);
@@ -627,7 +627,7 @@ fn root<S: Simd>(simd: S, limb: &LoadedLimb<S>, spring: &Spring, law: usize) -> 
                 let mut x = match &spring.law {
                     Law::Parallelogram(..) => limb.laws[law].get(i, j),
                     Law::Constant => one * spring.compliance[6 * i + j],
-                    // Of the strains.
+                    // Compliance of the strains.
                     Law::Curved(_, compliance) => one * compliance[6 * i + j],
                 };
                 for k in 0..j {

@@ -200,7 +200,7 @@ impl<S: Simd> Pass<S> {
         }
     }
 
-    /// What the load beyond does by the twists of a spring: `A s` of each, and the rows of `L` of its rotations.
+    /// Effect of the load beyond on the twists of a spring: `A s` of each, and the rows of `L` of its rotations.
     #[inline(always)]
     pub(super) fn turning(&self, s: &Mat6<S>) -> (Mat6<S>, [[Lanes<S>; 6]; 3]) {
         let zero = Lanes::new(self.simd, 0.0);

@@ -22,7 +22,7 @@ use crate::batch::numbers::vectors::{Vec3, constant, cross, dot};
 use crate::batch::numbers::wrenches::{Mat6, dot6, inner6, solve_small};
 use crate::batch::plan::steps::{OwnWeight, Plan, Spring};
 
-/// What the weight of a segment does, base axes.
+/// Effect of a segment's weight, base axes.
 #[derive(Clone, Copy)]
 struct Bends<S: Simd> {
     gravity: Vec3<S>,
@@ -35,7 +35,7 @@ struct Bends<S: Simd> {
 impl<S: Simd> Bends<S> {
     #[inline(always)]
     fn new(limb: &LoadedLimb<S>, spring: &Spring, own: &OwnWeight, gravity: &Vec3<S>) -> Self {
-        // Of the slides along y and z.
+        // Axes of the slides along y and z.
         let y = limb.places[spring.screw + 1].axis;
         let z = limb.places[spring.screw + 2].axis;
         Self {

@@ -21,14 +21,14 @@ use crate::spatial::MotionKind;
 
 type SineCosine<S> = (Lanes<S>, Lanes<S>);
 
-/// Where a limb is and what its springs yield: buffers of one forward pass.
+/// Pose and compliance of a limb: buffers of one forward pass.
 pub(crate) struct ForwardPass<S: Simd> {
-    /// Of the frame reached, base axes.
+    /// Rotation and origin of the frame reached, base axes.
     pub rotation: Mat3<S>,
     pub point: Vec3<S>,
-    /// Of the springs so far, in the axes and about the origin of the frame reached.
+    /// Compliance of the springs so far, in the axes and about the origin of the frame reached.
     compliance: Symmetric<S>,
-    /// Nothing yields yet: the frame's motion does not matter.
+    /// True while nothing yields: the frame's motion does not matter.
     rigid: bool,
     places: Vec<MotionAxis<S>>,
     /// Sines and cosines of two joints that are known already, and the step of the first.
@@ -230,9 +230,8 @@ impl<S: Simd> ForwardPass<S> {
         })
     }
 
-    /// The same where a spherical joint ends the limb and [`Self::along`] has gone as far as its centre: only a
-    /// force through the centre is passed on. `arm` leads from the platform's point to the centre, base
-    /// axes.
+    /// Stiffness of a limb that ends in a spherical joint, after [`Self::along`] has reached its centre: only a force
+    /// through the centre is transmitted. `arm` leads from the platform's point to the centre, base axes.
     #[inline(always)]
     pub fn stiffness_at_sphere(&mut self, plan: &Plan, arm: &Vec3<S>) -> LimbStiffness<S> {
         let simd = self.simd;
@@ -265,7 +264,7 @@ impl<S: Simd> ForwardPass<S> {
         let (u, v) = ([ux, uy, uz], [vx, vy, vz]);
         let n = cross(&u, &v);
         let regular = dot(&n, &n) / (dot(&u, &u) * dot(&v, &v));
-        // In the frame's axes, where the compliance is.
+        // Expressed in the frame's axes, where the compliance is.
         let r = &self.rotation;
         let own = [
             dot(&column(r, 0), &n),

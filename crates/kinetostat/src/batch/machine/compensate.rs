@@ -54,9 +54,9 @@ impl<S: Simd> Machine<S> {
         })
     }
 
-    /// The same between two passes of an equilibrium: the limbs follow, their joints by one step of Newton's
-    /// iteration, which is also taken where they are still `away` from the target. One in the lanes that go on, and
-    /// in those that are away now.
+    /// Corrects the target between two passes of an equilibrium: the limbs follow, their joints by one Newton step,
+    /// which is also taken where they are still `away` from the target. Returns one in the lanes that continue, and in
+    /// those that are away now.
     #[inline(always)]
     pub fn correct_between_passes(
         &mut self,

@@ -1,9 +1,9 @@
-//! What a limb with passive joints answers to a small motion of its end, as matrices.
+//! Response of a limb with passive joints to a small motion of its end, as matrices.
 //!
-//! An iteration solves the same system with the factors of [`crate::batch::numbers::eliminate`] in every pass. The inverse of their
-//! system `[C J_q; J_q^T 0]` is found once and is then a few products, without a division and without a chain of
-//! results that wait for each other: those solutions were 44 % of the time in the kernels of a program. That it is an
-//! inverse costs no accuracy, for it corrects an iteration whose residuals are measured.
+//! An iteration solves the same system with the factors of [`crate::batch::numbers::eliminate`] in every pass. The
+//! inverse of their system `[C J_q; J_q^T 0]` is found once and is then a few products, without a division and without
+//! a chain of results that wait for each other: those solutions were 44 % of the time in the kernels of a program. The
+//! inverse costs no accuracy, because it corrects an iteration whose residuals are measured.
 
 use pulp::Simd;
 
@@ -39,7 +39,7 @@ pub(crate) struct Corrector<S: Simd> {
 }
 
 impl<S: Simd> Corrector<S> {
-    /// Of a limb of which nothing is known.
+    /// Empty corrector of an unknown limb.
     pub fn nothing(simd: S) -> Self {
         let zero = [[Lanes::new(simd, 0.0); 6]; 6];
         Self {
@@ -63,7 +63,7 @@ impl<S: Simd> Corrector<S> {
         }
     }
 
-    /// Of factors in which linear motions count as shares of `length`, with the stiffness that they give.
+    /// Builds from factors in which linear motions count as shares of `length`, with the stiffness that they give.
     #[inline(always)]
     pub fn new(
         simd: S,
@@ -92,7 +92,7 @@ impl<S: Simd> Corrector<S> {
         })
     }
 
-    /// With which the limb's end moves by `motion`, its passive joints bearing what they bore.
+    /// Correction with which the limb's end moves by `motion`, the load on its passive joints unchanged.
     #[inline(always)]
     pub fn of_motion(&self, motion: &[Lanes<S>; 6]) -> Correction<S> {
         let mut joints = [motion[0] * 0.0; 6];
@@ -124,11 +124,11 @@ impl<S: Simd> Corrector<S> {
 /// A limb as the platform sees it.
 #[derive(Clone)]
 pub(crate) struct AttachedLimb<S: Simd> {
-    /// Of the unloaded limb.
+    /// Corrector of the unloaded limb.
     pub corrector: Corrector<S>,
     /// Rounding of the limb's wrench, N m: per share of the natural length, or per radian.
     pub noise: Lanes<S>,
-    /// What the pass at hand changes.
+    /// Change in the present pass.
     pub change: Correction<S>,
     /// Squares of what the limb was off its platform in the last pass (share of the natural length, rad), and of the change of its
     /// wrench (N m).
@@ -136,7 +136,7 @@ pub(crate) struct AttachedLimb<S: Simd> {
 }
 
 impl<S: Simd> AttachedLimb<S> {
-    /// Before anything is known of it.
+    /// Limb before anything is known of it.
     pub fn new(simd: S) -> Self {
         let nothing = [Lanes::new(simd, 0.0); 6];
         Self {

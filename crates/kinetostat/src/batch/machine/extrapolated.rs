@@ -1,8 +1,10 @@
-//! How a machine changes along a path: on the way to its next posture as much as on the way to the one at hand, by the lengths of both.
+//! Extrapolation of a machine along a path: the change to the next posture equals the last one, scaled by the lengths
+//! of both steps.
 //!
-//! What is extrapolated is small, because it is taken from what neighbours have in common: joints from joints, the target from its place, the tool from
-//! the target, springs, wrenches, and passive joints from those of the unloaded limb. A start that is off by the square of a step instead of the
-//! step saves passes, and what is found does not depend on it but for the accuracy of a path.
+//! Only small differences between neighbours are extrapolated: joints from joints, the target from its place, the tool
+//! from the target, springs, wrenches, and passive joints from those of the unloaded limb. A start with an error of
+//! second order in the step instead of first order saves passes; the result depends on it only within the accuracy of a
+//! path.
 
 use pulp::Simd;
 
@@ -13,14 +15,14 @@ use crate::batch::numbers::lanes::Lanes;
 use crate::batch::numbers::vectors::{minus, select, turn_between, turned};
 use crate::spatial::Directions;
 
-/// Where the load goes on otherwise by more than this share of itself, so does the machine.
+/// Largest relative error of the load's extrapolation; beyond it the machine is not extrapolated.
 const SAME_LOAD: f64 = 0.01;
 
 /// A step of more than so many times the one before is too far to tell.
 const FARTHEST: f64 = 4.0;
 
-/// From one place to another, lengths in units of `length`. It is no closure: that would be compiled for itself, without the wide
-/// registers.
+/// Motion from one place to another, lengths in units of `length`. It is no closure: that would be compiled for itself,
+/// without the wide registers.
 #[inline(always)]
 fn way<S: Simd>(to: &Target<S>, from: &Target<S>, length: f64) -> [Lanes<S>; 6] {
     let [x, y, z] = minus(&to.point, &from.point);

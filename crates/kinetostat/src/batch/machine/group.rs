@@ -1,4 +1,4 @@
-//! Where postures are given and where they lie: from lists to lanes and back.
+//! Input of postures and its storage: from lists to lanes and back.
 
 use pulp::Simd;
 
@@ -11,7 +11,7 @@ use crate::spatial::{Pose, Wrench};
 /// Below this relative pivot a posture is left to the general engine: its rank has to be decided.
 pub(crate) const REGULAR: f64 = 1e-9;
 
-/// Where the machine is commanded.
+/// Commanded places.
 #[derive(Clone, Copy)]
 pub(crate) enum Places<'a> {
     Poses(&'a [Pose]),
@@ -19,12 +19,12 @@ pub(crate) enum Places<'a> {
         commands: &'a [f64],
         each: usize,
     },
-    /// With the joints that lead to the poses, and where a machine like this one stands there under a load.
+    /// Poses with the joints that lead to them, and the equilibrium of a similar machine there under a load.
     Known {
         poses: &'a [Pose],
         joints: &'a Table,
         standing: Option<&'a Standing>,
-        /// By how much numbers of the machine differ, as [`Standing::slopes`] has them.
+        /// Deviations of the machine's numbers, in the order of [`Standing::slopes`].
         deviations: &'a [f64],
         /// Row of the first pose in both.
         first: usize,
@@ -38,9 +38,9 @@ pub(crate) struct Standing {
     pub tool: Table,
     pub coordinates: Table,
     pub wrenches: Table,
-    /// What corrects the passes of an equilibrium there ([`crate::batch::machine::kept`]).
+    /// Correctors of the passes of an equilibrium there ([`crate::batch::machine::kept`]).
     pub correctors: Table,
-    /// By how much it goes along with numbers of the machine, per unit of each: six numbers of the tool's motion, coordinates,
+    /// Derivatives by numbers of the machine, per unit of each: six numbers of the tool's motion, coordinates,
     /// wrenches.
     pub slopes: Vec<Table>,
 }
@@ -58,7 +58,7 @@ impl<'a> Places<'a> {
         matches!(self, Self::Known { standing, .. } if standing.is_some())
     }
 
-    /// Without the first ones, which are whole blocks.
+    /// Drops the first ones, which are whole blocks.
     pub fn from(&self, first: usize) -> Self {
         match *self {
             Self::Poses(poses) => Self::Poses(&poses[first..]),
@@ -156,7 +156,7 @@ impl Group {
         }
     }
 
-    /// The same where the postures lie apart.
+    /// Stores the numbers of postures that are not consecutive.
     #[inline(always)]
     fn scatter<S: Simd>(&self, table: &mut [f64], width: usize, from: usize, numbers: &[Lanes<S>]) {
         if width == 0 {
@@ -211,7 +211,7 @@ impl Group {
     #[inline(always)]
     pub fn numbers<S: Simd>(&self, simd: S, table: Columns<'_>, from: usize, to: &mut [Lanes<S>]) {
         if self.stride == 1 && self.first + S::F64_LANES <= self.count {
-            // They lie side by side.
+            // Consecutive postures lie side by side.
             let start = ((self.first / BLOCK) * table.width + from) * BLOCK;
             let (places, _) = table.numbers[start..start + to.len() * BLOCK].as_chunks::<BLOCK>();
             for (x, place) in to.iter_mut().zip(places) {

@@ -1,8 +1,8 @@
-//! What corrects the passes of an equilibrium, kept in a table: machines that differ a little from a drawn one are corrected by what
-//! corrects that one. An iteration whose residuals are measured ends where it ends with corrections of its own.
+//! Correctors of the passes of an equilibrium, kept in a table: machines that differ a little from a drawn one use its
+//! correctors. An iteration whose residuals are measured converges to the same result.
 //!
-//! Of each limb: stiffness (21 numbers), `joints` and `among` of its passive joints, rounding; then of the platform: compliance
-//! (21), smallest relative pivot.
+//! Columns of each limb: stiffness (21 numbers), `joints` and `among` of its passive joints, rounding; then of the
+//! platform: compliance (21), smallest relative pivot.
 
 use pulp::Simd;
 
@@ -69,7 +69,7 @@ impl<S: Simd> Machine<S> {
             take(part);
         }
         take(std::slice::from_mut(&mut self.regular));
-        // They are of the drawn machine: no path goes on with them.
+        // These numbers are those of the drawn machine: no path continues with them.
         self.compliance_at.point = [Lanes::new(simd, f64::NAN); 3];
         self.regular
     }

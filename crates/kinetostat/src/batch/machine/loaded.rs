@@ -38,7 +38,7 @@ pub(crate) struct Machine<S: Simd> {
     pub passes: Vec<(ForwardPass<S>, ForwardPass<S>)>,
     pub joints: Vec<Joints<S>>,
     pub limbs: Vec<LoadedLimb<S>>,
-    /// Made when it is needed.
+    /// Buffers of Newton's iteration, made when needed.
     pub newton: Option<Newton<S>>,
     /// Each limb as the platform sees it.
     pub attached: Vec<AttachedLimb<S>>,
@@ -47,10 +47,11 @@ pub(crate) struct Machine<S: Simd> {
     /// Centre of mass (m, axes of the tool) and mass of the platform.
     pub body: ([f64; 3], f64),
     pub gravity: [f64; 3],
-    /// Where the unloaded machine was that `attached` and `compliance` are of, and the smallest relative pivot there.
+    /// Target of the unloaded machine for which `attached` and `compliance` were computed, and the smallest relative
+    /// pivot there.
     pub compliance_at: Target<S>,
     pub regular: Lanes<S>,
-    /// How exactly equilibria are found.
+    /// Precision of equilibria.
     pub precision: Precision,
     /// The wanted place, and where the tool is commanded.
     pub place: Target<S>,
@@ -59,14 +60,14 @@ pub(crate) struct Machine<S: Simd> {
     pub found: Lanes<S>,
     /// The wrench on the tool of the posture at hand.
     pub load: [Lanes<S>; 6],
-    /// How the machine went on to its last posture of a path.
+    /// Change up to the last posture of a path.
     pub trend: Trend<S>,
-    /// Where the tool is.
+    /// Rotation and place of the tool.
     pub rotation: Mat3<S>,
     pub point: Vec3<S>,
-    /// Of the loads on all actuators, N or N m.
+    /// Loads on all actuators, N or N m.
     pub forces: Vec<Lanes<S>>,
-    /// Of the limbs, where their stability is requested.
+    /// Shapes of the limbs, if their stability is requested.
     pub shapes: Vec<Shape<S>>,
 }
 
@@ -112,10 +113,10 @@ impl<S: Simd> Machine<S> {
         }
     }
 
-    /// Its buffers have the sizes that another machine of the same instruction set needs.
+    /// True if its buffers have the sizes that another machine of the same instruction set needs.
     pub fn fits(&self, nominal: &[Plan], actual: &[Plan]) -> bool {
         let alike = |ours: &[Plan], theirs: &[Plan]| {
-            // Most often it is the machine itself.
+            // Usually it is the machine itself.
             std::ptr::eq(ours, theirs)
                 || ours.len() == theirs.len() && ours.iter().zip(theirs).all(|(a, b)| a.is_like(b))
         };

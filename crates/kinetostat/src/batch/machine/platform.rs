@@ -66,7 +66,7 @@ impl<S: Simd> Machine<S> {
             let mut unbalanced = self.borne(simd, wrench);
             let limbs = self.limbs.iter_mut().zip(self.actual.iter());
             for ((limb, plan), attached) in limbs.zip(&mut self.attached) {
-                // Before the first pass nothing has changed, and the tip is still that of another posture.
+                // Nothing has changed before the first pass, and the tip is still that of another posture.
                 match first {
                     true => {
                         attached.last = [zero; 2];
@@ -100,7 +100,7 @@ impl<S: Simd> Machine<S> {
                         moving = (one * most).where_less(residual[k].abs(), one, moving);
                     }
                 }
-                // On every coordinate, N or N m.
+                // Rounding of the torque on every coordinate, N or N m.
                 let torques = attached.noise * attached.noise * (limb.coordinates.len() as f64);
                 let rounding = torques * (1.0 + 1.0 / (plan.length * plan.length));
                 moving = moving.max(limb.moving(rounding, &self.precision));
@@ -132,8 +132,8 @@ impl<S: Simd> Machine<S> {
                     attached.change.wrench[k] = step;
                     limb.wrench[k] = select(active, to, limb.wrench[k]);
                 }
-                // What a residual of rounding makes of wrenches is rounding too: limbs that brace each other
-                // know their inner forces no better.
+                // Wrenches from a residual of rounding are rounding too: limbs that brace each other know their
+                // internal forces no better.
                 let allowed = (size * (share * share)).max(attached.noise * attached.noise);
                 moving = match looks_ahead {
                     true => moving.max(self.precision.goes_on(change, attached.last[1], allowed)),

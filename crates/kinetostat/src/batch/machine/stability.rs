@@ -43,10 +43,9 @@ impl<S: Simd> Machine<S> {
         (sum, regular)
     }
 
-    /// Whether the equilibrium holds (one or zero), force per motion in the softest direction of the tool, share of
-    /// the way to buckling (not a number without inner motions), as in [`crate::batch::PostureStability`]; and the smallest
-    /// relative pivot met, by which the platform is left to the general engine where nothing holds it or it runs
-    /// away.
+    /// Returns stability (one or zero), force per motion in the softest direction of the tool, load factor (NaN without
+    /// internal motions), as in [`crate::batch::PostureStability`]; and the smallest relative pivot, by which the
+    /// platform is left to the general engine where nothing holds it or it diverges.
     #[inline(always)]
     pub fn stability(&mut self, simd: S, k: &Mat6<S>) -> ([Lanes<S>; 3], Lanes<S>) {
         apart!(simd, {

@@ -1,4 +1,4 @@
-//! Where a search for equilibria starts: from the unloaded machine, or along a path from the posture before.
+//! Start of a search for equilibria: from the unloaded machine, or along a path from the posture before.
 
 use pulp::Simd;
 
@@ -84,7 +84,7 @@ impl<S: Simd> Machine<S> {
                 }
             }
         }
-        // Where one of them is no number, nothing leads to the place.
+        // NaN marks a place that is not reached.
         let good = Lanes::new(simd, 1.0).least_of(all + 1.0);
         if self.is_serial() {
             return good;
@@ -304,7 +304,7 @@ impl<S: Simd> Machine<S> {
         {
             most = most.max((*to - *from).abs());
         }
-        // Where it was not a number it is anew too.
+        // NaN counts as a new start, too.
         lost.max(most.where_less(one * SAME_PLACE, zero, one))
     }
 }

@@ -6,7 +6,7 @@ use crate::batch::limb::reach::Target;
 use crate::batch::numbers::lanes::Lanes;
 use crate::batch::numbers::vectors::identity;
 
-/// What was known of the posture before the one at hand.
+/// State at the posture before.
 pub(crate) struct Trend<S: Simd> {
     /// One in the lanes where it was found.
     pub known: Lanes<S>,
@@ -32,7 +32,7 @@ impl<S: Simd> Trend<S> {
         }
     }
 
-    /// What comes next has no neighbour.
+    /// Marks the next posture as one without a neighbour.
     #[inline(always)]
     pub fn forget(&mut self, simd: S) {
         self.known = Lanes::new(simd, 0.0);
@@ -57,7 +57,7 @@ impl<S: Simd> Trend<S> {
         let zero = share.same(0.0);
         for x in numbers {
             let to = self.change[*from].times_plus(share, *x);
-            // What was not found may have no numbers.
+            // Numbers of a posture that was not found may be NaN.
             *x = zero.where_less(share, to, *x);
             *from += 1;
         }

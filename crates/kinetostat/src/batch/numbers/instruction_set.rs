@@ -1,4 +1,4 @@
-//! For which processors the kernels are compiled, and for which of them one call runs.
+//! Processors for which the kernels are compiled, and choice of the one for a call.
 //!
 //! With the feature `simd` they are compiled for the widest registers that `pulp` knows of a processor (AVX-512 or
 //! AVX2, NEON), for AVX2 and for single numbers. A build with debug assertions has no AVX-512, and no fused
@@ -14,18 +14,18 @@ use pulp::x86::V3;
 use pulp::x86::V4;
 use pulp::{Scalar, Simd, WithSimd};
 
-/// What a kernel is compiled for.
+/// Instruction set of a kernel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum InstructionSet {
     /// Single numbers.
     Single,
     /// Four numbers side by side.
     Avx2,
-    /// As many as this processor has room for.
+    /// Widest registers of this processor.
     Widest,
 }
 
-/// Whether this build has more than AVX2 and single numbers.
+/// True if this build has more than AVX2 and single numbers.
 const HAS_WIDEST: bool = cfg!(all(
     feature = "simd",
     any(not(debug_assertions), not(target_arch = "x86_64"))
@@ -37,7 +37,7 @@ thread_local! {
 }
 
 impl InstructionSet {
-    /// Those that this build has and this processor knows.
+    /// Instruction sets that this build has and this processor supports.
     #[must_use]
     pub fn available() -> Vec<Self> {
         let all = [
@@ -50,7 +50,7 @@ impl InstructionSet {
             .collect()
     }
 
-    /// What a question is answered while this thread computes with this one.
+    /// Answers a question while this thread computes with this instruction set.
     pub fn during<R>(self, question: impl FnOnce() -> R) -> R {
         let before = CHOSEN.replace(Some(self));
         let answer = question();
@@ -90,13 +90,13 @@ impl InstructionSet {
     }
 }
 
-/// Whether this processor has what the kernels of this build are compiled for.
+/// True if this processor supports the kernels of this build.
 pub(crate) fn has_kernels() -> bool {
     !ALWAYS_FUSED || has_avx2()
 }
 
-/// Whether kernels in single numbers are compiled for the fused multiply-adds of AVX2 and for nothing else. Without them
-/// each is a call, which makes the kernels slower than the general engine.
+/// True if kernels in single numbers are compiled for the fused multiply-adds of AVX2 and for nothing else. Without
+/// them each is a call, which makes the kernels slower than the general engine.
 const ALWAYS_FUSED: bool = cfg!(all(
     feature = "simd",
     target_arch = "x86_64",
@@ -110,7 +110,7 @@ fn has_avx2() -> bool {
     false
 }
 
-/// In single numbers whatever the instruction set, so that they get its fused multiply-adds.
+/// Work in single numbers whatever the instruction set, so that they get its fused multiply-adds.
 struct Single<W>(W);
 
 impl<W: WithSimd> WithSimd for Single<W> {
@@ -122,7 +122,7 @@ impl<W: WithSimd> WithSimd for Single<W> {
     }
 }
 
-/// In a function of its own, with the fused multiply-adds that the processor has.
+/// Runs in a function of its own, with the fused multiply-adds that the processor has.
 #[cfg(all(feature = "simd", target_arch = "x86_64", not(debug_assertions)))]
 #[inline(always)]
 pub(crate) fn singly<W: WithSimd>(part: W) -> W::Output {
@@ -132,7 +132,7 @@ pub(crate) fn singly<W: WithSimd>(part: W) -> W::Output {
     }
 }
 
-/// In a function of its own, with the fused multiply-adds that the processor has.
+/// Runs in a function of its own, with the fused multiply-adds that the processor has.
 #[cfg(not(all(feature = "simd", target_arch = "x86_64", not(debug_assertions))))]
 #[inline(never)]
 pub(crate) fn singly<W: WithSimd>(part: W) -> W::Output {

@@ -58,7 +58,7 @@ impl<S: Simd> Neg for Lanes<S> {
 }
 
 impl<S: Simd> Lanes<S> {
-    /// The same number in all lanes.
+    /// Fills all lanes with one number.
     #[inline(always)]
     pub fn new(simd: S, value: f64) -> Self {
         Self {
@@ -80,7 +80,7 @@ impl<S: Simd> Lanes<S> {
         Self { simd, value }
     }
 
-    /// Into the first places of a slice.
+    /// Stores into the first places of a slice.
     #[inline(always)]
     pub fn store(self, to: &mut [f64]) {
         pulp::bytemuck::cast_slice_mut::<f64, S::f64s>(&mut to[..S::F64_LANES])[0] = self.value;

@@ -6,12 +6,12 @@ use pulp::Simd;
 
 use crate::batch::numbers::lanes::Lanes;
 
-/// What a reflection makes of the column that it was made for.
+/// Image of the column for which a reflection was made.
 pub(crate) struct Image<S: Simd> {
     /// The number at its place; those after it are zero, those before it as they were.
     pub number: Lanes<S>,
-    /// What was reflected compared with the whole column, squares of lengths: near zero where the column depends on
-    /// those before it.
+    /// Squared length of the reflected part by that of the whole column: near zero where the column depends on those
+    /// before it.
     pub share: Lanes<S>,
 }
 
@@ -61,8 +61,8 @@ pub(crate) fn reflect<S: Simd>(
     }
 }
 
-/// The same of numbers that lie `stride` apart, from `first` on: a column of a matrix that is kept row by row. What is copied
-/// to be reflected, one register after the other, waits for what was written last.
+/// Reflects numbers that lie `stride` apart, from `first` on: a column of a row-major matrix. A copy for the
+/// reflection, one register after the other, would wait for what was written last.
 #[inline(always)]
 pub(crate) fn reflect_apart<S: Simd>(
     places: Range<usize>,

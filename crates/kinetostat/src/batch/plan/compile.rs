@@ -1,5 +1,5 @@
-//! From a chain to its compiled form ([`crate::batch::plan::steps`]): rigid offsets joined, redundant joints locked, springs inverted,
-//! closed forms of inverse kinematics recognised; or why there is none.
+//! Compiles a chain ([`crate::batch::plan::steps`]): rigid offsets joined, redundant joints locked, springs inverted,
+//! closed forms of inverse kinematics recognised; or gives the reason why it cannot.
 
 use nalgebra::{DMatrix, Matrix3, Rotation3, Vector3};
 
@@ -228,7 +228,7 @@ impl Writer<'_> {
                     }
                     if let Some(mass) = halves_at(chain, *node) {
                         if begins_at(chain, *node) {
-                            // In the axes of the segment.
+                            // Expressed in the axes of the segment.
                             self.flush();
                         }
                         self.steps.push(Step::Mass {

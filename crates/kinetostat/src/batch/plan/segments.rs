@@ -29,8 +29,8 @@ pub(super) fn begins_at(chain: &Chain, node: usize) -> bool {
     chain.segment_masses().iter().any(|s| s.near == node)
 }
 
-/// What the weight of the segment that a spring bends does with these coordinates in the six directions, behind so many
-/// masses; nothing of a spring without a mass along it.
+/// Effect of the segment's weight on a spring with these coordinates in the six directions, behind so many masses;
+/// `None` for a spring without a mass along it.
 pub(super) fn own_weight(
     chain: &Chain,
     block: &SpringBlock,

@@ -4,7 +4,7 @@ use crate::model::springs::law::SpringLaw;
 use crate::model::springs::parallelogram::ParallelogramLaw;
 use crate::spatial::MotionKind;
 
-/// How far a motion goes: `fixed + ratio * command + ratio * coordinate`, m or rad.
+/// Displacement of a motion: `fixed + ratio * command + ratio * coordinate`, m or rad.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Amount {
     pub fixed: f64,
@@ -12,10 +12,10 @@ pub(crate) struct Amount {
     pub coordinate: Option<(usize, f64)>,
 }
 
-/// What holds the coordinate of one motion.
+/// Support of the coordinate of one motion.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Support {
-    /// Nothing moves but the command, or the coordinate has a fixed value here.
+    /// Support that moves by the command only, or has a fixed coordinate here.
     Fixed,
     /// A passive joint; its place among the plan's passive joints.
     Passive(usize),
@@ -31,9 +31,9 @@ pub(crate) struct Joint {
     pub axis: usize,
     pub amount: Amount,
     pub support: Support,
-    /// How its spring answers, if that is not linear, see [`crate::model::springs::single`].
+    /// Spring law, if it is not linear, see [`crate::model::springs::single`].
     pub law: Option<Box<SpringLaw>>,
-    /// Its place in [`Plan::screws`].
+    /// Index in [`Plan::screws`].
     pub screw: usize,
 }
 
@@ -53,7 +53,7 @@ pub(crate) struct Drive {
     pub ratio: f64,
 }
 
-/// Which equations a search solves.
+/// Equations of a search.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Rows {
     Position,
@@ -71,7 +71,7 @@ pub(crate) struct Search {
     pub commands: usize,
     /// Steps up to which the limb is followed.
     pub end: usize,
-    /// What each unknown drives.
+    /// Drive of each unknown.
     pub drives: Vec<Drive>,
     /// Largest step of each unknown, m or rad.
     pub most: [f64; 6],
@@ -82,7 +82,7 @@ pub(crate) struct Search {
 pub(crate) struct Sphere {
     /// The step of the first of them.
     pub step: usize,
-    /// From the centre to the platform's point, m, platform axes.
+    /// Arm from the centre to the platform's point, m, platform axes.
     pub arm: [f64; 3],
 }
 
@@ -95,20 +95,20 @@ pub(crate) struct Spring {
     pub screw: usize,
     /// Number of directions that move.
     pub moving: usize,
-    /// Its compliance, row by row; zero where a direction does not move.
+    /// Compliance, row by row; zero where a direction does not move.
     pub compliance: Box<[f64; 36]>,
-    /// Its stiffness, row by row.
+    /// Stiffness, row by row.
     pub stiffness: Box<[f64; 36]>,
     pub law: Law,
-    /// Of a segment with a mass along it.
+    /// Weight of a segment with a mass along it.
     pub own_weight: Option<OwnWeight>,
 }
 
-/// What the weight of a mass along a segment does besides that of its halves at the ends, see
+/// Effect of the weight of a mass along a segment besides that of its halves at the ends, see
 /// [`crate::batch::plan::segments`].
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct OwnWeight {
-    /// Of the half of the mass at the near end, among the masses of the limb.
+    /// Index of the half of the mass at the near end, among the masses of the limb.
     pub near: usize,
     /// Coordinates of the turns about y and z.
     pub turns: [usize; 2],
@@ -116,12 +116,12 @@ pub(crate) struct OwnWeight {
     pub moment: f64,
 }
 
-/// How a spring of several directions answers.
+/// Law of a spring of several directions.
 #[derive(Clone, Debug)]
 pub(crate) enum Law {
-    /// By its matrix.
+    /// Constant matrix.
     Constant,
-    /// By strains of its own, see [`crate::model::springs::curved`]; with the compliance of the strains, row by
+    /// Law with strains of its own, see [`crate::model::springs::curved`]; with the compliance of the strains, row by
     /// row.
     Curved(SpringLaw, Box<[f64; 36]>),
     /// Two bars whose compliance depends on a passive joint (its place among them).
@@ -178,9 +178,9 @@ pub(crate) struct Plan {
     pub commands: usize,
     /// Coordinate of every passive joint that is not redundant.
     pub passive: Vec<usize>,
-    /// What the passive joints drive, from the base outwards.
+    /// Drives of the passive joints, from the base outwards.
     pub passive_drives: Vec<Drive>,
-    /// How joints are found, one search after the other.
+    /// Searches for the joints, one after the other.
     pub searches: Vec<Search>,
     /// Every coordinate drives one motion, by the ratio of one.
     pub one_each: bool,
@@ -188,7 +188,7 @@ pub(crate) struct Plan {
     pub home_commands: Vec<f64>,
     /// Natural length, m.
     pub length: f64,
-    /// Of every coordinate: what makes it a share of the natural length, or an angle.
+    /// Factor of every coordinate that makes it a share of the natural length, or an angle.
     pub units: Vec<f64>,
 }
 
@@ -202,7 +202,7 @@ impl Plan {
         self.steps.iter().filter(own).count()
     }
 
-    /// The same joints and springs with other numbers: buffers of one fit the other.
+    /// True if joints and springs differ in numbers only: buffers of one fit the other.
     pub fn is_like(&self, other: &Self) -> bool {
         let kind = std::mem::discriminant::<Support>;
         let law = std::mem::discriminant::<Law>;

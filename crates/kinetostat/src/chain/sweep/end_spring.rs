@@ -5,7 +5,7 @@ use crate::linalg::saddle::RANK_TOLERANCE;
 /// A spring at the end of a chain while its coordinates are eliminated, and what may be lost.
 #[derive(Clone, Copy)]
 pub struct EndSpring {
-    /// Its share of the chain's own stiffness.
+    /// Share of the chain's own stiffness.
     pub share: f64,
     /// The share of the largest compliance that the smallest one counts as.
     pub least: f64,
@@ -45,7 +45,7 @@ pub const END_SPRINGS: [EndSpring; 3] = [
     EndSpring::as_stiff(5.3),
 ];
 
-/// The same for a step of Newton's method, whatever the ratio of the stiffnesses.
+/// End springs for a step of Newton's method, whatever the ratio of the stiffnesses.
 pub(crate) const STEP_SPRINGS: [EndSpring; 5] = [
     END_SPRINGS[0],
     END_SPRINGS[1],

@@ -149,7 +149,7 @@ impl Factored {
                 let (mut right, mut left) = (y * s, y.tr_mul(&s));
                 let held = sweep.held_scalar(form, stage);
                 let pivot = s.dot(&right) - held;
-                // Against the largest number that was subtracted so far.
+                // The reference is the largest number that was subtracted so far.
                 let size = s.abs();
                 let size = held.abs() + size.dot(&((y.abs() + spring.abs()) * size));
                 if !is_above(pivot.abs(), least * size) {
@@ -310,7 +310,7 @@ impl Factored {
     }
 }
 
-/// Not a number is above nothing.
+/// True if a value is above a limit; false for NaN.
 fn is_above(value: f64, limit: f64) -> bool {
     value > limit
 }

@@ -16,9 +16,9 @@ use crate::number::{larger, largest_size};
 /// every row with an entry of the size one.
 #[derive(Clone, Copy)]
 pub struct EndRows {
-    /// What `t` is multiplied by.
+    /// Factor of `t`.
     pub motion: Matrix6<f64>,
-    /// What `F` is multiplied by.
+    /// Factor of `F`.
     pub wrench: Matrix6<f64>,
 }
 
@@ -56,7 +56,7 @@ pub struct Bordered<S> {
     pub(crate) factored: Factored,
     form: Form,
     rows: EndRows,
-    /// Of twelve equations for wrench (in units of `1 / size`) and motion of the end.
+    /// Factored 12 x 12 system of the end's wrench (in units of `1 / size`) and motion.
     end: Saddle,
     /// Largest entry of `E`.
     size: f64,
@@ -120,7 +120,7 @@ impl<S: Deref<Target = Sweep>> Bordered<S> {
         let mut left = vec![0.0; x.len()];
         for attempt in 0..3 {
             let tip = self.sweep.product(self.form, &x, &mut motions, &mut left);
-            // Where only passive joints move, all torques are rounding.
+            // If only passive joints move, all torques are rounding.
             let moved = largest_size(x.iter());
             let (mut worst, mut size) = (0.0_f64, RANK_TOLERANCE * moved);
             for own in 0..x.len() {
@@ -171,7 +171,7 @@ fn unit_motions_by(sweep: &Sweep, range: &DMatrix<f64>, spring: EndSpring) -> Op
     unit_motions_of(&bordered, range)
 }
 
-/// The same by a system whose end is held in `range`.
+/// Unit motions by a system whose end is held in `range`.
 pub(crate) fn unit_motions_of<S: Deref<Target = Sweep>>(
     bordered: &Bordered<S>,
     range: &DMatrix<f64>,
@@ -199,22 +199,22 @@ pub(crate) fn unit_motions_of<S: Deref<Target = Sweep>>(
     Some(answer)
 }
 
-/// What the end of a chain can do, scaled, orthonormal columns.
+/// Possible motions of a chain's end, scaled, orthonormal columns.
 pub struct EndMotions {
     /// The motions that the chain can make.
     range: DMatrix<f64>,
-    /// Those among them that nothing holds.
+    /// Free motions among them.
     free: DMatrix<f64>,
 }
 
 impl EndMotions {
-    /// Held in all motions that it can make, the columns of `range`.
+    /// Holds all motions that the end can make, the columns of `range`.
     pub fn held(range: DMatrix<f64>) -> Self {
         let free = DMatrix::zeros(6, 0);
         Self { range, free }
     }
 
-    /// Held in the directions `held` only.
+    /// Holds the directions `held` only.
     pub fn held_in(range: DMatrix<f64>, held: &DMatrix<f64>) -> Self {
         let own = column_space(&(range.transpose() * held));
         let free = &range * complement(&own);
@@ -337,12 +337,12 @@ impl<'s> Shifted<'s> {
     }
 }
 
-/// What [`crate::chain::stability::ShapeStability`] says, in scaled coordinates.
+/// Stability as in [`crate::chain::stability::ShapeStability`], in scaled coordinates.
 pub struct SweptStability {
     pub inertia: Inertia,
     /// Largest eigenvalue of the pencil.
     pub share_to_buckling: f64,
-    /// Its vector.
+    /// Eigenvector.
     pub mode: Vec<f64>,
 }
 
@@ -398,7 +398,7 @@ const EXCEEDED: [f64; 3] = [1e-6, 1e-4, 1e-2];
 fn lanczos(sweep: &Sweep, ends: &EndMotions) -> Option<(Trial, f64)> {
     let n = sweep.count();
     let material = Shifted::new(sweep, ends, Form::Material)?;
-    // Where the end is not held, passive joints may move that no spring holds.
+    // If the end is not held, passive joints may move that no spring holds.
     if ends.free.ncols() > 0
         && material.inertia.positive + material.inertia.zero > ends.held_count()
     {
@@ -520,7 +520,7 @@ pub fn shape(sweep: &Sweep, ends: &EndMotions) -> Option<SweptStability> {
         } else {
             high = shift;
         }
-        // From either side the nearest eigenvalue grows in the vector; only a larger quotient counts.
+        // The nearest eigenvalue grows in the vector from either side; only a larger quotient is accepted.
         let mut v = next.solve(&best.springs)?;
         let mut trial = Trial::new(sweep, v)?;
         v = next.solve(&trial.springs)?;

@@ -94,7 +94,7 @@ pub(crate) fn column(list: &[f64], coordinate: usize) -> Vector6<f64> {
     Vector6::from_column_slice(&list[6 * coordinate..6 * coordinate + 6])
 }
 
-/// Which tangent is meant.
+/// Form of the tangent.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Form {
     /// `-K`: the report's iteration, loads lagged.
@@ -123,7 +123,7 @@ impl Form {
 #[derive(Clone)]
 pub struct Sweep {
     pub stages: Vec<Stage>,
-    /// Per node: number of stages nearer the base.
+    /// Number of stages nearer the base, per node.
     before: Vec<usize>,
     /// Stage of every spring block.
     stage_of: Vec<usize>,
@@ -138,11 +138,11 @@ pub struct Sweep {
     compliance: Vec<f64>,
     /// Wrench beyond each stage about the tip's place, N and N m.
     outer: Vec<Vector6<f64>>,
-    /// Which of `nodes` is beyond `c` stages and before the next one, counted from 1; 0 for none.
+    /// Index among `nodes` of the one beyond `c` stages and before the next, counted from 1; 0 for none.
     between: Vec<usize>,
     /// `g`.
     nodes: Vec<Matrix6<f64>>,
-    /// No load couples the motions of nodes in different places.
+    /// True if no load couples the motions of nodes in different places.
     pub serial: bool,
 }
 
@@ -389,7 +389,7 @@ impl Sweep {
         }
     }
 
-    /// What is subtracted on the diagonal block of a stage.
+    /// Matrix subtracted on the diagonal block of a stage.
     pub fn held(&self, form: Form, stage: &Stage) -> Matrix6<f64> {
         match form {
             Form::Lagged | Form::Exact => stage.square(&self.springs),
@@ -401,7 +401,7 @@ impl Sweep {
         }
     }
 
-    /// The same of a stage of one coordinate.
+    /// Number subtracted for a stage of one coordinate.
     pub fn held_scalar(&self, form: Form, stage: &Stage) -> f64 {
         let (now, material) = (self.springs[stage.block], self.material[stage.block]);
         match form {
@@ -447,7 +447,7 @@ impl Sweep {
                 continue;
             }
             if let Some(a) = self.outer(c) {
-                // Within the stage a coordinate sees what lies before it, or beyond.
+                // A coordinate within the stage sees what lies before it, or beyond.
                 let (mut near, moved) = (motions[c], motions[c + 1] - motions[c]);
                 let mut far = moved;
                 for own in stage.first..stage.first + stage.len {
@@ -500,7 +500,7 @@ impl Sweep {
         }
     }
 
-    /// Nothing depends on how far the chain is loaded.
+    /// True if nothing depends on how far the chain is loaded.
     pub fn unloaded(&self) -> bool {
         let springs = self.springs.iter().zip(&self.material);
         self.nodes.is_empty()
@@ -511,7 +511,7 @@ impl Sweep {
     }
 }
 
-/// How the linear systems of a chain are solved.
+/// Method that solves the linear systems of a chain.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ChainMethod {
     /// Dense matrices: any chain.

@@ -48,7 +48,7 @@ impl ChainSystem<'_, '_> {
             };
             let length = step.norm();
             if !length.is_finite() || (iteration > 1 && length > 2.0 * last && length > 1e-9) {
-                // Beside very stiff springs the last steps are rounding.
+                // Next to very stiff springs the last steps are rounding.
                 return fine.then_some(Corrected {
                     z,
                     matrix,

@@ -33,7 +33,7 @@ impl CurveSystem for ChainSystem<'_, '_> {
         self.sigma
     }
 
-    /// Of passive joints.
+    /// Full turns of passive joints.
     fn full_turns(&self) -> Vec<f64> {
         let r = self.reactions();
         let mut turns = vec![0.0; self.count() + 1];

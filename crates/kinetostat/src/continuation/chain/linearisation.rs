@@ -30,7 +30,7 @@ impl ChainSystem<'_, '_> {
         }
     }
 
-    /// With dense matrices, whatever the chain; what was evaluated is dense afterwards.
+    /// Works with dense matrices, whatever the chain; the evaluated system is dense afterwards.
     pub fn densely<T>(&mut self, work: impl FnOnce(&mut Self) -> T) -> T {
         let before = std::mem::replace(&mut self.dense, true);
         let answer = work(self);
@@ -145,7 +145,7 @@ impl ChainSystem<'_, '_> {
         self.assembled(true)
     }
 
-    /// The same with loads and Jacobians lagged: without the loads' Hessian [R 4.15].
+    /// Matrix with lagged loads and Jacobians: without the loads' Hessian [R 4.15].
     pub fn lagged_matrix(&self) -> DMatrix<f64> {
         self.assembled(false)
     }

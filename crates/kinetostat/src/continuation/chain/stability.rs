@@ -112,8 +112,8 @@ impl ChainSystem<'_, '_> {
         self.dense_stability(&c.matrix, motion)
     }
 
-    /// Whether `det V^T (K - H) V` is negative, `V` the motions that are free: `[0 R; R^T H - K]` with independent
-    /// rows `R` of the others has its sign times `(-1)^n`.
+    /// True if `det V^T (K - H) V` is negative, `V` the free motions: `[0 R; R^T H - K]` with independent rows `R` of
+    /// the others has its sign times `(-1)^n`.
     fn determinant_is_negative(&self, matrix: &CurveMatrix, motion: bool) -> bool {
         let rows = self.held_rows(matrix, motion);
         let rows = column_space(&rows).transpose() * rows;

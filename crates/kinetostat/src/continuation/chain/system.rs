@@ -28,7 +28,7 @@ pub(crate) struct ChainSystem<'p, 'a> {
     pub(super) parameter: Option<&'p Parameter>,
     pub settings: Settings,
     pub scaling: Vec<f64>,
-    /// As it was evaluated last: by sweeps along a long chain, or dense.
+    /// System as evaluated last: by sweeps along a long chain, or dense.
     pub equations: System,
     /// The other of the two, if there is one.
     pub(super) other: Option<Box<System>>,

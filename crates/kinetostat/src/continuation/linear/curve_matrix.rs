@@ -15,7 +15,7 @@ use crate::continuation::linear::tangent::Tangent;
 pub(crate) enum CurveMatrix {
     /// All of it.
     Dense(Whole),
-    /// Of a long chain.
+    /// Matrix of a long chain.
     Swept(Box<CurveSweep>),
 }
 

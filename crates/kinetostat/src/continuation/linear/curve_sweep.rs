@@ -42,7 +42,7 @@ pub(crate) struct CurveSweep {
     pivots: (f64, f64),
 }
 
-/// The same with its closing row.
+/// Sweep with its closing row.
 pub(crate) struct Closed<'s> {
     own: &'s CurveSweep,
     normal: DVector<f64>,
@@ -100,7 +100,7 @@ impl CurveSweep {
         })
     }
 
-    /// With a further row over reactions, coordinates and parameter.
+    /// Adds a further row over reactions, coordinates and parameter.
     pub fn closed_by(&self, normal: &DVector<f64>) -> Closed<'_> {
         let (r, n) = (self.range.ncols(), self.sweep.count());
         let (end, spring) = (self.factored.end, self.factored.spring);

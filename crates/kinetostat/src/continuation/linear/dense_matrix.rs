@@ -10,20 +10,20 @@ use crate::linalg::saddle::Saddle;
 pub(crate) struct StateUnits {
     /// The first coordinate.
     pub first: usize,
-    /// How many there are.
+    /// Number of coordinates.
     pub count: usize,
     pub material: MaterialUnits,
 }
 
 impl StateUnits {
-    /// Of the coordinates' rows.
+    /// Transforms the coordinates' rows.
     pub fn rows(&self, a: &mut DMatrix<f64>) {
         let mut own = a.rows(self.first, self.count).into_owned();
         self.material.gather(&mut own);
         a.rows_mut(self.first, self.count).copy_from(&own);
     }
 
-    /// Of the coordinates' rows and columns.
+    /// Transforms the coordinates' rows and columns.
     pub fn both(&self, a: DMatrix<f64>) -> DMatrix<f64> {
         on_both_sides(a, |rows| self.rows(rows))
     }

@@ -15,7 +15,7 @@ pub(crate) struct NullDirections {
 }
 
 impl NullDirections {
-    /// Of an `m x n` matrix.
+    /// Finds the null directions of an `m x n` matrix.
     pub fn of(matrix: &DMatrix<f64>) -> Self {
         if !matrix.iter().all(|v| v.is_finite()) {
             return Self {
@@ -38,7 +38,7 @@ impl NullDirections {
         }
     }
 
-    /// In other units: orthonormal again, from the least on.
+    /// Converts to other units: orthonormal again, by ascending singular values.
     pub fn map(&mut self, change: impl Fn(&mut DMatrix<f64>)) {
         for vectors in [&mut self.right, &mut self.left] {
             if vectors.ncols() > 0 {
@@ -48,7 +48,7 @@ impl NullDirections {
         }
     }
 
-    /// How many there are at least, or below a share of the largest singular value.
+    /// Number of null directions: at least `least`, and all below a share of the largest singular value.
     pub fn count(&self, least: usize, share: f64) -> usize {
         let most = self.values.last().copied().unwrap_or(0.0);
         let below = |(i, value): &(usize, &f64)| *i < least || **value < share * most;

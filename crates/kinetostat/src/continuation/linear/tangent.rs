@@ -11,7 +11,7 @@ pub(crate) struct Tangent {
 }
 
 impl Tangent {
-    /// From the solution of `[G_z; p^T] solution = (0, 1)` and the determinant of that matrix.
+    /// Builds from the solution of `[G_z; p^T] solution = (0, 1)` and the determinant of that matrix.
     pub fn new(solution: &DVector<f64>, sign: f64, logarithm: f64) -> Option<Self> {
         let norm = solution.norm();
         if !norm.is_finite() || norm == 0.0 {

@@ -154,9 +154,9 @@ impl MachineCurves<'_> {
         self.evaluate(|system| points_at(system, &self.branches, value, false))
     }
 
-    /// Where the machine goes from every limit point that a stable part of a branch runs into: stable equilibria on the
-    /// computed branches at the same dead load (load limits) or at the same displacement (displacement limits), nearest
-    /// first. Where no branch holds one at the load, the machine is let go at the ends of the limit point's branch.
+    /// Jumps from every limit point that a stable part of a branch runs into: to stable equilibria on the computed
+    /// branches at the same dead load (load limits) or at the same displacement (displacement limits), nearest first.
+    /// If no branch has one at the load, the machine is released at the ends of the limit point's branch.
     ///
     /// # Errors
     /// None in practice: the query was accepted when the curve was followed.
@@ -176,7 +176,7 @@ impl MachineCurves<'_> {
         })
     }
 
-    /// Where the machine comes to rest under the load of a special point if it is let go at a branch's ends.
+    /// Equilibria under the load of a special point, after a release at a branch's ends.
     fn let_go(
         &self,
         system: &mut MachineSystem<'_, '_>,

@@ -1,4 +1,4 @@
-//! Where a machine goes under a load, `f^-1(F | t0)` [R 6.28-6.30].
+//! Deflection of a machine under a load, `f^-1(F | t0)` [R 6.28-6.30].
 
 use crate::error::Result;
 use crate::machine::equilibrium::{MechanismEquilibrium, conclude};
@@ -39,10 +39,10 @@ impl Posture {
         self.deflected_from(wrench, self.rest_state())
     }
 
-    /// As [`Self::deflected_by`], starting from the state of a neighbouring equilibrium.
+    /// Deflects like [`Self::deflected_by`], starting from the state of a neighbouring equilibrium.
     ///
     /// # Errors
-    /// As [`Self::deflected_by`].
+    /// See [`Self::deflected_by`].
     ///
     /// ```
     /// # use kinetostat::nalgebra::{Vector3, vector};

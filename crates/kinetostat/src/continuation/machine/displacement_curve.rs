@@ -16,13 +16,13 @@ use crate::spatial::{Pose, Twist, Wrench, moved, pose_residual};
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct DisplacementPoint {
-    /// Along the direction from the nominal target, in units of the direction.
+    /// Distance along the direction from the nominal target, in units of the direction.
     pub along: f64,
     /// Component of the holding wrench in the direction, N (if the direction moves by 1 m), without
     /// the dead wrench.
     pub force: f64,
-    /// Its derivative along the path, N/m: `direction^T K direction` for a tool held in all
-    /// directions; for one pushed in one what remains of it with the others free.
+    /// Derivative of the force along the path, N/m: `direction^T K direction` for a tool held in all directions; for
+    /// one pushed in one direction the stiffness with the others free.
     pub slope: f64,
     /// Equilibrium of the machine with its tool there.
     pub equilibrium: MechanismEquilibrium,
@@ -34,17 +34,15 @@ pub struct DisplacementPoint {
 pub struct DisplacementCurve {
     /// Points in their order.
     pub points: Vec<DisplacementPoint>,
-    /// Where the force has a maximum or minimum: under a dead load of that size and direction the
-    /// tool snaps through.
+    /// Extrema of the force: under a dead load of that size and direction the tool snaps through.
     pub limits: Vec<DisplacementPoint>,
-    /// Why it ended early.
+    /// Error that ended it early.
     pub ended: Option<crate::error::Error>,
 }
 
 impl Posture {
-    /// As [`Posture::wrench_at`], continued from the state of a neighbouring equilibrium, so that
-    /// its branch is kept: the tool is taken there directly, and if that fails in ever smaller
-    /// steps; never from rest.
+    /// Holds the tool like [`Posture::wrench_at`], continued from the state of a neighbouring equilibrium, so that its
+    /// branch is kept: the tool is taken there directly, and if that fails in ever smaller steps; never from rest.
     ///
     /// # Errors
     /// [`crate::Error::NotConverged`] where the branch cannot be followed; the share of the load is
@@ -215,7 +213,7 @@ impl Posture {
                     let pose = moved(&self.target, &Twist(direction.0 * along));
                     self.wrench_at(&pose).map(|e| kind.point(along, e))
                 }
-                // Under the dead wrench first, then pushed.
+                // Applies the dead wrench first, then pushes.
                 (None, None, Drive::Pushed(_, dead)) => self
                     .deflected_by(dead)
                     .and_then(|e| self.next(kind, along, None, &e.state)),
@@ -343,7 +341,7 @@ impl Posture {
     }
 }
 
-/// How the tool is taken along.
+/// Drive of the tool.
 enum Drive {
     Displacement(Twist),
     Pushed(Vector3<f64>, Wrench),

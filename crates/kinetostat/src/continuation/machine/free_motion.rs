@@ -1,4 +1,4 @@
-//! Where a machine comes to rest along a motion of its tool that costs nothing without load.
+//! Equilibrium of a machine along a motion of its tool that needs no force without load.
 
 use nalgebra::{DMatrix, DVector, Vector6};
 
@@ -15,7 +15,7 @@ use crate::machine::posture::Posture;
 use crate::machine::state::MechanismState;
 use crate::spatial::{Twist, Wrench};
 
-/// How far a tool is followed, in natural lengths: more than half a turn about any axis nearby.
+/// Largest distance over which a tool is followed, in natural lengths: more than half a turn about any axis nearby.
 const FARTHEST: f64 = 12.0;
 
 /// The logarithm of a rotation ends at half a turn.
@@ -24,7 +24,7 @@ const LARGEST_TURN: f64 = 3.0;
 /// Steps by which a tool is followed, at most.
 const STEPS: usize = 2000;
 
-/// How following a tool along a motion ends.
+/// Outcome of following a tool along a motion.
 enum FollowedTo {
     /// No hand is needed any more.
     Rest(MechanismState),
@@ -37,7 +37,7 @@ enum FollowedTo {
 /// A solver at an equilibrium, and its residual.
 pub(crate) type Converged<'p> = (PlatformSolver<'p>, Residual);
 
-/// Why there is no equilibrium where Newton found none and no motion that costs nothing led to one.
+/// Reason why there is no equilibrium where Newton found none and no free motion led to one.
 pub(crate) enum NoRest {
     /// The load pushes on along a motion however far one follows.
     Endless(Twist),
@@ -160,7 +160,7 @@ impl Posture {
         FollowedTo::Lost(false)
     }
 
-    /// Why there is no equilibrium where the load pushes on along a motion.
+    /// Error of a load that pushes on along a motion.
     pub(crate) fn free_direction(&self, motion: &Twist, wrench: &Wrench) -> Error {
         Error::FreeDirection {
             place: self.mechanism.place(),

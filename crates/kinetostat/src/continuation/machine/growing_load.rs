@@ -1,4 +1,4 @@
-//! Where a machine comes to rest under a load: by Newton's iteration, along a motion that costs nothing without load, or
+//! Equilibrium of a machine under a load: by Newton's iteration, along a motion that needs no force without load, or
 //! with a load that grows [R 5.5.3].
 
 use crate::chain::found_by::FoundBy;
@@ -26,10 +26,9 @@ const EFFORT: usize = 20_000;
 const SMOOTH: f64 = 2.0;
 
 impl Posture {
-    /// Whether a load from rest meets a limit point before it is whole, though `loaded` was found
-    /// beyond it: then the machine snaps before, and `loaded` lies on another branch. `rest` is
-    /// the equilibrium without the wrench of `loaded`. The load is followed only where secant and
-    /// tangents disagree or their stability differs.
+    /// Detects a limit point that a load from rest meets before it is whole, though `loaded` was found beyond it: then
+    /// the machine snaps before, and `loaded` lies on another branch. `rest` is the equilibrium without the wrench of
+    /// `loaded`. The load is followed only where secant and tangents disagree or their stability differs.
     ///
     /// # Errors
     /// Those of the equilibrium without load.
@@ -119,7 +118,7 @@ impl Posture {
         Err(self.no_rest(none, wrench))
     }
 
-    /// What Newton finds from a state, or a motion that costs nothing leads to.
+    /// Equilibrium that Newton finds from a state, or to which a free motion leads.
     fn reached_directly(
         &self,
         wrench: &Wrench,
@@ -152,7 +151,7 @@ impl Posture {
         }
     }
 
-    /// Where the machine comes to rest without a wrench on its tool.
+    /// Equilibrium of the machine without a wrench on its tool.
     fn rest_without_wrench(&self) -> Result<MechanismState> {
         let none = Wrench::zero();
         match self.reached_directly(&none, self.rest_state()) {
@@ -198,7 +197,7 @@ impl Posture {
         grown.stable().then_some(grown)
     }
 
-    /// Whether one step may have passed the equilibrium to which the growing load leads.
+    /// True if one step may have passed the equilibrium to which the growing load leads.
     fn is_far(&self, state: &MechanismState) -> bool {
         let limbs = self.mechanism.limbs().iter().zip(&self.limbs);
         let moved = limbs
@@ -217,7 +216,7 @@ impl Posture {
             end: *wrench,
             loads: Vec::new(),
         });
-        // What it may cost is bounded: it only says why there is no equilibrium.
+        // The cost is bounded: this only explains why there is no equilibrium.
         let limbs = self.mechanism.limbs().iter();
         let coordinates: usize = limbs.map(|l| l.actual.coordinate_count()).sum();
         let mut settings = CurveSettings::within(0.0, 1.0);

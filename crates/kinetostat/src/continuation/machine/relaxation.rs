@@ -111,7 +111,7 @@ impl PlatformSolver<'_> {
         }
         let next = self.closed()?;
         let lower = potential(self)?;
-        // Beside a large potential the last steps change nothing that it shows.
+        // Next to a large potential the last steps are below rounding.
         let rounding = 1e-15 * energy.abs();
         let better =
             lower < energy - rounding || lower <= energy + rounding && next.0.merit < before.merit;

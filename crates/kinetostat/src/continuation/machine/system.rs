@@ -48,7 +48,7 @@ const STEPS: f64 = 20.0;
 /// rounding leaves of them would be a limit of the load.
 const SOFT: f64 = 1e-5;
 
-/// How far a step may go of the distance from where the curve started.
+/// Largest step as a share of the distance from the start of the curve.
 const OF_DISTANCE: f64 = 0.1;
 
 /// Largest rotation of the tool, rad: its logarithm ends at half a turn.
@@ -80,7 +80,7 @@ struct Solved {
     equilibrium: MechanismEquilibrium,
 }
 
-/// See above.
+/// System of a machine's curve.
 pub(crate) struct MachineSystem<'q, 'p> {
     conditions: &'q ToolConditions<'p>,
     /// Motions of the tool, scaled, orthonormal; the driven one last.
@@ -91,17 +91,17 @@ pub(crate) struct MachineSystem<'q, 'p> {
     load: f64,
     /// Equations by combinations of the equilibrium of the tool in the motions, each in its unit.
     rows: DMatrix<f64>,
-    /// Where the curve starts.
+    /// Start of the curve.
     first: DVector<f64>,
-    /// What was evaluated last.
+    /// Result of the last evaluation.
     here: Solved,
-    /// From where the next equilibrium is looked for, and the load factor there.
+    /// Start of the search for the next equilibrium, and the load factor there.
     near: (MechanismState, Wrench, f64),
     family: Option<Arc<Family>>,
 }
 
 impl<'q, 'p> MachineSystem<'q, 'p> {
-    /// With units from the first equilibrium and the load factor there; its state.
+    /// Starts with units from the first equilibrium and the load factor there; returns its state.
     pub fn start(
         conditions: &'q ToolConditions<'p>,
         first: &MechanismEquilibrium,
@@ -221,7 +221,7 @@ impl<'q, 'p> MachineSystem<'q, 'p> {
         self.state(e, self.near.2)
     }
 
-    /// Where the tool is at some motions.
+    /// Pose of the tool at some motions.
     fn pose(&self, q: &DVector<f64>) -> Pose {
         let path = self.conditions;
         let own = &self.motions * q;
@@ -406,7 +406,7 @@ impl CurveSystem for MachineSystem<'_, '_> {
         }
     }
 
-    /// Where the parameter stands still (a flat posture under a load), its conjugate grows.
+    /// If the parameter is stationary (a flat posture under a load), its conjugate grows.
     fn points_forward(&self, t: &DVector<f64>) -> bool {
         let rate = t[self.count()];
         match rate.abs() > NO_RATE {
@@ -443,7 +443,7 @@ impl CurveSystem for MachineSystem<'_, '_> {
         self.family = family;
     }
 
-    /// They always are.
+    /// Matrices are always dense here.
     fn set_dense(&mut self, _dense: bool) {}
 
     fn condensed_modes(found: &MechanismEquilibrium) -> usize {
@@ -558,7 +558,7 @@ impl CurveSystem for MachineSystem<'_, '_> {
         to
     }
 
-    /// Of the tool.
+    /// Motion of the tool.
     fn motion(&self, direction: &DVector<f64>) -> Vec<f64> {
         let own = &self.motions * self.physical(direction).0;
         let own = Vector6::from_fn(|i, _| own[i]);
@@ -613,7 +613,7 @@ impl CurveSystem for MachineSystem<'_, '_> {
     }
 
     fn stability(&mut self, c: &Corrected, motion: bool) -> MachineStability {
-        // Where the tool cannot be held, the last equilibrium is the nearest one.
+        // If the tool cannot be held, the last equilibrium is the nearest one.
         let e = self.hold(&c.z).cloned();
         let e = e.as_ref().unwrap_or(&self.here.equilibrium);
         self.conditions.machine_stability(e, motion)

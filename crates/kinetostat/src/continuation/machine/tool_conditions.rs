@@ -1,4 +1,4 @@
-//! What holds the tool of a machine and what acts on it, and its motions in numbers.
+//! Constraints and loads of a machine's tool, and its motions in numbers.
 //!
 //! The tool's motions are those in which it is free, and the driven one; scaled: rotations times the natural length.
 
@@ -24,11 +24,11 @@ pub(crate) struct ToolConditions<'p> {
     pub(crate) by_motion: bool,
     /// Motions of the tool: those that are free, and the driven one, scaled, orthonormal.
     pub(crate) motions: DMatrix<f64>,
-    /// Those that are free, scaled.
+    /// Free motions, scaled.
     pub(crate) free: DMatrix<f64>,
     /// Directions in which the tool is held, base axes, columns.
     pub(crate) held: DMatrix<f64>,
-    /// Where it is held there, from the nominal target.
+    /// Prescribed displacement in these directions, from the nominal target.
     pub(crate) displacement: Vector6<f64>,
     pub(crate) length: f64,
 }
@@ -88,7 +88,7 @@ impl<'p> ToolConditions<'p> {
             let last = motions.ncols();
             motions = motions.insert_column(last, 0.0);
             motions.set_column(last, &scaled.normalize());
-            // What is held is held across that direction.
+            // Directions across that one stay held.
             let along = held.transpose() * d;
             let across = &held * complement(&DMatrix::from_columns(&[along]));
             held = across;
@@ -107,7 +107,7 @@ impl<'p> ToolConditions<'p> {
         })
     }
 
-    /// For equilibria one by one: held as `end` says at `end.pose`, nothing grows.
+    /// Conditions for equilibria one by one: held as `end` says at `end.pose`, nothing grows.
     pub(crate) fn at_displacement(posture: &'p Posture, end: &EndCondition) -> Result<Self> {
         posture.finite("the pose", end.pose.to_homogeneous().iter())?;
         let nothing = LoadPattern {
@@ -121,9 +121,8 @@ impl<'p> ToolConditions<'p> {
         Ok(path)
     }
 
-    /// The same conditions with the tool driven along one of its free motions (scaled, unit length)
-    /// besides: the load along it that this takes is the conjugate. That load is square to all other
-    /// motions, rotations at the natural length.
+    /// Conditions with the tool driven along one of its free motions (scaled, unit length) besides: the load along it
+    /// is the conjugate. That load is orthogonal to all other motions, rotations at the natural length.
     pub(crate) fn driven(&self, motion: &Vector6<f64>, settings: CurveSettings) -> Self {
         let inside = self.free.transpose() * motion;
         Self {
@@ -140,7 +139,7 @@ impl<'p> ToolConditions<'p> {
         }
     }
 
-    /// Where the tool is held, from the nominal target: m, rad.
+    /// Prescribed displacement of the tool from the nominal target: m, rad.
     pub(crate) fn prescribed_displacement(&self) -> Vector6<f64> {
         self.displacement
     }

@@ -16,7 +16,7 @@ use crate::number::largest_size;
 use crate::spatial::{MotionKind, Twist, Wrench, moved, pose_residual};
 
 impl ToolConditions<'_> {
-    /// Where the machine comes to rest from a state, if Newton finds it from there.
+    /// Equilibrium from a state, if Newton finds it from there.
     pub(crate) fn rest(
         &self,
         state: MechanismState,
@@ -51,7 +51,7 @@ impl ToolConditions<'_> {
         let (x, y) = (torques(a), torques(b));
         let most = largest_size(x.iter().chain(&y));
         let off = self.scaled(&pose_residual(&a.tool, &b.tool).0);
-        // Where a limb is stretched out, rounding may be all that holds the tool along a motion.
+        // In a stretched limb, rounding may be all that holds the tool along a motion.
         let nothing = 1e-15 * self.posture.mechanism.scale().stiffness;
         let mut directions = a.directions.clone();
         let for_nothing = directions
@@ -116,7 +116,7 @@ impl ToolConditions<'_> {
         near: MechanismState,
     ) -> Result<(MechanismEquilibrium, f64)> {
         let wrench = self.dead + self.pattern * factor;
-        // What is held somewhere else than commanded may lie far.
+        // A tool that is held away from its command may be far.
         let robustly = self.held.ncols() > 0;
         self.converge(near, wrench, self.guide(None), robustly)
     }

@@ -1,4 +1,4 @@
-//! Whether the tool of a machine keeps its place under dead wrenches, and everything else with it.
+//! Stability of a machine's tool under dead wrenches, and of everything else with it.
 
 use nalgebra::{DMatrix, Matrix6, Vector3, Vector6};
 
@@ -12,9 +12,9 @@ use crate::machine::directions::without;
 use crate::machine::equilibrium::MechanismEquilibrium;
 use crate::spatial::{Pose, Wrench};
 
-/// How the tool keeps its place under dead wrenches.
+/// Stability of the tool under dead wrenches.
 pub(crate) struct Holding {
-    /// It does not go away.
+    /// True if the tool does not diverge.
     pub stays: bool,
     /// The symmetric part of its stiffness is positive: it does not swing with growing amplitude either.
     pub definite: bool,
@@ -34,7 +34,7 @@ pub(crate) fn condensed_modes(e: &MechanismEquilibrium) -> usize {
     limbs.sum::<usize>() + usize::from(!e.others_hold)
 }
 
-/// Whether a machine stays where it is.
+/// Stability of a machine.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct MachineStability {
@@ -42,8 +42,8 @@ pub struct MachineStability {
     pub stable: bool,
     /// Number of independent motions in which it goes away.
     pub unstable_modes: usize,
-    /// Under loads without a potential it does not go away, but may swing with growing amplitude (flutter), which
-    /// depends on the masses.
+    /// True if, under loads without a potential, it does not diverge but may oscillate with growing amplitude
+    /// (flutter), which depends on the masses.
     pub may_flutter: bool,
 }
 
@@ -110,7 +110,7 @@ impl ToolConditions<'_> {
         }
     }
 
-    /// Those of some motions (scaled) that the machine can make.
+    /// Restricts some motions (scaled) to those that the machine can make.
     pub(crate) fn possible(
         &self,
         e: &MechanismEquilibrium,
@@ -119,7 +119,7 @@ impl ToolConditions<'_> {
         self.without(e, motions, DirectionKind::Rigid)
     }
 
-    /// Those of some motions (scaled) across all directions of a kind.
+    /// Restricts some motions (scaled) to those across all directions of a kind.
     pub(crate) fn without(
         &self,
         e: &MechanismEquilibrium,
@@ -134,7 +134,7 @@ impl ToolConditions<'_> {
         DMatrix::from_fn(6, 6, |i, j| k[(i, j)] / (self.unit(i) * self.unit(j)))
     }
 
-    /// Whether the tool keeps its place in some motions (scaled) under dead wrenches.
+    /// Stability of the tool in some motions (scaled) under dead wrenches.
     pub(crate) fn holds(&self, e: &MechanismEquilibrium, motions: &DMatrix<f64>) -> Holding {
         let possible = self.possible(e, motions);
         if possible.ncols() == 0 {
@@ -144,14 +144,14 @@ impl ToolConditions<'_> {
                 unstable: 0,
             };
         }
-        // By principal directions: in the matrix stiff motions may have drowned soft ones.
+        // Uses principal directions: in the matrix stiff motions may have drowned soft ones.
         let rows = root_rows(&e.directions, self.length);
         let unit = Vector6::from_fn(|i, _| self.unit(i));
         let mut back = DMatrix::zeros(rows.len(), possible.ncols());
         let mut inner = DMatrix::zeros(rows.len(), rows.len());
         for (i, (sign, row)) in rows.iter().enumerate() {
             let row = row.component_div(&unit);
-            // What a direction has of another by rounding is none.
+            // Components below rounding are zero.
             let least = 1e-13 * row.norm();
             let part = (row.transpose() * &possible).map(|x| if x.abs() > least { x } else { 0.0 });
             back.row_mut(i).copy_from(&part);
@@ -174,12 +174,12 @@ impl ToolConditions<'_> {
         }
     }
 
-    /// Whether all loads have a potential, with what is dead of the wrench on the tool in some motions (scaled).
+    /// True if all loads have a potential, with the dead part of the wrench on the tool in some motions (scaled).
     pub(crate) fn conservative(&self, e: &MechanismEquilibrium, motions: &DMatrix<f64>) -> bool {
         let unit = Vector6::from_fn(|i, _| self.unit(i));
         let dead = motions * (motions.transpose() * e.wrench.0.component_div(&unit));
         let moment = Vector3::from_fn(|i, _| dead[3 + i] * self.length);
-        // What the projection leaves of none.
+        // A moment of zero leaves rounding in the projection.
         let moment =
             match moment.norm() > 1e-12 * e.wrench.0.component_div(&unit).norm() * self.length {
                 true => moment,

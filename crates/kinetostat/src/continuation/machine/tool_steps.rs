@@ -33,8 +33,8 @@ pub(crate) struct ToolPoint {
 }
 
 impl ToolPoint {
-    /// The same point with its tangent in the direction in which the tool came, whatever the load did on the step: over
-    /// a limit of the load its rate changes its sign, and the motion goes on.
+    /// Orients the tangent along the tool's last motion, whatever the load did on the step: over a limit of the load
+    /// its rate changes its sign, and the motion continues.
     pub(crate) fn onwards_from(mut self, before: &Self) -> Self {
         let (motion, rate) = self.tangent;
         if motion.dot(&before.tangent.0) < 0.0 {
@@ -176,7 +176,7 @@ impl ToolConditions<'_> {
         if start.parameter == edge || start.tangent.0.norm() == 0.0 {
             return (Vec::new(), BranchEnd::Range);
         }
-        // Where the load starts without any, the machine's size tells how far a step goes.
+        // For a load that starts at zero, the machine's size sets the step.
         let largest = match rate(start) * self.length > 1e-9 * change {
             true => change / rate(start),
             false => 0.02 * self.length,
@@ -292,7 +292,7 @@ impl ToolConditions<'_> {
             .sum()
     }
 
-    /// Where the load has its extreme between two points.
+    /// Extremum of the load between two points.
     pub(crate) fn load_limit(&self, a: &ToolPoint, b: &ToolPoint, step: f64) -> Option<ToolPoint> {
         let load = |p: &ToolPoint| p.tangent.1;
         (load(a) * load(b) < 0.0)
@@ -300,9 +300,8 @@ impl ToolConditions<'_> {
             .flatten()
     }
 
-    /// Where the path from rest without load reaches the whole, if it does before a limit; else the first point at
-    /// which the machine stops being stable under the load because that has its extreme. `none` tells
-    /// which of them are rounding.
+    /// Point at which the path from rest without load reaches the whole load, if it does before a limit; else the first
+    /// limit point of the load at which the machine becomes unstable. `none` tells which of them are rounding.
     pub(crate) fn growing(
         &self,
         start: MechanismState,
@@ -339,8 +338,8 @@ impl ToolConditions<'_> {
         })
     }
 
-    /// Where the load along a driven motion vanishes on the path in both directions from an equilibrium (from
-    /// the machine held where it is commanded, without one), and the ends of that path.
+    /// States where the load along a driven motion vanishes on the path in both directions from an equilibrium (without
+    /// one, from the machine held where it is commanded), and the ends of that path.
     pub(crate) fn unloaded(&self, from: Option<&MechanismEquilibrium>) -> [Vec<MechanismState>; 2] {
         let ahead = (self.pattern.0, 0.0);
         let start = match from {

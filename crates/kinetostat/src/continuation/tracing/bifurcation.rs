@@ -43,7 +43,7 @@ pub(crate) fn bifurcation<S: CurveSystem>(
     special.map(|special| (share, special))
 }
 
-/// Where the number of unstable modes changes, by halving.
+/// Change of the number of unstable modes, by bisection.
 fn by_count<S: CurveSystem>(system: &mut S, segment: &Segment<'_, S>) -> Option<f64> {
     let count = segment.here.unstable;
     let (mut low, mut high) = (0.0, 1.0);
@@ -60,7 +60,7 @@ fn by_count<S: CurveSystem>(system: &mut S, segment: &Segment<'_, S>) -> Option<
     Some(0.5 * (low + high))
 }
 
-/// Where the number of unstable modes changes through parts that are condensed out of the unknowns.
+/// Change of the number of unstable modes through parts that are condensed out of the unknowns.
 pub(crate) fn stability_change<S: CurveSystem>(
     system: &mut S,
     segment: &Segment<'_, S>,
@@ -84,7 +84,7 @@ pub(crate) fn stability_change<S: CurveSystem>(
     Some((share, special))
 }
 
-/// Where the determinant changes its sign.
+/// Zero of the determinant.
 fn by_determinant<S: CurveSystem>(
     system: &mut S,
     segment: &Segment<'_, S>,
@@ -97,7 +97,7 @@ fn by_determinant<S: CurveSystem>(
     segment.root(system, low, high, 1e-9, &move |_, _, t| value(t))
 }
 
-/// Which kind of bifurcation is at a place, and which branches cross there; with dense matrices.
+/// Kind of the bifurcation at a place, and the branches that cross there; with dense matrices.
 fn classified<S: CurveSystem>(
     system: &mut S,
     segment: &Segment<'_, S>,
@@ -105,7 +105,7 @@ fn classified<S: CurveSystem>(
     step: f64,
     even: bool,
 ) -> Option<SpecialPoint<S>> {
-    // Along a family the extended system is singular; the test function alone has found the place.
+    // The extended system is singular along a family; the test function alone has found the place.
     let refined = match even || system.family().is_some() {
         true => None,
         false => refine(system, guess).filter(|z| (z - guess).norm() < 0.5 * step),

@@ -272,7 +272,7 @@ impl<S: CurveSystem> Tracer<'_, S> {
         (points, end)
     }
 
-    /// As [`Self::run`] from an ordinary point; ends as closed where the path returns to `origin`.
+    /// Traces like [`Self::run`] from an ordinary point; ends as closed where the path returns to `origin`.
     fn run_watching(
         &mut self,
         second: Point<S>,

@@ -53,7 +53,7 @@ fn described<S: CurveSystem>(system: &mut S, c: &Corrected, direction: DVector<f
     } else {
         (rate, change)
     };
-    // Both in natural units.
+    // Scales both to natural units.
     let (own, other) = (direction[m], system.natural_conjugate(rate));
     let (pushed, moved) = match system.is_load() {
         true => (own, other),

@@ -9,8 +9,8 @@ use crate::linalg::complement::complement;
 /// Singular values below this share of the largest count as zero, if moved equilibria confirm it.
 const NULL: f64 = 1e-7;
 
-/// How far an equilibrium is moved along a motion that seems neutral, scaled units: as far as its family
-/// goes, which close to its origin is a small circle.
+/// Displacements of an equilibrium along a motion that seems neutral, scaled units: as far as its family goes, which
+/// close to its origin is a small circle.
 const MOVED: [f64; 3] = [0.03, 0.003, 0.0003];
 
 /// The family to which a state on a curve along `t` belongs, if any: null motions beside the

@@ -63,8 +63,8 @@ fn crossings<S: CurveSystem>(
     found
 }
 
-/// Where the system goes from every limit point that a stable part of a branch runs into: stable equilibria on the
-/// branches at the same dead load (load limits) or at the same displacement (displacement limits), nearest first.
+/// Jumps from every limit point that a stable part of a branch runs into: to stable equilibria on the branches at the
+/// same dead load (load limits) or at the same displacement (displacement limits), nearest first.
 pub(crate) fn jumps<S: CurveSystem>(
     system: &mut S,
     branches: &[BranchOf<S>],

@@ -72,8 +72,8 @@ impl<S: CurveSystem> Segment<'_, S> {
     }
 }
 
-/// Where a function of the share of the step, `a` and `b` of one sign at the ends, comes nearest to
-/// zero or beyond it: parabolas through three values, a few times.
+/// Point where a function of the share of the step, `a` and `b` of one sign at the ends, comes nearest to zero or
+/// beyond it: parabolas through three values, a few times.
 pub(crate) fn dip<S: CurveSystem>(
     system: &mut S,
     a: f64,

@@ -1,4 +1,4 @@
-//! Where a curve starts, and simple bifurcation points by Newton.
+//! Start of a curve, and simple bifurcation points by Newton.
 
 use nalgebra::{DMatrix, DVector};
 

@@ -34,7 +34,7 @@ pub(crate) type HalfBranch<S> = (Vec<Point<S>>, BranchEnd);
 /// The two ends of a branch beside the point at which it leaves: unknowns and state, where there are some.
 pub(crate) type Arms<E> = [Option<(DVector<f64>, E)>; 2];
 
-/// What closes the system of equilibrium along a curve.
+/// Closing equation of the system of equilibrium along a curve.
 pub(crate) enum Row<'v> {
     /// `normal . z = offset`.
     Plane(&'v DVector<f64>, f64),
@@ -47,7 +47,7 @@ pub(crate) enum Row<'v> {
 /// A state that satisfies equilibrium.
 pub(crate) struct Corrected {
     pub z: DVector<f64>,
-    /// Of the curve at that state.
+    /// Matrix of the curve at that state.
     pub matrix: CurveMatrix,
     pub norms: ResidualNorms,
     pub iterations: usize,
@@ -55,7 +55,7 @@ pub(crate) struct Corrected {
 
 /// A system in equilibrium with one parameter.
 pub(crate) trait CurveSystem {
-    /// What is known of one of its equilibria.
+    /// Type of its equilibria.
     type Equilibrium: CurveEquilibrium;
 
     /// Number of equations `m`.
@@ -64,7 +64,7 @@ pub(crate) trait CurveSystem {
     fn is_load(&self) -> bool;
     /// Parameter per unit of the last unknown.
     fn sigma(&self) -> f64;
-    /// Whether a direction is the one in which a curve starts: the parameter grows.
+    /// True if a curve starts in this direction: the parameter grows.
     fn points_forward(&self, t: &DVector<f64>) -> bool {
         t[self.count()] >= 0.0
     }
@@ -85,7 +85,7 @@ pub(crate) trait CurveSystem {
         self.set_family(point.family.clone());
         self.start_from(&point.equilibrium);
     }
-    /// What is looked for next lies near this equilibrium.
+    /// Starts the next search near this equilibrium.
     fn start_from(&mut self, near: &Self::Equilibrium);
     /// Family of equilibria through the curve that is followed: what is neutral in it is at rest.
     fn family(&self) -> Option<&Arc<Family>>;
@@ -121,11 +121,11 @@ pub(crate) trait CurveSystem {
 
     /// Evaluates the system at a state; returns the residual and its measure.
     fn evaluate(&mut self, z: &DVector<f64>) -> (DVector<f64>, ResidualNorms);
-    /// Whether a residual is small enough.
+    /// True if a residual is small enough.
     fn converged(&self, norms: &ResidualNorms) -> bool;
     /// Residual, its measure and `[dG/du dG/dlambda]` at a state.
     fn linearised(&mut self, z: &DVector<f64>) -> (DVector<f64>, ResidualNorms, CurveMatrix);
-    /// The same with a dense matrix.
+    /// Linearises with a dense matrix.
     fn linearised_densely(
         &mut self,
         z: &DVector<f64>,
@@ -147,7 +147,7 @@ pub(crate) trait CurveSystem {
     fn size_of_motion(&self, motion: &DVector<f64>) -> f64;
     /// Largest step along a tangent that keeps motions small.
     fn longest_step(&self, t: &DVector<f64>, settings: &CurveSettings) -> f64;
-    /// Whether an equilibrium is beyond the largest angle.
+    /// True if an equilibrium is beyond the largest angle.
     fn beyond_angle(&self, found: &Self::Equilibrium, largest: f64) -> bool;
 
     /// Conjugate of the parameter at the state that was evaluated last.
@@ -165,6 +165,6 @@ pub(crate) trait CurveSystem {
     ) -> <Self::Equilibrium as CurveEquilibrium>::Stability;
     /// Everything that is known about a state, which was evaluated last.
     fn equilibrium(&mut self, c: &Corrected) -> Self::Equilibrium;
-    /// That no equilibrium was found near a state.
+    /// Error if no equilibrium was found near a state.
     fn not_converged(&mut self, z: &DVector<f64>, iterations: usize) -> Error;
 }

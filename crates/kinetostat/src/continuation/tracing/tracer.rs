@@ -259,7 +259,7 @@ impl<'s, S: CurveSystem> Tracer<'s, S> {
         Some((point, next, iterations))
     }
 
-    /// Whether the last step left the limits.
+    /// Reason of the branch's end if the last step left the limits.
     pub(super) fn beyond(&self, here: &Point<S>, point: &Point<S>) -> Option<BranchEnd> {
         let left = |from: f64, to: f64, (low, high): (f64, f64)| {
             (to > high && to > from) || (to < low && to < from)

@@ -30,7 +30,7 @@ pub(crate) struct GraphPosture {
     pub limbs: Vec<LimbPosture>,
 }
 
-/// What a passive joint counts as compared with an actuator, in the sum of squares of motions.
+/// Weight of a passive joint relative to an actuator, in the sum of squares of motions.
 const PASSIVE_WEIGHT: f64 = 1e-2;
 /// Damping that leaves a step exact to ten digits.
 const LEAST_DAMPING: f64 = 1e-10;
@@ -75,8 +75,8 @@ pub(crate) fn graph_inverse(
     }
 }
 
-/// Where the tool ends if it is first brought as near to `target` as the joints can, then let go so
-/// that all limbs close; `None` where they do not.
+/// Tool pose after it is first brought as near to `target` as the joints can, then released so that all limbs close;
+/// `None` where they do not.
 pub(crate) fn graph_nearest(mechanism: &Mechanism, target: &Pose) -> Option<Pose> {
     let mut search = GraphSearch::new(mechanism);
     let mut platforms: Vec<Pose> = mechanism.platforms().iter().map(|p| p.home).collect();
@@ -657,7 +657,7 @@ impl<'m> GraphSearch<'m> {
     }
 }
 
-/// The same turn in (-pi, pi].
+/// Equivalent angle in (-pi, pi].
 fn shortest(angle: f64) -> f64 {
     let turn = std::f64::consts::TAU;
     angle - turn * (angle / turn).round()

@@ -48,7 +48,7 @@ pub fn inverse_kinematics(
         Ok(found) => return Ok(found),
         Err(failed) => failed,
     };
-    // From elsewhere: along the path from home, then from irregular postures around it.
+    // Starts elsewhere: along the path from home, then from irregular postures around it.
     if let Ok(found) = search.by_continuation(&home) {
         return Ok(found);
     }
@@ -89,7 +89,7 @@ pub(crate) fn command_rates(chain: &Chain, base: &Pose, posture: &LimbPosture) -
     let search = JointSearch::new(chain, base, &Pose::identity());
     let kinematics = Kinematics::new(chain, base, &posture.coordinates, &posture.commands);
     let jacobian = search.jacobian(&kinematics);
-    // Least squares by the normal equations where the joints are certainly independent.
+    // Normal equations, if the joints are certainly independent.
     let inverse = (jacobian.transpose() * &jacobian)
         .cholesky()
         .filter(|c| {

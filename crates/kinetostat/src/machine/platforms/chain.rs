@@ -141,7 +141,7 @@ impl PlatformSolver<'_> {
         let arm = self.arm(0, &self.state);
         let mut push = Wrench::zero();
         if k > 0 {
-            // What the hands do besides: the equilibrium of the tool once more.
+            // Effect of the hands: the equilibrium of the tool once more.
             let left = equilibrium.wrench * wrench + equilibrium.motion * tip - unbalanced[tool].0;
             let unit = |i: usize| self.scales[0][i];
             let hands = DMatrix::from_fn(6, k, |i, j| self.guide.hands[(i, j)] / unit(i));

@@ -22,7 +22,7 @@ enum Tangent {
     Swept(Box<Bordered<Box<Sweep>>>),
 }
 
-/// What is given at the tip.
+/// Conditions at the tip.
 enum Tip {
     /// The motions that it can make, orthonormal, scaled.
     Held(DMatrix<f64>),
@@ -140,9 +140,9 @@ impl Linear {
         self.solution = b;
     }
 
-    /// As [`Self::linearise`], while six conditions (scaled) say what the tip does: no solution for
-    /// motions of the tip, which may be worlds stiffer in one direction than in another. `right` is what
-    /// these conditions are off by now.
+    /// Linearises like [`Self::linearise`], with six conditions (scaled) on the tip: no solution for motions of the
+    /// tip, whose stiffness may differ by many orders of magnitude between directions. `right` is the residual of these
+    /// conditions.
     pub fn linearise_loaded(
         &mut self,
         hessian: Hessian,

@@ -22,7 +22,7 @@ struct Trial {
     lagged: bool,
 }
 
-/// What a trial is worth.
+/// Rating of a trial.
 enum Rating {
     Accepted,
     /// No step makes it better, and it is as good as rounding lets it be.
@@ -71,7 +71,7 @@ impl PlatformSolver<'_> {
                 let trial = Trial {
                     length,
                     merit,
-                    // Of the report's own steps the last one leads over to Newton where motion decides.
+                    // The last of the report's own steps leads over to Newton where motion decides.
                     lagged: iteration + usize::from(self.follows()) < picard,
                 };
                 let next_length = match reached {
@@ -117,9 +117,8 @@ impl PlatformSolver<'_> {
         }
     }
 
-    /// What a step of some length is worth. Where platforms go where their limbs lead, large
-    /// corrections are rated as those of chains, by motion. Limbs that constrain each other are rated
-    /// by the residual, and stay on their branch.
+    /// Rates a step of some length. If platforms follow their limbs, large corrections are rated as those of chains, by
+    /// motion. Limbs that constrain each other are rated by the residual, and stay on their branch.
     fn rated(
         &mut self,
         trial: &Trial,
@@ -256,7 +255,7 @@ impl PlatformSolver<'_> {
         self.retarget()
     }
 
-    /// As given, and failing that with loads and closures that grow from the unloaded posture.
+    /// Solves as given, and failing that with loads and closures that grow from the unloaded posture.
     pub fn solve_robustly(&mut self) -> Result<crate::chain::residual::Residual> {
         let start = self.state.clone();
         // A state that carries load already is better than the report's first step from rest.
@@ -352,7 +351,7 @@ impl PlatformSolver<'_> {
     }
 }
 
-/// Where an iteration is.
+/// State of an iteration.
 pub(crate) struct Iterate {
     pub(crate) state: MechanismState,
     posture: Vec<LimbPosture>,

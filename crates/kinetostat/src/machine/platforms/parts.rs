@@ -1,11 +1,11 @@
-//! What a solution for the platforms is made of: its unknowns, what guides the tool, one step.
+//! Parts of a solution for the platforms: its unknowns, the guide of the tool, one step.
 
 use nalgebra::{DMatrix, DVector, Matrix3, Matrix6, Vector6};
 
 use crate::chain::system::Hessian;
 use crate::spatial::{Directions, Pose, Twist, Wrench, hat, pose_residual};
 
-/// How the unknowns of the platform equations are divided.
+/// Division of the unknowns of the platform equations.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Unknowns {
     /// All platforms move; commands are given.
@@ -23,7 +23,7 @@ pub(crate) enum Unknowns {
 /// Conditions on the motion of the tool from a pose, and as many wrenches on it.
 #[derive(Clone, Debug)]
 pub(crate) struct Guide {
-    /// Where the motion is counted from.
+    /// Reference pose of the motion.
     pub from: Pose,
     /// Conditions `rows * motion = goals`, k x 6, base axes.
     pub rows: DMatrix<f64>,
@@ -34,7 +34,7 @@ pub(crate) struct Guide {
 }
 
 impl Guide {
-    /// No condition.
+    /// Guide without conditions.
     pub fn none() -> Self {
         Self {
             from: Pose::identity(),
@@ -65,12 +65,12 @@ impl Guide {
     }
 }
 
-/// Which tangents a step is made with.
+/// Tangents of a step.
 #[derive(Clone, Copy)]
 pub(crate) enum Tangents {
-    /// Those at the state evaluated last.
+    /// Tangents at the state evaluated last.
     New { hessian: Hessian },
-    /// Those of the step before.
+    /// Tangents of the step before.
     Old,
 }
 
@@ -94,6 +94,6 @@ pub(crate) struct EquilibriumRows {
     /// Wrench (natural units) and motion in the equilibrium.
     pub wrench: Matrix6<f64>,
     pub motion: Matrix6<f64>,
-    /// Of every row, so that its largest scaled entry is one.
+    /// Factor of every row, so that its largest scaled entry is one.
     pub sizes: Vector6<f64>,
 }

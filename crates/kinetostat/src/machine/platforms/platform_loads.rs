@@ -1,4 +1,4 @@
-//! What weights, loads on the platforms and forces of limbs that turn add to the platforms' tangent.
+//! Contribution of weights, loads on the platforms and turning forces of limbs to the platforms' tangent.
 
 use nalgebra::Matrix6;
 
@@ -7,7 +7,7 @@ use crate::machine::state::MechanismState;
 use crate::spatial::{hat, rotational};
 
 impl PlatformSolver<'_> {
-    /// What the force of a limb adds to the stiffness of the platform at its tip as the arm turns.
+    /// Contribution of a limb's force to the stiffness of the platform at its tip as the arm turns.
     pub fn turned_force(&self, limb: usize, at: &MechanismState) -> Matrix6<f64> {
         let f = at.wrenches[limb].force();
         rotational(&(hat(&f) * hat(&self.arm(limb, at))))

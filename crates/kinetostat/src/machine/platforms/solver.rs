@@ -56,10 +56,10 @@ pub(crate) struct PlatformSolver<'m> {
     pub rates: Vec<DMatrix<f64>>,
     pub state: MechanismState,
     pub scales: Vec<Vec<f64>>,
-    /// What acts on every limb between its ends: gravity and its loads.
+    /// Loads on every limb between its ends: gravity and its own.
     pub loads: Vec<Vec<Load>>,
     pub linear: Vec<Linear>,
-    /// Of a machine that is one chain: the unbalanced wrench of its tool, as it was linearised.
+    /// Unbalanced wrench of the tool of a machine that is one chain, as it was linearised.
     pub equilibrium: Option<EquilibriumRows>,
     /// Closure at the start, kept while the load grows.
     pub offsets: Vec<Twist>,
@@ -70,7 +70,7 @@ pub(crate) struct PlatformSolver<'m> {
     pub share: f64,
     /// Stiffness against motions of the platforms during a step, by the machine's.
     pub damping: f64,
-    /// How the state was found.
+    /// Method by which the state was found.
     pub found_by: FoundBy,
     /// See [`crate::chain::Residual::rate`], of the limbs' wrenches and coordinates.
     pub rate: Option<f64>,
@@ -87,7 +87,7 @@ pub(crate) struct MechanismResiduals {
     pub loads: f64,
     pub force: f64,
     pub forces: f64,
-    /// What loads count as at least, see [`LEAST_LOAD`].
+    /// Lower bound of the loads, see [`LEAST_LOAD`].
     pub least: f64,
     /// Largest unbalanced torque without what is rounding, see [`rounding`].
     pub exceeding: f64,
@@ -126,7 +126,7 @@ impl<'m> PlatformSolver<'m> {
             .zip(&scales)
             .map(|((l, p), scales)| {
                 let base = &state.platforms[l.from];
-                // What follows from commands and from a moving base is computed with dense matrices.
+                // Effects of commands and of a moving base are computed with dense matrices.
                 let dense = matches!(unknowns, Unknowns::Target(_)) || l.from != 0;
                 let (x, commands) = (&p.coordinates, &p.commands);
                 Linear::new(match dense {
@@ -291,7 +291,7 @@ impl<'m> PlatformSolver<'m> {
             closure_m = larger(closure_m, guide_residual);
         }
         for (k, w) in unbalanced.iter().enumerate().skip(1) {
-            // Under displacement control, the holder of the tool supplies its unbalanced wrench.
+            // The holder of the tool supplies its unbalanced wrench under displacement control.
             if self.unknowns != Unknowns::Displacement || k != m.tool() {
                 force = larger(force, size(w));
                 merit += size(w).powi(2);

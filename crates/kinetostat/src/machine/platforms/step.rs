@@ -23,11 +23,11 @@ struct Conditions {
     rigid: RigidRows,
     /// Motions on which their wrenches work, one row each.
     reactions: Sparse,
-    /// What the rows must come to.
+    /// Right-hand side of the rows.
     needed: DVector<f64>,
 }
 
-/// Whether an unknown of the platforms' motions is one of the tool that the target's motion replaces.
+/// True if an unknown of the platforms' motions is one of the tool that the target's motion replaces.
 fn is_exchanged(exchanged: Directions, tool: usize, unknown: usize) -> bool {
     (tool..tool + 6).contains(&unknown) && exchanged[unknown - tool]
 }
@@ -188,8 +188,8 @@ impl PlatformSolver<'_> {
         (rows, needed)
     }
 
-    /// How far the nominal target's motion brings the tips along what they cannot strain: rows as
-    /// those of [`Self::rigid_rows`], k x 6.
+    /// Motion of the tips, by the nominal target's motion, along directions that they cannot strain: rows as those of
+    /// [`Self::rigid_rows`], k x 6.
     fn rigid_rows_by_target(&self) -> DMatrix<f64> {
         let count = self.linear.iter().map(|l| l.rigid.ncols()).sum();
         let mut rows = DMatrix::zeros(count, 6);
@@ -320,7 +320,7 @@ impl PlatformSolver<'_> {
         b
     }
 
-    /// What limbs that cannot move and the guide of the tool demand of the platforms' motions.
+    /// Conditions on the platforms' motions by limbs that cannot move and by the guide of the tool.
     fn conditions(&self, at: &MechanismState, exchanged: Directions) -> Conditions {
         let m = self.mechanism;
         let tool = 6 * (m.tool() - 1);

@@ -24,7 +24,7 @@ pub(crate) const SINGULAR: f64 = 1e-8;
 /// all of them are brought to zero together.
 const UNCLEAR: f64 = 1e-6;
 
-/// What a limb loses.
+/// Motion that a limb loses.
 pub(crate) struct LostMotion {
     pub limb: usize,
     /// Singular value here as a share of the largest.
@@ -93,7 +93,7 @@ pub(crate) struct LostMotionSearch<'p> {
     /// Unknowns: motions of platforms, then joints limb by limb.
     first: Vec<usize>,
     count: usize,
-    /// What moves joints and leaves the tool: not used.
+    /// Self-motions of the joints: not used.
     idle: DMatrix<f64>,
 }
 
@@ -117,7 +117,7 @@ impl<'p> LostMotionSearch<'p> {
         }
     }
 
-    /// The same search, from its start.
+    /// Restarts the search.
     pub(crate) fn again(&self) -> Self {
         Self::new(self.start)
     }
@@ -220,13 +220,13 @@ impl<'p> LostMotionSearch<'p> {
         if clear {
             return (all, values);
         }
-        // Those that really change.
+        // Keeps those that really change.
         let u = SingularValues::of(&all).range(1e-4);
         (u.transpose() * all, u.transpose() * values)
     }
 
-    /// Least motion of the tool from the start on the conditions, linearised: motion of all to the
-    /// conditions, and motion on them.
+    /// Shortest motion of the tool from the start to the conditions, linearised: motion of all to the conditions, and
+    /// motion on them.
     fn step(&self, condition: &DMatrix<f64>, value: &DVector<f64>) -> Option<[DVector<f64>; 2]> {
         let (closure, residuals) = self.closure();
         let count = closure.nrows() + condition.nrows();
@@ -278,7 +278,7 @@ impl<'p> LostMotionSearch<'p> {
             if axes.values.len() < rank {
                 return None;
             }
-            // The same one as before, wherever it is in the order.
+            // Follows the previous one, wherever it is in the order.
             if let Some((u, v)) = &before {
                 let alike =
                     |k: &usize| (axes.left.column(*k).dot(u) * axes.right.column(*k).dot(v)).abs();
@@ -324,8 +324,8 @@ pub(crate) fn solve(
 }
 
 impl Posture {
-    /// For every limb the nearest posture at most `within_m` away (scaled) where it loses a motion
-    /// that its joints have in general.
+    /// Finds for every limb the nearest posture at most `within_m` away (scaled) where it loses a motion that its
+    /// joints have in general.
     pub(crate) fn lost_motions(&self, within_m: f64) -> Vec<LostMotion> {
         let mut search = LostMotionSearch::new(self);
         let length = search.length;
@@ -460,8 +460,8 @@ impl Posture {
     }
 }
 
-/// Least motion of the tool (scaled) that brings `value` to zero, first order: `moves` of the tool
-/// and `change` of the values, both per free motion.
+/// Shortest motion of the tool (scaled) that brings `value` to zero, first order: `moves` of the tool and `change` of
+/// the values, both per free motion.
 fn first_order(
     moves: &DMatrix<f64>,
     change: &DMatrix<f64>,

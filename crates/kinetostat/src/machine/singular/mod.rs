@@ -1,7 +1,6 @@
-//! How far a posture is from a singular one, and where: motions that are lost, and motions that nothing holds any more
-//! [R 5.5.3].
+//! Distance of a posture from singular ones: motions that are lost, and motions that nothing holds any more [R 5.5.3].
 //!
-//! Takes a posture, gives the singular postures near it: which motion, which limb, how far, in which direction.
+//! Finds the singular postures near a posture: which motion, which limb, how far, in which direction.
 //!
 //! ```text
 //! lost: a singular value of a limb's Jacobian falls to zero;  gained: one of the wrenches that the limbs carry

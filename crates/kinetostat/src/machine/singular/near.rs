@@ -1,4 +1,4 @@
-//! How far a posture is from a singular one [R 5.5.3], and in which direction.
+//! Distance and direction of a posture from a singular one [R 5.5.3].
 //!
 //! Two kinds: the locked actuators and the limbs do not hold the machine any more (a motion is
 //! gained, the stiffness has a free direction), or a limb cannot make a motion that it can make
@@ -18,7 +18,7 @@ use crate::number;
 use crate::number::smaller;
 use crate::spatial::{Pose, Twist, moved, pose_residual};
 
-/// What happens at a singular posture.
+/// Kind of a singular posture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum SingularityKind {
@@ -42,7 +42,7 @@ pub struct NearSingularity {
     /// natural length). For a motion gained the steepest descent of the singular value, for one lost
     /// the least motion (sum of squares) that ends where it is lost. Zero at a singular posture.
     pub towards: Twist,
-    /// How far the singular posture is in that direction, m (rotations at the natural length).
+    /// Distance of the singular posture in that direction, m (rotations at the natural length).
     pub distance_m: f64,
     /// The singular posture was found; if not, the distance is a first-order estimate, singular value
     /// by its slope.
@@ -115,7 +115,7 @@ impl<'p> Beside<'p> {
         Some(Self { start, free, moves })
     }
 
-    /// Where the tool has gone along a twist, but for what it turned besides; `None` where it went elsewhere.
+    /// Posture after a motion of the tool along a twist, but for additional rotations; `None` where it went elsewhere.
     fn at(&self, twist: &Vector6<f64>) -> Option<Posture> {
         let mut search = self.start.again();
         let length = search.length;
@@ -200,7 +200,7 @@ impl Posture {
     /// motion, on the way of steepest descent.
     pub(crate) fn motion_gained(&self, within_m: f64) -> Option<NearSingularity> {
         let length = self.mechanism.scale().length;
-        // Not only what actuators drive: at a singular posture they drive less.
+        // Includes motions that actuators do not drive: at a singular posture they drive less.
         let basis = self.mobility();
         let directions: Vec<Vector6<f64>> = basis
             .column_iter()
@@ -226,7 +226,7 @@ impl Posture {
             None => straight(twist),
         };
         let here = self.locked();
-        // What is never zero elsewhere counts here: ranks of postures around this one.
+        // The rank is that of postures around this one: their nonzero values count here.
         let mut rank = here.rank();
         for k in 0..3_usize {
             let mut twist = Vector6::zeros();
@@ -241,7 +241,7 @@ impl Posture {
             .iter()
             .map(|direction| [at(&(direction * step)), at(&(direction * -step))])
             .collect();
-        // Where the machine has fewer motions, those that it has elsewhere are lost.
+        // If the machine has fewer motions here, those that it has elsewhere are lost.
         let valued = |m: &Measure| m.values.get(last).copied().unwrap_or(0.0);
         let most = here.values.first().copied().unwrap_or(0.0);
         let value = valued(&here);
@@ -272,7 +272,7 @@ impl Posture {
                 follow(value * value, first, &along)
             })
             .flatten();
-        // At a singular posture what is gained is not distinguished from what is always free; nearby it is.
+        // Gained and always free motions cannot be told apart at a singular posture, but nearby.
         let near = around.iter().flatten().flatten();
         let near = near.max_by(|a, b| a.values[last].total_cmp(&b.values[last]));
         let motion = match near {
@@ -303,7 +303,7 @@ impl Posture {
 }
 
 impl Measure {
-    /// By the left singular vectors.
+    /// Measures by the left singular vectors.
     fn of(matrix: DMatrix<f64>, motion: impl Fn(&DVector<f64>) -> Vector6<f64>) -> Self {
         let mut own = Self::default();
         if matrix.is_empty() || matrix.iter().any(|x| !x.is_finite()) {
@@ -341,8 +341,7 @@ fn normal(twist: &Vector6<f64>, length: f64) -> Vector6<f64> {
     })
 }
 
-/// Where the square of the singular value has its zero near `first`: parabolas through three
-/// points. `None` if it has none there.
+/// Zero of the squared singular value near `first`: parabolas through three points. `None` if it has none there.
 fn follow(start: f64, first: f64, square: &dyn Fn(f64) -> Option<f64>) -> Option<f64> {
     let mut points = vec![(0.0, start)];
     for s in [0.5 * first, first] {

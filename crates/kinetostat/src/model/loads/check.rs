@@ -1,4 +1,4 @@
-//! Whether a load fits its chain, and whether its tangent is the derivative of its wrenches.
+//! Checks that a load fits its chain, and that its tangent is the derivative of its wrenches.
 
 use nalgebra::DVector;
 
@@ -12,10 +12,10 @@ use crate::number::larger;
 use crate::number::short;
 use crate::spatial::{MotionKind, Pose, Wrench};
 
-/// In debug builds a tangent that is off by more than this share is refused before solving.
+/// Relative error of a tangent from which debug builds refuse it before solving.
 const TANGENT_TOLERANCE: f64 = 1e-5;
 
-/// How a load's tangent compares with differences of its wrenches.
+/// Comparison of a load's tangent with differences of its wrenches.
 #[derive(Clone, Debug, PartialEq, Default)]
 #[non_exhaustive]
 pub struct TangentCheck {

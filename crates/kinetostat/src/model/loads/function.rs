@@ -63,8 +63,8 @@ impl FunctionLoad {
         }
     }
 
-    /// With its tangent, 6k x 6k for k nodes: change of the stacked wrenches by the stacked twists
-    /// of the nodes (both in base axes, about each node's origin).
+    /// Adds its tangent, 6k x 6k for k nodes: change of the stacked wrenches by the stacked twists of the nodes (both
+    /// in base axes, about each node's origin).
     #[must_use]
     pub fn with_tangent(
         mut self,
@@ -74,7 +74,7 @@ impl FunctionLoad {
         self
     }
 
-    /// With its potential energy (J), which also declares the load conservative.
+    /// Adds its potential energy (J), which also declares the load conservative.
     #[must_use]
     pub fn with_energy(mut self, energy: impl Fn(&[Pose]) -> f64 + Send + Sync + 'static) -> Self {
         self.energy = Some(Arc::new(energy));

@@ -1,15 +1,15 @@
-//! How a strut's tension depends on its length: springs, gas springs, constant forces.
+//! Tension of a strut as a function of its length: springs, gas springs, constant forces.
 
 use std::sync::Arc;
 
 use crate::model::limits::odd_number;
 
-/// What a strut answers to its length.
+/// Response of a strut to its length.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LengthResponse {
     /// Pull between the points, N; negative pushes them apart.
     pub tension: f64,
-    /// Its derivative by the length, N/m.
+    /// Derivative of the tension by the length, N/m.
     pub slope: f64,
     /// Energy stored, J: the integral of the tension over the length.
     pub energy: f64,
@@ -69,7 +69,7 @@ pub enum LengthLaw {
         /// 1 for slow (isothermal), 1.4 for fast (adiabatic) motion of nitrogen.
         exponent: f64,
     },
-    /// The same tension at every length.
+    /// Constant tension at every length.
     Constant {
         /// N.
         tension: f64,
@@ -195,7 +195,7 @@ impl LengthLaw {
     }
 }
 
-/// What a number of a law must be.
+/// Admissible range of a law's number.
 enum Limit {
     None,
     NotBelowZero,

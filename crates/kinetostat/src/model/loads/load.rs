@@ -54,9 +54,9 @@ impl PartialEq for Load {
     }
 }
 
-/// How many first steps may leave the tangents of loads out [R 4.15]: as many as wanted where all loads are dead, none
-/// where one changes as its node goes. What a spring between two nodes holds is no less real than the springs of the
-/// chain, and a step without it goes too far, past the equilibrium to which the load leads.
+/// Number of first steps that may leave the tangents of loads out [R 4.15]: as many as wanted where all loads are dead,
+/// none where one changes as its node moves. A spring between two nodes is no less real than the springs of the chain,
+/// and a step without it goes too far, past the equilibrium to which the load leads.
 pub(crate) fn lagged_steps<'a>(mut loads: impl Iterator<Item = &'a Load>, wanted: usize) -> usize {
     match loads.any(|load| matches!(load, Load::Custom(_))) {
         true => 0,

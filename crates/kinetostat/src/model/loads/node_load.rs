@@ -1,4 +1,4 @@
-//! What a load on the nodes of a chain answers at given node poses [R 4.2, 4.22-4.23].
+//! Response of a load on the nodes of a chain at given node poses [R 4.2, 4.22-4.23].
 
 use nalgebra::Vector3;
 
@@ -68,7 +68,7 @@ pub trait NodeLoad: Send + Sync + std::fmt::Debug {
         Vec::new()
     }
 
-    /// What is wrong with the load's own numbers, in words.
+    /// Describes the fault of the load's own numbers.
     fn fault(&self) -> Option<String> {
         None
     }
@@ -85,7 +85,7 @@ pub trait NodeLoad: Send + Sync + std::fmt::Debug {
         None
     }
 
-    /// What is wrong with its answers at these poses, in words.
+    /// Describes the fault of its response at these poses.
     fn fault_at(&self, _kinematics: &Kinematics) -> Option<String> {
         None
     }

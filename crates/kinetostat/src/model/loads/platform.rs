@@ -46,11 +46,11 @@ pub enum PlatformLoad {
     Wrench {
         /// Index of the platform; the base (0) cannot be loaded.
         platform: usize,
-        /// Where the force acts, platform axes, m.
+        /// Point of the force, platform axes, m.
         point: Vector3<f64>,
-        /// About that point; base axes, or platform axes if it `turns`.
+        /// Wrench about that point; base axes, or platform axes if it `turns`.
         wrench: Wrench,
-        /// It turns with the platform (a follower, without a potential).
+        /// True if it turns with the platform (a follower, without a potential).
         turns: bool,
     },
     /// A spring, gas spring or rope between points of two platforms; nodes of its anchors are
@@ -94,8 +94,8 @@ impl PlatformLoad {
         }
     }
 
-    /// It has a potential: a dead moment on a platform that turns about several axes has none, and
-    /// whether a platform does is not looked into.
+    /// True if it has a potential: a dead moment on a platform that turns about several axes has none, and the axes of
+    /// the platform's rotation are not examined.
     #[must_use]
     pub fn conservative(&self) -> bool {
         match self {
@@ -175,7 +175,7 @@ impl PlatformLoad {
         }
     }
 
-    /// The same load with the frame of a platform moved to `frame` (platform from new frame).
+    /// Moves the frame of a platform to `frame` (platform from new frame).
     pub(crate) fn reframed(&self, platform: usize, frame: &Pose) -> Self {
         let inverse = frame.inverse();
         let there = |point: &Vector3<f64>| (inverse * nalgebra::Point3::from(*point)).coords;

@@ -1,4 +1,4 @@
-//! Which loads have a potential, and what it is.
+//! Potentials of loads, where they exist.
 
 use nalgebra::{Unit, UnitQuaternion, Vector3};
 

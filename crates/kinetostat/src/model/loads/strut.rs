@@ -9,7 +9,7 @@ use crate::model::loads::length_law::{LengthLaw, LengthResponse};
 use crate::model::loads::node_load::NodeLoad;
 use crate::spatial::{Pose, Wrench, hat, rotational, shift_matrix};
 
-/// Where a strut is hinged.
+/// Attachment of a strut.
 ///
 /// # Examples
 ///
@@ -63,7 +63,7 @@ impl Anchor {
         }
     }
 
-    /// Its place, base axes, and its arm from the node's origin; `None` for the base.
+    /// Place in base axes, and arm from the node's origin; `None` for the base.
     fn place(
         &self,
         pose_of: &impl Fn(usize) -> Pose,
@@ -142,8 +142,8 @@ impl Strut {
         }
     }
 
-    /// With `S = [1, -hat(r)]` (twist of a node to motion of its anchor) and `M = df/dd`:
-    /// `S_i^T (+-M) S_j`, and `hat(f) hat(r)` for the arm that turns under the force.
+    /// Tangents, with `S = [1, -hat(r)]` (twist of a node to motion of its anchor) and `M = df/dd`: `S_i^T (+-M) S_j`,
+    /// and `hat(f) hat(r)` for the arm that turns under the force.
     pub(crate) fn tangents_at(&self, pose_of: &impl Fn(usize) -> Pose, out: &mut Vec<NodeTangent>) {
         let (a, from) = self.from.place(pose_of);
         let (b, to) = self.to.place(pose_of);

@@ -45,7 +45,7 @@ pub struct BowingLaw {
     pub length: f64,
 }
 
-/// How much a plane of bending shortens the axis, `b(w, p)`.
+/// Shortening of the axis by a plane of bending, `b(w, p)`.
 #[inline(always)]
 fn bow<N: Number>(h: f64, w: N, p: N, sign: f64) -> N {
     (w * w) * (0.6 / h) + (p * p) * (h / 15.0) - (w * p) * (0.1 * sign)
@@ -144,7 +144,7 @@ impl CurvedLaw for BowingLaw {
         let (strain, square) = self.strain_and_square(&along);
         let force = times(&self.matrix, &strain);
         let mut out = Self::symmetric(&self.torque(&along, &strain, square, &force));
-        // Of the axis' strain by x, y and z.
+        // Derivatives of the axis' strain by x, y and z.
         let ([y, z], _) = self.stretches(&strain);
         let first = [at[0].same(1.0), y.value, z.value];
         let k = |i: usize, j: usize| at[0].same(self.matrix[(i, j)]);

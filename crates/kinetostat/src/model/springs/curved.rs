@@ -20,7 +20,7 @@ pub trait CurvedLaw {
     /// Stiffness of the six motions at rest.
     fn at_rest(&self) -> Matrix6<f64>;
 
-    /// What is wrong with its numbers, if anything but the stiffness.
+    /// Describes the fault of its numbers, the stiffness excepted.
     fn fault(&self) -> Option<&'static str>;
 
     /// Strains; the last three are the rotation vector.
@@ -107,7 +107,7 @@ pub trait CurvedLaw {
         }))
     }
 
-    /// What the general engine asks for at a deflection.
+    /// Response at a deflection, for the general engine.
     fn respond(&self, deflection: &Vector6<f64>) -> Response {
         let own = self.linearised(&(*deflection).into());
         let rates = Matrix6::from_fn(|i, j| own.rates[i][j]);
@@ -123,7 +123,7 @@ pub trait CurvedLaw {
 /// A law to first order about a deflection.
 pub struct Linearised<N> {
     strain: [N; 6],
-    /// Of the strains.
+    /// Forces of the strains.
     force: [N; 6],
     torque: [N; 6],
     /// Strains by motions.

@@ -14,7 +14,7 @@ use crate::model::springs::logarithm::LogarithmLaw;
 use crate::model::springs::parallelogram::ParallelogramLaw;
 use crate::model::springs::single::SingleLaw;
 
-/// How a spring block answers a deflection.
+/// Law of a spring block.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 #[non_exhaustive]
@@ -31,7 +31,7 @@ pub enum SpringLaw {
     Bilinear(BilinearLaw),
 }
 
-/// Of a law of six coordinates with strains of its own ([`super::curved::CurvedLaw`]): `$do` with the law as
+/// Selects a law of six coordinates with strains of its own ([`super::curved::CurvedLaw`]): `$do` with the law as
 /// `$own`; `$other` for all other laws.
 macro_rules! if_curved {
     ($law:expr, $own:ident => $do:expr, else $other:expr) => {
@@ -44,7 +44,7 @@ macro_rules! if_curved {
 }
 pub(crate) use if_curved;
 
-/// The same for a law of one coordinate that is not linear ([`super::single::SingleLaw`]).
+/// Selects a law of one coordinate that is not linear ([`super::single::SingleLaw`]).
 macro_rules! if_single {
     ($law:expr, $own:ident => $do:expr, else $other:expr) => {
         match $law {
@@ -56,7 +56,7 @@ macro_rules! if_single {
 pub(crate) use if_single;
 
 impl SpringLaw {
-    /// The same law, so many times as stiff.
+    /// Scales the stiffness of the law.
     pub(crate) fn scaled(&self, factor: f64) -> Self {
         let mut scaled = self.clone();
         match &mut scaled {
@@ -72,7 +72,7 @@ impl SpringLaw {
         scaled
     }
 
-    /// What is wrong with its numbers, if anything but its stiffness at rest.
+    /// Describes the fault of its numbers, the stiffness at rest excepted.
     pub(crate) fn fault(&self) -> Option<&'static str> {
         if_curved!(
             self,

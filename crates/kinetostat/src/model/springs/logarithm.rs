@@ -42,7 +42,7 @@ pub struct LogarithmLaw {
 }
 
 impl LogarithmLaw {
-    /// What is moved, from the near end of the segment: `P`.
+    /// Moved point, from the near end of the segment: `P`.
     #[inline(always)]
     fn point<N: Number>(&self, at: &[N; 6]) -> [N; 3] {
         [at[0] + at[0].same(self.length), at[1], at[2]]
@@ -113,7 +113,7 @@ impl CurvedLaw for LogarithmLaw {
             (0.5, 1.0 / 6.0)
         };
         let once = turn.cross(&rho);
-        // As in `strain`, the length is not added to what is moved.
+        // The length is not added to the moved point, as in `strain`.
         let p = strain.fixed_rows::<3>(0) + once * a + turn.cross(&once) * b;
         let angles = angles(&turn);
         Vector6::new(p.x, p.y, p.z, angles.x, angles.y, angles.z)

@@ -48,7 +48,7 @@ impl ParallelogramLaw {
         m
     }
 
-    /// Its entries.
+    /// Entries of the matrix.
     #[inline(always)]
     pub(crate) fn pair<N: Number>(&self, q2: N) -> Pair<N> {
         let (k, square) = (&self.bar, self.width * self.width);

@@ -1,13 +1,13 @@
-//! What a spring law answers: energy, torque and tangent stiffness.
+//! Response of a spring law: energy, torque and tangent stiffness.
 
 use nalgebra::{Matrix6, Vector6};
 
-/// What a six-dimensional law answers to a deflection.
+/// Response of a six-dimensional law to a deflection.
 #[derive(Clone, Copy, Debug)]
 pub struct Response {
     /// J.
     pub energy: f64,
-    /// Its gradient, N or N m.
+    /// Gradient of the energy, N or N m.
     pub torque: Vector6<f64>,
     /// Second derivative that the strains' rates make: positive definite as the matrix of the law is.
     pub material: Matrix6<f64>,

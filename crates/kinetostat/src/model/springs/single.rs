@@ -7,7 +7,7 @@ pub trait SingleLaw {
     /// Stiffness at rest, N/m or N m/rad.
     fn at_rest(&self) -> f64;
 
-    /// What is wrong with its numbers, if anything but the stiffness at rest.
+    /// Describes the fault of its numbers, the stiffness at rest excepted.
     fn fault(&self) -> Option<&'static str>;
 
     /// Torque (N, N m) at a deflection (m, rad).

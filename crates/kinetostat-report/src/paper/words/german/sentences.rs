@@ -133,7 +133,7 @@ pub(crate) fn statement(statement: &Statement, result: &Shown<'_>) -> Option<Str
             }
             text
         }
-        // Its own section has it in this language.
+        // Chatter has its own section in this language.
         Statement::Assumed(AssumptionKind::Chatter) => return None,
         // A kind without words in this language is quoted in English.
         Statement::Assumed(kind) => assumed(result, *kind),
