@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-/// Why a point has no place.
+/// Reason for which a point has no place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum WhyLeftOut {
@@ -10,8 +10,8 @@ pub enum WhyLeftOut {
     BeyondWindow,
     /// Several stretches of it do.
     SeveralStretches,
-    /// It names a line, and only cuts of other lines come within the window.
+    /// The point names a line, and only cuts of other lines come within the window.
     NotOnItsLine,
-    /// It would lie behind the points before it.
+    /// The place would lie before those of earlier points.
     OutOfOrder,
 }

@@ -53,7 +53,8 @@ pub fn expand(
     finished(runner)
 }
 
-/// As [`expand`], in the same single run with everything that is refused, as [`expansion_faults`] lists it.
+/// Variant of [`expand`] that returns, from the same single run, everything that is refused, as [`expansion_faults`]
+/// lists it.
 ///
 /// ```
 /// use kinetostat_program::{ExpandOptions, NoSubprograms, expand_or_faults};
@@ -84,7 +85,7 @@ pub fn expand_or_faults(
     }
 }
 
-/// What a run that came to its end has made.
+/// Result of a completed run.
 fn finished(runner: Runner<'_>) -> Result<Expanded, ProgramError> {
     let files = runner.sources.iter().map(|s| s.name.clone()).collect();
     let (program, path, origins, warnings) = runner.flat.finish()?;

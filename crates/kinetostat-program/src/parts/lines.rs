@@ -7,7 +7,7 @@ use thiserror::Error;
 use crate::error::ProgramError;
 use crate::text::program::MAX_READ_LINE_BYTES;
 
-/// Why a part of a program cannot be read.
+/// Reason for which a part of a program cannot be read.
 #[derive(Debug, Error)]
 pub enum PartError {
     /// The file cannot be read.
@@ -16,7 +16,7 @@ pub enum PartError {
     /// The program cannot be followed.
     #[error("{0}")]
     Program(#[from] ProgramError),
-    /// Its lines are not those that were surveyed.
+    /// The lines are not those that were surveyed.
     #[error("the program was changed since it was surveyed")]
     Changed,
 }

@@ -1,4 +1,4 @@
-//! How far an arc about a stated centre turns, and whether that can be said at all.
+//! Sweep of an arc about a stated centre, and arcs for which it is ambiguous.
 //!
 //! A full circle ends where it begins. Where its words are rounded apart, it ends a hair behind its start, and reads as an arc of a
 //! micrometre. Manuals say no more than that start and end are the same (Heidenhain, `C`; SINUMERIK, G2 with I and J), and
@@ -19,13 +19,14 @@ const SAME_POINT_MM: f64 = 1e-9;
 /// neither asks whether the arc had an R).
 const DISPUTED_ANGLE: f64 = 1e-6;
 
-/// By how many last digits the ends of a full circle are apart where each was rounded, or summed up from steps.
+/// Distance of the ends of a full circle in last digits, if each was rounded or summed up from steps.
 const ROUNDED_DIGITS: f64 = 3.0;
 
 /// Radii at start and end that differ by more are no roundings (0.016 mm in Heidenhain's controls, 0.01 mm in SINUMERIK), in mm.
 const MOST_DIFFERENCE_MM: f64 = 0.02;
 
-/// Where the ends are apart by so large an angle, rad, the digits are too coarse for the radius to say anything.
+/// Largest angle between the ends, rad, of a possible full circle: beyond it the digits are too coarse for the radius
+/// to say anything.
 const LARGEST_DOUBT: f64 = 0.1;
 
 /// Finest digits that are looked for.
@@ -34,7 +35,7 @@ const MOST_DECIMALS: i32 = 9;
 /// The ends of an arc are so near each other that a full circle is meant as well as the arc between them.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct NearlyClosed {
-    /// How far its end is from its start in the plane, in mm.
+    /// Distance between end and start in the plane, in mm.
     pub apart_mm: f64,
     /// The short arc between its ends, in rad, as LinuxCNC and grbl take it; none where they disagree as well, about less than
     /// 1e-6 rad.
@@ -42,7 +43,7 @@ pub struct NearlyClosed {
 }
 
 impl NearlyClosed {
-    /// What to do with such an arc.
+    /// Remedy for such an arc.
     pub const REMEDY: &str =
         "end the circle exactly where it starts, or write a straight move instead of the arc";
 }

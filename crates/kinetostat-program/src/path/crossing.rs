@@ -1,4 +1,4 @@
-//! Where a move passes planes of one coordinate.
+//! Intersections of a move with planes of one coordinate.
 
 use std::f64::consts::PI;
 
@@ -36,7 +36,7 @@ impl Move {
         }
     }
 
-    /// The same on a stretch where the coordinate only rises or only falls.
+    /// Intersections on a stretch where the coordinate is monotonic.
     fn shares_of_climb(
         &self,
         axis: usize,

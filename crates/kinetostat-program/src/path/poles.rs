@@ -1,4 +1,4 @@
-//! Where directions of the tool say little of its rotary axes: near a pole.
+//! Poles, near which directions of the tool determine its rotary axes poorly.
 //!
 //! Two axes turn the tool, one after the other. The area that the two turns span is `n . R(second) z` times one, with `n` the cross
 //! product of both axes: it depends on the angle of the second axis alone, as a cosine, and is zero twice in a revolution. There the

@@ -20,7 +20,7 @@ const SAME_WAY: f64 = 1e-6;
 /// An axis stands within its limits up to this, deg.
 const AT_LIMIT: f64 = 1e-6;
 
-/// Why rotary axes do not point the tool in a direction.
+/// Reason for which rotary axes cannot point the tool in a direction.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Unreached {
     /// No angles do.
@@ -149,7 +149,7 @@ impl RotaryAxes {
         placed.filter(reaches).collect()
     }
 
-    /// The same direction within the limits of the axes: full turns away, or anywhere where an axis need not turn.
+    /// Moves the solution into the limits of the axes: by full turns, or freely for an axis that need not turn.
     fn within_limits_of(&self, pointing: &Pointing) -> Option<Pointing> {
         let mut within = pointing.clone();
         for (index, axis) in self.axes.iter().enumerate() {
@@ -187,7 +187,7 @@ impl RotaryAxes {
         })
     }
 
-    /// Which axis would leave its limits at these angles, in words, with all of them.
+    /// Text with all angles and the axis that would leave its limits there.
     #[must_use]
     pub fn words_of_limits(&self, angles_deg: &[f64]) -> String {
         let each = self.axes.iter().zip(angles_deg);

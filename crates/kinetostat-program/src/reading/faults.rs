@@ -48,7 +48,7 @@ pub fn faults(bytes: impl Into<Vec<u8>>, options: &ReadOptions) -> Vec<ProgramEr
     if found.is_empty() {
         found.extend(interpreter.finish(&program).err());
     }
-    // Of two faults of a line the first found is that of its reading.
+    // The stable sort keeps the fault of reading before others of its line.
     found.sort_by_key(|fault| fault.line);
     found.dedup_by_key(|fault| fault.line);
     of_variables_once(found)
@@ -94,7 +94,7 @@ pub(crate) fn take_over_understood(
     }
 }
 
-/// What the axis words of a line with refused codes are.
+/// Meaning of the axis words of a line with refused codes.
 enum Ends {
     /// The end of its motion.
     AllAxes,
@@ -104,7 +104,7 @@ enum Ends {
     Nowhere,
 }
 
-/// By the G codes in tenths.
+/// Selects it by the G codes in tenths.
 fn ends_of(refused: &[u32]) -> Ends {
     let mut ends = Ends::AllAxes;
     for code in refused {

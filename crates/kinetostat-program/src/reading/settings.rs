@@ -15,7 +15,7 @@ use crate::text::line::Word;
 /// Systems that there are: G54 to G59.3.
 const SYSTEMS: usize = 9;
 
-/// What a block with G10 does.
+/// Setting that a block with G10 changes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Setting {
     /// The table of tools.

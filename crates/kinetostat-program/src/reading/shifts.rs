@@ -2,7 +2,7 @@
 
 use crate::path::position_offset::OffsetChange;
 
-/// Of which axes the coordinates are shifted by an amount that is not in the program.
+/// Axes whose coordinates are shifted by an amount that is not in the program.
 ///
 /// A first `G92 X0` says where the tool stands, and the program's coordinates count from there. When it
 /// is taken away they count from the machine's work offset again, and how far apart the two are only the
@@ -21,8 +21,7 @@ pub(crate) struct Shifts {
 }
 
 impl Shifts {
-    /// Whether the program has said what G92 shifts the coordinates of an axis by: it has been cleared, or set where the tool
-    /// was known.
+    /// True if the program has stated the shift of an axis by G92: it has been cleared, or set where the tool was known.
     pub fn is_sure(&self, axis: usize) -> bool {
         self.stated[axis] && !self.bare[axis] && !self.now[axis]
     }

@@ -1,4 +1,4 @@
-//! How far a correction departs from a chord, between the places where it was requested.
+//! Distance of a correction from its chord, between the places where it was requested.
 //!
 //! A stretch between two breaks of the field is followed by the polynomial of fourth degree through
 //! five values, `t = 0, 1/4, 1/2, 3/4, 1`. Of that polynomial the departure is bounded without a gap:

@@ -12,22 +12,22 @@ const ROUNDING: f64 = 1e-12;
 /// A whole number may be off by this.
 const WHOLE: f64 = 1e-4;
 
-/// Where the values of parameters come from.
+/// Source of the values of parameters.
 pub(crate) trait Parameters {
     /// The value of a numbered parameter.
     fn numbered(&self, number: u32) -> Result<f64, String>;
     /// The value of a named one; none where it has not been given any.
     fn named(&self, name: &str) -> Result<Option<f64>, String>;
-    /// Whether a numbered parameter has not been given a value.
+    /// True if a numbered parameter has no value.
     fn is_vacant(&self, number: u32) -> bool;
     /// Whose rules hold.
     fn rules(&self) -> Dialect;
-    /// Whether a number is that of a parameter.
+    /// True if a number is that of a parameter.
     fn has_number(&self, number: u32) -> bool;
 }
 
 impl Expression {
-    /// Whether this is a parameter that has not been given a value: Fanuc's vacant one.
+    /// True if this is a parameter without a value: Fanuc's vacant one.
     pub fn is_vacant(&self, parameters: &dyn Parameters) -> Result<bool, String> {
         let Self::Parameter(of) = self else {
             return Ok(false);
@@ -145,7 +145,7 @@ fn full_turn(angle: f64) -> f64 {
     }
 }
 
-/// Whether two values are equal. Fanuc's vacant parameter equals another vacant one and no number, not even 0 (B-63944EN, 16.1).
+/// True if two values are equal. Fanuc's vacant parameter equals another vacant one and no number, not even 0 (B-63944EN, 16.1).
 fn are_equal(
     left: &Expression,
     right: &Expression,
@@ -207,7 +207,7 @@ impl Function {
 }
 
 impl Function {
-    /// As Fanuc's controllers have it: FIX drops the digits behind the point, FUP goes away from zero.
+    /// Fanuc's variant: FIX truncates, FUP rounds away from zero.
     fn of_fanuc(self, x: f64) -> Result<f64, String> {
         match self {
             Self::Floor | Self::Ceiling => Ok(x.signum() * self.of(x.abs())?),
@@ -218,7 +218,7 @@ impl Function {
 }
 
 impl Operator {
-    /// As Fanuc's controllers have it: AND, OR and XOR bit by bit.
+    /// Fanuc's variant: AND, OR and XOR are bitwise.
     fn of_fanuc(self, left: f64, right: f64) -> Result<f64, String> {
         Ok(match self {
             Self::And => f64::from(bits(left)? & bits(right)?),

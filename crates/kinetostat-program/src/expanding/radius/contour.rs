@@ -35,7 +35,7 @@ pub(crate) struct ProgrammedArc {
 }
 
 impl Programmed {
-    /// What the block of a move means.
+    /// Programmed motion of a block.
     pub fn of(motion: &Move, axes: Axes) -> Result<Self, Wrong> {
         if motion
             .feed
@@ -86,7 +86,7 @@ pub(crate) fn arc_behind() -> Wrong {
     )
 }
 
-/// What stands around a motion in its block.
+/// Words around a motion in its block.
 #[derive(Debug, Clone)]
 pub(crate) struct Dress {
     pub depth: Option<f64>,
@@ -147,7 +147,7 @@ impl Contour {
         }
     }
 
-    /// Where the tool stands beside the last programmed place.
+    /// Tool centre at the last programmed place, offset by the radius.
     pub fn tool_at(&self, normal: Point) -> Point {
         self.at + normal * self.tool
     }
@@ -163,7 +163,7 @@ impl Contour {
         }
     }
 
-    /// Whether the tool is beside the contour.
+    /// True if the tool is offset from the contour.
     pub fn has_begun(&self) -> bool {
         self.normal.is_some()
     }

@@ -84,7 +84,7 @@ impl Sense {
         }
     }
 
-    /// Where a tool on a side of such an arc runs.
+    /// Side of such an arc, inside or outside, on which the tool runs.
     pub fn of_tool(self, side: Side) -> Within {
         match self.sign() == side.sign() {
             true => Within::Inside,
@@ -93,7 +93,7 @@ impl Sense {
     }
 }
 
-/// Where the tool runs along an arc.
+/// Side of an arc on which the tool runs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Within {
     /// Between the arc and its centre.

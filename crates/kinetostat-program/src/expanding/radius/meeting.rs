@@ -1,4 +1,4 @@
-//! Where the way of the tool beside one piece of a contour meets the way beside the next.
+//! Intersection of the offset curves of two consecutive pieces of a contour.
 //!
 //! The ways are straight lines and circles beside the contour at the tool's radius. Two of them may meet twice; the tool takes
 //! the place that it reaches without leaving the free side.
@@ -16,7 +16,7 @@ pub(crate) struct Circle {
     pub radius: f64,
 }
 
-/// Which of the two places on a line.
+/// Choice between the two intersections on a line.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Along {
     Forward,

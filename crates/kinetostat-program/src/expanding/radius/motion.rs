@@ -77,7 +77,7 @@ impl Motion {
         }
     }
 
-    /// Which of X, Y, Z it names.
+    /// True for each of X, Y, Z that the block names.
     pub fn states(&self) -> [bool; 3] {
         self.has
     }
@@ -96,7 +96,7 @@ impl Motion {
         Ok(programmed.interpreter.last_move().cloned())
     }
 
-    /// What stands around the motion in the flat program.
+    /// Words around the motion in the flat program.
     pub fn dress(self, made: &Move, axes: Axes, origin: Origin) -> Dress {
         Dress {
             depth: self.has[axes[2]].then_some(made.end[axes[2]]),

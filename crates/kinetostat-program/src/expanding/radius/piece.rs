@@ -9,7 +9,7 @@ use crate::reading::interpreting::interpreter::Interpreter;
 /// Words are rounded here, in program units: far below what counts, above what the arithmetic leaves.
 const DIGITS: f64 = 1e12;
 
-/// What a piece is.
+/// Shape of a piece.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Shape {
     /// `G0` or `G1`.

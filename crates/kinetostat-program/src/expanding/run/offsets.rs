@@ -37,7 +37,7 @@ impl Words {
         own.next().map(|(_, value)| *value)
     }
 
-    /// Whether nothing but a code and some letters stands in the block.
+    /// True if the block has only a code and some letters.
     fn only(&self, code: f64, letters: &[u8]) -> bool {
         self.0.iter().all(|(letter, value)| match letter {
             b'G' => *value == code,

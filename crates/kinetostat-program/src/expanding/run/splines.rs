@@ -67,7 +67,7 @@ impl Runner<'_> {
         }
         self.spline = made.next;
         if code == 53 {
-            // Behind a NURBS no motion is in force.
+            // No motion is in force after a NURBS.
             self.add(b"G80")?;
         }
         self.add_rest(&block.after)

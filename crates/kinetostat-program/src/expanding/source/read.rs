@@ -121,7 +121,7 @@ fn structure(cursor: &mut Cursor<'_>) -> Result<Structure, Malformed> {
         Some(b'[') => cursor.bracketed().map(Some),
         _ => Ok(None),
     };
-    // Of two keywords that begin alike the longer stands first.
+    // A longer keyword stands before its own prefix.
     for (name, made) in [
         ("SUB", Structure::Sub),
         ("ELSE", Structure::Else),
@@ -263,7 +263,7 @@ fn block(text: &[u8], first: usize) -> Result<Option<Statement>, Malformed> {
     Ok(Some(Statement::Block(pieces)))
 }
 
-/// Whether what follows a letter is more than a number.
+/// True if the text after a letter is more than a number.
 fn is_expression(cursor: &mut Cursor<'_>) -> bool {
     let mut ahead = cursor.clone();
     while ahead.take("-") || ahead.take("+") {}

@@ -1,4 +1,4 @@
-//! What a line of a program is to its run.
+//! Statements of a program.
 
 use std::ops::Range;
 
@@ -17,7 +17,7 @@ pub(crate) struct SourceLine {
     pub statement: Statement,
 }
 
-/// What a line does.
+/// Kind of a statement.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Statement {
     /// Nothing but plain words and comments: run as it stands.
@@ -49,7 +49,7 @@ pub(crate) enum Piece {
     Assignment(Parameter, Expression),
 }
 
-/// What an O word names.
+/// Label of an O word.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum OLabel {
     Name(String),

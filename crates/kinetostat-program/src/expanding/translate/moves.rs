@@ -5,7 +5,7 @@ use crate::reading::interpreting::interpreter::Interpreter;
 
 const LETTERS: [char; 3] = ['X', 'Y', 'Z'];
 
-/// Where the tool is in program coordinates, as far as that is known, and how places are written.
+/// Tool position in program coordinates, as far as it is known, and the distance mode for writing places.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Place {
     pub at: [Option<f64>; 3],

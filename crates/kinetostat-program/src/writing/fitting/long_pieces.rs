@@ -20,13 +20,13 @@ const TRIALS: usize = 16;
 /// Chords by which the length of a curve is taken.
 const CHORDS: usize = 64;
 
-/// How much shorter than their mean equal pieces of the path may be where they are written: the correction varies along it.
+/// Minimum length, over their mean, of equal pieces of the path as written: the correction varies along it.
 const SHORTEST_OF_MEAN: f64 = 0.998;
 
-/// How many times the pieces that are needed are looked for at most.
+/// Maximum number of pieces to try, over that needed.
 const FINEST: f64 = 4.0;
 
-/// How a place is reached.
+/// Way by which a place is reached.
 #[derive(Clone, Copy)]
 struct Reached {
     /// The last piece of the way.
@@ -62,7 +62,7 @@ impl Fit<'_> {
         }
     }
 
-    /// How many of these pieces are shorter than a block may be.
+    /// Number of these pieces that are shorter than a block may be.
     pub fn short_ones(
         &self,
         span: &Span,
@@ -77,7 +77,7 @@ impl Fit<'_> {
         short.count()
     }
 
-    /// Whether a piece that begins where another ends is no shorter than a block may be.
+    /// True if a piece that begins where another ends is no shorter than a block may be.
     pub fn is_long(
         &self,
         before: &FittedPiece,
@@ -144,7 +144,7 @@ impl Fit<'_> {
                 continue;
             };
             for next in further(place, count) {
-                // Where a piece does not fit, no longer one does.
+                // A longer piece does not fit if this one does not.
                 let Some(piece) = self.fitting(&self.part(span, &way.piece, share(next))) else {
                     break;
                 };
