@@ -15,7 +15,7 @@ const STEP: f64 = 0.02;
 /// And the largest turn on it, rad.
 const TURN: f64 = 0.05;
 
-/// Most steps of a way.
+/// Maximum number of steps of a way.
 const MOST_STEPS: f64 = 1e4;
 
 /// An arm of six turning joints in one chain.
@@ -38,7 +38,7 @@ const MOST_STEPS: f64 = 1e4;
 #[derive(Clone, Debug)]
 pub struct ArmJoints {
     arm: SerialArm,
-    /// None where the last three axes do not meet in one point.
+    /// Closed form of the wrist; `None` if the last three axes do not meet in one point.
     wrist: Option<Arm>,
 }
 

@@ -1,15 +1,14 @@
-//! What the figures of a run are compared with: limits, ratings of the drives, the tools as they were given and
-//! the workspace.
+//! Limits of a run, ratings of the drives, the tools as they were given and the workspace.
 
 use kinetostat::Pose;
 use nalgebra::Vector3;
 
 use crate::limits::Limits;
 
-/// What the figures of a run are compared with.
+/// References with which the figures of a run are compared.
 #[derive(Clone, Debug, Default)]
 pub struct Bounds {
-    /// What refuses a program.
+    /// Limits beyond which a program is refused.
     pub limits: Limits,
     /// Largest force (N) or torque (N m) of every drive, in the order of the actuators; empty where
     /// no rating is known.
@@ -20,18 +19,18 @@ pub struct Bounds {
     pub widest_zone: Option<(usize, f64)>,
     /// Nobody stated where the part lies.
     pub is_unplaced: bool,
-    /// Where the machine works without its tool: smallest and largest coordinates, base axes, m.
+    /// Workspace of the machine without its tool: smallest and largest coordinates, base axes, m.
     pub workspace: Option<(Vector3<f64>, Vector3<f64>)>,
 }
 
 /// A tool as a question states it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ToolGiven {
-    /// Its number, where the question numbers its tools.
+    /// Number of the tool, if the question numbers its tools.
     pub number: Option<u32>,
     /// Flange from tip, m.
     pub pose: Pose,
-    /// Whether the question says anything of a tool.
+    /// True if the question states a tool.
     pub stated: bool,
 }
 

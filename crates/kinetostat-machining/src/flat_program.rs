@@ -45,8 +45,8 @@ pub struct FlatProgram {
     /// Folders, diameters and parameters that were stated, one sentence each.
     #[serde(default)]
     pub settings: Vec<String>,
-    /// Of each flat line the file (an index of `files`) and the line there, from 1. Not in the JSON: its lines have theirs
-    /// beside them.
+    /// For each flat line the file (an index of `files`) and the line there, from 1. Not in the JSON: its lines have
+    /// theirs beside them.
     #[serde(skip)]
     sources: Arc<[(u32, u32)]>,
 }
@@ -73,7 +73,7 @@ impl FlatProgram {
         Some((self.files.get(*file as usize)?.as_str(), *line as usize))
     }
 
-    /// Where a line of the flat program came from, in words; none for a line that it has not.
+    /// Text for the origin of a line of the flat program; `None` for a line that it does not have.
     ///
     /// ```
     /// use kinetostat_machining::FlatProgram;
@@ -88,7 +88,7 @@ impl FlatProgram {
         Some(format!("{file}, line {line}"))
     }
 
-    /// Where the lines of a run are, in a sentence.
+    /// Sentence on the lines to which a run refers.
     ///
     /// ```
     /// use kinetostat_machining::FlatProgram;
@@ -131,7 +131,7 @@ impl FlatProgram {
         })
     }
 
-    /// The same message with the lines of the files alone: of a flat program that is not written to a file.
+    /// Rewrites a message to the lines of the files alone: for a flat program that is not written to a file.
     ///
     /// ```
     /// use kinetostat_machining::FlatProgram;
@@ -211,7 +211,7 @@ struct Number {
     line: usize,
 }
 
-/// What stands between the numbers of a list.
+/// Separators between the numbers of a list.
 const BETWEEN: [&str; 4] = [", ", " and ", " to ", " or "];
 
 /// The number that a text begins with, and what stands behind it.

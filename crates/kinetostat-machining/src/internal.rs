@@ -1,5 +1,5 @@
-//! What this crate's own tests reach inside it, in `tests/machining/internal`. It is no part of the interface and changes
-//! without a word.
+//! Internals for this crate's own tests, in `tests/machining/internal`. They are no part of the interface and may change
+//! without notice.
 
 use kinetostat::{Mechanism, Pose};
 
@@ -112,7 +112,7 @@ pub fn merged_warnings(of_parts: &[(usize, Warning)]) -> Vec<Warning> {
     merged.finish()
 }
 
-/// Whether two warnings are the same but for their numbers.
+/// True if two warnings differ only in their numbers.
 #[must_use]
 pub fn are_same_words(one: &str, other: &str) -> bool {
     same_words(one, other)

@@ -25,7 +25,7 @@ pub enum WeightCorrection {
     TouchOff(TouchOff),
     /// The part frame was measured without the machine: all of it is an error.
     All,
-    /// None of it is an error: the controller corrects own weight, for instance. The machine still carries it, so that drive loads,
+    /// No part is an error: the controller corrects own weight, for instance. The machine still carries it, so that drive loads,
     /// stiffness and stability stay those of the loaded machine.
     None,
 }

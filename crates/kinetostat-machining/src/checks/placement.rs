@@ -1,4 +1,4 @@
-//! Whether the part lies where the machine works.
+//! Check that the part lies in the workspace of the machine.
 
 use kinetostat::number::short;
 use kinetostat::{Mechanism, Pose};

@@ -1,4 +1,4 @@
-//! Whether the tool of a program that turns it lies across its cut, and points away from the machine.
+//! Check that the tool of a program with orientations lies across its cut, and points away from the machine.
 
 use kinetostat::Directions;
 use kinetostat::number::short;
@@ -42,7 +42,7 @@ pub(crate) fn odd_tool_axis(task: &Task<'_>) -> Option<Warning> {
         }
     }
     let line = first.filter(|_| along > MOST * all)?;
-    // What a rotation leaves of a zero says nothing.
+    // A component of rounding error is shown as zero.
     let [x, y, z] = [0, 1, 2].map(|k| match path.tool_axis[k].abs() < 1e-9 {
         true => "0".to_owned(),
         false => short(path.tool_axis[k]),
@@ -81,7 +81,7 @@ pub(crate) fn tip_behind_flange(task: &Task<'_>, tool: &ToolGiven) -> Option<War
     ))
 }
 
-/// Whether angles of rotary axes that are to be corrected stay because the tool lies along one of them.
+/// Warning if corrections of rotary axes are left out because the tool lies along one of them.
 pub(crate) fn at_pole(task: &Task<'_>) -> Option<Warning> {
     if task.corrected != Directions::ALL {
         return None;

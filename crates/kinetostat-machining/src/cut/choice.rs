@@ -1,8 +1,8 @@
-//! Which force of a revolution a program is compensated for.
+//! Choice of the force within a revolution for which a program is compensated.
 
 use serde::{Deserialize, Serialize};
 
-/// Which force of a revolution counts.
+/// Force within a revolution that is compensated.
 ///
 /// The machine is slow against the teeth: it bends under the mean, and the compensation follows that by default. What a tooth
 /// leaves on a wall is where the tool was while its edge passed the wall. If the tool follows every tooth (a soft tool in a stiff

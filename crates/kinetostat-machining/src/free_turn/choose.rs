@@ -12,7 +12,8 @@ use crate::free_turn::serial::Joints;
 use crate::free_turn::smooth::smooth;
 use crate::free_turn::task::{TurnCurve, TurnTask};
 
-/// How often stations are set twice as far apart along a path that is too long for them: from 5 mm to 160 mm.
+/// Number of times that the distance of stations is doubled along a path that is too long for them: from 5 mm to 160
+/// mm.
 const TIMES_FARTHER: usize = 5;
 
 /// Chooses the free turn of a round tool about its own axis along a whole path: at stations along it the turns of a band, in any of the

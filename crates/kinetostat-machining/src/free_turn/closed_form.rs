@@ -10,12 +10,12 @@ use nalgebra::{Point3, Unit, UnitQuaternion, Vector2, Vector3};
 use crate::free_turn::serial::{Joints, SerialArm};
 use crate::joints::arm::Arm;
 
-/// Why an arm does not go a way to a pose.
+/// Reason for which an arm does not reach a pose in a configuration.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum NoWayThere {
-    /// It is too far, or too near.
+    /// The pose is too far, or too near.
     OutOfReach,
-    /// So near to a singular posture that joint values are not found.
+    /// The posture is so near to a singular one that joint values are not found.
     Singular,
 }
 

@@ -49,7 +49,7 @@ impl Curve {
         .collect()
     }
 
-    /// What it costs, and how evenly it turns.
+    /// Cost and evenness of the curve.
     pub fn figures(&self, problem: &Problem<'_, '_>) -> TurnFigures {
         let mut cost = 0.0;
         for (station, place) in problem.stations.iter().enumerate() {

@@ -70,7 +70,7 @@ fn knots(problem: &Problem<'_, '_>, curve: &Curve) -> Vec<usize> {
     (0..count).filter(|station| is_knot[*station]).collect()
 }
 
-/// What lies between two knots, on a line; none where it is there already, or may not be.
+/// Part of the curve between two knots, on a line; `None` if it is there already, or may not be.
 fn part(problem: &Problem<'_, '_>, curve: &Curve, ends: [usize; 2]) -> Option<Part> {
     let [first, last] = ends;
     let turns: Vec<f64> = (first + 1..last)

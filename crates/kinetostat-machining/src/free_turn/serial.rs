@@ -25,13 +25,13 @@ const SAME: f64 = 1e-9;
 pub(crate) struct SerialArm {
     offsets: [Pose; 6],
     axes: [Unit<Vector3<f64>>; 6],
-    /// Behind the last joint, to the tool.
+    /// Pose of the tool in the frame after the last joint.
     end: Pose,
     /// Base of the machine from base of the chain.
     base: Pose,
     pub home: Joints,
     pub limits: [Option<(f64, f64)>; 6],
-    /// By what translations are divided, m.
+    /// Length by which translations are divided, m.
     pub length: f64,
 }
 

@@ -23,7 +23,7 @@ pub struct TurnedPath {
     /// The path. A move on which the rate of turning changes has become several, all with its line: at the stations where it changes.
     /// Words of other axes go with the last of them.
     pub path: Path,
-    /// How many moves there are more than before.
+    /// Number of additional moves.
     pub added: usize,
     /// The number in the path before of every move.
     pub source: Vec<usize>,
@@ -32,7 +32,7 @@ pub struct TurnedPath {
     pub axis_off_deg: f64,
 }
 
-/// Which turn is meant where the tool goes on with another one.
+/// Side of a place at which the turn jumps.
 #[derive(Clone, Copy)]
 enum Side {
     Before,
@@ -124,7 +124,7 @@ fn pieces(choice: &TurnChoice, knots: &[f64], motion: &Move, section: &Section) 
     }
     let (from, to) = (section.from, section.from + section.length);
     let share = |at: f64| (at - from) / section.length;
-    // Where the program turns the tool the two turns do not add up to one about one axis: all stations count.
+    // Two turns do not add up to one about one axis if the program turns the tool: all stations are used.
     let places: Vec<f64> = match section.turns {
         true => choice
             .stations

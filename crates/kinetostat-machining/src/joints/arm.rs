@@ -1,4 +1,4 @@
-//! Which of its eight ways an arm takes to a pose, from its joint values.
+//! Configuration of an arm, one of eight, from its joint values.
 //!
 //! Six turning axes: 2 and 3 parallel, 1 at a right angle to them, and 4, 5, 6 through one point with right angles between
 //! neighbours. The determinant of such an arm's Jacobian is a product of three factors, one each of shoulder, elbow and wrist, and the
@@ -108,7 +108,7 @@ impl Arm {
         Some(arm)
     }
 
-    /// Which signs mean front, up and not flipped.
+    /// Signs that mean front, up and not flipped.
     fn signs_at_home(&self, axes: &Axes, commands: &[f64], reach: f64) -> [f64; 3] {
         let sign = |value: f64, otherwise: f64| match value == 0.0 {
             true => otherwise,

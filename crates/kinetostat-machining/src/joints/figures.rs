@@ -7,7 +7,7 @@ use crate::near::natural_length;
 use crate::result::joints::{ArmConfiguration, LimitEnd, MostLoaded, NearestLimit};
 use crate::result::point::{PointKind, PointResult};
 
-/// What joint values and drive loads of a machine are compared with.
+/// References for joint values and drive loads of a machine.
 #[derive(Clone, Debug)]
 pub(crate) struct JointFigures<'r> {
     /// Kind and limits, mm or deg, of every actuator.

@@ -25,24 +25,24 @@ pub struct Evaluator {
     ratings: Vec<Option<f64>>,
     variables: Vec<Variable>,
     details: Details,
-    /// How many natural frequencies are asked for: they are about the state of a posture, which the kernels do not hand out.
+    /// Number of requested natural frequencies: they are about the state of a posture, which the kernels do not return.
     modes: usize,
-    /// Where the tool is without its load is asked for.
+    /// True if the tool's place without its load is requested.
     unloaded: bool,
     nearness: Option<Nearness>,
     configurations: Configurations,
 }
 
-/// What became of a posture.
+/// Result of a posture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Outcome {
-    /// Which kind of answer there is.
+    /// State of the place.
     pub state: PlaceState,
     /// There are numbers, be it outside the limits of an actuator.
     pub found: bool,
 }
 
-/// What is kept from block to block, one for each thread.
+/// Buffers kept from block to block, one for each thread.
 #[derive(Debug, Default)]
 pub struct EvaluationRoom {
     stiffness: BatchStiffness,
@@ -235,7 +235,8 @@ impl Evaluator {
         };
         let posture = place.take_posture(posture, load, &wanted);
         if let (Some(own), Some(posture), true) = (&self.nearness, &posture, place.found) {
-            // What nothing holds has no rate of a drive that tells of it.
+            // The singularity distance of a machine with free motions is zero: the rates of its drives do not show
+            // them.
             place.singularity_distance = match place.free.is_empty() {
                 true => own.of_posture(posture),
                 false => 0.0,

@@ -43,7 +43,7 @@ pub struct Configurations {
     ways: Ways,
 }
 
-/// How the configurations of a machine are found.
+/// Method by which the configurations of a machine are found.
 #[derive(Clone, Debug)]
 enum Ways {
     /// In closed form.
@@ -55,7 +55,7 @@ enum Ways {
 }
 
 impl Configurations {
-    /// Of a machine with its tool.
+    /// Configurations of a machine with its tool.
     #[must_use]
     pub fn of(mechanism: &Mechanism) -> Self {
         Self {
@@ -173,7 +173,7 @@ impl Configurations {
             .collect()
     }
 
-    /// The same posture with its turning joints on the circles that are within limits, or nearest to home.
+    /// Posture with its turning joints shifted by full turns to within limits, or nearest to home.
     fn next_to_home(&self, posture: Posture) -> Posture {
         let [limb] = posture.limbs() else {
             return posture;
@@ -225,7 +225,7 @@ impl Configurations {
         self.mechanism.posture(request.near(&start.ok()?)).ok()
     }
 
-    /// The same within all limits.
+    /// Posture within all limits.
     fn standing(&self, joints: &Joints, pose: &Pose) -> Option<Posture> {
         let found = self.reached(joints, pose);
         found.filter(|p| p.within_limits().is_ok())

@@ -4,7 +4,7 @@
 #[derive(Clone, Debug)]
 pub(crate) struct ByMove<T> {
     all: Vec<T>,
-    /// Where the list of each move begins; one more than there are moves.
+    /// Start of the list of each move; one more than there are moves.
     first: Vec<usize>,
 }
 

@@ -47,7 +47,7 @@ pub enum AssumptionKind {
 /// An assumption on which the figures of a run rest.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Assumption {
-    /// Its kind.
+    /// Kind of the assumption.
     pub kind: AssumptionKind,
     /// Largest distance of the tool from its programmed place if it fails, um; none where that is not computed.
     pub up_to_um: Option<f64>,
@@ -62,7 +62,7 @@ pub struct Assumption {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct Assessment {
-    /// How good the news is.
+    /// Level of the assessment.
     pub level: Level,
     /// Largest distance of the tool from its programmed place if one of the assumptions fails, um; of a written program with that
     /// program. None where a critical one has no such distance.
@@ -99,7 +99,7 @@ impl Assumption {
         }
     }
 
-    /// Its rank: critical ones first, unknown costs last.
+    /// Rank of the assumption: critical ones first, unknown costs last.
     pub(crate) fn rank(&self) -> f64 {
         match (self.is_critical, self.up_to_um) {
             (true, _) => f64::INFINITY,

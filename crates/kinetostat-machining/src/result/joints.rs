@@ -1,5 +1,5 @@
-//! What the joints and drives do along a program: distance to limits, load by rating, configuration of an arm. Plain data,
-//! units in the names.
+//! Joints and drives along a program: distance to limits, load by rating, configuration of an arm. Plain data, units in
+//! the names.
 
 use std::fmt;
 
@@ -36,11 +36,11 @@ impl LimitEnd {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct NearestLimit {
-    /// Which, from 0, in the order of `question.actuators`.
+    /// Index, from 0, in the order of `question.actuators`.
     pub actuator: usize,
-    /// Which end of its range.
+    /// End of its range.
     pub end: LimitEnd,
-    /// How far its command is inside the limit, mm or deg; below zero outside.
+    /// Distance of its command to the limit, mm or deg; below zero outside.
     #[serde(rename = "distance_mm_or_deg")]
     pub distance: f64,
 }
@@ -49,9 +49,9 @@ pub struct NearestLimit {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct MostLoaded {
-    /// Which, from 0, in the order of `question.actuators`.
+    /// Index, from 0, in the order of `question.actuators`.
     pub actuator: usize,
-    /// Its force or torque by its rating; 1 is the rating.
+    /// Force or torque by its rating; 1 is the rating.
     pub share_of_rating: f64,
 }
 
@@ -62,17 +62,17 @@ pub enum Shoulder {
     /// The centre of the wrist is on the side of axis 1 on which axis 2 is (of an arm whose axis 2 crosses axis 1: on the side
     /// on which it is at the model's home).
     Front,
-    /// It is on the other side: the arm reaches over itself.
+    /// The wrist is on the other side: the arm reaches over itself.
     Back,
 }
 
-/// How an arm bends at its elbow.
+/// Elbow flag of an arm.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Elbow {
     /// The elbow is above the line from axis 2 to the centre of the wrist when the arm reaches to the front.
     Up,
-    /// It is below that line.
+    /// The elbow is below that line.
     Down,
 }
 
@@ -86,7 +86,7 @@ pub enum Wrist {
     Flip,
 }
 
-/// Which of its eight ways an arm of six axes with a wrist in one point takes to a pose, and how far it is from changing it.
+/// Configuration, one of eight, of an arm of six axes with a wrist in one point, and its distance from changing it.
 ///
 /// Between two of them every path that is not joint by joint passes a singular posture. The numbers are those of the geometry, not of
 /// a controller: makers count them each in their own way.
@@ -108,7 +108,7 @@ pub enum Wrist {
 pub struct ArmConfiguration {
     /// On which side of axis 1 it reaches.
     pub shoulder: Shoulder,
-    /// How it bends at its elbow.
+    /// Elbow flag.
     pub elbow: Elbow,
     /// To which side it bends its wrist.
     pub wrist: Wrist,
@@ -177,7 +177,7 @@ impl fmt::Display for ArmConfiguration {
     }
 }
 
-/// Where a joint comes nearest to one of its limits.
+/// Place at which a joint comes nearest to one of its limits.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct LimitPlace {
@@ -190,7 +190,7 @@ pub struct LimitPlace {
     pub limit: NearestLimit,
 }
 
-/// Where a drive carries the largest share of its rating.
+/// Place of the largest share of a drive's rating.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct RatingPlace {
@@ -220,12 +220,12 @@ pub struct PostureChange {
     pub after: Option<ArmConfiguration>,
     /// The joint that turns farthest between the two, from 0, in the order of `question.actuators`.
     pub actuator: usize,
-    /// How far it turns, deg.
+    /// Angle by which it turns, deg.
     pub turn_deg: f64,
 }
 
-/// What helps where an arm cannot follow a program in one posture: a turn of the tool about its own axis (which a tool that is round does
-/// not notice), the same along the whole program. It is looked for in steps of 5 deg.
+/// Remedy for an arm that cannot follow a program in one posture: a constant turn of the tool about its own axis (which does not matter
+/// for a round tool) along the whole program. It is looked for in steps of 5 deg.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct WayOut {
@@ -237,7 +237,7 @@ pub struct WayOut {
 }
 
 impl WayOut {
-    /// What helps, in a sentence without a stop.
+    /// Remedy, in a sentence without a full stop.
     ///
     /// ```
     /// let mut way = kinetostat_machining::WayOut::default();
@@ -261,17 +261,17 @@ impl WayOut {
     }
 }
 
-/// What joints and drives do along a program.
+/// Figures of joints and drives along a program.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct JointsResult {
     /// Smallest and largest joint value of every actuator on cutting moves (everywhere if none cuts), mm or deg.
     #[serde(rename = "ranges_mm_or_deg", default)]
     pub ranges: Vec<[f64; 2]>,
-    /// Where a joint comes nearest to a limit; none where no joint has limits.
+    /// Place at which a joint comes nearest to a limit; `None` if no joint has limits.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub nearest_limit: Option<LimitPlace>,
-    /// Where a drive carries the largest share of its rating; none where the model states no rating.
+    /// Place of the largest share of a drive's rating; `None` if the model states no rating.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub most_loaded: Option<RatingPlace>,
     /// The configuration at the first place that is cut; none of machines that are no arms of six axes with a wrist in one point.
@@ -280,16 +280,16 @@ pub struct JointsResult {
     /// Changes of the posture in feed motions, in the order of the path, at most [`Self::MAX_CHANGES`].
     #[serde(default)]
     pub changes: Vec<PostureChange>,
-    /// How many there are in all.
+    /// Number of changes in all.
     #[serde(default)]
     pub change_count: usize,
-    /// What helps against them; none where there are none, or where the orientation of the tool follows.
+    /// Remedy against them; `None` if there are none, or if the orientation of the tool follows.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub way_out: Option<WayOut>,
 }
 
 impl JointsResult {
-    /// Most changes that are listed.
+    /// Maximum number of changes that are listed.
     pub const MAX_CHANGES: usize = 20;
 
     /// The configuration along the program in words; none of machines that are no arms of six axes with a wrist in one point.

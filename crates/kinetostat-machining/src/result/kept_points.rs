@@ -53,7 +53,7 @@ impl Joins for Largest {
     }
 }
 
-/// What is kept for a stretch, in this order: its first point, the largest error before on a cutting move, and the largest and the
+/// Values for a stretch, in this order: its first point, the largest error before on a cutting move, and the largest and the
 /// smallest error before and after off rapids.
 fn of_stretch(number: usize, point: &PointResult) -> [f64; PER_STRETCH] {
     let (before, after) = (size(&point.error_before_mm), size(&point.error_after_mm));

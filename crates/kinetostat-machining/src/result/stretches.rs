@@ -3,7 +3,7 @@
 //! Where the path leaves the last stretch, two neighbours become one and all are twice as long. What is kept for a stretch
 //! depends on the points in it alone, not on when they came: a path that is gathered in parts gives the same stretches.
 
-/// What is kept for a stretch of the path.
+/// Content of a stretch of the path.
 pub(crate) trait Joins: Default {
     /// Takes up what the next stretch has.
     fn join(&mut self, next: Self);

@@ -1,4 +1,4 @@
-//! What becomes of the claim at sharp corners if the load there is by the other of the two readings.
+//! Errors at sharp corners under the other of the two readings of the load.
 
 use kinetostat::Wrench;
 use kinetostat::number::larger;

@@ -22,7 +22,7 @@ use crate::warning::{Warning, WarningCode};
 /// Rounds of dividing again, at most. Each halves what is left at a kink of the correction, at least.
 const ROUNDS: usize = 8;
 
-/// What was divided again.
+/// Additional divisions of blocks.
 #[derive(Debug, Default)]
 pub(crate) struct Again {
     /// Shares by move at which blocks are divided besides those that the field itself knows.
@@ -107,7 +107,7 @@ impl Again {
         found
     }
 
-    /// What a person should know of it.
+    /// Warning about the additional divisions.
     pub fn description(&self, allowed_mm: f64) -> Option<Warning> {
         let (line, worst) = self.worst?;
         let places: usize = self.breaks.values().map(Vec::len).sum();

@@ -1,4 +1,4 @@
-//! Where the correction changes faster than what is stated for the load: how much, on how many lines, and why.
+//! Corrections that change faster than stated for the load: amount, number of lines, and reason.
 
 use kinetostat::number::{largest_length, smaller};
 
@@ -22,7 +22,7 @@ pub(crate) fn of_correction(changes: &Changes) -> Option<LargestChange> {
     })
 }
 
-/// That the correction changes faster than stated, where that is worst.
+/// Warning of a correction that changes faster than stated, at the worst place.
 pub(crate) fn changes_faster_than_stated(
     task: &Task<'_>,
     load: &LoadAlongPath<'_>,

@@ -47,12 +47,12 @@ fn sites(
 /// A few places of a program, each solved by itself.
 #[derive(Default)]
 pub(crate) struct FirstLook {
-    /// Those that have an answer.
+    /// Points that have an answer.
     points: Vec<PointResult>,
-    /// Why the first of all has none. That a later one has none is reported where the program is solved, for there may be others
-    /// before it.
+    /// Error of the first place. Errors of later ones are reported where the program is solved, for there may be others before
+    /// them.
     first: Option<RunError>,
-    /// One of them has no equilibrium under its load.
+    /// True if one of them has no equilibrium under its load.
     not_converged: bool,
 }
 
@@ -69,7 +69,7 @@ impl FirstLook {
         Self::at(task, load, (task.path().own_moves().len(), 0), watch)
     }
 
-    /// Those of the few places of a whole program of so many moves that lie on a part of it.
+    /// Points on a part of a program, of the few places of the whole one of so many moves.
     ///
     /// # Errors
     /// [`RunError::WeightNotStated`], [`RunError::TouchOff`], [`RunError::Cancelled`].
@@ -127,7 +127,7 @@ impl FirstLook {
         Ok(look)
     }
 
-    /// The same where the first of the places has an answer.
+    /// Returns the points if the first of the places has an answer.
     ///
     /// # Errors
     /// Why it has none.
@@ -156,7 +156,7 @@ impl FirstLook {
         }
     }
 
-    /// What of these places is beyond its limit.
+    /// Figures of these places beyond their limits.
     pub fn beyond(&self, task: &Task<'_>) -> Vec<Beyond> {
         of_points(task, &self.points)
     }

@@ -77,7 +77,7 @@ pub(crate) fn solve(
     }
 }
 
-/// How points are solved.
+/// Settings for solving points.
 #[derive(Clone, Copy)]
 pub(crate) struct Solving<'c> {
     pub orientation: Orientation,
@@ -85,7 +85,7 @@ pub(crate) struct Solving<'c> {
     pub written: bool,
     /// The way of an arm that is not the one from home.
     pub course: Option<&'c ArmCourse>,
-    /// Where the part lies as it was measured.
+    /// Frame of the part as it was measured.
     pub frame: &'c MeasuredFrame<'c>,
 }
 
@@ -184,7 +184,7 @@ pub(crate) fn failed(site: &Site, cause: Error) -> RunError {
     }
 }
 
-/// What a result states of an equilibrium.
+/// Equilibrium as a result states it.
 struct Loaded {
     tool: Pose,
     /// Orientation of the unloaded tool.

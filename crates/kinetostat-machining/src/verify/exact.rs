@@ -12,7 +12,7 @@ use crate::verify::followed::Followed;
 /// Equal ways on a part of an arc belong to equal ways on the original within this, mm, or the part is halved.
 const EVEN_MM: f64 = 2e-5;
 
-/// How often a part of an arc is halved.
+/// Number of times that a part of an arc is halved.
 const HALVINGS: usize = 6;
 
 /// The pieces with the places that the field of corrections gives; parts of arcs are divided where their ways are not even.
@@ -61,7 +61,7 @@ fn put_part(both: &mut [Followed], part: f64) {
     }
 }
 
-/// Whether the end of a piece lies inside a move of the original or inside a turn of the load, and nothing holds it where it is.
+/// True if the end of a piece lies inside a move of the original or inside a turn of the load, and is not fixed.
 fn is_free(original: &Path, pieces: &[Followed], index: usize) -> bool {
     let Some(next) = pieces.get(index + 1) else {
         return false;

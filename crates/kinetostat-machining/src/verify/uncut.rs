@@ -1,4 +1,4 @@
-//! What of the original a program leaves out.
+//! Parts of the original that a program leaves out.
 
 use kinetostat_program::{Corrected, NominalPath, Path};
 
