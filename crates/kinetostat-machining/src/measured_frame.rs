@@ -53,7 +53,7 @@ impl PartPlace {
         self
     }
 
-    /// Place of the part as it was measured, in the corrected directions of the pose.
+    /// Measured place in the corrected directions of the pose.
     pub fn corrected(self, motion: &FrameMotion, corrected: Directions) -> Self {
         let moved = self.moved(motion);
         match corrected == Directions::ALL {

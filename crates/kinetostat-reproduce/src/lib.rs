@@ -39,7 +39,7 @@ impl Contents {
     }
 }
 
-/// What may go wrong inside an entry.
+/// Error inside an entry.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum Cause {
@@ -63,7 +63,7 @@ impl From<kinetostat_cutting::CutError> for Cause {
     }
 }
 
-/// Why an entry could not be computed.
+/// Error of the reproduction.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ReproduceError {
@@ -76,9 +76,9 @@ pub enum ReproduceError {
     /// The computation of an entry failed.
     #[error("{id}: {cause}")]
     Failed {
-        /// Which entry.
+        /// Identifier of the entry.
         id: &'static str,
-        /// Why.
+        /// Cause of the failure.
         cause: Cause,
     },
 }

@@ -28,7 +28,8 @@ pub struct Draws {
 }
 
 impl Draws {
-    /// So many draws, between [`REPLICATES`] and [`MOST_DRAWS`], rounded up so that all sequences are equally long.
+    /// Returns `count` draws, between [`REPLICATES`] and [`MOST_DRAWS`], rounded up so that all sequences are equally
+    /// long.
     #[must_use]
     pub fn new(count: usize, seed: u64) -> Self {
         let each = count.clamp(1, MOST_DRAWS).div_ceil(REPLICATES);

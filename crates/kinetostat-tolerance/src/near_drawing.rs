@@ -7,7 +7,7 @@ use kinetostat::Wrench;
 use kinetostat::batch::{Batch, BatchEquilibrium, Commanded, Details};
 use kinetostat::nalgebra::Matrix6;
 
-/// So many times the change that derivatives foretell must leave a margin for a machine to be taken as stable without a look.
+/// Safety factor on the change that derivatives predict: a machine with a larger margin is taken as stable without a check.
 const SAFETY: f64 = 10.0;
 
 /// Uncertain numbers whose derivatives tell where a machine stands: to read those of more takes longer than they save.
@@ -24,16 +24,17 @@ pub(crate) fn with_stability(
     Ok(found)
 }
 
-/// How far the equilibria at all places are from losing their hold, and the derivatives of that by the uncertain numbers.
+/// Stability margins of the equilibria at all places, and their derivatives by the uncertain numbers.
 #[derive(Clone, Debug)]
 pub(crate) struct Margins {
     as_drawn: Vec<[f64; 2]>,
-    /// Of every number, place by place, per its own unit.
+    /// Slopes of every number, place by place, per its own unit.
     slopes: Vec<Vec<[f64; 2]>>,
 }
 
 impl Margins {
-    /// Of the machine as drawn, with stability; `length` (m) is what rotations are multiplied with to be compared with translations.
+    /// Margins of the machine as drawn, with stability; `length` (m) is the factor that makes rotations comparable with
+    /// translations.
     pub fn new(drawn: &BatchEquilibrium, length: f64) -> Self {
         Self {
             as_drawn: of_places(drawn, length),

@@ -1,11 +1,11 @@
-//! What draws say of a number: mean, scatter and quantiles, each with its confidence.
+//! Statistics of draws: mean, scatter and quantiles, each with its confidence.
 
 use serde::Serialize;
 use statrs::distribution::{Binomial, ContinuousCDF, DiscreteCDF, StudentsT};
 
 use crate::draws::{Draws, REPLICATES};
 
-/// Of all bounds of confidence.
+/// Level of all confidence bounds.
 pub const CONFIDENCE: f64 = 0.95;
 
 /// Shares whose quantiles are given.
@@ -52,7 +52,7 @@ pub struct Quantile {
     pub high: Option<f64>,
 }
 
-/// What draws say of one number.
+/// Statistics of one number over the draws.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Summary {
     /// Draws with an answer.
@@ -68,7 +68,7 @@ pub struct Summary {
 }
 
 impl Summary {
-    /// Of `values` of all draws in their order, NaN where there is no answer.
+    /// Statistics of `values` of all draws in their order, NaN if there is no answer.
     #[must_use]
     pub fn of(draws: &Draws, values: &[f64]) -> Self {
         let mut known: Vec<f64> = values.iter().copied().filter(|x| x.is_finite()).collect();

@@ -9,17 +9,17 @@ use crate::draws::Draws;
 /// A number that is not exactly what the drawing states.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Uncertain {
-    /// Its name.
+    /// Name of the number.
     pub name: String,
-    /// As stated, in its own unit.
+    /// Nominal value, in its own unit.
     pub value: f64,
-    /// As people write it; empty where there is none.
+    /// Unit as people write it; empty if there is none.
     pub unit: String,
-    /// How it scatters about that, in the same unit.
+    /// Distribution about that, in the same unit.
     pub distribution: Distribution,
 }
 
-/// Why correlations cannot be.
+/// Error of contradictory correlations.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error(
     "the correlations contradict each other: their matrix has the eigenvalue {least:.3} and no distribution has such correlations"
@@ -104,7 +104,7 @@ impl Uncertainties {
         self.each.iter().map(number).collect()
     }
 
-    /// As the drawing states them.
+    /// Values of the drawing.
     #[must_use]
     pub fn nominal(&self) -> Vec<f64> {
         self.each.iter().map(|u| u.value).collect()

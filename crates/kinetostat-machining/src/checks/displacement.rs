@@ -13,7 +13,7 @@ pub fn folds(far: f64, size: f64) -> Option<Warning> {
     folds_at(far, size, "")
 }
 
-/// Warning of a large displacement at `places` of a grid, in words; empty for one place.
+/// Warning for `places` of a grid, in words; empty for one place.
 #[must_use]
 pub fn folds_at(far: f64, size: f64, places: &str) -> Option<Warning> {
     is_large(far, size).then(|| {

@@ -235,8 +235,7 @@ impl Evaluator {
         };
         let posture = place.take_posture(posture, load, &wanted);
         if let (Some(own), Some(posture), true) = (&self.nearness, &posture, place.found) {
-            // The singularity distance of a machine with free motions is zero: the rates of its drives do not show
-            // them.
+            // The rates of the drives do not show free motions.
             place.singularity_distance = match place.free.is_empty() {
                 true => own.of_posture(posture),
                 false => 0.0,

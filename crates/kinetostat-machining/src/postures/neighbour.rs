@@ -122,7 +122,7 @@ impl Neighbour {
         Ok((posture, tool))
     }
 
-    /// Equilibrium at `pose` under `wrench`, with stiffness and stability.
+    /// Equilibrium as found by `rest`, with stiffness and stability.
     pub fn equilibrium(
         &mut self,
         mechanism: &Mechanism,

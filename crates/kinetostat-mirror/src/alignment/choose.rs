@@ -34,7 +34,7 @@ pub struct AlignedPoint {
     pub tangent: Vector3<f64>,
     /// From the path to the point, across the path, mm.
     pub deviation_mm: Vector3<f64>,
-    /// Its share in means.
+    /// Weight in means.
     pub weight: f64,
 }
 
@@ -43,9 +43,9 @@ pub struct AlignedPoint {
 pub struct LeftOut {
     /// Row of the measurement, from 1.
     pub row: usize,
-    /// How far it is from the path, mm; `None` where there is no number.
+    /// Distance from the path, mm; `None` if there is no number.
     pub distance_mm: Option<f64>,
-    /// Why.
+    /// Reason of the omission.
     pub why: WhyLeftOut,
 }
 
@@ -89,7 +89,7 @@ pub(crate) fn align(
             }
         }
     }
-    // By pieces, too: the end of one is the beginning of the next.
+    // Sorted by pieces, too: the end of one is the beginning of the next.
     aligned.sort_by(|a, b| {
         a.along_mm
             .total_cmp(&b.along_mm)

@@ -33,7 +33,7 @@ const MOST_TURNS: f64 = 64.0;
 /// A Gaussian kernel along the path.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Kernel {
-    /// Its standard deviation, mm.
+    /// Standard deviation, mm.
     pub length_mm: f64,
 }
 
@@ -49,7 +49,7 @@ pub struct Smoothed {
 }
 
 impl Kernel {
-    /// How much a point counts that is so far away along the path.
+    /// Weight of a point at this distance along the path.
     fn value(&self, apart_mm: f64) -> f64 {
         let parts = apart_mm / self.length_mm;
         (-0.5 * parts * parts).exp()
@@ -99,7 +99,7 @@ impl Kernel {
             .collect()
     }
 
-    /// The same around a stretch that begins and ends at the same place, at the lengths `from` and `to`.
+    /// Smoothed deviations around a stretch that begins and ends at the same place, at the lengths `from` and `to`.
     ///
     /// ```
     /// # use kinetostat_mirror::{AlignedPoint, Kernel};

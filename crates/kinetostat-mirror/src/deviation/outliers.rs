@@ -23,10 +23,10 @@ use kinetostat_program::NominalPath;
 const SIDE: usize = 5;
 const AROUND: usize = 8;
 const DEVIATIONS: f64 = 6.0;
-/// Of the points around this share tells how far one may be.
+/// Quantile of the neighbours' distances that sets how far a point may be.
 const BORNE_OUT: f64 = 0.75;
 const NEGLIGIBLE: f64 = 1e-3;
-/// As a share of the length of the path: what is left of points that lie on it, moved from another frame.
+/// Rounding of points that lie on the path but were moved from another frame, as a share of its length.
 const ROUNDING: f64 = 1e-9;
 /// Cosine of 20 degrees.
 const SAME_DIRECTION: f64 = 0.939_692_620_785_908_4;
@@ -40,13 +40,13 @@ pub struct Outlier {
     pub row: usize,
     /// Length along the path, mm.
     pub along_mm: f64,
-    /// How far it is from the path, across it, mm.
+    /// Distance from the path, across it, mm.
     pub distance_mm: f64,
-    /// How far it is from what its neighbours say, mm.
+    /// Distance from the value that its neighbours predict, mm.
     pub from_neighbours_mm: f64,
-    /// How far it might have been, mm.
+    /// Allowed distance, mm.
     pub allowed_mm: f64,
-    /// Its deviation, mm.
+    /// Deviation of the point, mm.
     pub deviation_mm: Vector3<f64>,
 }
 
@@ -141,18 +141,18 @@ fn sharpest_turn(nominal: &NominalPath<'_>, point: &AlignedPoint, within_mm: f64
 /// A point beside the line of its neighbours.
 #[derive(Clone, Copy)]
 struct Line {
-    /// How far it is from the line, mm.
+    /// Distance from the line, mm.
     apart_mm: f64,
     /// Median deviation of the neighbours, mm.
     size_mm: f64,
     /// Sine of the largest angle between its direction and theirs.
     turn: f64,
-    /// How much farther its scatter reaches than that of a point amid its neighbours.
+    /// Scatter over that of a point amid its neighbours.
     spread: f64,
 }
 
-/// How much farther a point's distance from a line through its neighbours scatters than amid ten of them evenly to both
-/// sides, by least squares.
+/// Scatter of a point's distance from a line through its neighbours over that amid ten of them evenly to both sides, by
+/// least squares.
 fn spread(near: &[&AlignedPoint], along_mm: f64) -> f64 {
     let count = near.len() as f64;
     let middle = near.iter().map(|p| p.along_mm).sum::<f64>() / count;
@@ -171,7 +171,7 @@ fn from_line(points: &[AlignedPoint], i: usize) -> Option<Line> {
     let before = points[..i].iter().rev().take(2 * SIDE).take_while(goes_on);
     let after = points[i + 1..].iter().take(2 * SIDE).take_while(goes_on);
     let [before, after]: [Vec<&AlignedPoint>; 2] = [before.collect(), after.collect()];
-    // What one side lacks, the other gives.
+    // Each side makes up for points that the other lacks.
     let of_before = before.len().min(2 * SIDE - after.len().min(SIDE));
     let of_after = after.len().min(2 * SIDE - of_before.min(SIDE));
     let near: Vec<&AlignedPoint> = before

@@ -1,4 +1,4 @@
-//! How far a point scatters, from what differs between neighbours.
+//! Scatter of a point, from the differences between neighbours.
 //!
 //! Distances from the smoothed deviation have in them what the smoothing does not let through. Differences of a higher order have
 //! next to nothing of it: of the deviations of `m + 1` neighbours at the lengths `x_i` along the path the sum
@@ -17,7 +17,7 @@ use crate::alignment::AlignedPoint;
 use crate::deviation::stations::Stations;
 use crate::number::{OF_TWO_DIRECTIONS, median, smaller};
 
-/// Of a wave of ten points four of them leave a nineteenth of its height, six a 176th.
+/// Orders of the differences: of a wave of ten points they leave a 19th and a 176th of its height.
 const ORDERS: [usize; 2] = [3, 5];
 
 /// With fewer a median may be anything: that of five which do not depend on each other is twice the true one once in 450 times.

@@ -25,11 +25,11 @@ const SAME_MM: f64 = 1e-6;
 pub struct Stretch {
     /// Index of its pass.
     pub pass: usize,
-    /// Its pieces of the path.
+    /// Pieces of the path.
     pub pieces: Range<usize>,
-    /// Its stations.
+    /// Stations of the stretch.
     pub stations: Range<usize>,
-    /// Its end is its beginning, without a corner between them.
+    /// True if it ends where it begins, without a corner between them.
     pub closed: bool,
 }
 

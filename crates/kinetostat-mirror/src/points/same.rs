@@ -1,4 +1,4 @@
-//! Whether two measurements are one: by their points, whatever their files look like.
+//! Identity of two measurements: by their points, whatever their files look like.
 
 use sha2::{Digest, Sha256};
 

@@ -21,9 +21,9 @@ pub struct MeasuredPoint {
     pub row: usize,
     /// Line of the file, from 1; the row itself where there is no file.
     pub line: usize,
-    /// Where it was measured, mm, in the frame of the measurement.
+    /// Measured position, mm, in the frame of the measurement.
     pub position_mm: Vector3<f64>,
-    /// Its share in every mean, `1 / sigma^2` where standard deviations are stated.
+    /// Weight in every mean, `1 / sigma^2` if standard deviations are stated.
     pub weight: f64,
     /// Line of the program on which the tool was, where the measurement says so.
     pub program_line: Option<usize>,

@@ -28,7 +28,7 @@ const OFF: usize = 4;
 /// A point is near the path within so many spacings.
 const NEAR: f64 = 1.5;
 
-/// So many finds are followed, the best of those that differ.
+/// Number of distinct finds that are followed, the best first.
 const FOLLOWED: usize = 16;
 
 /// Motions with which most points lie near the path; none where it winds too much.

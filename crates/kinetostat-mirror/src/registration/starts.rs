@@ -26,7 +26,7 @@ pub(crate) struct Starts {
     pub of_whole: Vec<Motion>,
 }
 
-/// Where to start from.
+/// Starts of the search.
 ///
 /// From another frame closest points may slide half of the points beyond the end of a straight path, so that where they are is no
 /// start.

@@ -1,4 +1,4 @@
-//! How fast the error falls, and for which relaxation it cannot rise.
+//! Rate at which the error falls, and bound on the relaxation below which it cannot rise.
 //!
 //! A machine that is sent to the path plus a correction `c` leaves the deviation `e(c) = e0 + (I + D) c` across the path: `D` is
 //! how far its answer to a correction departs from the correction itself. The trial after it has
@@ -36,7 +36,7 @@ pub fn bound_on_relaxation(departure: f64) -> Option<f64> {
     (departure.abs() < 1.0).then_some(2.0 / (1.0 + departure.abs()))
 }
 
-/// What two trials in a row say about the machine.
+/// Response of the machine, from two trials in a row.
 ///
 /// With the smoothed deviation `a = S e` of the trial before, mirrored with `rho`, the one after is `a' = a - rho S (I + D) a`. So the
 /// answer `1 + d` is the number with which `rho (1 + d) S a` comes nearest to `a - a'`: what the kernel lets through of the
@@ -47,7 +47,7 @@ pub fn bound_on_relaxation(departure: f64) -> Option<f64> {
 pub struct Convergence {
     /// Share of the smoothed error of the trial before that is left.
     pub factor: f64,
-    /// The same as a projection of it, with its sign: negative where the correction was too large.
+    /// Projection on it of the smoothed error that is left, negative if the correction was too large.
     pub signed_factor: f64,
     /// The departure `d` that explains the change best.
     pub departure: f64,

@@ -1,4 +1,4 @@
-//! Whether the program that was measured had the last correction in it.
+//! Test that the measured program had the last correction in it.
 //!
 //! A trial that found the smoothed deviation `a` corrected the program by `-rho a`. A machine that answers with the share `beta` of
 //! a correction shows `e - beta rho a` in the next trial, with the `e` that the points of the trial before had there; of the program
@@ -36,15 +36,15 @@ const ROUNDING: f64 = 1e-9;
 
 /// The trial before, whose correction is looked for.
 pub(crate) struct Before<'a> {
-    /// Its smoothed deviation at the stations, mm.
+    /// Smoothed deviation at the stations, mm.
     pub deviation_mm: &'a [Vector3<f64>],
-    /// What its points say.
+    /// Means of its points.
     pub means: &'a [PieceMean],
     pub relaxation: f64,
     pub smoothing_mm: f64,
 }
 
-/// What is seen of a correction.
+/// Estimate of a correction's response.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Seen {
     /// Share of it, NaN where no place was measured before and now.
@@ -117,20 +117,20 @@ impl Seen {
         }
     }
 
-    /// How much worse the fit is for a machine that was not given the correction, and for one that was.
+    /// Excess of `-2 ln` of the likelihood for a machine without the correction, and for one with it.
     fn worse(&self) -> [f64; 2] {
         let below = larger(LEAST_ANSWER - self.answer, 0.0);
         [self.answer, below].map(|off| (off / self.known_to).powi(2))
     }
 
-    /// That the program was run without the correction explains the measurement, and clearly better than that it was run with it.
+    /// True if a run without the correction explains the measurement, and clearly better than one with it.
     pub(crate) fn is_missing(&self) -> bool {
         let [without, with] = self.worse();
         let explains = without < CLEARLY || self.answer.abs() < 0.5 * LEAST_ANSWER;
         explains && with - without > CLEARLY
     }
 
-    /// That it was run with the correction explains the measurement clearly better.
+    /// True if a run with the correction explains the measurement clearly better.
     pub(crate) fn is_there(&self) -> bool {
         let [without, with] = self.worse();
         without - with > CLEARLY

@@ -1,4 +1,4 @@
-//! Which measurements a trial takes.
+//! Selection of the measurements that a trial takes.
 
 use crate::alignment::LeftOut;
 use crate::deviation::Measurement;

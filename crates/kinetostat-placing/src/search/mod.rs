@@ -37,7 +37,7 @@ const ROUNDS: usize = 8;
 /// A figure of some places is that of all up to this share.
 const AGREES: f64 = 1e-6;
 
-/// Where the program of a task lies best.
+/// Finds the best placement of the program of a task.
 ///
 /// # Errors
 /// [`RunError::NoMotion`], [`RunError::Cancelled`]. That no placement can be taken is an answer ([`Placed::nowhere`]).

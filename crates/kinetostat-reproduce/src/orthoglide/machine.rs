@@ -42,7 +42,7 @@ pub(super) const CUTTING_N: [f64; 3] = [215.0, -10.0, -25.0];
 /// Length of the tool, m.
 pub(super) const TOOL: f64 = 0.100;
 
-/// What is varied.
+/// Parameters that are varied.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Orthoglide {
     /// Length of the bars, m.

@@ -38,7 +38,7 @@ pub(super) struct DiagonalPoint {
 pub(super) struct Curve {
     /// In order of the displacement.
     pub(super) places: Vec<DiagonalPoint>,
-    /// Where the force is largest or smallest, in order of the displacement.
+    /// Extrema of the force, in order of the displacement.
     pub(super) limits: Vec<DiagonalPoint>,
 }
 
@@ -108,8 +108,8 @@ impl Curve {
         self.limits.iter().rev().find(|p| p.moved < 0.0).copied()
     }
 
-    /// Where the slope falls fastest on the way inside: the tip of the parabola through the three
-    /// lowest rates of the slope.
+    /// Place on the way inside at which the slope falls fastest: the tip of the parabola through the three lowest
+    /// rates of the slope.
     pub(super) fn knee(&self) -> Option<DiagonalPoint> {
         let inside: Vec<&DiagonalPoint> = self.places.iter().filter(|p| p.moved > 0.0).collect();
         let rates: Vec<(f64, f64)> = inside
@@ -203,7 +203,7 @@ impl Bars {
     /// On the way to a displacement (mm), the last place before the first limit of the force or the
     /// first loss of a bar's shape, whichever comes first.
     pub(super) fn first_limit(&self, to: f64) -> Result<Option<DiagonalPoint>, Cause> {
-        // Where a bar has lost its shape the solver may find nothing at all.
+        // The solver may find nothing at all if a bar has lost its shape.
         let holds = |moved: f64| {
             let place = self.held(moved).ok()?;
             (place.slope > 0.0 && place.share_to_buckling < 1.0).then_some(place)

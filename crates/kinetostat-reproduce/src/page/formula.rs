@@ -83,7 +83,7 @@ fn out_word(before: &[char]) -> usize {
         .count()
 }
 
-/// Where an index or a power that begins at `start` ends.
+/// End of an index or a power that begins at `start`.
 fn script(letters: &[char], start: usize) -> usize {
     if letters.get(start) == Some(&'(') {
         let close = letters[start..].iter().position(|c| *c == ')');

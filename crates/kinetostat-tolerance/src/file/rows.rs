@@ -347,7 +347,7 @@ fn largest_of(whole: f64, limit: f64) -> f64 {
     }
 }
 
-/// What no machine has negative or zero.
+/// True if a number of this kind must be positive.
 fn is_positive(kind: ParameterKind) -> bool {
     use ParameterKind as K;
     matches!(
