@@ -14,8 +14,8 @@ fn example(what: &str, package: &str, name: &str, words: &[&str]) -> Result<()> 
     step(what, &mut command)
 }
 
-/// What is run for a twelfth of the time each, by package and example: these are thousands of cases in a second. One case is
-/// repeated with `cargo run --package kinetostat-program --example fuzz_codes -- case SEED`, and so of the others.
+/// Fuzzers that run for a twelfth of the time each, by package and example: these are thousands of cases in a second. One
+/// case is repeated with `cargo run --package kinetostat-program --example fuzz_codes -- case SEED`, and so of the others.
 const QUICK: [(&str, &str, &str); 10] = [
     ("codes", "kinetostat-program", "fuzz_codes"),
     ("programs with macros", "kinetostat-program", "fuzz_expand"),

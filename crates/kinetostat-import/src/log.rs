@@ -11,7 +11,7 @@ pub(crate) struct At {
     /// Index of the file in the log.
     pub(crate) file: usize,
     pub(crate) span: Range<usize>,
-    /// As in `robot / joint 'a1' / axis`.
+    /// Path of the element, as in `robot / joint 'a1' / axis`.
     pub(crate) element: String,
 }
 

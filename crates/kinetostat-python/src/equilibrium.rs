@@ -45,7 +45,7 @@ impl Equilibrium {
         }
     }
 
-    /// Whether it is stable, stiffness against a force, share to buckling.
+    /// Stability, stiffness against a force, share to buckling.
     fn stability(&self) -> PyResult<(bool, f64, Option<f64>)> {
         let quick = self.by_kernels.as_ref();
         if let Some(s) = quick.and_then(|(_, _, found)| found.stability(0)) {
@@ -131,7 +131,7 @@ impl Equilibrium {
         Ok(self.stability()?.1)
     }
 
-    /// Of springs, weights and loads on limbs, J, up to a constant; none where a load has no potential.
+    /// Potential of springs, weights and loads on limbs, J, up to a constant; None if a load has no potential.
     #[getter]
     fn energy(&self) -> PyResult<Option<f64>> {
         Ok(self.whole()?.energy)

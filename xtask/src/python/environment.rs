@@ -8,7 +8,7 @@ use anyhow::{Context, Result, bail};
 use super::interpreter::Interpreter;
 use crate::root;
 
-/// Where environments, wheels and locales lie.
+/// Folder of environments, wheels and locales.
 pub fn folder() -> PathBuf {
     let target =
         std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| root().join("target"), PathBuf::from);
@@ -77,7 +77,7 @@ impl Environment {
         Ok(own)
     }
 
-    /// Its interpreter, without settings of the caller that name other packages.
+    /// Interpreter of the environment, without settings of the caller that name other packages.
     pub fn python(&self) -> Command {
         let mut command = Command::new(self.path.join("bin/python"));
         command

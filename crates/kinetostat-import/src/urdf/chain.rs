@@ -144,7 +144,7 @@ fn rigid(placement: Placement, name: Option<String>) -> Element {
 }
 
 impl Plan<'_> {
-    /// Whether the variable's joint stands still in the model.
+    /// Fixed value of a joint whose variable does not move in the model.
     fn still(&self, follow: &Follow) -> Option<f64> {
         match follow.variable {
             None => Some(follow.offset),

@@ -17,7 +17,7 @@ use crate::urdf::values::{Reader, children, only};
 /// More links or joints are no robot arm.
 const MOST_PARTS: usize = 1_000;
 
-/// What neither moves nor bends a robot, by element.
+/// Elements that neither move nor bend a robot.
 const SKIPPED: [&str; 15] = [
     "material",
     "transmission",

@@ -1,4 +1,4 @@
-//! What there is to say about a robot that can be imported.
+//! Remarks on a robot that can be imported.
 
 use std::collections::{BTreeMap, BTreeSet};
 
