@@ -70,7 +70,7 @@ pub fn check() -> Result<()> {
     Ok(())
 }
 
-/// The largest growth beside the baseline, %; none where it cannot be counted.
+/// The largest growth beside the baseline, %; `None` if it cannot be counted.
 ///
 /// # Errors
 /// A tool that cannot be run.

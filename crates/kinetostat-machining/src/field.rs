@@ -218,7 +218,7 @@ impl ModelField<'_> {
     }
 }
 
-/// Poses to command for places along a path. Where a block begins as the one before it ended, the place is found once.
+/// Poses to command for places along a path. A place at which one block ends and the next begins is solved once.
 fn targets(
     machine: &AlongPath,
     poses: &[Pose],
@@ -250,7 +250,7 @@ fn rotary(motion: &Move) -> Option<&RotaryTurn> {
 
 impl ModelField<'_> {
     /// The correction on a machine whose rotary axes turn tool and part: the tip exactly, and the tool's axis as far as these axes
-    /// can turn it. Of a place without their angles the position alone.
+    /// can turn it. Only the position is corrected at a place without their angles.
     fn by_axes(
         &self,
         memory: &mut Neighbour,

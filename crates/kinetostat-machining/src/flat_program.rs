@@ -32,12 +32,12 @@ use crate::number::counted;
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct FlatProgram {
-    /// File name of the flat program, with its folder where it keeps the name of its source; none where it was not written.
+    /// File name of the flat program, with its folder where it keeps the name of its source; `None` if it was not written.
     #[serde(default)]
     pub name: Option<String>,
     /// Number of its blocks; of a program that was converted, of its motions.
     pub blocks: usize,
-    /// The language into which the program was converted before it was run; none where it keeps its own.
+    /// The language into which the program was converted before it was run; `None` if it keeps its own.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub language: Option<String>,
     /// Names of the files that were run, the program first.
@@ -66,7 +66,7 @@ impl FlatProgram {
         }
     }
 
-    /// File and line that a line of the flat program came from; none for a line that it has not.
+    /// File and line that a line of the flat program came from; `None` for a line that it has not.
     #[must_use]
     pub fn source_of(&self, line: usize) -> Option<(&str, usize)> {
         let (file, line) = self.sources.get(line.checked_sub(1)?)?;
@@ -180,7 +180,7 @@ impl FlatProgram {
 }
 
 impl FlatProgram {
-    /// The lines of files that lines of the flat program came from, as in `3 and 5 of hole.ngc`; none where one has none.
+    /// The lines of files that lines of the flat program came from, as in `3 and 5 of hole.ngc`; `None` if one has none.
     fn in_files(&self, numbers: &[Number]) -> Option<String> {
         let mut said = String::new();
         let mut last = None;

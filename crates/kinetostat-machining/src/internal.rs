@@ -14,7 +14,7 @@ use crate::result::joints::ArmConfiguration;
 use crate::run::merged_warnings::{MergedWarnings, same_words};
 use crate::warning::Warning;
 
-/// The configuration of a machine at joint values, rad; none if it is no arm of six axes with a wrist in one point.
+/// The configuration of a machine at joint values, rad; `None` if it is no arm of six axes with a wrist in one point.
 #[must_use]
 pub fn configuration_at(mechanism: &Mechanism, commands: &[f64]) -> Option<ArmConfiguration> {
     Arm::of(mechanism)?.configuration(commands)
@@ -56,7 +56,7 @@ pub fn limited_values(
     Some(found.map(|p| (p.place.at_mm, p.value[0])).collect())
 }
 
-/// Joint values, rad, of the ways of an arm to a pose of its tool that its closed form finds, each somewhere on its circle; none if it is
+/// Joint values, rad, of the ways of an arm to a pose of its tool that its closed form finds, each somewhere on its circle; `None` if it is
 /// no arm of six axes with a wrist in one point.
 #[must_use]
 pub fn ways_of_arm(mechanism: &Mechanism, pose: &Pose) -> Option<Vec<[f64; 6]>> {

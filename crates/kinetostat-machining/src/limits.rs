@@ -310,7 +310,7 @@ pub struct Beyond {
     pub found: f64,
     /// Value of the limit: the largest one allowed, for the shortest tool the least one.
     pub allowed: f64,
-    /// Line of the program, from 1; none where it concerns all of it.
+    /// Line of the program, from 1; `None` if it concerns all of it.
     pub line: Option<usize>,
     /// Place in words, drive or direction; may be empty.
     pub place: String,
@@ -334,8 +334,8 @@ impl Beyond {
     }
 }
 
-/// A figure and the bound that it leaves, with as many digits as tell them apart. What was stated stays as it
-/// was stated; what was found is rounded away from its bound, like the largest values beside it.
+/// A figure and the bound that it leaves, with as many digits as tell them apart. A stated value is shown as it was
+/// stated; a computed one is rounded away from its bound, like the largest values beside it.
 pub(crate) fn apart(found: f64, allowed: f64, stated: bool) -> (String, String) {
     let rounding = match (stated, found < allowed) {
         (true, _) => Rounding::Nearest,

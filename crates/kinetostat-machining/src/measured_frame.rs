@@ -87,7 +87,7 @@ impl Default for FrameMotion {
 pub(crate) struct Sag<'t> {
     mechanism: &'t Mechanism,
     orientation: Orientation,
-    /// The machine, and without its own loads; none where it has no such loads.
+    /// The machine, and without its own loads; `None` if it has no such loads.
     both: Option<[AlongPath; 2]>,
 }
 

@@ -161,7 +161,7 @@ pub enum RunError {
         line: usize,
         /// Program coordinates, mm.
         position_mm: [f64; 3],
-        /// Distance of the compensated original from there, mm; none where that comes by, but in another order.
+        /// Distance of the compensated original from there, mm; `None` if that comes by, but in another order.
         distance_mm: Option<f64>,
     },
     /// The program has no motion on which a correction could be needed.

@@ -163,9 +163,9 @@ pub struct Warning {
     pub code: WarningCode,
     /// Finding and its consequence.
     pub message: String,
-    /// Line, from 1; none where it speaks of all of a file.
+    /// Line, from 1; `None` if it speaks of all of a file.
     pub line: Option<usize>,
-    /// File of that line; none for the program, and where it speaks of no file.
+    /// File of that line; `None` for the program, and where it speaks of no file.
     pub file: Option<String>,
     /// Source line of the line in a program that was written flat.
     #[serde(default, skip_serializing_if = "Option::is_none")]

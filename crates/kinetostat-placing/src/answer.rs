@@ -11,7 +11,7 @@ use crate::value::{Refusal, Value};
 /// A placement that was solved at all places of the program.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Candidate {
-    /// Name of the fixture; none where there are none.
+    /// Name of the fixture; `None` if there are none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub fixture: Option<String>,
     /// Value of every variable that is free, by its name (mm or deg).
@@ -23,7 +23,7 @@ pub struct Candidate {
     pub part_orientation: [f64; 4],
     /// Orientation of the tool in the base, of programs that do not state it: w, x, y, z.
     pub tool_orientation: [f64; 4],
-    /// The figure over the whole program, in its unit; none where it is refused.
+    /// The figure over the whole program, in its unit; `None` if it is refused.
     pub figure: Option<f64>,
     /// Reason for which it is refused.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -135,13 +135,13 @@ pub struct Nowhere {
 /// Result of a search.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Placed {
-    /// The best placement; none where none can be taken.
+    /// The best placement; `None` if none can be taken.
     pub best: Option<Candidate>,
     /// The next best ones, each apart from all before it.
     pub next_best: Vec<Candidate>,
     /// In the middle of all ranges.
     pub centre: Candidate,
-    /// The figure where the placement is as given; none where it is refused there.
+    /// The figure where the placement is as given; `None` if it is refused there.
     pub given: Option<f64>,
     /// Explanation, if no placement can be taken.
     pub nowhere: Option<Nowhere>,

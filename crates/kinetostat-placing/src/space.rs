@@ -224,7 +224,7 @@ impl Space {
         &self.fixtures
     }
 
-    /// Name of the fixture of a placement; none where there are none.
+    /// Name of the fixture of a placement; `None` if there are none.
     #[must_use]
     pub fn fixture_of(&self, place: &Place) -> Option<&str> {
         let fixture = self.fixtures.get(place.fixture);

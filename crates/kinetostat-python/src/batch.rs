@@ -391,8 +391,8 @@ pub fn equilibrium_of_many<'py>(
     Ok(answer)
 }
 
-/// Poses to command so that the tool is at `poses` under `wrenches` in the directions that are corrected. Where the position alone is
-/// and the machine turns its tool as it moves, the orientation is the nearest that it can have.
+/// Poses to command so that the tool is at `poses` under `wrenches` in the directions that are corrected. If only the position is
+/// corrected and the machine turns its tool as it moves, the orientation is the nearest that it can have.
 #[pyfunction]
 #[pyo3(signature = (machine, poses, wrenches, directions, threads=None, progress=None))]
 pub fn targets_of_many<'py>(

@@ -13,7 +13,8 @@ use crate::arrays::{array, matrix_of, rows_of};
 use crate::errors::{Class, error, of_core};
 use crate::stiffness::json_of;
 
-/// Equilibrium of a machine under a wrench on its tool. What kernels found is there at once, the rest once it is asked for.
+/// Equilibrium of a machine under a wrench on its tool. Results of the kernels are there at once, the rest is computed on
+/// request.
 #[pyclass(frozen, module = "kinetostat._core")]
 pub struct Equilibrium {
     by_kernels: Option<(Arc<Posture>, Wrench, BatchEquilibrium)>,
@@ -119,7 +120,7 @@ impl Equilibrium {
         Ok(self.stability()?.0)
     }
 
-    /// Largest share of the way to buckling of all limbs; none where nothing buckles.
+    /// Largest share of the way to buckling of all limbs; `None` if nothing buckles.
     #[getter]
     fn share_to_buckling(&self) -> PyResult<Option<f64>> {
         Ok(self.stability()?.2)

@@ -88,8 +88,8 @@ fn kind(kind: MotionKind) -> &'static str {
 
 #[pymethods]
 impl Machine {
-    /// Equilibrium of a posture of this machine under a wrench (6,) on the tool: force (N), moment (N m), base axes, about its reference point. What is beyond
-    /// a limit is issued as a warning of the line that called the Python method.
+    /// Equilibrium of a posture of this machine under a wrench (6,) on the tool: force (N), moment (N m), base axes, about its reference
+    /// point. Values beyond a limit are issued as a warning of the line that called the Python method.
     fn deflected(&self, posture: &Posture, wrench: &Bound<'_, PyAny>) -> PyResult<Equilibrium> {
         let py = wrench.py();
         let wrench = one_wrench("wrench", wrench)?;

@@ -1,6 +1,6 @@
 //! Machines next to the drawing: how their stability goes along with uncertain numbers.
 //!
-//! Whether an equilibrium holds takes as long to find as the equilibrium itself, and hardly a machine of thousands is another than
+//! The stability of an equilibrium takes as long to find as the equilibrium itself, and hardly a machine of thousands differs from
 //! the drawn one in that. Its margins and their derivatives say which may be: only those are looked at.
 
 use kinetostat::Wrench;

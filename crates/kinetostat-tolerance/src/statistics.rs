@@ -46,7 +46,7 @@ pub struct Quantile {
     pub share: f64,
     /// The quantile.
     pub value: f64,
-    /// Lower bound; none where there are too few draws for one.
+    /// Lower bound; `None` if there are too few draws for one.
     pub low: Option<f64>,
     /// Upper bound.
     pub high: Option<f64>,

@@ -34,7 +34,7 @@ pub struct Contradiction {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Uncertainties {
     each: Vec<Uncertain>,
-    /// Correlation of the scores, and `A` with `A A^T` equal to it; none for independent numbers.
+    /// Correlation of the scores, and `A` with `A A^T` equal to it; `None` for independent numbers.
     correlated: Option<(DMatrix<f64>, DMatrix<f64>)>,
 }
 

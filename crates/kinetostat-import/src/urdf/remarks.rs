@@ -38,8 +38,8 @@ pub(crate) fn one_limb_each(
     }
 }
 
-/// Length of the arm from its second joint on, m: the first one only turns it about its foot. Of a
-/// machine with loops, along the fewest limbs from the base to the tip, the longest of those paths.
+/// Length of the arm from its second joint on, m: the first one only turns it about its foot. In a machine with loops
+/// it is measured along the fewest limbs from the base to the tip, on the longest of those paths.
 pub(crate) fn reach(graph: &Graph, base: usize) -> f64 {
     // Length and number of joints of the path to each link known so far.
     let mut known: BTreeMap<usize, (f64, usize)> = BTreeMap::from([(base, (0.0, 0))]);

@@ -253,7 +253,7 @@ fn units_of(element: &Superelement, units: Units) -> Vec<f64> {
         .collect()
 }
 
-/// Row of the spider for each degree of freedom of the interface; none for the others.
+/// Row of the spider for each degree of freedom of the interface; `None` for the others.
 fn spider_rows(element: &Superelement, interface: &Interface) -> Vec<Option<Vector6<f64>>> {
     element
         .dofs
@@ -280,7 +280,7 @@ fn spider_rows(element: &Superelement, interface: &Interface) -> Vec<Option<Vect
 
 /// Treatment of each degree of freedom.
 struct Parts {
-    /// Row of the spider of those that are tied rigidly; none for the others.
+    /// Row of the spider of those that are tied rigidly; `None` for the others.
     spider: Vec<Option<Vector6<f64>>>,
     /// Number among the unknowns; `u32::MAX` for those that are no unknown.
     inner: Vec<u32>,

@@ -24,8 +24,9 @@ const BESIDE_MM: f64 = 200.0;
 /// Machines of this size, working as far from the origin of their base, are large, m.
 const LARGE_M: f64 = 0.3;
 
-/// A place of the part that was most likely written in metres: some millimetres from the origin of the base,
-/// so that the base of a large machine stands in the part. Where nobody stated one, also a base that stands beside it.
+/// Warning of a placement that was most likely written in metres: some millimetres from the origin of the base, so
+/// that the base of a large machine stands in the part. If no placement was stated, also of a base that stands beside
+/// it.
 #[must_use]
 pub fn origin_in_metres(
     mechanism: &Mechanism,
@@ -69,8 +70,8 @@ pub fn origin_in_metres(
     })
 }
 
-/// A part far below the base of a machine whose tool is above it at home: mostly a sign. Where the model states a workspace, that
-/// is what counts.
+/// Limit for a part far below the base of a machine whose tool is above it at home: mostly a wrong sign. A workspace of the model
+/// takes precedence.
 pub(crate) fn below_base(task: &Task<'_>) -> Option<Beyond> {
     let mechanism = task.mechanism;
     let up = match mechanism.gravity().try_normalize(1e-9) {

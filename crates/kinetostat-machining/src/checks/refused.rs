@@ -105,7 +105,7 @@ pub(crate) fn share_of_rating(task: &Task<'_>, points: &[PointResult]) -> Option
     worst
 }
 
-/// The largest share of a rating; none where no rating is known.
+/// The largest share of a rating; `None` if no rating is known.
 pub(crate) fn largest_share_of_rating(task: &Task<'_>, points: &[PointResult]) -> Option<f64> {
     share_of_rating(task, points).map(|worst| worst.drive.share_of_rating)
 }

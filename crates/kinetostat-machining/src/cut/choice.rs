@@ -4,8 +4,8 @@ use serde::{Deserialize, Serialize};
 
 /// Force within a revolution that is compensated.
 ///
-/// The machine is slow against the teeth: it bends under the mean, and the compensation follows that by default. What a tooth
-/// leaves on a wall is where the tool was while its edge passed the wall. If the tool follows every tooth (a soft tool in a stiff
+/// The machine is slow against the teeth: it bends under the mean, and the compensation follows that by default. A tooth shapes a
+/// wall by the position of the tool while its edge passed the wall. If the tool follows every tooth (a soft tool in a stiff
 /// machine), the force of that moment prints into the wall, and it is another than the mean.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]

@@ -70,7 +70,7 @@ impl ForceAlongPath {
     }
 
     /// The forces on another path over the same way: of each of its moves the move here that it is a part of, and the shares of that
-    /// (by length) from which to which it goes. What was found stays with the lines of this path.
+    /// (by length) from which to which it goes. Warnings keep the lines of this path.
     ///
     /// ```
     /// use kinetostat_cutting::{ForceLog, LoggedBy};

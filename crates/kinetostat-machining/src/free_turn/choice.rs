@@ -18,7 +18,7 @@ pub struct TurnStation {
     pub turn_deg: f64,
     /// Joint values, deg.
     pub joints_deg: [f64; 6],
-    /// The joint nearest to a limit, from 0, and how far it is from it, deg; none where no joint has limits.
+    /// The joint nearest to a limit, from 0, and how far it is from it, deg; `None` if no joint has limits.
     pub nearest_limit: Option<(usize, f64)>,
     /// Smallest singular value.
     pub smallest_singular_value: f64,
@@ -139,8 +139,8 @@ pub struct TurnChoice {
 }
 
 impl TurnChoice {
-    /// The turn after so many mm of the way, deg; before the first station and behind the last one as there. Where the tool goes on with
-    /// another turn, because the program does not state the way there, that one counts.
+    /// The turn after so many mm of the way, deg; before the first station and behind the last one as there. At a jump, where the
+    /// program does not state the way, it is the turn after it.
     #[must_use]
     pub fn turn_at_deg(&self, way_mm: f64) -> f64 {
         let after = self.stations.partition_point(|s| s.way_mm <= way_mm);

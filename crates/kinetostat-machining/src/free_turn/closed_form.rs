@@ -49,7 +49,7 @@ fn about(axis: &Vector3<f64>, from: &Vector3<f64>, to: &Vector3<f64>) -> f64 {
 }
 
 impl SixAxisArm {
-    /// The arm that a machine is; none if it is another machine.
+    /// The arm that a machine is; `None` if it is another machine.
     pub fn of(mechanism: &Mechanism) -> Option<Self> {
         let flags = Arm::of(mechanism)?;
         let mut serial = SerialArm::of(mechanism)?;

@@ -39,7 +39,7 @@ impl Curve {
         }
     }
 
-    /// Rates of turning to every station from the one before, deg/mm; none where the program does not state the way.
+    /// Rates of turning to every station from the one before, deg/mm; `None` if the program does not state the way.
     fn rates(&self, problem: &Problem<'_, '_>) -> Vec<Option<f64>> {
         let gaps = problem.stations.iter().enumerate();
         gaps.map(|(station, place)| {

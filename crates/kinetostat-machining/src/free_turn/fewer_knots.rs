@@ -1,5 +1,5 @@
 //! A smooth curve with fewer knots: where its turns lie on a line but for a hundredth of a degree they are put on it, so that a program
-//! needs no more places than its turn does (Douglas and Peucker 1973). What is changed keeps what the curve keeps.
+//! needs no more places than its turn does (Douglas and Peucker 1973). The changed curve stays within the same bounds.
 
 use rayon::prelude::*;
 

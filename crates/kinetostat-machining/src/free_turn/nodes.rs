@@ -255,7 +255,7 @@ impl<'a> Postures<'a> {
             + weights.compliance * soft
     }
 
-    /// The posture at a pose next to another one, in its configuration and on the turns of its joints; none where it is not allowed.
+    /// The posture at a pose next to another one, in its configuration and on the turns of its joints; `None` if it is not allowed.
     pub fn next_to(&self, other: &Node, pose: &Pose) -> Option<Node> {
         let joints = self.arm.serial.near(pose, &other.joints)?;
         let singular_value = self.allowed(&joints).ok()?;

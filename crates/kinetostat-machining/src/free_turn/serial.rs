@@ -36,7 +36,7 @@ pub(crate) struct SerialArm {
 }
 
 impl SerialArm {
-    /// The joints of a machine; none if it is another machine.
+    /// The joints of a machine; `None` if it is another machine.
     pub fn of(mechanism: &Mechanism) -> Option<Self> {
         let [limb] = mechanism.limbs() else {
             return None;
@@ -113,7 +113,7 @@ impl SerialArm {
         least.max(0.0).sqrt()
     }
 
-    /// The joint values next to others that bring the tool to a pose; none if the search does not end there.
+    /// The joint values next to others that bring the tool to a pose; `None` if the search does not end there.
     pub fn near(&self, target: &Pose, start: &Joints) -> Option<Joints> {
         let mut joints = *start;
         let mut last = f64::INFINITY;

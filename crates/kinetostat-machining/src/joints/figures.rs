@@ -37,7 +37,7 @@ impl<'r> JointFigures<'r> {
         }
     }
 
-    /// The arm that the machine is; none if it is another machine.
+    /// The arm that the machine is; `None` if it is another machine.
     pub(crate) fn arm(&self) -> Option<&Arm> {
         self.arm.as_ref()
     }

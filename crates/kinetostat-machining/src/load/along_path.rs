@@ -7,12 +7,12 @@
 //! f = F_r e_r + F_t e_t + F_a z,   e_t along the feed (seen along the tool axis z), e_r = e_t x z
 //! ```
 //!
-//! so that on a counter-clockwise circle `e_r` points outwards. Where the program turns the tool, z is the direction from its tip
-//! to its holder and the feed is seen along that. While the tool turns in place (`G1 C90` alone) the feed counts as that of the path around,
-//! over 0.05 mm before and behind; that direction stays fixed in the part, and so turns with a table, however the turn is divided into
-//! blocks. Where the path turns back there it has no direction, and the axial force alone acts. At a gentle corner the load turns
-//! over the last and first millimetres of the two moves; at a sharp one it turns at once, and what it is
-//! while the written program steps there is a matter of reading ([`crate::load::law::CornerLoad`]).
+//! so that on a counter-clockwise circle `e_r` points outwards. If the program turns the tool, z is the direction from its tip to its
+//! holder and the feed is seen along that. While the tool turns in place (`G1 C90` alone) the feed counts as that of the path around, over
+//! 0.05 mm before and behind; that direction stays fixed in the part, and so turns with a table, however the turn is divided into blocks.
+//! If the path turns back there it has no direction, and the axial force alone acts. At a gentle corner the load turns over the last and
+//! first millimetres of the two moves; at a sharp one it turns at once, and what it is while the written program steps there is a matter of
+//! reading ([`crate::load::law::CornerLoad`]).
 
 use std::borrow::Cow;
 

@@ -1,11 +1,11 @@
 //! A load that comes and goes as fast as the correction may change, and no faster.
 //!
 //! A correction that jumps would move the tool while it stands at one place of the part: a plunge would go up before it goes
-//! down. So the load may change only by what moves the tool by [`ProgramLoad::largest_step`] per mm of path, at the machine's
-//! smallest stiffness against a force. The change goes into the air before and after a cut, where it does not matter where the
-//! tool is; a stated load, of which nobody knows where it begins, comes over the first millimetres after a rapid, round corners
-//! too. Only where there is less feed than that between two rapids it comes faster: all of it acts before the second one. At
-//! sharp corners the load turns while the tool steps, as everywhere.
+//! down. The load may therefore change only by what moves the tool by [`ProgramLoad::largest_step`] per mm of path, at the
+//! machine's smallest stiffness against a force. The change goes into the air before and after a cut, where it does not matter
+//! where the tool is; a stated load, of which nobody knows where it begins, comes over the first millimetres after a rapid,
+//! round corners too. Only where there is less feed than that between two rapids it comes faster: all of it acts before the
+//! second one. At sharp corners the load turns while the tool steps, as everywhere.
 
 use std::collections::BTreeMap;
 

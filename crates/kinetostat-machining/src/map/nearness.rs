@@ -2,9 +2,9 @@
 //! drive.
 //!
 //! Rates of the commands by motions of the tool are differences of the inverse kinematics, which the kernels solve for many
-//! poses at once. Where a machine turns its tool as it moves, the motions that it drives are others at every place, and a pose
-//! beside one that it reaches is none: there the posture itself says them. Rotations of tool and of actuators are multiplied
-//! with the natural length, so that all are lengths.
+//! poses at once. For a machine that turns its tool as it moves, the driven motions differ from place to place, and a pose
+//! next to a reached one may be out of reach: there the posture itself gives them. Rotations of tool and of actuators are
+//! multiplied with the natural length, so that all are lengths.
 
 use kinetostat::batch::{Batch, BatchStiffness};
 use kinetostat::spatial::moved;

@@ -85,7 +85,7 @@ pub struct Entry {
     pub variable: Variable,
     /// Name in files, options and Python.
     pub name: &'static str,
-    /// Unit; `1` without one. That of an actuator's effort is its own.
+    /// Unit; `1` without one. The unit of an actuator's effort is that of the actuator.
     pub unit: &'static str,
     /// Number of columns.
     pub width: Width,

@@ -1,6 +1,6 @@
 //! The way of an arm along a program in one go.
 //!
-//! Places of a program are solved in groups, each from the posture that an arm takes there from home. Where an arm has several postures
+//! Places of a program are solved in groups, each from the posture that an arm takes there from home. If an arm has several postures
 //! and the program passes a singular one, that may be another posture than the one with which the arm comes along. Then the program is
 //! followed from its start, posture by posture, and every place is solved next to the posture of the arm there.
 

@@ -1,8 +1,8 @@
 //! Values along the path that change no faster than they may.
 //!
 //! A value that counts (the tool cuts there) is kept wherever the values around it can be reached at the rate that is allowed:
-//! the change goes into the air before and after, where it does not matter what the value is. Where two values that count are
-//! too close to each other, the profile goes midway between the highest and the lowest that they ask for.
+//! the change goes into the air before and after, where it does not matter what the value is. If two values that count are too
+//! close to each other, the profile goes midway between the highest and the lowest that they ask for.
 //!
 //! Bounds from below and above are cones of that rate from every place that counts, found in one pass forwards and one
 //! backwards. Between two places the bounds are straight lines, so that the places where the profile bends are their

@@ -150,7 +150,7 @@ impl RunResult {
         all
     }
 
-    /// Steps of the written program against the direction of motion; none where none is longer than what is warned of.
+    /// Steps of the written program against the direction of motion; `None` if none is longer than what is warned of.
     #[must_use]
     pub fn backward_text(&self) -> Option<String> {
         let s = &self.summary;

@@ -49,7 +49,7 @@ pub enum AssumptionKind {
 pub struct Assumption {
     /// Kind of the assumption.
     pub kind: AssumptionKind,
-    /// Largest distance of the tool from its programmed place if it fails, um; none where that is not computed.
+    /// Largest distance of the tool from its programmed place if it fails, um; `None` if that is not computed.
     pub up_to_um: Option<f64>,
     /// The program must not be run before it is settled: the machine has no equilibrium otherwise, or no length says what is lost.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
@@ -65,7 +65,7 @@ pub struct Assessment {
     /// Level of the assessment.
     pub level: Level,
     /// Largest distance of the tool from its programmed place if one of the assumptions fails, um; of a written program with that
-    /// program. None where a critical one has no such distance.
+    /// program. `None` if a critical one has no such distance.
     pub max_error_um: Option<f64>,
     /// Assumptions, the costliest first: critical ones, then by `up_to_um`, then those without a figure.
     pub assumptions: Vec<Assumption>,

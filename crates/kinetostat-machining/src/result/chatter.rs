@@ -18,7 +18,7 @@ pub struct ChatterPlace {
     pub depth_mm: f64,
     /// True if it chatters; `None` if nothing can be said.
     pub chatters: Option<bool>,
-    /// Depth at which it chatters at this speed, mm; none where it does not up to `looked_up_to_mm`.
+    /// Depth at which it chatters at this speed, mm; `None` if it does not up to `looked_up_to_mm`.
     pub limit_mm: Option<f64>,
     /// Largest depth that was looked at, mm.
     pub looked_up_to_mm: f64,
@@ -32,13 +32,13 @@ pub struct ChatterPlace {
     /// Relative uncertainty of the cutting force law, percent.
     #[serde(default)]
     pub force_spread_percent: f64,
-    /// Forced vibration of the tip about its mean place, root of the mean square, um; none where it chatters.
+    /// Forced vibration of the tip about its mean place, root of the mean square, um; `None` if it chatters.
     pub vibration_rms_um: Option<f64>,
     /// Strongest frequency of the vibration, Hz.
     pub strongest_hz: Option<f64>,
     /// The machine's mode next to that, Hz.
     pub nearest_mode_hz: Option<f64>,
-    /// The larger error that it leaves on a wall, um, positive where the tool cuts too deep; none where the cut makes no wall.
+    /// The larger error that it leaves on a wall, um, positive where the tool cuts too deep; `None` if the cut makes no wall.
     pub wall_um: Option<f64>,
 }
 
@@ -59,7 +59,7 @@ pub struct ChatterLines {
     /// A speed beside it, 5 % away, chatters; of such ones it is that with the largest limit.
     #[serde(default)]
     pub stable_speed_is_narrow: bool,
-    /// Feed that keeps the feed per tooth at that speed, mm/min; none where the feed per tooth changes along the lines.
+    /// Feed that keeps the feed per tooth at that speed, mm/min; `None` if the feed per tooth changes along the lines.
     #[serde(default)]
     pub stable_feed_mm_per_min: Option<f64>,
     /// True if speeds were tried: they are for the worst lines.

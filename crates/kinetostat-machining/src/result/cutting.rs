@@ -25,7 +25,7 @@ pub struct CutPlace {
     pub depth_mm: f64,
     /// Sum of the arcs in contact at the lowest height, degrees: 180 in a slot, 0 in air.
     pub arc_deg: f64,
-    /// Force on the tool along the feed, N. Where the tool goes along its axis, the force is in axes of the part: this one
+    /// Force on the tool along the feed, N. If the tool goes along its axis, the force is in axes of the part: this one
     /// along x.
     pub force_along_feed_n: f64,
     /// Force on the tool to the left of the feed, N; along y of the part where the tool goes along its axis.
@@ -36,7 +36,7 @@ pub struct CutPlace {
     pub torque_n_m: f64,
     /// Mean power of the spindle, W.
     pub power_w: f64,
-    /// Torque that the spindle gives at this speed, N m; none where it is not stated or does not turn so fast.
+    /// Torque that the spindle gives at this speed, N m; `None` if it is not stated or does not turn so fast.
     pub spindle_torque_n_m: Option<f64>,
     /// Thickest place of a chip, mm.
     pub chip_mm: f64,

@@ -128,7 +128,7 @@ impl Joins for Ranges {
 pub struct StretchRange {
     /// Start and end of the stretch, mm of the path.
     pub path_mm: [f64; 2],
-    /// Lowest and highest value on cutting moves; none where there is none.
+    /// Lowest and highest value on cutting moves; `None` if there is none.
     pub range: Option<[f64; 2]>,
     /// More of the stretch is a rapid than not.
     pub rapid: bool,

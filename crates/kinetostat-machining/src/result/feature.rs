@@ -26,7 +26,7 @@ pub struct FeatureResult {
     pub lines: [usize; 2],
     /// Places at feed that were solved there.
     pub points: usize,
-    /// Largest distance of the tool from where it should be in the original program, mm; none where nothing is cut.
+    /// Largest distance of the tool from where it should be in the original program, mm; `None` if nothing is cut.
     pub error_before_mm: Option<f64>,
     /// Largest error of the program that was written or verified; `None` if there is none.
     pub error_after_mm: Option<f64>,
@@ -37,7 +37,7 @@ pub struct FeatureResult {
     /// True if that is kept: by the written or verified program if there is one, else by the original. `None` if nothing is
     /// cut.
     pub held: Option<bool>,
-    /// First and last line of what a verified program does not cut of it; none where it cuts all of it.
+    /// First and last line of what a verified program does not cut of it; `None` if it cuts all of it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub uncut: Option<[usize; 2]>,
 }

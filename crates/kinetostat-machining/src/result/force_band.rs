@@ -17,7 +17,7 @@ pub struct ForceBand {
     pub points: usize,
     /// Points on cutting moves in all.
     pub of_points: usize,
-    /// Largest distance of the tool from its programmed place with the larger force, mm; none where the machine has no
+    /// Largest distance of the tool from its programmed place with the larger force, mm; `None` if the machine has no
     /// equilibrium under it.
     pub max_error_if_larger_mm: Option<f64>,
     /// Largest error with the smaller force.
@@ -27,7 +27,7 @@ pub struct ForceBand {
 }
 
 impl ForceBand {
-    /// The larger of both errors, mm; none where one has no equilibrium.
+    /// The larger of both errors, mm; `None` if one has no equilibrium.
     ///
     /// ```
     /// assert_eq!(kinetostat_machining::ForceBand::default().max_error_mm(), None);

@@ -125,7 +125,7 @@ pub struct ArmConfiguration {
 
 impl ArmConfiguration {
     /// The configuration of the signed distances of shoulder (mm, front is positive), elbow (deg, up is positive) and wrist (deg, not
-    /// flipped is positive); none if one of them is no number.
+    /// flipped is positive); `None` if one of them is no number.
     #[must_use]
     pub fn of(shoulder_mm: f64, elbow_deg: f64, wrist_deg: f64) -> Option<Self> {
         if ![shoulder_mm, elbow_deg, wrist_deg]
@@ -214,7 +214,7 @@ pub struct PostureChange {
     pub line: usize,
     /// The place behind, program coordinates, mm.
     pub position_mm: [f64; 3],
-    /// Configuration before; none of machines that are no arms of six axes with a wrist in one point.
+    /// Configuration before; `None` for machines that are no arms of six axes with a wrist in one point.
     pub before: Option<ArmConfiguration>,
     /// Configuration behind.
     pub after: Option<ArmConfiguration>,
@@ -230,7 +230,7 @@ pub struct PostureChange {
 #[non_exhaustive]
 pub struct WayOut {
     /// The smallest turn, right-handed about z of the tool, with which every place that was looked at is reached inside all limits, in
-    /// one configuration, and not near a singular posture; none if no turn does.
+    /// one configuration, and not near a singular posture; `None` if no turn does.
     pub turn_about_tool_axis_deg: Option<f64>,
     /// Places along the program that were looked at.
     pub places: usize,
@@ -274,7 +274,7 @@ pub struct JointsResult {
     /// Place of the largest share of a drive's rating; `None` if the model states no rating.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub most_loaded: Option<RatingPlace>,
-    /// The configuration at the first place that is cut; none of machines that are no arms of six axes with a wrist in one point.
+    /// The configuration at the first place that is cut; `None` for machines that are no arms of six axes with a wrist in one point.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub configuration: Option<ArmConfiguration>,
     /// Changes of the posture in feed motions, in the order of the path, at most [`Self::MAX_CHANGES`].
@@ -292,7 +292,7 @@ impl JointsResult {
     /// Maximum number of changes that are listed.
     pub const MAX_CHANGES: usize = 20;
 
-    /// The configuration along the program in words; none of machines that are no arms of six axes with a wrist in one point.
+    /// The configuration along the program in words; `None` for machines that are no arms of six axes with a wrist in one point.
     ///
     /// ```
     /// use kinetostat_machining::{ArmConfiguration, JointsResult};

@@ -104,13 +104,13 @@ pub struct PointResult {
     /// Change of every actuator by the compensation, mm or deg.
     #[serde(rename = "actuator_correction_mm_or_deg")]
     pub actuator_correction: Vec<f64>,
-    /// The joint that is nearest to one of its limits; none where no joint has limits.
+    /// The joint that is nearest to one of its limits; `None` if no joint has limits.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub nearest_limit: Option<NearestLimit>,
-    /// The drive that carries the largest share of its rating; none where the model states no rating.
+    /// The drive that carries the largest share of its rating; `None` if the model states no rating.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub most_loaded: Option<MostLoaded>,
-    /// Configuration of an arm of six axes with a wrist in one point; none of other machines.
+    /// Configuration of an arm of six axes with a wrist in one point; `None` for other machines.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub configuration: Option<ArmConfiguration>,
     /// Stiffness of the tool's tip against a force in its softest direction, N/mm.

@@ -14,7 +14,7 @@ pub struct ProgramPlace {
     pub move_index: usize,
     /// Share of that move, 0 to 1.
     pub share: f64,
-    /// Number of its tool; none where the run has one tool for all blocks.
+    /// Number of its tool; `None` if the run has one tool for all blocks.
     pub tool: Option<u32>,
     /// Commanded pose of the program as it is: base from tool, m.
     pub programmed: Pose,

@@ -24,7 +24,7 @@ pub struct RunInputs {
     /// Files that were read, with their hashes.
     #[serde(default)]
     pub files: Vec<FileRead>,
-    /// Day on which the run was made, `2026-11-20`; none where it was not to be stated.
+    /// Day on which the run was made, `2026-11-20`; `None` if it was not to be stated.
     #[serde(default)]
     pub date: Option<String>,
     /// The stiffnesses of the model, one sentence for each spring or link.
@@ -114,7 +114,7 @@ pub struct ActuatorColumn {
     pub motion_unit: String,
     /// `N` or `N m`.
     pub force_unit: String,
-    /// Smallest and largest command that is allowed, mm or deg; none where the model states none.
+    /// Smallest and largest command that is allowed, mm or deg; `None` if the model states none.
     #[serde(
         rename = "limits_mm_or_deg",
         default,

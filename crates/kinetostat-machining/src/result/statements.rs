@@ -93,7 +93,7 @@ impl RunResult {
         ))
     }
 
-    /// Over which length a stated load is taken to come, for nobody stated where the cut begins; none where no load is stated.
+    /// Over which length a stated load is taken to come, for nobody stated where the cut begins; `None` if no load is stated.
     #[must_use]
     pub fn ramp_text(&self) -> Option<String> {
         let ramp = self.summary.load_ramp?;

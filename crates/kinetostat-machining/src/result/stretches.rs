@@ -1,6 +1,6 @@
 //! A path of unknown length in equal stretches: never more than a stated number of them, however long it becomes.
 //!
-//! Where the path leaves the last stretch, two neighbours become one and all are twice as long. What is kept for a stretch
+//! When the path leaves the last stretch, two neighbours become one and all are twice as long. The content of a stretch
 //! depends on the points in it alone, not on when they came: a path that is gathered in parts gives the same stretches.
 
 /// Content of a stretch of the path.

@@ -39,10 +39,10 @@ pub struct Summary {
     /// Blocks that are shorter than the controller takes, line by line.
     #[serde(default)]
     pub short_blocks: Vec<ShortBlocksOfLine>,
-    /// Fastest change of the correction outside steps; none where none was written.
+    /// Fastest change of the correction outside steps; `None` if none was written.
     #[serde(default)]
     pub largest_change_mm_per_mm: Option<LargestChange>,
-    /// Over which length of path a stated load comes; none where no load is stated.
+    /// Over which length of path a stated load comes; `None` if no load is stated.
     #[serde(default)]
     pub load_ramp: Option<LoadRamp>,
     /// Nothing was to be corrected: the program came back byte for byte.
@@ -151,9 +151,9 @@ pub struct Summary {
     #[serde(deserialize_with = "infinite_where_null")]
     pub smallest_stiffness_n_per_mm: f64,
     /// Largest share of the way to buckling of any limb, mu (1 is buckling, below zero a load that
-    /// stretches it); none for limbs without inner freedom.
+    /// stretches it); `None` for limbs without inner freedom.
     pub largest_share_to_buckling: Option<f64>,
-    /// Largest force or torque of a drive as a share of its rating, 1 is the rating; none where the
+    /// Largest force or torque of a drive as a share of its rating, 1 is the rating; `None` if the
     /// model states no rating.
     #[serde(default)]
     pub largest_share_of_rating: Option<f64>,

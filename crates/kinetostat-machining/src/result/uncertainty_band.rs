@@ -34,7 +34,7 @@ pub struct ScatteredError {
     pub low_mm: f64,
     /// Nineteen in twenty machines have less.
     pub high_mm: f64,
-    /// Upper bound of that, with the confidence stated; none where too few machines were drawn for one.
+    /// Upper bound of that, with the confidence stated; `None` if too few machines were drawn for one.
     pub high_at_most_mm: Option<f64>,
     /// Standard deviation by linear propagation.
     pub deviation_by_line_mm: f64,

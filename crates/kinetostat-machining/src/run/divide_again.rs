@@ -1,9 +1,9 @@
 //! Blocks divided again where the last check finds the tool farther off than the written program claims.
 //!
-//! The division rests on an assumption about the model between the places that it evaluates ([`Course::Smooth`]);
-//! the check looks at places of its own. A place that it finds off becomes one at which the block is divided
-//! in any case, the program is written once more, and checked as before in every place. What is off for
-//! another reason (an axis that the program never states, a corner) is not divided again: it would not help.
+//! The division rests on an assumption about the model between the places that it evaluates ([`Course::Smooth`]); the
+//! check looks at places of its own. A place that it finds off becomes one at which the block is divided in any case,
+//! the program is written once more, and checked as before in every place. Places that are off for another reason (an
+//! axis that the program never states, a corner) are not divided again: it would not help.
 //!
 //! [`Course::Smooth`]: kinetostat_program::Course::Smooth
 

@@ -11,7 +11,7 @@ use crate::run::largest_change::{Change, Changes};
 use crate::task::Task;
 use crate::warning::{Warning, WarningCode};
 
-/// The fastest change of the correction; none where it never changes.
+/// The fastest change of the correction; `None` if it never changes.
 pub(crate) fn of_correction(changes: &Changes) -> Option<LargestChange> {
     let worst = changes.worst.filter(|worst| worst.mm_per_mm > 0.0)?;
     Some(LargestChange {

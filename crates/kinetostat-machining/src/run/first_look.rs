@@ -25,7 +25,7 @@ const FIRST_LOOKS: usize = 8;
 const GROSS: f64 = 10.0;
 
 /// Some places on the moves of a program, spread evenly over them: ends of moves, or more of each where there are few.
-/// Of how many moves in all, and how many of them come before the first that is this path's own.
+/// Takes the number of all moves, and of those before the first that is this path's own.
 fn sites(
     task: &Task<'_>,
     load: &LoadAlongPath<'_>,
@@ -139,7 +139,7 @@ impl FirstLook {
     }
 
     /// A load beyond its limits under which a place has no equilibrium, or that puts the tool off by far more than any correction:
-    /// a machine that folds over takes minutes to be solved everywhere. Of other loads an analysis only warns, and of limits that
+    /// a machine that folds over takes minutes to be solved everywhere. An analysis only warns of other loads, and of limits that
     /// are stricter than usual, which are those of a correction.
     pub fn folding_load(&self, task: &Task<'_>) -> Vec<Beyond> {
         let usual = Limits::default();

@@ -150,7 +150,7 @@ impl MergedRun {
         self.blocks_corrected == 0 || keeps_as_it_is(before, after, tolerance, result.allowed_mm())
     }
 
-    /// The result of the whole; none where no part was taken. `reading` is what the reader of the whole warns of.
+    /// The result of the whole; `None` if no part was taken. `reading` is what the reader of the whole warns of.
     #[must_use]
     pub fn finish(mut self, reading: Vec<Warning>) -> Option<RunResult> {
         let mut result = self.result.take()?;

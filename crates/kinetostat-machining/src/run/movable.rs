@@ -1,7 +1,7 @@
 //! A program whose places are solved wherever the part lies.
 //!
-//! What does not depend on where it lies (places along the path, compiled machines, headings of the load) is made once, so that
-//! a few of its places take a millisecond somewhere else.
+//! Data that do not depend on the placement (places along the path, compiled machines, headings of the load) are made once, so
+//! that a few of its places take a millisecond somewhere else.
 
 use kinetostat::{Error, Pose, Wrench};
 use nalgebra::Vector3;

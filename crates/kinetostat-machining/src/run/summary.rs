@@ -164,9 +164,9 @@ fn of_what_was_written(
     summary.peak_blocks_per_second_after = a.peak_blocks_per_second;
 }
 
-/// Mean of a value along the path that is cut, by the trapezoidal rule: a piece counts with its length, so
-/// that it does not matter into how many pieces a program is divided, nor where they are looked at. What is
-/// cut before the first place of a block counts with that place.
+/// Mean of a value along the path that is cut, by the trapezoidal rule: a piece counts with its length, so that it
+/// does not matter into how many pieces a program is divided, nor where they are looked at. The path before the first
+/// place of a block counts with that place.
 fn along_path(points: &[&PointResult], value: impl Fn(&PointResult) -> f64) -> f64 {
     let (sum, length) = summed_along_path(points, &value);
     if length > 0.0 {

@@ -72,7 +72,7 @@ pub struct OtherCondition {
 pub struct RapidElsewhere {
     /// Line of the program.
     pub line: usize,
-    /// Line of the original; none where that has no rapid there.
+    /// Line of the original; `None` if that has no rapid there.
     pub line_of_original: Option<usize>,
     /// Position to which one of them goes, program coordinates, mm.
     pub position_mm: [f64; 3],

@@ -127,7 +127,8 @@ pub(crate) fn elsewhere(
         });
         let stays: Vec<Way> = stays.into_iter().collect();
         let beside = worst(&own, &stays).filter(is_other);
-        // One that leads back has its part cut again. Beside an end of a pass, as in a hole that is pecked, another pass may be meant.
+        // A rapid that leads back has its part cut again. At an end of a pass, as in a hole that is pecked, another pass may be
+        // meant.
         let goes_on = |[from, to]: [Reached; 2]| {
             let inside = known.get(from.pass).is_some_and(|pass| {
                 let [begins, ends] = pass.along_mm;

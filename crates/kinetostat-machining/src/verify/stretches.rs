@@ -163,8 +163,8 @@ impl<'a> Stretches<'a> {
         turns.next().map(|stretch| stretch.along_mm)
     }
 
-    /// The stretch of a place that was found on a piece of the guide. Where one pass ends another begins at the same length, and the
-    /// piece tells which of them it is.
+    /// The stretch of a place that was found on a piece of the guide. At the end of a pass another begins at the same length, and
+    /// the piece tells which of them it is.
     pub(crate) fn at(&self, along_mm: f64, piece: usize) -> usize {
         let pieces = self.nominal.pieces();
         let usual = self.from(along_mm);

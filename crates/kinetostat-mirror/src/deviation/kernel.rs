@@ -6,10 +6,10 @@
 //! e(s) = sum_i K(s - s_i) w_i e_i / (k0 + sum_i K(s - s_i) w_i),   K(u) = exp(-u^2 / (2 h^2))
 //! ```
 //!
-//! over the points of the same stretch without a corner, with the smoothing length `h`. Of a wave of length `l` it lets through
-//! `exp(-2 pi^2 h^2 / l^2)`: half at `5.34 h`, nine tenths at `13.7 h`. The constant `k0` is `K(3 h)` times the mean weight:
-//! where there are points it changes less than a hundredth, and farther than about `3 h` from all of them the mean fades to
-//! nothing instead of carrying the last one on.
+//! over the points of the same stretch without a corner, with the smoothing length `h`. It lets through the share
+//! `exp(-2 pi^2 h^2 / l^2)` of a wave of length `l`: half at `5.34 h`, nine tenths at `13.7 h`. The constant `k0` is `K(3 h)`
+//! times the mean weight: where there are points it changes less than a hundredth, and farther than about `3 h` from all of
+//! them the mean fades to nothing instead of carrying the last one on.
 //!
 //! Around a stretch that comes back to its beginning the kernel is the sum of its images, one turn of the length `L` apart. It stays
 //! positive definite: its Fourier series has the coefficients of the Gaussian's transform, all positive (Poisson's sum).

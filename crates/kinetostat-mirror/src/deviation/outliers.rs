@@ -1,17 +1,17 @@
 //! Measured points that no neighbour bears out.
 //!
-//! The deviation of a point is compared with a straight line through those of its neighbours, five to each side along the
-//! path (ten to one side at an end) as far as it does not turn by more than 20 degrees, whose slope and height are medians (Theil 1950, Sen 1968): two of
-//! ten neighbours may be wrong themselves. It is an outlier if it is farther from the line than six standard deviations, more
-//! at the end of a straight stretch, where the line is drawn on from one side. The
-//! standard deviation comes from the median of these distances (Rayleigh: the median length of a vector of two
-//! directions is 1.177 of one direction's deviation) of all points, or from what three quarters of the sixteen around keep below
-//! where these are farther off (the deviation bends there, of which a few points in a row are enough), and no smaller than a thousandth of the deviation that 99 of 100 points keep below, than what the
-//! points are known to ([`MeasuredPoints::known_to`](crate::MeasuredPoints::known_to)), or than the rounding of the registration. Of a
-//! normal scatter one point in sixty million is farther. Beside a corner a point may have its place on the wrong side of it and
-//! so be off by the sine of the corner times twice the deviation there: one that is off by no more than that, within twice the
-//! deviation, is no outlier, but it does not count: at the end of a leg one such point among thirty would take a thirtieth of
-//! the whole deviation. Where the path turns between the neighbours, what is across it turns too, and a line is off by up to half that angle times the deviation.
+//! The deviation of a point is compared with a straight line through those of its neighbours, five to each side along the path (ten to one
+//! side at an end) as far as it does not turn by more than 20 degrees, whose slope and height are medians (Theil 1950, Sen 1968): two of
+//! ten neighbours may be wrong themselves. It is an outlier if it is farther from the line than six standard deviations, more at the end of
+//! a straight stretch, where the line is drawn on from one side. The standard deviation comes from the median of these distances (Rayleigh:
+//! the median length of a vector of two directions is 1.177 of one direction's deviation) of all points, or from what three quarters of the
+//! sixteen around keep below where these are farther off (the deviation bends there, of which a few points in a row are enough), and no
+//! smaller than a thousandth of the deviation that 99 of 100 points keep below, than what the points are known to
+//! ([`MeasuredPoints::known_to`](crate::MeasuredPoints::known_to)), or than the rounding of the registration. One point in sixty million of
+//! a normal scatter is farther. Beside a corner a point may have its place on the wrong side of it and so be off by the sine of the corner
+//! times twice the deviation there: one that is off by no more than that, within twice the deviation, is no outlier, but it does not count:
+//! at the end of a leg one such point among thirty would take a thirtieth of the whole deviation. If the path turns between the neighbours,
+//! the direction across it turns too, and a line is off by up to half that angle times the deviation.
 
 use nalgebra::Vector3;
 use serde::Serialize;

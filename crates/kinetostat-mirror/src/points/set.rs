@@ -99,7 +99,7 @@ impl MeasuredPoints {
 
     /// Differences of deviations from point to point say nothing below this standard deviation, mm: the repeatability of the
     /// measurement, the digits of its file (which [`MeasuredPoints::read`] takes itself), the tolerance within which the program that
-    /// was measured follows its correction. Of several the largest holds. No point is an outlier within six of them.
+    /// was measured follows its correction. The largest of several is taken. No point is an outlier within six of them.
     ///
     /// ```
     /// use kinetostat_mirror::MeasuredPoints;

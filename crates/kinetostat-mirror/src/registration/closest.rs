@@ -27,7 +27,7 @@ const BORNE_OUT: f64 = 0.5;
 /// Rule by which points are left out.
 ///
 /// Deviations are smooth: where most points lie on a line, a turn about it costs nothing, and a fit that lets go of points for being
-/// farther off than most lets go of the few that tell the turn. So within the window a point counts, unless it is an outlier
+/// farther off than most lets go of the few that tell the turn. Within the window a point therefore counts, unless it is an outlier
 /// that no neighbour bears out; and these are only looked for when all others have come to rest.
 #[derive(Clone, Copy)]
 pub(crate) struct Counting {

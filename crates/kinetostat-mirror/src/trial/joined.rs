@@ -118,7 +118,8 @@ fn ends(
     Some([end, start])
 }
 
-/// The correction that both legs have in common; nothing where neither has one. What is zero to the last digit was not measured.
+/// The correction that both legs have in common; nothing where neither has one. A value that is zero to the last digit was not
+/// measured.
 fn common(
     [first, second]: [Vector3<f64>; 2],
     [before, after]: [Vector3<f64>; 2],

@@ -1,9 +1,10 @@
 //! Test that the measured program had the last correction in it.
 //!
-//! A trial that found the smoothed deviation `a` corrected the program by `-rho a`. A machine that answers with the share `beta` of
-//! a correction shows `e - beta rho a` in the next trial, with the `e` that the points of the trial before had there; of the program
-//! before, run or measured once more, `beta` is 0. So the change from trial to trial is fitted by `-beta rho a` (weighted least squares,
-//! the weight of a place by how many points its change rests on), and `beta` is known to the standard deviation `s` by three things that add up:
+//! A trial that found the smoothed deviation `a` corrected the program by `-rho a`. A machine that answers with the share `beta` of a
+//! correction shows `e - beta rho a` in the next trial, with the `e` that the points of the trial before had there; of the program before,
+//! run or measured once more, `beta` is 0. The change from trial to trial is therefore fitted by `-beta rho a` (weighted least squares, the
+//! weight of a place by how many points its change rests on), and `beta` is known to the standard deviation `s` by three things that add
+//! up:
 //!
 //! - the scatter of the points, as it goes through the interpolation of those before to the places of those now;
 //! - what the fit leaves beyond it (drift, an answer that differs along the path): alike over a smoothing length, so that it
@@ -24,8 +25,8 @@ use crate::number::larger;
 use crate::trial::compared::Place;
 use crate::trial::passing::between_stations;
 
-/// A machine may answer with this share of a correction: ten trials then leave a tenth of the error. None that answers with less is
-/// worth correcting by trials.
+/// A machine may answer with this share of a correction: ten trials then leave a tenth of the error. A machine that answers with
+/// less is not worth correcting by trials.
 const LEAST_ANSWER: f64 = 0.2;
 
 /// A hundred times as likely: `2 ln 100`, three standard deviations.

@@ -31,8 +31,8 @@ pub(crate) fn are_new(
     Ok(())
 }
 
-/// Measurements that may be of the program with the correction before: those of the program without it would have it corrected twice.
-/// Whether they show it. Of a program that `was_run` for certain nothing is refused.
+/// Checks that measurements may be of the program with the last correction: those of the program without it would have it corrected
+/// twice. Returns true if they show it. Measurements of a program that `was_run` for certain are not refused.
 pub(crate) fn may_show_the_correction(
     (measured, trials): (&[(MeasuredFile, Measurement)], &[Trial]),
     seen: &Seen,

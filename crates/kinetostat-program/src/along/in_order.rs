@@ -18,9 +18,9 @@ struct Reached {
 
 /// Assigns one of its feet to each point, given in the order in which the tool went; or the reason why it has none.
 ///
-/// Of all ways through the feet along which none goes back by more than the window, that with the least sum of `(d / window)^2` and
-/// `((way along the path - way between the points) / (way between the points + window))^2`, the latter 4 at most; found as the
-/// shortest way through a graph (Viterbi 1967), not point by point. Lengths in mm.
+/// The result minimises, over all ways through the feet along which none goes back by more than the window, the sum of
+/// `(d / window)^2` and `((way along the path - way between the points) / (way between the points + window))^2`, the latter 4 at
+/// most; found as the shortest way through a graph (Viterbi 1967), not point by point. Lengths in mm.
 #[must_use]
 pub fn in_order(
     points: &[Vector3<f64>],

@@ -32,7 +32,7 @@ const BATCH: usize = 8192;
 pub struct Farthest {
     /// Distance from the desired place, in mm.
     pub distance_mm: f64,
-    /// Line of the input; none where nothing is off.
+    /// Line of the input; `None` if nothing is off.
     pub line: Option<usize>,
     /// Line of the output, counted from 1; 0 where nothing is off.
     pub output_line: usize,
@@ -59,7 +59,8 @@ impl Farthest {
 pub struct FieldCheck {
     /// Places looked at.
     pub places: usize,
-    /// Largest deviation of the written program, with corrections left out because the program never states the axis.
+    /// Largest deviation of the written program, including corrections left out because the program never states
+    /// their axis.
     pub after: Farthest,
     /// Largest deviation at feed of the uncorrected program.
     pub before: Farthest,
@@ -76,8 +77,8 @@ pub struct FieldCheck {
 enum At {
     /// Inside, where the division may have overlooked something.
     Inside,
-    /// At an end on the path, where the field's own correction was written: what is left out there shows.
-    /// Beside a jump the field has another answer than the one that was written.
+    /// At an end on the path, where the field's own correction was written: what is left out there shows. Next to a
+    /// jump the answer of the field differs from the one that was written.
     End,
     /// At the end of a move of which nothing else is corrected.
     EndOfMove,
@@ -96,8 +97,8 @@ struct Look {
 /// Asks the field again along what was written: at both ends of every piece's stretches between the
 /// field's breaks, and at two irregular places inside each; on arcs near the ends and in the middle, too.
 ///
-/// Axes that the program never states cannot be written. How far it is off in them is measured with the rest,
-/// and refuses nothing: whoever asked for the program decides that.
+/// Axes that the program never states cannot be written. The deviation in them is measured with the rest, but does
+/// not refuse the program: its user decides.
 ///
 /// A corner step is looked at inside where the field knows what happens there
 /// ([`CorrectionField::turns`]).

@@ -357,8 +357,8 @@ impl Verifier<'_> {
         }
     }
 
-    /// Rotary axes whose angles are corrected stand where they were written, near those of the program. Which letters they have;
-    /// none where the words of the program stay.
+    /// Checks that corrected rotary axes have their written angles, near those of the program. Returns their letters; none
+    /// if the words of the program stay.
     fn check_turned_axes(
         &self,
         index: usize,

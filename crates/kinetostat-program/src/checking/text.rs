@@ -257,7 +257,7 @@ impl Verifier<'_> {
         self.codes(self.input, line).iter().any(ends)
     }
 
-    /// The line behind pieces in inverse time: G94 and F. Which F is checked with the moves behind it.
+    /// The line behind pieces in inverse time: G94 and F. The value of F is checked with the moves after it.
     fn check_line_of_feed(
         &self,
         number: usize,

@@ -101,8 +101,8 @@ fn finished(runner: Runner<'_>) -> Result<Expanded, ProgramError> {
 /// Everything that is refused while a program is run once, in the order of the lines, those of its subprograms behind those of
 /// the program; empty where [`expand`] takes it.
 ///
-/// Of a refused line the words that are understood are followed: where it ends, its modes. A line on which the rest depends, such as
-/// the condition of a loop, ends the list and says so.
+/// The understood words of a refused line are followed: its end and its modes. A line on which the rest depends, such as the
+/// condition of a loop, ends the list and says so.
 ///
 /// ```
 /// use kinetostat_program::{ExpandOptions, NoSubprograms, expansion_faults};

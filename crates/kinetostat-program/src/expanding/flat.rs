@@ -207,7 +207,7 @@ impl<'o> Flat<'o> {
     }
 }
 
-/// A block with its origin behind it; none for tape marks, numbers of programs and lines without a word.
+/// A block with its origin behind it; `None` for tape marks, numbers of programs and lines without a word.
 fn commented(text: &[u8], line: usize, file: &str) -> Option<Vec<u8>> {
     let first = text.trim_ascii_start().first()?;
     let is_block = first.is_ascii_alphabetic() && !matches!(first, b'O' | b'o');

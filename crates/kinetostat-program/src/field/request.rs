@@ -63,8 +63,8 @@ pub trait CorrectionField: Sync {
     /// Corrections, part axes, to be added to the poses of the query.
     fn corrections(&self, requests: &[Request]) -> Vec<Result<Correction, FieldFailure>>;
 
-    /// True if the field covers the rotation inside a corner step ([`Request::turning`]). Otherwise such a step is
-    /// one straight piece.
+    /// True if the field follows the turn of the load inside a corner step ([`Request::turning`]). Otherwise such a
+    /// step is one straight piece.
     fn turns(&self) -> bool {
         false
     }

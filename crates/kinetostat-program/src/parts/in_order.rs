@@ -5,10 +5,10 @@ use std::sync::{Arc, Condvar, Mutex, MutexGuard, OnceLock, PoisonError};
 
 use crate::parts::written_so_far::WrittenSoFar;
 
-/// Parts that are worked on side by side and written one behind the other. What is written of a part depends on those before it, if
-/// little: on the modes in which they leave the controller, the feed rate in force and the last position. A part goes on as soon as
-/// the one before it was written once. Should that be written again, with other pieces, the part is to be done anew: its bytes are
-/// those of parts that are done one after the other.
+/// Parts that are worked on side by side and written one behind the other. The text of a part depends slightly on those before it:
+/// on the modes in which they leave the controller, the feed rate in force and the last position. A part goes on as soon as the one
+/// before it was written once. Should that be written again, with other pieces, the part is to be done anew: its bytes are those of
+/// parts that are done one after the other.
 ///
 /// ```
 /// use kinetostat_program::*;

@@ -31,8 +31,8 @@ impl<R: BufRead> Lines<R> {
         Self { from }
     }
 
-    /// Puts the next line behind `to`; whether there was one. Of a line that is longer than any block only the beginning comes,
-    /// which the reader refuses.
+    /// Appends the next line to `to`; returns false at the end. Only the beginning of a line that is longer than any block
+    /// is read, which the reader refuses.
     pub fn next(&mut self, to: &mut Vec<u8>) -> Result<bool, IoError> {
         let start = to.len();
         loop {

@@ -1,11 +1,11 @@
 //! Sweep of an arc about a stated centre, and arcs for which it is ambiguous.
 //!
-//! A full circle ends where it begins. Where its words are rounded apart, it ends a hair behind its start, and reads as an arc of a
-//! micrometre. Manuals say no more than that start and end are the same (Heidenhain, `C`; SINUMERIK, G2 with I and J), and
-//! controls differ in what they take for the same: below 5e-7 rad (grbl), 1e-6 rad (LinuxCNC), a length of their machine data. So
-//! an arc that is not longer than its words can be off is neither taken for a circle nor for an arc; the reader of G-code takes it
-//! as LinuxCNC and grbl do where these two agree, and says so. The other side is clear: an arc that lacks a hair of the whole turn
-//! is a full circle but for that hair.
+//! A full circle ends where it begins. If its words are rounded apart, it ends slightly after its start, and reads as an arc of a
+//! micrometre. Manuals say no more than that start and end are the same (Heidenhain, `C`; SINUMERIK, G2 with I and J), and controls
+//! differ in what they take for the same: below 5e-7 rad (grbl), 1e-6 rad (LinuxCNC), a length of their machine data. An arc that
+//! is not longer than the rounding of its words is therefore neither taken for a circle nor for an arc; the reader of G-code takes
+//! it as LinuxCNC and grbl do where these two agree, and says so. The other side is clear: an arc that lacks a hair of the whole
+//! turn is a full circle but for that hair.
 
 use std::f64::consts::TAU;
 use std::fmt;
@@ -37,7 +37,7 @@ const MOST_DECIMALS: i32 = 9;
 pub struct NearlyClosed {
     /// Distance between end and start in the plane, in mm.
     pub apart_mm: f64,
-    /// The short arc between its ends, in rad, as LinuxCNC and grbl take it; none where they disagree as well, about less than
+    /// The short arc between its ends, in rad, as LinuxCNC and grbl take it; `None` if they disagree as well, about less than
     /// 1e-6 rad.
     pub short: Option<f64>,
 }

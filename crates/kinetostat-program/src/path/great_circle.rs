@@ -1,9 +1,9 @@
 //! The tool's axis on a great circle, by rotary axes.
 //!
-//! Where a program states directions of the tool, many controllers turn it from one to the next in the plane of both (ORIVECT of
-//! SINUMERIK, tool posture control of Fanuc, PATHCTRL VECTOR of Heidenhain; what postprocessors of APT divide for). The rotary axes then
-//! do not turn evenly, and near a pole fast. Their angles are followed along the circle once, in steps that are the smaller the nearer
-//! the tool comes to a pole, and are found from the direction wherever they are asked for.
+//! If a program states directions of the tool, many controllers turn it from one to the next in the plane of both (ORIVECT of SINUMERIK,
+//! tool posture control of Fanuc, PATHCTRL VECTOR of Heidenhain; what postprocessors of APT divide for). The rotary axes then do not
+//! turn evenly, and near a pole fast. Their angles are followed along the circle once, in steps that are the smaller the nearer the tool
+//! comes to a pole, and are found from the direction wherever they are asked for.
 
 use nalgebra::{UnitQuaternion, Vector3};
 
@@ -54,7 +54,7 @@ pub enum OffCircle {
 }
 
 impl GreatCircle {
-    /// From the angles at which the axes stand to a direction, a unit vector from the tip to the holder in axes of the part. Where the
+    /// From the angles at which the axes stand to a direction, a unit vector from the tip to the holder in axes of the part. If the
     /// tool begins along an axis (at the pole), that axis is turned at once to where the way leads.
     ///
     /// ```

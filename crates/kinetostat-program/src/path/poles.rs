@@ -17,7 +17,7 @@ const NO_TURN: f64 = 1e-9;
 
 impl RotaryTurn {
     /// The shares of a move of evenly turning axes between which the second axis stands nearer than `near_rad` (less by the sine of the
-    /// angle between both axes) to an angle at which directions say little, two for each pole. None where it stands there all along.
+    /// angle between both axes) to an angle at which directions say little, two for each pole. Empty if it stands there all along.
     ///
     /// ```
     /// use kinetostat_program::{Carries, RotaryAxes, RotaryAxis, RotaryTurn, StatedBy};

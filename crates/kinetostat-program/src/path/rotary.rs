@@ -24,7 +24,7 @@ pub struct RotaryAxis {
     /// About which its word counts, right-handed: axes of the part as it lies where all axes stand at zero. A table that turns
     /// the part clockwise for positive words, seen against z, has -z here.
     pub direction: UnitVector3<f64>,
-    /// A point on it, mm, part frame there. That of a head does not matter: the tip goes where the program says.
+    /// A point on it, mm, part frame there. The point of a head does not matter: the tip goes where the program says.
     pub point_mm: Vector3<f64>,
     /// Minimum and maximum angle, deg; `None` for endless rotation.
     pub limits_deg: Option<[f64; 2]>,

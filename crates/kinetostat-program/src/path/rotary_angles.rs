@@ -42,8 +42,8 @@ pub(crate) struct Pointing {
 impl RotaryAxes {
     /// The angles at which the tool's axis points in a direction, deg, in the order of the axes; of those that do, the nearest to
     /// others: the sum of the turns counts, and an axis that need not turn stays. `direction` is a unit vector from the tip to the
-    /// holder, in axes of the part as it stands then; the tool's axis is along z of the part where all axes stand at zero. Of
-    /// more than two axes no angles are found.
+    /// holder, in axes of the part as it stands then; the tool's axis is along z of the part where all axes stand at zero. No
+    /// angles are found for more than two axes.
     ///
     /// ```
     /// use kinetostat_program::{Carries, RotaryAxes, RotaryAxis, Unreached};

@@ -1,10 +1,10 @@
 //! The rule from a direction of the tool to the angles of rotary axes.
 //!
 //! Takes a direction in the part, gives the angles nearest to others at which the tool lies along it. The turn about the tool is
-//! free. Where two axes turn the tool about nearly the same direction (the pole: the tool lies along an axis) the direction is
-//! not followed across it, and the angles stay. Beside the closed form of [`crate::path::rotary_angles`], which finds all angles
-//! of a direction that a program states, this stands for corrections: small turns from where the axes are, of any number of
-//! axes, and what they cannot do is left.
+//! free. If two axes turn the tool about nearly the same direction (the pole: the tool lies along an axis) the direction is not
+//! followed across it, and the angles stay. The closed form of [`crate::path::rotary_angles`] finds all angles of a direction
+//! that a program states; this rule serves corrections: small turns from the present angles, of any number of axes, and
+//! rotations that they cannot make are left.
 
 use nalgebra::{DMatrix, DVector, Vector3};
 

@@ -13,8 +13,8 @@ use crate::text::syntax::VARIABLES;
 /// Everything that is refused in a program, in the order of its lines, at most one fault a line; empty
 /// where [`Program::read`] and [`crate::interpret`] take it.
 ///
-/// Of a line that is refused the words that are understood are followed: where it ends, its modes. Lines with
-/// variables are one fault, at the first of them, with their number.
+/// The understood words of a refused line are followed: its end and its modes. Lines with variables are one fault, at
+/// the first of them, with their number.
 ///
 /// ```
 /// use kinetostat_program::{ReadOptions, faults};

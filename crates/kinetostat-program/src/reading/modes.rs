@@ -19,7 +19,7 @@ pub(crate) struct Modes {
     /// Index of the work coordinate system: 0 for G54, from 9 on additional ones.
     pub work_offset: usize,
     pub extra: ExtraAxes,
-    /// G98 or G99, in tenths; none before the program says it.
+    /// G98 or G99, in tenths; `None` before the program says it.
     pub retract_mode: Option<u32>,
     units: Option<Units>,
     /// The units are those of the options: the program has named none and nothing has moved.

@@ -1,9 +1,9 @@
 //! When the M codes of a block act: before its motion or after it, by controller.
 //!
-//! A block that is divided has a first and a last piece, so every code beside its motion must go to one
-//! of them. Controllers do not agree on some codes. Where they do, the code goes where it acts. Where they
-//! do not, it goes to the last piece: a spindle that stops and a coolant that goes off one block late do
-//! no harm, one that stops while the tool still cuts does.
+//! A block that is divided has a first and a last piece, so every code beside its motion must go to one of them.
+//! Controllers do not agree on some codes. If they do, the code goes where it acts. If they do not, it goes to the
+//! last piece: a spindle that stops and a coolant that goes off one block late do no harm, one that stops while the
+//! tool still cuts does.
 
 /// When a controller executes a code of a block with motion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -52,7 +52,7 @@ pub enum OtherAxes {
     /// divided block; a warning names the first block that moves one of them.
     StandStill,
     /// Words of A, B and C are carried, whatever they turn: for a program that is written flat ([`crate::expand`]) and read again
-    /// with the axes of its machine. Those of U, V and W are refused.
+    /// with the axes of its machine. Words of U, V and W are refused.
     Carried,
 }
 

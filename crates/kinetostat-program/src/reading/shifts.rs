@@ -4,9 +4,9 @@ use crate::path::position_offset::OffsetChange;
 
 /// Axes whose coordinates are shifted by an amount that is not in the program.
 ///
-/// A first `G92 X0` says where the tool stands, and the program's coordinates count from there. When it
-/// is taken away they count from the machine's work offset again, and how far apart the two are only the
-/// machine knows. So it is with an offset from before the program that G92.3 brings back.
+/// A first `G92 X0` says where the tool stands, and the program's coordinates count from there. When it is taken away
+/// they count from the machine's work offset again, and how far apart the two are only the machine knows. The same is
+/// true of an offset from before the program that G92.3 brings back.
 #[derive(Clone, Copy, Default)]
 pub(crate) struct Shifts {
     pub now: [bool; 3],

@@ -91,7 +91,7 @@ impl Interpreter<'_> {
         self.modes.feed_mode()
     }
 
-    /// The F in force, in program units; none where there is none.
+    /// The F in force, in program units; `None` if there is none.
     pub(crate) fn feed_in_units(&self) -> Option<f64> {
         let feed = self.modes.feed?;
         let unit = self.modes.units().map_or(1.0, Units::mm_per_unit);
@@ -116,7 +116,7 @@ impl Interpreter<'_> {
         (0..3).any(|axis| self.has_tool_length_along(axis))
     }
 
-    /// The offset of G92 along an axis, mm; none where only the machine knows it.
+    /// The offset of G92 along an axis, mm; `None` if only the machine knows it.
     pub(crate) fn position_offset_mm(&self, axis: usize) -> Option<f64> {
         (!self.shifts.now[axis]).then_some(self.offset.active_mm[axis])
     }
@@ -168,7 +168,7 @@ impl Interpreter<'_> {
         }
     }
 
-    /// A numbered parameter that the controller keeps; none for those that programs set.
+    /// A numbered parameter that the controller keeps; `None` for those that programs set.
     pub(crate) fn numbered_state(&self, number: u32) -> Option<Result<f64, String>> {
         match number {
             PLACE..=5422 => Some(self.coordinate((number - PLACE) as usize)),
@@ -205,7 +205,7 @@ impl Interpreter<'_> {
         }
     }
 
-    /// A named parameter of the state; none where there is none of this name.
+    /// A named parameter of the state; `None` if there is none of this name.
     pub(crate) fn named_state(&self, name: &str) -> Result<Option<f64>, String> {
         let truth = |holds: bool| Ok(Some(f64::from(u8::from(holds))));
         match name {

@@ -15,8 +15,8 @@ use crate::writing::node::{Node, is_divided};
 /// Digits after the point of directions.
 pub const DIRECTION_DECIMALS: usize = 8;
 
-/// No piece ends nearer to a pole, rad: digits of directions turn an axis by less than 2e-5 rad elsewhere. Of a move that is nearer
-/// for long the next of these counts: it hardly leans the tool, and the axis may be further off.
+/// No piece ends nearer to a pole, rad: digits of directions turn an axis by less than 2e-5 rad elsewhere. The next of these limits
+/// holds for a move that is nearer for long: it hardly leans the tool, and the axis may be further off.
 const NEAR_POLE: [f64; 4] = [5e-4, 1e-4, 2e-5, 5e-6];
 
 /// Longer shares of a move are not left undivided.

@@ -36,7 +36,7 @@ impl ShortestBlock {
 }
 
 impl WriteOptions {
-    /// The shortest block that this move is to have; none where no limit holds.
+    /// The shortest block that this move is to have; `None` if no limit holds.
     pub(crate) fn shortest_block(&self, motion: &Move) -> Option<ShortestBlock> {
         let seconds = self.max_blocks_per_s.map(f64::recip);
         let in_time = seconds.zip(motion.feed).and_then(|(seconds, feed)| {

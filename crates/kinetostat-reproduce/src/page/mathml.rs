@@ -20,7 +20,7 @@ const OPEN: &str = "<mo stretchy=\"false\">(</mo>";
 const CLOSE: &str = "<mo stretchy=\"false\">)</mo>";
 const MINUS: &str = "<mo>\u{2212}</mo>";
 
-/// The formula as a `math` element; none where the text is no formula.
+/// The formula as a `math` element; `None` if the text is no formula.
 pub(crate) fn math(text: &str) -> Option<String> {
     let mut reader = Reader {
         rest: text.trim().chars().peekable(),

@@ -97,8 +97,8 @@ impl OfWritten<'_> {
         sites
     }
 
-    /// Shares of the move between which the load of a piece is taken. Beside a jump of the load inside a move, the load is the
-    /// one before it or after it: within the micrometre in which it is located it steps, it does not turn gradually.
+    /// Shares of the move between which the load of a piece is taken. Next to a jump of the load inside a move, the load is
+    /// the one before it or after it: within the micrometre in which it is located it steps, it does not turn gradually.
     fn beside_steps(&self, index: usize, piece: &Piece) -> [f64; 2] {
         let step = |index: Option<usize>| {
             let beside = index.and_then(|index| self.written.pieces.get(index));

@@ -105,7 +105,7 @@ impl Map {
         at - self.shift
     }
 
-    /// The sense of an arc in a plane; none where it is no circle any more.
+    /// The sense of an arc in a plane; `None` if it is no circle any more.
     pub fn sense(&self, sense: Sense, axes: Axes) -> Option<Sense> {
         let Some((_, factors)) = self.scale else {
             return Some(sense);

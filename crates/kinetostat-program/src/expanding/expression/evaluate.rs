@@ -16,7 +16,7 @@ const WHOLE: f64 = 1e-4;
 pub(crate) trait Parameters {
     /// The value of a numbered parameter.
     fn numbered(&self, number: u32) -> Result<f64, String>;
-    /// The value of a named one; none where it has not been given any.
+    /// The value of a named one; `None` if it has not been given any.
     fn named(&self, name: &str) -> Result<Option<f64>, String>;
     /// True if a numbered parameter has no value.
     fn is_vacant(&self, number: u32) -> bool;

@@ -128,7 +128,7 @@ pub(crate) struct Contour {
     pub tool: f64,
     /// The last programmed place.
     pub at: Point,
-    /// From there to the tool, a unit vector; none before the first move.
+    /// From there to the tool, a unit vector; `None` before the first move.
     pub normal: Option<Point>,
     pub pending: Pending,
     /// The controller that the program is written for.

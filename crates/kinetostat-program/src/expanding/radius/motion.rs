@@ -30,7 +30,7 @@ pub(crate) struct Motion {
 }
 
 impl Motion {
-    /// The parts of a block; none for a block that moves nothing.
+    /// The parts of a block; `None` for a block that moves nothing.
     pub fn of(text: &[u8], state: &Interpreter<'_>) -> Option<Self> {
         let block = MotionBlock::of(text, Polar::default());
         let is_arc = match block.motion {

@@ -1,6 +1,6 @@
 //! Motions that wait: the end of the last one along the contour is not settled before the next one is known.
 //!
-//! Behind it wait moves in depth, which stand on its end, and all words that came since. An inside corner moves the end back; a
+//! Moves in depth, which stand on its end, and all words that came since wait after it. An inside corner moves the end back; a
 //! stop of the program or G40 leaves it where it is.
 
 use std::f64::consts::TAU;

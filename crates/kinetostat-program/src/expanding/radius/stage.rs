@@ -1,8 +1,8 @@
 //! Compensation off, on, and between G40 and the next move.
 //!
 //! While it is on, the blocks are run as they are programmed beside the flat program: that run knows the modes and the
-//! programmed places; the flat program knows where the tool's centre is. Behind G40 the two places stay apart until a
-//! straight move brings the tool to a place that the program says.
+//! programmed places; the flat program knows where the tool's centre is. After G40 the two places stay apart until a
+//! straight move brings the tool to a programmed place.
 
 use std::collections::BTreeMap;
 

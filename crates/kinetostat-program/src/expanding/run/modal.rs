@@ -22,7 +22,7 @@ pub(crate) struct Functions {
     speed_override: bool,
     adaptive_feed: bool,
     feed_hold: bool,
-    /// G61, G61.1, G64 with P and Q; none before the program names it.
+    /// G61, G61.1, G64 with P and Q; `None` before the program names it.
     path_mode: Option<(u32, Option<f64>, Option<f64>)>,
     /// True if G92 is in force; `None` before the program states it.
     shifted: Option<bool>,

@@ -48,7 +48,7 @@ impl Words {
 }
 
 impl Runner<'_> {
-    /// The blocks in the place of one with G10 or G52; none where the block is another, or may stand as it is.
+    /// The blocks in the place of one with G10 or G52; `None` if the block is another, or may stand as it is.
     pub fn offsets(&mut self, text: &[u8]) -> Result<Option<Vec<String>>, ProgramError> {
         if !text.contains(&b'1') && !text.contains(&b'5') {
             return Ok(None);

@@ -1,6 +1,6 @@
 //! A program is run on behind lines that are refused, to list them all.
 //!
-//! What is understood of a refused line is taken over: where it ends, its modes. A line on which the rest depends (branches, loops,
+//! The understood words of a refused line are taken over: its end and its modes. A line on which the rest depends (branches, loops,
 //! assignments, lines in other coordinates or with radius compensation) ends the list.
 
 use std::collections::BTreeMap;

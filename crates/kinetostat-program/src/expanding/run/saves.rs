@@ -20,7 +20,7 @@ pub(crate) struct SavingBlock {
 }
 
 impl SavingBlock {
-    /// Divides a block; none where no such code is in it.
+    /// Divides a block; `None` if no such code is in it.
     pub fn of(text: &[u8]) -> Option<Self> {
         if !text.contains(&b'7') {
             return None;

@@ -9,7 +9,7 @@ use crate::expanding::source::statement::{OLabel, SourceLine, Statement, Structu
 
 /// Source of the files of subprograms: this crate reads none.
 pub trait Subprograms {
-    /// The bytes of the file `name` with one of the endings that programs have; none where there is none.
+    /// The bytes of the file `name` with one of the endings that programs have; `None` if there is none.
     fn find(&self, name: &str) -> Option<Vec<u8>>;
 }
 

@@ -207,7 +207,7 @@ fn fanuc(cursor: &mut Cursor<'_>) -> Result<Option<Statement>, Malformed> {
     Ok(None)
 }
 
-/// Words with expressions and assignments, from a byte of the line on; none where all words are plain.
+/// Words with expressions and assignments, from a byte of the line on; `None` if all words are plain.
 fn block(text: &[u8], first: usize) -> Result<Option<Statement>, Malformed> {
     let mut pieces = Vec::new();
     let mut cursor = Cursor::new(text, 0);

@@ -53,7 +53,7 @@ pub(crate) struct Hole {
     pub dialect: Dialect,
 }
 
-/// Writes a move; none where it goes nowhere.
+/// Writes a move; `None` if it goes nowhere.
 type Go<'g> = dyn FnMut(&str, [f64; 2], f64) -> Option<String> + 'g;
 
 impl Hole {

@@ -20,7 +20,7 @@ impl Place {
         }
     }
 
-    /// A straight move to a place, `G0` or `G1`; none where it goes nowhere. Axes without a place stand still.
+    /// A straight move to a place, `G0` or `G1`; `None` if it goes nowhere. Axes without a place stand still.
     pub fn go(&mut self, code: &str, to: [Option<f64>; 3]) -> Option<String> {
         let mut text = code.to_owned();
         for axis in 0..3 {

@@ -10,8 +10,8 @@ use crate::reading::interpreting::interpreter::Interpreter;
 use crate::text::program::Program;
 
 impl Interpreter<'_> {
-    /// The path of a part of a longer program, which states these axes anywhere. What is to be said of the whole is said
-    /// elsewhere.
+    /// The path of a part of a longer program, which states these axes anywhere. Warnings about the whole program are
+    /// made elsewhere.
     pub(crate) fn finish_part(
         mut self,
         program: &Program,

@@ -23,7 +23,7 @@ pub(crate) struct Interpreter<'o> {
     pub(crate) modes: Modes,
     pub(in crate::reading) offset: PositionOffset,
     pub(in crate::reading) shifts: Shifts,
-    /// Origins of the work coordinate systems, mm, part frame; none where they are not stated.
+    /// Origins of the work coordinate systems, mm, part frame; `None` if they are not stated.
     pub(in crate::reading) origins_mm: [Option<Vector3<f64>>; 9],
     pub(super) rotary_origins: RotaryOrigins,
     pub(crate) places: Places,

@@ -1,7 +1,7 @@
 //! Pieces that are as long as a controller wants its blocks, where the tolerances allow it.
 //!
-//! What fits best has short pieces where the correction bends most, or at the end, where little is left. Others may do: with free
-//! ends and a last piece of some length ([`crate::writing::fitting::free_ends`]), equally long ones, or a way through places of the
+//! The best fit has short pieces where the correction bends most, or at the end, where little is left. Others may do: with free ends
+//! and a last piece of some length ([`crate::writing::fitting::free_ends`]), equally long ones, or a way through places of the
 //! curve. The places stand so near each other that the shortest block spans eight of them. From every place that can be reached each
 //! piece that fits and is long enough leads to another one; of the ways to the end the one with the fewest pieces is taken.
 
