@@ -17,7 +17,7 @@ pub struct Bounds {
     pub tools: Vec<ToolGiven>,
     /// Line and radius (mm) of the widest zone at a corner at feed, where a program states zones.
     pub widest_zone: Option<(usize, f64)>,
-    /// Nobody stated where the part lies.
+    /// True if nobody stated the placement of the part.
     pub is_unplaced: bool,
     /// Workspace of the machine without its tool: smallest and largest coordinates, base axes, m.
     pub workspace: Option<(Vector3<f64>, Vector3<f64>)>,
@@ -35,7 +35,7 @@ pub struct ToolGiven {
 }
 
 impl ToolGiven {
-    /// Along z of the flange where it points there, else the distance of the tip, mm.
+    /// Length along z of the flange if it points there, else the distance of the tip, mm.
     pub(crate) fn length_mm(&self) -> f64 {
         let tip = self.pose.translation.vector * 1e3;
         if tip.xy().norm() <= 1e-9 {

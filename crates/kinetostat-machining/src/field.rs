@@ -322,7 +322,8 @@ impl ModelField<'_> {
     }
 }
 
-/// Farther from the pole than so many times what the axes turn by, all of it is kept; nearer than so many times, nothing.
+/// Distances from the pole, as multiples of the rotation of the axes, beyond which all of it is kept, and below which
+/// nothing is.
 const KEPT: [f64; 2] = [20.0, 4.0];
 
 /// Share of a rotation of the axes that is kept if directions lead the tool past a pole: with another sign of its tilt the written way

@@ -114,7 +114,7 @@ impl<'t> Sag<'t> {
         }
     }
 
-    /// At neighbouring places, each near a posture where one is given.
+    /// Motions at neighbouring places, each near a posture if one is given.
     pub fn at<'p>(
         &self,
         places: &[PartPlace],
@@ -185,7 +185,7 @@ impl<'t> MeasuredFrame<'t> {
         })
     }
 
-    /// At neighbouring places of one tool, each near a posture where one is given.
+    /// Motions at neighbouring places of one tool, each near a posture if one is given.
     pub fn motions<'p>(
         &self,
         mechanism: &Mechanism,

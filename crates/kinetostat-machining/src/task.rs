@@ -172,7 +172,7 @@ pub enum RunError {
     Cancelled,
 }
 
-/// Nearer than this a program is where the original is, mm.
+/// Largest distance of a program that is where the original is, mm.
 const SAME_PLACE_MM: f64 = 0.001;
 
 fn elsewhere(distance_mm: Option<f64>) -> String {

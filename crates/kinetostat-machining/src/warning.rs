@@ -106,7 +106,7 @@ pub enum WarningCode {
     UnevenStiffness,
     /// A large share of the way to buckling.
     NearBuckling,
-    /// On the way to the load the machine snaps into another shape.
+    /// The machine snaps into another shape on the way to the load.
     Snaps,
     /// A load without a potential: divergence is examined, flutter (oscillation with growing amplitude) is not.
     NoPotential,

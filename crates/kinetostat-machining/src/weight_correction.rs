@@ -81,7 +81,7 @@ pub enum TouchOffError {
 const NARROW: f64 = 0.01;
 
 impl TouchOff {
-    /// These places, program coordinates, mm.
+    /// Touch-off at these places, program coordinates, mm.
     ///
     /// # Errors
     /// [`TouchOffError`].
@@ -110,7 +110,7 @@ impl TouchOff {
         &self.places_mm
     }
 
-    /// In words: "the place where the part was touched off (X0 Y0 Z0)".
+    /// Text, such as "the place where the part was touched off (X0 Y0 Z0)".
     #[must_use]
     pub fn description(&self) -> String {
         match self.places_mm.as_slice() {

@@ -15,7 +15,7 @@ use crate::warning::{Warning, WarningCode};
 /// Origins of parts that are nearer than this to the origin of a large machine may be metres, mm.
 const NEAR_MM: f64 = 10.0;
 
-/// Nearer ones would be nearer than that in metres too, where no large machine works, mm.
+/// Smallest distance, mm, that is suspected of being in metres: no large machine works nearer.
 const LEAST_MM: f64 = 0.05;
 
 /// A base that is nearer than this to a part stands beside it, mm.

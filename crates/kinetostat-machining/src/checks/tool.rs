@@ -11,7 +11,7 @@ use crate::near::natural_length;
 use crate::task::Task;
 use crate::warning::{Warning, WarningCode};
 
-/// Shorter tools with their holder are unusual, mm.
+/// Length, with holder, below which a tool is unusual, mm.
 const SHORT_MM: f64 = 15.0;
 
 /// Notes the length of a tool, mm, where it is beyond a limit; a tool that is not there has none.

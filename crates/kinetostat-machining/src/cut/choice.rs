@@ -21,7 +21,7 @@ pub enum ForceChoice {
 }
 
 impl ForceChoice {
-    /// In words.
+    /// Choice in words.
     #[must_use]
     pub fn description(self) -> &'static str {
         match self {

@@ -94,7 +94,7 @@ impl Clock {
         }
     }
 
-    /// From the first cut to the last: 1 in feed moves, 0 between them.
+    /// Activity from the first cut to the last: 1 in feed moves, 0 between them.
     pub fn activity(&self, path: &Path) -> Vec<[f64; 2]> {
         let mut points: Vec<[f64; 2]> = Vec::new();
         let moves = path.moves.iter().zip(&self.spans);

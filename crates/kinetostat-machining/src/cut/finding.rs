@@ -51,7 +51,7 @@ pub struct CutFinding {
     pub kind: CutFindingKind,
     /// Line where it is worst.
     pub line: usize,
-    /// On how many lines.
+    /// Number of lines.
     pub lines: usize,
     /// Text of the warning.
     pub text: String,

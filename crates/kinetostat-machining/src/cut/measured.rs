@@ -20,7 +20,7 @@ const MOVES_PER_LOOK: usize = 2000;
 /// Reference force for finding the shift of the measured one.
 #[derive(Clone, Copy, Debug)]
 pub enum ExpectedForce<'a> {
-    /// One in feed moves, none in rapids.
+    /// Force in feed moves, none in rapids.
     InFeedMoves,
     /// A computed force: knows where feed moves are in air.
     Computed(&'a ForceAlongPath),

@@ -13,7 +13,7 @@ use crate::cut::station::{CutStation, heading};
 /// Maximum number of stations of a program, apart from the ends of moves and from arcs.
 const MOST_STATIONS: f64 = 500_000.0;
 
-/// On an arc a force in axes of the part turns against the feed from station to station by at most this, rad: on straight lines
+/// Largest turn against the feed, rad, from station to station on an arc, of a force in axes of the part: on straight lines
 /// between them it is off by 0.03 %.
 const MOST_TURN: f64 = 0.05;
 
@@ -136,7 +136,7 @@ impl Laid<'_> {
         Wrench::new(sign * Vector3::from(force), sign * Vector3::from(moment))
     }
 
-    /// In axes of the feed, and of the part.
+    /// Wrench in axes of the feed, and of the part.
     fn in_axes(&self, motion: &Move, share: f64, logged: Wrench) -> (Wrench, Wrench) {
         // Straight up and down there is no feed across the axis: axes of the part then.
         let angle = heading(motion.tangent(share)).unwrap_or(0.0);

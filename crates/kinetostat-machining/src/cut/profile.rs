@@ -119,7 +119,7 @@ impl ForceAlongPath {
         }
     }
 
-    /// With what the question says of the spindle and of how far the forces may be off.
+    /// Adds the spindle of the question, and the spread of its forces.
     pub(crate) fn asked(self, question: &CutQuestion) -> Self {
         let spreads = question.tools.iter().map(|tool| tool.spread);
         Self {

@@ -88,7 +88,7 @@ impl ContactArc {
 }
 
 impl CutStation {
-    /// Nothing acts.
+    /// Station without a force.
     pub(crate) fn air(share: f64) -> Self {
         Self {
             share,

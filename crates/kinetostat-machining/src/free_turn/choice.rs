@@ -101,9 +101,9 @@ pub struct TurnMap {
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct TurnChoice {
-    /// From one station to the next along the path, mm; a little less where the path is no multiple of it.
+    /// Distance of stations along the path, mm; a little less if the path is no multiple of it.
     pub station_mm: f64,
-    /// In the order of the path.
+    /// Stations in the order of the path.
     pub stations: Vec<TurnStation>,
     /// The configuration of the arm all along, by its [number](crate::ArmConfiguration::number).
     pub configuration: u8,
@@ -134,7 +134,7 @@ pub struct TurnChoice {
     pub as_programmed: Option<ConstantTurn>,
     /// The cheapest constant turn of the band, or the one that goes farthest.
     pub best_constant: Option<ConstantTurn>,
-    /// For a picture.
+    /// Map for a picture.
     pub map: TurnMap,
 }
 

@@ -32,7 +32,7 @@ pub(crate) struct SixAxisArm {
     out: Vector3<f64>,
     /// 1 if axis 3 points as axis 2 does, -1 if against it.
     third: f64,
-    /// From axis 4 to axis 6 about axis 5, at home, rad.
+    /// Angle from axis 4 to axis 6 about axis 5, at home, rad.
     bend: f64,
 }
 

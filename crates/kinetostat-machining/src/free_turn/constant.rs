@@ -138,7 +138,7 @@ pub(crate) fn constant_turns(problem: &Problem<'_, '_>) -> [Option<ConstantTurn>
     [as_programmed.copied(), best.copied()]
 }
 
-/// For every turn the longest part that it covers; the longest one first.
+/// Longest part that each turn covers; the longest one first.
 pub(crate) fn constant_parts(problem: &Problem<'_, '_>) -> Vec<TurnPart> {
     let stations = &problem.stations;
     let mut parts: Vec<TurnPart> = (0..problem.turns.count as u32)

@@ -88,7 +88,7 @@ pub enum TurnBarrier {
     },
     /// The arm would be singular, or nearer to it than allowed.
     Singular,
-    /// Only another configuration can go on: the arm would have to flip.
+    /// Only another configuration can continue: the arm would have to flip.
     Flip,
     /// A joint would have to turn too far at once.
     JointStep {
@@ -153,7 +153,7 @@ pub struct NoWay {
     pub other_configuration: Option<u8>,
     /// Parts into which the program can be divided, each with turns of its own; empty where a place has no posture at all.
     pub parts: Vec<TurnPart>,
-    /// For turns of the band that stay the same, the longest part that each covers; the longest one first.
+    /// Longest part that each constant turn of the band covers; the longest one first.
     pub constant: Vec<TurnPart>,
 }
 

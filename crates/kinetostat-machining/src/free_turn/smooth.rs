@@ -14,7 +14,7 @@ use crate::free_turn::search::Problem;
 /// The step of the band is halved so often: 5 deg end at 0.0024.
 const HALVINGS: usize = 11;
 
-/// With every step the corridor follows the curve so often at most.
+/// Maximum number of times that the corridor follows the curve with each step.
 const PASSES: usize = 12;
 
 /// Links that do not hold are taken out so often before a pass is given up.

@@ -64,7 +64,7 @@ pub(crate) struct Station {
     /// Share of the way that it stands for.
     pub share: f64,
     pub place: WayPlace,
-    /// To the station before; nothing before the first one.
+    /// Interval to the station before; `None` before the first one.
     pub gap: Option<Gap>,
 }
 

@@ -15,7 +15,7 @@ pub struct TurnBand {
     pub from_deg: f64,
     /// The largest one, deg: 360 more than the smallest is the whole circle, which has no ends.
     pub to_deg: f64,
-    /// From one to the next, deg; a little less where the band is no multiple of it.
+    /// Step from one turn to the next, deg; a little less if the band is no multiple of it.
     pub step_deg: f64,
 }
 
@@ -90,7 +90,7 @@ pub struct TurnBounds {
     /// ([`TurnChoice::length_m`](crate::TurnChoice::length_m)) and the angular velocity: joints that turn by 1 rad in all move the tool
     /// by so much at least.
     pub least_singular_value: f64,
-    /// No joint turns farther between two stations, deg.
+    /// Maximum rotation of a joint between two stations, deg.
     pub joint_step_deg: f64,
     /// Places between two stations at which all this is checked again, besides the ends of moves.
     pub checks_between: usize,
@@ -121,7 +121,7 @@ pub enum TurnCurve {
     /// A smooth curve near them, in the same configuration and inside the same bounds: it costs no more.
     #[default]
     Smooth,
-    /// They stay: a staircase with the steps of the band.
+    /// The steps of the band stay, as a staircase.
     Steps,
 }
 
@@ -134,8 +134,8 @@ pub struct TurnTask<'a> {
     pub path: &'a Path,
     /// Placement of the program.
     pub placement: Placement,
-    /// From one station to the next along the path, mm; a little less where the path is no multiple of it, and farther apart where they
-    /// would have more postures than [`TurnBounds::most_postures`].
+    /// Distance of stations along the path, mm; a little less if the path is no multiple of it, and larger if they would have more
+    /// postures than [`TurnBounds::most_postures`].
     pub station_mm: f64,
     /// Turns that are tried.
     pub band: TurnBand,

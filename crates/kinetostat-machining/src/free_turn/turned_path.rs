@@ -10,7 +10,7 @@ use crate::free_turn::task::TurnTask;
 use crate::free_turn::way::{Section, Way};
 use crate::number::larger;
 
-/// One piece of a move turns the tool by no more, deg: between two orientations it goes the shorter way.
+/// Maximum rotation of the tool by one piece of a move, deg: between two orientations it goes the shorter way.
 const MOST_DEG: f64 = 90.0;
 
 /// The rate of turning changes by less, deg/mm, where a move goes on as it was.
@@ -92,7 +92,8 @@ pub fn with_turns(task: &TurnTask<'_>, choice: &TurnChoice) -> Result<TurnedPath
     Ok(turned)
 }
 
-/// From the tip to the holder in axes of the tool, of a program of positions: along z, on the side that is up in the part.
+/// Direction from the tip to the holder in axes of the tool, for a program of positions: along z, on the side that is up
+/// in the part.
 fn up(task: &TurnTask<'_>) -> Vector3<f64> {
     match (in_part(task) * Vector3::z()).z >= 0.0 {
         true => Vector3::z(),

@@ -29,7 +29,7 @@ pub(crate) struct Section {
 pub(crate) struct Way<'a> {
     path: &'a Path,
     placement: Placement,
-    /// One for every move.
+    /// Sections, one for every move.
     pub sections: Vec<Section>,
     /// First and last section of every stretch that is known without a break.
     pub stretches: Vec<[usize; 2]>,

@@ -32,11 +32,11 @@ pub enum CuttingLoad {
     },
     /// Radial, tangential and axial force of milling, N.
     Milling {
-        /// To the right of the feed.
+        /// Force to the right of the feed.
         radial: f64,
-        /// Along the feed.
+        /// Force along the feed.
         tangential: f64,
-        /// Along the part frame's z; along the tool, away from the part, where the program turns the tool.
+        /// Force along the part frame's z; along the tool, away from the part, if the program turns the tool.
         axial: f64,
     },
     /// Computed from the cut or measured, another at every place: see [`crate::ForceAlongPath`].

@@ -40,13 +40,14 @@ pub(crate) struct ShortFeed {
 #[serde(rename_all = "snake_case")]
 #[non_exhaustive]
 pub enum LoadBegins {
-    /// Below a height that was stated: it comes over the path before, and goes over the path behind.
+    /// The load acts below a stated height: it comes over the path before, and goes over the path after.
     BelowHeight,
-    /// Nobody stated where: it comes over the first millimetres of feed after a rapid, and acts until the next one.
+    /// The height was not stated: the load comes over the first millimetres of feed after a rapid, and acts until the
+    /// next one.
     AfterRapid,
 }
 
-/// Over which length of path a stated load comes, at most.
+/// Maximum length of path over which a stated load comes.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct LoadRamp {
     /// Place at which it begins to act; with several loads [`LoadBegins::AfterRapid`] if one of them begins so.
@@ -58,7 +59,7 @@ pub struct LoadRamp {
 /// Warnings about loads that come and go.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct RampFindings {
-    /// One for each line.
+    /// Fast changes, one for each line.
     pub too_fast: Vec<TooFast>,
     pub short: Vec<ShortFeed>,
     /// Ramp of stated loads.

@@ -13,8 +13,8 @@ use crate::map::solved::{Solved, Wanted};
 use crate::map::variable::{Needs, Variable};
 use crate::postures::configurations::Configurations;
 
-/// Two equilibria are one where the tool stands in the same place in both, by this share of the machine's length and in rad: both
-/// are known far better.
+/// Largest difference of the tool's place, as a share of the machine's length and in rad, for two equilibria to be one: both are
+/// known far better.
 const SAME: f64 = 1e-7;
 
 /// A machine, and which of its variables are asked for.
@@ -38,7 +38,7 @@ pub struct Evaluator {
 pub struct Outcome {
     /// State of the place.
     pub state: PlaceState,
-    /// There are numbers, be it outside the limits of an actuator.
+    /// True if there are numbers, even outside the limits of an actuator.
     pub found: bool,
 }
 
@@ -53,7 +53,8 @@ pub struct EvaluationRoom {
 }
 
 impl Evaluator {
-    /// For a machine compiled for many postures; `ratings` are those of its actuators as far as they are stated (N or N m).
+    /// Evaluation of a machine compiled for many postures; `ratings` are those of its actuators as far as they are stated
+    /// (N or N m).
     #[must_use]
     pub fn new(
         mechanism: &Mechanism,
@@ -81,7 +82,7 @@ impl Evaluator {
         }
     }
 
-    /// For a map, whose usual figures are the stiffness and, under a load, its stability.
+    /// Evaluation for a map, whose usual figures are the stiffness and, under a load, its stability.
     pub(crate) fn of_map(
         mechanism: &Mechanism,
         batch: Arc<Batch>,

@@ -61,8 +61,8 @@ impl Nearness {
         }
     }
 
-    /// At a posture: the smallest singular value of the rates as a share of the largest, 0 where fewer motions than at home are
-    /// driven.
+    /// Singularity distance at a posture: the smallest singular value of the rates as a share of the largest, 0 if fewer
+    /// motions than at home are driven.
     pub fn of_posture(&self, posture: &Posture) -> f64 {
         let rates = posture.command_rates();
         match rates.ncols() < self.steps.len() {

@@ -54,7 +54,7 @@ pub struct MapPlace {
     /// Rotation of the unloaded tool from the orientation that was requested, deg: zero unless the orientation
     /// follows.
     pub tool_turn_deg: f64,
-    /// From where the tool is commanded to where it goes under the load, base axes, mm.
+    /// Displacement from the commanded place under the load, base axes, mm.
     pub displacement_mm: [f64; 3],
     /// Rotation vector of the tool under the load, base axes, deg.
     pub rotation_deg: [f64; 3],

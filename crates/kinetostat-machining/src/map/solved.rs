@@ -26,7 +26,7 @@ pub(crate) struct Solved {
     pub free: Vec<Twist>,
     pub softest: f64,
     pub displacement: Twist,
-    /// Without the load.
+    /// Displacement without the load.
     pub unloaded: Twist,
     pub commands: Vec<f64>,
     pub efforts: Vec<f64>,
@@ -49,7 +49,7 @@ pub(crate) struct Wanted<'a> {
     pub unloaded: bool,
 }
 
-/// Below this relative pivot the rank of a stiffness has to be decided.
+/// Relative pivot below which the rank of a stiffness has to be decided.
 const REGULAR: f64 = 1e-9;
 
 impl Solved {
@@ -75,7 +75,7 @@ impl Solved {
         }
     }
 
-    /// Nothing is known.
+    /// Resets the solution.
     pub fn forget(&mut self) {
         self.state = PlaceState::Unanswered;
         self.found = false;
@@ -115,12 +115,12 @@ impl Solved {
         }
     }
 
-    /// Against a force in the softest direction.
+    /// Stiffness against a force in the softest direction.
     pub fn softest(&self) -> f64 {
         self.softest
     }
 
-    /// Against a moment about the softest axis.
+    /// Stiffness against a moment about the softest axis.
     pub fn softest_rotation(&self) -> f64 {
         match self
             .free

@@ -53,7 +53,7 @@ pub enum Worse {
     Larger,
     /// The one of the larger size: it may have either sign.
     LargerSize,
-    /// Neither.
+    /// Neither is worse.
     Neither,
 }
 
@@ -62,7 +62,7 @@ pub enum Worse {
 pub enum Width {
     /// Fixed number.
     Fixed(usize),
-    /// One for each actuator.
+    /// One column for each actuator.
     Actuators,
 }
 
@@ -72,7 +72,7 @@ pub(crate) enum Needs {
     Posture,
     Stiffness,
     Rest,
-    /// At rest without the load, too.
+    /// Equilibrium without the load, too.
     Unloaded,
     Stability,
     Modes,
@@ -92,7 +92,7 @@ pub struct Entry {
     /// Order by which one of several orientations or loads is chosen.
     pub worse: Worse,
     needs: Needs,
-    /// One sentence.
+    /// Description in one sentence.
     pub description: &'static str,
 }
 

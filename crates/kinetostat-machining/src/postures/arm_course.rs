@@ -10,7 +10,7 @@ use kinetostat_program::{Knowledge, Move};
 use crate::joints::arm::Arm;
 use crate::task::Task;
 
-/// From one posture to the next along the path, over moves that are shorter, mm, ...
+/// Distance from one posture to the next along the path, over moves that are shorter, mm, ...
 const EVERY_MM: f64 = 5.0;
 
 /// ... and where the tool turns, deg.

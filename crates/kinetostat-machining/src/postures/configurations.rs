@@ -11,7 +11,7 @@ use kinetostat::{Error, Mechanism, MotionKind, Pose, Posture, PostureRequest, Re
 use crate::free_turn::closed_form::SixAxisArm;
 use crate::free_turn::serial::Joints;
 
-/// More joints than a pose has numbers: there is no end of postures.
+/// Maximum number of joints: an arm with more of them than a pose has numbers has no end of postures.
 const MOST_JOINTS: usize = 6;
 
 /// Shares of the range of a joint from which an arm without a closed form is looked at.
@@ -46,11 +46,11 @@ pub struct Configurations {
 /// Method by which the configurations of a machine are found.
 #[derive(Clone, Debug)]
 enum Ways {
-    /// In closed form.
+    /// Closed form.
     SixAxes(Box<SixAxisArm>),
     /// Next to some postures.
     NextTo(Vec<Posture>),
-    /// Only that next to home is known.
+    /// Only the posture next to home is known.
     One,
 }
 

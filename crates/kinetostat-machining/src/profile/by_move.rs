@@ -59,7 +59,7 @@ impl<const N: usize> Profile<N> {
     }
 }
 
-/// On the straight line from one value to another.
+/// Linear interpolation between two values.
 pub(crate) fn between<const N: usize>(from: &[f64; N], to: &[f64; N], part: f64) -> [f64; N] {
     std::array::from_fn(|k| from[k] + part * (to[k] - from[k]))
 }

@@ -27,9 +27,9 @@ pub(crate) struct Place<const N: usize> {
 /// Initial condition of a profile.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Begins {
-    /// With any value.
+    /// Begins with any value.
     Anyhow,
-    /// With nothing, whatever is asked for: the tool comes out of a rapid.
+    /// Begins with zero, whatever is requested: the tool comes out of a rapid.
     WithNothing(SinceRapid),
 }
 

@@ -15,7 +15,7 @@ pub enum Level {
     Analysis,
     /// The tolerance is missed, or may be where an assumption fails.
     Attention,
-    /// Not to be run.
+    /// The program must not be run.
     Stop,
 }
 
@@ -54,7 +54,7 @@ pub struct Assumption {
     /// The program must not be run before it is settled: the machine has no equilibrium otherwise, or no length says what is lost.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub is_critical: bool,
-    /// One sentence or more, in English.
+    /// Sentences in English.
     pub text: String,
 }
 

@@ -10,7 +10,7 @@ use crate::number::{Rounding, significant};
 pub struct ChatterPlace {
     /// Line of the program, from 1.
     pub line: usize,
-    /// From where to where along the path the places lie that it stands for, mm.
+    /// Range along the path of the places that it stands for, mm.
     pub path_mm: [f64; 2],
     /// Speed of the spindle, rpm.
     pub rpm: f64,

@@ -130,7 +130,7 @@ pub struct StretchRange {
     pub path_mm: [f64; 2],
     /// Lowest and highest value on cutting moves; `None` if there is none.
     pub range: Option<[f64; 2]>,
-    /// More of the stretch is a rapid than not.
+    /// True if more than half of the stretch is a rapid.
     pub rapid: bool,
 }
 

@@ -55,7 +55,7 @@ pub struct MostLoaded {
     pub share_of_rating: f64,
 }
 
-/// On which side of axis 1 an arm reaches.
+/// Side of axis 1 on which an arm reaches.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Shoulder {
@@ -76,13 +76,13 @@ pub enum Elbow {
     Down,
 }
 
-/// To which side an arm bends its wrist.
+/// Side to which an arm bends its wrist.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Wrist {
     /// About axis 5 to the side to which it is bent at the model's home (of a wrist that is straight there: the positive one).
     NoFlip,
-    /// To the other side.
+    /// The wrist bends to the other side.
     Flip,
 }
 
@@ -106,11 +106,11 @@ pub enum Wrist {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct ArmConfiguration {
-    /// On which side of axis 1 it reaches.
+    /// Side of axis 1 on which it reaches.
     pub shoulder: Shoulder,
     /// Elbow flag.
     pub elbow: Elbow,
-    /// To which side it bends its wrist.
+    /// Side to which it bends its wrist.
     pub wrist: Wrist,
     /// 0 to 7: 1 for back, plus 2 for elbow down, plus 4 for a flipped wrist.
     pub number: u8,

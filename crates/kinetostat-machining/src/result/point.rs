@@ -10,14 +10,14 @@ use crate::result::joints::{ArmConfiguration, MostLoaded, NearestLimit};
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum PointKind {
-    /// On a cutting move.
+    /// Point on a cutting move.
     #[default]
     Feed,
-    /// At the end of a rapid.
+    /// Point at the end of a rapid.
     Rapid,
-    /// On a step at a corner (or inside a cut), where the load turns while the tool stands.
+    /// Point on a step at a corner (or inside a cut), where the load turns while the tool stands.
     Corner,
-    /// On a step where a rapid ends and the load is there at once.
+    /// Point on a step where a rapid ends and the load is there at once.
     Entry,
 }
 

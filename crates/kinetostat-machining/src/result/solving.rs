@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct FoundCount {
-    /// Not [`FoundBy::Directly`].
+    /// Method, not [`FoundBy::Directly`].
     pub found_by: FoundBy,
     /// Places found so.
     pub places: usize,

@@ -93,7 +93,8 @@ impl RunResult {
         ))
     }
 
-    /// Over which length a stated load is taken to come, for nobody stated where the cut begins; `None` if no load is stated.
+    /// Sentence on the length over which a stated load is assumed to come, because the start of the cut was not stated;
+    /// `None` if no load is stated.
     #[must_use]
     pub fn ramp_text(&self) -> Option<String> {
         let ramp = self.summary.load_ramp?;

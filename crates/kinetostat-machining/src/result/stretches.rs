@@ -21,7 +21,8 @@ pub(crate) struct Stretches<T> {
 const FINEST_MM: f64 = 1.0 / 1024.0;
 
 impl<T: Joins> Stretches<T> {
-    /// At most so many stretches, two at least; at the end there are more than half as many, or the path is shorter than `most` times 1/1024 mm.
+    /// Creates an empty path of at most `most` stretches, two at least; at the end there are more than half as many, or the path is shorter
+    /// than `most` times 1/1024 mm.
     pub(crate) fn new(most: usize) -> Self {
         Self {
             most: most.max(2),

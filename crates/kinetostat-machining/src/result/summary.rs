@@ -42,10 +42,10 @@ pub struct Summary {
     /// Fastest change of the correction outside steps; `None` if none was written.
     #[serde(default)]
     pub largest_change_mm_per_mm: Option<LargestChange>,
-    /// Over which length of path a stated load comes; `None` if no load is stated.
+    /// Length of path over which a stated load comes; `None` if no load is stated.
     #[serde(default)]
     pub load_ramp: Option<LoadRamp>,
-    /// Nothing was to be corrected: the program came back byte for byte.
+    /// True if nothing was to be corrected: the program came back byte for byte.
     #[serde(default)]
     pub unchanged: bool,
     /// True if it came back so because the tool keeps the tolerance as the program is.
@@ -75,7 +75,7 @@ pub struct Summary {
     /// Steps and pieces that go so by more than `backward_step_limit_mm`.
     #[serde(default)]
     pub backward_steps: usize,
-    /// From which length on they are warned of, mm.
+    /// Length from which on they are warned of, mm.
     #[serde(default)]
     pub backward_step_limit_mm: f64,
     /// Maximum allowed feed along the tool's own path, over the programmed one.

@@ -49,9 +49,9 @@ pub struct BandPlace {
     pub line: usize,
     /// Length of the path up to here, mm.
     pub path_mm: f64,
-    /// With the program as it is.
+    /// Quantiles of the program as it is.
     pub before_mm: [f64; 3],
-    /// With the written program.
+    /// Quantiles of the written program.
     pub after_mm: Option<[f64; 3]>,
 }
 
@@ -76,9 +76,9 @@ pub struct UncertaintyBand {
     pub confidence: f64,
     /// Places at which all machines were solved.
     pub places: Vec<BandPlace>,
-    /// With the program as it is.
+    /// Errors of the program as it is.
     pub before: ScatteredError,
-    /// With the written program.
+    /// Errors of the written program.
     pub after: Option<ScatteredError>,
 }
 

@@ -116,7 +116,7 @@ pub(crate) fn changes(
     found
 }
 
-/// Between two places that lie so far apart, the change is largest where one of them is the end of a piece.
+/// Largest change between two places at this distance: one of them is the end of a piece.
 fn of_stretch(
     (path, written): (&Path, &Corrected),
     writing: &WriteOptions,

@@ -40,7 +40,7 @@ pub enum Reach {
     Reached,
     /// Not reached, or not inside the limits.
     Refused {
-        /// Beyond the limits of a joint, and not out of reach.
+        /// True beyond the limits of a joint, and not out of reach.
         by_limits: bool,
         /// Error in words.
         message: String,
@@ -132,7 +132,7 @@ impl<'t, 'm> MovableProgram<'t, 'm> {
         indices.iter().map(moved).collect()
     }
 
-    /// Some places in the order of the program, solved without compensation where the program lies so.
+    /// Solves some places in the order of the program without compensation, for this placement of it.
     ///
     /// # Errors
     /// Position in `indices` of the first that has no answer, and why.

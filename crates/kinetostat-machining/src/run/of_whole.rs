@@ -14,7 +14,7 @@ pub struct OfWhole {
 }
 
 impl OfWhole {
-    /// With what was found in another part.
+    /// Adds the facts found in another part.
     pub fn add(&mut self, found: &Self) {
         self.stiffness_n_per_mm = smaller(self.stiffness_n_per_mm, found.stiffness_n_per_mm);
     }

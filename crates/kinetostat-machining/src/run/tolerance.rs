@@ -66,10 +66,10 @@ pub(crate) fn tolerance(
     }
 }
 
-/// Nearer to the pole than this, the axis that turns about it turns more than ten times as far as the tool.
+/// Distance from the pole below which the axis that turns about it turns more than ten times as far as the tool.
 const NEAR_POLE_RAD: f64 = 0.1;
 
-/// Nearer than this it is the reason, whatever else there is: at a corner the program turns nothing.
+/// Distance from the pole below which it is the reason in any case: at a corner the program turns nothing.
 const AT_POLE_RAD: f64 = 1e-4;
 
 /// Sentence on directions that lead the tool past the pole of its rotary axes at a place: the distance from it, and a

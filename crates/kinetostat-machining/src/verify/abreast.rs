@@ -9,7 +9,7 @@ const STEPS: usize = 2;
 /// Way along the original over which the direction of the compensated path is taken, mm.
 const DIRECTION_MM: f64 = 0.01;
 
-/// No step is longer than this, mm: the guide is nearer.
+/// Maximum length of a step, mm: the guide is nearer.
 const LONGEST_MM: f64 = 0.05;
 
 /// Part of a turn of the load over which the direction of the compensated path is taken, and the longest step.

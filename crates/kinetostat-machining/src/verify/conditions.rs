@@ -13,7 +13,7 @@ const SAME: f64 = 0.01;
 /// Ends are found within this, mm, by which the speed along a short cut is less certain.
 const ENDS_MM: f64 = 0.005;
 
-/// More of them are not listed.
+/// Maximum number of listed differences.
 const MOST: usize = 100;
 
 /// A move of the other program with what of the original it goes along.
@@ -22,7 +22,7 @@ pub(crate) struct Cut<'a> {
     original: &'a Move,
     own_mm: f64,
     original_mm: f64,
-    /// In which the original goes that far, min.
+    /// Time in which the original goes that far, min.
     original_min: Option<f64>,
 }
 

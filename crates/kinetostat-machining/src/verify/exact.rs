@@ -48,7 +48,7 @@ pub(crate) fn exact(
     divided(original, field, pieces)
 }
 
-/// Two parts of one turn of the load meet where so much of it is done.
+/// Lets two parts of one turn of the load meet at this part of it.
 fn put_part(both: &mut [Followed], part: f64) {
     let [own, next] = both else {
         return;
@@ -135,7 +135,7 @@ fn divided(original: &Path, field: &dyn CorrectionField, pieces: Vec<Followed>) 
     all.into_iter().map(|(own, _)| own).collect()
 }
 
-/// Both halves of a part of an arc, whose middle belongs to a place.
+/// Divides a part of an arc in two, whose middle belongs to a place.
 fn halves(own: Followed, place: &Abreast) -> [Followed; 2] {
     let [from, to] = [own.other_from, own.other_end.1];
     let middle = 0.5 * (from + to);

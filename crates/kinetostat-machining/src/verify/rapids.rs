@@ -13,7 +13,7 @@ pub(crate) const NEAR_MM: f64 = 1.0;
 /// A rapid that leads on by less comes back to where the cut was left, mm: its ends are rounded.
 const LEADS_ON_MM: f64 = 0.002;
 
-/// More of them are not listed.
+/// Maximum number of listed rapids.
 const MOST: usize = 100;
 
 /// Maximum shift of the original by the guide, mm.

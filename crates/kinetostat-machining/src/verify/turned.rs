@@ -6,7 +6,7 @@ use nalgebra::UnitQuaternion;
 use crate::verify::followed::Followed;
 use crate::verify::matched::Turned;
 
-/// Along a move that turns the tool a place is known to this share of it.
+/// Share of a turning move within which a place on it is known.
 const PLACED: f64 = 0.1;
 
 /// Largest difference of the commanded orientation from that of the original at its place: the way from one move to the next is not

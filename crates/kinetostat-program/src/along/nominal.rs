@@ -14,7 +14,7 @@ use crate::path::moves::{Move, Path};
 )]
 pub struct NoFeedMove;
 
-/// Two places are one where they are no farther apart than this, mm: what is left after inches and increments.
+/// Largest distance of two places that are one, mm: rounding of increments and inches.
 pub(crate) const SAME_MM: f64 = 1e-6;
 
 /// Chord error of the search, mm.

@@ -8,7 +8,7 @@ use serde::Serialize;
 pub enum WhyLeftOut {
     /// The path does not come within the window.
     BeyondWindow,
-    /// Several stretches of it do.
+    /// Several stretches of the path come within the window.
     SeveralStretches,
     /// The point names a line, and only cuts of other lines come within the window.
     NotOnItsLine,

@@ -75,12 +75,12 @@ pub struct FieldCheck {
 /// Position of a place within its piece.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum At {
-    /// Inside, where the division may have overlooked something.
+    /// Interior of the piece, where the division may have overlooked something.
     Inside,
     /// At an end on the path, where the field's own correction was written: what is left out there shows. Next to a
     /// jump the answer of the field differs from the one that was written.
     End,
-    /// At the end of a move of which nothing else is corrected.
+    /// End of a move that is corrected only there.
     EndOfMove,
 }
 
@@ -168,7 +168,7 @@ pub fn verify_against_field(
 }
 
 impl Look {
-    /// At a part of a piece, a share of its move, and a turn of the load.
+    /// Place on a piece: its part, the share of its move, and the turn of the load.
     fn on(
         motion: &Move,
         piece: &Piece,

@@ -23,7 +23,7 @@ const SPEED_TOLERANCE: f64 = 1e-3;
 /// Directions of the tool as written and as read again differ by less, rad: their digits.
 const SAME_DIRECTION: f64 = 1e-6;
 
-/// Between two ends the tool may lean by more, rad: near a pole digits of directions turn the axes by more.
+/// Largest difference between two ends, rad: near a pole digits of directions turn the axes by more.
 const SAME_WAY: f64 = 1e-4;
 
 /// Largest difference between an angle as written and as read again, in deg: arithmetic only.
@@ -406,7 +406,7 @@ const SAME_ON_CIRCLE_DEG: f64 = 0.1;
 /// Error of a direction by the digits that it is written with, rad.
 const DIGITS_RAD: f64 = 4e-8;
 
-/// Nearer to the pole directions say nothing of one axis, rad.
+/// Distance from the pole, rad, below which directions do not determine one axis.
 const AT_POLE_RAD: f64 = 1e-6;
 
 /// Directions on a great circle lead the axes to the angles for which the pieces were corrected, not to others of the same direction.

@@ -62,7 +62,7 @@ impl<'o> Flat<'o> {
         }
     }
 
-    /// Says something about the last block.
+    /// Adds a warning about the last block.
     pub fn warn(&mut self, text: &str) {
         self.warnings.push(Warning {
             line: self.origins.len(),
@@ -70,7 +70,7 @@ impl<'o> Flat<'o> {
         });
     }
 
-    /// Says something about a line that may hold for many.
+    /// Adds a warning about a line that may hold for many.
     pub fn warn_of_lines(&mut self, line: usize, text: &str) {
         self.repeated.note(line, text);
     }

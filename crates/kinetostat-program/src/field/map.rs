@@ -199,8 +199,8 @@ impl CorrectionField for CorrectionMap {
         shifts.map(|shift| shift.map(Correction::from)).collect()
     }
 
-    /// In a cell the correction is linear in each coordinate, so along a line of third degree at most;
-    /// where the move passes from one cell to the next its slope jumps.
+    /// The correction is linear in each coordinate within a cell, so along a line of third degree at most; where the
+    /// move passes from one cell to the next its slope jumps.
     fn structure(&self, _move_index: usize, motion: &Move) -> Structure {
         Structure {
             breaks: (0..3)

@@ -19,7 +19,7 @@ pub struct Request {
     pub tangent: Option<Vector3<f64>>,
     /// Orientation of the tool there, part axes from tool axes; `None` in a program of positions.
     pub orientation: Option<UnitQuaternion<f64>>,
-    /// Inside a corner step: how far the load has turned. `None` on the path itself.
+    /// Turn of the load inside a corner step; `None` on the path itself.
     pub turning: Option<Turning>,
 }
 
@@ -93,8 +93,7 @@ pub struct Structure {
 /// Form of a correction on a stretch without breaks.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Course {
-    /// Along a straight line a polynomial of third degree in the share, or of a lower one. Five values
-    /// say all about it.
+    /// Polynomial of at most third degree in the share, along a straight line. Five values determine it.
     Cubic,
     /// Smooth: it could be continued as a power series this far (in mm) beyond every place of the
     /// stretch, and would be at most twice as large there. The shorter this length, the more places are

@@ -115,7 +115,7 @@ impl<'o> PartsInOrder<'o> {
         self.lock().taken
     }
 
-    /// No part is taken any more, and whoever waits need wait no longer.
+    /// Ends the order: no part is taken any more, and nobody waits any longer.
     pub fn end(&self) {
         self.lock().ended = true;
         self.changed.notify_all();

@@ -72,7 +72,7 @@ impl<'o> Parts<'o> {
         Self { survey, reading }
     }
 
-    /// One after the other.
+    /// Returns the parts one after the other.
     pub fn in_order<R: BufRead + Seek>(
         self,
         mut text: R,

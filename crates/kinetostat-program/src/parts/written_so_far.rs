@@ -22,7 +22,7 @@ pub struct WrittenSoFar<'o> {
 }
 
 impl<'o> WrittenSoFar<'o> {
-    /// Nothing is written yet.
+    /// State before anything is written.
     #[must_use]
     pub fn nothing(survey: &'o Survey, reading: &'o ReadOptions) -> Self {
         Self {
@@ -33,7 +33,7 @@ impl<'o> WrittenSoFar<'o> {
         }
     }
 
-    /// These lines were written, and the writer stands so behind them: from what an interrupted run has left.
+    /// Continues after these written lines, with this state of the writer: from what an interrupted run has left.
     ///
     /// # Errors
     /// They cannot be read.

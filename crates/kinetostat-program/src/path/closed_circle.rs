@@ -15,7 +15,7 @@ use crate::number::{larger, smaller};
 /// Ends nearer than this are one point: the words were equal, up to the arithmetic, in mm.
 const SAME_POINT_MM: f64 = 1e-9;
 
-/// Below this angle some controllers take an arc for a full circle and some for nothing, in rad (5e-7 in grbl, 1e-6 in LinuxCNC;
+/// Angle in rad below which some controllers take an arc for a full circle and some for nothing (5e-7 in grbl, 1e-6 in LinuxCNC;
 /// neither asks whether the arc had an R).
 const DISPUTED_ANGLE: f64 = 1e-6;
 

@@ -49,13 +49,13 @@ struct Guide {
 pub enum OffCircle {
     /// The directions are opposite: over which side it goes is open.
     Opposite,
-    /// At a direction on the way the axes do not reach it.
+    /// The axes do not reach a direction on the way.
     Unreached(Vector3<f64>, Unreached),
 }
 
 impl GreatCircle {
-    /// From the angles at which the axes stand to a direction, a unit vector from the tip to the holder in axes of the part. If the
-    /// tool begins along an axis (at the pole), that axis is turned at once to where the way leads.
+    /// Great circle from the angles of the axes to a direction, a unit vector from the tip to the holder in axes of the part. If
+    /// the tool begins along an axis (at the pole), that axis is turned at once to where the way leads.
     ///
     /// ```
     /// use kinetostat_program::{Carries, GreatCircle, RotaryAxes, RotaryAxis};

@@ -41,7 +41,7 @@ pub enum FeedMode {
 pub struct Feed {
     /// Feed mode of the value.
     pub mode: FeedMode,
-    /// In mm/min, 1/min, or mm per revolution; inches are converted.
+    /// Value in mm/min, 1/min, or mm per revolution; inches are converted.
     pub value: f64,
 }
 

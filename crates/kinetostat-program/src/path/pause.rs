@@ -27,7 +27,7 @@ pub enum PauseKind {
 }
 
 impl PauseKind {
-    /// In words.
+    /// Kind in words.
     ///
     /// ```
     /// use kinetostat_program::PauseKind;

@@ -53,7 +53,7 @@ pub struct RotaryAxis {
 /// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct RotaryAxes {
-    /// From the base outwards: of two heads the one that carries the other first, and of two tables too.
+    /// Axes from the base outwards: of two heads the one that carries the other first, and of two tables too.
     pub axes: Vec<RotaryAxis>,
     /// Orientation of the tool where all axes stand at zero, part axes from tool axes.
     pub tool_at_zero: UnitQuaternion<f64>,

@@ -23,9 +23,9 @@ const AT_LIMIT: f64 = 1e-6;
 /// Reason for which rotary axes cannot point the tool in a direction.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Unreached {
-    /// No angles do.
+    /// No angles reach the direction.
     Direction,
-    /// These angles do, deg, in the order of the axes, and they lie outside the limits of an axis; all others do, too.
+    /// Angles, deg, in the order of the axes, that reach it outside the limits of an axis; all others do so, too.
     Limits(Vec<f64>),
 }
 

@@ -19,7 +19,7 @@ pub struct RotaryTurn {
     pub end_deg: Vec<f64>,
     /// Origin of the program's words (`G10 L2`).
     pub origin_deg: Vec<f64>,
-    /// On which the tool's axis goes in the part; `None` where each axis turns evenly with the share.
+    /// Great circle of the tool's axis in the part; `None` if each axis turns linearly with the share.
     pub great_circle: Option<GreatCircle>,
     /// Kind of the program's words: angles or a direction.
     pub stated: StatedBy,

@@ -13,9 +13,9 @@ use crate::path::rotary_turn::RotaryTurn;
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct ToolTurn {
-    /// At the start of the move.
+    /// Orientation at the start of the move.
     pub start: UnitQuaternion<f64>,
-    /// At its end.
+    /// Orientation at its end.
     pub end: UnitQuaternion<f64>,
     /// Motion of the machine's rotary axes, if the program states their angles.
     pub rotary: Option<RotaryTurn>,
@@ -73,8 +73,8 @@ impl ToolTurn {
         }
     }
 
-    /// Between two other orientations, in the way in which the controller turns the tool here; about one axis where rotary axes
-    /// turn it.
+    /// Orientation between two other ends, in the way in which the controller turns the tool here; about one axis if rotary
+    /// axes turn it.
     ///
     /// ```
     /// use kinetostat_program::ToolTurn;

@@ -98,7 +98,7 @@ pub(crate) fn take_over_understood(
 enum Ends {
     /// The end of its motion.
     AllAxes,
-    /// In the plane its end, across it a depth.
+    /// In the plane the end of its motion, across it a depth.
     Plane,
     /// Something else.
     Nowhere,

@@ -21,7 +21,7 @@ pub(crate) enum Cause {
 /// Place and knowledge of the three axes.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Places {
-    /// In mm, part frame.
+    /// Position in mm, part frame.
     pub position: Vector3<f64>,
     pub known: [bool; 3],
     /// Axes that were known at some time.

@@ -10,9 +10,9 @@ use crate::path::position_offset::OffsetChange;
 #[derive(Clone, Copy, Default)]
 pub(crate) struct Shifts {
     pub now: [bool; 3],
-    /// Without G92.
+    /// Shift without G92.
     bare: [bool; 3],
-    /// After G92.3; `None` while that brings back an offset from before the program.
+    /// Shift after G92.3; `None` while that brings back an offset from before the program.
     saved: Option<[bool; 3]>,
     /// Line of the last change.
     pub line: usize,

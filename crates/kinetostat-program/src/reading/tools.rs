@@ -133,7 +133,7 @@ fn warn_of_other_lengths(path: &mut Path, lengths: &[ToolChange]) {
     }
 }
 
-/// From this line on another tool may be in the spindle than the one that corrections are made for.
+/// Warning of a line from which on another tool may be in the spindle than the one that corrections are made for.
 fn of_another_tool(line: usize, what: &str) -> Warning {
     Warning {
         line,

@@ -162,7 +162,7 @@ impl Program {
         self.part.as_ref()
     }
 
-    /// Says what of a longer program it is.
+    /// Sets its position in a longer program.
     pub(crate) fn set_part(&mut self, part: PartOfText) {
         self.part = Some(part);
     }

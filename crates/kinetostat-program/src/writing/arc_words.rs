@@ -24,7 +24,7 @@ pub(crate) struct ToPrint<'a> {
     pub normal: usize,
     pub from: Vector3<f64>,
     pub to: Vector3<f64>,
-    /// From where its centre words count, mm.
+    /// Origin of its centre words, mm.
     pub reference: Vector3<f64>,
     pub mm_per_unit: f64,
     pub decimals: usize,

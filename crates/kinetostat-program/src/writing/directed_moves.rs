@@ -15,11 +15,11 @@ use crate::writing::node::{Node, is_divided};
 /// Digits after the point of directions.
 pub const DIRECTION_DECIMALS: usize = 8;
 
-/// No piece ends nearer to a pole, rad: digits of directions turn an axis by less than 2e-5 rad elsewhere. The next of these limits
-/// holds for a move that is nearer for long: it hardly leans the tool, and the axis may be further off.
+/// Minimum distance of the end of a piece from a pole, rad: digits of directions turn an axis by less than 2e-5 rad elsewhere. The
+/// next of these limits holds for a move that is nearer for long: it hardly leans the tool, and the axis may be further off.
 const NEAR_POLE: [f64; 4] = [5e-4, 1e-4, 2e-5, 5e-6];
 
-/// Longer shares of a move are not left undivided.
+/// Largest share of a move that is left undivided.
 const LONG_SHARE: f64 = 0.05;
 
 /// Largest angle of the tool from where the undivided move has it, rad.

@@ -43,7 +43,7 @@ pub(crate) struct Emitter<'a> {
     pieces_before: usize,
     /// See [`Corrected::rotary_deg`].
     rotary_deg: Vec<Vec<f64>>,
-    /// Some of them stand otherwise than the program has them.
+    /// True if some of them differ from the program.
     rotary_corrected: bool,
 }
 

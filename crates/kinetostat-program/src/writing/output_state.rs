@@ -29,7 +29,7 @@ pub(crate) struct OutputState {
 /// An arc that was fitted to a corrected curve, before rounding.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct FittedArc {
-    /// In the plane of the arc that it stands for, mm.
+    /// Centre in the plane of the arc that it stands for, mm.
     pub centre_mm: [f64; 2],
     pub radius_mm: f64,
     pub sweep_rad: f64,

@@ -22,7 +22,7 @@ pub(crate) struct TurnedAxes<'a> {
     pub motion: &'a Move,
     /// See [`crate::Path::tool_axis`].
     pub tool_axis: Vector3<f64>,
-    /// They stand otherwise than the program has them when the block begins.
+    /// True if they differ from the program when the block begins.
     pub were_turned: bool,
     /// G43.5 stands in the block: a direction does not, and the axes stay at the angles of the program.
     pub begins_directions: bool,

@@ -20,7 +20,8 @@ pub(super) fn rotary(motion: &Move) -> Option<&RotaryTurn> {
     motion.tool_turn.as_ref()?.rotary.as_ref()
 }
 
-/// On which the tool's axis goes between the angles at both ends of a piece as written; `None` if each axis turns evenly.
+/// Great circle of the tool's axis between the angles at both ends of a piece as written; `None` if each axis turns
+/// linearly.
 pub(super) fn great_circle(motion: &Move, from: &[f64], to: &[f64]) -> Option<GreatCircle> {
     let own = rotary(motion).filter(|own| own.great_circle.is_some())?;
     let tool_axis = own.axes.tool_at_zero.inverse() * Vector3::z();

@@ -37,7 +37,7 @@ pub(crate) struct Site {
     /// Angles of the rotary axes in the written program, deg; `None` if they are those of the program.
     pub commanded_deg: Option<Vec<f64>>,
     pub wrench: Wrench,
-    /// On a corner step, the load by the reading that was not chosen.
+    /// Load on a corner step by the reading that was not chosen.
     pub other_wrench: Option<Wrench>,
     /// End of a piece (or block), where a full answer is wanted; otherwise its middle.
     pub end: bool,

@@ -6,7 +6,7 @@ use crate::expanding::coordinates::switch::Ending;
 use crate::expanding::radius::geometry::{Axes, Point, Sense, in_plane};
 use crate::expanding::translate::wrong::Wrong;
 
-/// Two scales that differ by less keep a circle a circle.
+/// Largest difference of two scales that keep a circle a circle.
 const SAME: f64 = 1e-12;
 
 /// First the shift, then the scale about its centre, then the turn about its centre.

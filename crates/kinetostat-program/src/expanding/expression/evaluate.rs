@@ -3,10 +3,10 @@
 use crate::expanding::expression::tree::{Expression, Function, Operator, Parameter};
 use crate::expanding::options::Dialect;
 
-/// Two numbers that differ by less are equal (LinuxCNC 2.9, `TOLERANCE_EQUAL`; later ones have 1e-6).
+/// Largest difference of two equal numbers (LinuxCNC 2.9, `TOLERANCE_EQUAL`; later ones have 1e-6).
 const EQUAL: f64 = 1e-4;
 
-/// Two numbers whose difference, as a share, is rounding.
+/// Relative difference of two numbers that is rounding.
 const ROUNDING: f64 = 1e-12;
 
 /// A whole number may be off by this.
@@ -41,7 +41,7 @@ impl Expression {
         }
     }
 
-    /// Without the signs before it: `X-#1` is left out as `X#1` is, where #1 has no value.
+    /// Expression without the signs before it: `X-#1` is left out as `X#1` is, if #1 has no value.
     pub fn unsigned(&self) -> &Self {
         match self {
             Self::Negative(of) => of.unsigned(),

@@ -30,7 +30,7 @@ pub(crate) struct ProgrammedArc {
     pub sense: Sense,
     /// Radii at the start and at the end, which may differ by the tolerance of arcs.
     pub radii: [f64; 2],
-    /// In rad, above 0.
+    /// Sweep in rad, above 0.
     pub sweep: f64,
 }
 
@@ -128,7 +128,7 @@ pub(crate) struct Contour {
     pub tool: f64,
     /// The last programmed place.
     pub at: Point,
-    /// From there to the tool, a unit vector; `None` before the first move.
+    /// Unit vector from there to the tool; `None` before the first move.
     pub normal: Option<Point>,
     pub pending: Pending,
     /// The controller that the program is written for.

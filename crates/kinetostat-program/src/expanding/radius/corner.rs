@@ -8,7 +8,7 @@ use crate::expanding::translate::wrong::Wrong;
 /// Corners flatter than this are none, in rad (LinuxCNC, `TOLERANCE_CONCAVE_CORNER`).
 const FLAT: f64 = 0.05;
 
-/// Nearer to a bound than this the last digit would decide, in rad.
+/// Distance from a bound, in rad, below which the last digit would decide.
 const UNSURE: f64 = 1e-9;
 
 /// Motion of the tool between two pieces of a contour.

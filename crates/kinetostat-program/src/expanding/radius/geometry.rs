@@ -15,7 +15,7 @@ pub(crate) fn in_plane(place: &Vector3<f64>, axes: Axes) -> Point {
     Point::new(place[axes[0]], place[axes[1]])
 }
 
-/// On which side of the contour the tool is, looking along the motion.
+/// Side of the contour on which the tool is, looking along the motion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Side {
     /// G41.
@@ -40,7 +40,7 @@ impl Side {
         }
     }
 
-    /// From the contour to the tool, for a direction of motion; lengths stay.
+    /// Vector from the contour to the tool, for a direction of motion; its length is kept.
     pub fn normal(self, direction: Point) -> Point {
         left_of(direction) * self.sign()
     }
@@ -98,7 +98,7 @@ impl Sense {
 pub(crate) enum Within {
     /// Between the arc and its centre.
     Inside,
-    /// Round it.
+    /// Outside the arc.
     Outside,
 }
 
@@ -111,7 +111,7 @@ impl Within {
         }
     }
 
-    /// From a place on the arc to the tool, a unit vector.
+    /// Unit vector from a place on the arc to the tool.
     pub fn normal(self, place: Point, centre: Point) -> Point {
         let inwards = (centre - place).normalize();
         match self {

@@ -69,7 +69,7 @@ impl Motion {
         })
     }
 
-    /// Nothing but a straight move may stand behind G40.
+    /// Refuses an arc after G40: only a straight move may follow it.
     pub fn refuse_arc(&self) -> Result<(), Wrong> {
         match self.is_arc {
             true => Err(arc_behind()),

@@ -39,9 +39,9 @@ fn further(units: Option<Units>) -> f64 {
 pub(crate) enum Waiting {
     /// The move to the contour may end anywhere: it cuts nothing before its end.
     Entry,
-    /// From a place, in a direction.
+    /// Line from a place, in a direction.
     Line { from: Point, direction: Point },
-    /// From a place about a centre; `sweep` as programmed, in rad.
+    /// Arc from a place about a centre; `sweep` as programmed, in rad.
     Arc {
         from: Point,
         centre: Point,

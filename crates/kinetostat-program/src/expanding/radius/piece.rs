@@ -24,7 +24,7 @@ pub(crate) enum Shape {
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Piece {
     pub shape: Shape,
-    /// In mm, part frame.
+    /// End in mm, part frame.
     pub to: Point,
     /// Depth, in mm, where the block states it.
     pub depth: Option<f64>,

@@ -15,7 +15,7 @@ const FUNCTIONS: &[u32] = &[0, 10, 20, 300, 600, 30, 40, 50, 70, 80, 90, 190];
 
 const STOPS: &[u32] = &[0, 10, 20, 300, 600];
 
-/// From here on functions are the machine builder's own.
+/// First function of the machine builder's own.
 const OWN_FUNCTIONS: u32 = 1000;
 
 /// Codes that ask where the tool is: after G40 that is two places, in tenths.

@@ -106,7 +106,7 @@ pub(crate) struct Frame {
     pub opened: Opened,
     /// Parameters 1 to 30, or 33.
     pub numbered: Locals,
-    /// With what G65 called it: each repeat begins with these.
+    /// Arguments of the G65 that called it: each repeat begins with these.
     pub arguments: Option<Locals>,
     pub named: BTreeMap<String, f64>,
     pub loops: Vec<Loop>,

@@ -121,7 +121,7 @@ pub(crate) struct Saved {
     incremental: bool,
     centres_are_places: bool,
     feed_mode: FeedMode,
-    /// In units of the program.
+    /// Feed in units of the program.
     feed: Option<f64>,
     system: usize,
     tool_length: bool,

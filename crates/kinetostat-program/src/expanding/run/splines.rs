@@ -73,7 +73,7 @@ impl Runner<'_> {
         self.add_rest(&block.after)
     }
 
-    /// Another motion begins.
+    /// Ends the spline when another motion begins.
     pub fn leave_spline(&mut self) -> Result<(), ProgramError> {
         match self.spline.take() {
             Some(Spline::Open { .. }) => Err(self.refuse(

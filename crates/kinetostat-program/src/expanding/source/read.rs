@@ -287,7 +287,7 @@ fn skip_comment(cursor: &mut Cursor<'_>, text: &[u8]) {
     cursor.go_to(end);
 }
 
-/// Nothing but blanks and comments is left.
+/// True if only blanks and comments are left.
 fn is_at_end(cursor: &mut Cursor<'_>) -> bool {
     matches!(cursor.peek(), None | Some(b';' | b'('))
 }

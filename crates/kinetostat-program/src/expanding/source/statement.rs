@@ -20,7 +20,7 @@ pub(crate) struct SourceLine {
 /// Kind of a statement.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Statement {
-    /// Nothing but plain words and comments: run as it stands.
+    /// Plain words and comments only: run as it stands.
     Plain,
     /// Words with expressions, and assignments, in the order of the line.
     Block(Vec<Piece>),

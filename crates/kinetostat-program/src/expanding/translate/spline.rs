@@ -150,7 +150,7 @@ fn check(code: u32, block: &MotionBlock, before: Option<&Spline>) -> Result<(), 
     }
 }
 
-/// One more control point.
+/// Adds a control point.
 fn open(
     block: &MotionBlock,
     before: Option<Spline>,

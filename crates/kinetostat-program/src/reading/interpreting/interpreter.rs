@@ -33,8 +33,7 @@ pub(crate) struct Interpreter<'o> {
     /// Work coordinate system of the first motion.
     pub(super) first_system: Option<usize>,
     pub(super) moves: Vec<Move>,
-    /// For each move: which axes are known before and after it, and whether one was known before and is so no
-    /// more.
+    /// Known axes before and after each move, and whether one was known before and is so no more.
     pub(super) knowledge: Vec<([bool; 3], [bool; 3], bool)>,
     pub(super) events: Vec<Event>,
     pub(super) pauses: Vec<Pause>,

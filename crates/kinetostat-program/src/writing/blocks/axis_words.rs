@@ -10,7 +10,7 @@ use crate::writing::output_state::OutputState;
 /// Places nearer than this are the same, up to the arithmetic, in mm.
 pub(crate) const UNCHANGED_MM: f64 = 1e-9;
 
-/// Says where the pieces of a block end.
+/// Axis words of the pieces of a block.
 ///
 /// Each word is chosen against where the output really is, so rounded increments never add up.
 pub(crate) struct AxisWords<'a> {
@@ -106,7 +106,7 @@ impl AxisWords<'_> {
         })
     }
 
-    /// From where the words of an axis count, in mm.
+    /// Origin of the words of an axis, in mm.
     fn reference_mm(&self, state: &OutputState, axis: usize) -> f64 {
         let words = &self.motion.words;
         match words.incremental {

@@ -10,7 +10,7 @@ use crate::writing::output_state::{OutputMove, OutputState, motion_of};
 /// Relative error of the feed in force from which a new F word is written.
 const FEED_TOLERANCE: f64 = 5e-4;
 
-/// Says how fast the pieces of a block go.
+/// Feed words of the pieces of a block.
 pub(crate) struct FeedWords<'a> {
     pub text: BlockText<'a>,
     pub motion: &'a Move,

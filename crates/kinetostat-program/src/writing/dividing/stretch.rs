@@ -32,7 +32,7 @@ pub(crate) enum Place {
     Middle,
     FirstQuarter,
     LastQuarter,
-    /// One that follows no pattern, at a part of the stretch.
+    /// Place that follows no pattern, at a part of the stretch.
     Irregular(f64),
 }
 
@@ -56,7 +56,8 @@ pub(crate) struct Stretch {
     pub entire: bool,
     /// Arcs are fitted to its move.
     pub fitted: bool,
-    /// No piece ends in it unless the correction bends there: directions of the tool would say little of the axes.
+    /// True if no piece ends in it unless the correction bends there: directions of the tool would say little of the
+    /// axes.
     pub across_pole: bool,
     pub share: [f64; 2],
     pub ends: [Vector6<f64>; 2],

@@ -34,7 +34,7 @@ struct Search<'a> {
     arc: &'a Arc,
     span: &'a Span,
     within_mm: f64,
-    /// No piece is shorter than this.
+    /// Minimum length of a piece.
     shortest: Option<&'a ShortestBlock>,
 }
 

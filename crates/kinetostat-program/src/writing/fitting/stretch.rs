@@ -48,7 +48,7 @@ pub(crate) struct FittedPiece {
 }
 
 impl FittedPiece {
-    /// No piece, but where the first one begins.
+    /// Empty piece at the start of the first one.
     pub fn start(span: &Span) -> Self {
         Self {
             share_to: span.share[0],
