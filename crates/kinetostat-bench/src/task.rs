@@ -32,7 +32,7 @@ pub enum Places {
 }
 
 impl Places {
-    /// From 12 numbers per posture: rotation matrix (base from tool) row by row, position (m).
+    /// Reads 12 numbers per posture: rotation matrix (base from tool) row by row, position (m).
     ///
     /// # Errors
     /// If the numbers are no whole poses.

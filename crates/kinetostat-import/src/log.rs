@@ -15,7 +15,7 @@ pub(crate) struct At {
     pub(crate) element: String,
 }
 
-/// More errors than this are not collected.
+/// Maximum number of errors that are collected.
 const MOST: usize = 100;
 
 /// The files read so far and what was found in them.
@@ -95,7 +95,7 @@ impl Log {
     }
 }
 
-/// One error without a place.
+/// Creates an error without a place.
 pub(crate) fn refusal(file: &str, message: impl Display, help: impl Display) -> ModelError {
     ModelError::new(vec![Problem::without_text(
         file,

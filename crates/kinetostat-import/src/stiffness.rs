@@ -10,7 +10,7 @@ use crate::log::{At, Log, suggestion};
 /// Stiffness of the drives.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub enum JointStiffness {
-    /// Not known: all drives are written as rigid, to be filled in.
+    /// Unknown stiffness: all drives are written as rigid, to be filled in.
     #[default]
     Unknown,
     /// One value for all drives that turn, N m/rad; those that slide stay rigid.

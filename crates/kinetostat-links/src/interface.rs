@@ -28,7 +28,7 @@ pub struct RigidRank {
     pub condition: f64,
     /// Radius of gyration of the nodes about their centre, m.
     pub size: f64,
-    /// In words, what is unknown; empty at rank 6.
+    /// Unknown motions in words; empty at rank 6.
     pub words: String,
 }
 

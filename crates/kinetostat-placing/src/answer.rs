@@ -78,7 +78,7 @@ pub struct Evaluated {
     pub value: Value,
 }
 
-/// To one side of the best placement.
+/// Sensitivity to one side of the best placement.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct SideSensitivity {
     /// Change of the figure by that of the variable close by, its unit per mm or deg; none at the end of the range, and where a program
@@ -94,9 +94,9 @@ pub struct SideSensitivity {
 pub struct Sensitivity {
     /// Variable that changes.
     pub variable: Variable,
-    /// Towards smaller values.
+    /// Sensitivity towards smaller values.
     pub down: SideSensitivity,
-    /// Towards larger ones.
+    /// Sensitivity towards larger ones.
     pub up: SideSensitivity,
 }
 
@@ -119,11 +119,11 @@ pub struct MapPanel {
 pub struct Finding {
     /// Kind: `at_bound`, `flat`, `few_reachable`, `thinned`, `not_better`.
     pub kind: &'static str,
-    /// In a sentence.
+    /// Remark in a sentence.
     pub message: String,
 }
 
-/// No placement can be taken.
+/// Explanation of a search without a placement that can be taken.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Nowhere {
     /// The one that is nearest to being taken, and why it is refused.
@@ -139,7 +139,7 @@ pub struct Placed {
     pub best: Option<Candidate>,
     /// The next best ones, each apart from all before it.
     pub next_best: Vec<Candidate>,
-    /// In the middle of all ranges.
+    /// Placement in the middle of all ranges.
     pub centre: Candidate,
     /// The figure where the placement is as given; `None` if it is refused there.
     pub given: Option<f64>,

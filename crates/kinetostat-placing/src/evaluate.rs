@@ -46,7 +46,7 @@ pub(crate) struct OnAll {
 }
 
 impl Evaluator<'_> {
-    /// At some places.
+    /// Value of a placement at some places.
     pub(crate) fn at(&self, place: &Place, places: &[usize]) -> Value {
         let lies = self.space.placement(place);
         // Out of reach is found sooner without a load.
@@ -57,7 +57,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// At all places, posture by posture.
+    /// Value of a placement at all places, posture by posture.
     pub(crate) fn on_all(&self, lies: Placement) -> OnAll {
         if let Some(refusal) = self.obstacle(&lies) {
             return refused(refusal, Vec::new());
@@ -181,7 +181,8 @@ impl Evaluator<'_> {
         })
     }
 
-    /// Some places, and one more, are not reached; by how much the placement is refused then.
+    /// Refusal of a placement at which some places, and one more, are not reached, with its distance from being
+    /// taken.
     fn lost(&self, lies: Placement, place: Option<usize>) -> Option<Refusal> {
         let count = self.program.len();
         // Far from each other one after the other.

@@ -57,7 +57,7 @@ impl Variable {
         }
     }
 
-    /// In words.
+    /// Variable in words.
     #[must_use]
     pub fn words(self) -> &'static str {
         match self {
@@ -81,7 +81,7 @@ impl Variable {
     }
 }
 
-/// Between which values a variable may be.
+/// Range of a variable.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Range {
     /// Variable of the range.
@@ -107,12 +107,12 @@ pub struct Fixture {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum SpaceError {
-    /// Nothing may change.
+    /// Nothing is free.
     #[error(
         "nothing about the placement is free: give a range (--x-mm FROM TO, --turn-z-deg FROM TO, ...), or several fixtures"
     )]
     NothingFree,
-    /// No range.
+    /// The range is invalid.
     #[error(
         "{name} from {from} to {to}: finite numbers are needed, and the second above the first"
     )]
@@ -130,7 +130,7 @@ pub enum SpaceError {
     /// Fixtures say where the part lies.
     #[error("{0}: fixtures say where the part lies; only turns can have a range beside them")]
     BesideFixtures(&'static str),
-    /// Two fixtures of one name.
+    /// Two fixtures have the same name.
     #[error("two fixtures are called '{0}': give each a name of its own")]
     SameName(String),
     /// The program states how the tool stands.
@@ -251,7 +251,7 @@ impl Space {
         self.ranges.iter().zip(&place.values).map(share).collect()
     }
 
-    /// In the middle of all ranges, at the first fixture.
+    /// Placement in the middle of all ranges, at the first fixture.
     #[must_use]
     pub fn centre(&self) -> Place {
         self.at(0, &vec![0.5; self.ranges.len()])

@@ -25,7 +25,7 @@ pub enum Why {
 }
 
 impl Why {
-    /// In words, as what is said of a placement.
+    /// Reason in words, as a statement about a placement.
     #[must_use]
     pub fn words(self) -> &'static str {
         match self {
@@ -49,7 +49,7 @@ pub struct Refusal {
     pub line: Option<usize>,
     /// Distance from being taken: the smaller, the nearer; no unit. It leads a search back.
     pub amount: f64,
-    /// In words.
+    /// Reason in words.
     pub message: String,
 }
 

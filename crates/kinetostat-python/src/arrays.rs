@@ -201,7 +201,7 @@ pub fn poses(name: &str, array: &Numbers<'_>, threads: Option<usize>) -> PyResul
     Ok(found)
 }
 
-/// One pose from an array (4, 4) or (1, 4, 4).
+/// Reads one pose from an array (4, 4) or (1, 4, 4).
 ///
 /// # Errors
 /// As [`rows`] and [`pose`], and more than one pose.
@@ -217,7 +217,7 @@ pub fn one_pose(name: &str, array: &Numbers<'_>) -> PyResult<Pose> {
     Err(error(Class::Argument, said))
 }
 
-/// One wrench from anything that numpy takes for six finite numbers.
+/// Reads one wrench from anything that numpy takes for six finite numbers.
 ///
 /// # Errors
 /// Another shape, complex numbers, text, NaN: what was expected and what was found.

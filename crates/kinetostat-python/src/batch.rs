@@ -209,7 +209,7 @@ impl Places {
     }
 }
 
-/// One wrench for all postures, or one for each.
+/// Reads one wrench for all postures, or one for each.
 pub(crate) fn each_wrench(count: usize, numbers: &Numbers<'_>) -> PyResult<Vec<Wrench>> {
     let found = wrenches("wrenches", numbers)?;
     match found.len() {

@@ -138,7 +138,7 @@ impl Equilibrium {
         Ok(self.whole()?.energy)
     }
 
-    /// In all springs, J.
+    /// Energy of all springs, J.
     #[getter]
     fn spring_energy(&self) -> PyResult<f64> {
         Ok(CurveEquilibrium::spring_energy(self.whole()?))

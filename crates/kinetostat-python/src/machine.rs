@@ -124,7 +124,7 @@ impl Machine {
         Self::read(py.detach(|| Model::from_toml(text, file)))
     }
 
-    /// From a document as JSON: the keys of a model file.
+    /// Reads a document as JSON: the keys of a model file.
     #[staticmethod]
     fn from_json(py: Python<'_>, json: &str, file: &str) -> PyResult<Self> {
         let document: serde_json::Value =

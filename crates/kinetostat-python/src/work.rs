@@ -16,10 +16,10 @@ use rayon::{ThreadPool, ThreadPoolBuilder};
 
 use crate::errors::{Class, error};
 
-/// Between two looks at signals and progress.
+/// Interval of the checks for signals and progress.
 const LOOK: Duration = Duration::from_millis(50);
 
-/// After Ctrl-C the work has this long to stop by itself; then the call returns without it.
+/// Time that the work has to stop by itself after Ctrl-C; then the call returns without it.
 const PATIENCE: Duration = Duration::from_millis(300);
 
 /// Pools by their number of threads, 0 for all cores.

@@ -17,7 +17,7 @@ pub struct Entry {
     pub plots: Vec<Plot>,
 }
 
-/// One number, printed and computed.
+/// Number of an entry, printed and computed.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Item {
     /// Name of the number, in words.

@@ -25,7 +25,7 @@ pub fn orthoglide() -> Mechanism {
 pub struct WithBars(Barred);
 
 impl WithBars {
-    /// At a target of the tool, each bar in one segment.
+    /// Creates it at a target of the tool, each bar in one segment.
     ///
     /// # Panics
     /// If the target cannot be reached.

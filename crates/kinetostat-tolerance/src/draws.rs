@@ -8,7 +8,7 @@ use sobol_burley::sample;
 /// Sequences that are scrambled independently of each other.
 pub const REPLICATES: usize = 16;
 
-/// More draws than that the sequences do not have.
+/// Maximum number of draws of the sequences.
 pub const MOST_DRAWS: usize = REPLICATES << 16;
 
 const DIMENSIONS: usize = 256;
@@ -57,7 +57,7 @@ impl Draws {
         draw / (self.count / REPLICATES).max(1)
     }
 
-    /// One coordinate of a draw, between 0 and 1, neither of them.
+    /// Coordinate of a draw, between 0 and 1, neither of them.
     #[must_use]
     pub fn point(&self, draw: usize, dimension: usize) -> f64 {
         let each = (self.count / REPLICATES).max(1);

@@ -10,7 +10,7 @@ const STEP: f64 = 0.01;
 /// A number as a linear function of the uncertain ones.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Linear {
-    /// With the numbers as the drawing states them.
+    /// Value for the numbers of the drawing.
     pub nominal: f64,
     /// Derivative by every number, per its own unit.
     pub derivatives: Vec<f64>,

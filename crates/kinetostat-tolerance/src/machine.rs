@@ -22,12 +22,12 @@ const LOADED: [Quantity; 3] = [
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Quantity {
-    /// From where the unloaded tool is commanded to where it is (mm): errors of manufacture and assembly, and the machine's own
-    /// weight.
+    /// Displacement from the commanded to the actual place of the unloaded tool (mm): errors of manufacture and assembly, and
+    /// the machine's own weight.
     Error,
-    /// From where the unloaded tool is to where the load moves it (mm).
+    /// Displacement of the unloaded tool by the load (mm).
     DeflectionByLoad,
-    /// From where the tool is commanded to where it is under the load (mm): both together.
+    /// Displacement from the commanded place to that under the load (mm): both together.
     Deviation,
     /// Deviation if the command is compensated with the numbers of the drawing (mm): the residual of compensation.
     Compensated,
@@ -101,7 +101,7 @@ pub enum TaskError {
     /// The machine as drawn has no answer at a place.
     #[error("as drawn, the machine has no answer at place {place} (counted from 1): {reason}")]
     Unanswered {
-        /// From 1.
+        /// Number of the place, from 1.
         place: usize,
         /// Message of the general engine.
         reason: String,
@@ -115,7 +115,7 @@ pub enum TaskError {
         line: usize,
         /// Error solved here, mm.
         found_mm: f64,
-        /// Along the program, mm.
+        /// Error along the program, mm.
         stated_mm: f64,
     },
     /// The run was stopped on request.

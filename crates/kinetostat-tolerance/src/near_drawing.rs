@@ -80,7 +80,8 @@ impl Margins {
     }
 }
 
-/// At every place: what is left of the way to buckling, and the smallest principal stiffness (N/m). No numbers without an answer.
+/// Margins at every place: the remaining part of the way to buckling, and the smallest principal stiffness (N/m). NaN without an
+/// answer.
 fn of_places(found: &BatchEquilibrium, length: f64) -> Vec<[f64; 2]> {
     let of_place = |i: usize| {
         let Some(stability) = found.stability(i) else {

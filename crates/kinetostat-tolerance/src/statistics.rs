@@ -21,8 +21,8 @@ pub struct Estimate {
 }
 
 impl Estimate {
-    /// From what all draws together say and what each replicate says: they are independent, so that their mean scatters as Student's
-    /// distribution says.
+    /// Estimate from all draws together and from each replicate: they are independent, so that their mean scatters by Student's
+    /// distribution.
     #[must_use]
     pub fn of_replicates(value: f64, replicates: &[f64]) -> Self {
         let n = replicates.len() as f64;
@@ -63,7 +63,7 @@ pub struct Summary {
     pub mean: Estimate,
     /// Standard deviation.
     pub standard_deviation: Estimate,
-    /// At [`SHARES`].
+    /// Quantiles at [`SHARES`].
     pub quantiles: Vec<Quantile>,
 }
 

@@ -68,7 +68,7 @@ pub struct Failures {
 /// Results of many machines.
 #[derive(Clone, Debug)]
 pub struct Samples {
-    /// One row for each machine: places times columns, NaN where there is no answer.
+    /// Rows, one for each machine: places times columns, NaN where there is no answer.
     pub numbers: Vec<f64>,
     /// Numbers of a row.
     pub width: usize,
@@ -77,7 +77,7 @@ pub struct Samples {
 }
 
 impl Samples {
-    /// One number of all machines.
+    /// Column of one number for all machines.
     pub fn column(&self, column: usize) -> Vec<f64> {
         self.numbers
             .iter()

@@ -29,7 +29,7 @@ pub struct Contradiction {
     pub least: f64,
 }
 
-/// Several uncertain numbers. Correlated ones are joined by a normal copula: the correlation is that of their normal scores, and of
+/// Set of uncertain numbers. Correlated ones are joined by a normal copula: the correlation is that of their normal scores, and of
 /// normal ones themselves.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Uncertainties {
@@ -48,7 +48,7 @@ impl Uncertainties {
         }
     }
 
-    /// With correlations of pairs, by their places in the list.
+    /// Set with correlations of pairs, by their places in the list.
     ///
     /// # Errors
     /// [`Contradiction`] if the matrix of the correlations is not positive semidefinite.

@@ -15,7 +15,7 @@ pub(crate) struct LinkPath {
     /// Links that stand for the platforms.
     pub(crate) from: usize,
     pub(crate) to: usize,
-    /// From the frame of `from` to that of `to`.
+    /// Steps from the frame of `from` to that of `to`.
     pub(crate) steps: Vec<TreeStep>,
 }
 
@@ -31,7 +31,7 @@ pub(crate) struct Graph {
 struct Edge {
     ends: [usize; 2],
     links: [usize; 2],
-    /// From the first link to the second, without its arrival.
+    /// Steps from the first link to the second, without its arrival.
     steps: Vec<TreeStep>,
 }
 

@@ -14,7 +14,7 @@ use crate::urdf::robot::{
 };
 use crate::urdf::values::{Reader, children, only};
 
-/// More links or joints are no robot arm.
+/// Maximum number of links or joints of a robot arm.
 const MOST_PARTS: usize = 1_000;
 
 /// Elements that neither move nor bend a robot.

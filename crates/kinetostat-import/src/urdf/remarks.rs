@@ -75,7 +75,7 @@ pub(crate) fn reach(graph: &Graph, base: usize) -> f64 {
     tip.map_or(0.0, |(sum, _)| *sum)
 }
 
-/// No arm is as long as this, m.
+/// Implausible length of an arm, m.
 const LONGEST: f64 = 300.0;
 
 /// Refuses an arm that is written in millimetres.

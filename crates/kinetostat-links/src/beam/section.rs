@@ -25,9 +25,9 @@ pub enum SectionShape {
     },
     /// Solid rectangle.
     Rectangle {
-        /// Along y.
+        /// Size along y.
         width: f64,
-        /// Along z.
+        /// Size along z.
         height: f64,
     },
     /// I with its web along z and its flanges along y.
@@ -74,7 +74,7 @@ pub struct Properties {
 }
 
 impl Properties {
-    /// With moduli, as the core's links take it (without shear).
+    /// Section with moduli, as the core's links take it (without shear).
     #[must_use]
     pub fn section(&self, youngs_modulus: f64, shear_modulus: f64) -> BeamSection {
         BeamSection {

@@ -17,7 +17,7 @@ pub enum Shear {
     /// Left out (Euler-Bernoulli), as the core's links do.
     #[default]
     None,
-    /// With the shear areas of the section (Timoshenko).
+    /// Timoshenko, with the shear areas of the section.
     Timoshenko,
 }
 

@@ -13,7 +13,7 @@ const PIVOT: f64 = 1e-12;
 pub enum NoFactor {
     /// The envelope has this many entries.
     TooLarge(usize),
-    /// Nothing is left on the diagonal of this row, or less: share of the original entry.
+    /// The pivot of this row is zero or negative: share of the original entry.
     NotHeld(usize, f64),
 }
 

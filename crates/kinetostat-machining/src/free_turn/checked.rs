@@ -3,7 +3,7 @@
 use crate::free_turn::error::TurnError;
 use crate::free_turn::task::{TipCompliance, TurnCriterion, TurnTask};
 
-/// Maximum angle of a band, deg.
+/// Maximum number of steps of a band.
 const MOST_TURNS: f64 = 7200.0;
 
 /// Checks that all numbers of a task are plausible.

@@ -15,7 +15,7 @@ pub enum Alignment {
     /// The nearest place, where only one stretch of the path comes by.
     #[default]
     Nearest,
-    /// In the order of the points, along the path.
+    /// Order of the points, along the path.
     ArcLength,
 }
 
@@ -32,7 +32,7 @@ pub struct AlignedPoint {
     pub pass: usize,
     /// Direction of the path.
     pub tangent: Vector3<f64>,
-    /// From the path to the point, across the path, mm.
+    /// Deviation of the point from the path, across the path, mm.
     pub deviation_mm: Vector3<f64>,
     /// Weight in means.
     pub weight: f64,
@@ -106,8 +106,8 @@ fn only(feet: &[Foot]) -> Result<Foot, WhyLeftOut> {
     }
 }
 
-/// Outside a corner the same place is the nearest of both its legs. The point belongs to the leg that it is beside: the one whose
-/// end it is less far beyond, along the leg.
+/// Chooses the leg at a corner, outside which the same place is the nearest of both: the point belongs to the leg that it is
+/// beside, the one whose end it is less far beyond, along the leg.
 fn on_the_better_side(nominal: &NominalPath<'_>, moved: &Vector3<f64>, foot: Foot) -> Foot {
     let own = nominal.passes()[nominal.pieces()[foot.piece].pass]
         .pieces

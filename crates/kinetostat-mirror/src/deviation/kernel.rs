@@ -21,7 +21,7 @@ use nalgebra::Vector3;
 
 use crate::alignment::AlignedPoint;
 
-/// Farther than so many smoothing lengths a point counts nothing: `exp(-18)`.
+/// Reach of the kernel in smoothing lengths, beyond which a point counts nothing: `exp(-18)`.
 const REACH: f64 = 6.0;
 
 /// `K(3 h)`.

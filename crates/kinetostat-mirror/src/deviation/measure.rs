@@ -16,7 +16,7 @@ use crate::points::{MeasuredPoint, MeasuredPoints};
 use crate::registration::{Motion, Registration, RegistrationOptions, of_the_same_size, register};
 use kinetostat_program::{NominalPath, WhyLeftOut};
 
-/// More points than this share beyond the window, and a motion onto the path is none.
+/// Largest share of points beyond the window for a motion onto the path.
 const MOST_BEYOND: f64 = 0.1;
 
 /// Motion that brings measured points into the frame of the program before they are compared with its path.

@@ -30,7 +30,7 @@ const NEGLIGIBLE: f64 = 1e-3;
 const ROUNDING: f64 = 1e-9;
 /// Cosine of 20 degrees.
 const SAME_DIRECTION: f64 = 0.939_692_620_785_908_4;
-/// With fewer neighbours nothing is an outlier.
+/// Minimum number of neighbours for a test of outliers.
 const FEWEST: usize = 4;
 
 /// A point that was left out.

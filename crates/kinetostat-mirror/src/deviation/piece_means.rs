@@ -24,7 +24,7 @@ pub struct PieceMean {
     pub points: f64,
 }
 
-/// In a file a mean is one short row.
+/// Short row of a mean in a file.
 type Row = (usize, f64, Vector3<f64>, f64);
 
 impl From<Row> for PieceMean {

@@ -20,7 +20,8 @@ use crate::number::{OF_TWO_DIRECTIONS, median, smaller};
 /// Orders of the differences: of a wave of ten points they leave a 19th and a 176th of its height.
 const ORDERS: [usize; 2] = [3, 5];
 
-/// With fewer a median may be anything: that of five which do not depend on each other is twice the true one once in 450 times.
+/// Minimum number of values for a median: that of five which do not depend on each other is twice the true one once in 450
+/// times.
 const FEWEST: usize = 5;
 
 /// The standard deviation of a point in one direction, mm, from neighbours that are no farther apart than this; `None` where

@@ -6,7 +6,7 @@ use crate::alignment::AlignedPoint;
 use crate::number::larger;
 use kinetostat_program::NominalPath;
 
-/// Farther than so many smoothing lengths from every point nothing is known.
+/// Distance from every point, in smoothing lengths, beyond which nothing is known.
 const KNOWN: f64 = 3.0;
 
 /// Places along a gap at which its path is compared with a straight line.

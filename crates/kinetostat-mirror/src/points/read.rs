@@ -6,7 +6,7 @@ use crate::error::MirrorError;
 use crate::points::columns::{Columns, shown};
 use crate::points::set::{MeasuredPoint, MeasuredPoints, possible};
 
-/// Nobody writes measured points with fewer digits, mm: where a file has no finer ones, it leaves out zeros.
+/// Coarsest digit of measured points, mm: a file without finer ones leaves out zeros.
 const COARSEST_DIGIT_MM: f64 = 0.01;
 
 impl MeasuredPoints {

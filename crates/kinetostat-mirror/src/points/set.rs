@@ -4,7 +4,7 @@ use nalgebra::Vector3;
 
 use crate::error::MirrorError;
 
-/// No workshop measures beyond this, mm: a number larger than it is in another unit than its column says.
+/// Largest coordinate in a workshop, mm: a larger number is in another unit than its column says.
 const FARTHEST_MM: f64 = 1e6;
 
 /// Weights beyond this and below its inverse are no measurement's, and sums of them lose all others: standard deviations from
@@ -14,7 +14,7 @@ const MOST_WEIGHT: f64 = 1e24;
 /// The fewest from which a rigid motion and a scatter can be told.
 const FEWEST: usize = 3;
 
-/// One place where the tool was.
+/// Measured point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MeasuredPoint {
     /// Row of the measurement, from 1; the header is not counted.

@@ -17,7 +17,7 @@ use nalgebra::Vector3;
 /// A motion of points in the frame of the program is only given up for one that leaves less than this share.
 const CLEARLY: f64 = 0.1;
 
-/// Nearer than this share of the size of the points, none is nearer than another: that is rounding.
+/// Difference of distances, as a share of the size of the points, that is rounding.
 const SAME: f64 = 1e-9;
 
 /// Largest residual, as a share of the size, of a motion that fits all points exactly.
@@ -29,7 +29,7 @@ const NO_FIT: f64 = 0.1;
 /// A motion fits as well as another if no more than this share of the points leave the path with it.
 const AS_WELL: f64 = 0.02;
 
-/// Two motions are one if they bring the points to places no farther apart than this share of their size.
+/// Largest distance, as a share of the size, of the places of points under two motions that are one.
 const APART: f64 = 0.01;
 
 /// Points are in the order of the path if half of them are no farther than this share of their size from their share of it.
@@ -41,9 +41,9 @@ const IN_ORDER: f64 = 0.05;
 pub enum ToldBy {
     /// The points lay about where the path is.
     Frame,
-    /// They lay elsewhere, and fit the path in one place only.
+    /// The points lay elsewhere, and fit the path in one place only.
     Shape,
-    /// They lay elsewhere and fit in several places: in one of them they run along the path as it does.
+    /// The points lay elsewhere and fit in several places: in one of them they run along the path as it does.
     Order,
 }
 

@@ -33,7 +33,7 @@ const BORNE_OUT: f64 = 0.5;
 pub(crate) struct Counting {
     /// Maximum distance of the tool from its path, mm.
     pub window_mm: f64,
-    /// Without points that are farther off than six standard deviations and than their neighbours.
+    /// True to leave out points that are farther off than six standard deviations and than their neighbours.
     pub without_outliers: bool,
 }
 

@@ -64,7 +64,7 @@ pub enum FreeMotion {
 }
 
 impl FreeMotion {
-    /// In words.
+    /// Motion in words.
     ///
     /// ```
     /// use kinetostat_mirror::FreeMotion;

@@ -36,13 +36,13 @@ const AT_REST: f64 = 1e-13;
 /// The fewest places from which a motion can be told.
 const FEWEST: usize = 4;
 
-/// Two places are one where they are no farther apart than this, mm.
+/// Largest distance of two places that are one, mm.
 const SAME_MM: f64 = 1e-6;
 
 /// The motion found.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Registration {
-    /// From the frame of the measurement to that of the program.
+    /// Motion from the frame of the measurement to that of the program.
     pub motion: Motion,
     /// Criterion by which it was chosen.
     pub told_by: ToldBy,

@@ -23,7 +23,8 @@
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
-/// Below which relaxation the error never rises, for a departure of at most this size, symmetric; `None` where it is 1 or more.
+/// Bound on the relaxation below which the error never rises, for a departure of at most this size, symmetric; `None` if it is
+/// 1 or more.
 ///
 /// ```
 /// use kinetostat_mirror::bound_on_relaxation;
@@ -61,8 +62,8 @@ pub struct Convergence {
 }
 
 impl Convergence {
-    /// From the smoothed deviations of two trials at the stations of a path, with the lengths that they stand for, and the first of
-    /// them smoothed once more.
+    /// Convergence from the smoothed deviations of two trials at the stations of a path, with the lengths that they stand for, and
+    /// the first of them smoothed once more.
     pub(crate) fn between(
         [before, after, passed]: [&[Vector3<f64>]; 3],
         lengths_mm: &[f64],

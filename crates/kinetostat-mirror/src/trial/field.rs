@@ -187,7 +187,7 @@ impl CorrectionField for MirrorField<'_> {
     }
 }
 
-/// Two fields, one on top of the other: a model's compensation, and what was measured besides.
+/// Sum of two fields: a model's compensation, and what was measured besides.
 pub struct SumOfFields<'a> {
     /// Corrects the orientation too, where it does.
     pub model: &'a dyn CorrectionField,

@@ -19,7 +19,7 @@ const IN_LINE: f64 = 0.342_020_143_325_668_7;
 /// Distance from a corner, in smoothing lengths, at which the joint has faded.
 const FADED: f64 = 3.0;
 
-/// Two places are one where they are no farther apart than this, mm.
+/// Largest distance of two places that are one, mm.
 const SAME_MM: f64 = 1e-6;
 
 /// An end of a stretch at a corner: its station, and the direction of the path there.

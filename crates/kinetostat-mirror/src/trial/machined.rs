@@ -32,7 +32,7 @@ const LEAST_ANSWER: f64 = 0.2;
 /// A hundred times as likely: `2 ln 100`, three standard deviations.
 const CLEARLY: f64 = 9.210_340_371_976_184;
 
-/// To what a share is known of points without any scatter: sums of numbers of sixteen digits.
+/// Share to which a correction is known from points without any scatter: sums of numbers of sixteen digits.
 const ROUNDING: f64 = 1e-9;
 
 /// The trial before, whose correction is looked for.
@@ -54,13 +54,14 @@ pub(crate) struct Seen {
     pub known_to: f64,
 }
 
-/// To which a point of a measurement is known, mm.
+/// Standard deviation to which a point of a measurement is known, mm.
 pub(crate) fn scatter_mm(measured: &Measurement) -> f64 {
     larger(measured.figures.scatter_mm, measured.known_to_mm)
 }
 
 impl Seen {
-    /// In the means of a trial, of what the trial before corrected; points before and now scatter by `scatter_mm`.
+    /// Estimate from the means of a trial of the correction of the trial before; points before and now scatter by
+    /// `scatter_mm`.
     pub(crate) fn of(
         stations: &Stations,
         before: &Before<'_>,

@@ -19,10 +19,10 @@ fn yes() -> bool {
     true
 }
 
-/// One trial: what was measured of the program with the correction before, and what became of it.
+/// Record of a trial: the measurement of the program with the correction before, and its outcome.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Trial {
-    /// From 1; trial 1 is the program without a correction by measurement.
+    /// Number from 1; trial 1 is the program without a correction by measurement.
     pub number: usize,
     /// The measurements.
     pub measured: Vec<MeasuredFile>,
@@ -38,7 +38,7 @@ pub struct Trial {
     /// Noise floor of the smoothed deviation, mm, if the repeatability is known.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub floor_mm: Option<f64>,
-    /// Against the trial before.
+    /// Convergence from the trial before.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub convergence: Option<Convergence>,
     /// True if the measurement shows that the program had the last correction in it; `None` if there was no correction.

@@ -27,7 +27,8 @@ pub enum Repeatability {
 }
 
 impl Repeatability {
-    /// From several measurements of the same trial with the same settings; `None` without two that have a station in common.
+    /// Repeatability from several measurements of the same trial with the same settings; `None` without two that have a
+    /// station in common.
     #[must_use]
     pub fn of_repeats<'m>(repeats: impl IntoIterator<Item = &'m Measurement>) -> Option<Self> {
         let repeats: Vec<&Measurement> = repeats.into_iter().collect();

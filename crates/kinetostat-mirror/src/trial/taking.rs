@@ -109,7 +109,7 @@ fn counted(without: &[LeftOut]) -> String {
     named.join(", ")
 }
 
-/// Against the reason of most of them.
+/// Remedy against the most frequent reason.
 fn what_to_do(without: &[LeftOut]) -> &'static str {
     let most = REASONS
         .iter()

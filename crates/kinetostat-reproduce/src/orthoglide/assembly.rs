@@ -60,7 +60,7 @@ fn springs(row: &mut Row, posture: &Posture, deflections: &[Vec<f64>]) {
     }
 }
 
-/// To first order [R 6.15-6.20].
+/// Row to first order [R 6.15-6.20].
 fn linear(posture: &Posture, own: &Posture) -> Result<Row, Cause> {
     let LinearAssembly {
         shift,

@@ -59,7 +59,7 @@ pub(super) const READINGS: [Reading; 4] = [
     },
 ];
 
-/// One angle of a circle.
+/// Point at one angle of a circle.
 #[derive(Clone, Debug)]
 pub(super) struct At {
     /// rad.

@@ -12,7 +12,7 @@ use kinetostat::number::{larger, smaller};
 /// Remark on all of chapter 7.
 const FRAME: &str = "The report gives neither the stiffness of the drives nor the places of the circles (they are in its figures only); its numbers are good to ±30 %.";
 
-/// One number of a circle under every reading, in words.
+/// Text of a number of a circle under every reading.
 fn readings(values: &[f64], unit: &str) -> String {
     let list: Vec<String> = READINGS
         .iter()
@@ -341,7 +341,7 @@ pub(crate) fn fig_7_8() -> Result<Contents, Cause> {
     Ok(Contents { items, plots })
 }
 
-/// Over the angle: errors, changes and forces of all circles, and the actuators of the best and the worst.
+/// Plots over the angle: errors, changes and forces of all circles, and the actuators of the best and the worst.
 fn plots_7_8(locations: &[Location]) -> Result<Vec<Plot>, Cause> {
     let compared = |title: &str, y_label: &str, of: fn(&At) -> f64| -> Result<Plot, Cause> {
         let lines = locations

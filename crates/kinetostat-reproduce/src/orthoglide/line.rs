@@ -16,12 +16,12 @@ pub(super) struct Sources {
     pub(super) force: Vector3<f64>,
     /// The errors of the legs alone.
     pub(super) errors: Vector3<f64>,
-    /// Both together.
+    /// Displacement by both together.
     pub(super) both: Vector3<f64>,
 }
 
 impl Sources {
-    /// At one target (m): `perfect` and `actual` are the machine without and with errors.
+    /// Displacements at one target (m): `perfect` and `actual` are the machine without and with errors.
     pub(super) fn at(
         perfect: &Mechanism,
         actual: &Mechanism,

@@ -25,7 +25,7 @@ const ANGLES: u32 = 72;
 /// Magnification of drawn deviations.
 const DRAWN: f64 = 5.0;
 
-/// One angle through the trials: desired place from the centre, where the tool was sent and where it came to be, mm.
+/// Trials at one angle: desired place from the centre, commanded and reached place, mm.
 struct Angle {
     desired: Vector3<f64>,
     trials: [(Vector3<f64>, Vector3<f64>); TRIALS],

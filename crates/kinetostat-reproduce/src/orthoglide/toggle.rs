@@ -36,7 +36,7 @@ pub(super) struct DiagonalPoint {
 /// The curve of the machine with its parallelograms as springs, translations before rotations.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Curve {
-    /// In order of the displacement.
+    /// Places in order of the displacement.
     pub(super) places: Vec<DiagonalPoint>,
     /// Extrema of the force, in order of the displacement.
     pub(super) limits: Vec<DiagonalPoint>,
@@ -188,7 +188,7 @@ pub(super) struct Bars {
 const STEPS: u32 = 24;
 
 impl Bars {
-    /// At home at `(at, at, at)` m, bars of one segment by a convention.
+    /// Creates the toggle at home at `(at, at, at)` m, with bars of one segment by a convention.
     pub(super) fn new(at: f64, convention: LinkConvention) -> Result<Self, Cause> {
         let machine = Orthoglide::default();
         let barred = Barred::new(&machine, &target([at; 3]), convention, 1)?;
@@ -200,8 +200,8 @@ impl Bars {
         hold(&self.barred.posture()?, self.at, moved)
     }
 
-    /// On the way to a displacement (mm), the last place before the first limit of the force or the
-    /// first loss of a bar's shape, whichever comes first.
+    /// Finds the last place, on the way to a displacement (mm), before the first limit of the force or the first loss
+    /// of a bar's shape, whichever comes first.
     pub(super) fn first_limit(&self, to: f64) -> Result<Option<DiagonalPoint>, Cause> {
         // The solver may find nothing at all if a bar has lost its shape.
         let holds = |moved: f64| {

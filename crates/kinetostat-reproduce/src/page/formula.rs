@@ -18,7 +18,7 @@ pub(crate) const GREEK: [(&str, &str); 13] = [
     ("th", "\u{3b8}"),
 ];
 
-/// Other words for signs.
+/// Words for signs.
 const SIGNS: [(&str, &str); 3] = [
     ("sqrt", "\u{221a}"),
     ("thth", "\u{3b8}\u{3b8}"),

@@ -42,7 +42,7 @@ pub fn single() -> Result<()> {
     Ok(())
 }
 
-/// Two threads against one, the results of many postures at once.
+/// Results of many postures at once, of two threads against one.
 pub fn two() -> Result<()> {
     let cores = std::thread::available_parallelism()?.get();
     println!("Two threads against one, many postures in each call, us each ({cores} cores here)");
