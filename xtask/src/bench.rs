@@ -19,17 +19,17 @@ pub const CASES: [(&str, f64); 6] = [
     ("W5", 200.0),
 ];
 
-/// What was measured of one benchmark case.
+/// Measurement of one benchmark case.
 #[derive(Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Row {
-    /// Its name in [`CASES`].
+    /// Name of the case in [`CASES`].
     pub work: String,
     /// Median time per posture, us.
     pub kinetostat_us: f64,
     /// Median time per posture, us.
     pub numpy_us: f64,
-    /// How many times faster kinetostat is.
+    /// Time of numpy over that of kinetostat.
     pub ratio: f64,
     /// Largest difference of a number to the largest number of its item; none is a failure.
     pub max_relative_difference: f64,

@@ -105,7 +105,7 @@ pub fn measured(figures: &mut Vec<Figure>) -> Result<()> {
 
 struct Used {
     seconds: f64,
-    /// Of the command and of all that it started, s, where the system tells.
+    /// Processor time of the command and of all that it started, s, if the system reports it.
     processor: Option<f64>,
 }
 
@@ -155,7 +155,7 @@ fn processor_time() -> Option<f64> {
 
 /// From the 16th and 17th figure of a process's line; the second, its name, may hold spaces.
 fn ended_children(line: &str) -> Option<f64> {
-    /// Of every Linux that Rust runs on.
+    /// Clock ticks of every Linux that Rust runs on.
     const TICKS_PER_SECOND: f64 = 100.0;
     let (_, after_name) = line.rsplit_once(')')?;
     let figures: Vec<f64> = after_name

@@ -13,7 +13,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::{cargo, root, step};
 
-/// What a count may be above its baseline, %.
+/// Maximum excess of a count over its baseline, %.
 pub const SLACK: f64 = 3.0;
 
 /// The committed counts, and with what they were taken.
@@ -70,7 +70,7 @@ pub fn check() -> Result<()> {
     Ok(())
 }
 
-/// The largest growth beside the baseline, %; none where it cannot be counted.
+/// The largest growth beside the baseline, %; `None` if it cannot be counted.
 ///
 /// # Errors
 /// A tool that cannot be run.
@@ -98,10 +98,10 @@ fn both() -> Result<Option<(Counts, Counts)>> {
     Ok(counted(now)?.map(|found| (found, baseline)))
 }
 
-/// What counts are taken with.
+/// Tools with which counts are taken.
 struct Tools {
     rustc: String,
-    /// None where it is not installed.
+    /// Version; `None` if it is not installed.
     valgrind: Option<String>,
     instruction_set: String,
 }
@@ -116,7 +116,7 @@ impl Tools {
         })
     }
 
-    /// Why counts taken with these say nothing beside the baseline: another compiler makes other
+    /// Reason for which counts taken with these cannot be compared with the baseline: another compiler makes other
     /// instructions of the same program.
     fn not_comparable(&self, baseline: &Counts) -> Option<String> {
         if self.valgrind.is_none() {
@@ -206,7 +206,7 @@ fn file() -> PathBuf {
     root().join("benches/counts.json")
 }
 
-/// What the kernels run on under valgrind, which knows nothing wider than AVX2.
+/// Instruction set of the kernels under valgrind, which knows nothing wider than AVX2.
 fn instruction_set() -> String {
     #[cfg(target_arch = "x86_64")]
     let wide = is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma");
@@ -335,7 +335,7 @@ fn instructions_of(program: &Path, name: &str) -> Result<u64> {
 fn collected(said: &str) -> Option<u64> {
     let line = said.lines().find(|line| line.contains("Collected :"))?;
     let count = line.rsplit(':').next()?.trim().parse().ok()?;
-    // None where the function was not found.
+    // A count of zero means that the function was not found.
     (count > 0).then_some(count)
 }
 

@@ -24,7 +24,7 @@ const TYPED: &str = "
 [load]
 milling = { radial_n = 60, tangential_n = -10, axial_n = -25 }
 ";
-/// The same pocket cut out of a block of aluminium.
+/// Job for the same pocket cut out of a block of aluminium.
 const FROM_CUT: &str = r#"
 [tool]
 cutter = { shape = "flat", diameter_mm = 6, teeth = 2, helix_deg = 30 }

@@ -72,7 +72,7 @@ impl Drop for Scratch {
     }
 }
 
-/// What a finished command used.
+/// Resources used by a finished command, and its output.
 pub struct Used {
     pub seconds: f64,
     /// Largest resident memory, MB, where the system tells.
@@ -543,7 +543,7 @@ pub fn printed(text: &str) -> Result<Vec<Figure>> {
     lines.collect()
 }
 
-/// How the cost of a chain's equilibrium grows with its length. The tables go to stderr.
+/// Growth of the cost of a chain's equilibrium with its length. The tables go to stderr.
 fn cost_growth(figures: &mut Vec<Figure>) -> Result<()> {
     tables(figures, &["kinetostat", "--example", "cost_growth"])
 }

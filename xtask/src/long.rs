@@ -126,7 +126,7 @@ pub fn measured(figures: &mut Vec<Figure>) -> Result<()> {
     Ok(())
 }
 
-/// What a run used.
+/// Resources used by a run.
 struct Used {
     user_s: f64,
     system_s: f64,

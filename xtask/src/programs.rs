@@ -9,7 +9,8 @@ use serde_json::Value;
 use crate::figures::{Figure, Scratch, golden, measure, tables, take_printed};
 use crate::root;
 
-/// Those of the tests, of LinuxCNC's interpreter, of the demonstration's groove, and the speed of every language.
+/// Figures of the tests' programs, of LinuxCNC's interpreter, of the demonstration's groove, and the speed of every
+/// language.
 pub fn measured(figures: &mut Vec<Figure>) -> Result<()> {
     let crates = [
         "kinetostat-program",

@@ -9,7 +9,7 @@ use crate::{book, cargo, counts, python, step};
 /// `cargo test` takes new ones each time, and `PROPTEST_CASES=20000` many more.
 const RANDOM_SEED: (&str, &str) = ("PROPTEST_RNG_SEED", "20261126");
 
-/// What CI runs and the README promises.
+/// Runs the checks of CI, which the README promises.
 pub fn run() -> Result<()> {
     // pip waits for the network, and unpacks on one core.
     let python = std::thread::spawn(python::prepare);

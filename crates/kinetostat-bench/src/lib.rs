@@ -1,7 +1,7 @@
-//! Many postures of a machine from a model file, solved again and again: what is timed.
+//! Timed task: many postures of a machine from a model file, solved again and again.
 //!
-//! The same [`Task`] is used by `cargo xtask bench-vs-numpy` through Python (feature `python`), so that
-//! numpy and this project run in one process, and by the tables of the program `table`.
+//! A [`Task`] is used by `cargo xtask bench-vs-numpy` through Python (feature `python`), so that numpy and this project run
+//! in one process, and by the tables of the program `table`.
 
 pub mod figure;
 pub mod machines;

@@ -13,7 +13,7 @@ use crate::{BenchQuantity, Places, Task, sample};
 pub struct BenchMachine {
     /// Name of its file, see [`path`].
     pub file: &'static str,
-    /// What it is, in words.
+    /// Description of the machine.
     pub what: &'static str,
     /// Spring coordinates.
     pub springs: usize,
@@ -24,7 +24,7 @@ pub struct BenchMachine {
     pub serial: bool,
 }
 
-/// Of W1 and W3.
+/// Machine of W1 and W3.
 pub const ARM: BenchMachine = BenchMachine {
     file: "arm",
     what: "arm of six joints",
@@ -34,7 +34,7 @@ pub const ARM: BenchMachine = BenchMachine {
     serial: true,
 };
 
-/// Of W2.
+/// Machine of W2.
 pub const HEXAPOD: BenchMachine = BenchMachine {
     file: "hexapod",
     what: "Stewart-Gough platform",
@@ -44,7 +44,7 @@ pub const HEXAPOD: BenchMachine = BenchMachine {
     serial: false,
 };
 
-/// Of W4.
+/// Machine of W4.
 pub const PUU3: BenchMachine = BenchMachine {
     file: "puu3",
     what: "3-PUU",
@@ -112,7 +112,7 @@ pub fn benchmark_case(name: &str, count: usize) -> Result<Task> {
     }
 }
 
-/// By which law the links of a model deform.
+/// Deformation law of a model's links.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LinkLaw {
     /// `translations_first`, the convention of the numpy baseline.
@@ -129,7 +129,7 @@ pub fn path(file: &str) -> PathBuf {
 }
 
 impl BenchMachine {
-    /// So many postures of this machine, or of its twin whose links have the default law.
+    /// Returns `count` postures of this machine, or of its twin whose links have the default law.
     ///
     /// # Errors
     /// If its model cannot be read.

@@ -61,7 +61,7 @@ mod kinetostat_bench {
             Ok(Self(own, Mutex::default()))
         }
 
-        /// Why the postures are solved one by one, or None.
+        /// Reason for which the postures are solved one by one, or None.
         fn scalar_reason(&self) -> Option<String> {
             self.0.scalar_reason()
         }

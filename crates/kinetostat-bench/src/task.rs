@@ -22,7 +22,7 @@ pub enum BenchQuantity {
     EquilibriumAndStiffness,
 }
 
-/// Where the machine is commanded.
+/// Commands of the machine.
 #[derive(Clone, Debug)]
 pub enum Places {
     /// Commands of all actuators (m or rad) of one posture after the other: a serial machine.
@@ -32,7 +32,7 @@ pub enum Places {
 }
 
 impl Places {
-    /// From 12 numbers per posture: rotation matrix (base from tool) row by row, position (m).
+    /// Reads 12 numbers per posture: rotation matrix (base from tool) row by row, position (m).
     ///
     /// # Errors
     /// If the numbers are no whole poses.
@@ -55,7 +55,7 @@ impl Places {
 /// A machine, where it is commanded, how it is loaded and what is computed.
 #[derive(Debug)]
 pub struct Task {
-    // Its machine lives as long as the program: a benchmark loads a handful.
+    // The machine lives as long as the program: a benchmark loads a handful.
     batch: Batch,
     places: Places,
     wrenches: Vec<Wrench>,
@@ -74,9 +74,9 @@ pub struct Answers {
     pub stiffness: Vec<f64>,
     /// 6 n numbers per posture, row by row; empty where not requested.
     pub jacobian: Vec<f64>,
-    /// How many the vectorised kernels solved.
+    /// Number of postures that the vectorised kernels solved.
     pub vectorised: usize,
-    /// How many were not found at all.
+    /// Number of postures without a result.
     pub not_found: usize,
 }
 
@@ -104,7 +104,7 @@ impl Task {
         Self::of_model(&model, quantity, places, wrenches)
     }
 
-    /// The same for a model that is read.
+    /// Task for a model that is read.
     ///
     /// # Errors
     /// If the numbers do not fit the machine.
@@ -117,7 +117,7 @@ impl Task {
         Self::new(model.mechanism.clone(), quantity, places, wrenches)
     }
 
-    /// The same for a machine.
+    /// Task for a machine.
     ///
     /// # Errors
     /// If the numbers do not fit the machine.
@@ -174,7 +174,7 @@ impl Task {
         self.len() == 0
     }
 
-    /// Why the postures of this machine are solved one by one, if they are.
+    /// Reason for which the postures of this machine are solved one by one, if they are.
     #[must_use]
     pub fn scalar_reason(&self) -> Option<String> {
         self.batch.engine().reason().map(ToString::to_string)

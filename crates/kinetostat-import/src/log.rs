@@ -11,11 +11,11 @@ pub(crate) struct At {
     /// Index of the file in the log.
     pub(crate) file: usize,
     pub(crate) span: Range<usize>,
-    /// As in `robot / joint 'a1' / axis`.
+    /// Path of the element, as in `robot / joint 'a1' / axis`.
     pub(crate) element: String,
 }
 
-/// More errors than this are not collected.
+/// Maximum number of errors that are collected.
 const MOST: usize = 100;
 
 /// The files read so far and what was found in them.
@@ -95,7 +95,7 @@ impl Log {
     }
 }
 
-/// One error without a place.
+/// Creates an error without a place.
 pub(crate) fn refusal(file: &str, message: impl Display, help: impl Display) -> ModelError {
     ModelError::new(vec![Problem::without_text(
         file,

@@ -10,10 +10,10 @@ use crate::log::{At, Log, suggestion};
 /// Stiffness of the drives.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub enum JointStiffness {
-    /// Not known: all drives are written as rigid, to be filled in.
+    /// Unknown stiffness: all drives are written as rigid, to be filled in.
     #[default]
     Unknown,
-    /// The same for all drives that turn, N m/rad; those that slide stay rigid.
+    /// One value for all drives that turn, N m/rad; those that slide stay rigid.
     All(f64),
     /// A table by its name and text: CSV with the header `name,value,unit`, one line for each
     /// joint; units `N m/rad`, `N mm/rad`, `N/m`, `N/mm`, `N/um`.

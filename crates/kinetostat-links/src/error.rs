@@ -1,11 +1,11 @@
-//! What is wrong with a file, where, and what to do.
+//! Errors of a file: place, fault and remedy.
 
 use std::fmt;
 
 /// Result of this crate.
 pub type Result<T> = std::result::Result<T, Error>;
 
-/// What an error is about.
+/// Subject of an error.
 ///
 /// ```
 /// use kinetostat_links::{LinkErrorKind, identify};
@@ -31,15 +31,15 @@ pub enum LinkErrorKind {
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub struct Error {
-    /// What it is about.
+    /// Subject of the error.
     pub kind: LinkErrorKind,
     /// Name of the file, or of the request where no file is meant.
     pub file: String,
     /// Line, from 1; `None` where the whole file or request is meant.
     pub line: Option<usize>,
-    /// What is wrong.
+    /// Fault found.
     pub message: String,
-    /// What to do.
+    /// Remedy.
     pub help: String,
 }
 
@@ -60,7 +60,7 @@ impl Error {
         }
     }
 
-    /// The same error at a line, from 1.
+    /// Sets the line of the error, from 1.
     #[must_use]
     pub fn at(mut self, line: usize) -> Self {
         self.line = Some(line);

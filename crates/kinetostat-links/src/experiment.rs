@@ -41,7 +41,7 @@ pub struct Identified {
     pub stiffness_deviation: Matrix6<f64>,
     /// `|C - C^T| / |C + C^T|`, scaled by the diagonal.
     pub antisymmetric_share: f64,
-    /// The same share that the residuals explain (expected root mean square).
+    /// Antisymmetric share that the residuals explain (expected root mean square).
     pub explained_share: f64,
     /// Pairs `(row, column)` of the symmetric part that are not distinguishable from zero: less than
     /// twice their standard deviation.
@@ -184,7 +184,7 @@ fn stiffness_deviation(
     })
 }
 
-/// Why a compliance has no inverse: noise, or a mistake in the table.
+/// Error of a compliance without an inverse: noise, or a mistake in the table.
 fn singular(file: &str, fits: &[RigidFit]) -> Error {
     let worst = fits.iter().map(|f| f.not_rigid).fold(0.0, larger);
     if worst > NOISY {

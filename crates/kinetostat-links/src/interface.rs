@@ -17,7 +17,7 @@ use crate::stiffness_check::DIRECTIONS;
 /// digits, so that nodes on a line leave about 1e-7.
 const RANK_TO: f64 = 1e-5;
 
-/// Which rigid motions the places of some nodes determine.
+/// Rank of the rigid motions that the places of some nodes determine.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RigidRank {
     /// 6 if all; 5 for nodes on a line, 3 for nodes at one place.
@@ -28,7 +28,7 @@ pub struct RigidRank {
     pub condition: f64,
     /// Radius of gyration of the nodes about their centre, m.
     pub size: f64,
-    /// In words, what is unknown; empty at rank 6.
+    /// Unknown motions in words; empty at rank 6.
     pub words: String,
 }
 

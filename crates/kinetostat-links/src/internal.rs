@@ -1,4 +1,4 @@
-//! What this crate's own tests reach inside it, in `tests/links/internal`. It is no part of the interface and changes
-//! without a word.
+//! Internals for this crate's own tests, in `tests/links/internal`. They are no part of the interface and may change
+//! without notice.
 
 pub use crate::condensation::envelope::{Factor, NoFactor};

@@ -13,27 +13,27 @@ pub const SYMMETRIC_TO: f64 = 1e-6;
 /// Eigenvalues of the scaled matrix below this are zero.
 const ZERO: f64 = 1e-9;
 
-/// How bad a finding is.
+/// Severity of a finding.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Grade {
     /// The matrix is no stiffness of a link.
     Refused,
-    /// It may be one, but something should be looked at.
+    /// The matrix may be one, but something should be checked.
     Doubtful,
 }
 
 /// Something that a matrix is not, and what to do.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Finding {
-    /// How bad it is.
+    /// Severity of the finding.
     pub grade: Grade,
-    /// What was found.
+    /// Finding in words.
     pub message: String,
-    /// What to do.
+    /// Remedy.
     pub help: String,
 }
 
-/// What is known about a 6 x 6 matrix that should be a stiffness (N/m, N/rad, N m/m, N m/rad).
+/// Check of a 6 x 6 matrix that should be a stiffness (N/m, N/rad, N m/m, N m/rad).
 #[derive(Clone, Debug, PartialEq)]
 pub struct StiffnessCheck {
     /// `|K - K^T| / |K + K^T|` (Frobenius) after balancing by the diagonal; 0 for a symmetric matrix.
@@ -44,7 +44,7 @@ pub struct StiffnessCheck {
     pub rank: usize,
     /// `sqrt(largest rotational / smallest translational diagonal entry)`, m: for a beam `L / sqrt(3)`.
     pub natural_length: f64,
-    /// What the matrix is not.
+    /// Properties that the matrix lacks.
     pub findings: Vec<Finding>,
 }
 

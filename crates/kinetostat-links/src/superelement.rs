@@ -40,7 +40,7 @@ pub struct Superelement {
     pub antisymmetric_share: f64,
 }
 
-/// What a file said of one entry.
+/// Entry as the file states it.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Raw {
     pub(crate) row: u32,
@@ -49,7 +49,7 @@ pub(crate) struct Raw {
     pub(crate) line: usize,
 }
 
-/// How the two halves are written.
+/// Halves of the matrix that are written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Halves {
     /// One half: each pair once.
@@ -123,7 +123,7 @@ fn check_written_once(text: &Text, dofs: &[Dof], raw: &[Raw]) -> Result<()> {
     Ok(())
 }
 
-/// Whether both halves of the matrix are written; refuses a second half where one is declared. `raw` is sorted by row
+/// True if both halves of the matrix are written; refuses a second half if one is declared. `raw` is sorted by row
 /// and column.
 fn has_both_halves(text: &Text, dofs: &[Dof], raw: &[Raw], halves: Halves) -> Result<bool> {
     let written = |row: u32, column: u32| {

@@ -15,7 +15,7 @@ const STEP: f64 = 0.02;
 /// And the largest turn on it, rad.
 const TURN: f64 = 0.05;
 
-/// Most steps of a way.
+/// Maximum number of steps of a way.
 const MOST_STEPS: f64 = 1e4;
 
 /// An arm of six turning joints in one chain.
@@ -38,12 +38,12 @@ const MOST_STEPS: f64 = 1e4;
 #[derive(Clone, Debug)]
 pub struct ArmJoints {
     arm: SerialArm,
-    /// None where the last three axes do not meet in one point.
+    /// Closed form of the wrist; `None` if the last three axes do not meet in one point.
     wrist: Option<Arm>,
 }
 
 impl ArmJoints {
-    /// The joints of a machine with its tool; none where it has other joints than six that turn in one chain.
+    /// The joints of a machine with its tool; `None` if it has other joints than six that turn in one chain.
     #[must_use]
     pub fn of(mechanism: &Mechanism) -> Option<Self> {
         SerialArm::of(mechanism).map(|arm| Self {
@@ -52,7 +52,7 @@ impl ArmJoints {
         })
     }
 
-    /// The configuration at joint values, rad; none of an arm whose last three axes do not meet in one point.
+    /// The configuration at joint values, rad; `None` for an arm whose last three axes do not meet in one point.
     ///
     /// ```
     /// use kinetostat_machining::{ArmJoints, Wrist};
@@ -77,7 +77,7 @@ impl ArmJoints {
     }
 
     /// The joint values, rad, that bring the tool to a pose (base from tool, m) on the straight way from where it is at others: no
-    /// other turn and no other configuration; none where that way is singular or leaves the reach.
+    /// other turn and no other configuration; `None` if that way is singular or leaves the reach.
     #[must_use]
     pub fn next_to(&self, tool: &Pose, near: &[f64; 6]) -> Option<[f64; 6]> {
         let from = self.arm.tool(near);

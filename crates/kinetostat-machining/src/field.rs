@@ -21,19 +21,19 @@ use crate::postures::orientation::Orientation;
 pub struct ModelField<'a> {
     /// Machine with its tool; with that of [`LoadAlongPath::tool_of`] where there are several.
     pub mechanism: &'a Mechanism,
-    /// Where the program lies.
+    /// Placement of the program.
     pub placement: Placement,
     /// Cutting load at every place of the path; it also knows the tool at each.
     pub load: &'a LoadAlongPath<'a>,
-    /// What of the pose is corrected.
+    /// Directions of the pose that are corrected.
     corrected: Directions,
     /// The orientation is corrected by rotary axes: the path has their angles.
     turned_by_axes: bool,
-    /// How far the correction can be continued to every side, program mm.
+    /// Distance to which the correction can be continued in every direction, program mm.
     radius_mm: f64,
     /// The way of an arm that is not the one from home.
     course: Option<&'a ArmCourse>,
-    /// Where the part lies as it was measured.
+    /// Frame of the part as it was measured.
     frame: &'a MeasuredFrame<'a>,
 }
 
@@ -62,8 +62,8 @@ impl<'a> ModelField<'a> {
         }
     }
 
-    /// The same with what of the tool's pose is corrected: [`Directions::POSITION`], which it does without this, or
-    /// [`Directions::ALL`] where the program states the orientation.
+    /// Sets the corrected directions of the tool's pose: [`Directions::POSITION`], the default, or
+    /// [`Directions::ALL`] if the program states the orientation.
     #[must_use]
     pub fn correcting(mut self, directions: Directions) -> Self {
         self.corrected = directions;
@@ -72,13 +72,13 @@ impl<'a> ModelField<'a> {
         self
     }
 
-    /// The same along the way of an arm, where it is not the one from home.
+    /// Follows the course of an arm, if it is not the one from home.
     pub(crate) fn on_course(mut self, course: Option<&'a ArmCourse>) -> Self {
         self.course = course;
         self
     }
 
-    /// The same for the part as it was measured.
+    /// Uses the frame of the part as it was measured.
     pub(crate) fn in_frame(mut self, frame: &'a MeasuredFrame<'a>) -> Self {
         self.frame = frame;
         self
@@ -162,7 +162,8 @@ impl ModelField<'_> {
                 course.standing_at(requests[i].move_index, requests[i].share)
             };
             let motions = self.frame.motions(mechanism, &places, standing);
-            // Where there is none, there is no correction either, and the check of the written program says why.
+            // Without a motion of the frame there is no correction either, and the check of the written program
+            // reports the reason.
             let motions = motions.into_iter().map(Result::unwrap_or_default);
             let motions: Vec<FrameMotion> = motions.collect();
             let wanted = places.iter().zip(&motions);
@@ -217,7 +218,7 @@ impl ModelField<'_> {
     }
 }
 
-/// Poses to command for places along a path. Where a block begins as the one before it ended, the place is found once.
+/// Poses to command for places along a path. A place at which one block ends and the next begins is solved once.
 fn targets(
     machine: &AlongPath,
     poses: &[Pose],
@@ -249,7 +250,7 @@ fn rotary(motion: &Move) -> Option<&RotaryTurn> {
 
 impl ModelField<'_> {
     /// The correction on a machine whose rotary axes turn tool and part: the tip exactly, and the tool's axis as far as these axes
-    /// can turn it. Of a place without their angles the position alone.
+    /// can turn it. Only the position is corrected at a place without their angles.
     fn by_axes(
         &self,
         memory: &mut Neighbour,
@@ -321,11 +322,12 @@ impl ModelField<'_> {
     }
 }
 
-/// Farther from the pole than so many times what the axes turn by, all of it is kept; nearer than so many times, nothing.
+/// Distances from the pole, as multiples of the rotation of the axes, beyond which all of it is kept, and below which
+/// nothing is.
 const KEPT: [f64; 2] = [20.0, 4.0];
 
-/// How much of a turn of the axes is kept where directions lead the tool past a pole: with another sign of its tilt the written way would
-/// pass the pole on the other side, and the axis that turns about it would turn the other way round.
+/// Share of a rotation of the axes that is kept if directions lead the tool past a pole: with another sign of its tilt the written way
+/// would pass the pole on the other side, and the axis that turns about it would turn the other way round.
 fn kept_beside_pole(rotary: &RotaryTurn, programmed: &[f64], turns_deg: &[f64]) -> f64 {
     let from_pole = rotary.axes.from_pole_rad(programmed);
     let Some(from_pole) = from_pole.filter(|_| rotary.great_circle.is_some()) else {

@@ -32,12 +32,12 @@ use crate::number::counted;
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct FlatProgram {
-    /// File name of the flat program, with its folder where it keeps the name of its source; none where it was not written.
+    /// File name of the flat program, with its folder where it keeps the name of its source; `None` if it was not written.
     #[serde(default)]
     pub name: Option<String>,
     /// Number of its blocks; of a program that was converted, of its motions.
     pub blocks: usize,
-    /// The language into which the program was converted before it was run; none where it keeps its own.
+    /// The language into which the program was converted before it was run; `None` if it keeps its own.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub language: Option<String>,
     /// Names of the files that were run, the program first.
@@ -45,8 +45,8 @@ pub struct FlatProgram {
     /// Folders, diameters and parameters that were stated, one sentence each.
     #[serde(default)]
     pub settings: Vec<String>,
-    /// Of each flat line the file (an index of `files`) and the line there, from 1. Not in the JSON: its lines have theirs
-    /// beside them.
+    /// For each flat line the file (an index of `files`) and the line there, from 1. Not in the JSON: its lines have
+    /// theirs beside them.
     #[serde(skip)]
     sources: Arc<[(u32, u32)]>,
 }
@@ -66,14 +66,14 @@ impl FlatProgram {
         }
     }
 
-    /// File and line that a line of the flat program came from; none for a line that it has not.
+    /// File and line that a line of the flat program came from; `None` for a line that it has not.
     #[must_use]
     pub fn source_of(&self, line: usize) -> Option<(&str, usize)> {
         let (file, line) = self.sources.get(line.checked_sub(1)?)?;
         Some((self.files.get(*file as usize)?.as_str(), *line as usize))
     }
 
-    /// Where a line of the flat program came from, in words; none for a line that it has not.
+    /// Text for the origin of a line of the flat program; `None` for a line that it does not have.
     ///
     /// ```
     /// use kinetostat_machining::FlatProgram;
@@ -88,7 +88,7 @@ impl FlatProgram {
         Some(format!("{file}, line {line}"))
     }
 
-    /// Where the lines of a run are, in a sentence.
+    /// Sentence on the lines to which a run refers.
     ///
     /// ```
     /// use kinetostat_machining::FlatProgram;
@@ -131,7 +131,7 @@ impl FlatProgram {
         })
     }
 
-    /// The same message with the lines of the files alone: of a flat program that is not written to a file.
+    /// Rewrites a message to the lines of the files alone: for a flat program that is not written to a file.
     ///
     /// ```
     /// use kinetostat_machining::FlatProgram;
@@ -180,7 +180,7 @@ impl FlatProgram {
 }
 
 impl FlatProgram {
-    /// The lines of files that lines of the flat program came from, as in `3 and 5 of hole.ngc`; none where one has none.
+    /// The lines of files that lines of the flat program came from, as in `3 and 5 of hole.ngc`; `None` if one has none.
     fn in_files(&self, numbers: &[Number]) -> Option<String> {
         let mut said = String::new();
         let mut last = None;
@@ -211,7 +211,7 @@ struct Number {
     line: usize,
 }
 
-/// What stands between the numbers of a list.
+/// Separators between the numbers of a list.
 const BETWEEN: [&str; 4] = [", ", " and ", " to ", " or "];
 
 /// The number that a text begins with, and what stands behind it.

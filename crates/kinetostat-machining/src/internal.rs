@@ -1,5 +1,5 @@
-//! What this crate's own tests reach inside it, in `tests/machining/internal`. It is no part of the interface and changes
-//! without a word.
+//! Internals for this crate's own tests, in `tests/machining/internal`. They are no part of the interface and may change
+//! without notice.
 
 use kinetostat::{Mechanism, Pose};
 
@@ -14,7 +14,7 @@ use crate::result::joints::ArmConfiguration;
 use crate::run::merged_warnings::{MergedWarnings, same_words};
 use crate::warning::Warning;
 
-/// The configuration of a machine at joint values, rad; none if it is no arm of six axes with a wrist in one point.
+/// The configuration of a machine at joint values, rad; `None` if it is no arm of six axes with a wrist in one point.
 #[must_use]
 pub fn configuration_at(mechanism: &Mechanism, commands: &[f64]) -> Option<ArmConfiguration> {
     Arm::of(mechanism)?.configuration(commands)
@@ -56,7 +56,7 @@ pub fn limited_values(
     Some(found.map(|p| (p.place.at_mm, p.value[0])).collect())
 }
 
-/// Joint values, rad, of the ways of an arm to a pose of its tool that its closed form finds, each somewhere on its circle; none if it is
+/// Joint values, rad, of the ways of an arm to a pose of its tool that its closed form finds, each somewhere on its circle; `None` if it is
 /// no arm of six axes with a wrist in one point.
 #[must_use]
 pub fn ways_of_arm(mechanism: &Mechanism, pose: &Pose) -> Option<Vec<[f64; 6]>> {
@@ -112,7 +112,7 @@ pub fn merged_warnings(of_parts: &[(usize, Warning)]) -> Vec<Warning> {
     merged.finish()
 }
 
-/// Whether two warnings are the same but for their numbers.
+/// True if two warnings differ only in their numbers.
 #[must_use]
 pub fn are_same_words(one: &str, other: &str) -> bool {
     same_words(one, other)

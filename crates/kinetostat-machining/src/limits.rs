@@ -1,6 +1,5 @@
-//! What a correction may be. A program that leaves these limits is not written: something in the
-//! question is most likely wrong, a unit, a sign, a decimal point. Each limit can be moved by its
-//! name where the figure is meant.
+//! Limits of a correction. A program that leaves these limits is not written: something in the question is most
+//! likely wrong, a unit, a sign, a decimal point. Each limit can be moved by its name where the figure is meant.
 
 use std::fmt;
 
@@ -14,7 +13,7 @@ pub struct Limits {
     /// Largest correction of a place, mm, without the part that makes up for the machine's own weight.
     /// Default 2.
     pub correction_mm: f64,
-    /// How far the machine's own weight and the loads of its model may put the tool off, mm. Default 5.
+    /// Maximum deflection of the tool by the machine's own weight and the loads of its model, mm. Default 5.
     pub own_weight_mm: f64,
     /// Largest tilt of the tool that stays, degrees. Default 1.
     pub tilt_deg: f64,
@@ -26,7 +25,7 @@ pub struct Limits {
     pub share_of_rating: f64,
     /// Largest share of the way to buckling, 1 is buckling. Default 0.5.
     pub share_of_buckling: f64,
-    /// Most blocks per second of the written program. Default 2000.
+    /// Maximum block rate of the written program, blocks per second. Default 2000.
     pub blocks_per_second: f64,
     /// Shortest tool, mm; a tool that is not there (length 0) is none. Default 1.
     pub shortest_tool_mm: f64,
@@ -34,8 +33,8 @@ pub struct Limits {
     pub longest_tool_mm: f64,
     /// Nearest place of a base to the zero of its robot, mm; a base at zero is none. Default 10.
     pub nearest_base_mm: f64,
-    /// How far the program's zero may lie below the base of a machine that works above it, mm. Default 400: risers of arms
-    /// are up to 1 m high, and tables with their vice at least 0.6 m.
+    /// Maximum depth of the program's zero below the base of a machine that works above it, mm. Default 400: risers of
+    /// arms are up to 1 m high, and tables with their vice at least 0.6 m.
     pub below_base_mm: f64,
     /// Fastest feed, mm/s. Default 3000: `$VEL.CP` of KRL takes no more, and the fastest cuts (foam) have a tenth of it.
     pub speed_mm_per_s: f64,
@@ -65,16 +64,16 @@ impl Default for Limits {
     }
 }
 
-/// One of the [`Limits`]: its name, its unit, what it bounds, and what it can be set to.
+/// Description of one of the [`Limits`]: its name, its unit, its subject, and its range.
 #[derive(Clone, Copy)]
 pub struct Limit {
-    /// Its name: the key under `[limits]` of a job file and the word of `--limit NAME=VALUE`.
+    /// Name, the key under `[limits]` of a job file and the word of `--limit NAME=VALUE`.
     pub name: &'static str,
     /// Unit of its value; empty for shares.
     pub unit: &'static str,
-    /// What it bounds, as the subject of a sentence.
+    /// Figure that it bounds, as the subject of a sentence.
     pub what: &'static str,
-    /// What is usual and why.
+    /// Usual values and their reason.
     pub usual: &'static str,
     /// The least and the largest value that it can be given.
     pub range: [f64; 2],
@@ -88,13 +87,13 @@ impl fmt::Debug for Limit {
 }
 
 impl Limit {
-    /// Whether it can be given that value.
+    /// True if it can be given that value.
     #[must_use]
     pub fn takes(&self, value: f64) -> bool {
         (self.range[0]..=self.range[1]).contains(&value)
     }
 
-    /// Whether it bounds a figure of the question, not one of the answer.
+    /// True if it bounds a figure of the question, not one of the answer.
     pub(crate) fn stated(&self) -> bool {
         let of_question = ["force_n", "moment_n_m", "speed_mm_per_s", "zone_mm"];
         of_question.contains(&self.name)
@@ -127,8 +126,8 @@ impl PartialEq for Limit {
     }
 }
 
-/// How far a tool may be put off, mm: above zero, since nothing would be allowed otherwise, and at most the
-/// largest coordinate of a program.
+/// Deflections of a tool, mm: above zero, since nothing would be allowed otherwise, and at most the largest
+/// coordinate of a program.
 const LENGTHS: [f64; 2] = [1e-6, 1e6];
 
 /// Loads, N and N m.
@@ -307,11 +306,11 @@ impl Limits {
 pub struct Beyond {
     /// The limit, whose unit `found` and `allowed` have.
     pub limit: Limit,
-    /// What was found, in the limit's unit.
+    /// Value found, in the limit's unit.
     pub found: f64,
     /// Value of the limit: the largest one allowed, for the shortest tool the least one.
     pub allowed: f64,
-    /// Line of the program, from 1; none where it concerns all of it.
+    /// Line of the program, from 1; `None` if it concerns all of it.
     pub line: Option<usize>,
     /// Place in words, drive or direction; may be empty.
     pub place: String,
@@ -335,8 +334,8 @@ impl Beyond {
     }
 }
 
-/// A figure and the bound that it leaves, with as many digits as tell them apart. What was stated stays as it
-/// was stated; what was found is rounded away from its bound, like the largest values beside it.
+/// A figure and the bound that it leaves, with as many digits as tell them apart. A stated value is shown as it was
+/// stated; a computed one is rounded away from its bound, like the largest values beside it.
 pub(crate) fn apart(found: f64, allowed: f64, stated: bool) -> (String, String) {
     let rounding = match (stated, found < allowed) {
         (true, _) => Rounding::Nearest,
@@ -356,7 +355,7 @@ pub(crate) fn apart(found: f64, allowed: f64, stated: bool) -> (String, String) 
 }
 
 impl Beyond {
-    /// What was found, what is allowed and what is usual, without the option that would allow it.
+    /// Value found, allowed and usual values, without the option that would allow it.
     #[must_use]
     pub fn description(&self) -> String {
         let line = self

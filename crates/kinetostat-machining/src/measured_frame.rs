@@ -46,14 +46,14 @@ impl PartPlace {
         self.place.pose(&self.position_mm, orientation)
     }
 
-    /// The same place of the part as it was measured.
+    /// Place of the part as it was measured.
     pub fn moved(mut self, motion: &FrameMotion) -> Self {
         self.position_mm += motion.shift_mm;
         self.orientation = self.orientation.map(|o| motion.turn * o);
         self
     }
 
-    /// The same in what is corrected of the pose.
+    /// Measured place in the corrected directions of the pose.
     pub fn corrected(self, motion: &FrameMotion, corrected: Directions) -> Self {
         let moved = self.moved(motion);
         match corrected == Directions::ALL {
@@ -87,7 +87,7 @@ impl Default for FrameMotion {
 pub(crate) struct Sag<'t> {
     mechanism: &'t Mechanism,
     orientation: Orientation,
-    /// The machine, and without its own loads; none where it has no such loads.
+    /// The machine, and without its own loads; `None` if it has no such loads.
     both: Option<[AlongPath; 2]>,
 }
 
@@ -114,7 +114,7 @@ impl<'t> Sag<'t> {
         }
     }
 
-    /// At neighbouring places, each near a posture where one is given.
+    /// Motions at neighbouring places, each near a posture if one is given.
     pub fn at<'p>(
         &self,
         places: &[PartPlace],
@@ -160,16 +160,16 @@ impl<'t> Sag<'t> {
 
 /// Motion of the part frame by which the machine's own weight is no error of the program.
 pub(crate) enum MeasuredFrame<'t> {
-    /// None: the program's frame is that of the machine without own weight.
+    /// Frame of the program, that of the machine without own weight.
     AsStated,
-    /// The same everywhere: program axes, mm.
+    /// Motion that is equal everywhere: program axes, mm.
     Moved(Isometry3<f64>),
     /// Own weight itself, for each tool.
     Sagging(Vec<Sag<'t>>),
 }
 
 impl<'t> MeasuredFrame<'t> {
-    /// As the task states it, along the way of an arm that is not the one from home.
+    /// Frame that the task states, along the way of an arm that is not the one from home.
     ///
     /// # Errors
     /// The machine has no answer where it touched the part off.
@@ -185,7 +185,7 @@ impl<'t> MeasuredFrame<'t> {
         })
     }
 
-    /// At neighbouring places of one tool, each near a posture where one is given.
+    /// Motions at neighbouring places of one tool, each near a posture if one is given.
     pub fn motions<'p>(
         &self,
         mechanism: &Mechanism,

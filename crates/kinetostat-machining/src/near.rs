@@ -1,5 +1,5 @@
-//! Whether a posture lies near a singular one, for people: distance and direction of the tool's
-//! motion, and what is lost or gained there [R 5.5.3].
+//! Distance of a posture from a singular one, for people: distance and direction of the tool's motion, and the motion
+//! lost or gained there [R 5.5.3].
 
 use kinetostat::{
     Mechanism, Posture, Twist,
@@ -26,9 +26,9 @@ pub struct NearSingular {
     pub kind: NearKind,
     /// Limb that loses the motion.
     pub limb: Option<String>,
-    /// How far the tool's reference point moves to the singular posture, mm; zero if it is singular.
+    /// Distance that the tool's reference point moves to the singular posture, mm; zero if it is singular.
     pub distance_mm: f64,
-    /// How far the tool turns on the way, deg.
+    /// Angle by which the tool turns on the way, deg.
     pub rotation_deg: f64,
     /// Motion of the tool's reference point to the singular posture, base axes, mm.
     pub motion_mm: [f64; 3],
@@ -49,7 +49,7 @@ impl NearSingular {
     }
 }
 
-/// What happens at a singular posture.
+/// Kind of a singular posture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum NearKind {

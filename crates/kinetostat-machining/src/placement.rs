@@ -1,4 +1,4 @@
-//! Where the program lies in the machine: part frame, tool, scale.
+//! Placement of the program in the machine: part frame, tool, scale.
 
 use kinetostat::Pose;
 use kinetostat_program::Move;
@@ -33,13 +33,13 @@ impl Placement {
         }
     }
 
-    /// Where the program lies at a share of a move: there where it lies, or turned with the table that carries the part.
+    /// Placement at a share of a move: as it is, or turned with the table that carries the part.
     #[must_use]
     pub fn on(&self, motion: &Move, share: f64) -> Self {
         self.turned(motion.part_turn(share).as_ref())
     }
 
-    /// Where it lies when the part has turned from there (in the axes of the part there, mm).
+    /// Placement after a motion of the part from there (in the axes of the part there, mm).
     #[must_use]
     pub fn turned(&self, part: Option<&Isometry3<f64>>) -> Self {
         let Some(part) = part else {
@@ -78,7 +78,7 @@ impl Placement {
             .orientation_of(motion.orientation(share))
     }
 
-    /// The same of an orientation in axes of the part.
+    /// Orientation in base axes of one in axes of the part.
     #[must_use]
     pub fn orientation_of(&self, in_part: Option<UnitQuaternion<f64>>) -> UnitQuaternion<f64> {
         in_part.map_or(self.tool_orientation, |o| self.base_from_part.rotation * o)

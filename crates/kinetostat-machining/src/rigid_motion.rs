@@ -3,7 +3,7 @@
 use kinetostat::linalg::SingularValues;
 use nalgebra::{Isometry3, Matrix3, Rotation3, UnitQuaternion, Vector3};
 
-/// The rotation nearest to a matrix in the sense of least squares; none where a turn about an axis is left open.
+/// The rotation nearest to a matrix in the sense of least squares; `None` if a turn about an axis is left open.
 #[must_use]
 pub fn nearest_rotation(m: &Matrix3<f64>) -> Option<UnitQuaternion<f64>> {
     let own = SingularValues::of(m);
@@ -19,7 +19,7 @@ pub fn nearest_rotation(m: &Matrix3<f64>) -> Option<UnitQuaternion<f64>> {
     Some(UnitQuaternion::from_rotation_matrix(&rotation))
 }
 
-/// The rigid motion that brings points nearest to others (Kabsch); none where they lie on a line.
+/// The rigid motion that brings points nearest to others (Kabsch); `None` if they lie on a line.
 ///
 /// ```
 /// use kinetostat::nalgebra::{Isometry3, Point3, Vector3};

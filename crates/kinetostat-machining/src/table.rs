@@ -15,9 +15,9 @@ use kinetostat::number::{larger, smaller};
 pub struct FieldCorrection {
     /// The program with its corrections, or without any where it keeps the tolerance as it is.
     pub written: Corrected,
-    /// Its distance from the field, and that of the program as it is.
+    /// Deviations from the field of the written program and of the program as it is.
     pub against: FieldCheck,
-    /// As it is, it keeps the tolerance.
+    /// True if the uncorrected program keeps the tolerance.
     pub keeps_as_it_is: bool,
     /// The largest correction that the field asks for, mm, and its line; written or not.
     pub largest_correction: (f64, Option<usize>),
@@ -49,7 +49,7 @@ pub fn correct_by_field(
         against,
     };
     if made.keeps_as_it_is {
-        // What was measured, so that the warning has the figure of the result.
+        // Measured deviation, so that the warning has the figure of the result.
         let before = made.against.before;
         made.largest_correction = (before.distance_mm, before.line);
         made.written = program.write(&NoCorrection, writing, monitor)?;

@@ -19,11 +19,11 @@ pub struct Task<'a> {
     pub mechanism: &'a Mechanism,
     /// The program as read.
     pub program: &'a dyn MachineProgram,
-    /// What of the tool's pose is corrected: its position, or where the program states the orientation also that.
+    /// Corrected directions of the tool's pose: its position, and the orientation if the program states it.
     pub corrected: Directions,
-    /// Where it lies.
+    /// Placement of the program.
     pub placement: Placement,
-    /// What acts on the tool.
+    /// Load on the tool.
     pub load: ProgramLoad,
     /// Tools that the program takes by number, each with its own machine and load; empty where there is
     /// one tool. `mechanism` and `load` are those of blocks without one of these.
@@ -32,11 +32,11 @@ pub struct Task<'a> {
     pub weight: WeightCorrection,
     /// Forces of the cut, for loads that are [`crate::CuttingLoad::FromCut`].
     pub cut: Option<&'a ForceAlongPath>,
-    /// How the compensated program is written.
+    /// Options for writing the compensated program.
     pub writing: WriteOptions,
     /// Names and words for the result; figures are filled in by the run.
     pub run_inputs: RunInputs,
-    /// What its figures are compared with.
+    /// References for its figures.
     pub bounds: Bounds,
     /// About how many places [`crate::Run::places`] hands on; 0 where nobody asks for them.
     pub places: usize,
@@ -54,13 +54,13 @@ impl<'a> Task<'a> {
         tool_on(self.tools, self.path(), line).map_or(self.mechanism, |tool| tool.mechanism)
     }
 
-    /// What acts on the tool that the block on a line is made with.
+    /// Load on the tool of the block on a line.
     pub(crate) fn load_on(&self, line: usize) -> &ProgramLoad {
         tool_on(self.tools, self.path(), line).map_or(&self.load, |tool| &tool.load)
     }
 }
 
-/// Why a program has no motion on which a correction could be needed.
+/// Reason for which a program has no motion that could need a correction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum NoMotion {
@@ -80,7 +80,7 @@ pub enum NoMotion {
     NoLength,
 }
 
-/// Why a run has no answer.
+/// Reason for which a run has no answer.
 #[derive(Clone, Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum RunError {
@@ -94,7 +94,7 @@ pub enum RunError {
         line: usize,
         /// Program coordinates, mm.
         position_mm: [f64; 3],
-        /// What is wrong and what to do.
+        /// Error and remedy.
         message: String,
         /// The core's error.
         cause: Box<Error>,
@@ -161,7 +161,7 @@ pub enum RunError {
         line: usize,
         /// Program coordinates, mm.
         position_mm: [f64; 3],
-        /// Distance of the compensated original from there, mm; none where that comes by, but in another order.
+        /// Distance of the compensated original from there, mm; `None` if that comes by, but in another order.
         distance_mm: Option<f64>,
     },
     /// The program has no motion on which a correction could be needed.
@@ -172,7 +172,7 @@ pub enum RunError {
     Cancelled,
 }
 
-/// Nearer than this a program is where the original is, mm.
+/// Largest distance of a program that is where the original is, mm.
 const SAME_PLACE_MM: f64 = 0.001;
 
 fn elsewhere(distance_mm: Option<f64>) -> String {

@@ -1,5 +1,5 @@
-//! What a person should know and did not ask for: one list, made once, shown on the terminal, in JSON
-//! and in the report.
+//! Warnings for a person who did not ask for them: one list, made once, shown on the terminal, in JSON and in the
+//! report.
 
 use std::fmt;
 
@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::flat_program::FlatProgram;
 
-/// What a warning is about: a stable word for programs that read the JSON. Kinds may be added.
+/// Kind of a warning: a stable word for programs that read the JSON. Kinds may be added.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 #[non_exhaustive]
@@ -106,7 +106,7 @@ pub enum WarningCode {
     UnevenStiffness,
     /// A large share of the way to buckling.
     NearBuckling,
-    /// On the way to the load the machine snaps into another shape.
+    /// The machine snaps into another shape on the way to the load.
     Snaps,
     /// A load without a potential: divergence is examined, flutter (oscillation with growing amplitude) is not.
     NoPotential,
@@ -159,15 +159,15 @@ pub enum WarningCode {
 /// Something a person should know and did not ask for.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Warning {
-    /// What it is about.
+    /// Kind of the warning.
     pub code: WarningCode,
-    /// What was found and what follows from it.
+    /// Finding and its consequence.
     pub message: String,
-    /// Line, from 1; none where it speaks of all of a file.
+    /// Line, from 1; `None` if it speaks of all of a file.
     pub line: Option<usize>,
-    /// File of that line; none for the program, and where it speaks of no file.
+    /// File of that line; `None` for the program, and where it speaks of no file.
     pub file: Option<String>,
-    /// Of a program that was written flat: the line that the line came from.
+    /// Source line of the line in a program that was written flat.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub source_line: Option<usize>,
     /// The file of that line.
@@ -198,14 +198,14 @@ impl Warning {
         }
     }
 
-    /// The same, of another file than the program.
+    /// Assigns the warning to another file than the program.
     #[must_use]
     pub fn of_file(mut self, file: impl Into<String>) -> Self {
         self.file = Some(file.into());
         self
     }
 
-    /// The same about a program that was written flat: with the lines that its lines came from.
+    /// Adds the source lines of a program that was written flat.
     ///
     /// ```
     /// use kinetostat_machining::{FlatProgram, Warning, WarningCode};
@@ -294,7 +294,7 @@ fn worst(mut list: Vec<Warning>) -> Warning {
             .copied()
             .unwrap_or(0.0)
     };
-    // Of equal ones the first.
+    // The first of equal ones is kept.
     let index = (0..list.len())
         .rev()
         .max_by(|a, b| size(*a).abs().total_cmp(&size(*b).abs()));

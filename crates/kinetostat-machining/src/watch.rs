@@ -1,12 +1,12 @@
-//! Who watches a run and may stop it.
+//! Observer of a run, who may stop it.
 
-/// Who watches a run and may stop it.
+/// Observer of a run, who may stop it.
 pub trait Watch: Sync {
     /// A stage begins; `total` points, 0 where nobody knows how many there will be.
     fn stage(&self, name: &str, total: usize);
     /// Points done in this stage.
     fn advance(&self, done: usize);
-    /// Whether to stop.
+    /// True if the run is to stop.
     fn cancelled(&self) -> bool;
 }
 

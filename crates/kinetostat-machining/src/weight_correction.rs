@@ -25,7 +25,7 @@ pub enum WeightCorrection {
     TouchOff(TouchOff),
     /// The part frame was measured without the machine: all of it is an error.
     All,
-    /// None of it is an error: the controller corrects own weight, for instance. The machine still carries it, so that drive loads,
+    /// No part is an error: the controller corrects own weight, for instance. The machine still carries it, so that drive loads,
     /// stiffness and stability stay those of the loaded machine.
     None,
 }
@@ -81,7 +81,7 @@ pub enum TouchOffError {
 const NARROW: f64 = 0.01;
 
 impl TouchOff {
-    /// These places, program coordinates, mm.
+    /// Touch-off at these places, program coordinates, mm.
     ///
     /// # Errors
     /// [`TouchOffError`].
@@ -110,7 +110,7 @@ impl TouchOff {
         &self.places_mm
     }
 
-    /// In words: "the place where the part was touched off (X0 Y0 Z0)".
+    /// Text, such as "the place where the part was touched off (X0 Y0 Z0)".
     #[must_use]
     pub fn description(&self) -> String {
         match self.places_mm.as_slice() {

@@ -1,8 +1,8 @@
-//! What is wrong with measured points, a path or a state.
+//! Errors of measured points, a path or a state.
 
 use kinetostat_program::NoFeedMove;
 
-/// What is wrong, and what to do, with file and line where there are any.
+/// Error and remedy, with file and line where there are any.
 ///
 /// ```
 /// use kinetostat_mirror::MeasuredPoints;
@@ -18,7 +18,7 @@ pub struct MirrorError {
     pub file: Option<String>,
     /// Line of the file, from 1.
     pub line: Option<usize>,
-    /// What is wrong and what to do.
+    /// Error and remedy.
     pub message: String,
 }
 

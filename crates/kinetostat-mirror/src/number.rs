@@ -3,10 +3,10 @@
 /// Standard deviations, each of two directions, in the median length of a vector of both: `1 / sqrt(2 ln 2)` (Rayleigh).
 pub(crate) const OF_TWO_DIRECTIONS: f64 = 0.849_321_800_288_019;
 
-/// The same from the length that three of four vectors keep below: `1 / sqrt(2 ln 4)` (Rayleigh).
+/// Standard deviation over the length that three of four vectors keep below: `1 / sqrt(2 ln 4)` (Rayleigh).
 pub(crate) const OF_THREE_QUARTERS: f64 = 0.600_561_204_393_225;
 
-/// The same from the length that nine of ten keep below: `1 / sqrt(2 ln 10)`.
+/// Standard deviation over the length that nine of ten keep below: `1 / sqrt(2 ln 10)`.
 pub(crate) const OF_NINE_IN_TEN: f64 = 0.465_990_601_784_656_1;
 
 /// The larger of two numbers, NaN where one of them is.

@@ -11,26 +11,26 @@ use crate::value::{Refusal, Value};
 /// A placement that was solved at all places of the program.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Candidate {
-    /// Name of the fixture; none where there are none.
+    /// Name of the fixture; `None` if there are none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub fixture: Option<String>,
     /// Value of every variable that is free, by its name (mm or deg).
     #[serde(flatten)]
     pub values: BTreeMap<&'static str, f64>,
-    /// Where the program's zero lies, base axes, mm.
+    /// Program's zero, base axes, mm.
     pub part_origin_mm: [f64; 3],
     /// Orientation of the program's axes in the base: unit quaternion w, x, y, z.
     pub part_orientation: [f64; 4],
     /// Orientation of the tool in the base, of programs that do not state it: w, x, y, z.
     pub tool_orientation: [f64; 4],
-    /// The figure over the whole program, in its unit; none where it is refused.
+    /// The figure over the whole program, in its unit; `None` if it is refused.
     pub figure: Option<f64>,
-    /// Why it is refused.
+    /// Reason for which it is refused.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub refusal: Option<Refusal>,
     /// Line of the program where the figure is largest, from 1.
     pub line: Option<usize>,
-    /// Where in the program, mm.
+    /// Position in the program, mm.
     pub position_mm: Option<[f64; 3]>,
     /// The placement, for further questions.
     #[serde(skip)]
@@ -74,29 +74,29 @@ pub struct Evaluated {
     /// The placement.
     #[serde(skip)]
     pub place: Place,
-    /// What it is worth there.
+    /// Value of the placement there.
     pub value: Value,
 }
 
-/// To one side of the best placement.
+/// Sensitivity to one side of the best placement.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct SideSensitivity {
     /// Change of the figure by that of the variable close by, its unit per mm or deg; none at the end of the range, and where a program
     /// cannot be run there.
     pub slope: Option<f64>,
-    /// How far the variable may go until the figure is 5 % larger or the placement is refused, mm or deg; none where it may go to the
-    /// end of its range.
+    /// Change of the variable until the figure is 5 % larger or the placement is refused, mm or deg; `None` if it may go to the end
+    /// of its range.
     pub until_5_percent_worse: Option<f64>,
 }
 
-/// How the figure changes around the best placement, one variable after the other.
+/// Sensitivity of the figure around the best placement to one variable.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Sensitivity {
-    /// Which variable.
+    /// Variable that changes.
     pub variable: Variable,
-    /// Towards smaller values.
+    /// Sensitivity towards smaller values.
     pub down: SideSensitivity,
-    /// Towards larger ones.
+    /// Sensitivity towards larger ones.
     pub up: SideSensitivity,
 }
 
@@ -109,52 +109,51 @@ pub struct MapPanel {
     pub across: Vec<f64>,
     /// Values of the second; empty of a curve.
     pub up: Vec<f64>,
-    /// What every placement is worth, the first variable running fastest.
+    /// Values of the placements, the first variable running fastest.
     #[serde(skip)]
     pub values: Vec<Value>,
 }
 
-/// What is to be known of an answer beside its figures, in words.
+/// Remark on an answer beside its figures, in words.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Finding {
-    /// What kind: `at_bound`, `flat`, `few_reachable`, `thinned`, `not_better`.
+    /// Kind: `at_bound`, `flat`, `few_reachable`, `thinned`, `not_better`.
     pub kind: &'static str,
-    /// In a sentence.
+    /// Remark in a sentence.
     pub message: String,
 }
 
-/// No placement can be taken.
+/// Explanation of a search without a placement that can be taken.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Nowhere {
     /// The one that is nearest to being taken, and why it is refused.
     pub nearest: Candidate,
-    /// How far the part would have to be moved from there so that all of it is reached, base axes, mm; none where no way was
-    /// found.
+    /// Displacement of the part from there with which all of it is reached, base axes, mm; `None` if none was found.
     pub move_mm: Option<[f64; 3]>,
 }
 
-/// What a search found.
+/// Result of a search.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Placed {
-    /// The best placement; none where none can be taken.
+    /// The best placement; `None` if none can be taken.
     pub best: Option<Candidate>,
     /// The next best ones, each apart from all before it.
     pub next_best: Vec<Candidate>,
-    /// In the middle of all ranges.
+    /// Placement in the middle of all ranges.
     pub centre: Candidate,
-    /// The figure where the placement is as given; none where it is refused there.
+    /// The figure where the placement is as given; `None` if it is refused there.
     pub given: Option<f64>,
-    /// Where the best is none.
+    /// Explanation, if no placement can be taken.
     pub nowhere: Option<Nowhere>,
     /// Around the best placement.
     pub sensitivity: Vec<Sensitivity>,
-    /// What is to be known, in words.
+    /// Remarks in words.
     pub findings: Vec<Finding>,
     /// Placements that were looked at.
     pub evaluated: usize,
-    /// Of those that fill the space, how many can be taken.
+    /// Number of samples that can be taken.
     pub taken: usize,
-    /// How many fill it.
+    /// Number of samples that fill the space.
     pub samples: usize,
     /// Places of the program at which the best ones were solved.
     pub places: usize,

@@ -1,4 +1,4 @@
-//! What a placement is worth, at some places of the program or at all of them.
+//! Value of a placement, at some places of the program or at all of them.
 
 use kinetostat::number::{larger, smaller};
 use kinetostat_machining::{MovableProgram, Placement, Reach, RunError};
@@ -9,12 +9,12 @@ use crate::obstacle::{Obstacle, PartBox};
 use crate::space::{Place, Space};
 use crate::value::{Refusal, Value, Why};
 
-/// What is asked.
+/// Objective and constraints of a search.
 #[derive(Clone, Debug, Default)]
 pub struct Question {
-    /// What is to be least.
+    /// Figure to be minimised.
     pub objective: Objective,
-    /// What neither path nor part may enter.
+    /// Boxes that neither path nor part may enter.
     pub obstacles: Vec<Obstacle>,
     /// A box around the part that is kept clear of obstacles, too; only the path is without it.
     pub part: Option<PartBox>,
@@ -23,7 +23,7 @@ pub struct Question {
 /// Places that tell how far a placement is from being reached.
 const PROBES: usize = 12;
 
-/// Where so many of them are lost and none is reached, all are: to find that out takes longest of all.
+/// Number of lost places after which all are taken as lost, if none is reached: checking each of them takes longest.
 const ENOUGH: f64 = 4.0;
 
 /// Answers what placements are worth.
@@ -31,7 +31,7 @@ pub(crate) struct Evaluator<'e> {
     pub(crate) program: &'e MovableProgram<'e, 'e>,
     pub(crate) space: &'e Space,
     pub(crate) question: &'e Question,
-    /// Where the machine's tool is at home, m, and how large the machine is: a program out of reach is led back there.
+    /// Tool position at home, m, and size of the machine: a program out of reach is led back there.
     pub(crate) home: Vector3<f64>,
     pub(crate) size: f64,
 }
@@ -46,7 +46,7 @@ pub(crate) struct OnAll {
 }
 
 impl Evaluator<'_> {
-    /// At some places.
+    /// Value of a placement at some places.
     pub(crate) fn at(&self, place: &Place, places: &[usize]) -> Value {
         let lies = self.space.placement(place);
         // Out of reach is found sooner without a load.
@@ -57,7 +57,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// At all places, posture by posture.
+    /// Value of a placement at all places, posture by posture.
     pub(crate) fn on_all(&self, lies: Placement) -> OnAll {
         if let Some(refusal) = self.obstacle(&lies) {
             return refused(refusal, Vec::new());
@@ -122,7 +122,7 @@ impl Evaluator<'_> {
             };
             return Ok(refused(refusal, Vec::new()));
         }
-        // Of equal figures the first place.
+        // The first place is kept among equal figures.
         known.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
         Ok(OnAll {
             value: Value::Figure(known[0].0),
@@ -168,7 +168,7 @@ impl Evaluator<'_> {
         Some(refused(refusal(line, 0.0), Vec::new()))
     }
 
-    /// Why a place has no answer, and by how much the placement is refused.
+    /// Reason for which a place has no answer, and distance of the placement from being taken.
     fn refusal(&self, lies: Placement, place: usize, error: &RunError) -> Refusal {
         self.lost(lies, Some(place)).unwrap_or_else(|| Refusal {
             why: Why::NoEquilibrium,
@@ -181,7 +181,8 @@ impl Evaluator<'_> {
         })
     }
 
-    /// Some places, and one more, are not reached; by how much the placement is refused then.
+    /// Refusal of a placement at which some places, and one more, are not reached, with its distance from being
+    /// taken.
     fn lost(&self, lies: Placement, place: Option<usize>) -> Option<Refusal> {
         let count = self.program.len();
         // Far from each other one after the other.
@@ -267,7 +268,7 @@ fn refused(refusal: Refusal, telling: Vec<usize>) -> OnAll {
     }
 }
 
-/// Most places that one look adds to those of the search.
+/// Maximum number of places that one evaluation adds to those of the search.
 const MOST_TELLING: usize = 6;
 
 /// The worst places, no two of which are neighbours.

@@ -1,4 +1,5 @@
-//! Where a part lies best in a machine: for which place and turn is a figure of the whole program least?
+//! Optimal placement of a part in a machine: minimises a figure of the whole program over the part's place and
+//! rotation.
 //!
 //! A [`Space`] says where the part may lie (ranges of its place and of its turns, or a list of fixtures), a [`Question`] what counts
 //! ([`Objective`]) and what must be kept clear of ([`Obstacle`]). [`place`] looks everywhere by a sequence that fills

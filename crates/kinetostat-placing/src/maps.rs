@@ -11,7 +11,7 @@ const CELLS: usize = 25;
 const CELLS_OF_ONE: usize = 41;
 const OF_CURVE: usize = 101;
 
-/// Most slices.
+/// Maximum number of slices.
 const MOST: usize = 3;
 
 /// Slices over pairs of variables, all others as in the best placement.

@@ -1,18 +1,18 @@
-//! What counts of a placement: the largest of a figure over the program.
+//! Objective of a placement: the largest value of a figure over the program.
 
 use kinetostat_machining::PointResult;
 use serde::{Deserialize, Serialize};
 
-/// What is to be least: the largest value over all places of the program.
+/// Figure to be minimised: its largest value over all places of the program.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Objective {
-    /// How far the tool's tip is off without compensation, at feed, mm.
+    /// Error of the tool's tip without compensation, at feed, mm.
     #[default]
     Error,
-    /// How large the correction is that compensation commands, mm.
+    /// Correction that compensation commands, mm.
     Correction,
-    /// How far the tool turns under its load, deg: what stays where only its place is compensated.
+    /// Rotation of the tool under its load, deg: it remains if only the position is compensated.
     Tilt,
     /// The drive load by its rating, 1 is the rating.
     Drive,
@@ -21,7 +21,7 @@ pub enum Objective {
 }
 
 impl Objective {
-    /// What it is, as the subject of a sentence.
+    /// Name, as the subject of a sentence.
     #[must_use]
     pub fn what(self) -> &'static str {
         match self {
@@ -33,7 +33,7 @@ impl Objective {
         }
     }
 
-    /// Its unit; empty for shares.
+    /// Unit; empty for shares.
     #[must_use]
     pub fn unit(self) -> &'static str {
         match self {
@@ -43,7 +43,7 @@ impl Objective {
         }
     }
 
-    /// Whether it is looked at on feed moves alone; loads of drives count on rapids, too.
+    /// True if only feed moves are evaluated; loads of drives count on rapids, too.
     pub(crate) fn at_feed_only(self) -> bool {
         self != Self::Drive
     }

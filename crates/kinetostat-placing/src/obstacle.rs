@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Obstacle {
-    /// What it is called in messages.
+    /// Name in messages.
     pub name: String,
     /// Smallest coordinates, base axes, mm.
     pub from_mm: [f64; 3],
@@ -27,7 +27,7 @@ pub struct PartBox {
 }
 
 impl Obstacle {
-    /// How much of the straight way from `a` to `b` (base axes, mm) lies inside, as a share of it.
+    /// Share of the straight way from `a` to `b` (base axes, mm) that lies inside.
     pub(crate) fn share_inside(&self, a: &Vector3<f64>, b: &Vector3<f64>) -> f64 {
         let (mut enters, mut leaves) = (0.0_f64, 1.0_f64);
         let way = b - a;
@@ -54,7 +54,7 @@ impl Obstacle {
         }
     }
 
-    /// How deep a box on the part lies inside, mm; 0 where the two do not meet. Two boxes are apart exactly where one of fifteen
+    /// Depth of a box on the part inside this one, mm; 0 if the two do not meet. Two boxes are apart exactly if one of fifteen
     /// directions shows a gap: the edges of both and their cross products.
     pub(crate) fn depth_of(&self, part: &PartBox, base_from_part_mm: &Pose) -> f64 {
         let half =

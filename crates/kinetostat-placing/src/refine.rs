@@ -1,9 +1,9 @@
 //! A local search without derivatives.
 //!
-//! The largest figure of a program has kinks where another place becomes the worst one: a search along fixed directions ends
-//! on them. So the directions of every step are others (a mirrored frame, from a sequence that fills the sphere densely) and both
-//! ways along each are tried, as in mesh adaptive direct search [Abramson, Audet, Dennis, Le Digabel 2009]; a step is halved
-//! where none is better.
+//! The largest figure of a program has kinks where another place becomes the worst one: a search along fixed directions ends on
+//! them. The directions therefore change with every step (a mirrored frame, from a sequence that fills the sphere densely) and
+//! both ways along each are tried, as in mesh adaptive direct search [Abramson, Audet, Dennis, Le Digabel 2009]; a step is halved
+//! if none is better.
 
 use nalgebra::DVector;
 use rayon::prelude::*;

@@ -1,4 +1,4 @@
-//! How the figure changes around the best placement.
+//! Sensitivity of the figure around the best placement.
 
 use rayon::prelude::*;
 

@@ -1,29 +1,29 @@
-//! Where a part may lie: ranges of its place and turns, and fixtures.
+//! Search space of a part's placement: ranges of its place and turns, and fixtures.
 
 use kinetostat::Pose;
 use kinetostat_machining::Placement;
 use nalgebra::{UnitQuaternion, Vector3};
 use serde::{Deserialize, Serialize};
 
-/// What may change of a placement.
+/// Variable of a placement.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub enum Variable {
-    /// Where the program's zero lies along x of the base, mm.
+    /// Program's zero along x of the base, mm.
     #[serde(rename = "x_mm")]
     X,
-    /// The same along y.
+    /// Program's zero along y of the base, mm.
     #[serde(rename = "y_mm")]
     Y,
-    /// The same along z.
+    /// Program's zero along z of the base, mm.
     #[serde(rename = "z_mm")]
     Z,
     /// Turn of the part about x of the base through the program's zero, on top of its orientation, deg.
     #[serde(rename = "turn_x_deg")]
     TurnX,
-    /// The same about y, after that about x.
+    /// Turn of the part about y, after that about x.
     #[serde(rename = "turn_y_deg")]
     TurnY,
-    /// The same about z, after both.
+    /// Turn of the part about z, after both.
     #[serde(rename = "turn_z_deg")]
     TurnZ,
     /// Turn of the tool about its own axis, right-handed, deg.
@@ -43,7 +43,7 @@ impl Variable {
         Self::TurnTool,
     ];
 
-    /// Its name with its unit, as in files.
+    /// Name with its unit, as in files.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -57,7 +57,7 @@ impl Variable {
         }
     }
 
-    /// In words.
+    /// Variable in words.
     #[must_use]
     pub fn words(self) -> &'static str {
         match self {
@@ -71,7 +71,7 @@ impl Variable {
         }
     }
 
-    /// Its unit.
+    /// Unit of the variable.
     #[must_use]
     pub fn unit(self) -> &'static str {
         match self {
@@ -81,10 +81,10 @@ impl Variable {
     }
 }
 
-/// Between which values a variable may be.
+/// Range of a variable.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Range {
-    /// Which.
+    /// Variable of the range.
     pub variable: Variable,
     /// Smallest value, mm or deg.
     pub from: f64,
@@ -95,33 +95,33 @@ pub struct Range {
 /// A place where the part can be clamped.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Fixture {
-    /// Its name.
+    /// Name of the fixture.
     pub name: String,
-    /// Where the program's zero lies there, base axes, mm.
+    /// Program's zero there, base axes, mm.
     pub origin_mm: [f64; 3],
     /// Orientation of the program's axes there, base from part; that of the placement as given if none is stated.
     pub orientation: Option<UnitQuaternion<f64>>,
 }
 
-/// What is wrong with a space.
+/// Error of a search space.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum SpaceError {
-    /// Nothing may change.
+    /// Nothing is free.
     #[error(
         "nothing about the placement is free: give a range (--x-mm FROM TO, --turn-z-deg FROM TO, ...), or several fixtures"
     )]
     NothingFree,
-    /// No range.
+    /// The range is invalid.
     #[error(
         "{name} from {from} to {to}: finite numbers are needed, and the second above the first"
     )]
     NoRange {
         /// Name of the variable.
         name: &'static str,
-        /// As given.
+        /// Start as given.
         from: f64,
-        /// As given.
+        /// End as given.
         to: f64,
     },
     /// A variable twice.
@@ -130,7 +130,7 @@ pub enum SpaceError {
     /// Fixtures say where the part lies.
     #[error("{0}: fixtures say where the part lies; only turns can have a range beside them")]
     BesideFixtures(&'static str),
-    /// Two fixtures of one name.
+    /// Two fixtures have the same name.
     #[error("two fixtures are called '{0}': give each a name of its own")]
     SameName(String),
     /// The program states how the tool stands.
@@ -140,7 +140,7 @@ pub enum SpaceError {
     StatedOrientation,
 }
 
-/// Where a part may lie.
+/// Search space of a part's placement.
 #[derive(Clone, Debug)]
 pub struct Space {
     given: Placement,
@@ -151,7 +151,7 @@ pub struct Space {
 /// A placement in a [`Space`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct Place {
-    /// Which fixture; 0 where there are none.
+    /// Index of the fixture; 0 if there are none.
     pub fixture: usize,
     /// Value of every range, mm or deg.
     pub values: Vec<f64>,
@@ -224,7 +224,7 @@ impl Space {
         &self.fixtures
     }
 
-    /// Name of the fixture of a placement; none where there are none.
+    /// Name of the fixture of a placement; `None` if there are none.
     #[must_use]
     pub fn fixture_of(&self, place: &Place) -> Option<&str> {
         let fixture = self.fixtures.get(place.fixture);
@@ -251,13 +251,13 @@ impl Space {
         self.ranges.iter().zip(&place.values).map(share).collect()
     }
 
-    /// In the middle of all ranges, at the first fixture.
+    /// Placement in the middle of all ranges, at the first fixture.
     #[must_use]
     pub fn centre(&self) -> Place {
         self.at(0, &vec![0.5; self.ranges.len()])
     }
 
-    /// How far apart two placements are: root mean square of the differences by the ranges; infinite between fixtures.
+    /// Distance of two placements: root mean square of the differences by the ranges; infinite between fixtures.
     #[must_use]
     pub fn distance(&self, a: &Place, b: &Place) -> f64 {
         if a.fixture != b.fixture {
@@ -268,7 +268,8 @@ impl Space {
         (squares / self.ranges.len().max(1) as f64).sqrt()
     }
 
-    /// Where the program lies then. The tool keeps its axis in the part, and is not turned about it more than that needs.
+    /// Placement of the program for a place. The tool keeps its axis in the part, and is not turned about it more than
+    /// that needs.
     #[must_use]
     pub fn placement(&self, place: &Place) -> Placement {
         let fixture = self.fixtures.get(place.fixture);
@@ -296,7 +297,7 @@ impl Space {
         let carried = rotation * given.rotation.inverse();
         let held = self.given.tool_orientation;
         let axis = held * Vector3::z();
-        // Of a tool that is turned over there is no shortest way: about x of its own.
+        // The shortest rotation is ambiguous for a tool that is turned over: its own x is taken.
         let tilt = UnitQuaternion::rotation_between(&axis, &(carried * axis));
         let over =
             || UnitQuaternion::from_axis_angle(&(held * Vector3::x_axis()), std::f64::consts::PI);

@@ -1,10 +1,10 @@
-//! What a placement is worth: a figure, or by how much it is refused.
+//! Value of a placement: a figure, or its distance from being taken.
 
 use std::cmp::Ordering;
 
 use serde::Serialize;
 
-/// Why a placement is refused.
+/// Reason for which a placement is refused.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Why {
@@ -25,7 +25,7 @@ pub enum Why {
 }
 
 impl Why {
-    /// In words, as what is said of a placement.
+    /// Reason in words, as a statement about a placement.
     #[must_use]
     pub fn words(self) -> &'static str {
         match self {
@@ -40,20 +40,20 @@ impl Why {
     }
 }
 
-/// Why, where, and how far from being taken.
+/// Reason, line and distance from being taken.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Refusal {
-    /// Why.
+    /// Reason for the refusal.
     pub why: Why,
     /// A line of the program where it is so, from 1.
     pub line: Option<usize>,
-    /// How far from being taken: the smaller, the nearer; no unit. It leads a search back.
+    /// Distance from being taken: the smaller, the nearer; no unit. It leads a search back.
     pub amount: f64,
-    /// In words.
+    /// Reason in words.
     pub message: String,
 }
 
-/// What a placement is worth.
+/// Value of a placement.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Value {

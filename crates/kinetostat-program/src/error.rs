@@ -1,11 +1,11 @@
-//! What can be wrong with a program, a map or a writing, reported so that a person can mend it.
+//! Errors of programs, maps and writing, reported so that a person can mend them.
 
 use std::ops::Range;
 
 use nalgebra::Vector3;
 use thiserror::Error;
 
-/// Why a program is refused.
+/// Reason for which a program is refused.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum ProgramErrorKind {
@@ -26,17 +26,17 @@ pub enum ProgramErrorKind {
 #[error("line {line}: `{found}`: {reason}; {remedy}")]
 #[non_exhaustive]
 pub struct ProgramError {
-    /// Which kind of refusal it is.
+    /// Kind of the refusal.
     pub kind: ProgramErrorKind,
     /// Line of the file, counted from 1.
     pub line: usize,
     /// Bytes of the file that are meant, counted from 0.
     pub span: Range<usize>,
-    /// What was found there, shortened and without control characters.
+    /// Text found there, shortened and without control characters.
     pub found: String,
-    /// Why it is refused.
+    /// Reason of the refusal.
     pub reason: String,
-    /// What the user can do about it.
+    /// Remedy for the user.
     pub remedy: String,
 }
 
@@ -71,15 +71,15 @@ pub(crate) fn excerpt(bytes: &[u8]) -> String {
 pub struct MapError {
     /// Line of the file, counted from 1.
     pub line: u64,
-    /// What was found there.
+    /// Text found there.
     pub found: String,
-    /// Why it is refused.
+    /// Reason of the refusal.
     pub reason: String,
-    /// What the user can do about it.
+    /// Remedy for the user.
     pub remedy: String,
 }
 
-/// Why no corrected program was written.
+/// Reason for which no corrected program was written.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum WriteError {
@@ -95,7 +95,7 @@ pub enum WriteError {
         share: f64,
         /// The point requested, in mm, part axes.
         position_mm: Vector3<f64>,
-        /// What the field said.
+        /// Message of the field.
         message: String,
     },
     /// The program carries the mark of a compensated one.
@@ -117,7 +117,7 @@ pub enum WriteError {
         line: usize,
         /// Bytes the written line would have, without its line ending.
         bytes: usize,
-        /// Most bytes of a line, `WriteOptions::max_line_bytes`.
+        /// Maximum length of a line in bytes, `WriteOptions::max_line_bytes`.
         limit: usize,
     },
     /// An axis other than X, Y, Z cannot be shared out over the pieces of a block.
@@ -127,7 +127,7 @@ pub enum WriteError {
         line: usize,
         /// Letter of the axis.
         letter: char,
-        /// Why, and what to do.
+        /// Reason and remedy.
         reason: String,
     },
     /// A motion cannot be written with its correction.
@@ -135,9 +135,9 @@ pub enum WriteError {
     Motion {
         /// Line of the input program, counted from 1.
         line: usize,
-        /// Why.
+        /// Reason of the refusal.
         reason: String,
-        /// What the user can do about it.
+        /// Remedy for the user.
         remedy: String,
     },
     /// The correction varies so fast that the output would have no bound.
@@ -148,7 +148,7 @@ pub enum WriteError {
     TooManyPieces {
         /// Line of the input program, counted from 1.
         line: usize,
-        /// Most pieces, `WriteOptions::max_pieces`.
+        /// Maximum number of pieces, `WriteOptions::max_pieces`.
         limit: usize,
     },
     /// An option is outside its range.
@@ -182,7 +182,7 @@ pub enum WriteError {
         line: usize,
         /// Line of the output, counted from 1.
         output_line: usize,
-        /// What is wrong.
+        /// Description of the error.
         what: String,
     },
 }

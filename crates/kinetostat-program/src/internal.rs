@@ -1,5 +1,5 @@
-//! What this crate's own tests reach inside it, in `tests/program/internal`. It is no part of the interface and changes
-//! without a word.
+//! Internals for this crate's own tests, in `tests/program/internal`. They are no part of the interface and may change
+//! without notice.
 
 use std::ops::Range;
 

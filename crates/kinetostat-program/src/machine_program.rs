@@ -31,13 +31,13 @@ use crate::writing::written::Corrected;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub trait MachineProgram: Sync {
-    /// Its bytes, as it was read.
+    /// Bytes of the program, as read.
     fn bytes(&self) -> &[u8];
 
-    /// How many blocks or statements it has.
+    /// Number of blocks or statements.
     fn statement_count(&self) -> usize;
 
-    /// Where the tool goes.
+    /// Path of the tool.
     fn path(&self) -> &Path;
 
     /// Line of the first comment that marks it as compensated, from 1.
@@ -70,9 +70,9 @@ pub trait MachineProgram: Sync {
 pub struct Gcode<'a> {
     /// The program as read.
     pub program: &'a Program,
-    /// What [`crate::interpret`] makes of it.
+    /// Result of [`crate::interpret`].
     pub path: &'a Path,
-    /// How it was read.
+    /// Options it was read with.
     pub reading: &'a ReadOptions,
 }
 

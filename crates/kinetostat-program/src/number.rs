@@ -12,8 +12,8 @@ pub fn fixed(value: f64, decimals: usize) -> String {
     }
 }
 
-/// The same by whole units of the last digit, where the product that says how many there are is not near enough to a half to be
-/// rounded to the wrong side: it is off by no more than 1e-7 units.
+/// Rounds to whole units of the last digit, if their number is far enough from a half to be rounded to the right side: the
+/// product is off by no more than 1e-7 units.
 fn of_units(value: f64, decimals: usize) -> Option<String> {
     const MOST: f64 = 1e9;
     const NEAREST_TO_HALF: f64 = 1e-6;

@@ -67,7 +67,7 @@ fn not_finite(name: &str, number: f64, row: usize) -> String {
     format!("{name} holds {number} in row {row}: give finite numbers")
 }
 
-/// The same without a look at the numbers.
+/// Shape check without a check of the numbers.
 fn shaped<'a>(name: &str, array: &'a Numbers<'_>, shape: &[usize]) -> PyResult<(usize, &'a [f64])> {
     use numpy::PyUntypedArrayMethods;
     let found = array.shape();
@@ -94,7 +94,7 @@ fn shaped<'a>(name: &str, array: &'a Numbers<'_>, shape: &[usize]) -> PyResult<(
     Ok((count, numbers))
 }
 
-/// How far a rotation matrix may be from one, entry by entry of `R^T R - 1`.
+/// Maximum error of a rotation matrix, entry by entry of `R^T R - 1`.
 const ROUNDED: f64 = 1e-6;
 
 /// Reads poses one after the other: what one has in common with the one before is looked at once.
@@ -201,7 +201,7 @@ pub fn poses(name: &str, array: &Numbers<'_>, threads: Option<usize>) -> PyResul
     Ok(found)
 }
 
-/// One pose from an array (4, 4) or (1, 4, 4).
+/// Reads one pose from an array (4, 4) or (1, 4, 4).
 ///
 /// # Errors
 /// As [`rows`] and [`pose`], and more than one pose.
@@ -217,7 +217,7 @@ pub fn one_pose(name: &str, array: &Numbers<'_>) -> PyResult<Pose> {
     Err(error(Class::Argument, said))
 }
 
-/// One wrench from anything that numpy takes for six finite numbers.
+/// Reads one wrench from anything that numpy takes for six finite numbers.
 ///
 /// # Errors
 /// Another shape, complex numbers, text, NaN: what was expected and what was found.
@@ -225,7 +225,7 @@ pub fn one_wrench(name: &str, given: &Bound<'_, PyAny>) -> PyResult<Wrench> {
     // The usual kinds at once. Arrays of other dtypes would lose imaginary parts on the way, masked ones (a kind of array, too)
     // what their mask says.
     let numbers = if given.is_exact_instance_of::<PyArray1<f64>>() {
-        // What is not contiguous, or being written, is read below.
+        // Arrays that are not contiguous, or are being written, are read below.
         let array = given.cast::<PyArray1<f64>>().ok();
         array
             .and_then(|array| array.try_readonly().ok())

@@ -21,7 +21,7 @@ use crate::errors::{Class, error, of_core, require_stiffness};
 use crate::machine::Machine;
 use crate::work::Manner;
 
-/// What became of a posture, as `kinetostat.Status` counts.
+/// Number of a posture's status in `kinetostat.Status`.
 fn number(status: Status, outside: bool) -> u8 {
     match (status.is_solved(), outside) {
         (false, _) => 2,
@@ -114,7 +114,7 @@ impl Limits {
     }
 }
 
-/// Where the machine is commanded to: poses of its tool, or its joints.
+/// Commands of the machine: poses of its tool, or its joints.
 enum Places {
     Poses(Vec<Pose>),
     Joints(Vec<f64>, usize),
@@ -132,7 +132,7 @@ impl Places {
             (None, Some(joints)) => {
                 let each = machine.mechanism.actuator_count();
                 let (_, numbers) = rows("joints", joints, &[each])?;
-                // What cannot be commanded by joints says so before the work begins.
+                // A machine that cannot be commanded by joints is refused before the work begins.
                 let none = machine.batch().targets_at_joints(&[]);
                 none.map_err(|e| of_core(&e))?;
                 reserve(numbers.len(), size_of::<f64>())?;
@@ -180,7 +180,7 @@ impl Places {
         }
     }
 
-    /// Where the tool is commanded to, as drawn, of the rows from one to another.
+    /// Commanded poses of the tool, as drawn, for a range of rows.
     fn targets(&self, batch: &Batch, from: usize, to: usize) -> Cow<'_, [Pose]> {
         match self {
             Self::Poses(poses) => Cow::Borrowed(&poses[from..to]),
@@ -209,7 +209,7 @@ impl Places {
     }
 }
 
-/// One wrench for all postures, or one for each.
+/// Reads one wrench for all postures, or one for each.
 pub(crate) fn each_wrench(count: usize, numbers: &Numbers<'_>) -> PyResult<Vec<Wrench>> {
     let found = wrenches("wrenches", numbers)?;
     match found.len() {
@@ -391,8 +391,8 @@ pub fn equilibrium_of_many<'py>(
     Ok(answer)
 }
 
-/// Poses to command so that the tool is at `poses` under `wrenches` in the directions that are corrected. Where the position alone is
-/// and the machine turns its tool as it moves, the orientation is the nearest that it can have.
+/// Poses to command so that the tool is at `poses` under `wrenches` in the directions that are corrected. If only the position is
+/// corrected and the machine turns its tool as it moves, the orientation is the nearest that it can have.
 #[pyfunction]
 #[pyo3(signature = (machine, poses, wrenches, directions, threads=None, progress=None))]
 pub fn targets_of_many<'py>(

@@ -126,7 +126,7 @@ pub fn lobes_of<'py>(
     let found = away(py, &manner, move |course| {
         course.of(speeds.len());
         let each = speeds.par_iter().map(|speed| {
-            // What is not wanted any more is not solved, and dropped.
+            // Cancelled work is not solved, and dropped.
             if course.stopped() {
                 return Ok(None);
             }

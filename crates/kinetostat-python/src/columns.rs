@@ -57,7 +57,7 @@ impl Columns {
         course.of(self.status.len());
         let stopped = || course.stopped();
         let one = |room: &mut T, (first, mut columns, status): Rows<'_>| {
-            // What is not wanted any more is not solved.
+            // Cancelled work is not solved.
             if !stopped() {
                 solve(room, first, &mut columns, status);
                 course.add(status.len());

@@ -40,7 +40,7 @@ pub(crate) fn in_other_configurations(
 fn within(configurations: &Configurations, pose: &Pose, status: u8) -> Option<Posture> {
     match status {
         1 => configurations.within_limits(pose),
-        // What stands there next to home and has no equilibrium is not tried elsewhere.
+        // A posture next to home without an equilibrium is not tried in other configurations.
         _ => configurations.posture(pose).ok(),
     }
     .filter(|posture| posture.within_limits().is_ok())
@@ -54,7 +54,7 @@ pub(crate) fn stiffness_at(batch: &Batch, commands: &[f64]) -> Option<BatchStiff
     }
 }
 
-/// The same under wrenches of these places.
+/// Equilibria of these places under their wrenches.
 pub(crate) fn equilibrium_at(
     batch: &Batch,
     (places, commands): &(Vec<usize>, Vec<f64>),

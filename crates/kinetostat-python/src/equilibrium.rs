@@ -13,7 +13,8 @@ use crate::arrays::{array, matrix_of, rows_of};
 use crate::errors::{Class, error, of_core};
 use crate::stiffness::json_of;
 
-/// Equilibrium of a machine under a wrench on its tool. What kernels found is there at once, the rest once it is asked for.
+/// Equilibrium of a machine under a wrench on its tool. Results of the kernels are there at once, the rest is computed on
+/// request.
 #[pyclass(frozen, module = "kinetostat._core")]
 pub struct Equilibrium {
     by_kernels: Option<(Arc<Posture>, Wrench, BatchEquilibrium)>,
@@ -45,7 +46,7 @@ impl Equilibrium {
         }
     }
 
-    /// Whether it is stable, stiffness against a force, share to buckling.
+    /// Stability, stiffness against a force, share to buckling.
     fn stability(&self) -> PyResult<(bool, f64, Option<f64>)> {
         let quick = self.by_kernels.as_ref();
         if let Some(s) = quick.and_then(|(_, _, found)| found.stability(0)) {
@@ -119,7 +120,7 @@ impl Equilibrium {
         Ok(self.stability()?.0)
     }
 
-    /// Largest share of the way to buckling of all limbs; none where nothing buckles.
+    /// Largest share of the way to buckling of all limbs; `None` if nothing buckles.
     #[getter]
     fn share_to_buckling(&self) -> PyResult<Option<f64>> {
         Ok(self.stability()?.2)
@@ -131,13 +132,13 @@ impl Equilibrium {
         Ok(self.stability()?.1)
     }
 
-    /// Of springs, weights and loads on limbs, J, up to a constant; none where a load has no potential.
+    /// Potential of springs, weights and loads on limbs, J, up to a constant; None if a load has no potential.
     #[getter]
     fn energy(&self) -> PyResult<Option<f64>> {
         Ok(self.whole()?.energy)
     }
 
-    /// In all springs, J.
+    /// Energy of all springs, J.
     #[getter]
     fn spring_energy(&self) -> PyResult<f64> {
         Ok(CurveEquilibrium::spring_energy(self.whole()?))

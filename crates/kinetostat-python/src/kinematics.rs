@@ -204,7 +204,7 @@ pub fn inverse_solutions(
     pose: Numbers<'_>,
 ) -> PyResult<Vec<Posture>> {
     let pose: Pose = one_pose("pose", &pose)?;
-    // What cannot be commanded by joints is no such arm.
+    // A machine that cannot be commanded by joints is no such arm.
     let none = machine.batch().targets_at_joints(&[]);
     none.map_err(|e| of_core(&e))?;
     let configurations = machine.configurations();

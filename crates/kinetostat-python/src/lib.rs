@@ -1,7 +1,7 @@
 //! `kinetostat._core`: machines and commands for Python.
 //!
-//! Arrays come and go as float64 in SI units. What is said about a quantity stands in the Python package
-//! (`python/kinetostat`); here are conversions, threads, interruption and errors, and no arithmetic of mechanics.
+//! Arrays come and go as float64 in SI units. Quantities are documented in the Python package (`python/kinetostat`);
+//! here are conversions, threads, interruption and errors, and no arithmetic of mechanics.
 
 #![allow(
     unsafe_code,

@@ -88,8 +88,8 @@ fn kind(kind: MotionKind) -> &'static str {
 
 #[pymethods]
 impl Machine {
-    /// Equilibrium of a posture of this machine under a wrench (6,) on the tool: force (N), moment (N m), base axes, about its reference point. What is beyond
-    /// a limit is issued as a warning of the line that called the Python method.
+    /// Equilibrium of a posture of this machine under a wrench (6,) on the tool: force (N), moment (N m), base axes, about its reference
+    /// point. Values beyond a limit are issued as a warning of the line that called the Python method.
     fn deflected(&self, posture: &Posture, wrench: &Bound<'_, PyAny>) -> PyResult<Equilibrium> {
         let py = wrench.py();
         let wrench = one_wrench("wrench", wrench)?;
@@ -124,12 +124,12 @@ impl Machine {
         Self::read(py.detach(|| Model::from_toml(text, file)))
     }
 
-    /// From a document as JSON: the keys of a model file.
+    /// Reads a document as JSON: the keys of a model file.
     #[staticmethod]
     fn from_json(py: Python<'_>, json: &str, file: &str) -> PyResult<Self> {
         let document: serde_json::Value =
             serde_json::from_str(json).map_err(|e| error(Class::Model, e.to_string()))?;
-        // As text, so that mistakes are told as those of a file are.
+        // Read as text, so that mistakes are reported like those of a file.
         let text = toml::to_string(&document).map_err(|e| error(Class::Model, e.to_string()))?;
         Self::read(py.detach(|| Model::from_toml(&text, file)))
     }
@@ -160,7 +160,7 @@ impl Machine {
         serde_json::to_string(&self.model.document).map_err(|e| error(Class::Model, e.to_string()))
     }
 
-    /// What looks wrong although it can be computed.
+    /// Warnings about the model, although it can be computed.
     #[getter]
     fn warnings(&self) -> Vec<String> {
         let each = self.model.warnings.iter();
@@ -200,7 +200,7 @@ impl Machine {
             .collect()
     }
 
-    /// How the file says that vibrations are damped, see `kinetostat.Damping`.
+    /// Damping of vibrations as the file states it, see `kinetostat.Damping`.
     fn damping_json(&self) -> PyResult<String> {
         json_of(&self.model.damping())
     }

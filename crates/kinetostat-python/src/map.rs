@@ -17,7 +17,7 @@ use crate::machine::Machine;
 use crate::vibration::of_dynamics;
 use crate::work::Manner;
 
-/// What became of a posture, as `kinetostat.Status` counts.
+/// Number of a posture's status in `kinetostat.Status`.
 fn number(outcome: &Outcome) -> u8 {
     match (outcome.found, outcome.state) {
         (false, _) => 2,
@@ -166,7 +166,7 @@ const UNKNOWN: Outcome = Outcome {
     found: false,
 };
 
-/// What a thread keeps from block to block.
+/// Buffers that a thread keeps from block to block.
 #[derive(Default)]
 struct Room {
     own: EvaluationRoom,

@@ -1,4 +1,4 @@
-//! What looks wrong in a question although it can be answered: the checks of the commands, for typed calls.
+//! Warnings about questions that can be answered: the checks of the commands, for typed calls.
 
 use kinetostat::{Mechanism, Wrench};
 use kinetostat_machining::{

@@ -48,7 +48,7 @@ impl Posture {
         rows.collect()
     }
 
-    /// Of every limb: commands of its actuators and all its coordinates, m or rad.
+    /// Commands of the actuators and all coordinates of every limb, m or rad.
     #[getter]
     fn limbs(&self) -> Vec<(Vec<f64>, Vec<f64>)> {
         let each = self.0.limbs().iter();

@@ -100,7 +100,7 @@ impl Vibration {
         PyArray1::from_vec(py, self.0.modes.frequencies_hz())
     }
 
-    /// What each mode is.
+    /// Kind of each mode.
     #[getter]
     fn kinds_json(&self) -> PyResult<String> {
         let kinds: Vec<_> = self.0.modes.modes.iter().map(|mode| mode.kind).collect();

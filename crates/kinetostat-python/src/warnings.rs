@@ -1,4 +1,4 @@
-//! What looks wrong in machines, postures and loads that Python holds.
+//! Warnings about machines, postures and loads that Python holds.
 
 use kinetostat::Wrench;
 use kinetostat::nalgebra::Vector3;
@@ -9,7 +9,7 @@ use crate::machine::Machine;
 use crate::plausibility::{Said, of_figures, of_tool};
 use crate::posture::Posture;
 
-/// What looks wrong in the tool of a machine.
+/// Warnings about the tool of a machine.
 #[pyfunction]
 pub fn tool_warnings(machine: &Machine) -> Vec<Said> {
     let vector = machine.tool.translation.vector;
@@ -28,7 +28,7 @@ pub fn answer_warnings(machine: &Machine, force: f64, moment: f64, displacement:
     of_figures(&machine.mechanism, &wrench, displacement)
 }
 
-/// What looks wrong in the load on the tool and in the displacement from a posture.
+/// Warnings about the load on the tool and the displacement from a posture.
 #[pyfunction]
 pub fn load_warnings(posture: &Posture, loaded: &Equilibrium) -> PyResult<Vec<Said>> {
     let (_, moved, wrench) = loaded.moved()?;

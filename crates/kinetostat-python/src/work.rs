@@ -16,10 +16,10 @@ use rayon::{ThreadPool, ThreadPoolBuilder};
 
 use crate::errors::{Class, error};
 
-/// Between two looks at signals and progress.
+/// Interval of the checks for signals and progress.
 const LOOK: Duration = Duration::from_millis(50);
 
-/// After Ctrl-C the work has this long to stop by itself; then the call returns without it.
+/// Time that the work has to stop by itself after Ctrl-C; then the call returns without it.
 const PATIENCE: Duration = Duration::from_millis(300);
 
 /// Pools by their number of threads, 0 for all cores.
@@ -51,7 +51,7 @@ pub fn pool(threads: Option<usize>) -> PyResult<Arc<ThreadPool>> {
     }
     let made = ThreadPoolBuilder::new()
         .num_threads(count)
-        // What panics ends its call with an error, not the interpreter.
+        // A panic ends its call with an error, not the interpreter.
         .panic_handler(|_| ())
         .thread_name(|i| format!("kinetostat {i}"))
         .build()
@@ -61,7 +61,7 @@ pub fn pool(threads: Option<usize>) -> PyResult<Arc<ThreadPool>> {
     Ok(pool)
 }
 
-/// What is known of the work while it runs.
+/// Progress of the work while it runs.
 #[derive(Default)]
 pub struct Course {
     stop: AtomicBool,
@@ -71,17 +71,17 @@ pub struct Course {
 }
 
 impl Course {
-    /// Whether the answer is not wanted any more.
+    /// True if the call was cancelled.
     pub fn stopped(&self) -> bool {
         self.stop.load(Ordering::Relaxed)
     }
 
-    /// So many more are done.
+    /// Adds to the count of items that are done.
     pub fn add(&self, done: usize) {
         self.done.fetch_add(done, Ordering::Relaxed);
     }
 
-    /// So many there are.
+    /// Sets the total number of items.
     pub fn of(&self, total: usize) {
         self.total.store(total, Ordering::Relaxed);
     }
@@ -103,7 +103,7 @@ impl Watch for Course {
     }
 }
 
-/// How a call is done.
+/// Settings of a call: threads and progress.
 pub struct Manner<'py> {
     /// Threads, all cores if none are named.
     pub threads: Option<usize>,

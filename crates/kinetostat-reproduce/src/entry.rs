@@ -1,4 +1,4 @@
-//! What is reproduced: a table, an equation or a figure of the report, as numbers beside their print.
+//! Entries of the reproduction: a table, an equation or a figure of the report, as numbers beside their print.
 
 use kinetostat_report::Plot;
 use serde::Serialize;
@@ -6,35 +6,35 @@ use serde::Serialize;
 /// A table, numbered equation or figure of the report.
 #[derive(Clone, Debug, Serialize)]
 pub struct Entry {
-    /// As in `table-5.2`, `eq-3.34`, `fig-5.7`.
+    /// Identifier, as in `table-5.2`, `eq-3.34`, `fig-5.7`.
     pub id: &'static str,
-    /// What it is, in words.
+    /// Title in words.
     pub title: String,
-    /// Its numbers.
+    /// Numbers of the entry.
     pub items: Vec<Item>,
     /// The figure, drawn from the computed points.
     #[serde(skip)]
     pub plots: Vec<Plot>,
 }
 
-/// One number, printed and computed.
+/// Number of an entry, printed and computed.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Item {
-    /// Which one, in words.
+    /// Name of the number, in words.
     pub name: String,
-    /// As printed, digit by digit; none if the report prints no number here.
+    /// Printed text, digit by digit; `None` if the report prints no number here.
     pub printed: Option<String>,
-    /// As computed by this run; none if there is nothing to compute.
+    /// Value computed by this run; `None` if there is nothing to compute.
     pub computed: Option<f64>,
     /// Unit of both; empty for a pure number.
     pub unit: String,
-    /// Whether they agree, and if not, why.
+    /// Agreement of the two, or the reason for a difference.
     pub status: Status,
-    /// Why, in words: the erratum, what was tried, or what is worth knowing.
+    /// Explanation in words: the erratum, attempts, or remarks.
     pub note: String,
 }
 
-/// How print and computation stand to each other.
+/// Agreement between print and computation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Status {
@@ -150,8 +150,8 @@ impl Item {
     }
 }
 
-/// Whether a printed decimal number is the rounding of `computed` to the same number of digits after
-/// the point. A number that lies half way may be rounded either way.
+/// True if a printed decimal number is the rounding of `computed` to the same number of digits after the point. A
+/// number that lies half way may be rounded either way.
 #[must_use]
 pub fn is_rounding(printed: &str, computed: f64) -> bool {
     let text = printed.trim().replace('\u{2212}', "-");

@@ -1,5 +1,5 @@
-//! What this crate's own tests reach inside it, in `tests/reproduce/internal`. It is no part of the interface and changes
-//! without a word.
+//! Internals for this crate's own tests, in `tests/reproduce/internal`. They are no part of the interface and may change
+//! without notice.
 
 use kinetostat::{Mechanism, Pose, Posture, model::LinkConvention};
 
@@ -21,11 +21,11 @@ pub fn orthoglide() -> Mechanism {
     Orthoglide::default().build().expect("the machine")
 }
 
-/// The same with two bars in the place of each parallelogram.
+/// Machine with two bars in the place of each parallelogram.
 pub struct WithBars(Barred);
 
 impl WithBars {
-    /// At a target of the tool, each bar in one segment.
+    /// Creates it at a target of the tool, each bar in one segment.
     ///
     /// # Panics
     /// If the target cannot be reached.
@@ -50,7 +50,7 @@ pub fn formula_in_html(text: &str) -> String {
     formula::html(text)
 }
 
-/// The same as MathML, if it is a formula.
+/// Formula as MathML; `None` for other text.
 #[must_use]
 pub fn formula_in_mathml(text: &str) -> Option<String> {
     mathml::math(text)

@@ -1,9 +1,9 @@
 //! Every number of chapters 2 to 7 of the COROUSSO report L1.1, computed again through the public
 //! interface and set beside its print.
 //!
-//! Nothing computed is stored: each run builds the models and solves them. What the report prints is
-//! stored as it is printed. A number agrees if the printed digits are the rounding of the computed
-//! one; where they differ, the note says why.
+//! Nothing computed is stored: each run builds the models and solves them. Numbers of the report are stored as they
+//! are printed. A number agrees if the printed digits are the rounding of the computed one; where they differ, the
+//! note says why.
 //!
 //! [`IDS`] lists what there is; [`one`] computes one entry, [`all`] all of them; [`html`] makes a page
 //! of them.
@@ -39,7 +39,7 @@ impl Contents {
     }
 }
 
-/// What may go wrong inside an entry.
+/// Error inside an entry.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum Cause {
@@ -63,7 +63,7 @@ impl From<kinetostat_cutting::CutError> for Cause {
     }
 }
 
-/// Why an entry could not be computed.
+/// Error of the reproduction.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ReproduceError {
@@ -76,9 +76,9 @@ pub enum ReproduceError {
     /// The computation of an entry failed.
     #[error("{id}: {cause}")]
     Failed {
-        /// Which entry.
+        /// Identifier of the entry.
         id: &'static str,
-        /// Why.
+        /// Cause of the failure.
         cause: Cause,
     },
 }

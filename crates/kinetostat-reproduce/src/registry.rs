@@ -7,7 +7,7 @@ use crate::chapter_4::{two_link_matrices, two_links};
 use crate::chapter_5::{elastic_figures, three_link_figures, three_links, toggle, two_chains};
 use crate::{Cause, Contents, Entry, ReproduceError, chapter_2, orthoglide};
 
-/// How an entry is computed.
+/// Computation of an entry.
 type Compute = fn() -> Result<Contents, Cause>;
 
 /// Id, title and computation of every entry.

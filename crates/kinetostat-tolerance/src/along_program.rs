@@ -16,7 +16,7 @@ use crate::uncertain::Uncertainties;
 /// Parts of the force of the cut at every place: what one of them would be more by, if it were as large again.
 pub type CuttingParts = [Vec<Wrench>; CUTTING_PARTS.len()];
 
-/// What the same error may differ by when it is solved once more: mm, and a share of it.
+/// Maximum difference of an error that is solved once more: mm, and a share of it.
 const SAME_MM: f64 = 1e-6;
 const SAME: f64 = 1e-6;
 
@@ -33,7 +33,7 @@ struct OfTool {
     commanded: Commanded,
     /// Natural length, m.
     length: f64,
-    /// Of the places as they are commanded in the end.
+    /// Stability margins of the places as they are commanded in the end.
     margins: Option<Margins>,
 }
 
@@ -74,7 +74,7 @@ pub struct UncertainRun {
     parts: Option<CuttingParts>,
     tools: Vec<OfTool>,
     compensated: bool,
-    /// As the drawing states them.
+    /// Values of the drawing.
     nominal: Vec<f64>,
 }
 
@@ -145,7 +145,7 @@ impl UncertainRun {
         1 + usize::from(self.compensated)
     }
 
-    /// Where they are.
+    /// Places of the program.
     pub(crate) fn places(&self) -> &[ProgramPlace] {
         &self.places
     }

@@ -27,7 +27,7 @@ pub fn band(
     let samples = monte_carlo(run, &file.uncertainties, draws, watch)?;
     let each = run.columns();
     let mut lines: Vec<Linear> = linearised(run, &file.uncertainties)?;
-    // Those of the largest errors; what is said of a place are quantiles.
+    // Only the largest errors are propagated linearly; places have quantiles.
     lines.truncate(each);
     let largest = answers(&file.uncertainties, draws, &samples, lines);
     let mut band = UncertaintyBand::default();

@@ -1,4 +1,4 @@
-//! How a number scatters about the one that the drawing states.
+//! Distributions of a number about its nominal value.
 
 use statrs::distribution::{ContinuousCDF, Normal};
 
@@ -15,7 +15,7 @@ pub enum Distribution {
 }
 
 impl Distribution {
-    /// What the file calls it.
+    /// Word in the file.
     #[must_use]
     pub fn word(self) -> &'static str {
         match self {
@@ -25,7 +25,7 @@ impl Distribution {
         }
     }
 
-    /// As it was stated: standard deviation or half width.
+    /// Stated spread: standard deviation or half width.
     #[must_use]
     pub fn spread(self) -> f64 {
         match self {
@@ -81,7 +81,7 @@ pub(crate) fn score(u: f64) -> f64 {
     Normal::standard().inverse_cdf(u)
 }
 
-/// Its inverse.
+/// Distribution function of the standard normal distribution.
 pub(crate) fn share(score: f64) -> f64 {
     Normal::standard().cdf(score)
 }

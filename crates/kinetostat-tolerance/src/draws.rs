@@ -8,7 +8,7 @@ use sobol_burley::sample;
 /// Sequences that are scrambled independently of each other.
 pub const REPLICATES: usize = 16;
 
-/// More draws than that the sequences do not have.
+/// Maximum number of draws of the sequences.
 pub const MOST_DRAWS: usize = REPLICATES << 16;
 
 const DIMENSIONS: usize = 256;
@@ -28,7 +28,8 @@ pub struct Draws {
 }
 
 impl Draws {
-    /// So many draws, between [`REPLICATES`] and [`MOST_DRAWS`], rounded up so that all sequences are equally long.
+    /// Returns `count` draws, between [`REPLICATES`] and [`MOST_DRAWS`], rounded up so that all sequences are equally
+    /// long.
     #[must_use]
     pub fn new(count: usize, seed: u64) -> Self {
         let each = count.clamp(1, MOST_DRAWS).div_ceil(REPLICATES);
@@ -56,7 +57,7 @@ impl Draws {
         draw / (self.count / REPLICATES).max(1)
     }
 
-    /// One coordinate of a draw, between 0 and 1, neither of them.
+    /// Coordinate of a draw, between 0 and 1, neither of them.
     #[must_use]
     pub fn point(&self, draw: usize, dimension: usize) -> f64 {
         let each = (self.count / REPLICATES).max(1);

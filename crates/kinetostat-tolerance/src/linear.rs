@@ -10,7 +10,7 @@ const STEP: f64 = 0.01;
 /// A number as a linear function of the uncertain ones.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Linear {
-    /// With the numbers as the drawing states them.
+    /// Value for the numbers of the drawing.
     pub nominal: f64,
     /// Derivative by every number, per its own unit.
     pub derivatives: Vec<f64>,
@@ -21,7 +21,7 @@ pub struct Linear {
 }
 
 impl Linear {
-    /// What it says for other values.
+    /// Value of the linear function for other numbers.
     #[must_use]
     pub fn at(&self, uncertainties: &Uncertainties, values: &[f64]) -> f64 {
         let each = uncertainties
@@ -96,7 +96,7 @@ pub fn linear(uncertainties: &Uncertainties, answers: &[Vec<f64>]) -> Vec<Linear
         .collect()
 }
 
-/// How far draws are from the linear function: the root mean square of the difference, over the standard deviation of the draws.
+/// Distance of draws from the linear function: the root mean square of the difference, over the standard deviation of the draws.
 /// Beyond [`ENOUGH`] linear is not enough. Zero where nothing scatters.
 #[must_use]
 pub fn nonlinearity(exact: &[f64], by_line: impl Fn(usize) -> f64) -> f64 {
@@ -116,5 +116,5 @@ pub fn nonlinearity(exact: &[f64], by_line: impl Fn(usize) -> f64) -> f64 {
 /// Results up to this are rounding, mm and N/mm: a picometre.
 pub const NOTHING: f64 = 1e-9;
 
-/// What linear propagation may be off, in standard deviations, to be enough.
+/// Maximum error of linear propagation, in standard deviations, for it to be enough.
 pub const ENOUGH: f64 = 0.1;

@@ -11,25 +11,25 @@ use crate::file::{Source, UncertaintyFile};
 use crate::near_drawing::{MOST_DERIVATIVES, Margins, with_stability};
 use crate::uncertain::Uncertainties;
 
-/// What depends on how the machine stands under the load.
+/// Quantities that depend on the equilibrium under the load.
 const LOADED: [Quantity; 3] = [
     Quantity::DeflectionByLoad,
     Quantity::Deviation,
     Quantity::Stiffness,
 ];
 
-/// What is asked of a machine at each place.
+/// Quantity requested of a machine at each place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Quantity {
-    /// From where the unloaded tool is commanded to where it is (mm): errors of manufacture and assembly, and the machine's own
-    /// weight.
+    /// Displacement from the commanded to the actual place of the unloaded tool (mm): errors of manufacture and assembly, and
+    /// the machine's own weight.
     Error,
-    /// From where the unloaded tool is to where the load moves it (mm).
+    /// Displacement of the unloaded tool by the load (mm).
     DeflectionByLoad,
-    /// From where the tool is commanded to where it is under the load (mm): both together.
+    /// Displacement from the commanded place to that under the load (mm): both together.
     Deviation,
-    /// The same if the command is compensated with the numbers of the drawing (mm): what compensation leaves.
+    /// Deviation if the command is compensated with the numbers of the drawing (mm): the residual of compensation.
     Compensated,
     /// Force along x, y and z per motion along it, the tool free to turn, under the load (N/mm).
     Stiffness,
@@ -45,7 +45,7 @@ impl Quantity {
         Self::Stiffness,
     ];
 
-    /// Its columns, with units: length and components, or components only.
+    /// Columns with units: length and components, or components only.
     #[must_use]
     pub fn columns(self) -> &'static [&'static str] {
         match self {
@@ -76,7 +76,7 @@ impl Quantity {
         }
     }
 
-    /// What it is called in files and on the command line.
+    /// Word in files and on the command line.
     #[must_use]
     pub fn word(self) -> &'static str {
         match self {
@@ -89,7 +89,7 @@ impl Quantity {
     }
 }
 
-/// Why nothing can be asked.
+/// Errors of a study.
 #[derive(Debug, thiserror::Error)]
 pub enum TaskError {
     /// The numbers make no machine.
@@ -101,9 +101,9 @@ pub enum TaskError {
     /// The machine as drawn has no answer at a place.
     #[error("as drawn, the machine has no answer at place {place} (counted from 1): {reason}")]
     Unanswered {
-        /// From 1.
+        /// Number of the place, from 1.
         place: usize,
-        /// What the general engine says.
+        /// Message of the general engine.
         reason: String,
     },
     /// The machine as drawn does not stand as it stood along the program.
@@ -111,19 +111,19 @@ pub enum TaskError {
         "line {line}: the machine as drawn is {found_mm:.6} mm off there when it is solved for itself, and {stated_mm:.6} mm along the program: it stands otherwise, as an arm in another configuration does"
     )]
     StandsOtherwise {
-        /// Of the program, from 1.
+        /// Line of the program, from 1.
         line: usize,
-        /// By itself, mm.
+        /// Error solved here, mm.
         found_mm: f64,
-        /// Along the program, mm.
+        /// Error along the program, mm.
         stated_mm: f64,
     },
-    /// It was stopped on request.
+    /// The run was stopped on request.
     #[error(transparent)]
     Stopped(#[from] kinetostat_machining::RunError),
 }
 
-/// What depends on uncertain numbers.
+/// Function of uncertain numbers.
 pub trait DependsOnMachine: Sync {
     /// Numbers of one answer.
     fn width(&self) -> usize;
@@ -142,18 +142,18 @@ pub struct UncertainMachine {
     sources: Vec<Source>,
     tool: Pose,
     drawn: Mechanism,
-    /// The same, compiled: what all draws have of it is made once.
+    /// Machine as drawn, compiled: the part that all draws share is made once.
     batch: Batch,
-    /// Where the tool is to be, without load and under it.
+    /// Desired poses of the tool, without load and under it.
     places: Commanded,
     loaded: Commanded,
     /// Commands that compensate the load with the numbers of the drawing.
     compensated: Commanded,
     wrench: Wrench,
     quantities: Vec<Quantity>,
-    /// As the drawing states them.
+    /// Values of the drawing.
     nominal: Vec<f64>,
-    /// Where it is asked how the machine stands under the load.
+    /// Stability margins, if the equilibrium under the load is requested.
     margins: Option<Margins>,
 }
 
@@ -256,7 +256,7 @@ impl UncertainMachine {
         self.places.poses().len()
     }
 
-    /// One of these is asked.
+    /// True if one of these is requested.
     fn asks(&self, some: &[Quantity]) -> bool {
         self.quantities.iter().any(|q| some.contains(q))
     }
@@ -268,7 +268,7 @@ impl UncertainMachine {
             match source {
                 Source::Load(k) => wrench.0[*k] = *value,
                 Source::LoadFactor => factor = *value,
-                // Of one wrench no parts are known: its file has none.
+                // The parts of a single wrench are not known: its file has none.
                 Source::Parameter(_) | Source::CuttingPart(_) => {}
             }
         }

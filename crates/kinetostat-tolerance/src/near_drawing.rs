@@ -1,13 +1,13 @@
 //! Machines next to the drawing: how their stability goes along with uncertain numbers.
 //!
-//! Whether an equilibrium holds takes as long to find as the equilibrium itself, and hardly a machine of thousands is another than
+//! The stability of an equilibrium takes as long to find as the equilibrium itself, and hardly a machine of thousands differs from
 //! the drawn one in that. Its margins and their derivatives say which may be: only those are looked at.
 
 use kinetostat::Wrench;
 use kinetostat::batch::{Batch, BatchEquilibrium, Commanded, Details};
 use kinetostat::nalgebra::Matrix6;
 
-/// So many times the change that derivatives foretell must leave a margin for a machine to be taken as stable without a look.
+/// Safety factor on the change that derivatives predict: a machine with a larger margin is taken as stable without a check.
 const SAFETY: f64 = 10.0;
 
 /// Uncertain numbers whose derivatives tell where a machine stands: to read those of more takes longer than they save.
@@ -24,16 +24,17 @@ pub(crate) fn with_stability(
     Ok(found)
 }
 
-/// How far the equilibria at all places are from losing their hold, and the derivatives of that by the uncertain numbers.
+/// Stability margins of the equilibria at all places, and their derivatives by the uncertain numbers.
 #[derive(Clone, Debug)]
 pub(crate) struct Margins {
     as_drawn: Vec<[f64; 2]>,
-    /// Of every number, place by place, per its own unit.
+    /// Slopes of every number, place by place, per its own unit.
     slopes: Vec<Vec<[f64; 2]>>,
 }
 
 impl Margins {
-    /// Of the machine as drawn, with stability; `length` (m) is what rotations are multiplied with to be compared with translations.
+    /// Margins of the machine as drawn, with stability; `length` (m) is the factor that makes rotations comparable with
+    /// translations.
     pub fn new(drawn: &BatchEquilibrium, length: f64) -> Self {
         Self {
             as_drawn: of_places(drawn, length),
@@ -79,7 +80,8 @@ impl Margins {
     }
 }
 
-/// At every place: what is left of the way to buckling, and the smallest principal stiffness (N/m). No numbers without an answer.
+/// Margins at every place: the remaining part of the way to buckling, and the smallest principal stiffness (N/m). NaN without an
+/// answer.
 fn of_places(found: &BatchEquilibrium, length: f64) -> Vec<[f64; 2]> {
     let of_place = |i: usize| {
         let Some(stability) = found.stability(i) else {

@@ -13,12 +13,12 @@ use crate::uncertain::Uncertainties;
 /// one corner are missing, indices are those of what is left, and their intervals as narrow as if that were all.
 pub const MOST_MISSING: f64 = 0.02;
 
-/// Which part of the variance a number explains.
+/// Share of the variance that a number explains.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct SobolIndex {
-    /// What it explains alone.
+    /// Share that it explains alone.
     pub first: Estimate,
-    /// What it explains together with all others.
+    /// Share that it explains together with all others.
     pub total: Estimate,
 }
 
@@ -106,7 +106,7 @@ fn indices<'a>(rows: impl Iterator<Item = &'a [f64]> + Clone, numbers: usize) ->
         }
     }
     let variance = variance / count;
-    // What varies by rounding alone has no parts.
+    // Variation by rounding alone has no shares.
     let floor = 1e-24 * mean * mean;
     let scale = if variance > floor {
         variance * count / 2.0

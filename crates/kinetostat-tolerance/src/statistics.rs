@@ -1,11 +1,11 @@
-//! What draws say of a number: mean, scatter and quantiles, each with its confidence.
+//! Statistics of draws: mean, scatter and quantiles, each with its confidence.
 
 use serde::Serialize;
 use statrs::distribution::{Binomial, ContinuousCDF, DiscreteCDF, StudentsT};
 
 use crate::draws::{Draws, REPLICATES};
 
-/// Of all bounds of confidence.
+/// Level of all confidence bounds.
 pub const CONFIDENCE: f64 = 0.95;
 
 /// Shares whose quantiles are given.
@@ -21,8 +21,8 @@ pub struct Estimate {
 }
 
 impl Estimate {
-    /// From what all draws together say and what each replicate says: they are independent, so that their mean scatters as Student's
-    /// distribution says.
+    /// Estimate from all draws together and from each replicate: they are independent, so that their mean scatters by Student's
+    /// distribution.
     #[must_use]
     pub fn of_replicates(value: f64, replicates: &[f64]) -> Self {
         let n = replicates.len() as f64;
@@ -46,13 +46,13 @@ pub struct Quantile {
     pub share: f64,
     /// The quantile.
     pub value: f64,
-    /// Lower bound; none where there are too few draws for one.
+    /// Lower bound; `None` if there are too few draws for one.
     pub low: Option<f64>,
     /// Upper bound.
     pub high: Option<f64>,
 }
 
-/// What draws say of one number.
+/// Statistics of one number over the draws.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Summary {
     /// Draws with an answer.
@@ -63,12 +63,12 @@ pub struct Summary {
     pub mean: Estimate,
     /// Standard deviation.
     pub standard_deviation: Estimate,
-    /// At [`SHARES`].
+    /// Quantiles at [`SHARES`].
     pub quantiles: Vec<Quantile>,
 }
 
 impl Summary {
-    /// Of `values` of all draws in their order, NaN where there is no answer.
+    /// Statistics of `values` of all draws in their order, NaN if there is no answer.
     #[must_use]
     pub fn of(draws: &Draws, values: &[f64]) -> Self {
         let mut known: Vec<f64> = values.iter().copied().filter(|x| x.is_finite()).collect();

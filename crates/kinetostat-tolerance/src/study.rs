@@ -40,7 +40,7 @@ fn gigabytes(numbers: usize) -> String {
     short(8e-9 * numbers as f64)
 }
 
-/// Whether `rows` answers of `width` numbers each can be kept: asked before anything is computed.
+/// Checks, before anything is computed, that `rows` answers of `width` numbers each can be kept.
 ///
 /// # Errors
 /// [`TooManyNumbers`].
@@ -52,7 +52,7 @@ pub fn can_be_kept(rows: usize, width: usize) -> Result<(), TooManyNumbers> {
     }
 }
 
-/// What became of draws that have no whole answer. None is dropped in silence.
+/// Draws without a whole answer, by reason. None is dropped in silence.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Failures {
     /// Draws whose numbers make no machine.
@@ -61,23 +61,23 @@ pub struct Failures {
     pub no_answer: usize,
     /// Draws whose machine is not stable under the load at one place or more; their numbers count.
     pub unstable: usize,
-    /// What the first of those that make no machine is refused for.
+    /// Reason for which the first of those that make no machine is refused.
     pub example: Option<String>,
 }
 
-/// What was computed of many machines.
+/// Results of many machines.
 #[derive(Clone, Debug)]
 pub struct Samples {
-    /// One row for each machine: places times columns, NaN where there is no answer.
+    /// Rows, one for each machine: places times columns, NaN where there is no answer.
     pub numbers: Vec<f64>,
     /// Numbers of a row.
     pub width: usize,
-    /// Those without a whole answer.
+    /// Draws without a whole answer.
     pub failures: Failures,
 }
 
 impl Samples {
-    /// One number of all machines.
+    /// Column of one number for all machines.
     pub fn column(&self, column: usize) -> Vec<f64> {
         self.numbers
             .iter()
@@ -192,23 +192,23 @@ pub fn linearised(
     Ok(linear(uncertainties, &answers?))
 }
 
-/// Whether linear propagation is enough for one output.
+/// Verdict on linear propagation for one output.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Verdict {
     /// Root mean square of exact minus linear over all draws, in standard deviations of the draws.
     pub nonlinearity: f64,
-    /// It is at most [`ENOUGH`].
+    /// True if it is at most [`ENOUGH`].
     pub linear_is_enough: bool,
 }
 
-/// What is said of one output at one place.
+/// Results of one output at one place.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct OutputAnswer {
-    /// By linear propagation.
+    /// Result of linear propagation.
     pub linear: Linear,
-    /// By draws.
+    /// Statistics of the draws.
     pub draws: Summary,
-    /// Whether the first is enough.
+    /// Verdict on the linear result.
     pub verdict: Verdict,
 }
 

@@ -9,17 +9,17 @@ use crate::draws::Draws;
 /// A number that is not exactly what the drawing states.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Uncertain {
-    /// Its name.
+    /// Name of the number.
     pub name: String,
-    /// As stated, in its own unit.
+    /// Nominal value, in its own unit.
     pub value: f64,
-    /// As people write it; empty where there is none.
+    /// Unit as people write it; empty if there is none.
     pub unit: String,
-    /// How it scatters about that, in the same unit.
+    /// Distribution about that, in the same unit.
     pub distribution: Distribution,
 }
 
-/// Why correlations cannot be.
+/// Error of contradictory correlations.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error(
     "the correlations contradict each other: their matrix has the eigenvalue {least:.3} and no distribution has such correlations"
@@ -29,12 +29,12 @@ pub struct Contradiction {
     pub least: f64,
 }
 
-/// Several uncertain numbers. Correlated ones are joined by a normal copula: the correlation is that of their normal scores, and of
+/// Set of uncertain numbers. Correlated ones are joined by a normal copula: the correlation is that of their normal scores, and of
 /// normal ones themselves.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Uncertainties {
     each: Vec<Uncertain>,
-    /// Correlation of the scores, and `A` with `A A^T` equal to it; none for independent numbers.
+    /// Correlation of the scores, and `A` with `A A^T` equal to it; `None` for independent numbers.
     correlated: Option<(DMatrix<f64>, DMatrix<f64>)>,
 }
 
@@ -48,7 +48,7 @@ impl Uncertainties {
         }
     }
 
-    /// With correlations of pairs, by their places in the list.
+    /// Set with correlations of pairs, by their places in the list.
     ///
     /// # Errors
     /// [`Contradiction`] if the matrix of the correlations is not positive semidefinite.
@@ -104,7 +104,7 @@ impl Uncertainties {
         self.each.iter().map(number).collect()
     }
 
-    /// As the drawing states them.
+    /// Values of the drawing.
     #[must_use]
     pub fn nominal(&self) -> Vec<f64> {
         self.each.iter().map(|u| u.value).collect()

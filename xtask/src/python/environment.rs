@@ -8,7 +8,7 @@ use anyhow::{Context, Result, bail};
 use super::interpreter::Interpreter;
 use crate::root;
 
-/// Where environments, wheels and locales lie.
+/// Folder of environments, wheels and locales.
 pub fn folder() -> PathBuf {
     let target =
         std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| root().join("target"), PathBuf::from);
@@ -23,7 +23,7 @@ pub struct Environment {
 }
 
 impl Environment {
-    /// With all that the tests need; it is kept from run to run. None where pip cannot install it.
+    /// With all that the tests need; it is kept from run to run. `None` if pip cannot install it.
     pub fn with_test_tools(python: &Interpreter) -> Result<Option<Self>> {
         let own = Self::kept(python, "tests")?;
         // The pip that comes with an old Python knows no groups of dependencies.
@@ -31,7 +31,7 @@ impl Environment {
         Ok((fresh && own.pip(&["install", "--group", "test"])?).then_some(own))
     }
 
-    /// A fresh one with numpy alone; none where pip cannot install that.
+    /// A fresh one with numpy alone; `None` if pip cannot install that.
     pub fn bare(python: &Interpreter) -> Result<Option<Self>> {
         let own = Self::fresh(python, "bare")?;
         Ok(own.pip(&["install", "numpy"])?.then_some(own))
@@ -77,7 +77,7 @@ impl Environment {
         Ok(own)
     }
 
-    /// Its interpreter, without settings of the caller that name other packages.
+    /// Interpreter of the environment, without settings of the caller that name other packages.
     pub fn python(&self) -> Command {
         let mut command = Command::new(self.path.join("bin/python"));
         command

@@ -34,8 +34,8 @@ pub fn measured(figures: &mut Vec<Figure>) -> Result<()> {
         return left_out("pip could not install numpy");
     };
     let alone = alone.holding(&file)?;
-    // Of the wheel's own package, so that both call the same machine code: of a call of 180 us, another build alone takes a few
-    // microseconds more or less.
+    // Both calls use the machine code of the wheel's own package: another build alone changes a call of 180 us by a few
+    // microseconds.
     step(
         "the same calls in Rust",
         cargo().args([

@@ -54,7 +54,8 @@ fn candidates() -> Vec<PathBuf> {
     all
 }
 
-/// What a program says of itself; none where it is no CPython of a supported version that can make environments.
+/// Description that a program gives of itself; `None` if it is no CPython of a supported version that can make
+/// environments.
 fn asked(program: &Path) -> Option<Interpreter> {
     const QUESTION: &str = "import sys, platform, venv, ensurepip; \
         print(platform.python_implementation(), sys.version_info.releaselevel, *sys.version_info[:2], sys.executable)";

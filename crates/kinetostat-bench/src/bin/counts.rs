@@ -1,5 +1,5 @@
-//! What `cargo xtask counts` counts the instructions of, by valgrind, and compares with
-//! `benches/counts.json`: without a word it prints the names of the cases, with a name it does that one.
+//! Cases whose instructions `cargo xtask counts` counts by valgrind and compares with `benches/counts.json`: without
+//! an argument it prints the names of the cases, with a name it runs that one.
 //!
 //! Valgrind knows no AVX-512, so that the kernels' AVX2 is counted, on every processor that has it.
 
@@ -52,7 +52,7 @@ fn names() {
     }
 }
 
-/// What valgrind counts: the instructions between the call and the return of the function of this name.
+/// Function whose instructions valgrind counts, between its call and its return.
 #[inline(never)]
 fn kinetostat_counted(work: &mut dyn FnMut()) {
     work();

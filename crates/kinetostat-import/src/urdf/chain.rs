@@ -36,7 +36,7 @@ pub(crate) struct Plan<'a> {
     /// Values at home, m or rad.
     pub(crate) home: &'a [f64],
     pub(crate) stiffnesses: &'a Stiffnesses,
-    /// One stiffness for all drives that turn.
+    /// Common stiffness of all drives that turn.
     pub(crate) for_all: Option<f64>,
     /// Name of the section of links, if they bend.
     pub(crate) section: Option<&'a str>,
@@ -144,7 +144,7 @@ fn rigid(placement: Placement, name: Option<String>) -> Element {
 }
 
 impl Plan<'_> {
-    /// Whether the variable's joint stands still in the model.
+    /// Fixed value of a joint whose variable does not move in the model.
     fn still(&self, follow: &Follow) -> Option<f64> {
         match follow.variable {
             None => Some(follow.offset),

@@ -1,4 +1,4 @@
-//! Where everything stands at home, and the passive joints that close the loops there.
+//! Poses of all links at home, and the passive joints that close the loops there.
 
 use kinetostat::{Pose, number::larger, spatial::pose_residual};
 use nalgebra::{DMatrix, DVector};
@@ -32,7 +32,7 @@ pub(crate) fn product(steps: &[TreeStep], start: Pose, values: &[f64]) -> Pose {
         .fold(start, |pose, step| pose * step.pose(values))
 }
 
-/// How far every loop is open: six numbers each, m and rad.
+/// Closure error of every loop: six numbers each, m and rad.
 fn residuals(
     robot: &Robot,
     tree: &Tree,
@@ -80,7 +80,7 @@ pub(crate) fn close(
     let start = values.to_vec();
     let variables: Vec<usize> = free.iter().map(|f| f.variable).collect();
     let open = |residual: (f64, f64)| residual.0 > 1e-9 || residual.1 > 1e-9;
-    // Whether it is open, joints outside their limits, distance from the start.
+    // Open loops, joints outside their limits, distance from the start, in this order.
     let cost = |values: &[f64], residual: (f64, f64)| {
         let outside = free
             .iter()

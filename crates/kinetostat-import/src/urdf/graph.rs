@@ -15,11 +15,11 @@ pub(crate) struct LinkPath {
     /// Links that stand for the platforms.
     pub(crate) from: usize,
     pub(crate) to: usize,
-    /// From the frame of `from` to that of `to`.
+    /// Steps from the frame of `from` to that of `to`.
     pub(crate) steps: Vec<TreeStep>,
 }
 
-/// What the model is made of.
+/// Platforms and paths of the model.
 #[derive(Clone, Debug)]
 pub(crate) struct Graph {
     /// Links that stand for moving platforms; the tip is the last one.
@@ -31,7 +31,7 @@ pub(crate) struct Graph {
 struct Edge {
     ends: [usize; 2],
     links: [usize; 2],
-    /// From the first link to the second, without its arrival.
+    /// Steps from the first link to the second, without its arrival.
     steps: Vec<TreeStep>,
 }
 
@@ -163,7 +163,7 @@ fn groups(robot: &Robot, tree: &Tree) -> Vec<usize> {
     group
 }
 
-/// Which edges lie between base and tip or in a loop: dead ends are taken away until none is left.
+/// True for each edge that lies between base and tip or in a loop: dead ends are removed until none is left.
 fn prune(edges: &[Edge], groups: usize, keep: [usize; 2]) -> Vec<bool> {
     let mut at: Vec<Vec<usize>> = vec![Vec::new(); groups];
     for (i, e) in edges.iter().enumerate() {
@@ -206,7 +206,7 @@ fn several_freedoms(
         let JointType::Several(word) = joint.kind else {
             continue;
         };
-        // It lies on the path where links that are used are on both sides of it.
+        // A joint lies on the path if there are used links on both sides of it.
         let below = |mut link: usize| {
             while let Some(above) = tree.above[link] {
                 if above == i {

@@ -33,9 +33,9 @@ const SECTION: &str = "links";
 pub struct Imported {
     /// The model file.
     pub toml: String,
-    /// The same, as it is read again.
+    /// Model read again from that file.
     pub model: Model,
-    /// What was skipped, replaced, or looks wrong, in the order of the work.
+    /// Skipped, replaced and suspicious elements, in the order of the work.
     pub notices: Vec<Problem>,
     /// Name of the robot.
     pub name: String,
@@ -45,7 +45,7 @@ pub struct Imported {
     pub tip: String,
     /// Commanded joints, in the model's order.
     pub actuators: Vec<String>,
-    /// Those of them without a stiffness: to be filled in.
+    /// Commanded joints without a stiffness: to be filled in.
     pub rigid_drives: Vec<String>,
     /// Joints that nothing drives, closing joints included.
     pub passive_joints: Vec<String>,
@@ -76,7 +76,7 @@ pub fn import_urdf(urdf: &str, file: &str, options: &UrdfOptions) -> Result<Impo
         for_all: one_for_all(&options.stiffness, file)?,
         section: options.section.as_ref().map(|_| SECTION),
     };
-    // What is fixed to the base does not move.
+    // Links fixed to the base do not move.
     let mut placed: Vec<bool> = (0..robot.links.len())
         .map(|l| home.is_fixed(&robot, l))
         .collect();
@@ -181,14 +181,14 @@ impl AtHome {
         })
     }
 
-    /// Whether no joint that moves lies between the base and a link.
+    /// True if no joint that moves lies between the base and a link.
     fn is_fixed(&self, robot: &Robot, link: usize) -> bool {
         let still = |s: &TreeStep| s.variable().is_none_or(|v| !self.variables[v].moves);
         self.tree.steps(robot, self.base, link).iter().all(still)
     }
 }
 
-/// What there is to say about the robot, gravest first: what no model can say is an error.
+/// Remarks on the robot, gravest first: elements that no model can represent are errors.
 fn remark(
     plan: &Plan<'_>,
     home: &AtHome,

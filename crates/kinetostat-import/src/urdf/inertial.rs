@@ -44,7 +44,7 @@ pub(crate) fn look(robot: &Robot, moving: &[usize], reach: f64, log: &mut Log) {
     }
 }
 
-/// One inertial by itself.
+/// Checks one inertial by itself.
 fn one(inertial: &Inertial, reach: f64, log: &mut Log) {
     let at = &inertial.at;
     let m = &inertial.inertia;

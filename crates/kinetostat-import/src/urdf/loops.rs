@@ -69,7 +69,7 @@ struct WrittenSide {
     axis: Option<[f64; 3]>,
 }
 
-/// What a loop file adds to the robot.
+/// Additions of a loop file to the robot.
 #[derive(Default)]
 pub(crate) struct Loops {
     pub(crate) passive: Vec<(At, String)>,

@@ -1,4 +1,4 @@
-//! What to make of a URDF.
+//! Options of the import of a URDF.
 
 use std::collections::BTreeMap;
 
@@ -8,7 +8,7 @@ use kinetostat_model::schema::Section;
 use crate::stiffness::JointStiffness;
 use crate::urdf::loops::LoopFile;
 
-/// What to make of a URDF.
+/// Options of the import of a URDF.
 #[derive(Clone, Debug, Default)]
 #[non_exhaustive]
 pub struct UrdfOptions {

@@ -14,10 +14,10 @@ use crate::urdf::robot::{
 };
 use crate::urdf::values::{Reader, children, only};
 
-/// More links or joints are no robot arm.
+/// Maximum number of links or joints of a robot arm.
 const MOST_PARTS: usize = 1_000;
 
-/// What neither moves nor bends a robot, by element.
+/// Elements that neither move nor bend a robot.
 const SKIPPED: [&str; 15] = [
     "material",
     "transmission",

@@ -1,4 +1,4 @@
-//! What there is to say about a robot that can be imported.
+//! Remarks on a robot that can be imported.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -38,8 +38,8 @@ pub(crate) fn one_limb_each(
     }
 }
 
-/// Length of the arm from its second joint on, m: the first one only turns it about its foot. Of a
-/// machine with loops, along the fewest limbs from the base to the tip, the longest of those paths.
+/// Length of the arm from its second joint on, m: the first one only turns it about its foot. In a machine with loops
+/// it is measured along the fewest limbs from the base to the tip, on the longest of those paths.
 pub(crate) fn reach(graph: &Graph, base: usize) -> f64 {
     // Length and number of joints of the path to each link known so far.
     let mut known: BTreeMap<usize, (f64, usize)> = BTreeMap::from([(base, (0.0, 0))]);
@@ -75,7 +75,7 @@ pub(crate) fn reach(graph: &Graph, base: usize) -> f64 {
     tip.map_or(0.0, |(sum, _)| *sum)
 }
 
-/// No arm is as long as this, m.
+/// Implausible length of an arm, m.
 const LONGEST: f64 = 300.0;
 
 /// Refuses an arm that is written in millimetres.

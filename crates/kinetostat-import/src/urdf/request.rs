@@ -1,5 +1,4 @@
-//! What the options and the loop file ask for, against what the robot has: base and tip, which joints
-//! are passive, where everything stands at home, which stiffnesses there are.
+//! Checks the options and the loop file against the robot: base and tip, passive joints, home values, stiffnesses.
 
 use std::collections::BTreeSet;
 
@@ -323,7 +322,7 @@ impl Given<'_> {
         if from_file { "home" } else { "--home" }
     }
 
-    /// Whether the joint can stand there; the reason is logged where it cannot.
+    /// True if the joint can have that value; the reason is logged if it cannot.
     fn check(&self, at: &At, j: &Joint, kind: MotionKind, log: &mut Log) -> bool {
         let Self {
             name,

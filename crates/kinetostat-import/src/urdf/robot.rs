@@ -1,4 +1,4 @@
-//! What a URDF says, as numbers in its own units (m, rad, kg), each with its place in the file.
+//! Content of a URDF, as numbers in its own units (m, rad, kg), each with its place in the file.
 
 use kinetostat::{MotionKind, Pose};
 use nalgebra::{Isometry3, Matrix3, Translation3, UnitQuaternion, Vector3};
@@ -74,7 +74,7 @@ pub(crate) struct Joint {
     pub(crate) origin: Origin,
     pub(crate) parent: (At, String),
     pub(crate) child: (At, String),
-    /// As written; unit x if not given.
+    /// Axis as written; unit x if not given.
     pub(crate) axis: [f64; 3],
     pub(crate) limits: Option<(f64, f64)>,
     pub(crate) limit_at: Option<At>,
@@ -90,7 +90,7 @@ pub(crate) struct Side {
     pub(crate) axis: Option<[f64; 3]>,
 }
 
-/// How a loop is closed.
+/// Joint by which a loop is closed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Closure {
     /// Slides or turns about the parent's axis.
@@ -129,7 +129,7 @@ pub(crate) struct Missing {
     /// Index of the joint.
     pub(crate) joint: usize,
     pub(crate) name: String,
-    /// What may be meant.
+    /// Suggestion.
     pub(crate) help: String,
 }
 

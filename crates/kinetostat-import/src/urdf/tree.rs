@@ -59,7 +59,7 @@ impl TreeStep {
         step
     }
 
-    /// Its factor for these values of the variables.
+    /// Pose of the step for these values of the variables.
     pub(crate) fn pose(&self, values: &[f64]) -> Pose {
         match self {
             Self::Offset {
@@ -117,7 +117,7 @@ pub(crate) struct Tree {
     /// Number of joints up to the root.
     depth: Vec<usize>,
     pub(crate) follows: Vec<Follow>,
-    /// What is wrong with joints, which counts only where they lie between base and tip.
+    /// Faults of joints, which matter only between base and tip.
     doubts: Vec<Doubt>,
 }
 
@@ -161,7 +161,7 @@ impl Tree {
         steps
     }
 
-    /// Whether `good` holds for what every joint between two links follows.
+    /// True if `good` is true of what every joint between two links follows.
     pub(crate) fn between(&self, from: usize, to: usize, good: impl Fn(&Follow) -> bool) -> bool {
         let (mut a, mut b) = (from, to);
         while a != b {
@@ -313,7 +313,7 @@ fn depths(
             at = ends[joint].0;
             path.push(at);
             if path.len() > count + 1 {
-                // Where it goes twice through the same link, the circle is closed.
+                // The circle is closed if the path contains a link twice.
                 let start = path.iter().position(|l| *l == at).unwrap_or(0);
                 let mut circle: Vec<&str> = Vec::new();
                 for l in &path[start..] {

@@ -9,7 +9,7 @@ use serde::Serialize;
 
 use crate::urdf::chain::{Line, placement};
 
-/// What is written.
+/// Parts of the model file.
 pub(crate) struct Parts<'a> {
     pub(crate) name: &'a str,
     pub(crate) file: &'a str,

@@ -204,7 +204,7 @@ fn offset(text: &str, pos: roxmltree::TextPos) -> usize {
             .map_or(line.len(), |(i, _)| i)
 }
 
-/// What could make the parser use much time or memory, found by one pass over the bytes.
+/// Finds constructs that could make the parser use much time or memory, in one pass over the bytes.
 fn scan(text: &str) -> Result<(), (usize, String, String)> {
     let bytes = text.as_bytes();
     let mut depth = 0_usize;

@@ -11,7 +11,7 @@ pub struct Material {
     pub poissons_ratio: f64,
     /// Density, kg/m^3.
     pub density: f64,
-    /// Where the figures come from.
+    /// Source of the figures.
     pub source: &'static str,
 }
 

@@ -25,20 +25,20 @@ pub enum SectionShape {
     },
     /// Solid rectangle.
     Rectangle {
-        /// Along y.
+        /// Size along y.
         width: f64,
-        /// Along z.
+        /// Size along z.
         height: f64,
     },
     /// I with its web along z and its flanges along y.
     IBeam {
-        /// Of the flanges, along y.
+        /// Width of the flanges, along y.
         width: f64,
         /// Outer, along z.
         height: f64,
-        /// Of a flange, along z.
+        /// Thickness of a flange, along z.
         flange: f64,
-        /// Of the web, along y.
+        /// Thickness of the web, along y.
         web: f64,
     },
     /// Rectangular tube.
@@ -47,16 +47,16 @@ pub enum SectionShape {
         width: f64,
         /// Outer, along z.
         height: f64,
-        /// Of the two walls at the sides, along y.
+        /// Thickness of the two walls at the sides, along y.
         side_wall: f64,
-        /// Of the two walls above and below, along z.
+        /// Thickness of the two walls above and below, along z.
         top_wall: f64,
     },
     /// Numbers.
     Custom(Properties),
 }
 
-/// What a section's shape says to a beam. Shear areas that are infinite mean no shear deflection.
+/// Properties of a section for a beam. Shear areas that are infinite mean no shear deflection.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Properties {
     /// Area, m^2.
@@ -74,7 +74,7 @@ pub struct Properties {
 }
 
 impl Properties {
-    /// With moduli, as the core's links take it (without shear).
+    /// Section with moduli, as the core's links take it (without shear).
     #[must_use]
     pub fn section(&self, youngs_modulus: f64, shear_modulus: f64) -> BeamSection {
         BeamSection {

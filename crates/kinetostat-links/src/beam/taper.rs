@@ -17,7 +17,7 @@ pub enum Shear {
     /// Left out (Euler-Bernoulli), as the core's links do.
     #[default]
     None,
-    /// With the shear areas of the section (Timoshenko).
+    /// Timoshenko, with the shear areas of the section.
     Timoshenko,
 }
 
@@ -101,8 +101,8 @@ pub fn cantilever(
     })
 }
 
-/// The same for any change along the link: `slice` gives the compliance per length at `x` (m from the
-/// root): stretch 1/N, shear along y and z 1/N, twist and bending about y and z 1/(N m^2).
+/// Stiffness for any change along the link: `slice` gives the compliance per length at `x` (m from the root): stretch
+/// 1/N, shear along y and z 1/N, twist and bending about y and z 1/(N m^2).
 ///
 /// # Errors
 ///

@@ -22,13 +22,13 @@ use crate::interface::{RigidRank, rigid_rank};
 use crate::superelement::Superelement;
 use crate::units::Units;
 
-/// How the nodes of an interface hang on the link's end.
+/// Coupling of the nodes of an interface to the link's end.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Tie {
-    /// As on a rigid body (RBE2): a bolted flange, a cast-in bearing.
+    /// Rigid body (RBE2): a bolted flange, a cast-in bearing.
     #[default]
     Rigid,
-    /// By their average, loads spread over them (RBE3): an interface that its neighbour lets warp.
+    /// Average, with loads spread over the nodes (RBE3): an interface that its neighbour lets warp.
     Averaged,
 }
 
@@ -45,7 +45,7 @@ pub struct CondensationRequest {
     pub end: Option<Vector3<f64>>,
     /// The link's axes in the file's: `file = axes * link`.
     pub axes: Rotation3<f64>,
-    /// How the nodes of the interface hang on the end.
+    /// Coupling of the interface's nodes to the end.
     pub tie: Tie,
 }
 
@@ -58,7 +58,7 @@ pub struct Condensed {
     pub end: Vector3<f64>,
     /// Degrees of freedom tied to the end, fixed, and condensed.
     pub counts: [usize; 3],
-    /// Which motions the interface's nodes hold.
+    /// Motions that the interface's nodes hold.
     pub rank: RigidRank,
     /// Smallest share that elimination left of a diagonal entry; tiny: a nearly free part inside.
     pub least_pivot: f64,
@@ -111,7 +111,7 @@ struct Interface {
     middle: Vector3<f64>,
     end: Vector3<f64>,
     rank: RigidRank,
-    /// By an average instead of a rigid body.
+    /// True for an average instead of a rigid body.
     averaged: bool,
 }
 
@@ -160,7 +160,7 @@ impl Interface {
     }
 }
 
-/// Whether the two interfaces can be those of the matrix.
+/// Checks that the two interfaces can be those of the matrix.
 fn check_nodes(
     element: &Superelement,
     nodes: &Nodes,
@@ -189,7 +189,7 @@ fn check_nodes(
             "its directions are held or were not retained: retain all nodes of the interface",
         ));
     }
-    // What a boundary condition holds is in the mesh but not in the matrix.
+    // Nodes held by a boundary condition are in the mesh but not in the matrix.
     if let Some(node) = fixed
         .iter()
         .find(|n| !known.contains(n) && !nodes.places.contains_key(n))
@@ -253,7 +253,7 @@ fn units_of(element: &Superelement, units: Units) -> Vec<f64> {
         .collect()
 }
 
-/// Row of the spider for each degree of freedom of the interface; none for the others.
+/// Row of the spider for each degree of freedom of the interface; `None` for the others.
 fn spider_rows(element: &Superelement, interface: &Interface) -> Vec<Option<Vector6<f64>>> {
     element
         .dofs
@@ -278,9 +278,9 @@ fn spider_rows(element: &Superelement, interface: &Interface) -> Vec<Option<Vect
         .collect()
 }
 
-/// What becomes of each degree of freedom.
+/// Treatment of each degree of freedom.
 struct Parts {
-    /// Row of the spider of those that are tied rigidly; none for the others.
+    /// Row of the spider of those that are tied rigidly; `None` for the others.
     spider: Vec<Option<Vector6<f64>>>,
     /// Number among the unknowns; `u32::MAX` for those that are no unknown.
     inner: Vec<u32>,
@@ -408,7 +408,7 @@ fn averaged_stiffness(
         })
 }
 
-/// Why the inside could not be solved for.
+/// Error of the factorisation of the inner degrees of freedom.
 fn not_solved(error: &NoFactor, element: &Superelement, inner: &[u32]) -> Error {
     let fault = |message: String, help: &str| {
         Error::new(LinkErrorKind::Interface, &element.file, message, help)

@@ -8,12 +8,12 @@ pub const MOST_ENVELOPE: usize = 32 << 20;
 /// Share of a diagonal entry below which what elimination leaves of it counts as nothing.
 const PIVOT: f64 = 1e-12;
 
-/// Why there is no factor.
+/// Reason for which there is no factor.
 #[derive(Clone, Debug, PartialEq)]
 pub enum NoFactor {
     /// The envelope has this many entries.
     TooLarge(usize),
-    /// Nothing is left on the diagonal of this row, or less: share of the original entry.
+    /// The pivot of this row is zero or negative: share of the original entry.
     NotHeld(usize, f64),
 }
 

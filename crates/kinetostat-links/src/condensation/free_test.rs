@@ -1,4 +1,4 @@
-//! Whether a superelement without supports can be moved as a rigid body.
+//! Test that a superelement without supports can be moved as a rigid body.
 
 use nalgebra::{DMatrix, Vector3};
 
@@ -19,7 +19,7 @@ pub struct FreeTest {
     pub negative_modes: Option<usize>,
 }
 
-/// What counts as no resistance: files have 9 to 13 digits.
+/// Resistance that is zero within the digits of a file: these have 9 to 13.
 const FREE_TO: f64 = 1e-6;
 
 impl FreeTest {

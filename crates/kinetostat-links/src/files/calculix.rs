@@ -50,7 +50,7 @@ pub(crate) fn user_element(text: &Text) -> Result<Superelement> {
     )
 }
 
-/// What the next line of a user element belongs to.
+/// Section of a user element to which the next line belongs.
 #[derive(Default, PartialEq)]
 enum Part {
     #[default]

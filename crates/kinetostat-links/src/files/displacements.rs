@@ -14,7 +14,7 @@ use crate::files::nodes::Nodes;
 use crate::text::{Text, fields, short};
 use crate::units::Units;
 
-/// Most load cases.
+/// Maximum number of load cases.
 const MOST_CASES: usize = 1000;
 
 /// Wrenches (N, N m, about the link's end, file's axes) by the name of their case, in order.

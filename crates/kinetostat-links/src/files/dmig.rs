@@ -145,7 +145,7 @@ pub(crate) fn grids(text: &Text) -> Result<Vec<(usize, u64, [f64; 3])>> {
     Ok(found)
 }
 
-/// What the header of a matrix says.
+/// Header of a matrix.
 struct Header {
     name: String,
     symmetric: bool,

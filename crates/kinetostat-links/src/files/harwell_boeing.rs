@@ -9,7 +9,7 @@ use crate::error::Result;
 use crate::superelement::{Dof, Halves, MOST_DOFS, Raw, Superelement, too_many};
 use crate::text::{Text, short};
 
-/// What the third and fourth line say.
+/// Third and fourth line of the header.
 pub(crate) struct Header {
     kind: String,
     rows: usize,
@@ -67,7 +67,7 @@ pub(crate) fn recognised(text: &Text) -> Option<Header> {
     })
 }
 
-/// Which half of the matrix its type says is written.
+/// Half of the matrix that its type declares as written.
 fn halves_of(text: &Text, header: &Header) -> Result<Halves> {
     match header.kind.as_str() {
         "RSA" => Ok(Halves::Found),

@@ -24,7 +24,7 @@ use crate::stiffness_check::DIRECTIONS;
 use crate::text::{Text, fields, number, short};
 use crate::units::Units;
 
-/// What a file with one 6 x 6 matrix says.
+/// Content of a file with one 6 x 6 matrix.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LinkMatrix {
     /// Stiffness as the file has it, N/m, N/rad, N m/m, N m/rad; own axes, own point.
@@ -37,7 +37,7 @@ pub struct LinkMatrix {
     pub units: Units,
     /// True if the file holds a compliance, which was inverted.
     pub was_compliance: bool,
-    /// Where the figures come from, as the file says.
+    /// Source of the figures, as the file states it.
     pub source: Option<String>,
 }
 
@@ -302,7 +302,7 @@ fn direction(text: &Text, at: usize, word: &str) -> Result<usize> {
     })
 }
 
-/// Which direction stands in each column.
+/// Direction of each column.
 fn order(text: &Text, at: usize, cells: &[&str]) -> Result<[usize; 6]> {
     let cells: Vec<&str> = cells.iter().copied().filter(|c| !c.is_empty()).collect();
     let mut columns = [usize::MAX; 6];

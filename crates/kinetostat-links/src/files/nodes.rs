@@ -1,4 +1,4 @@
-//! Where the nodes are, and their sets by name: from the mesh that the matrix or the table belongs to.
+//! Positions of the nodes, and their sets by name: from the mesh that the matrix or the table belongs to.
 
 use std::collections::BTreeMap;
 

@@ -1,5 +1,4 @@
-//! Whether a correction can be one of cutting forces: what is due to the machine's own weight is compared with a
-//! limit of its own.
+//! Plausibility of a correction for cutting forces: the part due to the machine's own weight has a limit of its own.
 
 use kinetostat::number::{largest_length, length_setting};
 use nalgebra::Vector3;
@@ -19,7 +18,7 @@ fn to_make_up(point: &PointResult) -> f64 {
     size(&point.correction_mm).max(size(&point.error_before_mm))
 }
 
-/// The same without what is due to the machine's own weight.
+/// Size of the correction without the part due to the machine's own weight.
 pub(crate) fn besides(point: &PointResult, own: &Vector3<f64>) -> f64 {
     let correction = Vector3::from(point.correction_mm);
     // A correction is against what it makes up for; an analysis has none.

@@ -13,7 +13,7 @@ pub fn folds(far: f64, size: f64) -> Option<Warning> {
     folds_at(far, size, "")
 }
 
-/// The same, `places` of a grid in words; empty for one place.
+/// Warning for `places` of a grid, in words; empty for one place.
 #[must_use]
 pub fn folds_at(far: f64, size: f64, places: &str) -> Option<Warning> {
     is_large(far, size).then(|| {
@@ -24,7 +24,7 @@ pub fn folds_at(far: f64, size: f64, places: &str) -> Option<Warning> {
     })
 }
 
-/// Whether a displacement is no deflection any more of a machine of this size, m.
+/// True if a displacement is too large to be a deflection of a machine of this size, m.
 #[must_use]
 pub fn is_large(far: f64, size: f64) -> bool {
     far > LARGE * size

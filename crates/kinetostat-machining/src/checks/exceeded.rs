@@ -16,5 +16,5 @@ impl Exceeded<'_> {
     }
 }
 
-/// Above this share of a limit a figure is allowed and unusual.
+/// Share of a limit above which a figure is allowed and unusual.
 pub(crate) const ODD: f64 = 0.5;

@@ -1,4 +1,4 @@
-//! Whether the load on the tool is one of cutting: its size, its lever, its sign, and that it acts at all.
+//! Plausibility of the load on the tool for cutting: its size, its lever, its sign, and that it acts at all.
 
 use kinetostat::Wrench;
 use kinetostat::number::short;
@@ -152,7 +152,8 @@ pub(crate) fn odd_load(task: &Task<'_>, whose: &str, load: &ProgramLoad) -> Vec<
     list
 }
 
-/// What a question leaves out: any load, weight of a machine whose weight is to be corrected, the start of a spindle that mills.
+/// Warnings about missing inputs: any load, the weight of a machine whose weight is to be corrected, the start of a spindle that
+/// mills.
 pub(crate) fn left_out(task: &Task<'_>) -> Vec<Warning> {
     let (all, mut list) = (loads(task), Vec::new());
     let weighs = task.mechanism.has_own_loads();

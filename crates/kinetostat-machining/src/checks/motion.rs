@@ -1,10 +1,10 @@
-//! Whether a program has any motion on which a correction could be needed.
+//! Check that a program has motions that could need a correction.
 
 use kinetostat_program::{Knowledge, Move, MoveKind, Path};
 
 use crate::task::NoMotion;
 
-/// Why the program has no motion on which a correction could be needed; none if it has some.
+/// Reason for which the program has no motion that could need a correction; `None` if it has some.
 pub(crate) fn no_motion(path: &Path) -> Option<NoMotion> {
     if path.moves.is_empty() {
         return Some(NoMotion::NoMoves);
@@ -21,7 +21,7 @@ pub(crate) fn no_motion(path: &Path) -> Option<NoMotion> {
     })
 }
 
-/// Where a move from an unknown place ends counts, of a rapid only where every axis is stated.
+/// True if the move could be corrected: a rapid from an unknown place only if every axis is stated.
 fn counts(motion: &Move, stated: [bool; 3]) -> bool {
     match motion.known {
         Knowledge::Whole => {

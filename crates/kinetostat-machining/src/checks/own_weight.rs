@@ -1,8 +1,8 @@
-//! How far the machine's own weight, and what else acts in its model, put the tool off without a load on
-//! it: the part of a correction that has nothing to do with cutting.
+//! Deflection of the tool by the machine's own weight and the other loads of its model, without a load on it: the
+//! part of a correction that has nothing to do with cutting.
 //!
-//! It has a limit of its own. Heavy arms sag by millimetres, as they should; a cutting force that moves the tool
-//! that far is a wrong unit. How much of it is an error of the program depends on how the part was measured
+//! It has a limit of its own. Heavy arms sag by millimetres, as they should; a cutting force that moves the tool that
+//! far is a wrong unit. The share of it that is an error of the program depends on how the part was measured
 //! ([`crate::WeightCorrection`]).
 
 use kinetostat::number::larger;
@@ -19,11 +19,11 @@ use crate::task::{RunError, Task};
 pub(crate) struct ByOwnLoads {
     /// All of it.
     pub whole: Vector3<f64>,
-    /// Its part that is an error of the program.
+    /// Part that is an error of the program.
     pub error: Vector3<f64>,
 }
 
-/// Displacements at points; none where there is no answer.
+/// Displacements at points; `None` if there is no answer.
 pub(crate) fn by_own_loads(task: &Task<'_>, points: &[&PointResult]) -> Vec<Option<ByOwnLoads>> {
     let Ok(frame) = MeasuredFrame::of(task, None) else {
         return vec![None; points.len()];

@@ -1,4 +1,4 @@
-//! Whether the part lies where the machine works.
+//! Check that the part lies in the workspace of the machine.
 
 use kinetostat::number::short;
 use kinetostat::{Mechanism, Pose};
@@ -15,7 +15,7 @@ use crate::warning::{Warning, WarningCode};
 /// Origins of parts that are nearer than this to the origin of a large machine may be metres, mm.
 const NEAR_MM: f64 = 10.0;
 
-/// Nearer ones would be nearer than that in metres too, where no large machine works, mm.
+/// Smallest distance, mm, that is suspected of being in metres: no large machine works nearer.
 const LEAST_MM: f64 = 0.05;
 
 /// A base that is nearer than this to a part stands beside it, mm.
@@ -24,8 +24,9 @@ const BESIDE_MM: f64 = 200.0;
 /// Machines of this size, working as far from the origin of their base, are large, m.
 const LARGE_M: f64 = 0.3;
 
-/// A place of the part that was most likely written in metres: some millimetres from the origin of the base,
-/// so that the base of a large machine stands in the part. Where nobody stated one, also a base that stands beside it.
+/// Warning of a placement that was most likely written in metres: some millimetres from the origin of the base, so
+/// that the base of a large machine stands in the part. If no placement was stated, also of a base that stands beside
+/// it.
 #[must_use]
 pub fn origin_in_metres(
     mechanism: &Mechanism,
@@ -69,8 +70,8 @@ pub fn origin_in_metres(
     })
 }
 
-/// A part far below the base of a machine whose tool is above it at home: mostly a sign. Where the model states a workspace, that
-/// is what counts.
+/// Limit for a part far below the base of a machine whose tool is above it at home: mostly a wrong sign. A workspace of the model
+/// takes precedence.
 pub(crate) fn below_base(task: &Task<'_>) -> Option<Beyond> {
     let mechanism = task.mechanism;
     let up = match mechanism.gravity().try_normalize(1e-9) {

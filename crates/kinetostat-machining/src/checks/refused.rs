@@ -1,5 +1,5 @@
-//! What refuses a program: figures of the question, of the written program and of the solved points that are beyond
-//! their limits.
+//! Reasons for refusing a program: figures of the question, of the written program and of the solved points that are
+//! beyond their limits.
 
 use kinetostat::MotionKind;
 use kinetostat::number::short;
@@ -85,7 +85,7 @@ pub fn of_accounting(limits: &Limits, accounting: &Accounting) -> Vec<Beyond> {
     exceeded.found
 }
 
-/// Where a drive carries the largest share of its rating; none where no rating is known.
+/// Place with the largest share of a drive's rating; `None` if no rating is known.
 pub(crate) fn share_of_rating(task: &Task<'_>, points: &[PointResult]) -> Option<RatingPlace> {
     let mut worst: Option<RatingPlace> = None;
     for point in points {
@@ -105,7 +105,7 @@ pub(crate) fn share_of_rating(task: &Task<'_>, points: &[PointResult]) -> Option
     worst
 }
 
-/// The largest share of a rating; none where no rating is known.
+/// The largest share of a rating; `None` if no rating is known.
 pub(crate) fn largest_share_of_rating(task: &Task<'_>, points: &[PointResult]) -> Option<f64> {
     share_of_rating(task, points).map(|worst| worst.drive.share_of_rating)
 }
@@ -143,7 +143,7 @@ pub(crate) fn of_points(task: &Task<'_>, points: &[PointResult]) -> Vec<Beyond> 
     exceeded.found
 }
 
-/// What was found beyond a limit, where nothing is refused.
+/// Warning for a figure beyond its limit, if nothing is refused.
 pub(crate) fn as_warning(beyond: &Beyond) -> Warning {
     // The line is said once, by the warning itself.
     let of_line = Beyond {

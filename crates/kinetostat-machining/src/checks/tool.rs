@@ -1,4 +1,4 @@
-//! Whether the length of a tool can be one: by its limits, and beside the machine.
+//! Plausibility of the length of a tool, by its limits and in relation to the machine.
 
 use kinetostat::Mechanism;
 use kinetostat::number::short;
@@ -11,7 +11,7 @@ use crate::near::natural_length;
 use crate::task::Task;
 use crate::warning::{Warning, WarningCode};
 
-/// Shorter tools with their holder are unusual, mm.
+/// Length, with holder, below which a tool is unusual, mm.
 const SHORT_MM: f64 = 15.0;
 
 /// Notes the length of a tool, mm, where it is beyond a limit; a tool that is not there has none.
@@ -33,7 +33,7 @@ pub fn beyond_tool_length(limits: &Limits, tool: &ToolGiven) -> Vec<Beyond> {
     exceeded.found
 }
 
-/// What is unusual about the length of a tool (mm, along z of the flange) where the machine stands at a place.
+/// Warnings about the length of a tool (mm, along z of the flange) with the machine in a posture.
 #[must_use]
 pub fn odd_tool_length(mechanism: &Mechanism, length_mm: f64) -> Vec<Warning> {
     let limits = Limits::default();

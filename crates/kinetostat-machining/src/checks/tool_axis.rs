@@ -1,4 +1,4 @@
-//! Whether the tool of a program that turns it lies across its cut, and points away from the machine.
+//! Check that the tool of a program with orientations lies across its cut, and points away from the machine.
 
 use kinetostat::Directions;
 use kinetostat::number::short;
@@ -19,8 +19,8 @@ const MOST: f64 = 0.5;
 /// Flanges that lie less behind the tip are beside it, mm.
 const LEAST_MM: f64 = 1e-3;
 
-/// A load that turns with the feed needs the tool's axis. Where most of the path lies along it, it is another axis of the
-/// tool's frame, or a program that drills.
+/// Warning if most of the path lies along the tool's axis, which a load that turns with the feed needs: it is another
+/// axis of the tool's frame, or a program that drills.
 pub(crate) fn odd_tool_axis(task: &Task<'_>) -> Option<Warning> {
     let path = task.path();
     let turns = loads(task).iter().any(|(_, load)| load.turns());
@@ -42,7 +42,7 @@ pub(crate) fn odd_tool_axis(task: &Task<'_>) -> Option<Warning> {
         }
     }
     let line = first.filter(|_| along > MOST * all)?;
-    // What a rotation leaves of a zero says nothing.
+    // A component of rounding error is shown as zero.
     let [x, y, z] = [0, 1, 2].map(|k| match path.tool_axis[k].abs() < 1e-9 {
         true => "0".to_owned(),
         false => short(path.tool_axis[k]),
@@ -57,8 +57,8 @@ pub(crate) fn odd_tool_axis(task: &Task<'_>) -> Option<Warning> {
     ))
 }
 
-/// The axis of a tool points from its tip to its holder, and so lies the flange. Where the flange lies on the other side of the
-/// tip, the tool points into the ram: a sign of the tool's length, or of the flange's frame.
+/// Warning of a flange on the wrong side of the tip: the axis of a tool points from its tip to its holder. The tool then
+/// points into the ram: a wrong sign of its length, or of the flange's frame.
 pub(crate) fn tip_behind_flange(task: &Task<'_>, tool: &ToolGiven) -> Option<Warning> {
     let path = task.path();
     let turned = path
@@ -81,7 +81,7 @@ pub(crate) fn tip_behind_flange(task: &Task<'_>, tool: &ToolGiven) -> Option<War
     ))
 }
 
-/// Whether angles of rotary axes that are to be corrected stay because the tool lies along one of them.
+/// Warning if corrections of rotary axes are left out because the tool lies along one of them.
 pub(crate) fn at_pole(task: &Task<'_>) -> Option<Warning> {
     if task.corrected != Directions::ALL {
         return None;

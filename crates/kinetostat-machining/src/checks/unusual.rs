@@ -1,4 +1,4 @@
-//! What is allowed and unusual, about the question and about its answer: usually a unit is wrong.
+//! Warnings about unusual values of the question and its answer: usually a unit is wrong.
 
 use kinetostat::number::{largest, short};
 use kinetostat_program::WriteOptions;
@@ -54,7 +54,7 @@ pub fn odd_tolerances(writing: &WriteOptions) -> Vec<Warning> {
         .collect()
 }
 
-/// What of a question is allowed and unusual, before anything is solved.
+/// Warnings about unusual values of a question, before anything is solved.
 #[must_use]
 pub fn unusual_question(task: &Task<'_>) -> Vec<Warning> {
     let mut list: Vec<Warning> = odd_loads(task).collect();
@@ -128,12 +128,12 @@ pub(crate) fn unusual(
     list
 }
 
-/// What is unusual about figures of a whole run: of a long program they are those of all its parts.
+/// Warnings about unusual figures of a whole run: of a long program they are those of all its parts.
 pub(crate) fn unusual_figures(task: &Task<'_>, summary: &Summary) -> Vec<Warning> {
     let mut list = Vec::new();
     let limits = &task.bounds.limits;
     let stiffness = summary.smallest_stiffness_n_per_mm;
-    // Where nothing was solved there is none.
+    // The stiffness is infinite if nothing was solved.
     let is_known = stiffness.is_finite();
     if summary.stable && is_known && !(SOFT..=STIFF).contains(&stiffness) {
         let which = if stiffness < SOFT {

@@ -1,11 +1,11 @@
-//! Which force of a revolution a program is compensated for.
+//! Choice of the force within a revolution for which a program is compensated.
 
 use serde::{Deserialize, Serialize};
 
-/// Which force of a revolution counts.
+/// Force within a revolution that is compensated.
 ///
-/// The machine is slow against the teeth: it bends under the mean, and the compensation follows that by default. What a tooth
-/// leaves on a wall is where the tool was while its edge passed the wall. If the tool follows every tooth (a soft tool in a stiff
+/// The machine is slow against the teeth: it bends under the mean, and the compensation follows that by default. A tooth shapes a
+/// wall by the position of the tool while its edge passed the wall. If the tool follows every tooth (a soft tool in a stiff
 /// machine), the force of that moment prints into the wall, and it is another than the mean.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
@@ -21,7 +21,7 @@ pub enum ForceChoice {
 }
 
 impl ForceChoice {
-    /// In words.
+    /// Choice in words.
     #[must_use]
     pub fn description(self) -> &'static str {
         match self {

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::cut::failure::CutFailure;
 
-/// What the P of a dwell (G4) counts.
+/// Unit of the P of a dwell (G4).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum DwellUnit {
     /// Seconds, as with LinuxCNC.
@@ -16,7 +16,7 @@ pub enum DwellUnit {
     Milliseconds,
 }
 
-/// What a program does not say about its times.
+/// Times that a program does not state.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Timing {
     pub rapid_mm_per_minute: Option<f64>,
@@ -24,7 +24,7 @@ pub(crate) struct Timing {
     pub dwell_unit: Option<DwellUnit>,
 }
 
-/// Where each move lies: from and to, in s or mm, the first cut beginning at 0.
+/// Interval of each move: from and to, in s or mm, the first cut beginning at 0.
 #[derive(Debug)]
 pub(crate) struct Clock {
     pub spans: Vec<[f64; 2]>,
@@ -94,7 +94,7 @@ impl Clock {
         }
     }
 
-    /// From the first cut to the last: 1 in feed moves, 0 between them.
+    /// Activity from the first cut to the last: 1 in feed moves, 0 between them.
     pub fn activity(&self, path: &Path) -> Vec<[f64; 2]> {
         let mut points: Vec<[f64; 2]> = Vec::new();
         let moves = path.moves.iter().zip(&self.spans);

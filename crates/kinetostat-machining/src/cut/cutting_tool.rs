@@ -9,7 +9,7 @@ use kinetostat_cutting::{ForceLaw, Tool};
 pub struct CuttingTool {
     /// Number in the program's T words; `None` for the tool of blocks whose tool has no entry of its own.
     pub number: Option<u32>,
-    /// Its edges.
+    /// Cutting edges.
     pub tool: Tool,
     /// Force per length of edge.
     pub law: Arc<dyn ForceLaw>,

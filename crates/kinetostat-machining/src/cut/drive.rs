@@ -1,4 +1,4 @@
-//! How the tool turns and goes: what program and question say of spindle and feed.
+//! Speed, sense of rotation and feed per tooth of the tool, from program and question.
 
 use kinetostat_cutting::Rotation;
 use kinetostat_program::{Move, Path, SpeedMode, SpindleRotation};
@@ -7,7 +7,7 @@ use crate::cut::cutting_tool::CuttingTool;
 use crate::cut::failure::CutFailure;
 use crate::cut::question::CutQuestion;
 
-/// How the tool turns and goes on a move.
+/// Rotation and feed of the tool on a move.
 pub(crate) struct Drive<'a> {
     pub tool: &'a CuttingTool,
     pub rotation: Rotation,
@@ -30,7 +30,7 @@ impl CutQuestion {
         })
     }
 
-    /// How the tool (of this index) turns and goes on a move; what is missing is named.
+    /// Rotation and feed of the tool (of this index) on a move; the error names a missing value.
     pub(crate) fn drive(
         &self,
         path: &Path,

@@ -1,22 +1,22 @@
-//! Where the tool is in the material.
+//! Source of the engagement of the tool.
 
 use std::ops::RangeInclusive;
 
 use kinetostat_cutting::{Engagement, Stock};
 
-/// Where the tool is in the material, along a program.
+/// Source of the engagement of the tool along a program.
 #[derive(Clone, Debug)]
 pub enum EngagementSource {
-    /// The same on all feed moves, in the frame of the cut.
+    /// One engagement for all feed moves, in the frame of the cut.
     Constant(Engagement),
-    /// By lines of the program; air on lines that are in none. The first that holds a line counts.
+    /// Engagement by lines of the program, the first range that contains a line; air on all other lines.
     Lines(Vec<(RangeInclusive<usize>, Engagement)>),
     /// A stock that the program itself cuts, in coordinates of the part, mm.
     Stock(Box<Stock>),
 }
 
 impl EngagementSource {
-    /// What is known of a line without going through a stock.
+    /// Engagement of a line, if it is known without simulating a stock.
     pub(crate) fn of_line(&self, line: usize) -> Option<Engagement> {
         match self {
             Self::Constant(engagement) => Some(engagement.clone()),

@@ -1,9 +1,9 @@
-//! Why a program has no cutting force.
+//! Errors of the computation of cutting forces.
 
 use kinetostat::number::short;
 use kinetostat_cutting::CutError;
 
-/// Why no force can be computed.
+/// Reason for which no force can be computed.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum CutFailure {
@@ -12,9 +12,9 @@ pub enum CutFailure {
     Missing {
         /// Line of the program, from 1.
         line: usize,
-        /// What is missing.
+        /// Missing value.
         what: &'static str,
-        /// What to do.
+        /// Remedy.
         help: &'static str,
     },
     /// The program takes a tool that nobody has described.
@@ -24,7 +24,7 @@ pub enum CutFailure {
     UnknownTool {
         /// Line of the first cut with it.
         line: usize,
-        /// Its number.
+        /// Number of the tool.
         number: u32,
     },
     /// The program cuts before it takes a tool, and there is none for such blocks.
@@ -40,7 +40,7 @@ pub enum CutFailure {
     Cut {
         /// Line of the program, from 1.
         line: usize,
-        /// What is wrong.
+        /// Underlying error.
         error: Box<CutError>,
     },
     /// The stock lies beside all feed moves.
@@ -57,7 +57,7 @@ pub enum CutFailure {
     /// A log of forces that cannot be used, or does not belong to this program.
     #[error("measured forces: {error}")]
     Log {
-        /// What is wrong.
+        /// Underlying error.
         error: Box<CutError>,
     },
     /// Stopped on request.

@@ -1,10 +1,10 @@
-//! What no cut should be, and is allowed to be.
+//! Warnings about cuts.
 
 use std::collections::BTreeMap;
 
 use serde::Serialize;
 
-/// What is unusual about a cut.
+/// Kind of a warning about a cut.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "snake_case")]
 #[non_exhaustive]
@@ -40,20 +40,20 @@ pub enum CutFindingKind {
     NotMeasured,
     /// A force was measured in a rapid.
     ForceInRapid,
-    /// How long a move takes is not known, for its way is not.
+    /// The time of a move is not known because its path is not.
     TimeUnknown,
 }
 
 /// A finding on the line where it is worst.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct CutFinding {
-    /// What it is about.
+    /// Kind of the warning.
     pub kind: CutFindingKind,
     /// Line where it is worst.
     pub line: usize,
-    /// On how many lines.
+    /// Number of lines.
     pub lines: usize,
-    /// What was found there, in words.
+    /// Text of the warning.
     pub text: String,
 }
 

@@ -173,8 +173,8 @@ impl CutQuestion {
         }
     }
 
-    /// Whether a move goes on where the one before ends, in nearly the same direction and with the same tool: what the tool
-    /// meets there is what it met before.
+    /// True if a move continues the one before in nearly the same direction and with the same tool: it then meets the same
+    /// material.
     fn goes_on(&self, path: &Path, before: usize, i: usize) -> bool {
         let (before, motion) = (&path.moves[before], &path.moves[i]);
         let gentle = match (before.tangent(1.0), motion.tangent(0.0)) {
@@ -185,7 +185,8 @@ impl CutQuestion {
         before.is_known_feed() && motion.is_known_feed() && gentle && tool(before) == tool(motion)
     }
 
-    /// What a tool meets on a move, and what it sweeps is removed; tools that are not known are the first one.
+    /// Simulates a move: returns the engagement of the tool and removes the material it sweeps; unknown tools are
+    /// taken as the first one.
     fn sweep(
         &self,
         path: &Path,
@@ -216,7 +217,7 @@ impl CutQuestion {
             return Ok(Vec::new());
         }
         let met = self.sweep(path, motion, walk)?;
-        // What is missing matters where something is cut.
+        // Missing tool data is an error only on cutting moves.
         if met.iter().all(|met| met.engagement.is_air()) {
             return Ok(met.iter().map(|met| CutStation::air(met.share)).collect());
         }
@@ -269,7 +270,7 @@ fn is_short(motion: &Move, since_mm: f64) -> bool {
     motion.is_known_feed() && (length < 0.1 * SHORT_MM || since_mm + length < 0.5 * SHORT_MM)
 }
 
-/// What acts on the tool while it does not go on: what acted before.
+/// Stations of a dwell: the last force acts on.
 fn standing(last: &CutStation) -> Vec<CutStation> {
     [0.0, 1.0]
         .map(|share| CutStation { share, ..*last })
@@ -302,7 +303,7 @@ fn in_axes_of_load(wrench: Wrench, direction: &Vector3<f64>) -> Wrench {
     }
 }
 
-/// Of less the stock takes x of the part for the feed.
+/// Minimum size of the feed across the tool axis; below it the stock takes x of the part for its direction.
 const NO_DIRECTION: f64 = 1e-9;
 
 /// Begins a move with what acted at the end of the one before: short moves have one station, at their end, and the load

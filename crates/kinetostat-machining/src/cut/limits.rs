@@ -1,4 +1,4 @@
-//! What no cut should be: chips, edges and spindle against what they bear.
+//! Limits of chips, edges and spindle.
 
 use std::f64::consts::TAU;
 
@@ -23,7 +23,7 @@ const THINNEST_MM: f64 = 0.005;
 /// Cuts deeper than this, in diameters, need a tool that is seldom made.
 const DEEP: f64 = 8.0;
 
-/// What speaks against a cut as deep (mm) as hardly a tool of that diameter has edges.
+/// Warning about a cut deeper (mm) than the edges of nearly all tools of that diameter.
 #[must_use]
 pub fn deeper_than_edges(depth_mm: f64, diameter_mm: f64) -> Option<String> {
     let diameters = depth_mm / diameter_mm;
@@ -37,7 +37,7 @@ pub fn deeper_than_edges(depth_mm: f64, diameter_mm: f64) -> Option<String> {
 }
 
 impl CutQuestion {
-    /// What no such cut should be.
+    /// Notes warnings about the cut at a station.
     pub(crate) fn look_at(
         &self,
         (station, engagement): (&CutStation, &Engagement),

@@ -17,10 +17,10 @@ use crate::watch::Watch;
 /// Moves between two looks at whether to stop.
 const MOVES_PER_LOOK: usize = 2000;
 
-/// What the size of the measured force is compared with to find its shift.
+/// Reference force for finding the shift of the measured one.
 #[derive(Clone, Copy, Debug)]
 pub enum ExpectedForce<'a> {
-    /// One in feed moves, none in rapids.
+    /// Force in feed moves, none in rapids.
     InFeedMoves,
     /// A computed force: knows where feed moves are in air.
     Computed(&'a ForceAlongPath),
@@ -61,7 +61,7 @@ pub struct MeasuredForces {
     pub log: ForceLog,
     /// Axes of the log. Default: those of the program.
     pub axes: MeasuredAxes,
-    /// What the logged force acts on.
+    /// Body on which the logged force acts.
     pub acts_on: ActsOn,
     /// Time of the log at which the first cut of the program begins, s; `None`: by correlation.
     pub shift_s: Option<f64>,
@@ -69,13 +69,13 @@ pub struct MeasuredForces {
     pub smooth: Option<f64>,
     /// Stretches of the log in which the tool is in air, s or mm.
     pub air: Vec<[f64; 2]>,
-    /// How drift is drawn through them.
+    /// Interpolation of the drift between them.
     pub drift: DriftModel,
-    /// What is done with outliers.
+    /// Treatment of outliers.
     pub outliers: OutlierTreatment,
     /// Speed of rapids, mm/min; needed where there are rapids between cuts.
     pub rapid_mm_per_minute: Option<f64>,
-    /// What the P of dwells counts; needed where there are dwells between cuts.
+    /// Unit of the P of dwells; needed if there are dwells between cuts.
     pub dwell_unit: Option<DwellUnit>,
     /// Speed of the spindle instead of the program's, rpm.
     pub rpm: Option<f64>,

@@ -1,4 +1,4 @@
-//! What is implausible of measured forces.
+//! Plausibility of measured forces.
 
 use kinetostat::number::larger;
 use kinetostat_program::{Move, MoveKind, Path};
@@ -13,8 +13,8 @@ const NOISE: f64 = 0.05;
 /// Share of a move that need not be covered: that of a rounded number.
 const ROUNDED: f64 = 1e-6;
 
-/// What is implausible. `largest_n` is the largest force of a cut, N; `margin` is how far, s, the place of a rapid may be off and
-/// what the mean over a window carries into it; `air` are stretches in air, s of the log.
+/// Warnings about measured forces. `largest_n` is the largest force of a cut, N; `margin` is the uncertainty, s, of the place of
+/// a rapid together with the window of the mean; `air` are stretches in air, s of the log.
 pub(crate) fn findings(
     laid: &Laid<'_>,
     path: &Path,

@@ -1,4 +1,4 @@
-//! What was done to measured forces, in words.
+//! Report on the processing of measured forces.
 
 use kinetostat_cutting::{ConditioningReport, ShiftMatch};
 use serde::{Deserialize, Serialize};
@@ -14,7 +14,7 @@ pub enum MeasuredAxes {
     Feed,
 }
 
-/// What the measured force acts on.
+/// Body on which the measured force acts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum ActsOn {
@@ -24,26 +24,26 @@ pub enum ActsOn {
     Part,
 }
 
-/// What was done to measured forces.
+/// Report on the processing of measured forces.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct MeasuredReport {
-    /// What was done to the log.
+    /// Conditioning of the log.
     pub conditioning: ConditioningReport,
     /// Time of the log at which the program's first cut begins, s; `None` for a log along the path.
     pub shift_s: Option<f64>,
-    /// How the shift was found; `None` where it was stated.
+    /// Match by which the shift was found; `None` if it was stated.
     pub matched: Option<ShiftMatch>,
     /// Speed of rapids, mm/min.
     pub rapid_mm_per_minute: Option<f64>,
     /// Axes of the log.
     pub axes: MeasuredAxes,
-    /// What the logged force acts on.
+    /// Body on which the logged force acts.
     pub acts_on: ActsOn,
 }
 
 impl MeasuredReport {
-    /// What was done and assumed, one sentence each.
+    /// Processing steps and assumptions, one sentence each.
     #[must_use]
     pub fn sentences(&self) -> Vec<String> {
         let mut all = vec![self.of_the_log()];

@@ -10,14 +10,14 @@ use crate::cut::clock::{Clock, cuts};
 use crate::cut::measured_report::{ActsOn, MeasuredAxes};
 use crate::cut::station::{CutStation, heading};
 
-/// Most stations of a program, but for the ends of moves and for arcs.
+/// Maximum number of stations of a program, apart from the ends of moves and from arcs.
 const MOST_STATIONS: f64 = 500_000.0;
 
-/// On an arc a force in axes of the part turns against the feed from station to station by at most this, rad: on straight lines
+/// Largest turn against the feed, rad, from station to station on an arc, of a force in axes of the part: on straight lines
 /// between them it is off by 0.03 %.
 const MOST_TURN: f64 = 0.05;
 
-/// Most stations that an arc has for that.
+/// Maximum number of stations on an arc for that.
 const MOST_ON_AN_ARC: f64 = 10_000.0;
 
 /// A log laid along a program.
@@ -28,18 +28,18 @@ pub(crate) struct Laid<'a> {
     pub shift: f64,
     pub axes: MeasuredAxes,
     pub acts_on: ActsOn,
-    /// Least distance of stations, s or mm.
+    /// Minimum distance of stations, s or mm.
     pub step: f64,
 }
 
-/// Least distance of stations: four in a window of the mean, and not too many of them.
+/// Minimum distance of stations: four in a window of the mean, and not too many of them.
 pub(crate) fn step(window: f64, clock: &Clock) -> f64 {
     let all: f64 = clock.spans.iter().map(|[from, to]| to - from).sum();
     larger(0.25 * window, all / MOST_STATIONS)
 }
 
 impl Laid<'_> {
-    /// Where a move lies in the log, s or mm.
+    /// Interval of a move in the log, s or mm.
     pub fn span(&self, move_index: usize) -> [f64; 2] {
         self.clock.spans[move_index].map(|at| at + self.shift)
     }
@@ -79,7 +79,7 @@ impl Laid<'_> {
             all[0].push(station(in_feed));
             all[1].push(station(in_part));
         };
-        // What is not covered has no force: a jump where the log begins or ends.
+        // Parts beyond the log have no force: it jumps where the log begins or ends.
         match self.covered(move_index) {
             None => {
                 add(0.0, None);
@@ -126,7 +126,7 @@ impl Laid<'_> {
         places
     }
 
-    /// What acts on the tool at a place of the log, in its axes.
+    /// Wrench on the tool at a place of the log, in the axes of the log.
     fn on_the_tool(&self, at: f64) -> Wrench {
         let (force, moment) = self.log.at(at).unwrap_or_default();
         let sign = match self.acts_on {
@@ -136,7 +136,7 @@ impl Laid<'_> {
         Wrench::new(sign * Vector3::from(force), sign * Vector3::from(moment))
     }
 
-    /// In axes of the feed, and of the part.
+    /// Wrench in axes of the feed, and of the part.
     fn in_axes(&self, motion: &Move, share: f64, logged: Wrench) -> (Wrench, Wrench) {
         // Straight up and down there is no feed across the axis: axes of the part then.
         let angle = heading(motion.tangent(share)).unwrap_or(0.0);

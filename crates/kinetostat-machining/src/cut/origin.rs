@@ -1,8 +1,8 @@
-//! Where forces along a path come from.
+//! Origin of forces along a path.
 
 use serde::{Deserialize, Serialize};
 
-/// Where forces along a path come from.
+/// Origin of forces along a path.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum ForceOrigin {

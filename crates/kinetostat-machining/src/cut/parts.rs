@@ -28,7 +28,7 @@ pub(crate) fn of_stations(stations: &[CutStation], [from, to]: [f64; 2]) -> Vec<
     part
 }
 
-/// What acts at a share between two stations; all but the wrench is that of `like`.
+/// Wrench at a share between two stations; all other values are those of `like`.
 fn at(
     share: f64,
     before: &CutStation,

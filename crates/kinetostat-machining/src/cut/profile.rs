@@ -17,22 +17,22 @@ use crate::profile::by_move::ByMove;
 #[derive(Clone, Debug)]
 pub struct ForceAlongPath {
     stations: ByMove<CutStation>,
-    /// Those between which the load is linear.
+    /// Stations between which the load is linear.
     vertices: Vertices,
-    /// The same in axes of the part, for forces that were measured in them: these do not turn with the feed at corners.
+    /// Stations in axes of the part, for forces that were measured in them: these do not turn with the feed at corners.
     in_part: Option<Vertices>,
     resolution_mm: f64,
     largest: Wrench,
     spindle: Option<SpindleCurve>,
     spread: f64,
-    /// What no such cut should be.
+    /// Warnings about cuts.
     pub findings: Vec<CutFinding>,
-    /// What was done to forces that were measured; `None` for computed ones.
+    /// Processing of forces that were measured; `None` for computed ones.
     pub measured: Option<MeasuredReport>,
 }
 
 impl ForceAlongPath {
-    /// Of the stations of each move, in the order of the path.
+    /// Forces from the stations of each move, in the order of the path.
     pub(crate) fn of(moves: Vec<Vec<CutStation>>, findings: Vec<CutFinding>) -> Self {
         let vertices = Vertices::of(&moves);
         let largest = moves.iter().flatten().map(|station| station.wrench);
@@ -54,7 +54,7 @@ impl ForceAlongPath {
         }
     }
 
-    /// Of stations that were measured, with those in axes of the part where that is how they were measured.
+    /// Forces from measured stations, with those in axes of the part if they were measured there.
     pub(crate) fn of_measured(
         moves: Vec<Vec<CutStation>>,
         in_part: Option<&[Vec<CutStation>]>,
@@ -70,7 +70,7 @@ impl ForceAlongPath {
     }
 
     /// The forces on another path over the same way: of each of its moves the move here that it is a part of, and the shares of that
-    /// (by length) from which to which it goes. What was found stays with the lines of this path.
+    /// (by length) from which to which it goes. Warnings keep the lines of this path.
     ///
     /// ```
     /// use kinetostat_cutting::{ForceLog, LoggedBy};
@@ -110,7 +110,7 @@ impl ForceAlongPath {
         }
     }
 
-    /// Whether it was computed or measured.
+    /// Origin of the forces, computed or measured.
     #[must_use]
     pub fn origin(&self) -> ForceOrigin {
         match self.measured {
@@ -119,7 +119,7 @@ impl ForceAlongPath {
         }
     }
 
-    /// With what the question says of the spindle and of how far the forces may be off.
+    /// Adds the spindle of the question, and the spread of its forces.
     pub(crate) fn asked(self, question: &CutQuestion) -> Self {
         let spreads = question.tools.iter().map(|tool| tool.spread);
         Self {
@@ -135,7 +135,7 @@ impl ForceAlongPath {
         self.spread
     }
 
-    /// What the spindle can; `None` where it is not stated.
+    /// Torque curve of the spindle; `None` if it is not stated.
     #[must_use]
     pub fn spindle(&self) -> Option<&SpindleCurve> {
         self.spindle.as_ref()
@@ -174,8 +174,8 @@ impl ForceAlongPath {
         }
     }
 
-    /// The same of forces whose places are known to within a length, mm: the size of a cell; infinite where an engagement was
-    /// stated and nobody knows how far from a rapid it begins.
+    /// Forces whose places are known to within a length, mm: the size of a cell; infinite if an engagement was stated and its
+    /// distance from a rapid is unknown.
     pub(crate) fn with_resolution_mm(self, resolution_mm: f64) -> Self {
         Self {
             resolution_mm,
@@ -192,8 +192,8 @@ impl ForceAlongPath {
 /// Axes of the load of a cut.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum CutAxes {
-    /// Of the feed: they turn with it at corners.
+    /// Axes of the feed: they turn with it at corners.
     Feed,
-    /// Of the part.
+    /// Axes of the part.
     Part,
 }

@@ -1,4 +1,4 @@
-//! What is asked of the cuts of a program.
+//! Inputs of the computation of cutting forces.
 
 use kinetostat_cutting::{Rotation, SpindleCurve};
 
@@ -11,14 +11,14 @@ use crate::cut::engagement_source::EngagementSource;
 pub struct CutQuestion {
     /// Tools; one without a number is that of all blocks whose tool has no entry.
     pub tools: Vec<CuttingTool>,
-    /// Where they are in the material.
+    /// Engagement of the tools.
     pub engagement: EngagementSource,
-    /// Which force of a revolution counts.
+    /// Force within a revolution that is compensated.
     pub choice: ForceChoice,
     /// Speed of the spindle instead of the program's, rpm.
     pub rpm: Option<f64>,
     /// Sense of the spindle instead of the program's.
     pub rotation: Option<Rotation>,
-    /// What the spindle can.
+    /// Torque curve of the spindle.
     pub spindle: Option<SpindleCurve>,
 }

@@ -1,4 +1,4 @@
-//! What acts on the tool at one place of a cut.
+//! Force and engagement of the tool at one place of a cut.
 
 use std::f64::consts::TAU;
 
@@ -34,8 +34,8 @@ pub struct CutStation {
     pub depth_mm: f64,
     /// Sum of the arcs in contact at the lowest height, rad: pi in a slot, 0 in air.
     pub arc: f64,
-    /// Where the side is in contact, seen along the feed as a spindle does that turns clockwise; `None` in air, of an end alone and
-    /// of a spindle that turns the other way.
+    /// Contact arc of the side, seen along the feed as for a spindle that turns clockwise; `None` in air, for an end alone and for
+    /// a spindle that turns the other way.
     pub contact: Option<ContactArc>,
     /// Thickest place of a chip, mm; 0 in air.
     pub chip_mm: f64,
@@ -48,11 +48,11 @@ pub struct CutStation {
 /// The narrowest arc that holds all contact of the side.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct ContactArc {
-    /// Where a tooth comes in, rad, 0 to 2 pi: 0 is to the left of the feed, pi/2 ahead.
+    /// Angle at which a tooth enters, rad, 0 to 2 pi: 0 is to the left of the feed, pi/2 ahead.
     pub entry: f64,
-    /// Where it leaves, rad, beyond the entry.
+    /// Angle at which it leaves, rad, beyond the entry.
     pub exit: f64,
-    /// Whether contact is this arc at all heights, within 3 degrees.
+    /// True if contact is this arc at all heights, within 3 degrees.
     pub is_even: bool,
 }
 
@@ -60,7 +60,8 @@ pub struct ContactArc {
 const EVEN: f64 = 0.052;
 
 impl ContactArc {
-    /// Of an engagement; `None` where its side is not in contact, or has no gap of its own (arcs on all sides).
+    /// Contact arc of an engagement; `None` if its side is not in contact, or has no gap of its own (arcs on all
+    /// sides).
     pub(crate) fn of(engagement: &Engagement) -> Option<Self> {
         let side = engagement.contacts.iter().filter(|c| c.edge == Edge::Side);
         let arcs: Vec<[f64; 2]> = side.map(|c| [c.entry, c.exit]).collect();
@@ -87,7 +88,7 @@ impl ContactArc {
 }
 
 impl CutStation {
-    /// Nothing acts.
+    /// Station without a force.
     pub(crate) fn air(share: f64) -> Self {
         Self {
             share,

@@ -13,16 +13,16 @@ const CHORD: f64 = 0.04;
 /// The tool at a place of a move.
 pub(crate) struct Met {
     pub share: f64,
-    /// Of the motion, a unit vector.
+    /// Direction of the motion, a unit vector.
     pub direction: Vector3<f64>,
     pub engagement: Engagement,
 }
 
-/// Where the tool is in the material, as it goes.
+/// Simulation of the engagement along the program.
 pub(crate) enum Walk<'a> {
-    /// As stated.
+    /// Stated engagement.
     Stated(&'a EngagementSource),
-    /// By a stock, with a probe for each tool.
+    /// Stock, with a probe for each tool.
     Stock(Box<Stock>, Vec<Probe>),
 }
 
@@ -37,7 +37,7 @@ impl<'a> Walk<'a> {
         }
     }
 
-    /// What is left of the stock.
+    /// Remaining stock.
     pub fn left(self) -> Option<Stock> {
         match self {
             Self::Stated(_) => None,
@@ -45,7 +45,7 @@ impl<'a> Walk<'a> {
         }
     }
 
-    /// What a tool (of this index) meets at the stations of a move; what it sweeps is removed.
+    /// Engagement of a tool (of this index) at the stations of a move; the material it sweeps is removed.
     pub fn go(&mut self, motion: &Move, tool: usize) -> Result<Vec<Met>> {
         let mut met = Vec::new();
         if motion.known != Knowledge::Whole || !motion.has_length() {

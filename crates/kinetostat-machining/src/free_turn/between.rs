@@ -1,4 +1,4 @@
-//! What happens between two stations: the way from one to the other, followed in small steps.
+//! Check of the way between two stations, in small steps.
 
 use crate::free_turn::nodes::{Node, Postures, Refused};
 use crate::free_turn::serial::Joints;
@@ -26,7 +26,7 @@ pub(crate) struct Stand<'s> {
     pub node: &'s Node,
 }
 
-/// How and with what the way between stations is looked at.
+/// Settings for checking the way between stations.
 pub(crate) struct Between<'t, 'a> {
     pub way: &'t Way<'a>,
     pub postures: &'t Postures<'a>,

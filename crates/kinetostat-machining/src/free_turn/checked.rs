@@ -3,10 +3,10 @@
 use crate::free_turn::error::TurnError;
 use crate::free_turn::task::{TipCompliance, TurnCriterion, TurnTask};
 
-/// Most turns of a band.
+/// Maximum number of steps of a band.
 const MOST_TURNS: f64 = 7200.0;
 
-/// That all numbers of a task make sense.
+/// Checks that all numbers of a task are plausible.
 pub(crate) fn checked(task: &TurnTask<'_>) -> Result<(), TurnError> {
     let refused = |what: String| Err(TurnError::Input { what });
     let positive = |x: f64| x.is_finite() && x > 0.0;

@@ -18,7 +18,7 @@ pub struct TurnStation {
     pub turn_deg: f64,
     /// Joint values, deg.
     pub joints_deg: [f64; 6],
-    /// The joint nearest to a limit, from 0, and how far it is from it, deg; none where no joint has limits.
+    /// The joint nearest to a limit, from 0, and how far it is from it, deg; `None` if no joint has limits.
     pub nearest_limit: Option<(usize, f64)>,
     /// Smallest singular value.
     pub smallest_singular_value: f64,
@@ -28,7 +28,7 @@ pub struct TurnStation {
     pub after_break: bool,
 }
 
-/// What turns along a path cost, and how evenly they go.
+/// Cost of the turns along a path, and their evenness.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct TurnFigures {
@@ -36,7 +36,7 @@ pub struct TurnFigures {
     pub cost: f64,
     /// The fastest turn between two stations, deg/mm.
     pub largest_rate_deg_per_mm: f64,
-    /// By how much that rate changes most from one station to the next, deg/mm.
+    /// Largest change of that rate from one station to the next, deg/mm.
     pub largest_rate_change_deg_per_mm: f64,
 }
 
@@ -46,7 +46,7 @@ pub struct TurnFigures {
 pub struct ConstantTurn {
     /// The turn, deg.
     pub turn_deg: f64,
-    /// What it costs; none where it does not go all the way.
+    /// Cost of the turn; `None` if it does not go all the way.
     pub cost: Option<f64>,
     /// Share of the way that it covers from the start.
     pub share_of_way: f64,
@@ -72,7 +72,7 @@ pub struct TurnCell {
 pub struct TurnMap {
     /// Turns of the band, deg, ascending.
     pub turns_deg: Vec<f64>,
-    /// By station, then by turn; none where the turn is not allowed.
+    /// Cells by station, then by turn; `None` if the turn is not allowed.
     pub cells: Vec<Vec<Option<TurnCell>>>,
 }
 
@@ -101,29 +101,30 @@ pub struct TurnMap {
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct TurnChoice {
-    /// From one station to the next along the path, mm; a little less where the path is no multiple of it.
+    /// Distance of stations along the path, mm; a little less if the path is no multiple of it.
     pub station_mm: f64,
-    /// In the order of the path.
+    /// Stations in the order of the path.
     pub stations: Vec<TurnStation>,
     /// The configuration of the arm all along, by its [number](crate::ArmConfiguration::number).
     pub configuration: u8,
-    /// What the choice costs: the criteria by their weights, in the mean over the length.
+    /// Cost of the choice: the criteria by their weights, in the mean over the length.
     pub cost: f64,
     /// The fastest turn between two stations, deg/mm.
     pub largest_rate_deg_per_mm: f64,
-    /// By how much that rate changes most from one station to the next, deg/mm.
+    /// Largest change of that rate from one station to the next, deg/mm.
     pub largest_rate_change_deg_per_mm: f64,
-    /// The same of the steps of the band that it was made smooth from; none of a task that asks for those
+    /// Figures of the steps of the band from which it was made smooth; `None` for a task that asks for those
     /// ([`TurnCurve::Steps`](crate::TurnCurve::Steps)).
     pub in_steps: Option<TurnFigures>,
-    /// By what velocities are divided in singular values, m: the mean of upper arm and forearm (to the centre of the wrist).
+    /// Length by which velocities are divided in singular values, m: the mean of upper arm and forearm (to the centre of the
+    /// wrist).
     pub length_m: f64,
     /// Smallest singular value at stations and between them.
     pub smallest_singular_value: f64,
     /// Line where that is.
     pub smallest_singular_value_line: usize,
-    /// How near a joint comes to a limit, at stations and between them: joint (from 0), distance (deg) and line; none where no joint
-    /// has limits.
+    /// Smallest distance of a joint to a limit, at stations and between them: joint (from 0), distance (deg) and line; `None` if no
+    /// joint has limits.
     pub nearest_limit: Option<(usize, f64, usize)>,
     /// Pairs of postures that would have been cheaper, but leave what is allowed between their stations.
     pub broken_links: usize,
@@ -133,20 +134,20 @@ pub struct TurnChoice {
     pub as_programmed: Option<ConstantTurn>,
     /// The cheapest constant turn of the band, or the one that goes farthest.
     pub best_constant: Option<ConstantTurn>,
-    /// For a picture.
+    /// Map for a picture.
     pub map: TurnMap,
 }
 
 impl TurnChoice {
-    /// The turn after so many mm of the way, deg; before the first station and behind the last one as there. Where the tool goes on with
-    /// another turn, because the program does not state the way there, that one counts.
+    /// The turn after so many mm of the way, deg; before the first station and behind the last one as there. At a jump, where the
+    /// program does not state the way, it is the turn after it.
     #[must_use]
     pub fn turn_at_deg(&self, way_mm: f64) -> f64 {
         let after = self.stations.partition_point(|s| s.way_mm <= way_mm);
         self.turn_between(after, way_mm)
     }
 
-    /// The same, but the turn before it goes on with another one.
+    /// Turn at a place, that before a change of the turn.
     pub(crate) fn turn_before_deg(&self, way_mm: f64) -> f64 {
         let after = self.stations.partition_point(|s| s.way_mm < way_mm);
         self.turn_between(after, way_mm)
@@ -166,7 +167,7 @@ impl TurnChoice {
         }
     }
 
-    /// How much more evenly it goes than in the steps of the band.
+    /// Sentence on the gain in evenness over the steps of the band.
     fn smoothing(&self) -> String {
         let Some(steps) = self.in_steps else {
             return String::new();
@@ -183,7 +184,7 @@ impl TurnChoice {
         )
     }
 
-    /// What was chosen and what it is worth, in sentences.
+    /// Choice and its figures, in sentences.
     #[must_use]
     pub fn description(&self) -> String {
         let turns = self.stations.iter().map(|station| station.turn_deg);

@@ -12,12 +12,13 @@ use crate::free_turn::serial::Joints;
 use crate::free_turn::smooth::smooth;
 use crate::free_turn::task::{TurnCurve, TurnTask};
 
-/// How often stations are set twice as far apart along a path that is too long for them: from 5 mm to 160 mm.
+/// Number of times that the distance of stations is doubled along a path that is too long for them: from 5 mm to 160
+/// mm.
 const TIMES_FARTHER: usize = 5;
 
 /// Chooses the free turn of a round tool about its own axis along a whole path: at stations along it the turns of a band, in any of the
-/// configurations of the arm, that cost least together and keep what is asked. Of all that is looked at it is the cheapest. Where a path is so long that it has more postures than may be kept,
-/// stations are set farther apart ([`TurnChoice::station_mm`]).
+/// configurations of the arm, that cost least together and keep what is asked. The result is the cheapest of all candidates. Stations are
+/// set farther apart on a path so long that it has more postures than may be kept ([`TurnChoice::station_mm`]).
 ///
 /// # Errors
 /// [`TurnError::Input`] for numbers and paths that make no sense, [`TurnError::NoFreedom`] for another machine than an arm of six

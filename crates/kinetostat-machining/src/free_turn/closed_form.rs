@@ -10,12 +10,12 @@ use nalgebra::{Point3, Unit, UnitQuaternion, Vector2, Vector3};
 use crate::free_turn::serial::{Joints, SerialArm};
 use crate::joints::arm::Arm;
 
-/// Why an arm does not go a way to a pose.
+/// Reason for which an arm does not reach a pose in a configuration.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum NoWayThere {
-    /// It is too far, or too near.
+    /// The pose is too far, or too near.
     OutOfReach,
-    /// So near to a singular posture that joint values are not found.
+    /// The posture is so near to a singular one that joint values are not found.
     Singular,
 }
 
@@ -32,7 +32,7 @@ pub(crate) struct SixAxisArm {
     out: Vector3<f64>,
     /// 1 if axis 3 points as axis 2 does, -1 if against it.
     third: f64,
-    /// From axis 4 to axis 6 about axis 5, at home, rad.
+    /// Angle from axis 4 to axis 6 about axis 5, at home, rad.
     bend: f64,
 }
 
@@ -49,7 +49,7 @@ fn about(axis: &Vector3<f64>, from: &Vector3<f64>, to: &Vector3<f64>) -> f64 {
 }
 
 impl SixAxisArm {
-    /// The arm that a machine is; none if it is another machine.
+    /// The arm that a machine is; `None` if it is another machine.
     pub fn of(mechanism: &Mechanism) -> Option<Self> {
         let flags = Arm::of(mechanism)?;
         let mut serial = SerialArm::of(mechanism)?;

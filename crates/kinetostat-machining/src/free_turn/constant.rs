@@ -7,7 +7,7 @@ use crate::free_turn::error::TurnPart;
 use crate::free_turn::nodes::Node;
 use crate::free_turn::search::Problem;
 
-/// The same turn from a station to another, in one configuration.
+/// Constant turn from a station to another, in one configuration.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Run {
     first: usize,
@@ -34,7 +34,7 @@ fn with_turn(nodes: &[Node], turn: u32) -> impl Iterator<Item = &Node> {
     })
 }
 
-/// Where a turn goes from station to station, and from where it breaks off again, at the stations alone.
+/// Runs of stations along which a turn is possible, checked at the stations alone.
 fn runs(problem: &Problem<'_, '_>, turn: u32) -> Vec<Run> {
     let mut runs: Vec<Run> = Vec::new();
     let mut reached: Vec<Reached<'_>> = Vec::new();
@@ -97,7 +97,7 @@ fn cheapest<'r, 'n>(reached: &'r [Reached<'n>]) -> Option<&'r Reached<'n>> {
     reached.iter().min_by(|a, b| a.cost.total_cmp(&b.cost))
 }
 
-/// How far a turn goes from the start.
+/// Distance from the start along which a constant turn is possible.
 pub(crate) fn constant_turn(problem: &Problem<'_, '_>, turn: u32) -> ConstantTurn {
     let last = problem.stations.len() - 1;
     let run = runs(problem, turn).first().copied();
@@ -138,7 +138,7 @@ pub(crate) fn constant_turns(problem: &Problem<'_, '_>) -> [Option<ConstantTurn>
     [as_programmed.copied(), best.copied()]
 }
 
-/// For every turn the longest part that it covers; the longest one first.
+/// Longest part that each turn covers; the longest one first.
 pub(crate) fn constant_parts(problem: &Problem<'_, '_>) -> Vec<TurnPart> {
     let stations = &problem.stations;
     let mut parts: Vec<TurnPart> = (0..problem.turns.count as u32)

@@ -39,7 +39,7 @@ impl Curve {
         }
     }
 
-    /// Rates of turning to every station from the one before, deg/mm; none where the program does not state the way.
+    /// Rates of turning to every station from the one before, deg/mm; `None` if the program does not state the way.
     fn rates(&self, problem: &Problem<'_, '_>) -> Vec<Option<f64>> {
         let gaps = problem.stations.iter().enumerate();
         gaps.map(|(station, place)| {
@@ -49,7 +49,7 @@ impl Curve {
         .collect()
     }
 
-    /// What it costs, and how evenly it turns.
+    /// Cost and evenness of the curve.
     pub fn figures(&self, problem: &Problem<'_, '_>) -> TurnFigures {
         let mut cost = 0.0;
         for (station, place) in problem.stations.iter().enumerate() {

@@ -1,24 +1,24 @@
-//! Why no turns of the tool are chosen.
+//! Reasons for which no turns of the tool are chosen.
 
 use std::fmt;
 
 use kinetostat::number::counted;
 use kinetostat::{Mechanism, MotionKind};
 
-/// Why no turns of the tool are chosen.
+/// Reason for which no turns of the tool are chosen.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum TurnError {
     /// A number or a path that no sensible task has.
     #[error("{what}")]
     Input {
-        /// What was found, and what to do.
+        /// Value found, and remedy.
         what: String,
     },
     /// The machine has no free turn about the axis of its tool, or not one that is understood.
     #[error("{what}")]
     NoFreedom {
-        /// Which machine it is, and which is needed.
+        /// Machine found, and machine needed.
         what: String,
     },
     /// More stations and postures than may be kept.
@@ -27,9 +27,9 @@ pub enum TurnError {
          allow more (most_postures)"
     )]
     TooMany {
-        /// What there is too much of.
+        /// Quantity of which there is too much.
         what: String,
-        /// How many are allowed.
+        /// Maximum number allowed.
         most: usize,
     },
     /// The stiffness at a place has no answer.
@@ -75,7 +75,7 @@ impl TurnError {
     }
 }
 
-/// What ends all sequences of turns at a place.
+/// Reason for which no sequence of turns passes a place.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum TurnBarrier {
@@ -83,16 +83,16 @@ pub enum TurnBarrier {
     OutOfReach,
     /// A joint would be outside its limits, or nearer to one than allowed.
     Limit {
-        /// Its name.
+        /// Name of the joint.
         joint: String,
     },
     /// The arm would be singular, or nearer to it than allowed.
     Singular,
-    /// Only another configuration can go on: the arm would have to flip.
+    /// Only another configuration can continue: the arm would have to flip.
     Flip,
     /// A joint would have to turn too far at once.
     JointStep {
-        /// Its name.
+        /// Name of the joint.
         joint: String,
     },
     /// The tool would have to be turned faster than allowed.
@@ -135,7 +135,7 @@ pub struct TurnPart {
     pub configuration: u8,
 }
 
-/// Where every sequence of turns ends, why, and what helps.
+/// Place at which every sequence of turns ends, the reasons, and remedies.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct NoWay {
@@ -145,7 +145,7 @@ pub struct NoWay {
     pub position_mm: [f64; 3],
     /// Way along the path, mm.
     pub way_mm: f64,
-    /// What stands in the way, the most frequent first, with the share of the turns and configurations that it ends there.
+    /// Barriers, the most frequent first, with the share of the turns and configurations that each ends there.
     pub barriers: Vec<(TurnBarrier, f64)>,
     /// A band of turns with which there is a way, from and to, deg: looked for on the whole circle.
     pub wider_band_deg: Option<[f64; 2]>,
@@ -153,12 +153,12 @@ pub struct NoWay {
     pub other_configuration: Option<u8>,
     /// Parts into which the program can be divided, each with turns of its own; empty where a place has no posture at all.
     pub parts: Vec<TurnPart>,
-    /// For turns of the band that stay the same, the longest part that each covers; the longest one first.
+    /// Longest part that each constant turn of the band covers; the longest one first.
     pub constant: Vec<TurnPart>,
 }
 
 impl NoWay {
-    /// What helps, in a sentence without a stop.
+    /// Remedy, in a sentence without a full stop.
     fn helps(&self) -> String {
         if let Some(number) = self.other_configuration {
             return format!("With configuration {number} there is a way (bounds.configuration)");

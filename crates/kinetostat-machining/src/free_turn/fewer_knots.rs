@@ -1,5 +1,5 @@
 //! A smooth curve with fewer knots: where its turns lie on a line but for a hundredth of a degree they are put on it, so that a program
-//! needs no more places than its turn does (Douglas and Peucker 1973). What is changed keeps what the curve keeps.
+//! needs no more places than its turn does (Douglas and Peucker 1973). The changed curve stays within the same bounds.
 
 use rayon::prelude::*;
 
@@ -70,7 +70,7 @@ fn knots(problem: &Problem<'_, '_>, curve: &Curve) -> Vec<usize> {
     (0..count).filter(|station| is_knot[*station]).collect()
 }
 
-/// What lies between two knots, on a line; none where it is there already, or may not be.
+/// Part of the curve between two knots, on a line; `None` if it is there already, or may not be.
 fn part(problem: &Problem<'_, '_>, curve: &Curve, ends: [usize; 2]) -> Option<Part> {
     let [first, last] = ends;
     let turns: Vec<f64> = (first + 1..last)

@@ -1,4 +1,4 @@
-//! Where all sequences of turns end, why, and what helps.
+//! Explanation of an infeasible choice of turns: place, reasons and remedies.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::f64::consts::PI;
@@ -11,10 +11,10 @@ use crate::free_turn::shortest::{Barrier, Progress, joint_turns};
 use crate::free_turn::stations::Gap;
 use crate::free_turn::task::{TurnBand, TurnTask};
 
-/// Most parts into which a program is said to be divided.
+/// Maximum number of parts in a suggested division of a program.
 const MOST_PARTS: usize = 1000;
 
-/// What ends a way, before it has words.
+/// Barrier of a way, before it is put into words.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum End {
     Refused(Refused),
@@ -23,7 +23,7 @@ enum End {
     JointStep(usize),
 }
 
-/// What stands in the way to a station that no sequence reaches, and what helps.
+/// Barriers before a station that no sequence reaches, and remedies.
 pub(crate) fn no_way(problem: &Problem<'_, '_>, station: usize, progress: &Progress) -> NoWay {
     let place = &problem.stations[station].place;
     NoWay {
@@ -38,7 +38,7 @@ pub(crate) fn no_way(problem: &Problem<'_, '_>, station: usize, progress: &Progr
     }
 }
 
-/// What is reached at the station before, and what the rate lets follow.
+/// Postures reached at the station before, and turns that the rate lets follow.
 struct Before<'n> {
     nodes: Vec<&'n Node>,
     /// Configuration and turn.
@@ -129,7 +129,7 @@ fn in_words(problem: &Problem<'_, '_>, ends: BTreeMap<End, usize>) -> Vec<(TurnB
         .collect()
 }
 
-/// Why the postures that the station has are not reached from those before.
+/// Reasons for which the postures of the station are not reached from those before.
 fn between(problem: &Problem<'_, '_>, station: usize, before: &Before<'_>) -> Vec<End> {
     let Some(gap) = problem.stations[station].gap else {
         return Vec::new();

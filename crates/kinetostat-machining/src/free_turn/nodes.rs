@@ -1,4 +1,4 @@
-//! What an arm can do at a station: its joint values at every turn of the band, in every configuration and on every turn of its joints.
+//! Postures of an arm at a station: its joint values at every turn of the band, in every configuration and on every turn of its joints.
 
 use kinetostat::machine::LimbPosture;
 use kinetostat::number::larger;
@@ -28,11 +28,11 @@ pub(crate) struct Node {
     pub singular_value: f64,
     /// m/N; 0 where nothing asks for it.
     pub compliance: f64,
-    /// What it costs by share of the way.
+    /// Cost per share of the way.
     pub cost: f64,
 }
 
-/// Why there is no posture.
+/// Reason for which there is no posture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Refused {
     OutOfReach,
@@ -51,7 +51,7 @@ pub(crate) struct Weights {
 }
 
 impl Weights {
-    /// Of criteria whose weights have been looked at.
+    /// Sums criteria whose weights have been checked.
     pub fn of(criteria: &[TurnCriterion]) -> Self {
         let mut own = Self::default();
         for criterion in criteria {
@@ -193,7 +193,8 @@ impl<'a> Postures<'a> {
             .map(|found| found.number)
     }
 
-    /// Whether joint values are inside the limits and far enough from singular; the smallest singular value then.
+    /// Checks that joint values are inside the limits and far enough from singular; returns the smallest singular
+    /// value.
     pub fn allowed(&self, joints: &Joints) -> Result<f64, Refused> {
         if let Some(joint) = self.ranges.left_by(joints) {
             return Err(Refused::Limit(joint));
@@ -241,7 +242,7 @@ impl<'a> Postures<'a> {
         }
     }
 
-    /// What a posture costs by share of the way.
+    /// Cost of a posture per share of the way.
     fn cost(&self, node: &Node) -> f64 {
         let weights = &self.weights;
         let singular = self.least_singular_value / node.singular_value;
@@ -254,7 +255,7 @@ impl<'a> Postures<'a> {
             + weights.compliance * soft
     }
 
-    /// The posture at a pose next to another one, in its configuration and on the turns of its joints; none where it is not allowed.
+    /// The posture at a pose next to another one, in its configuration and on the turns of its joints; `None` if it is not allowed.
     pub fn next_to(&self, other: &Node, pose: &Pose) -> Option<Node> {
         let joints = self.arm.serial.near(pose, &other.joints)?;
         let singular_value = self.allowed(&joints).ok()?;

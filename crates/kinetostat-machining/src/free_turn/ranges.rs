@@ -37,7 +37,7 @@ impl JointRanges {
             true => (-PI, PI),
             false => self.range(joint),
         };
-        // Of a joint that turns very far, the turns around the middle of its range.
+        // A joint of a very large range is restricted to the turns around its middle.
         let middle = 0.5 * (low + high);
         let (low, high) = (low.max(middle - MOST_TURNS), high.min(middle + MOST_TURNS));
         let first = angle + TAU * ((low - angle) / TAU).ceil();
@@ -88,7 +88,7 @@ impl JointRanges {
         far.min_by(|a, b| a.1.total_cmp(&b.1))
     }
 
-    /// Whether a joint can be at an angle, or whole turns from it.
+    /// True if a joint can be at an angle, or whole turns from it.
     pub fn reaches(&self, joint: usize, angle: f64) -> bool {
         self.values_of(joint, angle).next().is_some()
     }

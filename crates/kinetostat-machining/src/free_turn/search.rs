@@ -39,7 +39,7 @@ pub(crate) struct Found {
     pub seen: Vec<Vec<Looked>>,
 }
 
-/// Why there is none.
+/// Reason for which there is no sequence.
 pub(crate) enum Failed {
     /// No posture of a station is reached.
     At(usize, Progress),
@@ -47,7 +47,7 @@ pub(crate) enum Failed {
 }
 
 impl<'t, 'a> Problem<'t, 'a> {
-    /// Of a task whose numbers have been looked at.
+    /// Prepares a task whose numbers have been checked.
     pub fn of(task: &'t TurnTask<'a>) -> Result<Self, TurnError> {
         let mut postures = Postures::of(task)?;
         let way = Way::of(task)?;
@@ -152,7 +152,7 @@ impl<'t, 'a> Problem<'t, 'a> {
         }))
     }
 
-    /// How the way between stations is looked at.
+    /// Settings for checking the way between stations.
     pub fn between(&self) -> Between<'_, 'a> {
         Between {
             way: &self.way,

@@ -25,18 +25,18 @@ const SAME: f64 = 1e-9;
 pub(crate) struct SerialArm {
     offsets: [Pose; 6],
     axes: [Unit<Vector3<f64>>; 6],
-    /// Behind the last joint, to the tool.
+    /// Pose of the tool in the frame after the last joint.
     end: Pose,
     /// Base of the machine from base of the chain.
     base: Pose,
     pub home: Joints,
     pub limits: [Option<(f64, f64)>; 6],
-    /// By what translations are divided, m.
+    /// Length by which translations are divided, m.
     pub length: f64,
 }
 
 impl SerialArm {
-    /// The joints of a machine; none if it is another machine.
+    /// The joints of a machine; `None` if it is another machine.
     pub fn of(mechanism: &Mechanism) -> Option<Self> {
         let [limb] = mechanism.limbs() else {
             return None;
@@ -113,7 +113,7 @@ impl SerialArm {
         least.max(0.0).sqrt()
     }
 
-    /// The joint values next to others that bring the tool to a pose; none if the search does not end there.
+    /// The joint values next to others that bring the tool to a pose; `None` if the search does not end there.
     pub fn near(&self, target: &Pose, start: &Joints) -> Option<Joints> {
         let mut joints = *start;
         let mut last = f64::INFINITY;

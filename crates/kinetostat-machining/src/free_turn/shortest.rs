@@ -15,7 +15,7 @@ const TOGETHER: usize = 64;
 /// A station, a posture at the one before it and a posture at it.
 pub(crate) type Link = (usize, u32, u32);
 
-/// Why two postures do not follow one another.
+/// Reason for which one posture cannot follow another.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Barrier {
     Configuration,
@@ -23,15 +23,15 @@ pub(crate) enum Barrier {
     JointStep(usize),
 }
 
-/// What two postures that follow one another must keep.
+/// Constraints on two postures that follow one another.
 #[derive(Clone, Debug)]
 pub(crate) struct Links {
     pub turns: Turns,
     /// Joints that turn on and on.
     pub free: [bool; 6],
-    /// Most turn of a joint, rad.
+    /// Maximum rotation of a joint, rad.
     pub joint_step: f64,
-    /// Of evenness, by share of the way.
+    /// Weight of evenness, by share of the way.
     pub weight: f64,
     /// Length of the way, mm.
     pub length: f64,
@@ -66,7 +66,7 @@ pub(crate) fn joint_turns(free: &[bool; 6], a: &[f64; 6], b: &[f64; 6]) -> [f64;
 }
 
 impl Links {
-    /// What it costs to go from one posture to another.
+    /// Cost of the step from one posture to another.
     pub fn cost(&self, gap: &Gap, a: &Node, b: &Node) -> Result<f64, Barrier> {
         if a.configuration != b.configuration {
             return Err(Barrier::Configuration);
@@ -79,7 +79,7 @@ impl Links {
         Ok(self.evenness(gap, turn))
     }
 
-    /// That a turn (deg) and the joints go no faster than allowed.
+    /// Checks that a turn (deg) and the joints go no faster than allowed.
     pub fn held(&self, gap: &Gap, turn: f64, [a, b]: [&[f64; 6]; 2]) -> Result<(), Barrier> {
         if !gap.known {
             return Ok(());
@@ -94,7 +94,7 @@ impl Links {
         }
     }
 
-    /// What a turn costs, deg.
+    /// Cost of a turn in deg.
     pub fn evenness(&self, gap: &Gap, turn: f64) -> f64 {
         let rate = match turn == 0.0 || !gap.known {
             true => 0.0,
@@ -168,7 +168,7 @@ impl Links {
     }
 }
 
-/// What has been found along the way so far.
+/// Result of the search along the way so far.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Progress {
     pub stages: Vec<Stage>,

@@ -14,7 +14,7 @@ use crate::free_turn::search::Problem;
 /// The step of the band is halved so often: 5 deg end at 0.0024.
 const HALVINGS: usize = 11;
 
-/// With every step the corridor follows the curve so often at most.
+/// Maximum number of times that the corridor follows the curve with each step.
 const PASSES: usize = 12;
 
 /// Links that do not hold are taken out so often before a pass is given up.
@@ -47,7 +47,7 @@ struct Corridor<'p, 't, 'a> {
     step_deg: f64,
     /// Turns from which steps are counted, deg.
     base: Vec<f64>,
-    /// Where the curve is, in steps.
+    /// Steps of the curve.
     at: Vec<i32>,
     /// Postures that were tried, by steps.
     known: Vec<BTreeMap<i32, Option<Node>>>,
@@ -111,7 +111,7 @@ impl<'p, 't, 'a> Corridor<'p, 't, 'a> {
                 self.take(curve, &tried, &chosen, looked);
                 return true;
             }
-            // Where a link does not hold both its ends stay where they are: there it holds.
+            // The ends of a broken link keep their values, for which it is feasible.
             for station in broken {
                 for end in [station - 1, station] {
                     tried[end][1..].fill(None);
@@ -140,7 +140,7 @@ impl<'p, 't, 'a> Corridor<'p, 't, 'a> {
                             };
                             let turn = self.turn_deg(station, own) - self.turn_deg(before, other);
                             let ends = [&node_before.joints, &node.joints];
-                            // What the curve has holds.
+                            // The present curve is feasible.
                             let holds = (own, other) == (0, 0)
                                 || problem.links.held(&gap, turn, ends).is_ok();
                             let value = values[other] + problem.links.evenness(&gap, turn);
@@ -171,7 +171,7 @@ impl<'p, 't, 'a> Corridor<'p, 't, 'a> {
         chosen
     }
 
-    /// What is seen between every station and the one before.
+    /// Checks the way between every station and the one before.
     fn look(&self, tried: &[Tried], chosen: &[usize]) -> Vec<Seen> {
         let between = self.problem.between();
         let stations = (0..chosen.len()).into_par_iter();
@@ -216,7 +216,7 @@ impl<'p, 't, 'a> Corridor<'p, 't, 'a> {
     }
 }
 
-/// What was seen between two stations.
+/// Result of a check between two stations.
 enum Seen {
     AsBefore,
     Holds(Vec<Looked>),

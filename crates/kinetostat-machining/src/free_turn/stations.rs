@@ -45,12 +45,12 @@ impl Turns {
     }
 }
 
-/// What lies between a station and the one before it.
+/// Interval between a station and the one before it.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Gap {
     /// Way, mm.
     pub length: f64,
-    /// Most turn, deg.
+    /// Maximum turn, deg.
     pub turn_deg: f64,
     /// The program says how the tool goes there.
     pub known: bool,
@@ -64,7 +64,7 @@ pub(crate) struct Station {
     /// Share of the way that it stands for.
     pub share: f64,
     pub place: WayPlace,
-    /// To the station before; nothing before the first one.
+    /// Interval to the station before; `None` before the first one.
     pub gap: Option<Gap>,
 }
 
@@ -133,7 +133,7 @@ pub(crate) fn stations(task: &TurnTask<'_>, way: &Way<'_>) -> Result<Vec<Station
     Ok(stations)
 }
 
-/// That the rate lets the tool turn from one turn of the band to the next at all.
+/// Checks that the rate allows any step from one turn of the band to the next.
 pub(crate) fn lets_turn(
     task: &TurnTask<'_>,
     stations: &[Station],

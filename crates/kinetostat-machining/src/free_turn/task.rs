@@ -1,4 +1,4 @@
-//! What is asked of the free turn of a tool.
+//! Inputs of the choice of the free turn of a tool.
 
 use kinetostat::Mechanism;
 use kinetostat_program::Path;
@@ -15,7 +15,7 @@ pub struct TurnBand {
     pub from_deg: f64,
     /// The largest one, deg: 360 more than the smallest is the whole circle, which has no ends.
     pub to_deg: f64,
-    /// From one to the next, deg; a little less where the band is no multiple of it.
+    /// Step from one turn to the next, deg; a little less if the band is no multiple of it.
     pub step_deg: f64,
 }
 
@@ -30,7 +30,7 @@ impl Default for TurnBand {
     }
 }
 
-/// Of which compliance of the tool's tip a sequence of turns is to have little.
+/// Compliance of the tool's tip that a sequence of turns is to keep small.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum TipCompliance {
     /// Motion along a direction (axes of the part) by a force along it.
@@ -39,30 +39,31 @@ pub enum TipCompliance {
     Worst,
 }
 
-/// What makes a turn good. Every criterion is a number without unit, weighted, added, and taken in the mean over the length of the path.
+/// Criterion of a good turn. Every criterion is a number without unit, weighted, added, and taken in the mean over the length of the
+/// path.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum TurnCriterion {
     /// Distance to the limits: the square of the share of half its range by which the joint that is nearest to one is off the middle;
     /// 1 at a limit.
     Limits {
-        /// By how much it counts.
+        /// Weight of the criterion.
         weight: f64,
     },
     /// Distance from singular postures: the square of [`TurnBounds::least_singular_value`] by the smallest singular value; 1 at the bound.
     Singularity {
-        /// By how much it counts.
+        /// Weight of the criterion.
         weight: f64,
     },
     /// Evenness: the square of the rate of turning by the largest that is allowed; 1 there.
     Turning {
-        /// By how much it counts.
+        /// Weight of the criterion.
         weight: f64,
     },
     /// Stiffness: a compliance of the unloaded machine as drawn, by the least one of all turns that are tried anywhere; 1 there.
     Compliance {
-        /// By how much it counts.
+        /// Weight of the criterion.
         weight: f64,
-        /// Which compliance.
+        /// Compliance that is taken.
         of: TipCompliance,
     },
 }
@@ -78,10 +79,10 @@ impl TurnCriterion {
     }
 }
 
-/// What no sequence of turns may leave.
+/// Bounds of all sequences of turns.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TurnBounds {
-    /// How fast the tool may be turned.
+    /// Maximum rate of turning.
     pub rate_deg_per_mm: f64,
     /// Joints stay so far inside their limits, deg.
     pub limit_margin_deg: f64,
@@ -89,14 +90,14 @@ pub struct TurnBounds {
     /// ([`TurnChoice::length_m`](crate::TurnChoice::length_m)) and the angular velocity: joints that turn by 1 rad in all move the tool
     /// by so much at least.
     pub least_singular_value: f64,
-    /// No joint turns farther between two stations, deg.
+    /// Maximum rotation of a joint between two stations, deg.
     pub joint_step_deg: f64,
     /// Places between two stations at which all this is checked again, besides the ends of moves.
     pub checks_between: usize,
     /// The only configuration that may be used, by its [number](crate::ArmConfiguration::number); any one, but the same along the whole
     /// path, if none is given.
     pub configuration: Option<u8>,
-    /// Most postures that are kept at a time (a hundred bytes each).
+    /// Maximum number of postures kept at a time (a hundred bytes each).
     pub most_postures: usize,
 }
 
@@ -114,13 +115,13 @@ impl Default for TurnBounds {
     }
 }
 
-/// What is made of the turns of the band that were found.
+/// Form of the resulting curve of turns.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum TurnCurve {
     /// A smooth curve near them, in the same configuration and inside the same bounds: it costs no more.
     #[default]
     Smooth,
-    /// They stay: a staircase with the steps of the band.
+    /// The steps of the band stay, as a staircase.
     Steps,
 }
 
@@ -131,18 +132,18 @@ pub struct TurnTask<'a> {
     pub mechanism: &'a Mechanism,
     /// The motion of the program.
     pub path: &'a Path,
-    /// Where it lies.
+    /// Placement of the program.
     pub placement: Placement,
-    /// From one station to the next along the path, mm; a little less where the path is no multiple of it, and farther apart where they
-    /// would have more postures than [`TurnBounds::most_postures`].
+    /// Distance of stations along the path, mm; a little less if the path is no multiple of it, and larger if they would have more
+    /// postures than [`TurnBounds::most_postures`].
     pub station_mm: f64,
-    /// Which turns are tried.
+    /// Turns that are tried.
     pub band: TurnBand,
-    /// What makes a turn good.
+    /// Criteria of a good turn.
     pub criteria: Vec<TurnCriterion>,
-    /// What is kept everywhere.
+    /// Bounds kept everywhere.
     pub bounds: TurnBounds,
-    /// What becomes of the steps of the band.
+    /// Form of the resulting curve.
     pub curve: TurnCurve,
 }
 

@@ -10,7 +10,7 @@ use crate::free_turn::task::TurnTask;
 use crate::free_turn::way::{Section, Way};
 use crate::number::larger;
 
-/// One piece of a move turns the tool by no more, deg: between two orientations it goes the shorter way.
+/// Maximum rotation of the tool by one piece of a move, deg: between two orientations it goes the shorter way.
 const MOST_DEG: f64 = 90.0;
 
 /// The rate of turning changes by less, deg/mm, where a move goes on as it was.
@@ -23,7 +23,7 @@ pub struct TurnedPath {
     /// The path. A move on which the rate of turning changes has become several, all with its line: at the stations where it changes.
     /// Words of other axes go with the last of them.
     pub path: Path,
-    /// How many moves there are more than before.
+    /// Number of additional moves.
     pub added: usize,
     /// The number in the path before of every move.
     pub source: Vec<usize>,
@@ -32,7 +32,7 @@ pub struct TurnedPath {
     pub axis_off_deg: f64,
 }
 
-/// Which turn is meant where the tool goes on with another one.
+/// Side of a place at which the turn jumps.
 #[derive(Clone, Copy)]
 enum Side {
     Before,
@@ -92,7 +92,8 @@ pub fn with_turns(task: &TurnTask<'_>, choice: &TurnChoice) -> Result<TurnedPath
     Ok(turned)
 }
 
-/// From the tip to the holder in axes of the tool, of a program of positions: along z, on the side that is up in the part.
+/// Direction from the tip to the holder in axes of the tool, for a program of positions: along z, on the side that is up
+/// in the part.
 fn up(task: &TurnTask<'_>) -> Vector3<f64> {
     match (in_part(task) * Vector3::z()).z >= 0.0 {
         true => Vector3::z(),
@@ -124,7 +125,7 @@ fn pieces(choice: &TurnChoice, knots: &[f64], motion: &Move, section: &Section) 
     }
     let (from, to) = (section.from, section.from + section.length);
     let share = |at: f64| (at - from) / section.length;
-    // Where the program turns the tool the two turns do not add up to one about one axis: all stations count.
+    // Two turns do not add up to one about one axis if the program turns the tool: all stations are used.
     let places: Vec<f64> = match section.turns {
         true => choice
             .stations

@@ -14,11 +14,11 @@ const MM_PER_DEG: f64 = 1.0;
 /// A move on the way.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Section {
-    /// Where it begins, mm of the way.
+    /// Start, mm of the way.
     pub from: f64,
-    /// How long it is there, mm; nothing where the program does not say from where it starts.
+    /// Length, mm; zero if the program does not state the start of the move.
     pub length: f64,
-    /// Most turn by way, deg/mm.
+    /// Maximum turn by way, deg/mm.
     pub rate: f64,
     /// The program changes the orientation of the tool on it.
     pub turns: bool,
@@ -29,7 +29,7 @@ pub(crate) struct Section {
 pub(crate) struct Way<'a> {
     path: &'a Path,
     placement: Placement,
-    /// One for every move.
+    /// Sections, one for every move.
     pub sections: Vec<Section>,
     /// First and last section of every stretch that is known without a break.
     pub stretches: Vec<[usize; 2]>,
@@ -49,7 +49,7 @@ pub(crate) struct WayPlace {
     pub pose: Pose,
 }
 
-/// Whether the moves of a path state the orientation of the tool.
+/// True if the moves of a path state the orientation of the tool.
 fn states_orientation(path: &Path) -> bool {
     path.moves.iter().any(|motion| motion.tool_turn.is_some())
 }
@@ -63,7 +63,7 @@ pub(crate) fn tool_axis(path: &Path) -> Option<Unit<Vector3<f64>>> {
 }
 
 impl<'a> Way<'a> {
-    /// Of a task whose numbers have been looked at.
+    /// Way of a task whose numbers have been checked.
     pub fn of(task: &TurnTask<'a>) -> Result<Self, TurnError> {
         let axis = tool_axis(task.path).ok_or_else(|| TurnError::Input {
             what:
@@ -131,7 +131,7 @@ impl<'a> Way<'a> {
             .unwrap_or(0)
     }
 
-    /// Where the tool is after `at` mm, in the section where it is.
+    /// Place of the tool after `at` mm, in the section of that place.
     pub fn place(&self, section: usize, at: f64) -> WayPlace {
         let motion = &self.path.moves[section];
         let Section { from, length, .. } = self.sections[section];
@@ -155,7 +155,7 @@ impl<'a> Way<'a> {
     }
 }
 
-/// By how much the program turns the tool on a move, deg.
+/// Angle by which the program turns the tool on a move, deg.
 fn turn_deg(motion: &Move) -> f64 {
     let turn = motion.tool_turn.as_ref();
     turn.map_or(0.0, |turn| turn.start.angle_to(&turn.end).to_degrees())

@@ -1,4 +1,4 @@
-//! Which of its eight ways an arm takes to a pose, from its joint values.
+//! Configuration of an arm, one of eight, from its joint values.
 //!
 //! Six turning axes: 2 and 3 parallel, 1 at a right angle to them, and 4, 5, 6 through one point with right angles between
 //! neighbours. The determinant of such an arm's Jacobian is a product of three factors, one each of shoulder, elbow and wrist, and the
@@ -59,7 +59,7 @@ impl Axes {
         Some(found)
     }
 
-    /// The point where axes 4, 5 and 6 meet; none if they do not within a distance, or if the angles are not those of an arm.
+    /// The point where axes 4, 5 and 6 meet; `None` if they do not within a distance, or if the angles are not those of an arm.
     fn wrist(&self, reach: f64) -> Option<Vector3<f64>> {
         let [first, second, third, fourth, fifth, sixth] = self.directions;
         let square = |a: &Vector3<f64>, b: &Vector3<f64>| a.dot(b).abs() < CLOSE;
@@ -78,7 +78,7 @@ impl Axes {
 }
 
 impl Arm {
-    /// The arm that a machine is; none if it is another machine.
+    /// The arm that a machine is; `None` if it is another machine.
     pub(crate) fn of(mechanism: &Mechanism) -> Option<Self> {
         let [limb] = mechanism.limbs() else {
             return None;
@@ -108,7 +108,7 @@ impl Arm {
         Some(arm)
     }
 
-    /// Which signs mean front, up and not flipped.
+    /// Signs that mean front, up and not flipped.
     fn signs_at_home(&self, axes: &Axes, commands: &[f64], reach: f64) -> [f64; 3] {
         let sign = |value: f64, otherwise: f64| match value == 0.0 {
             true => otherwise,
@@ -153,7 +153,7 @@ impl Arm {
         [1e3 * out, elbow, wrist]
     }
 
-    /// The configuration at joint values, rad; none if one of them is no number.
+    /// The configuration at joint values, rad; `None` if one of them is no number.
     pub(crate) fn configuration(&self, commands: &[f64]) -> Option<ArmConfiguration> {
         let signed = self.signed(commands);
         let [shoulder, elbow, wrist] = [0, 1, 2].map(|k| self.signs[k] * signed[k]);

@@ -7,7 +7,7 @@ use crate::near::natural_length;
 use crate::result::joints::{ArmConfiguration, LimitEnd, MostLoaded, NearestLimit};
 use crate::result::point::{PointKind, PointResult};
 
-/// What joint values and drive loads of a machine are compared with.
+/// References for joint values and drive loads of a machine.
 #[derive(Clone, Debug)]
 pub(crate) struct JointFigures<'r> {
     /// Kind and limits, mm or deg, of every actuator.
@@ -37,7 +37,7 @@ impl<'r> JointFigures<'r> {
         }
     }
 
-    /// The arm that the machine is; none if it is another machine.
+    /// The arm that the machine is; `None` if it is another machine.
     pub(crate) fn arm(&self) -> Option<&Arm> {
         self.arm.as_ref()
     }

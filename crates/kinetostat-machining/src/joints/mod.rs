@@ -1,4 +1,4 @@
-//! What joint values and drive loads mean: distance to limits, share of ratings, configuration of an arm.
+//! Figures of joint values and drive loads: distance to limits, share of ratings, configuration of an arm.
 //!
 //! Takes the mechanism, joint values and drive loads; gives plain data. Closed forms of the nominal geometry, no equilibrium is solved.
 

@@ -7,12 +7,12 @@
 //! f = F_r e_r + F_t e_t + F_a z,   e_t along the feed (seen along the tool axis z), e_r = e_t x z
 //! ```
 //!
-//! so that on a counter-clockwise circle `e_r` points outwards. Where the program turns the tool, z is the direction from its tip
-//! to its holder and the feed is seen along that. While the tool turns in place (`G1 C90` alone) the feed counts as that of the path around,
-//! over 0.05 mm before and behind; that direction stays fixed in the part, and so turns with a table, however the turn is divided into
-//! blocks. Where the path turns back there it has no direction, and the axial force alone acts. At a gentle corner the load turns
-//! over the last and first millimetres of the two moves; at a sharp one it turns at once, and what it is
-//! while the written program steps there is a matter of reading ([`crate::load::law::CornerLoad`]).
+//! so that on a counter-clockwise circle `e_r` points outwards. If the program turns the tool, z is the direction from its tip to its
+//! holder and the feed is seen along that. While the tool turns in place (`G1 C90` alone) the feed counts as that of the path around, over
+//! 0.05 mm before and behind; that direction stays fixed in the part, and so turns with a table, however the turn is divided into blocks.
+//! If the path turns back there it has no direction, and the axial force alone acts. At a gentle corner the load turns over the last and
+//! first millimetres of the two moves; at a sharp one it turns at once, and what it is while the written program steps there is a matter of
+//! reading ([`crate::load::law::CornerLoad`]).
 
 use std::borrow::Cow;
 
@@ -70,8 +70,8 @@ impl<'a> LoadAlongPath<'a> {
         Self::with_tools(load, path, &[])
     }
 
-    /// The same, with the load of each tool on the blocks that are made with it; `load` is that of blocks
-    /// without one of these tools.
+    /// Load along a path with a load for each tool on its own blocks; `load` is that of blocks without one of these
+    /// tools.
     #[must_use]
     pub fn with_tools(load: ProgramLoad, path: &'a Path, tools: &'a [Tool<'a>]) -> Self {
         let mut along = Self {
@@ -88,7 +88,7 @@ impl<'a> LoadAlongPath<'a> {
         along
     }
 
-    /// The same with the forces of the cut, for loads that are [`CuttingLoad::FromCut`].
+    /// Adds the forces of the cut, for loads that are [`CuttingLoad::FromCut`].
     #[must_use]
     pub fn with_cut(mut self, cut: Option<&'a ForceAlongPath>) -> Self {
         self.cut = cut.map(|cut| {
@@ -103,7 +103,7 @@ impl<'a> LoadAlongPath<'a> {
         self
     }
 
-    /// The same with another profile of the cut.
+    /// Replaces the profile of the cut.
     pub(crate) fn with_profile(mut self, profile: Profile<6>) -> Self {
         if let Some(cut) = &mut self.cut {
             cut.profile = Cow::Owned(profile);
@@ -131,7 +131,7 @@ impl<'a> LoadAlongPath<'a> {
         tool_on(self.tools, self.path, self.path.moves[move_index].line)
     }
 
-    /// What acts on the tool that a move is made with.
+    /// Load on the tool of a move.
     pub(crate) fn load_of(&self, move_index: usize) -> &ProgramLoad {
         self.tool_of(move_index)
             .map_or(&self.load, |tool| &tool.load)
@@ -197,7 +197,7 @@ impl<'a> LoadAlongPath<'a> {
         shares
     }
 
-    /// Whether nothing but the place changes along a move: it is straight, and what acts on it is the same all along.
+    /// True if only the place changes along a move: it is straight, and the load on it is constant.
     pub(crate) fn is_steady(&self, move_index: usize) -> bool {
         let motion = &self.path.moves[move_index];
         let load = self.load_of(move_index);
@@ -335,7 +335,7 @@ impl<'a> LoadAlongPath<'a> {
         all.join("; ") + self.words_of_turning()
     }
 
-    /// How a load of the feed turns with the rotary axes of a machine.
+    /// Text on the rotation of a load of the feed with the rotary axes of a machine.
     fn words_of_turning(&self) -> &'static str {
         let turns = self.load.turns() || self.tools.iter().any(|tool| tool.load.turns());
         let by_axes = |motion: &Move| {

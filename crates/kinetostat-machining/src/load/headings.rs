@@ -11,8 +11,8 @@ use crate::load::tool_frame::heading_on;
 /// of the load differs there because a corner is gentle.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Headings {
-    /// Of a move so short that its own direction says nothing, and of a turn in place: the direction of the path around it, part axes. It
-    /// stays as it is in the part while the tool turns.
+    /// Direction of the path around a move, part axes, for a move too short to have its own and for a rotation in place. It stays as it
+    /// is in the part while the tool turns.
     pub around: Option<Vector3<f64>>,
     pub at_start: Option<f64>,
     pub at_end: Option<f64>,

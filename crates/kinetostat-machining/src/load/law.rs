@@ -23,7 +23,7 @@ pub enum LoadAxes {
 pub enum CuttingLoad {
     /// No cutting force.
     None,
-    /// The same wrench at the tool's tip everywhere, N and N m.
+    /// Constant wrench at the tool's tip, N and N m.
     Constant {
         /// Axes of its components.
         axes: LoadAxes,
@@ -32,16 +32,16 @@ pub enum CuttingLoad {
     },
     /// Radial, tangential and axial force of milling, N.
     Milling {
-        /// To the right of the feed.
+        /// Force to the right of the feed.
         radial: f64,
-        /// Along the feed.
+        /// Force along the feed.
         tangential: f64,
-        /// Along the part frame's z; along the tool, away from the part, where the program turns the tool.
+        /// Force along the part frame's z; along the tool, away from the part, if the program turns the tool.
         axial: f64,
     },
     /// Computed from the cut or measured, another at every place: see [`crate::ForceAlongPath`].
     FromCut {
-        /// Whether it was computed or measured.
+        /// Origin of the force, computed or measured.
         #[serde(default)]
         origin: ForceOrigin,
         /// The one with the largest force, N and N m, x along the feed, z along the part frame's z, y to the left.
@@ -49,7 +49,7 @@ pub enum CuttingLoad {
     },
 }
 
-/// What the load is while the written program steps at a sharp corner, or where a cut begins.
+/// Load while the written program steps at a sharp corner, or where a cut begins.
 ///
 /// A step is written so that the tool stays at its place on the part while the load turns. That holds
 /// only if the load turns as evenly as the step is made. The bytes written are the same for both readings:
@@ -57,11 +57,11 @@ pub enum CuttingLoad {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum CornerLoad {
-    /// It turns evenly from the one before to the one after while the tool steps.
+    /// The load turns uniformly from the one before to the one after while the tool steps.
     #[default]
     Turns,
-    /// It follows the feed: on a step it is that of a cut along the step. A load that does not turn with
-    /// the feed is already that after the step.
+    /// The load follows the feed: on a step it is that of a cut along the step. A load that does not turn with the
+    /// feed is already that after the step.
     FollowsFeed,
 }
 
@@ -90,10 +90,10 @@ pub struct ProgramLoad {
     /// before and after a cut. Default 0.5.
     #[serde(default = "largest_step")]
     pub largest_step: f64,
-    /// What it is on the steps written at sharp corners. Default [`CornerLoad::Turns`].
+    /// Load on the steps written at sharp corners. Default [`CornerLoad::Turns`].
     #[serde(default)]
     pub at_corners: CornerLoad,
-    /// That was stated, and is no assumption. Default false.
+    /// True if that was stated, and is no assumption. Default false.
     #[serde(default)]
     pub corners_stated: bool,
 }
@@ -171,7 +171,7 @@ impl ProgramLoad {
         }
     }
 
-    /// Whether it has another direction where the tool moves otherwise.
+    /// True if its direction depends on the motion of the tool.
     ///
     /// ```
     /// use kinetostat_machining::{CuttingLoad, ProgramLoad};

@@ -1,4 +1,4 @@
-//! What is to be said of loads that come and go: how long it takes them, and where there is not enough path for it.
+//! Warnings about loads that come and go: the length of their ramps, and paths that are too short for them.
 
 use kinetostat::number::larger;
 use kinetostat_program::Path;
@@ -13,12 +13,12 @@ pub(crate) struct TooFast {
     pub line: usize,
     /// Force that the correction lacks there, N.
     pub force_n: f64,
-    /// By how much that moves the tool at the machine's smallest stiffness, mm.
+    /// Displacement of the tool by that force at the machine's smallest stiffness, mm.
     pub off_mm: f64,
 }
 
 impl TooFast {
-    /// Whether it is large beside the tolerance of the path.
+    /// True if it is large compared with the tolerance of the path.
     pub fn matters(&self, tolerance_mm: f64) -> bool {
         self.off_mm > 0.5 * tolerance_mm
     }
@@ -35,33 +35,34 @@ pub(crate) struct ShortFeed {
     pub needs_mm: f64,
 }
 
-/// Where a stated load begins to act.
+/// Place at which a stated load begins to act.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 #[non_exhaustive]
 pub enum LoadBegins {
-    /// Below a height that was stated: it comes over the path before, and goes over the path behind.
+    /// The load acts below a stated height: it comes over the path before, and goes over the path after.
     BelowHeight,
-    /// Nobody stated where: it comes over the first millimetres of feed after a rapid, and acts until the next one.
+    /// The height was not stated: the load comes over the first millimetres of feed after a rapid, and acts until the
+    /// next one.
     AfterRapid,
 }
 
-/// Over which length of path a stated load comes, at most.
+/// Maximum length of path over which a stated load comes.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct LoadRamp {
-    /// Where it begins to act; with several loads [`LoadBegins::AfterRapid`] where one of them begins so.
+    /// Place at which it begins to act; with several loads [`LoadBegins::AfterRapid`] if one of them begins so.
     pub begins: LoadBegins,
     /// Longest way over which a load comes, mm.
     pub length_mm: f64,
 }
 
-/// What is to be said of loads that come and go.
+/// Warnings about loads that come and go.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct RampFindings {
-    /// One for each line.
+    /// Fast changes, one for each line.
     pub too_fast: Vec<TooFast>,
     pub short: Vec<ShortFeed>,
-    /// Of stated loads.
+    /// Ramp of stated loads.
     pub ramp: Option<LoadRamp>,
 }
 

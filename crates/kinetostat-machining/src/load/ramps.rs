@@ -1,11 +1,11 @@
 //! A load that comes and goes as fast as the correction may change, and no faster.
 //!
 //! A correction that jumps would move the tool while it stands at one place of the part: a plunge would go up before it goes
-//! down. So the load may change only by what moves the tool by [`ProgramLoad::largest_step`] per mm of path, at the machine's
-//! smallest stiffness against a force. The change goes into the air before and after a cut, where it does not matter where the
-//! tool is; a stated load, of which nobody knows where it begins, comes over the first millimetres after a rapid, round corners
-//! too. Only where there is less feed than that between two rapids it comes faster: all of it acts before the second one. At
-//! sharp corners the load turns while the tool steps, as everywhere.
+//! down. The load may therefore change only by what moves the tool by [`ProgramLoad::largest_step`] per mm of path, at the
+//! machine's smallest stiffness against a force. The change goes into the air before and after a cut, where it does not matter
+//! where the tool is; a stated load, of which nobody knows where it begins, comes over the first millimetres after a rapid,
+//! round corners too. Only where there is less feed than that between two rapids it comes faster: all of it acts before the
+//! second one. At sharp corners the load turns while the tool steps, as everywhere.
 
 use std::collections::BTreeMap;
 
@@ -25,9 +25,9 @@ use crate::profile::reduced::reduced;
 /// A load in two readings.
 #[derive(Clone, Debug)]
 pub(crate) struct Ramped<'a> {
-    /// That which the correction follows.
+    /// Load that the correction follows.
     pub followed: LoadAlongPath<'a>,
-    /// That which acts: where the tool cuts, what was computed, as far as it is known where.
+    /// Load that acts: in a cut the computed one, as far as its place is known.
     pub acting: LoadAlongPath<'a>,
     pub findings: RampFindings,
 }
@@ -145,13 +145,13 @@ fn stated_part(load: &ProgramLoad, motion: &Move) -> Vec<(f64, [f64; 1], bool)> 
     stretches.collect()
 }
 
-/// Where a straight move passes a height.
+/// Share at which a straight move passes a height.
 fn crossing(motion: &Move, z: f64) -> Option<f64> {
     let (from, to) = (motion.start.z - z, motion.end.z - z);
     (from * to < 0.0).then(|| from / (from - to))
 }
 
-/// How fast the force of a cut may change.
+/// Maximum rate of change of the force of a cut.
 struct Limit<'l, 'a> {
     load: &'l LoadAlongPath<'a>,
     scale: Scale,

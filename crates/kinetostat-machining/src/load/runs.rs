@@ -31,7 +31,7 @@ pub(crate) fn runs(path: &Path, joined: impl Fn(&Move, &Move) -> bool) -> Vec<Ve
     runs
 }
 
-/// How the run that begins with a move begins, for all moves: after a rapid nothing acts.
+/// Initial condition of the run that begins with a move, for all moves: after a rapid nothing acts.
 pub(crate) fn begins(path: &Path) -> Vec<Begins> {
     let mut all = vec![Begins::Anyhow; path.moves.len()];
     let mut from = 0;

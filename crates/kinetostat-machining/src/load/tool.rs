@@ -15,7 +15,7 @@ pub struct Tool<'a> {
     pub number: u32,
     /// Machine with this tool.
     pub mechanism: &'a Mechanism,
-    /// What acts on this tool.
+    /// Load on this tool.
     pub load: ProgramLoad,
 }
 

@@ -13,8 +13,8 @@ use crate::map::solved::{Solved, Wanted};
 use crate::map::variable::{Needs, Variable};
 use crate::postures::configurations::Configurations;
 
-/// Two equilibria are one where the tool stands in the same place in both, by this share of the machine's length and in rad: both
-/// are known far better.
+/// Largest difference of the tool's place, as a share of the machine's length and in rad, for two equilibria to be one: both are
+/// known far better.
 const SAME: f64 = 1e-7;
 
 /// A machine, and which of its variables are asked for.
@@ -25,24 +25,24 @@ pub struct Evaluator {
     ratings: Vec<Option<f64>>,
     variables: Vec<Variable>,
     details: Details,
-    /// How many natural frequencies are asked for: they are about the state of a posture, which the kernels do not hand out.
+    /// Number of requested natural frequencies: they are about the state of a posture, which the kernels do not return.
     modes: usize,
-    /// Where the tool is without its load is asked for.
+    /// True if the tool's place without its load is requested.
     unloaded: bool,
     nearness: Option<Nearness>,
     configurations: Configurations,
 }
 
-/// What became of a posture.
+/// Result of a posture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Outcome {
-    /// Which kind of answer there is.
+    /// State of the place.
     pub state: PlaceState,
-    /// There are numbers, be it outside the limits of an actuator.
+    /// True if there are numbers, even outside the limits of an actuator.
     pub found: bool,
 }
 
-/// What is kept from block to block, one for each thread.
+/// Buffers kept from block to block, one for each thread.
 #[derive(Debug, Default)]
 pub struct EvaluationRoom {
     stiffness: BatchStiffness,
@@ -53,7 +53,8 @@ pub struct EvaluationRoom {
 }
 
 impl Evaluator {
-    /// For a machine compiled for many postures; `ratings` are those of its actuators as far as they are stated (N or N m).
+    /// Evaluation of a machine compiled for many postures; `ratings` are those of its actuators as far as they are stated
+    /// (N or N m).
     #[must_use]
     pub fn new(
         mechanism: &Mechanism,
@@ -81,7 +82,7 @@ impl Evaluator {
         }
     }
 
-    /// For a map, whose usual figures are the stiffness and, under a load, its stability.
+    /// Evaluation for a map, whose usual figures are the stiffness and, under a load, its stability.
     pub(crate) fn of_map(
         mechanism: &Mechanism,
         batch: Arc<Batch>,
@@ -235,7 +236,7 @@ impl Evaluator {
         };
         let posture = place.take_posture(posture, load, &wanted);
         if let (Some(own), Some(posture), true) = (&self.nearness, &posture, place.found) {
-            // What nothing holds has no rate of a drive that tells of it.
+            // The rates of the drives do not show free motions.
             place.singularity_distance = match place.free.is_empty() {
                 true => own.of_posture(posture),
                 false => 0.0,

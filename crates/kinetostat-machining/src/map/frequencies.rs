@@ -4,7 +4,7 @@ use kinetostat::machine::MechanismState;
 use kinetostat::{Posture, Wrench};
 use kinetostat_dynamics::{Held, lowest_modes_of_state};
 
-/// How many of them a map has.
+/// Number of natural frequencies in a map.
 pub(crate) const LOWEST: usize = 6;
 
 /// About an equilibrium, the tool free, Hz: rising, negative where the machine goes away, zero where it is free. NaN

@@ -37,7 +37,7 @@ use crate::watch::Watch;
 pub struct MapTask<'a> {
     /// Machine with its tool.
     pub mechanism: &'a Mechanism,
-    /// Where the tool's reference point is put.
+    /// Positions of the tool's reference point.
     pub grid: Grid,
     /// Orientation of the tool everywhere, base from tool.
     pub orientation: UnitQuaternion<f64>,
@@ -48,9 +48,10 @@ pub struct MapTask<'a> {
     /// the machine as it is under this load, its own weight, preloads and deviations; without it, of
     /// the unloaded machine as drawn.
     pub load: Option<Wrench>,
-    /// Further orientations and loads: what counts at a place is the worst of all. Not where the orientation follows.
+    /// Additional orientations and loads: the figures of a place are the worst of all. Not if the orientation
+    /// follows.
     pub further: Vec<(UnitQuaternion<f64>, Option<Wrench>)>,
-    /// What is asked for beside the usual figures; they come in [`MapPlace::values`].
+    /// Requested variables beside the usual figures; they come in [`MapPlace::values`].
     pub variables: Vec<Variable>,
     /// Ratings of the actuators, as far as they are stated.
     pub ratings: Vec<Option<f64>>,
@@ -59,7 +60,7 @@ pub struct MapTask<'a> {
 }
 
 impl MapTask<'_> {
-    /// Why every place is solved by itself; `None` where kernels take many at once.
+    /// Reason for which every place is solved by itself; `None` if kernels take many at once.
     #[must_use]
     pub fn one_by_one_because(&self) -> Option<String> {
         let loaded = self.load.is_some();
@@ -70,7 +71,7 @@ impl MapTask<'_> {
 /// Places that one thread takes at a time, and that `block` gets: a run that goes on begins with a whole one.
 pub const MAP_BLOCK: usize = 256;
 use MAP_BLOCK as BLOCK;
-/// Most blocks between two looks at the watch; what is in memory at a time.
+/// Maximum number of blocks between two calls of the watch, and in memory at a time.
 const BLOCKS: usize = 64;
 /// A round of blocks takes about so long: what is solved is handed on, so that a run that is stopped loses no more.
 const ROUND: Duration = Duration::from_millis(500);

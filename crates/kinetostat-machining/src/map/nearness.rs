@@ -1,9 +1,10 @@
-//! How near a posture is to a singular one: the condition of the Jacobian between the actuators and the motions that they drive.
+//! Distance of a posture from a singular one: the condition of the Jacobian between the actuators and the motions that they
+//! drive.
 //!
 //! Rates of the commands by motions of the tool are differences of the inverse kinematics, which the kernels solve for many
-//! poses at once. Where a machine turns its tool as it moves, the motions that it drives are others at every place, and a pose
-//! beside one that it reaches is none: there the posture itself says them. Rotations of tool and of actuators are multiplied
-//! with the natural length, so that all are lengths.
+//! poses at once. For a machine that turns its tool as it moves, the driven motions differ from place to place, and a pose
+//! next to a reached one may be out of reach: there the posture itself gives them. Rotations of tool and of actuators are
+//! multiplied with the natural length, so that all are lengths.
 
 use kinetostat::batch::{Batch, BatchStiffness};
 use kinetostat::spatial::moved;
@@ -12,7 +13,7 @@ use nalgebra::{DMatrix, DVector, Vector6};
 
 /// Motions for differences, as a share of the natural length.
 const STEP: f64 = 1e-4;
-/// How far beside a singular home motions are counted, share of the natural length.
+/// Offset from a singular home at which motions are counted, share of the natural length.
 const BESIDE: f64 = 0.05;
 /// Joints that go farther (share of the natural length) in a step have changed their branch.
 const JUMP: f64 = 0.1;
@@ -22,10 +23,10 @@ const JUMP: f64 = 0.1;
 pub(crate) struct Nearness {
     /// Motions of the tool for a step, base axes.
     steps: Vec<Twist>,
-    /// What a command is multiplied with to be a length.
+    /// Factors that make a command a length.
     units: Vec<f64>,
     step: f64,
-    /// Of poses beside one no more is known than at home.
+    /// True if the driven motions are known at home only.
     turns: bool,
 }
 
@@ -37,7 +38,7 @@ pub(crate) struct NearnessRoom {
 }
 
 impl Nearness {
-    /// Of the motions that the actuators drive at home; beside it where home is singular.
+    /// Motions that the actuators drive at home, or next to it if home is singular.
     pub fn of(mechanism: &Mechanism) -> Self {
         let length = mechanism.natural_length();
         let step = STEP * length;
@@ -60,8 +61,8 @@ impl Nearness {
         }
     }
 
-    /// At a posture: the smallest singular value of the rates as a share of the largest, 0 where fewer motions than at home are
-    /// driven.
+    /// Singularity distance at a posture: the smallest singular value of the rates as a share of the largest, 0 if fewer
+    /// motions than at home are driven.
     pub fn of_posture(&self, posture: &Posture) -> f64 {
         let rates = posture.command_rates();
         match rates.ncols() < self.steps.len() {
@@ -70,7 +71,7 @@ impl Nearness {
         }
     }
 
-    /// The same by differences; none where the machine cannot go to either side.
+    /// Singularity distance by differences; `None` if the machine cannot go to either side.
     pub fn at(
         &self,
         batch: &Batch,

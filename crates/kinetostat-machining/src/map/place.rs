@@ -2,7 +2,7 @@
 
 use kinetostat::chain::FoundBy;
 
-/// Whether a place has an answer, and of which kind.
+/// State of a place and of its answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PlaceState {
     /// Every direction is held, and under a load the equilibrium is stable.
@@ -44,21 +44,21 @@ pub struct MapPlace {
     pub index: [usize; 3],
     /// Position of the tool's reference point, base axes, mm.
     pub position_mm: [f64; 3],
-    /// Whether there is an answer.
+    /// State of the answer.
     pub state: PlaceState,
     /// Force that moves the tool's tip by 1 mm in its softest direction while the tool may turn,
     /// N/mm: zero if a direction is free, negative if the tool runs away.
     pub smallest_stiffness_n_per_mm: f64,
-    /// The same for a force along x, y and z (base axes), by the motion along it, N/mm.
+    /// Stiffness for a force along x, y and z (base axes), by the motion along it, N/mm.
     pub stiffness_n_per_mm: [f64; 3],
-    /// How far the unloaded tool has turned from the orientation that was requested, deg: zero unless
-    /// the orientation follows.
+    /// Rotation of the unloaded tool from the orientation that was requested, deg: zero unless the orientation
+    /// follows.
     pub tool_turn_deg: f64,
-    /// From where the tool is commanded to where it goes under the load, base axes, mm.
+    /// Displacement from the commanded place under the load, base axes, mm.
     pub displacement_mm: [f64; 3],
     /// Rotation vector of the tool under the load, base axes, deg.
     pub rotation_deg: [f64; 3],
-    /// How the equilibrium under the load was found.
+    /// Method by which the equilibrium under the load was found.
     pub found_by: FoundBy,
     /// Values of the further variables that were asked for, SI, one after the other.
     pub values: Box<[f64]>,

@@ -35,7 +35,7 @@ pub(crate) fn principal(compliance: &Matrix6<f64>) -> (Vector3<f64>, Matrix3<f64
     (values, vectors)
 }
 
-/// The same of moments, without directions; what is rounding beside the forces' is zero.
+/// Principal rotational compliances, without directions; values within the rounding of those of forces are zero.
 pub(crate) fn rotational(compliance: &Matrix6<f64>, length: f64) -> Vector3<f64> {
     let nothing = NO_MOTION * compliance.fixed_view::<3, 3>(0, 0).amax() / (length * length);
     let (values, _) = eigen(&compliance.fixed_view::<3, 3>(3, 3).into_owned());

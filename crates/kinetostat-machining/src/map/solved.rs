@@ -1,4 +1,4 @@
-//! What is known of one place: from the kernels for many, or from the general engine for one.
+//! Solution of one place: from the kernels for many, or from the general engine for one.
 
 use kinetostat::batch::{BatchEquilibrium, BatchStiffness};
 use kinetostat::chain::{CartesianCompliance, FoundBy};
@@ -11,7 +11,8 @@ use crate::map::frequencies::{LOWEST, lowest};
 use crate::map::place::PlaceState;
 use crate::map::principal::{NO_MOTION, principal, rotational};
 
-/// What is known of a place, in SI units, base axes; NaN where it is not. It is kept and written over from place to place.
+/// Solution of a place, in SI units, base axes; NaN where it is not known. It is kept and written over from place to
+/// place.
 #[derive(Clone, Debug)]
 pub(crate) struct Solved {
     pub state: PlaceState,
@@ -25,7 +26,7 @@ pub(crate) struct Solved {
     pub free: Vec<Twist>,
     pub softest: f64,
     pub displacement: Twist,
-    /// Without the load.
+    /// Displacement without the load.
     pub unloaded: Twist,
     pub commands: Vec<f64>,
     pub efforts: Vec<f64>,
@@ -37,18 +38,18 @@ pub(crate) struct Solved {
     pub frequencies: [f64; LOWEST],
 }
 
-/// What is asked of a posture by itself.
+/// Requested results of a single posture.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Wanted<'a> {
     /// Ratings of the actuators, as far as they are stated.
     pub ratings: &'a [Option<f64>],
-    /// So many of its natural frequencies, too.
+    /// Number of natural frequencies.
     pub modes: usize,
-    /// Where the tool is without the load, too.
+    /// True if the tool's place without the load is requested.
     pub unloaded: bool,
 }
 
-/// Below this relative pivot the rank of a stiffness has to be decided.
+/// Relative pivot below which the rank of a stiffness has to be decided.
 const REGULAR: f64 = 1e-9;
 
 impl Solved {
@@ -74,7 +75,7 @@ impl Solved {
         }
     }
 
-    /// Nothing is known.
+    /// Resets the solution.
     pub fn forget(&mut self) {
         self.state = PlaceState::Unanswered;
         self.found = false;
@@ -114,12 +115,12 @@ impl Solved {
         }
     }
 
-    /// Against a force in the softest direction.
+    /// Stiffness against a force in the softest direction.
     pub fn softest(&self) -> f64 {
         self.softest
     }
 
-    /// Against a moment about the softest axis.
+    /// Stiffness against a moment about the softest axis.
     pub fn softest_rotation(&self) -> f64 {
         match self
             .free

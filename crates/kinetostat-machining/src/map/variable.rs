@@ -1,4 +1,4 @@
-//! What can be asked of a place: one table of names, units, columns and meanings.
+//! Variables of a place: one table of names, units, columns and meanings.
 
 use kinetostat::number::{larger, smaller};
 
@@ -44,7 +44,7 @@ pub enum Variable {
     NaturalFrequencies,
 }
 
-/// Which of two values is the worse one.
+/// Order by which the worse of two values is chosen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Worse {
     /// The smaller.
@@ -53,26 +53,26 @@ pub enum Worse {
     Larger,
     /// The one of the larger size: it may have either sign.
     LargerSize,
-    /// Neither.
+    /// Neither is worse.
     Neither,
 }
 
-/// How many columns a variable has.
+/// Number of columns of a variable.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Width {
-    /// So many.
+    /// Fixed number.
     Fixed(usize),
-    /// One for each actuator.
+    /// One column for each actuator.
     Actuators,
 }
 
-/// What has to be known of a place.
+/// Solution that a variable needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Needs {
     Posture,
     Stiffness,
     Rest,
-    /// At rest without the load, too.
+    /// Equilibrium without the load, too.
     Unloaded,
     Stability,
     Modes,
@@ -85,14 +85,14 @@ pub struct Entry {
     pub variable: Variable,
     /// Name in files, options and Python.
     pub name: &'static str,
-    /// Unit; `1` without one. That of an actuator's effort is its own.
+    /// Unit; `1` without one. The unit of an actuator's effort is that of the actuator.
     pub unit: &'static str,
-    /// How many columns it has.
+    /// Number of columns.
     pub width: Width,
-    /// Which value of several orientations or loads counts.
+    /// Order by which one of several orientations or loads is chosen.
     pub worse: Worse,
     needs: Needs,
-    /// One sentence.
+    /// Description in one sentence.
     pub description: &'static str,
 }
 
@@ -160,13 +160,13 @@ impl Variable {
         own.map(|entry| entry.variable)
     }
 
-    /// Its row of the table, which has one for each in the order of their declaration.
+    /// Row of the table, which has one for each in the order of their declaration.
     #[must_use]
     pub fn entry(self) -> &'static Entry {
         &VARIABLES[self as usize]
     }
 
-    /// Its columns in a machine of so many actuators.
+    /// Number of columns in a machine of so many actuators.
     #[must_use]
     pub fn width(self, actuators: usize) -> usize {
         match self.entry().width {
@@ -179,26 +179,25 @@ impl Variable {
         self.entry().needs
     }
 
-    /// It has an answer only where something gives way.
+    /// True if it is defined only for a machine with compliance.
     #[must_use]
     pub fn needs_stiffness(self) -> bool {
         self.needs() >= Needs::Stiffness
     }
 
-    /// It exists under a load only.
+    /// True if it is defined only under a load.
     #[must_use]
     pub fn needs_load(self) -> bool {
         self.needs() >= Needs::Rest
     }
 
-    /// It is a question about drives: of a machine without any it has no answer.
+    /// True if it is defined only for a machine with drives.
     #[must_use]
     pub fn needs_drives(self) -> bool {
         self == Self::SingularityDistance
     }
 
-    /// It is a question about vibrations: of a machine without masses ([`kinetostat_dynamics::check_masses`]) it has no
-    /// answer.
+    /// True if it is defined only for a machine with masses ([`kinetostat_dynamics::check_masses`]).
     #[must_use]
     pub fn needs_mass(self) -> bool {
         self.needs() == Needs::Modes
@@ -220,7 +219,7 @@ impl Variable {
         }
     }
 
-    /// How many of the lowest natural frequencies have to be known for it.
+    /// Number of natural frequencies that it needs.
     pub(crate) fn frequencies(self) -> usize {
         match self {
             Self::F1 => 1,

@@ -1,6 +1,6 @@
 //! The way of an arm along a program in one go.
 //!
-//! Places of a program are solved in groups, each from the posture that an arm takes there from home. Where an arm has several postures
+//! Places of a program are solved in groups, each from the posture that an arm takes there from home. If an arm has several postures
 //! and the program passes a singular one, that may be another posture than the one with which the arm comes along. Then the program is
 //! followed from its start, posture by posture, and every place is solved next to the posture of the arm there.
 
@@ -10,13 +10,13 @@ use kinetostat_program::{Knowledge, Move};
 use crate::joints::arm::Arm;
 use crate::task::Task;
 
-/// From one posture to the next along the path, over moves that are shorter, mm, ...
+/// Distance from one posture to the next along the path, over moves that are shorter, mm, ...
 const EVERY_MM: f64 = 5.0;
 
 /// ... and where the tool turns, deg.
 const EVERY_DEG: f64 = 2.0;
 
-/// Most postures; on longer paths they are farther apart.
+/// Maximum number of postures; on longer paths they are farther apart.
 const MOST: f64 = 20_000.0;
 
 /// A posture on the way.
@@ -31,7 +31,7 @@ pub(crate) struct ArmCourse {
     marks: Vec<Mark>,
 }
 
-/// How far a move goes, in steps from one posture to the next.
+/// Length of a move, in steps from one posture to the next.
 fn steps(motion: &Move) -> f64 {
     let turn = motion.tool_turn.as_ref();
     let turned = turn.map_or(0.0, |turn| turn.start.angle_to(&turn.end).to_degrees());
@@ -42,8 +42,8 @@ fn steps(motion: &Move) -> f64 {
 }
 
 impl ArmCourse {
-    /// Of an arm that comes along a program in other postures than it takes from home; none where there is no difference, of other
-    /// machines, and where it cannot be followed so.
+    /// Course of an arm that comes along a program in other postures than it takes from home; `None` if there is no difference,
+    /// for other machines, and if it cannot be followed so.
     pub fn of(task: &Task<'_>) -> Option<Self> {
         let arm = Arm::of(task.mechanism).filter(|_| !task.placement.orientation_follows)?;
         let number = |posture: &Posture| {

@@ -11,7 +11,7 @@ use kinetostat::{Error, Mechanism, MotionKind, Pose, Posture, PostureRequest, Re
 use crate::free_turn::closed_form::SixAxisArm;
 use crate::free_turn::serial::Joints;
 
-/// More joints than a pose has numbers: there is no end of postures.
+/// Maximum number of joints: an arm with more of them than a pose has numbers has no end of postures.
 const MOST_JOINTS: usize = 6;
 
 /// Shares of the range of a joint from which an arm without a closed form is looked at.
@@ -43,19 +43,19 @@ pub struct Configurations {
     ways: Ways,
 }
 
-/// How the configurations of a machine are found.
+/// Method by which the configurations of a machine are found.
 #[derive(Clone, Debug)]
 enum Ways {
-    /// In closed form.
+    /// Closed form.
     SixAxes(Box<SixAxisArm>),
     /// Next to some postures.
     NextTo(Vec<Posture>),
-    /// Only that next to home is known.
+    /// Only the posture next to home is known.
     One,
 }
 
 impl Configurations {
-    /// Of a machine with its tool.
+    /// Configurations of a machine with its tool.
     #[must_use]
     pub fn of(mechanism: &Mechanism) -> Self {
         Self {
@@ -173,7 +173,7 @@ impl Configurations {
             .collect()
     }
 
-    /// The same posture with its turning joints on the circles that are within limits, or nearest to home.
+    /// Posture with its turning joints shifted by full turns to within limits, or nearest to home.
     fn next_to_home(&self, posture: Posture) -> Posture {
         let [limb] = posture.limbs() else {
             return posture;
@@ -225,7 +225,7 @@ impl Configurations {
         self.mechanism.posture(request.near(&start.ok()?)).ok()
     }
 
-    /// The same within all limits.
+    /// Posture within all limits.
     fn standing(&self, joints: &Joints, pose: &Pose) -> Option<Posture> {
         let found = self.reached(joints, pose);
         found.filter(|p| p.within_limits().is_ok())

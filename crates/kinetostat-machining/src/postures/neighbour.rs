@@ -105,7 +105,7 @@ impl Neighbour {
         Ok((target, tool.unwrap_or(target)))
     }
 
-    /// Where the tool goes when commanded to `pose` under `wrench`.
+    /// Pose of the tool when commanded to `pose` under `wrench`.
     pub fn rest(
         &mut self,
         mechanism: &Mechanism,
@@ -122,7 +122,7 @@ impl Neighbour {
         Ok((posture, tool))
     }
 
-    /// As [`Self::rest`], with stiffness and stability.
+    /// Equilibrium as found by `rest`, with stiffness and stability.
     pub fn equilibrium(
         &mut self,
         mechanism: &Mechanism,

@@ -1,14 +1,14 @@
-//! What is done with the orientation of a pose that is requested.
+//! Treatment of the orientation of a requested pose.
 
 use kinetostat::{Error, Mechanism, Pose, Posture, PostureRequest, Wrench};
 
 use crate::load::law::ProgramLoad;
 use crate::placement::Placement;
 
-/// What is done with the orientation of a pose that is requested.
+/// Treatment of the orientation of a requested pose.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Orientation {
-    /// It is the one to keep near to; otherwise it is held.
+    /// True if the tool only keeps near to it; otherwise it is held.
     pub follows: bool,
     /// The load is fixed in the tool and turns with it.
     pub load_turns: bool,

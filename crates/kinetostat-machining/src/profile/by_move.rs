@@ -4,7 +4,7 @@
 #[derive(Clone, Debug)]
 pub(crate) struct ByMove<T> {
     all: Vec<T>,
-    /// Where the list of each move begins; one more than there are moves.
+    /// Start of the list of each move; one more than there are moves.
     first: Vec<usize>,
 }
 
@@ -59,7 +59,7 @@ impl<const N: usize> Profile<N> {
     }
 }
 
-/// On the straight line from one value to another.
+/// Linear interpolation between two values.
 pub(crate) fn between<const N: usize>(from: &[f64; N], to: &[f64; N], part: f64) -> [f64; N] {
     std::array::from_fn(|k| from[k] + part * (to[k] - from[k]))
 }

@@ -1,8 +1,8 @@
 //! Values along the path that change no faster than they may.
 //!
 //! A value that counts (the tool cuts there) is kept wherever the values around it can be reached at the rate that is allowed:
-//! the change goes into the air before and after, where it does not matter what the value is. Where two values that count are
-//! too close to each other, the profile goes midway between the highest and the lowest that they ask for.
+//! the change goes into the air before and after, where it does not matter what the value is. If two values that count are too
+//! close to each other, the profile goes midway between the highest and the lowest that they ask for.
 //!
 //! Bounds from below and above are cones of that rate from every place that counts, found in one pass forwards and one
 //! backwards. Between two places the bounds are straight lines, so that the places where the profile bends are their
@@ -20,20 +20,20 @@ pub(crate) struct Place<const N: usize> {
     /// Way along the path, mm; grows from place to place.
     pub at_mm: f64,
     pub value: [f64; N],
-    /// Whether the value counts, or may be another.
+    /// True if the value counts, false if it is arbitrary.
     pub counts: bool,
 }
 
-/// How a profile begins.
+/// Initial condition of a profile.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Begins {
-    /// With any value.
+    /// Begins with any value.
     Anyhow,
-    /// With nothing, whatever is asked for: the tool comes out of a rapid.
+    /// Begins with zero, whatever is requested: the tool comes out of a rapid.
     WithNothing(SinceRapid),
 }
 
-/// Where a profile begins on the feed path between two rapids.
+/// Start of a profile on the feed path between two rapids.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct SinceRapid {
     /// Length at feed from the rapid to the first place, mm.
@@ -134,7 +134,7 @@ impl<'a, const N: usize> Bounds<'a, N> {
         }
     }
 
-    /// Whether a place has another value than its own, or a change between two is too fast.
+    /// True if a place has another value than its own, or a change between two is too fast.
     fn are_felt(&self, places: &[Place<N>]) -> bool {
         let other = |(i, p): (usize, &Place<N>)| self.at(*p, [i, i]).value != p.value;
         let fast = |pair: &[Place<N>]| {
@@ -197,7 +197,7 @@ impl<'a, const N: usize> Bounds<'a, N> {
                 let way = since.before_mm + a.at_mm - self.at_mm[0];
                 (rise(steepest[k], way), steepest[k])
             });
-            // None crosses what is no line.
+            // NaN intersects none of the lines.
             let (begun, steepest) = begun.unwrap_or((f64::NAN, f64::NAN));
             let lines = [
                 (self.low[from][k], -r),
@@ -223,7 +223,7 @@ impl<'a, const N: usize> Bounds<'a, N> {
     }
 }
 
-/// By how much a value may change over a way; nothing over none, however fast it may.
+/// Maximum change of a value over a way; zero over a way of zero, even at an infinite rate.
 fn rise(rate: f64, way_mm: f64) -> f64 {
     match way_mm > 0.0 {
         true => rate * way_mm,

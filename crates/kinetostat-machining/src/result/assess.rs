@@ -1,4 +1,4 @@
-//! How a run is assessed from its figures.
+//! Assessment of a run from its figures.
 
 use crate::number::{against, counted, largest_length, length_setting};
 use crate::result::assessment::{Assessment, Assumption, AssumptionKind, Level};
@@ -35,7 +35,8 @@ impl RunResult {
         self.assessment.level = self.level();
     }
 
-    /// That the tolerance is kept only if an assumption holds; none where it is missed anyway, or kept in any case.
+    /// Sentence for a tolerance that is kept only if an assumption is true; `None` if it is missed anyway, or kept in
+    /// any case.
     #[must_use]
     pub fn at_worst_text(&self) -> Option<String> {
         if !self.is_doubtful() {
@@ -149,7 +150,7 @@ impl RunResult {
         all
     }
 
-    /// Steps of the written program against the direction of motion; none where none is longer than what is warned of.
+    /// Steps of the written program against the direction of motion; `None` if none is longer than what is warned of.
     #[must_use]
     pub fn backward_text(&self) -> Option<String> {
         let s = &self.summary;

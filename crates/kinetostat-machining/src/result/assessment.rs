@@ -15,7 +15,7 @@ pub enum Level {
     Analysis,
     /// The tolerance is missed, or may be where an assumption fails.
     Attention,
-    /// Not to be run.
+    /// The program must not be run.
     Stop,
 }
 
@@ -47,14 +47,14 @@ pub enum AssumptionKind {
 /// An assumption on which the figures of a run rest.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Assumption {
-    /// Its kind.
+    /// Kind of the assumption.
     pub kind: AssumptionKind,
-    /// Largest distance of the tool from its programmed place if it fails, um; none where that is not computed.
+    /// Largest distance of the tool from its programmed place if it fails, um; `None` if that is not computed.
     pub up_to_um: Option<f64>,
     /// The program must not be run before it is settled: the machine has no equilibrium otherwise, or no length says what is lost.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub is_critical: bool,
-    /// One sentence or more, in English.
+    /// Sentences in English.
     pub text: String,
 }
 
@@ -62,10 +62,10 @@ pub struct Assumption {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct Assessment {
-    /// How good the news is.
+    /// Level of the assessment.
     pub level: Level,
     /// Largest distance of the tool from its programmed place if one of the assumptions fails, um; of a written program with that
-    /// program. None where a critical one has no such distance.
+    /// program. `None` if a critical one has no such distance.
     pub max_error_um: Option<f64>,
     /// Assumptions, the costliest first: critical ones, then by `up_to_um`, then those without a figure.
     pub assumptions: Vec<Assumption>,
@@ -99,7 +99,7 @@ impl Assumption {
         }
     }
 
-    /// Its rank: critical ones first, unknown costs last.
+    /// Rank of the assumption: critical ones first, unknown costs last.
     pub(crate) fn rank(&self) -> f64 {
         match (self.is_critical, self.up_to_um) {
             (true, _) => f64::INFINITY,

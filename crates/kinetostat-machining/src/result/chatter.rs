@@ -1,5 +1,5 @@
-//! Where a program chatters, and how its teeth shake the tool where it does not. Plain data, units in the names; the crate
-//! `kinetostat-analysis` finds it.
+//! Chatter of a program, and forced vibration by its teeth where it does not chatter. Plain data, units in the names; the
+//! crate `kinetostat-analysis` finds it.
 
 use serde::{Deserialize, Serialize};
 
@@ -10,15 +10,15 @@ use crate::number::{Rounding, significant};
 pub struct ChatterPlace {
     /// Line of the program, from 1.
     pub line: usize,
-    /// From where to where along the path the places lie that it stands for, mm.
+    /// Range along the path of the places that it stands for, mm.
     pub path_mm: [f64; 2],
     /// Speed of the spindle, rpm.
     pub rpm: f64,
     /// Depth of the program, mm.
     pub depth_mm: f64,
-    /// Whether it chatters; none where nothing can be said.
+    /// True if it chatters; `None` if nothing can be said.
     pub chatters: Option<bool>,
-    /// Depth at which it chatters at this speed, mm; none where it does not up to `looked_up_to_mm`.
+    /// Depth at which it chatters at this speed, mm; `None` if it does not up to `looked_up_to_mm`.
     pub limit_mm: Option<f64>,
     /// Largest depth that was looked at, mm.
     pub looked_up_to_mm: f64,
@@ -29,16 +29,16 @@ pub struct ChatterPlace {
     /// Frequency of the fastest mode that swings in the calculation, Hz; those above count by their flexibility at rest.
     #[serde(default)]
     pub modes_up_to_hz: Option<f64>,
-    /// By how much the force of the cut may be more or less than its law says, percent.
+    /// Relative uncertainty of the cutting force law, percent.
     #[serde(default)]
     pub force_spread_percent: f64,
-    /// Forced vibration of the tip about its mean place, root of the mean square, um; none where it chatters.
+    /// Forced vibration of the tip about its mean place, root of the mean square, um; `None` if it chatters.
     pub vibration_rms_um: Option<f64>,
-    /// Its strongest frequency, Hz.
+    /// Strongest frequency of the vibration, Hz.
     pub strongest_hz: Option<f64>,
     /// The machine's mode next to that, Hz.
     pub nearest_mode_hz: Option<f64>,
-    /// The larger error that it leaves on a wall, um, positive where the tool cuts too deep; none where the cut makes no wall.
+    /// The larger error that it leaves on a wall, um, positive where the tool cuts too deep; `None` if the cut makes no wall.
     pub wall_um: Option<f64>,
 }
 
@@ -59,32 +59,32 @@ pub struct ChatterLines {
     /// A speed beside it, 5 % away, chatters; of such ones it is that with the largest limit.
     #[serde(default)]
     pub stable_speed_is_narrow: bool,
-    /// Feed that keeps the feed per tooth at that speed, mm/min; none where the feed per tooth changes along the lines.
+    /// Feed that keeps the feed per tooth at that speed, mm/min; `None` if the feed per tooth changes along the lines.
     #[serde(default)]
     pub stable_feed_mm_per_min: Option<f64>,
-    /// Whether speeds were tried: they are for the worst lines.
+    /// True if speeds were tried: they are for the worst lines.
     #[serde(default)]
     pub speeds_tried: bool,
     /// Frequency of the chatter, Hz.
     pub chatter_hz: f64,
 }
 
-/// Where a program chatters.
+/// Chatter of a program.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct ChatterResult {
-    /// How the machine is damped, in words.
+    /// Damping of the machine, in words.
     pub damping: String,
     /// Places of the program at which the tool cuts.
     pub places_in_cut: usize,
-    /// Those that were judged, each for all that are like it.
+    /// Places that were judged, each for all that are like it.
     pub places_judged: usize,
     /// Stretches that chatter, in the order of the program.
     pub stretches: Vec<ChatterLines>,
     /// The place with the least limit by its depth.
     pub nearest: Option<ChatterPlace>,
-    /// Where the teeth shake the tool most.
+    /// Place of the largest forced vibration.
     pub most_shaken: Option<ChatterPlace>,
-    /// Where that leaves most on a wall.
+    /// Place at which that leaves the largest error on a wall.
     pub worst_wall: Option<ChatterPlace>,
     /// All places, in the order of the path.
     pub places: Vec<ChatterPlace>,
@@ -98,7 +98,7 @@ impl ChatterPlace {
         Some(self.limit_mm? / (1.0 + 0.01 * self.force_spread_percent))
     }
 
-    /// Whether it does not chatter with the law of the force as it is, and would with a force larger by its spread.
+    /// True if it does not chatter with the law of the force as it is, but would with a force larger by its spread.
     #[must_use]
     pub fn is_within_spread(&self) -> bool {
         let limit = self.limit_with_more_force_mm();
@@ -107,7 +107,7 @@ impl ChatterPlace {
 }
 
 impl ChatterResult {
-    /// How many places were looked at without an answer.
+    /// Number of places without an answer.
     ///
     /// ```
     /// use kinetostat_machining::ChatterResult;
@@ -120,7 +120,7 @@ impl ChatterResult {
         places.filter(|place| place.chatters.is_none()).count()
     }
 
-    /// Whether it chatters anywhere, in a sentence.
+    /// Sentence on chatter anywhere in the program.
     #[must_use]
     pub fn verdict_text(&self) -> String {
         let within = self.places.iter().filter(|p| p.is_within_spread()).count();
@@ -171,7 +171,7 @@ impl ChatterResult {
         ))
     }
 
-    /// Where the teeth shake the tool most, and where that leaves most on a wall, in sentences.
+    /// Sentences on the largest forced vibration, and on the largest error that it leaves on a wall.
     #[must_use]
     pub fn vibration_text(&self) -> Option<String> {
         let place = self.most_shaken.as_ref()?;

@@ -1,5 +1,5 @@
-//! What the cut asks along a path: engagement, force, torque and power, and where they are largest. Plain data, units in
-//! the names.
+//! Engagement, force, torque and power of the cut along a path, and their largest values. Plain data, units in the
+//! names.
 
 use serde::{Deserialize, Serialize};
 
@@ -19,13 +19,13 @@ pub struct CutPlace {
     pub share: f64,
     /// Length of the path up to here, mm.
     pub path_mm: f64,
-    /// Where the tool's tip is, program coordinates, mm.
+    /// Position of the tool's tip, program coordinates, mm.
     pub position_mm: [f64; 3],
     /// Depth in contact along the tool, mm; 0 in air.
     pub depth_mm: f64,
     /// Sum of the arcs in contact at the lowest height, degrees: 180 in a slot, 0 in air.
     pub arc_deg: f64,
-    /// Force on the tool along the feed, N. Where the tool goes along its axis, the force is in axes of the part: this one
+    /// Force on the tool along the feed, N. If the tool goes along its axis, the force is in axes of the part: this one
     /// along x.
     pub force_along_feed_n: f64,
     /// Force on the tool to the left of the feed, N; along y of the part where the tool goes along its axis.
@@ -36,7 +36,7 @@ pub struct CutPlace {
     pub torque_n_m: f64,
     /// Mean power of the spindle, W.
     pub power_w: f64,
-    /// Torque that the spindle gives at this speed, N m; none where it is not stated or does not turn so fast.
+    /// Torque that the spindle gives at this speed, N m; `None` if it is not stated or does not turn so fast.
     pub spindle_torque_n_m: Option<f64>,
     /// Thickest place of a chip, mm.
     pub chip_mm: f64,
@@ -78,7 +78,7 @@ impl CutPlace {
     }
 }
 
-/// What the cut asks along a path.
+/// Figures of the cut along a path.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct CuttingResult {
@@ -88,15 +88,15 @@ pub struct CuttingResult {
     pub stations: usize,
     /// Length of the path in the material, mm.
     pub cut_length_mm: f64,
-    /// Where the force is largest; none where nothing is cut.
+    /// Place of the largest force; `None` if nothing is cut.
     pub largest_force: Option<CutPlace>,
-    /// Where the torque is largest.
+    /// Place of the largest torque.
     pub largest_torque: Option<CutPlace>,
-    /// Where the power is largest.
+    /// Place of the largest power.
     pub largest_power: Option<CutPlace>,
-    /// Where the chip is thickest.
+    /// Place of the thickest chip.
     pub largest_chip: Option<CutPlace>,
-    /// Where the torque is the largest share of what the spindle gives; none where that is not stated.
+    /// Place at which the torque is the largest share of the available spindle torque; `None` if that is not stated.
     pub nearest_to_spindle: Option<CutPlace>,
     /// The lines with the largest forces, each where it is largest, worst first; at most ten.
     pub worst_lines: Vec<CutPlace>,
@@ -106,6 +106,6 @@ pub struct CuttingResult {
 }
 
 impl CuttingResult {
-    /// Most places that are kept for plots.
+    /// Maximum number of places that are kept for plots.
     pub const MAX_PLACES: usize = 4000;
 }

@@ -10,11 +10,11 @@ use crate::result::stretches::{Joins, Stretches};
 pub enum Quantity {
     /// Distance of the tool from its place without compensation, mm.
     ErrorBefore,
-    /// The same with the written program, mm.
+    /// Distance with the written program, mm.
     ErrorAfter,
     /// The distance with the written program if the force of the cut is larger or smaller by its spread, whichever is larger, mm.
     LargestErrorByForce,
-    /// The same, whichever is smaller, mm.
+    /// The smaller of these two distances, mm.
     SmallestErrorByForce,
     /// Stiffness in the softest direction, N/mm.
     SmallestStiffness,
@@ -39,7 +39,7 @@ const OF_ALL: [Quantity; 6] = [
 ];
 
 impl Quantity {
-    /// Its value at a point; none where the point has none, NaN where it is no number.
+    /// Value at a point; `None` if the point has none, NaN if it is no number.
     #[must_use]
     pub fn of(self, point: &PointResult) -> Option<f64> {
         let by_force = || {
@@ -61,7 +61,7 @@ impl Quantity {
         }
     }
 
-    /// Where its range stands among those of a stretch.
+    /// Index of its range among those of a stretch.
     fn index(self) -> usize {
         let of_actuator = |i: usize, kind: usize| OF_ALL.len() + 3 * i + kind;
         match self {
@@ -126,11 +126,11 @@ impl Joins for Ranges {
 /// A quantity in a stretch of the path.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StretchRange {
-    /// Where the stretch begins and ends, mm of the path.
+    /// Start and end of the stretch, mm of the path.
     pub path_mm: [f64; 2],
-    /// Lowest and highest value on cutting moves; none where there is none.
+    /// Lowest and highest value on cutting moves; `None` if there is none.
     pub range: Option<[f64; 2]>,
-    /// More of the stretch is a rapid than not.
+    /// True if more than half of the stretch is a rapid.
     pub rapid: bool,
 }
 
@@ -169,7 +169,8 @@ impl Default for Envelope {
 }
 
 impl Envelope {
-    /// Most stretches that are kept: more than half as many are left, which is more than a picture has columns.
+    /// Maximum number of stretches that are kept: more than half as many are left, which is more than a picture has
+    /// columns.
     pub const MOST_STRETCHES: usize = 2048;
 
     /// Takes the next point. Values that are not finite are skipped.

@@ -8,42 +8,42 @@ use crate::result::point::{PointKind, PointResult, size};
 /// A feature of the part: lines of the program that cut it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Feature {
-    /// Its name, as the user calls it.
+    /// Name, as the user calls it.
     pub name: String,
     /// First and last line of the program.
     pub lines: [usize; 2],
-    /// How far the tool may be off there, mm; none where that of the whole program counts.
+    /// Maximum error of the tool there, mm; `None` if that of the whole program applies.
     pub tolerance_mm: Option<f64>,
 }
 
-/// How a run stands to a feature.
+/// Result of a run for a feature.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct FeatureResult {
-    /// Its name.
+    /// Name of the feature.
     pub name: String,
     /// First and last line of the program.
     pub lines: [usize; 2],
     /// Places at feed that were solved there.
     pub points: usize,
-    /// Largest distance of the tool from where it should be in the original program, mm; none where nothing is cut.
+    /// Largest distance of the tool from where it should be in the original program, mm; `None` if nothing is cut.
     pub error_before_mm: Option<f64>,
-    /// The same of the program that was written or verified; none where there is none.
+    /// Largest error of the program that was written or verified; `None` if there is none.
     pub error_after_mm: Option<f64>,
     /// Line of the largest error: of the written or verified program where there is one.
     pub worst_line: Option<usize>,
-    /// What is allowed, mm.
+    /// Allowed error, mm.
     pub allowed_mm: f64,
-    /// Whether that is kept: by the written or verified program where there is one, else by the original. None where nothing is
+    /// True if that is kept: by the written or verified program if there is one, else by the original. `None` if nothing is
     /// cut.
     pub held: Option<bool>,
-    /// First and last line of what a verified program does not cut of it; none where it cuts all of it.
+    /// First and last line of what a verified program does not cut of it; `None` if it cuts all of it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub uncut: Option<[usize; 2]>,
 }
 
 impl FeatureResult {
-    /// What is known of features before the first point.
+    /// Results of features before the first point.
     #[must_use]
     pub fn without_points(features: &[Feature]) -> Vec<Self> {
         let of = |feature: &Feature| Self {
@@ -55,8 +55,8 @@ impl FeatureResult {
     }
 }
 
-/// How a run stands to features: `points` are those of the whole run, `line_of` the line of the user's program that a point belongs
-/// to, `allowed_mm` what counts where a feature states no tolerance. `written` says whether there is a second program.
+/// Results of a run for features: `points` are those of the whole run, `line_of` the line of the user's program that a point
+/// belongs to, `allowed_mm` the tolerance of features that state none. `written` says whether there is a second program.
 ///
 /// ```
 /// use kinetostat_machining::{Feature, feature_results};
@@ -153,7 +153,7 @@ impl FeatureResult {
         self.held = Some(false);
     }
 
-    /// That its tolerance is missed, where and by how much; none where it is kept.
+    /// Sentence for a missed tolerance, with place and amount; `None` if it is kept.
     #[must_use]
     pub fn missed_text(&self) -> Option<String> {
         if self.held != Some(false) {
@@ -182,7 +182,7 @@ impl FeatureResult {
         ))
     }
 
-    /// Its row of a table: name, lines, error before, error after, what is allowed, verdict.
+    /// Row of a table: name, lines, error before, error after, allowed error, verdict.
     #[must_use]
     pub fn cells(&self) -> [String; 6] {
         let length = |mm: Option<f64>| mm.map_or_else(String::new, largest_length);

@@ -14,11 +14,11 @@ use crate::result::run_result::RunResult;
 pub struct Figures {
     /// Largest distance of the tool from its programmed place without compensation.
     pub error_before: String,
-    /// Its root mean square along the path.
+    /// Root mean square of it along the path.
     pub rms_before: String,
     /// Largest distance with the written program.
     pub error_after: String,
-    /// Its root mean square along the path.
+    /// Root mean square of it along the path.
     pub rms_after: String,
     /// Part of it that comes from the decimals written.
     pub rounding: String,
@@ -32,27 +32,27 @@ pub struct Figures {
     pub corner_step: Option<String>,
     /// Longest step where a rapid ends; none without such steps.
     pub entry_step: Option<String>,
-    /// Fastest change of the correction per mm of path; none where none was written.
+    /// Fastest change of the correction per mm of path; `None` if none was written.
     pub change: Option<String>,
-    /// Shortest piece of a divided block; none if no block was divided.
+    /// Shortest piece of a divided block; `None` if no block was divided.
     pub shortest_piece: Option<String>,
-    /// Most blocks per second; none where the program's feed does not say.
+    /// Maximum block rate per second; `None` if the program's feed does not determine it.
     pub blocks_per_second: Option<String>,
     /// Length of the feed path.
     pub feed_length: String,
     /// Smallest stiffness against a force.
     pub stiffness: String,
-    /// Largest share of the way to buckling; none where no limb can buckle.
+    /// Largest share of the way to buckling; `None` if no limb can buckle.
     pub share_to_buckling: Option<String>,
-    /// Smallest distance of a joint to one of its limits; none where no joint has limits.
+    /// Smallest distance of a joint to one of its limits; `None` if no joint has limits.
     pub nearest_limit: Option<String>,
-    /// Which joint and end, and where: "joint 5, upper, line 12".
+    /// Joint, end and line, as in "joint 5, upper, line 12".
     pub nearest_limit_at: String,
-    /// Largest force or torque of a drive as a share of its rating; none where the model states no rating.
+    /// Largest force or torque of a drive as a share of its rating; `None` if the model states no rating.
     pub share_of_rating: Option<String>,
-    /// Which drive, and where.
+    /// Drive and place.
     pub share_of_rating_at: String,
-    /// Configuration of an arm; none of other machines.
+    /// Configuration of an arm; `None` for other machines.
     pub configuration: Option<String>,
     /// Largest force or torque of each actuator.
     pub actuator_force: Vec<String>,

@@ -1,4 +1,4 @@
-//! What becomes of the errors if the force of the cut is larger or smaller than its coefficients say.
+//! Errors for a force of the cut larger or smaller than its coefficients say.
 
 use serde::{Deserialize, Serialize};
 
@@ -10,24 +10,24 @@ use crate::number::{largest_length, significant};
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct ForceBand {
-    /// By how much the force is larger or smaller, percent of it.
+    /// Relative deviation of the force, percent.
     pub spread_percent: f64,
     /// Points at which the machine was solved so; where they are not all, those with the largest errors and the largest
     /// forces for their stiffness are among them.
     pub points: usize,
     /// Points on cutting moves in all.
     pub of_points: usize,
-    /// Largest distance of the tool from its programmed place with the larger force, mm; none where the machine has no
+    /// Largest distance of the tool from its programmed place with the larger force, mm; `None` if the machine has no
     /// equilibrium under it.
     pub max_error_if_larger_mm: Option<f64>,
-    /// The same with the smaller force.
+    /// Largest error with the smaller force.
     pub max_error_if_smaller_mm: Option<f64>,
     /// Line of the input program with the largest of both, or where there is no equilibrium.
     pub line: usize,
 }
 
 impl ForceBand {
-    /// The larger of both errors, mm; none where one has no equilibrium.
+    /// The larger of both errors, mm; `None` if one has no equilibrium.
     ///
     /// ```
     /// assert_eq!(kinetostat_machining::ForceBand::default().max_error_mm(), None);
@@ -38,7 +38,7 @@ impl ForceBand {
         Some(kinetostat::number::larger(a, b))
     }
 
-    /// What becomes of the claim if the force of the cut is as far off as its coefficients may be.
+    /// Errors after compensation if the force of the cut deviates as far as its coefficients may.
     pub(crate) fn description(&self) -> String {
         let band = self;
         let percent = significant(band.spread_percent, 2, Rounding::Nearest);

@@ -1,5 +1,5 @@
-//! What the joints and drives do along a program: distance to limits, load by rating, configuration of an arm. Plain data,
-//! units in the names.
+//! Joints and drives along a program: distance to limits, load by rating, configuration of an arm. Plain data, units in
+//! the names.
 
 use std::fmt;
 
@@ -36,11 +36,11 @@ impl LimitEnd {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct NearestLimit {
-    /// Which, from 0, in the order of `question.actuators`.
+    /// Index, from 0, in the order of `question.actuators`.
     pub actuator: usize,
-    /// Which end of its range.
+    /// End of its range.
     pub end: LimitEnd,
-    /// How far its command is inside the limit, mm or deg; below zero outside.
+    /// Distance of its command to the limit, mm or deg; below zero outside.
     #[serde(rename = "distance_mm_or_deg")]
     pub distance: f64,
 }
@@ -49,44 +49,44 @@ pub struct NearestLimit {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct MostLoaded {
-    /// Which, from 0, in the order of `question.actuators`.
+    /// Index, from 0, in the order of `question.actuators`.
     pub actuator: usize,
-    /// Its force or torque by its rating; 1 is the rating.
+    /// Force or torque by its rating; 1 is the rating.
     pub share_of_rating: f64,
 }
 
-/// On which side of axis 1 an arm reaches.
+/// Side of axis 1 on which an arm reaches.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Shoulder {
     /// The centre of the wrist is on the side of axis 1 on which axis 2 is (of an arm whose axis 2 crosses axis 1: on the side
     /// on which it is at the model's home).
     Front,
-    /// It is on the other side: the arm reaches over itself.
+    /// The wrist is on the other side: the arm reaches over itself.
     Back,
 }
 
-/// How an arm bends at its elbow.
+/// Elbow flag of an arm.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Elbow {
     /// The elbow is above the line from axis 2 to the centre of the wrist when the arm reaches to the front.
     Up,
-    /// It is below that line.
+    /// The elbow is below that line.
     Down,
 }
 
-/// To which side an arm bends its wrist.
+/// Side to which an arm bends its wrist.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Wrist {
     /// About axis 5 to the side to which it is bent at the model's home (of a wrist that is straight there: the positive one).
     NoFlip,
-    /// To the other side.
+    /// The wrist bends to the other side.
     Flip,
 }
 
-/// Which of its eight ways an arm of six axes with a wrist in one point takes to a pose, and how far it is from changing it.
+/// Configuration, one of eight, of an arm of six axes with a wrist in one point, and its distance from changing it.
 ///
 /// Between two of them every path that is not joint by joint passes a singular posture. The numbers are those of the geometry, not of
 /// a controller: makers count them each in their own way.
@@ -106,11 +106,11 @@ pub enum Wrist {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct ArmConfiguration {
-    /// On which side of axis 1 it reaches.
+    /// Side of axis 1 on which it reaches.
     pub shoulder: Shoulder,
-    /// How it bends at its elbow.
+    /// Elbow flag.
     pub elbow: Elbow,
-    /// To which side it bends its wrist.
+    /// Side to which it bends its wrist.
     pub wrist: Wrist,
     /// 0 to 7: 1 for back, plus 2 for elbow down, plus 4 for a flipped wrist.
     pub number: u8,
@@ -125,7 +125,7 @@ pub struct ArmConfiguration {
 
 impl ArmConfiguration {
     /// The configuration of the signed distances of shoulder (mm, front is positive), elbow (deg, up is positive) and wrist (deg, not
-    /// flipped is positive); none if one of them is no number.
+    /// flipped is positive); `None` if one of them is no number.
     #[must_use]
     pub fn of(shoulder_mm: f64, elbow_deg: f64, wrist_deg: f64) -> Option<Self> {
         if ![shoulder_mm, elbow_deg, wrist_deg]
@@ -177,7 +177,7 @@ impl fmt::Display for ArmConfiguration {
     }
 }
 
-/// Where a joint comes nearest to one of its limits.
+/// Place at which a joint comes nearest to one of its limits.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct LimitPlace {
@@ -190,7 +190,7 @@ pub struct LimitPlace {
     pub limit: NearestLimit,
 }
 
-/// Where a drive carries the largest share of its rating.
+/// Place of the largest share of a drive's rating.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct RatingPlace {
@@ -214,30 +214,30 @@ pub struct PostureChange {
     pub line: usize,
     /// The place behind, program coordinates, mm.
     pub position_mm: [f64; 3],
-    /// Configuration before; none of machines that are no arms of six axes with a wrist in one point.
+    /// Configuration before; `None` for machines that are no arms of six axes with a wrist in one point.
     pub before: Option<ArmConfiguration>,
     /// Configuration behind.
     pub after: Option<ArmConfiguration>,
     /// The joint that turns farthest between the two, from 0, in the order of `question.actuators`.
     pub actuator: usize,
-    /// How far it turns, deg.
+    /// Angle by which it turns, deg.
     pub turn_deg: f64,
 }
 
-/// What helps where an arm cannot follow a program in one posture: a turn of the tool about its own axis (which a tool that is round does
-/// not notice), the same along the whole program. It is looked for in steps of 5 deg.
+/// Remedy for an arm that cannot follow a program in one posture: a constant turn of the tool about its own axis (which does not matter
+/// for a round tool) along the whole program. It is looked for in steps of 5 deg.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct WayOut {
     /// The smallest turn, right-handed about z of the tool, with which every place that was looked at is reached inside all limits, in
-    /// one configuration, and not near a singular posture; none if no turn does.
+    /// one configuration, and not near a singular posture; `None` if no turn does.
     pub turn_about_tool_axis_deg: Option<f64>,
     /// Places along the program that were looked at.
     pub places: usize,
 }
 
 impl WayOut {
-    /// What helps, in a sentence without a stop.
+    /// Remedy, in a sentence without a full stop.
     ///
     /// ```
     /// let mut way = kinetostat_machining::WayOut::default();
@@ -261,38 +261,38 @@ impl WayOut {
     }
 }
 
-/// What joints and drives do along a program.
+/// Figures of joints and drives along a program.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct JointsResult {
     /// Smallest and largest joint value of every actuator on cutting moves (everywhere if none cuts), mm or deg.
     #[serde(rename = "ranges_mm_or_deg", default)]
     pub ranges: Vec<[f64; 2]>,
-    /// Where a joint comes nearest to a limit; none where no joint has limits.
+    /// Place at which a joint comes nearest to a limit; `None` if no joint has limits.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub nearest_limit: Option<LimitPlace>,
-    /// Where a drive carries the largest share of its rating; none where the model states no rating.
+    /// Place of the largest share of a drive's rating; `None` if the model states no rating.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub most_loaded: Option<RatingPlace>,
-    /// The configuration at the first place that is cut; none of machines that are no arms of six axes with a wrist in one point.
+    /// The configuration at the first place that is cut; `None` for machines that are no arms of six axes with a wrist in one point.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub configuration: Option<ArmConfiguration>,
     /// Changes of the posture in feed motions, in the order of the path, at most [`Self::MAX_CHANGES`].
     #[serde(default)]
     pub changes: Vec<PostureChange>,
-    /// How many there are in all.
+    /// Number of changes in all.
     #[serde(default)]
     pub change_count: usize,
-    /// What helps against them; none where there are none, or where the orientation of the tool follows.
+    /// Remedy against them; `None` if there are none, or if the orientation of the tool follows.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub way_out: Option<WayOut>,
 }
 
 impl JointsResult {
-    /// Most changes that are listed.
+    /// Maximum number of changes that are listed.
     pub const MAX_CHANGES: usize = 20;
 
-    /// The configuration along the program in words; none of machines that are no arms of six axes with a wrist in one point.
+    /// The configuration along the program in words; `None` for machines that are no arms of six axes with a wrist in one point.
     ///
     /// ```
     /// use kinetostat_machining::{ArmConfiguration, JointsResult};

@@ -11,7 +11,7 @@ type Numbered = (usize, PointResult);
 /// Points that are kept for a stretch.
 const PER_STRETCH: usize = 6;
 
-/// For how many points the places where figures of the summary are taken from are left room.
+/// Room for the points from which figures of the summary are taken.
 const FOR_SUMMARY: usize = 100;
 
 /// The points with the largest values that were seen for each of some figures; the first one of equal ones, NaN is passed over.
@@ -53,7 +53,7 @@ impl Joins for Largest {
     }
 }
 
-/// What is kept for a stretch, in this order: its first point, the largest error before on a cutting move, and the largest and the
+/// Values for a stretch, in this order: its first point, the largest error before on a cutting move, and the largest and the
 /// smallest error before and after off rapids.
 fn of_stretch(number: usize, point: &PointResult) -> [f64; PER_STRETCH] {
     let (before, after) = (size(&point.error_before_mm), size(&point.error_after_mm));

@@ -1,4 +1,4 @@
-//! How fast the correction of a written program changes along the path. Plain data, units in the name of the list it stands in.
+//! Largest rate of change of the written correction along the path. Plain data, units in the name of the list it stands in.
 
 use serde::{Deserialize, Serialize};
 

@@ -1,4 +1,4 @@
-//! What a run gives: plain data with units in the names, and the figures and sentences made from them once, so that
+//! Results of a run: plain data with units in the names, and the figures and sentences made from them once, so that
 //! terminal, report and JSON say the same. Computes no posture.
 
 mod assess;

@@ -6,23 +6,23 @@ use serde::{Deserialize, Serialize};
 
 use crate::result::joints::{ArmConfiguration, MostLoaded, NearestLimit};
 
-/// What happens at a point.
+/// Kind of a point.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum PointKind {
-    /// On a cutting move.
+    /// Point on a cutting move.
     #[default]
     Feed,
-    /// At the end of a rapid.
+    /// Point at the end of a rapid.
     Rapid,
-    /// On a step at a corner (or inside a cut), where the load turns while the tool stands.
+    /// Point on a step at a corner (or inside a cut), where the load turns while the tool stands.
     Corner,
-    /// On a step where a rapid ends and the load is there at once.
+    /// Point on a step where a rapid ends and the load is there at once.
     Entry,
 }
 
 impl PointKind {
-    /// Whether it lies on a step, which only a written program has.
+    /// True if it lies on a step, which only a written program has.
     ///
     /// ```
     /// use kinetostat_machining::PointKind;
@@ -52,8 +52,8 @@ pub struct PointResult {
     /// The end of a piece; otherwise the middle of one.
     #[serde(skip)]
     pub end: bool,
-    /// One of the places at which the program is looked at as it is given, compensated or not: means
-    /// without compensation come from these.
+    /// True for a place at which the program is evaluated as it is given, compensated or not: means without
+    /// compensation come from these.
     #[serde(skip)]
     pub programmed: bool,
     /// Length of the path before its move, mm.
@@ -63,36 +63,36 @@ pub struct PointResult {
     pub share: f64,
     /// Length of the path up to here, mm.
     pub path_mm: f64,
-    /// Where the tool should be, program coordinates, mm.
+    /// Desired position of the tool, program coordinates, mm.
     pub position_mm: [f64; 3],
-    /// How far a table has turned the part, in the axes of the part where it lies at zero, mm.
+    /// Motion of the part by a table, in the axes of the part where it lies at zero, mm.
     #[serde(skip)]
     pub part_turn: Option<Isometry3<f64>>,
     /// Orientation of the tool in a program that states it, program axes from tool axes: quaternion, scalar first.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tool_orientation: Option<[f64; 4]>,
-    /// Where the tool is without compensation minus where it should be, mm.
+    /// Position of the tool without compensation minus the desired one, mm.
     pub error_before_mm: [f64; 3],
-    /// The same for the written program.
+    /// Error of the written program.
     pub error_after_mm: [f64; 3],
     /// Distance of the tool from where it should be, with the written program, if the force of the cut is larger by the
     /// spread of its coefficients, mm; only where the load is computed from a cut and this was solved.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub error_if_force_larger_mm: Option<f64>,
-    /// The same if it is smaller by the spread.
+    /// Error if the force is smaller by the spread.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub error_if_force_smaller_mm: Option<f64>,
     /// Correction written, mm.
     pub correction_mm: [f64; 3],
     /// Load on the tool in program axes: force N.
     pub force_n: [f64; 3],
-    /// The same, moment about its tip, N m.
+    /// Load on the tool in program axes: moment about its tip, N m.
     #[serde(default)]
     pub moment_n_m: [f64; 3],
     /// Rotation of the tool that stays, deg.
     pub residual_rotation_deg: f64,
-    /// Where the orientation follows: rotation vector of the unloaded tool from the orientation that
-    /// it is kept near to, base axes, deg.
+    /// Rotation vector of the unloaded tool from the orientation that it is kept near to, base axes, deg, if the
+    /// orientation follows.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tool_turn_deg: Option<[f64; 3]>,
     /// Joint value of every actuator as commanded, mm or deg.
@@ -104,13 +104,13 @@ pub struct PointResult {
     /// Change of every actuator by the compensation, mm or deg.
     #[serde(rename = "actuator_correction_mm_or_deg")]
     pub actuator_correction: Vec<f64>,
-    /// The joint that is nearest to one of its limits; none where no joint has limits.
+    /// The joint that is nearest to one of its limits; `None` if no joint has limits.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub nearest_limit: Option<NearestLimit>,
-    /// The drive that carries the largest share of its rating; none where the model states no rating.
+    /// The drive that carries the largest share of its rating; `None` if the model states no rating.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub most_loaded: Option<MostLoaded>,
-    /// Configuration of an arm of six axes with a wrist in one point; none of other machines.
+    /// Configuration of an arm of six axes with a wrist in one point; `None` for other machines.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub configuration: Option<ArmConfiguration>,
     /// Stiffness of the tool's tip against a force in its softest direction, N/mm.
@@ -119,7 +119,7 @@ pub struct PointResult {
     pub share_to_buckling: Option<f64>,
     /// The equilibrium is stable.
     pub stable: bool,
-    /// How it was found, where it was not directly.
+    /// Method by which it was found, if not directly.
     #[serde(default, skip_serializing_if = "is_direct")]
     pub found_by: FoundBy,
 }

@@ -14,25 +14,26 @@ pub struct ProgramPlace {
     pub move_index: usize,
     /// Share of that move, 0 to 1.
     pub share: f64,
-    /// Number of its tool; none where the run has one tool for all blocks.
+    /// Number of its tool; `None` if the run has one tool for all blocks.
     pub tool: Option<u32>,
-    /// Where the program as it is commands the tool: base from tool, m.
+    /// Commanded pose of the program as it is: base from tool, m.
     pub programmed: Pose,
-    /// Where the tool should be: there, or where the part lies as it was measured ([`crate::WeightCorrection`]).
+    /// Desired pose of the tool: the programmed one, or that in the part as it was measured
+    /// ([`crate::WeightCorrection`]).
     pub wanted: Pose,
-    /// Where the written program commands it; `programmed` without one.
+    /// Commanded pose of the written program; `programmed` without one.
     pub commanded: Pose,
-    /// Where the tool should be when the written program has turned the part; `wanted` unless a table turns it otherwise.
+    /// Desired pose of the tool when the written program has turned the part; `wanted` unless a table turns it otherwise.
     pub wanted_as_commanded: Pose,
-    /// What acts on the tool: base axes, about its tip, N and N m.
+    /// Wrench on the tool: base axes, about its tip, N and N m.
     pub wrench: Wrench,
     /// Distance of the tool from where it should be, with the program as it is, mm of the program.
     pub error_before_mm: f64,
-    /// The same with the written program.
+    /// Distance with the written program.
     pub error_after_mm: f64,
     /// Metres in the machine per millimetre of the program.
     pub metres_per_mm: f64,
-    /// How far a force moves the tool's tip about the equilibrium there while the tool may turn as it likes, program axes, um/N of
-    /// the machine: row by row, the symmetric part. None where nothing holds the tool, or the machine has no equilibrium.
+    /// Compliance of the tool's tip about the equilibrium there while the tool may turn as it likes, program axes, um/N of the
+    /// machine: row by row, the symmetric part. `None` if nothing holds the tool, or the machine has no equilibrium.
     pub compliance_um_per_n: Option<[[f64; 3]; 3]>,
 }

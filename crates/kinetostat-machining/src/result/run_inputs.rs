@@ -12,7 +12,7 @@ use crate::weight_correction::WeightCorrection;
 pub struct RunInputs {
     /// Name of the model.
     pub model: String,
-    /// Where it came from: preset or file name.
+    /// Source of the model: preset or file name.
     pub model_source: String,
     /// Deviations of the actual from the nominal geometry, one sentence each.
     pub model_deviations: Vec<String>,
@@ -24,7 +24,7 @@ pub struct RunInputs {
     /// Files that were read, with their hashes.
     #[serde(default)]
     pub files: Vec<FileRead>,
-    /// Day on which the run was made, `2026-11-20`; none where it was not to be stated.
+    /// Day on which the run was made, `2026-11-20`; `None` if it was not to be stated.
     #[serde(default)]
     pub date: Option<String>,
     /// The stiffnesses of the model, one sentence for each spring or link.
@@ -33,7 +33,7 @@ pub struct RunInputs {
     /// The program states the orientation of its tool.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub states_orientation: bool,
-    /// It was corrected, too.
+    /// True if the orientation was corrected, too.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub orientation_corrected: bool,
     /// Orientation of the tool in the base, in words.
@@ -44,10 +44,10 @@ pub struct RunInputs {
     /// Share of the displacement by own weight that counts as an error; none where nothing was stated.
     #[serde(default, skip_serializing_if = "WeightCorrection::is_not_stated")]
     pub weight: WeightCorrection,
-    /// What was assumed of a load that is computed from the cut, one sentence each.
+    /// Assumptions about a load that is computed from the cut, one sentence each.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub cut: Vec<String>,
-    /// Where the program lies, in words.
+    /// Placement of the program, in words.
     pub placement: String,
     /// The tool in words.
     pub tool: String,
@@ -58,15 +58,15 @@ pub struct RunInputs {
     pub has_configuration: bool,
     /// Tolerance of the corrected path, mm.
     pub tolerance_mm: f64,
-    /// What was asked for in all, mm: pieces, chords of arcs and rounding; none where each has its own bound.
+    /// Requested total tolerance, mm: pieces, chords of arcs and rounding; `None` if each has its own bound.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub asked_mm: Option<f64>,
-    /// Where this tolerance comes from, in words; empty where it is not known.
+    /// Origin of this tolerance, in words; empty if it is not known.
     #[serde(default)]
     pub tolerance_from: String,
     /// Tolerance of arcs divided into chords, mm.
     pub chord_tolerance_mm: f64,
-    /// Least decimals written; numbers of the program that had more keep them.
+    /// Minimum decimals written; numbers of the program that had more keep them.
     pub decimals: u8,
     /// Lower and upper corner of the feed path in program coordinates, mm.
     pub box_min_mm: [f64; 3],
@@ -74,18 +74,18 @@ pub struct RunInputs {
     pub box_max_mm: [f64; 3],
     /// True if a compensated program was written.
     pub compensated: bool,
-    /// What the load is taken to be while the written program steps at sharp corners.
+    /// Assumed load while the written program steps at sharp corners.
     #[serde(default)]
     pub load_at_corners: CornerLoad,
-    /// That was stated, of all tools, and is no assumption.
+    /// True if that was stated, for all tools, and is no assumption.
     #[serde(default)]
     pub corners_stated: bool,
-    /// The same for each tool that the program takes by number; empty where there is one tool.
+    /// Assumed load for each tool that the program takes by number; empty if there is one tool.
     #[serde(default)]
     pub tools_at_corners: Vec<ToolAtCorners>,
 }
 
-/// What the load on a tool is taken to be while the written program steps at sharp corners.
+/// Assumed load on a tool while the written program steps at sharp corners.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct ToolAtCorners {
     /// Number in the program's T words.
@@ -97,9 +97,9 @@ pub struct ToolAtCorners {
 /// A file that a run was made from.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct FileRead {
-    /// What it is: `program`, `model`, `job`.
+    /// Kind of the file: `program`, `model`, `job`.
     pub what: String,
-    /// Its name without directories.
+    /// Name without directories.
     pub name: String,
     /// SHA-256 of its bytes, hexadecimal.
     pub sha256: String,
@@ -114,7 +114,7 @@ pub struct ActuatorColumn {
     pub motion_unit: String,
     /// `N` or `N m`.
     pub force_unit: String,
-    /// Smallest and largest command that is allowed, mm or deg; none where the model states none.
+    /// Smallest and largest command that is allowed, mm or deg; `None` if the model states none.
     #[serde(
         rename = "limits_mm_or_deg",
         default,

@@ -1,5 +1,5 @@
-//! What a run tells: plain data, units in the names; the same structure that `--json` prints, the
-//! report draws and `points.csv` lists.
+//! Result of a run: plain data, units in the names; the same structure that `--json` prints, the report draws and
+//! `points.csv` lists.
 
 use kinetostat_program::{Accounting, WriteOptions};
 use serde::{Deserialize, Serialize};
@@ -29,10 +29,10 @@ pub struct RunResult {
     pub schema: u32,
     /// Version of kinetostat that made it.
     pub kinetostat_version: String,
-    /// Whether the written program holds the tolerance that it was to hold.
+    /// Tolerance to be kept, and the verdict for the written program.
     #[serde(default)]
     pub tolerance: ToleranceResult,
-    /// How good the news is, and the assumptions behind it, the costliest first.
+    /// Level of the assessment, and the assumptions behind it, the costliest first.
     #[serde(default)]
     pub assessment: Assessment,
     /// Figures of the whole run.
@@ -40,20 +40,19 @@ pub struct RunResult {
     /// Model, program, load and tolerances of the run.
     #[serde(rename = "question")]
     pub run_inputs: RunInputs,
-    /// What the cut asks along the path, where the load is computed from it.
+    /// Figures of the cut along the path, if the load is computed from it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub cutting: Option<CuttingResult>,
-    /// Where the program chatters; none where that is not asked.
+    /// Chatter of the program; `None` if it is not requested.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub chatter: Option<ChatterResult>,
-    /// What becomes of the errors if the force is as far off as its coefficients may be; none where the load is not computed
-    /// from a cut.
+    /// Errors for a force as far off as its coefficients may be; `None` if the load is not computed from a cut.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub force_band: Option<ForceBand>,
-    /// How far the errors scatter when machine and force are not exactly as stated; none where nothing is said to be uncertain.
+    /// Scatter of the errors for an uncertain machine and force; `None` if nothing is stated to be uncertain.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub uncertainty: Option<UncertaintyBand>,
-    /// How the run stands to features of the part, in the order of the job.
+    /// Results for features of the part, in the order of the job.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub features: Vec<FeatureResult>,
     /// Places with the largest errors before compensation, worst first; at most ten.
@@ -63,8 +62,8 @@ pub struct RunResult {
     pub worst_points_after: Vec<PointResult>,
     /// Everything a person should know and did not ask for.
     pub warnings: Vec<Warning>,
-    /// Where the program comes nearest to a singular posture, of at most
-    /// [`Self::MAX_POSTURES`] places along it (of every part of a long program two at least); none if no singular posture is near.
+    /// Place nearest to a singular posture, of at most [`Self::MAX_POSTURES`] places along the program (of every part of a long
+    /// program two at least); `None` if no singular posture is near.
     #[serde(default)]
     pub near_singularity: Option<NearSingularPlace>,
     /// Limits, ratings and configuration along the program.
@@ -77,9 +76,9 @@ pub struct RunResult {
 }
 
 impl RunResult {
-    /// Most points that are kept for plots.
+    /// Maximum number of points that are kept for plots.
     pub const MAX_POINTS: usize = 4000;
-    /// Most places whose posture is compared with singular ones.
+    /// Maximum number of places whose posture is compared with singular ones.
     pub const MAX_POSTURES: usize = 64;
 
     /// Error that the written program may have, mm: what was asked for in all, else the tolerance of the path, that of chords where
@@ -96,8 +95,8 @@ impl RunResult {
         )
     }
 
-    /// Whether the written program stays within [`Self::allowed_mm`]; none if none was written. NaN
-    /// holds no tolerance.
+    /// True if the written program stays within [`Self::allowed_mm`]; `None` if none was written. NaN is beyond any
+    /// tolerance.
     #[must_use]
     pub fn holds_tolerance(&self) -> Option<bool> {
         let after = self.summary.max_position_error_after_mm;

@@ -1,4 +1,4 @@
-//! Which of many points are kept for plots: the envelope of every quantity that a result states.
+//! Selection of the points that are kept for plots: the envelope of every quantity that a result states.
 
 use crate::result::point::{PointKind, PointResult, size};
 
@@ -41,7 +41,7 @@ pub fn thinned(points: &[PointResult], always: &[usize], most: usize) -> Vec<usi
     (0..points.len()).filter(|index| keep[*index]).collect()
 }
 
-/// Where the figures of a summary are taken from.
+/// Indices of the points from which the figures of a summary are taken.
 fn extremes(points: &[PointResult]) -> Vec<usize> {
     let mut found: Vec<Option<(usize, f64)>> = Vec::new();
     for (index, point) in points.iter().enumerate() {
@@ -62,7 +62,7 @@ fn extremes(points: &[PointResult]) -> Vec<usize> {
         .collect()
 }
 
-/// What a summary states the largest value of, off rapids, and whether the machine is not stable; NaN where a point has no such value.
+/// Values whose maximum a summary states, off rapids, and the stability of the machine; NaN if a point has no such value.
 pub(crate) fn extreme_values(p: &PointResult) -> impl Iterator<Item = f64> + '_ {
     let off_rapids = move |value: f64| match p.kind {
         PointKind::Rapid => f64::NAN,

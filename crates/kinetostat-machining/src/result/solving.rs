@@ -1,35 +1,35 @@
-//! How the equilibria of many places were found, where it was not the usual way.
+//! Methods by which the equilibria of many places were found, if not by the usual one.
 
 use kinetostat::Mechanism;
 use kinetostat::batch::Batch;
 use kinetostat::chain::FoundBy;
 use serde::{Deserialize, Serialize};
 
-/// How many places were found in one way.
+/// Number of places found by one method.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct FoundCount {
-    /// Not [`FoundBy::Directly`].
+    /// Method, not [`FoundBy::Directly`].
     pub found_by: FoundBy,
     /// Places found so.
     pub places: usize,
 }
 
-/// How the equilibria of many places were found, where it was not the usual way: directly, and by kernels that take many
-/// places at once.
+/// Methods by which the equilibria of many places were found, if not by the usual one: directly, and by kernels that
+/// take many places at once.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct Solving {
     /// Places that were not found directly.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub found_otherwise: Vec<FoundCount>,
-    /// Why every place was solved by itself; none where kernels take many at once.
+    /// Reason for which every place was solved by itself; `None` if kernels take many at once.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub one_by_one_because: Option<String>,
 }
 
-/// Why the places of a machine are solved one by one, if they are: the orientation of its tool `follows`, or no kernel
-/// knows the machine.
+/// Reason for which the places of a machine are solved one by one, if they are: the orientation of its tool `follows`,
+/// or no kernel knows the machine.
 pub(crate) fn one_by_one_because(
     mechanism: &Mechanism,
     follows: bool,

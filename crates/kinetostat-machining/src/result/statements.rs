@@ -11,7 +11,7 @@ use crate::result::uncertainty_band::UncertaintyBand;
 use crate::weight_correction::WeightCorrection;
 
 impl RunResult {
-    /// What a program that came back byte for byte means; none for others, nor where that misses the tolerance.
+    /// Sentence on a program that came back byte for byte; `None` for others, and for one that misses the tolerance.
     #[must_use]
     pub fn unchanged_text(&self) -> Option<String> {
         let s = &self.summary;
@@ -23,8 +23,8 @@ impl RunResult {
             .map(unchanged_text)
     }
 
-    /// What is assumed at sharp corners and where a rapid ends under load, how many steps that concerns, and what becomes of the
-    /// claim otherwise; none for a program without such steps.
+    /// Sentence on the assumption at sharp corners and at the end of a rapid under load, the number of such steps, and the claim
+    /// without it; `None` for a program without such steps.
     #[must_use]
     pub fn corners_text(&self) -> Option<String> {
         let s = &self.summary;
@@ -93,7 +93,8 @@ impl RunResult {
         ))
     }
 
-    /// Over which length a stated load is taken to come, for nobody stated where the cut begins; none where no load is stated.
+    /// Sentence on the length over which a stated load is assumed to come, because the start of the cut was not stated;
+    /// `None` if no load is stated.
     #[must_use]
     pub fn ramp_text(&self) -> Option<String> {
         let ramp = self.summary.load_ramp?;
@@ -110,8 +111,8 @@ impl RunResult {
         })
     }
 
-    /// How far the machine's own weight moves the tool, and which part of that counts as an error; none
-    /// where it is no more than the tolerance.
+    /// Sentence on the displacement of the tool by the machine's own weight, and its part that is an error; `None` if
+    /// it is no more than the tolerance.
     #[must_use]
     pub fn own_weight_text(&self) -> Option<String> {
         let s = &self.summary;
@@ -143,14 +144,14 @@ impl RunResult {
         ))
     }
 
-    /// What becomes of the claim if the force of the cut is as far off as its coefficients may be; none where the load is not
-    /// computed from a cut.
+    /// Sentence on the errors for a force as far off as its coefficients may be; `None` if the load is not computed from a
+    /// cut.
     #[must_use]
     pub fn force_band_text(&self) -> Option<String> {
         self.force_band.as_ref().map(ForceBand::description)
     }
 
-    /// How far the errors scatter when machine and force are not exactly as stated; none where nothing is said to be uncertain.
+    /// Sentence on the scatter of the errors for an uncertain machine and force; `None` if nothing is stated to be uncertain.
     #[must_use]
     pub fn uncertainty_text(&self) -> Option<String> {
         let band = self.uncertainty.as_ref();

@@ -1,9 +1,9 @@
 //! A path of unknown length in equal stretches: never more than a stated number of them, however long it becomes.
 //!
-//! Where the path leaves the last stretch, two neighbours become one and all are twice as long. What is kept for a stretch
+//! When the path leaves the last stretch, two neighbours become one and all are twice as long. The content of a stretch
 //! depends on the points in it alone, not on when they came: a path that is gathered in parts gives the same stretches.
 
-/// What is kept for a stretch of the path.
+/// Content of a stretch of the path.
 pub(crate) trait Joins: Default {
     /// Takes up what the next stretch has.
     fn join(&mut self, next: Self);
@@ -21,7 +21,8 @@ pub(crate) struct Stretches<T> {
 const FINEST_MM: f64 = 1.0 / 1024.0;
 
 impl<T: Joins> Stretches<T> {
-    /// At most so many stretches, two at least; at the end there are more than half as many, or the path is shorter than `most` times 1/1024 mm.
+    /// Creates an empty path of at most `most` stretches, two at least; at the end there are more than half as many, or the path is shorter
+    /// than `most` times 1/1024 mm.
     pub(crate) fn new(most: usize) -> Self {
         Self {
             most: most.max(2),

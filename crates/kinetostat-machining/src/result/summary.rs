@@ -39,21 +39,20 @@ pub struct Summary {
     /// Blocks that are shorter than the controller takes, line by line.
     #[serde(default)]
     pub short_blocks: Vec<ShortBlocksOfLine>,
-    /// Fastest change of the correction outside steps; none where none was written.
+    /// Fastest change of the correction outside steps; `None` if none was written.
     #[serde(default)]
     pub largest_change_mm_per_mm: Option<LargestChange>,
-    /// Over which length of path a stated load comes; none where no load is stated.
+    /// Length of path over which a stated load comes; `None` if no load is stated.
     #[serde(default)]
     pub load_ramp: Option<LoadRamp>,
-    /// Nothing was to be corrected: the program came back byte for byte.
+    /// True if nothing was to be corrected: the program came back byte for byte.
     #[serde(default)]
     pub unchanged: bool,
-    /// It came back so because the tool keeps the tolerance as the program is.
+    /// True if it came back so because the tool keeps the tolerance as the program is.
     #[serde(default)]
     pub within_tolerance_before: bool,
-    /// How far the machine's own weight and the loads of its model move the unloaded tool where it
-    /// cuts, mm, the largest of [`RunResult::MAX_POSTURES`](crate::RunResult::MAX_POSTURES) places; none where nothing acts without a load on
-    /// the tool.
+    /// Displacement of the unloaded tool by the machine's own weight and the loads of its model in cuts, mm, the largest of
+    /// [`RunResult::MAX_POSTURES`](crate::RunResult::MAX_POSTURES) places; `None` if nothing acts without a load on the tool.
     #[serde(default)]
     pub max_displacement_by_weight_mm: Option<f64>,
     /// The part of it that counts as an error of the program ([`crate::WeightCorrection`]), mm.
@@ -66,8 +65,8 @@ pub struct Summary {
     /// such steps.
     #[serde(default)]
     pub max_corner_error_if_load_turns_mm: Option<f64>,
-    /// The same if the load there is that of a cut along the step; none also where the machine has no
-    /// equilibrium under it.
+    /// Largest error there if the load is that of a cut along the step; `None` also if the machine has no equilibrium
+    /// under it.
     #[serde(default)]
     pub max_corner_error_if_load_follows_feed_mm: Option<f64>,
     /// Largest way of a step or piece against the direction of motion, mm.
@@ -76,10 +75,10 @@ pub struct Summary {
     /// Steps and pieces that go so by more than `backward_step_limit_mm`.
     #[serde(default)]
     pub backward_steps: usize,
-    /// From which length on they are warned of, mm.
+    /// Length from which on they are warned of, mm.
     #[serde(default)]
     pub backward_step_limit_mm: f64,
-    /// How many times the programmed feed was allowed at most along the tool's own path.
+    /// Maximum allowed feed along the tool's own path, over the programmed one.
     #[serde(default)]
     pub max_feed_factor: f64,
     /// Pieces whose feed was held to that: they are slower along the part than programmed, and not
@@ -119,7 +118,7 @@ pub struct Summary {
     pub peak_blocks_per_second_after: Option<f64>,
     /// Shortest piece written, mm.
     pub smallest_piece_mm: f64,
-    /// Most blocks per second at programmed feed: `peak_blocks_per_second_after`; none where that is not known.
+    /// Maximum block rate per second at programmed feed: `peak_blocks_per_second_after`; `None` if it is not known.
     #[serde(default)]
     pub blocks_per_second: Option<f64>,
     /// Length of the feed path, mm.
@@ -129,7 +128,7 @@ pub struct Summary {
     pub max_position_error_before_mm: f64,
     /// Root mean square of it along the path that is cut, every place with its length of path, mm.
     pub rms_position_error_before_mm: f64,
-    /// The same for the written program, solved again from its file, mm.
+    /// Largest distance for the written program, solved again from its file, mm.
     pub max_position_error_after_mm: f64,
     /// See `max_position_error_after_mm`.
     pub rms_position_error_after_mm: f64,
@@ -142,8 +141,7 @@ pub struct Summary {
     pub max_correction_mm: f64,
     /// Largest rotation of the tool that a program of positions cannot correct, deg.
     pub max_residual_rotation_deg: f64,
-    /// Where the orientation follows: how far the unloaded tool turns from the orientation that it
-    /// is kept near to, deg.
+    /// Rotation of the unloaded tool from the orientation that it is kept near to, deg, if the orientation follows.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub max_tool_turn_deg: Option<f64>,
     /// Largest deviation of the tool's speed along the part from the programmed one, percent.
@@ -153,9 +151,9 @@ pub struct Summary {
     #[serde(deserialize_with = "infinite_where_null")]
     pub smallest_stiffness_n_per_mm: f64,
     /// Largest share of the way to buckling of any limb, mu (1 is buckling, below zero a load that
-    /// stretches it); none for limbs without inner freedom.
+    /// stretches it); `None` for limbs without inner freedom.
     pub largest_share_to_buckling: Option<f64>,
-    /// Largest force or torque of a drive as a share of its rating, 1 is the rating; none where the
+    /// Largest force or torque of a drive as a share of its rating, 1 is the rating; `None` if the
     /// model states no rating.
     #[serde(default)]
     pub largest_share_of_rating: Option<f64>,
@@ -169,7 +167,7 @@ pub struct Summary {
     pub converged: bool,
     /// Every equilibrium is stable, shapes and platform.
     pub stable: bool,
-    /// How the equilibria were found, where it was not the usual way.
+    /// Methods by which the equilibria were found, if not by the usual one.
     #[serde(flatten)]
     pub solving: Solving,
 }

@@ -1,4 +1,4 @@
-//! Whether a written program keeps its tolerance: corrected with a model or with a table, by one rule and in one wording.
+//! Verdict on the tolerance of a written program: corrected with a model or with a table, by one rule and in one wording.
 
 use kinetostat_program::{Accounting, Farthest};
 use serde::{Deserialize, Serialize};
@@ -6,8 +6,8 @@ use serde::{Deserialize, Serialize};
 use crate::number::{against, largest_length, length_setting};
 use crate::result::point::{PointResult, size};
 
-/// How a program that was corrected from a table stands to its tolerance. All that it can miss it by is what was
-/// left out: whatever else is too far off is refused when the written program is checked.
+/// Verdict on the tolerance of a program that was corrected from a table. It can be missed only by corrections that
+/// were left out: all other errors are refused when the written program is checked.
 #[must_use]
 pub fn of_table(farthest: &Farthest, allowed_mm: f64, accounting: &Accounting) -> ToleranceResult {
     let held = farthest.distance_mm <= allowed_mm;
@@ -24,7 +24,7 @@ pub fn of_table(farthest: &Farthest, allowed_mm: f64, accounting: &Accounting) -
     }
 }
 
-/// Why a correction is missing in a program that never states an axis.
+/// Reason for a missing correction in a program that never states an axis.
 pub(crate) fn left_out(accounting: &Accounting) -> String {
     format!(
         "a correction of {} was left out because the program never states its axis; state X, Y and Z before the first cut",
@@ -32,15 +32,15 @@ pub(crate) fn left_out(accounting: &Accounting) -> String {
     )
 }
 
-/// As it is, a program keeps the tolerance of the path, for it has no chords; or what is allowed, and no less than
-/// the corrected one does.
+/// True if the uncorrected program keeps the tolerance of the path, for it has no chords; or the allowed error, and
+/// is no worse than the corrected one.
 #[must_use]
 pub fn keeps_as_it_is(before_mm: f64, after_mm: f64, tolerance_mm: f64, allowed_mm: f64) -> bool {
     before_mm <= tolerance_mm || (before_mm <= allowed_mm && before_mm <= after_mm)
 }
 
-/// What a program that came back byte for byte means: it was within the tolerance as it is, by so much, or there
-/// was nothing that could be written.
+/// Sentence on a program that came back byte for byte: it was within the tolerance as it is, by so much, or there was
+/// nothing that could be written.
 #[must_use]
 pub fn unchanged_text(within_tolerance_mm: Option<f64>) -> String {
     if let Some(before_mm) = within_tolerance_mm {
@@ -56,7 +56,7 @@ pub fn unchanged_text(within_tolerance_mm: Option<f64>) -> String {
 }
 
 impl ToleranceResult {
-    /// That the tolerance is missed, where, by how much and why; none where it is held or nothing was written.
+    /// Sentence on a missed tolerance: place, amount and reason; `None` if it is held or nothing was written.
     #[must_use]
     pub fn missed_text(&self) -> Option<String> {
         if self.held != Some(false) {
@@ -76,7 +76,7 @@ impl ToleranceResult {
     }
 }
 
-/// How a written program stands to its tolerance.
+/// Verdict on the tolerance of a written program.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct ToleranceResult {
@@ -84,7 +84,7 @@ pub struct ToleranceResult {
     pub allowed_mm: f64,
     /// [`RunResult::holds_tolerance`](crate::RunResult::holds_tolerance).
     pub held: Option<bool>,
-    /// Where it is missed most; none where it is held.
+    /// Place where it is missed most; `None` if it is held.
     pub missed: Option<MissedTolerance>,
 }
 
@@ -95,16 +95,16 @@ pub struct MissedTolerance {
     pub line: usize,
     /// Line of the written program, from 1.
     pub output_line: usize,
-    /// Where the tool should be, program coordinates, mm.
+    /// Desired position of the tool, program coordinates, mm.
     pub position_mm: [f64; 3],
     /// Distance of the tool from it, mm.
     pub error_mm: f64,
-    /// Why, and what can be done.
+    /// Reason and remedy.
     pub reason: String,
 }
 
 impl MissedTolerance {
-    /// Of a place of a program, with the reason in words; empty where it is not known.
+    /// Missed tolerance at a place of a program, with the reason in words; empty if it is not known.
     ///
     /// ```
     /// use kinetostat_machining::{MissedTolerance, PointResult};

@@ -1,4 +1,4 @@
-//! How far the errors of a program scatter when the machine and the force are not exactly as stated.
+//! Scatter of the errors of a program for an uncertain machine and force.
 
 use serde::{Deserialize, Serialize};
 
@@ -9,11 +9,11 @@ use crate::number::{counted, largest_length, length_plus_minus};
 pub struct UncertainNumber {
     /// Path in the model, or part of the load.
     pub name: String,
-    /// As drawn.
+    /// Nominal value.
     pub value: f64,
-    /// Of value and spread.
+    /// Unit of value and spread.
     pub unit: String,
-    /// Its distribution.
+    /// Distribution of the number.
     pub distribution: String,
     /// Standard deviation of a normal one, half width of another.
     pub spread: f64,
@@ -22,7 +22,7 @@ pub struct UncertainNumber {
 /// The largest error along the program, over many machines, mm.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct ScatteredError {
-    /// Of the machine as drawn, at the same places.
+    /// Error of the machine as drawn, at the same places.
     pub as_drawn_mm: f64,
     /// Mean over all machines.
     pub mean_mm: f64,
@@ -34,11 +34,11 @@ pub struct ScatteredError {
     pub low_mm: f64,
     /// Nineteen in twenty machines have less.
     pub high_mm: f64,
-    /// Upper bound of that, with the confidence stated; none where too few machines were drawn for one.
+    /// Upper bound of that, with the confidence stated; `None` if too few machines were drawn for one.
     pub high_at_most_mm: Option<f64>,
     /// Standard deviation by linear propagation.
     pub deviation_by_line_mm: f64,
-    /// Whether that is enough.
+    /// True if linear propagation is accurate enough.
     pub linear_is_enough: bool,
 }
 
@@ -49,36 +49,36 @@ pub struct BandPlace {
     pub line: usize,
     /// Length of the path up to here, mm.
     pub path_mm: f64,
-    /// With the program as it is.
+    /// Quantiles of the program as it is.
     pub before_mm: [f64; 3],
-    /// With the written program.
+    /// Quantiles of the written program.
     pub after_mm: Option<[f64; 3]>,
 }
 
-/// How far the errors of a program scatter: machines as chance draws them, commanded by the program as it is and by the one that was
-/// written for the machine as drawn.
+/// Scatter of the errors of a program: machines drawn at random, commanded by the program as it is and by the one that was written
+/// for the machine as drawn.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct UncertaintyBand {
-    /// Where it is said what is uncertain.
+    /// File that states the uncertain numbers.
     pub file: String,
-    /// What is.
+    /// Uncertain numbers.
     pub uncertain: Vec<UncertainNumber>,
     /// Machines that were drawn.
     pub machines: usize,
-    /// Of those, without an answer at some place.
+    /// Number of these machines without an answer at some place.
     pub unanswered: usize,
-    /// Of those, not stable under the load at some place.
+    /// Number of these machines that are not stable under the load at some place.
     pub unstable: usize,
     /// Seed of the draws.
     pub seed: u64,
-    /// Of the bounds.
+    /// Confidence of the bounds.
     pub confidence: f64,
     /// Places at which all machines were solved.
     pub places: Vec<BandPlace>,
-    /// With the program as it is.
+    /// Errors of the program as it is.
     pub before: ScatteredError,
-    /// With the written program.
+    /// Errors of the written program.
     pub after: Option<ScatteredError>,
 }
 
@@ -97,7 +97,7 @@ impl ScatteredError {
 }
 
 impl UncertaintyBand {
-    /// What it says, in words.
+    /// Result in words.
     pub(crate) fn description(&self) -> String {
         let numbers = counted(self.uncertain.len(), "uncertain number");
         let mut text = format!(

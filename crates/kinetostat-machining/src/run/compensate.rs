@@ -35,7 +35,7 @@ pub fn analyse(task: &Task<'_>, watch: &dyn Watch) -> Result<Run, RunError> {
     analyse_part(task, None, watch)
 }
 
-/// The same of a part of a longer program, of which something is known.
+/// Analysis of a part of a longer program, of which something is known.
 ///
 /// # Errors
 /// As [`analyse`].
@@ -69,8 +69,8 @@ pub fn compensate_program(task: &Task<'_>, watch: &dyn Watch) -> Result<Run, Run
     compensate_part(task, None, watch)
 }
 
-/// The same of a part of a longer program, of which something is known. Whether the program keeps its tolerance as it is, only
-/// the whole tells: a part is corrected, or left as it is where [`OfWhole::as_it_is`] says so.
+/// Compensation of a part of a longer program, of which something is known. Only the whole program shows that it keeps its
+/// tolerance uncorrected: a part is corrected, or left as it is if [`OfWhole::as_it_is`] says so.
 ///
 /// # Errors
 /// As [`compensate_program`].
@@ -113,7 +113,8 @@ fn compensated(
     }
     // A machine that gives way is the graver finding, so limits come after it.
     let mut beyond = of_accounting(&task.bounds.limits, &written.accounting);
-    // Of a machine the correction is compared with its limit by the points: what is due to its own weight is known there.
+    // The correction of a machine is compared with its limit by the points: the part due to its own weight is known
+    // there.
     beyond.retain(|b| b.limit.name != "correction_mm");
     for found in of_points(task, &points) {
         if beyond.iter().all(|b| b.limit != found.limit) {
@@ -125,11 +126,11 @@ fn compensated(
         && written.bytes != task.program.bytes()
         && within_before(&points, task.writing.tolerance_mm, allowed_mm);
     if within_before {
-        // As it is, the program keeps what is claimed of a corrected one, which could be farther off.
+        // The uncorrected program keeps the tolerance, and the corrected one could be farther off.
         (written, check) = write_and_read_again(task, &NoCorrection, watch)?;
         (points, worse) = solve(task, sites_of_written(task, load, &written), how, watch)?;
     }
-    // Where the force changes faster than the correction may, a block may end farther off; the tolerance is missed there.
+    // A block may end farther off if the force changes faster than the correction may; the tolerance is missed there.
     let matters = |found: &TooFast| found.matters(task.writing.tolerance_mm);
     if let Some(worse) = worse.filter(|_| !prepared.load.findings.too_fast.iter().any(matters)) {
         return Err(worse);
@@ -161,7 +162,7 @@ fn compensated(
     Ok(conclude(task, load, points, Some(written), &checked))
 }
 
-/// Whether the program keeps its tolerance as it is.
+/// True if the uncorrected program keeps its tolerance.
 fn within_before(points: &[PointResult], tolerance_mm: f64, allowed_mm: f64) -> bool {
     let largest =
         |error: fn(&PointResult) -> f64| most(points, error).map_or(0.0, |(largest, _)| largest);

@@ -246,7 +246,7 @@ fn near_singular_warning(near: &NearSingularPlace) -> Warning {
     )
 }
 
-/// What was found while a program was read, and while another was written from it: each once.
+/// Warnings of reading a program, and of writing another from it: each once.
 #[must_use]
 pub fn of_program(path: &Path, writing: Option<&[kinetostat_program::Warning]>) -> Vec<Warning> {
     let made = |code: WarningCode| {
@@ -277,7 +277,7 @@ pub fn marked_as_compensated(program: &dyn MachineProgram) -> Option<Warning> {
     Some(Warning::at_line(WarningCode::Program, line, text))
 }
 
-/// Where the force changes faster in a cut than the correction may, if that matters beside the tolerance.
+/// Warning of a force that changes faster in a cut than the correction may, if that matters for the tolerance.
 fn changes_fast(task: &Task<'_>, checked: &Checked) -> Option<Warning> {
     let matters = |found: &&TooFast| found.matters(task.writing.tolerance_mm);
     let all = || checked.ramps.too_fast.iter().filter(matters);

@@ -1,4 +1,4 @@
-//! What becomes of the claim at sharp corners if the load there is by the other of the two readings.
+//! Errors at sharp corners under the other of the two readings of the load.
 
 use kinetostat::Wrench;
 use kinetostat::number::larger;
@@ -9,9 +9,9 @@ use crate::run::sites::site::Site;
 use crate::task::{RunError, Task};
 use crate::watch::Watch;
 
-/// Largest distance of the tool from its place on the corner steps that were read the other way, if the load
-/// there is by `reading` ([`Site::other_wrench`]), mm. None without such steps; infinite where a step has no
-/// equilibrium by that reading.
+/// Largest distance of the tool from its place on the corner steps that were read the other way, if the load there is
+/// by `reading` ([`Site::other_wrench`]), mm. `None` without such steps; infinite if a step has no equilibrium by
+/// that reading.
 pub(crate) fn by_the_other_reading<S: Iterator<Item = Site>>(
     task: &Task<'_>,
     reading: CornerLoad,

@@ -1,4 +1,4 @@
-//! What the cut asks along a path, from its forces: every place in turn, and a result of bounded size.
+//! Figures of the cut along a path, from its forces: every place in turn, and a result of bounded size.
 
 use std::f64::consts::TAU;
 
@@ -96,7 +96,7 @@ fn place(
     }
 }
 
-/// What the cut asks along the path that its forces were computed for: where it is largest, and a bounded number of places.
+/// Figures of the cut along the path that its forces were computed for: the largest values, and a bounded number of places.
 #[must_use]
 pub fn cutting_result(forces: &ForceAlongPath, path: &Path) -> CuttingResult {
     let total = cut_places(forces, path).count();
@@ -129,7 +129,7 @@ pub fn cutting_result(forces: &ForceAlongPath, path: &Path) -> CuttingResult {
 fn note(result: &mut CuttingResult, place: &CutPlace) {
     let largest = |slot: &mut Option<CutPlace>, figure: fn(&CutPlace) -> f64| {
         let most = slot.as_ref().map_or(f64::NEG_INFINITY, figure);
-        // What is no number stays visible.
+        // NaN stays visible.
         if figure(place) > most || figure(place).is_nan() {
             *slot = Some(*place);
         }
@@ -208,7 +208,7 @@ impl Kept {
         keep.extend(self.open.iter().rposition(|p| !feed(p)));
         for figure in FIGURES {
             let places = || self.open.iter().enumerate().filter(|(_, p)| feed(p));
-            // Of several that are alike the first, as in the result's list of the largest.
+            // The first of equal places is kept, as in the result's list of the largest.
             let order = |a: &(usize, &CutPlace), b: &(usize, &CutPlace)| {
                 figure(a.1).total_cmp(&figure(b.1))
             };

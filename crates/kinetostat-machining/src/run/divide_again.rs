@@ -1,9 +1,9 @@
 //! Blocks divided again where the last check finds the tool farther off than the written program claims.
 //!
-//! The division rests on an assumption about the model between the places that it evaluates ([`Course::Smooth`]);
-//! the check looks at places of its own. A place that it finds off becomes one at which the block is divided
-//! in any case, the program is written once more, and checked as before in every place. What is off for
-//! another reason (an axis that the program never states, a corner) is not divided again: it would not help.
+//! The division rests on an assumption about the model between the places that it evaluates ([`Course::Smooth`]); the
+//! check looks at places of its own. A place that it finds off becomes one at which the block is divided in any case,
+//! the program is written once more, and checked as before in every place. Places that are off for another reason (an
+//! axis that the program never states, a corner) are not divided again: it would not help.
 //!
 //! [`Course::Smooth`]: kinetostat_program::Course::Smooth
 
@@ -22,7 +22,7 @@ use crate::warning::{Warning, WarningCode};
 /// Rounds of dividing again, at most. Each halves what is left at a kink of the correction, at least.
 const ROUNDS: usize = 8;
 
-/// What was divided again.
+/// Additional divisions of blocks.
 #[derive(Debug, Default)]
 pub(crate) struct Again {
     /// Shares by move at which blocks are divided besides those that the field itself knows.
@@ -107,7 +107,7 @@ impl Again {
         found
     }
 
-    /// What a person should know of it.
+    /// Warning about the additional divisions.
     pub fn description(&self, allowed_mm: f64) -> Option<Warning> {
         let (line, worst) = self.worst?;
         let places: usize = self.breaks.values().map(Vec::len).sum();

@@ -1,4 +1,4 @@
-//! Where the correction changes faster than what is stated for the load: how much, on how many lines, and why.
+//! Corrections that change faster than stated for the load: amount, number of lines, and reason.
 
 use kinetostat::number::{largest_length, smaller};
 
@@ -11,7 +11,7 @@ use crate::run::largest_change::{Change, Changes};
 use crate::task::Task;
 use crate::warning::{Warning, WarningCode};
 
-/// The fastest change of the correction; none where it never changes.
+/// The fastest change of the correction; `None` if it never changes.
 pub(crate) fn of_correction(changes: &Changes) -> Option<LargestChange> {
     let worst = changes.worst.filter(|worst| worst.mm_per_mm > 0.0)?;
     Some(LargestChange {
@@ -22,7 +22,7 @@ pub(crate) fn of_correction(changes: &Changes) -> Option<LargestChange> {
     })
 }
 
-/// That the correction changes faster than stated, where that is worst.
+/// Warning of a correction that changes faster than stated, at the worst place.
 pub(crate) fn changes_faster_than_stated(
     task: &Task<'_>,
     load: &LoadAlongPath<'_>,

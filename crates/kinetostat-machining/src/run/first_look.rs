@@ -25,7 +25,7 @@ const FIRST_LOOKS: usize = 8;
 const GROSS: f64 = 10.0;
 
 /// Some places on the moves of a program, spread evenly over them: ends of moves, or more of each where there are few.
-/// Of how many moves in all, and how many of them come before the first that is this path's own.
+/// Takes the number of all moves, and of those before the first that is this path's own.
 fn sites(
     task: &Task<'_>,
     load: &LoadAlongPath<'_>,
@@ -47,12 +47,12 @@ fn sites(
 /// A few places of a program, each solved by itself.
 #[derive(Default)]
 pub(crate) struct FirstLook {
-    /// Those that have an answer.
+    /// Points that have an answer.
     points: Vec<PointResult>,
-    /// Why the first of all has none. That a later one has none is reported where the program is solved, for there may be others
-    /// before it.
+    /// Error of the first place. Errors of later ones are reported where the program is solved, for there may be others before
+    /// them.
     first: Option<RunError>,
-    /// One of them has no equilibrium under its load.
+    /// True if one of them has no equilibrium under its load.
     not_converged: bool,
 }
 
@@ -69,7 +69,7 @@ impl FirstLook {
         Self::at(task, load, (task.path().own_moves().len(), 0), watch)
     }
 
-    /// Those of the few places of a whole program of so many moves that lie on a part of it.
+    /// Points on a part of a program, of the few places of the whole one of so many moves.
     ///
     /// # Errors
     /// [`RunError::WeightNotStated`], [`RunError::TouchOff`], [`RunError::Cancelled`].
@@ -127,7 +127,7 @@ impl FirstLook {
         Ok(look)
     }
 
-    /// The same where the first of the places has an answer.
+    /// Returns the points if the first of the places has an answer.
     ///
     /// # Errors
     /// Why it has none.
@@ -139,7 +139,7 @@ impl FirstLook {
     }
 
     /// A load beyond its limits under which a place has no equilibrium, or that puts the tool off by far more than any correction:
-    /// a machine that folds over takes minutes to be solved everywhere. Of other loads an analysis only warns, and of limits that
+    /// a machine that folds over takes minutes to be solved everywhere. An analysis only warns of other loads, and of limits that
     /// are stricter than usual, which are those of a correction.
     pub fn folding_load(&self, task: &Task<'_>) -> Vec<Beyond> {
         let usual = Limits::default();
@@ -156,7 +156,7 @@ impl FirstLook {
         }
     }
 
-    /// What of these places is beyond its limit.
+    /// Figures of these places beyond their limits.
     pub fn beyond(&self, task: &Task<'_>) -> Vec<Beyond> {
         of_points(task, &self.points)
     }

@@ -1,4 +1,4 @@
-//! What a tool does whose orientation follows: how far it turns along a path, and where it jumps.
+//! Motion of a tool whose orientation follows: its rotation along a path, and its jumps.
 
 use nalgebra::{UnitQuaternion, Vector3};
 
@@ -30,7 +30,7 @@ pub(crate) fn jump(task: &Task<'_>, points: &[PointResult]) -> Option<usize> {
     })
 }
 
-/// What a tool whose orientation follows does.
+/// Warnings about a tool whose orientation follows.
 pub(crate) fn following(
     task: &Task<'_>,
     points: &[PointResult],

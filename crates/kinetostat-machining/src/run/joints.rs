@@ -19,7 +19,7 @@ const TURN_DEG: f64 = 90.0;
 /// ... and farther than the tool by this factor, is beside a singular posture.
 const TIMES_TOOL: f64 = 3.0;
 
-/// So it is where the joint does it on a way so short, mm.
+/// Maximum way, mm, on which such a rotation of a joint is a change of posture.
 const SHORT_MM: f64 = 10.0;
 
 /// Limits, ratings and configuration along a program.
@@ -174,7 +174,7 @@ fn largest_turn(
         .max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()))
 }
 
-/// How far the tool turns between two points of a program that states its orientation, deg.
+/// Rotation of the tool between two points of a program that states its orientation, deg.
 fn tool_turn_deg(before: &PointResult, after: &PointResult) -> f64 {
     let stated = |point: &PointResult| {
         let [w, i, j, k] = point.tool_orientation?;

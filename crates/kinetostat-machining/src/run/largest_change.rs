@@ -1,4 +1,4 @@
-//! How fast the correction changes along the path, from the program as it is written.
+//! Rate of change of the correction along the path, from the program as it is written.
 //!
 //! A written position less its place on the path is the correction there, and between two of them it changes evenly with the length
 //! of the path, or, on an arc that was fitted, as the arc as written says. Positions are rounded to the last digit written, which says nothing of the change over a length of a few
@@ -11,7 +11,7 @@ use nalgebra::Vector3;
 /// Length over which the change is taken, in last digits that are written.
 const DIGITS: f64 = 100.0;
 
-/// By how much rounding can make it larger, mm per mm: half a digit along three axes at both ends.
+/// Increase by rounding, mm per mm: half a digit along three axes at both ends.
 const ROUNDING: f64 = 1.732_050_808 / DIGITS;
 
 /// A change of the correction between two places of the path.
@@ -20,7 +20,7 @@ pub(crate) struct Change {
     /// Line of the program.
     pub line: usize,
     pub mm_per_mm: f64,
-    /// What is stated for the load there, mm per mm.
+    /// Stated change of the load there, mm per mm.
     pub stated: f64,
     /// Move and share of the two places.
     pub ends: [(usize, f64); 2],
@@ -116,7 +116,7 @@ pub(crate) fn changes(
     found
 }
 
-/// Between two places that lie so far apart, the change is largest where one of them is the end of a piece.
+/// Largest change between two places at this distance: one of them is the end of a piece.
 fn of_stretch(
     (path, written): (&Path, &Corrected),
     writing: &WriteOptions,

@@ -7,9 +7,9 @@ use crate::run::preparation::{load, refuse};
 use crate::task::{RunError, Task};
 use crate::watch::Watch;
 
-/// A first look at a part of a whole program, to be added to what is found in the others; `compensate`: it is to be corrected. What
-/// takes hours to be solved everywhere is refused here, at some places of every part; the smallest stiffness is that of the places
-/// which a first look at the whole program takes, so that it does not depend on how long the parts are.
+/// A first look at a part of a whole program, to be added to what is found in the others; `compensate`: it is to be corrected. A
+/// program that takes hours to be solved everywhere is refused here, at some places of every part; the smallest stiffness is that
+/// of the places which a first look at the whole program takes, so that it does not depend on how long the parts are.
 ///
 /// # Errors
 /// A load under which the machine folds over, or corrections that are beyond their limits by far.

@@ -32,7 +32,7 @@ impl<'t, 'm> Machines<'t, 'm> {
         tool_on(self.task.tools, self.task.path(), site.line)
     }
 
-    /// Whether two places are cut with one tool.
+    /// True if two places are cut with one tool.
     pub fn same(&self, one: &Site, other: &Site) -> bool {
         let number = |site: &Site| self.tool(site).map(|tool| tool.number);
         number(one) == number(other)

@@ -135,7 +135,7 @@ impl MergedRun {
         self.result = Some(result);
     }
 
-    /// Whether the program is to be left as it is: it keeps its tolerance so, or no correction reaches the last digit.
+    /// True if the program is to be left as it is: it keeps its tolerance so, or no correction reaches the last digit.
     #[must_use]
     pub fn leaves_as_it_is(&self) -> bool {
         let Some(result) = self.result.as_ref().filter(|r| r.run_inputs.compensated) else {
@@ -150,7 +150,7 @@ impl MergedRun {
         self.blocks_corrected == 0 || keeps_as_it_is(before, after, tolerance, result.allowed_mm())
     }
 
-    /// The result of the whole; none where no part was taken. `reading` is what the reader of the whole warns of.
+    /// The result of the whole; `None` if no part was taken. `reading` is what the reader of the whole warns of.
     #[must_use]
     pub fn finish(mut self, reading: Vec<Warning>) -> Option<RunResult> {
         let mut result = self.result.take()?;
@@ -264,7 +264,7 @@ fn summary(own: &mut Summary, next: &Summary) {
         sum_of(own, next);
     }
     largest_figures(own, next);
-    // Of parts that divide nothing it is 0.
+    // The length is 0 for parts that divide nothing.
     own.smallest_piece_mm = match (own.smallest_piece_mm > 0.0, next.smallest_piece_mm > 0.0) {
         (true, true) => smaller(own.smallest_piece_mm, next.smallest_piece_mm),
         _ => larger(own.smallest_piece_mm, next.smallest_piece_mm),

@@ -30,7 +30,7 @@ struct Said {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct MergedWarnings {
     said: Vec<Said>,
-    /// Those that no room was left for.
+    /// Number of warnings for which no room was left.
     further: usize,
     /// A load acts somewhere; else what was said of that.
     acts: bool,
@@ -38,7 +38,7 @@ pub(crate) struct MergedWarnings {
     /// Largest correction of a part that cuts, mm, and what is unusual about it.
     largest_correction_mm: Option<f64>,
     of_correction: Option<Warning>,
-    /// What is unusual about the figures of all parts.
+    /// Warnings about the figures of all parts.
     of_figures: Vec<Warning>,
 }
 
@@ -85,7 +85,7 @@ impl MergedWarnings {
                 further_parts: 0,
             }),
             None => self.further += 1,
-            // Beside a seam both parts see the same line.
+            // Both parts at a seam see the same line.
             Some(index) => {
                 let own = &mut self.said[index];
                 let Some(line) = warning.line.filter(|line| own.warning.line < Some(*line)) else {
@@ -134,7 +134,7 @@ impl Said {
     }
 }
 
-/// Whether two messages say the same of other figures: the same words, whatever the numbers, units and plurals are.
+/// True if two messages differ only in their figures: the same words, whatever the numbers, units and plurals are.
 pub(crate) fn same_words(one: &str, other: &str) -> bool {
     let words = |text: &str| -> Vec<String> {
         let all = text.split(|c: char| !(c.is_alphanumeric() || c == '_'));

@@ -1,7 +1,7 @@
 //! A program whose places are solved wherever the part lies.
 //!
-//! What does not depend on where it lies (places along the path, compiled machines, headings of the load) is made once, so that
-//! a few of its places take a millisecond somewhere else.
+//! Data that do not depend on the placement (places along the path, compiled machines, headings of the load) are made once, so
+//! that a few of its places take a millisecond somewhere else.
 
 use kinetostat::{Error, Pose, Wrench};
 use nalgebra::Vector3;
@@ -33,16 +33,16 @@ pub struct MovableProgram<'t, 'm> {
     every: usize,
 }
 
-/// Whether the machine gets to a place.
+/// Reachability of a place.
 #[derive(Clone, Debug)]
 pub enum Reach {
-    /// It does, inside the limits of its joints.
+    /// Reached, inside the limits of the joints.
     Reached,
-    /// It does not, or not inside the limits.
+    /// Not reached, or not inside the limits.
     Refused {
-        /// Beyond the limits of a joint, and not out of reach.
+        /// True beyond the limits of a joint, and not out of reach.
         by_limits: bool,
-        /// What is wrong, in words.
+        /// Error in words.
         message: String,
     },
 }
@@ -74,7 +74,7 @@ impl<'t, 'm> MovableProgram<'t, 'm> {
         })
     }
 
-    /// How many places there are.
+    /// Number of places.
     #[must_use]
     #[allow(clippy::len_without_is_empty)]
     pub fn len(&self) -> usize {
@@ -93,13 +93,13 @@ impl<'t, 'm> MovableProgram<'t, 'm> {
         self.sites[index].line
     }
 
-    /// Where the tool should be at a place, program coordinates, mm.
+    /// Desired position of the tool at a place, program coordinates, mm.
     #[must_use]
     pub fn position_mm(&self, index: usize) -> Vector3<f64> {
         self.sites[index].desired
     }
 
-    /// Whether the tool moves at feed there.
+    /// True if the tool moves at feed there.
     #[must_use]
     pub fn at_feed(&self, index: usize) -> bool {
         self.sites[index].kind != PointKind::Rapid
@@ -132,7 +132,7 @@ impl<'t, 'm> MovableProgram<'t, 'm> {
         indices.iter().map(moved).collect()
     }
 
-    /// Some places in the order of the program, solved without compensation where the program lies so.
+    /// Solves some places in the order of the program without compensation, for this placement of it.
     ///
     /// # Errors
     /// Position in `indices` of the first that has no answer, and why.
@@ -221,7 +221,7 @@ impl<'t, 'm> MovableProgram<'t, 'm> {
         Ok(sizes)
     }
 
-    /// Whether the machine gets to a place where the program lies so, from its home and without a load.
+    /// Reachability of a place for such a placement of the program, from home and without a load.
     #[must_use]
     pub fn reach(&self, placement: Placement, index: usize) -> Reach {
         let site = &self.sites[index];
@@ -237,7 +237,7 @@ impl<'t, 'm> MovableProgram<'t, 'm> {
         }
     }
 
-    /// How often the posture of the machine changes on feed moves along all places, which no feed motion can do; and the line of the first.
+    /// Number of changes of the machine's posture on feed moves along all places, which no feed motion can do; and the line of the first.
     #[must_use]
     pub fn posture_changes(
         &self,

@@ -1,4 +1,4 @@
-//! Where a program comes nearest to a singular posture.
+//! Place of a program nearest to a singular posture.
 
 use kinetostat::Posture;
 

@@ -1,8 +1,8 @@
-//! What is known of a whole program where a part of it is run.
+//! Facts about a whole program for the run of a part of it.
 
 use kinetostat::number::smaller;
 
-/// What is known of a whole program where a part of it is run.
+/// Facts about a whole program for the run of a part of it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OfWhole {
     /// Moves of the whole program, over which the places of a first look are spread.
@@ -14,7 +14,7 @@ pub struct OfWhole {
 }
 
 impl OfWhole {
-    /// With what was found in another part.
+    /// Adds the facts found in another part.
     pub fn add(&mut self, found: &Self) {
         self.stiffness_n_per_mm = smaller(self.stiffness_n_per_mm, found.stiffness_n_per_mm);
     }

@@ -11,7 +11,7 @@ use crate::task::{RunError, Task};
 use crate::watch::Watch;
 
 /// Distance of the tool from its place at each of these, with what the written program commands there and the load beside
-/// it (base axes, N, N m), mm. None where the machine has no equilibrium under that load. Gravity and what else acts in the
+/// it (base axes, N, N m), mm. `None` if the machine has no equilibrium under that load. Gravity and what else acts in the
 /// model stay as they are.
 pub(crate) fn errors_under(
     task: &Task<'_>,

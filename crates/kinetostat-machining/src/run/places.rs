@@ -84,7 +84,7 @@ fn place(task: &Task<'_>, site: &Site, point: &PointResult, how: Solving<'_>) ->
     let motions = how
         .frame
         .motions(task.mechanism_on(site.line), &[programmed], |_| near);
-    // Where there is none, the place had no answer.
+    // The place had no answer if the frame has no motion there.
     let motion = motions.into_iter().find_map(Result::ok).unwrap_or_default();
     let as_commanded = site.programmed(site.commanded_placement(task));
     ProgramPlace {
@@ -105,7 +105,7 @@ fn place(task: &Task<'_>, site: &Site, point: &PointResult, how: Solving<'_>) ->
     }
 }
 
-/// What the load of a task is at places of its program, without the way on which it comes and goes: base axes, N and N m.
+/// Load of a task at places of its program, without its ramps: base axes, N and N m.
 #[must_use]
 pub fn wrenches_at(task: &Task<'_>, places: &[ProgramPlace]) -> Vec<Wrench> {
     let load = LoadAlongPath::with_tools(task.load, task.path(), task.tools).with_cut(task.cut);

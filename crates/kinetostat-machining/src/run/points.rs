@@ -77,15 +77,15 @@ pub(crate) fn solve(
     }
 }
 
-/// How points are solved.
+/// Settings for solving points.
 #[derive(Clone, Copy)]
 pub(crate) struct Solving<'c> {
     pub orientation: Orientation,
-    /// They are those of a written program.
+    /// True for the points of a written program.
     pub written: bool,
     /// The way of an arm that is not the one from home.
     pub course: Option<&'c ArmCourse>,
-    /// Where the part lies as it was measured.
+    /// Frame of the part as it was measured.
     pub frame: &'c MeasuredFrame<'c>,
 }
 
@@ -184,7 +184,7 @@ pub(crate) fn failed(site: &Site, cause: Error) -> RunError {
     }
 }
 
-/// What a result states of an equilibrium.
+/// Equilibrium as a result states it.
 struct Loaded {
     tool: Pose,
     /// Orientation of the unloaded tool.
@@ -319,7 +319,7 @@ fn point(
     }
 }
 
-/// No block may end farther off than without compensation, beyond tolerance and rounding.
+/// Error of a block that ends farther off than without compensation, beyond tolerance and rounding.
 fn worse_than_before(task: &Task<'_>, site: &Site, point: &PointResult) -> Option<RunError> {
     let decimals = i32::from(task.writing.decimals.unwrap_or(4));
     let slack =

@@ -1,4 +1,4 @@
-//! What every run begins with: a first look at the program, the load along it, the way of the arm, and the measured part frame.
+//! Preparation of every run: a first look at the program, the load along it, the way of the arm, and the measured part frame.
 
 use kinetostat_program::CorrectionField;
 
@@ -33,7 +33,7 @@ pub(crate) struct Preparation<'a> {
 }
 
 impl<'a> Preparation<'a> {
-    /// Of a program that is solved as it is.
+    /// Prepares the analysis of a program as it is.
     ///
     /// # Errors
     /// It has no motion; a load that no cutting has folds the machine over.
@@ -49,7 +49,7 @@ impl<'a> Preparation<'a> {
         Self::with(task, load, stiffness(&looked, whole))
     }
 
-    /// Of a program that is corrected.
+    /// Prepares the correction of a program.
     ///
     /// # Errors
     /// It has no motion; load or tool are beyond their limits, or corrections by far; its first place has no answer.
@@ -99,7 +99,7 @@ fn stiffness(looked: &FirstLook, whole: Option<&OfWhole>) -> f64 {
     whole.map_or_else(|| looked.stiffness(), |whole| whole.stiffness_n_per_mm)
 }
 
-/// What `work` makes of the field of corrections that a compensation of this task is written with.
+/// Calls `work` with the field of corrections that a compensation of this task is written with.
 ///
 /// # Errors
 /// As [`crate::compensate_program`], of what is found before its points are solved.
@@ -112,7 +112,7 @@ pub fn with_model_field<R>(
     Ok(work(&prepared.field(task)))
 }
 
-/// What acts along the program as it is stated.
+/// Stated load along the program.
 pub(crate) fn load<'a>(task: &Task<'a>) -> LoadAlongPath<'a> {
     LoadAlongPath::with_tools(task.load, task.path(), task.tools).with_cut(task.cut)
 }

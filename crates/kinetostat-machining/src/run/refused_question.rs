@@ -8,8 +8,9 @@ use crate::task::{RunError, Task};
 use crate::warning::{Warning, WarningCode};
 use crate::watch::Unwatched;
 
-/// What a compensation refuses a question for before anything is solved along the whole program, as warnings, and its first error.
-/// `is_placed`: the tool stands as the task says, and not as it is still to be chosen, so that figures at places count.
+/// Reasons for which a compensation refuses a question before anything is solved along the whole program, as warnings, and its
+/// first error. `is_placed`: the tool stands as the task says, and not as it is still to be chosen, so that figures at places
+/// count.
 #[must_use]
 pub fn refused_question(task: &Task<'_>, is_placed: bool) -> (Vec<Warning>, Option<RunError>) {
     let mut errors = Vec::new();

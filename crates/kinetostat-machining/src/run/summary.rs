@@ -19,7 +19,7 @@ pub(crate) fn summarise(
     written: Option<&Corrected>,
     checked: &Checked,
 ) -> Summary {
-    // Where nothing is cut, an error of the tool harms nothing.
+    // Errors of rapids are reported only if nothing is cut.
     let cutting: Vec<&PointResult> = match points.iter().any(|p| p.kind != PointKind::Rapid) {
         true => points
             .iter()
@@ -115,7 +115,8 @@ fn of_what_was_written(
 ) {
     let a = &written.accounting;
     let corners = || points.iter().filter(|p| p.kind.is_step());
-    // By one reading for all steps: as it was solved where that reading was chosen, and once more elsewhere.
+    // Largest error under one reading for all steps: as it was solved where that reading was chosen, and once more
+    // elsewhere.
     let by = |reading: CornerLoad, elsewhere: Option<f64>| {
         corners()
             .filter(|p| task.load_on(p.line).at_corners == reading)
@@ -163,9 +164,9 @@ fn of_what_was_written(
     summary.peak_blocks_per_second_after = a.peak_blocks_per_second;
 }
 
-/// Mean of a value along the path that is cut, by the trapezoidal rule: a piece counts with its length, so
-/// that it does not matter into how many pieces a program is divided, nor where they are looked at. What is
-/// cut before the first place of a block counts with that place.
+/// Mean of a value along the path that is cut, by the trapezoidal rule: a piece counts with its length, so that it
+/// does not matter into how many pieces a program is divided, nor where they are looked at. The path before the first
+/// place of a block counts with that place.
 fn along_path(points: &[&PointResult], value: impl Fn(&PointResult) -> f64) -> f64 {
     let (sum, length) = summed_along_path(points, &value);
     if length > 0.0 {

@@ -1,4 +1,4 @@
-//! How a written program stands to its tolerance, and where and why it is farthest off.
+//! Verdict on the tolerance of a written program, with place and reason of its largest error.
 
 use kinetostat::number::{largest_length, short};
 use kinetostat_program::{Corrected, Path};
@@ -8,7 +8,7 @@ use crate::result::point::{PointKind, PointResult, size};
 use crate::result::run_result::RunResult;
 use crate::result::tolerance::{MissedTolerance, ToleranceResult, left_out};
 
-/// Whether the written program keeps its tolerance; where it does not, the farthest place with the likely reason.
+/// Verdict on the tolerance of the written program; if it is missed, the farthest place with the likely reason.
 pub(crate) fn tolerance(
     result: &RunResult,
     points: &[PointResult],
@@ -66,13 +66,14 @@ pub(crate) fn tolerance(
     }
 }
 
-/// Nearer to the pole than this, the axis that turns about it turns more than ten times as far as the tool.
+/// Distance from the pole below which the axis that turns about it turns more than ten times as far as the tool.
 const NEAR_POLE_RAD: f64 = 0.1;
 
-/// Nearer than this it is the reason, whatever else there is: at a corner the program turns nothing.
+/// Distance from the pole below which it is the reason in any case: at a corner the program turns nothing.
 const AT_POLE_RAD: f64 = 1e-4;
 
-/// That directions lead the tool past the pole of its rotary axes at a place, how far from it, and what can be done.
+/// Sentence on directions that lead the tool past the pole of its rotary axes at a place: the distance from it, and a
+/// remedy.
 fn near_pole(path: &Path, point: &PointResult, within_rad: f64) -> Option<String> {
     let turn = path.moves.get(point.move_index)?.tool_turn.as_ref()?;
     let rotary = turn.rotary.as_ref()?;

@@ -15,7 +15,7 @@ use crate::task::{RunError, Task};
 /// Turns are tried in steps of this, deg.
 const STEP_DEG: i32 = 5;
 
-/// Most places of a program that are looked at.
+/// Maximum number of places of a program that are tried.
 const MOST_PLACES: usize = 200;
 
 /// Joints turn less than this between two places that are looked at, rad.
@@ -23,14 +23,14 @@ const JUMP: f64 = 1.6;
 
 /// Places of a program: line and where the tool should be, base frame, m.
 pub(crate) struct Places {
-    /// Where the program fails, looked at first.
+    /// Places at which the program fails, tried first.
     worst: Vec<(usize, Pose)>,
     /// Evenly along the program.
     along: Vec<(usize, Pose)>,
 }
 
 impl Places {
-    /// Of a program that was solved.
+    /// Places of a program that was solved.
     pub(crate) fn of_points(
         task: &Task<'_>,
         points: &[PointResult],
@@ -44,7 +44,7 @@ impl Places {
         }
     }
 
-    /// Of a program that could not be solved at a place.
+    /// Places of a program that could not be solved at a place.
     fn of_path(task: &Task<'_>, worst: (usize, Pose)) -> Self {
         let known = task.path().moves.iter().filter(|m| m.is_known_feed());
         let stride = known.clone().count().div_ceil(MOST_PLACES).max(1);
@@ -186,7 +186,7 @@ pub(crate) fn with_way_out(task: &Task<'_>, error: RunError) -> RunError {
     }
 }
 
-/// Where the tool should be at a place of a line, base frame.
+/// Desired pose of the tool at a place of a line, base frame.
 fn nearest_pose(task: &Task<'_>, line: usize, position: &Vector3<f64>) -> Pose {
     let moves = task.path().moves.iter().filter(|m| m.line == line);
     let shares = moves.flat_map(|motion| [0.0, 0.25, 0.5, 0.75, 1.0].map(|share| (motion, share)));

@@ -14,7 +14,7 @@ use crate::warning::{Warning, WarningCode};
 struct Turned {
     first_line: usize,
     start: f64,
-    /// Where it is now.
+    /// Present value.
     value: f64,
     low: f64,
     high: f64,

@@ -9,7 +9,7 @@ const STEPS: usize = 2;
 /// Way along the original over which the direction of the compensated path is taken, mm.
 const DIRECTION_MM: f64 = 0.01;
 
-/// No step is longer than this, mm: the guide is nearer.
+/// Maximum length of a step, mm: the guide is nearer.
 const LONGEST_MM: f64 = 0.05;
 
 /// Part of a turn of the load over which the direction of the compensated path is taken, and the longest step.
@@ -19,7 +19,7 @@ const TURN: (f64, f64) = (0.01, 0.25);
 pub(crate) struct Abreast {
     pub(crate) move_index: usize,
     pub(crate) share: f64,
-    /// Where the load turns at that place, how far.
+    /// Turn of the load at that place, if it turns there.
     pub(crate) turning: Option<Turning>,
     pub(crate) point: Vector3<f64>,
 }
@@ -39,7 +39,7 @@ impl Abreast {
         }
     }
 
-    /// What is looked for: the part of the turn, or the share of the move.
+    /// Unknown of the search: the part of the turn, or the share of the move.
     fn at(&self) -> f64 {
         self.turning.map_or(self.share, |turning| turning.part)
     }
@@ -103,7 +103,7 @@ fn beside(original: &Path, place: &Abreast) -> f64 {
     }
 }
 
-/// What is asked for at a share of the move of a place, or at a part of its turn.
+/// Request at a share of the move of a place, or at a part of its turn.
 fn request(original: &Path, place: &Abreast, at: f64) -> Request {
     let motion = &original.moves[place.move_index];
     let turning = place.turning.map(|turning| Turning {

@@ -1,4 +1,4 @@
-//! Which moves at feed of another program are rapids of the original: they cut nothing.
+//! Moves at feed of another program that are rapids of the original: they cut nothing.
 
 use std::borrow::Cow;
 use std::cell::LazyCell;
@@ -21,8 +21,8 @@ pub(crate) fn without_air<'a>(
     let rapids = Starts::of(original.path(), |m| m.kind == MoveKind::Rapid);
     let ways =
         LazyCell::new(|| [nominal.path(), other].map(|path| Starts::of(path, Move::has_length)));
-    // How far cuts before may be from a way along them: a lift may go where the cut is not shifted to. A way that is where the cuts are
-    // is compensated as those are, and another cut nearby is none along it.
+    // Maximum distance of earlier cuts from a way along them: a lift may go where the cut is not shifted to. A way that is where the
+    // cuts are is compensated as those are, and another cut nearby is none along it.
     let beside_cuts = |own: &Move| {
         let places = [0.0, 0.5, 1.0].map(|share| own.point(share));
         let feet = places.iter().filter_map(|place| nominal.nearest(place));
@@ -108,7 +108,7 @@ impl<'p> Starts<'p> {
         }
     }
 
-    /// Those that start near a place.
+    /// Moves that start near a place.
     fn near<'s>(
         &'s self,
         place: &'s Vector3<f64>,
@@ -122,7 +122,7 @@ impl<'p> Starts<'p> {
         indices.filter(move |index| (self.moves[*index].start - place).norm() <= within_mm)
     }
 
-    /// Those that go a way, in their order.
+    /// Moves that go along the same way, in their order.
     fn along(&self, own: &Move, within_mm: f64) -> Vec<usize> {
         let goes = |k: &usize| {
             let tangents = self.moves[*k].tangent(0.0).zip(own.tangent(0.0));
@@ -133,8 +133,8 @@ impl<'p> Starts<'p> {
         all
     }
 
-    /// How far apart two ways and the moves before them start, mm: a hole is pecked again behind the way to it, and the way back to its
-    /// ground follows the lift out of it.
+    /// Distance between the starts of two ways and of the moves before them, mm: a hole is pecked again after the way to it, and the
+    /// way back to its ground follows the lift out of it.
     fn apart_mm(&self, index: usize, other: &Path, own: usize) -> f64 {
         let starts = |moves: &[Move], index: usize| {
             let first = first_of_way(moves, index);
@@ -162,19 +162,21 @@ fn first_of_way(moves: &[Move], index: usize) -> usize {
 /// Corrections change a rapid by at most this share of it, or a move is not taken for it.
 const CHANGED: f64 = 0.75;
 
-/// Whether a move goes where a rapid goes and about as far: a short block and a slot beside a lift are near both of its ends.
+/// True if a move goes in the direction of a rapid and about as far: a short block and a slot beside a lift are near both of
+/// its ends.
 fn goes_the_same_way(own: &Move, rapid: &Move) -> bool {
     let [own, rapid] = [own, rapid].map(|m| m.end - m.start);
     (own - rapid).norm() <= CHANGED * rapid.norm()
 }
 
-/// So many moves back is looked for one that has cut a way before.
+/// Number of earlier moves that are searched for one that has cut a way.
 const LOOKED_BACK: usize = 200;
 
 /// Places of a way that are looked at.
 const LOOKED_AT: usize = 16;
 
-/// Whether moves at feed before have been along all of a straight way: the lift out of a hole and the way back to its ground.
+/// True if earlier moves at feed have been along all of a straight way: the lift out of a hole and the way back to its
+/// ground.
 fn is_cut_before(path: &Path, index: usize, within_mm: f64) -> bool {
     let own = &path.moves[index];
     let before = &path.moves[index.saturating_sub(LOOKED_BACK)..index];

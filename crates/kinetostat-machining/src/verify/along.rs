@@ -14,7 +14,7 @@ use crate::verify::stretches::Stretches;
 /// length, mm, and this many times the largest correction: by so much steps at corners make a way longer.
 const OTHER_LENGTH: (f64, f64, f64) = (1.5, 1.0, 4.0);
 
-/// How much longer a way may be than another that it belongs to, mm, by steps at corners.
+/// Maximum excess of a way over another that it belongs to, mm, by steps at corners.
 pub(crate) fn beside_mm(shift_mm: f64) -> f64 {
     let (_, steps_mm, corrections) = OTHER_LENGTH;
     steps_mm + corrections * shift_mm
@@ -31,7 +31,7 @@ pub(crate) struct Along<'a> {
     pub(crate) pieces: Vec<Followed>,
     /// Lengths along the guide between which the passes go, mm.
     pub(crate) covered: Vec<[f64; 2]>,
-    /// The same from rapid to rapid of the other program.
+    /// Passes from rapid to rapid of the other program.
     pub(crate) passes: Vec<[Reached; 2]>,
     pub(crate) extra_cuts: Vec<ExtraCut>,
 }
@@ -162,7 +162,7 @@ impl Along<'_> {
         self.other.moves[end.move_index].length_between_mm(from, to)
     }
 
-    /// Whether a part of a move is no part of the original: it leaves a way of that out, or crosses where that lifts the tool.
+    /// True if a part of a move is no part of the original: it leaves out a way of that, or crosses where that lifts the tool.
     fn goes_elsewhere(&self, end: &End, [from, to]: [f64; 2]) -> bool {
         let times = OTHER_LENGTH.0;
         let beside_mm = beside_mm(self.shift_mm);
@@ -178,7 +178,7 @@ impl Along<'_> {
         leaves_out || crosses
     }
 
-    /// Where a pass begins: a place without a correction of its own.
+    /// Begins a pass: a place without a correction of its own.
     fn begin(&mut self, end: &End, at: f64, piece: usize) {
         let stretch = self.stretches.at(at, piece);
         let (move_index, share, _) = self.stretches.place(stretch, at);

@@ -13,7 +13,7 @@ const SAME: f64 = 0.01;
 /// Ends are found within this, mm, by which the speed along a short cut is less certain.
 const ENDS_MM: f64 = 0.005;
 
-/// More of them are not listed.
+/// Maximum number of listed differences.
 const MOST: usize = 100;
 
 /// A move of the other program with what of the original it goes along.
@@ -22,13 +22,13 @@ pub(crate) struct Cut<'a> {
     original: &'a Move,
     own_mm: f64,
     original_mm: f64,
-    /// In which the original goes that far, min.
+    /// Time in which the original goes that far, min.
     original_min: Option<f64>,
 }
 
-/// Where the other program cuts with another feed or another speed of the spindle than the original; consecutive moves
-/// that differ in the same way are one. `most_feed_factor` is how many times the programmed feed a compensated program may state so
-/// that the speed along the part stays: held to that it is slower there.
+/// Cuts of the other program with another feed or another speed of the spindle than the original; consecutive moves that differ in
+/// the same way are one. `most_feed_factor` is the maximum feed of a compensated program over the programmed one that keeps the
+/// speed along the part: held to that it is slower there.
 pub(crate) fn conditions(
     original: &Path,
     other: &Path,
@@ -99,7 +99,7 @@ pub(crate) fn cuts<'a>(original: &'a Path, other: &'a Path, pieces: &[Followed])
                 let speed = speed(motion, original.spindle_on(motion.line));
                 speed.map(|speed| length(part) / speed)
             };
-            // What a move only touches at a corner is not what it belongs to.
+            // A move belongs to its longest part, not to one that it only touches at a corner.
             let longest = parts
                 .iter()
                 .max_by(|a, b| length(a).total_cmp(&length(b)))
@@ -167,7 +167,7 @@ fn other_feed(cut: &Cut<'_>, spindles: [Spindle; 2], most_feed_factor: f64) -> D
     if of_original != of_program {
         return Some((condition, of_original, of_program));
     }
-    // The same number for another way, which something moved that is no feed.
+    // Equal numbers for ways of different length are shown with these lengths.
     let along = |said: String, mm: f64| format!("{said} along {} mm", rounded(mm));
     Some((
         condition,
@@ -212,7 +212,7 @@ fn other_spindle([of_original, own]: [Spindle; 2]) -> Difference {
     (!same).then(|| (condition, said(of_original), said(own)))
 }
 
-/// As a program states it.
+/// Number as a program states it.
 fn rounded(value: f64) -> String {
     let text = format!("{value:.3}");
     text.trim_end_matches('0').trim_end_matches('.').to_owned()

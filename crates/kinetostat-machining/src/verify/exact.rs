@@ -12,7 +12,7 @@ use crate::verify::followed::Followed;
 /// Equal ways on a part of an arc belong to equal ways on the original within this, mm, or the part is halved.
 const EVEN_MM: f64 = 2e-5;
 
-/// How often a part of an arc is halved.
+/// Number of times that a part of an arc is halved.
 const HALVINGS: usize = 6;
 
 /// The pieces with the places that the field of corrections gives; parts of arcs are divided where their ways are not even.
@@ -48,7 +48,7 @@ pub(crate) fn exact(
     divided(original, field, pieces)
 }
 
-/// Two parts of one turn of the load meet where so much of it is done.
+/// Lets two parts of one turn of the load meet at this part of it.
 fn put_part(both: &mut [Followed], part: f64) {
     let [own, next] = both else {
         return;
@@ -61,7 +61,7 @@ fn put_part(both: &mut [Followed], part: f64) {
     }
 }
 
-/// Whether the end of a piece lies inside a move of the original or inside a turn of the load, and nothing holds it where it is.
+/// True if the end of a piece lies inside a move of the original or inside a turn of the load, and is not fixed.
 fn is_free(original: &Path, pieces: &[Followed], index: usize) -> bool {
     let Some(next) = pieces.get(index + 1) else {
         return false;
@@ -135,7 +135,7 @@ fn divided(original: &Path, field: &dyn CorrectionField, pieces: Vec<Followed>) 
     all.into_iter().map(|(own, _)| own).collect()
 }
 
-/// Both halves of a part of an arc, whose middle belongs to a place.
+/// Divides a part of an arc in two, whose middle belongs to a place.
 fn halves(own: Followed, place: &Abreast) -> [Followed; 2] {
     let [from, to] = [own.other_from, own.other_end.1];
     let middle = 0.5 * (from + to);

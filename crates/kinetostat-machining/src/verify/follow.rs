@@ -36,7 +36,7 @@ pub(crate) fn follow(
     let ends = ends(&of_other);
     let stretches = Stretches::of(guide, &nominal);
     let feet = match are_same(original, other) {
-        // Where passes lie nearer to each other than corrections are large, a place of this may be nearer to another pass than to its own.
+        // A place may be nearer to another pass than to its own if passes are closer than corrections are large.
         true => {
             let foot = |end: &End| stretches.foot(end.move_index, end.shares[1], &end.position);
             ends.iter().map(foot).collect()

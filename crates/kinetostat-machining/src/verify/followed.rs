@@ -9,7 +9,7 @@ pub(crate) struct Followed {
     pub(crate) other_end: (usize, f64),
     /// The share of it at which the piece begins.
     pub(crate) other_from: f64,
-    /// Its end is where it is: the load turns there, or it is where a move of the original was found again.
+    /// True if its end is fixed: the load turns there, or it is where a move of the original was found again.
     pub(crate) is_held: bool,
     /// A part of a move that the original makes just so.
     pub(crate) is_same: bool,

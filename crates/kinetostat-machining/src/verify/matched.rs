@@ -1,8 +1,8 @@
-//! How a program belongs to the original that it is verified against.
+//! Match of a program with the original that it is verified against.
 
 use serde::{Deserialize, Serialize};
 
-/// How a program belongs to its original.
+/// Match of a program with its original.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct Matched {
@@ -18,13 +18,13 @@ pub struct Matched {
     /// Moves at feed that the original does not make.
     #[serde(default)]
     pub extra_cuts: Vec<ExtraCut>,
-    /// Where cuts that both make have another feed or another speed of the spindle.
+    /// Cuts of both with another feed or another speed of the spindle.
     #[serde(default)]
     pub conditions: Vec<OtherCondition>,
     /// Lines of cuts that both make: of the program, and of the original.
     #[serde(skip)]
     pub cut_lines: Vec<[usize; 2]>,
-    /// Where the program states an orientation of the tool that is farthest from that of the original, if both state any.
+    /// Largest difference of the tool's orientation from that of the original, if both state any.
     #[serde(default)]
     pub turned: Option<Turned>,
 }
@@ -40,7 +40,7 @@ pub struct Turned {
     pub angle_deg: f64,
 }
 
-/// What of a cut is otherwise than in the original.
+/// Kind of a difference between cuts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Condition {
@@ -55,15 +55,15 @@ pub enum Condition {
 /// Moves that the original makes otherwise than where they go.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct OtherCondition {
-    /// What differs.
+    /// Kind of the difference.
     pub condition: Condition,
     /// Lines of the program, first and last.
     pub lines: [usize; 2],
     /// Line of the original that the first belongs to.
     pub line_of_original: usize,
-    /// What the original says there.
+    /// Value in the original.
     pub of_original: String,
-    /// What the program says there.
+    /// Value in the program.
     pub of_program: String,
 }
 
@@ -72,11 +72,11 @@ pub struct OtherCondition {
 pub struct RapidElsewhere {
     /// Line of the program.
     pub line: usize,
-    /// Line of the original; none where that has no rapid there.
+    /// Line of the original; `None` if that has no rapid there.
     pub line_of_original: Option<usize>,
-    /// Where one of them goes, program coordinates, mm.
+    /// Position to which one of them goes, program coordinates, mm.
     pub position_mm: [f64; 3],
-    /// How far the other one is from there, mm.
+    /// Distance of the other one from there, mm.
     pub distance_mm: f64,
 }
 
@@ -85,7 +85,7 @@ pub struct RapidElsewhere {
 pub struct ExtraCut {
     /// Line of the program.
     pub line: usize,
-    /// Its length, mm.
+    /// Length of the cut, mm.
     pub length_mm: f64,
 }
 
@@ -94,6 +94,6 @@ pub struct ExtraCut {
 pub struct Uncut {
     /// First and last line of it in the original.
     pub lines: [usize; 2],
-    /// Its length, mm.
+    /// Length of the part, mm.
     pub length_mm: f64,
 }

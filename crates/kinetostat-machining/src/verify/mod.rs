@@ -55,10 +55,10 @@ pub use matched::{Condition, ExtraCut, Matched, OtherCondition, RapidElsewhere, 
 /// A program that was verified.
 #[derive(Clone, Debug)]
 pub struct Verified {
-    /// What the machine does along it: errors before are those of the original as it is, errors after those of the program.
-    /// Lines are those of the original, output lines those of the program.
+    /// Run along the program: errors before are those of the original as it is, errors after those of the program. Lines
+    /// are those of the original, output lines those of the program.
     pub run: Run,
-    /// How it belongs to the original.
+    /// Match with the original.
     pub matched: Matched,
 }
 
@@ -93,7 +93,7 @@ fn verified(
     let guide = guide(task, &field, watch)?;
     watch.stage("places of the original", 0);
     let (pieces, mut matched) = follow(task.path(), &guide, other)?;
-    // It is as large as the program, and the points that are solved now are larger.
+    // The guide is as large as the program, and the points that are solved now are larger.
     drop(guide);
     let pieces = exact(task.path(), &field, pieces);
     let most_feed_factor = task.writing.max_feed_factor;
@@ -124,7 +124,7 @@ fn verified(
     Ok(Verified { run, matched })
 }
 
-/// How far the guide may leave the compensated path, mm.
+/// Maximum distance of the guide from the compensated path, mm.
 const GUIDE_MM: f64 = 1e-3;
 
 /// The original, compensated by the model in straight pieces.

@@ -1,4 +1,4 @@
-//! Where on the guide the moves of another program end, and where from the next ones go on.
+//! Ends of the moves of another program on the guide, and starts of the next ones.
 
 use std::collections::BTreeMap;
 
@@ -14,7 +14,7 @@ const SAME_MM: f64 = 1e-6;
 /// A program that makes a step where the load turns ends it as near to the end of the guide's, as a share of the step.
 const STEPS_WITHIN: f64 = 0.1;
 
-/// Where an end lies on the guide.
+/// Place of an end on the guide.
 #[derive(Clone, Copy)]
 pub(crate) struct OnGuide {
     /// Length along the guide to which the move before goes, mm, and from which the one behind goes on: the guide turns the load
@@ -27,14 +27,14 @@ pub(crate) struct OnGuide {
     pub(crate) same_as: Option<usize>,
 }
 
-/// Where the other program is to be found on its guide.
+/// Search for the other program on its guide.
 pub(crate) struct Search<'a> {
     pub(crate) stretches: &'a Stretches<'a>,
     pub(crate) original: &'a Path,
     pub(crate) other: &'a Path,
-    /// How near the program usually is to the guide, mm.
+    /// Usual distance of the program from the guide, mm.
     pub(crate) near_mm: f64,
-    /// How far places of the program and those of the original may be from one another along the guide, mm.
+    /// Maximum distance along the guide between places of the program and those of the original, mm.
     pub(crate) beside_mm: f64,
 }
 
@@ -90,7 +90,7 @@ impl Search<'_> {
         self.stretches.pass_of_piece(piece)
     }
 
-    /// How far from the ends of a turn of the load a program may step there.
+    /// Distance from the ends of a turn of the load within which a program may step there.
     fn step_slack_mm(&self, [from, to]: [f64; 2]) -> f64 {
         let length = to - from;
         self.near_mm.min(0.5 * length).max(STEPS_WITHIN * length)
@@ -184,7 +184,7 @@ impl Search<'_> {
     }
 }
 
-/// Where a move begins and ends, in steps far below what is written.
+/// Start and end of a move, in steps far below the written digits.
 fn key(motion: &Move) -> [i64; 6] {
     let [from, to] = [motion.start, motion.end].map(|p: Vector3<f64>| {
         let step = |x: f64| (x / (100.0 * SAME_MM)).round() as i64;
@@ -193,7 +193,7 @@ fn key(motion: &Move) -> [i64; 6] {
     [from[0], from[1], from[2], to[0], to[1], to[2]]
 }
 
-/// Whether both programs make the same moves: the original itself, or one that nobody has compensated.
+/// True if both programs make the same moves: the original itself, or one that nobody has compensated.
 pub(crate) fn are_same(original: &Path, other: &Path) -> bool {
     let same = |(a, b): (&Move, &Move)| {
         let there = || match a.known {
@@ -206,7 +206,7 @@ pub(crate) fn are_same(original: &Path, other: &Path) -> bool {
     original.moves.len() == other.moves.len() && original.moves.iter().zip(&other.moves).all(same)
 }
 
-/// Whether two moves between the same places are one.
+/// True if two moves between the same places are one.
 fn is_same(a: &Move, b: &Move) -> bool {
     let same = |share: f64| (a.point(share) - b.point(share)).norm() <= SAME_MM;
     matches!(a.curve, Curve::Line) == matches!(b.curve, Curve::Line)

@@ -8,10 +8,11 @@ use crate::task::RunError;
 /// Chords of the other program's arcs between whose ends the correspondence is taken to grow evenly leave them by at most this, mm.
 const ARC_MM: f64 = 0.01;
 
-/// How far the other program may be from the guide, mm, tried one after the other: the nearer it is, the less can be mistaken.
+/// Maximum distances of the other program from the guide, mm, tried one after the other: the nearer it is, the less can be
+/// mistaken.
 const WINDOWS_MM: [f64; 5] = [0.02, 0.1, 0.5, 2.0, 8.0];
 
-/// One of so many ends may be farther away than the others, and two of any number: those of one wrong block.
+/// Number of ends of which one may be farther away than the others, and two of any number: those of one wrong block.
 const FEW: usize = 20;
 
 /// The start of a pass, or the end of a part of a move.
@@ -22,7 +23,7 @@ pub(crate) struct End {
     pub(crate) shares: [f64; 2],
     pub(crate) begins_pass: bool,
     pub(crate) position: Vector3<f64>,
-    /// How far the program has cut up to there, mm.
+    /// Length that the program has cut up to there, mm.
     pub(crate) cut_mm: f64,
 }
 
@@ -52,10 +53,10 @@ pub(crate) fn ends(other: &NominalPath<'_>) -> Vec<End> {
     ends
 }
 
-/// So many ends may be nowhere on the guide, as a share of all: of more it is another program.
+/// Maximum share of ends that may be nowhere on the guide: of more it is another program.
 const MOST_AWAY: f64 = 0.25;
 
-/// How often an end that leaps ahead is left out, and the order looked for anew.
+/// Maximum number of times that an end that leaps ahead is left out, and the order looked for anew.
 const LEAPS: usize = 8;
 
 /// The place of the guide for each end; none for the few that are nowhere near it, or only in another order. A program may be as far
@@ -99,7 +100,7 @@ pub(crate) fn feet(
     })
 }
 
-/// Whether so many of all ends are few enough to be left out.
+/// True if so many of all ends are few enough to be left out.
 fn is_few(lost: usize, all: usize) -> bool {
     lost as f64 <= MOST_AWAY * all as f64 || (lost <= 2 && 2 * lost < all)
 }

@@ -13,10 +13,10 @@ pub(crate) const NEAR_MM: f64 = 1.0;
 /// A rapid that leads on by less comes back to where the cut was left, mm: its ends are rounded.
 const LEADS_ON_MM: f64 = 0.002;
 
-/// More of them are not listed.
+/// Maximum number of listed rapids.
 const MOST: usize = 100;
 
-/// How far the guide shifts the original at most, mm.
+/// Maximum shift of the original by the guide, mm.
 pub(crate) fn largest_shift_mm(original: &Path, guide: &Corrected) -> f64 {
     let shift = |piece: &kinetostat_program::Piece| {
         let nominal = original.moves[piece.move_index].point(piece.share_to);
@@ -40,7 +40,7 @@ fn rapids(moves: &[Move]) -> Vec<Way> {
     moves.iter().filter(stated).map(way).collect()
 }
 
-/// Where a pass of the other program begins or ends on the guide.
+/// Start or end of a pass of the other program on the guide.
 #[derive(Clone, Copy)]
 pub(crate) struct Reached {
     pub(crate) along_mm: f64,
@@ -68,8 +68,8 @@ fn between_passes<'p>(
     between
 }
 
-/// Where rapids of the other program go beside those of the original; `passes` are the places on the guide at which the passes
-/// of the other program begin and end.
+/// Rapids of the other program that differ from those of the original; `passes` are the places on the guide at which the
+/// passes of the other program begin and end.
 pub(crate) fn elsewhere(
     (original, guide, nominal): (&Path, &Corrected, &NominalPath<'_>),
     (other, passes): (&NominalPath<'_>, &[[Reached; 2]]),
@@ -87,7 +87,8 @@ pub(crate) fn elsewhere(
         }
         let ended = index.checked_sub(1).map(|before| passes[before][1]);
         let begins = passes.get(index).map(|pass| pass[0]);
-        // By the passes that both ends were found on, and by their lengths: of short passes in one place either may be mistaken.
+        // Matches by the passes that both ends were found on, and by their lengths: of short passes in one place either may be
+        // mistaken.
         let by_pass = [
             ended.map_or(0, |at| at.pass + 1),
             begins.map_or(known.len(), |at| at.pass),
@@ -102,7 +103,7 @@ pub(crate) fn elsewhere(
         ];
         let readings = [by_pass, by_length];
         let same = readings.iter().filter(|[first, last]| first == last);
-        // Of pecks in one hole that are as short as corrections, the one before or behind may be meant.
+        // The peck before or after may be meant if pecks in one hole are as short as corrections.
         let same: Vec<RapidElsewhere> = same
             .flat_map(|[way, _]| way.saturating_sub(1)..=(way + 1).min(known.len()))
             .filter_map(|way| worst(&own, &rapids(of_original[way])))
@@ -126,7 +127,8 @@ pub(crate) fn elsewhere(
         });
         let stays: Vec<Way> = stays.into_iter().collect();
         let beside = worst(&own, &stays).filter(is_other);
-        // One that leads back has its part cut again. Beside an end of a pass, as in a hole that is pecked, another pass may be meant.
+        // A rapid that leads back has its part cut again. At an end of a pass, as in a hole that is pecked, another pass may be
+        // meant.
         let goes_on = |[from, to]: [Reached; 2]| {
             let inside = known.get(from.pass).is_some_and(|pass| {
                 let [begins, ends] = pass.along_mm;
@@ -156,7 +158,7 @@ fn leads_on(way: &Way, line: usize) -> Option<RapidElsewhere> {
     })
 }
 
-/// Where ways are farthest from one another: ends of each from the other.
+/// Largest distance between ways: ends of each from the other.
 fn worst(own: &[Way], wanted: &[Way]) -> Option<RapidElsewhere> {
     let nearest = |point: &Vector3<f64>, ways: &[Way]| {
         let distances = ways.iter().map(|way| (way.distance(point), way.line));

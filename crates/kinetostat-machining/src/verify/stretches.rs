@@ -11,7 +11,7 @@ use crate::verify::uncut::LEAST_MM;
 pub(crate) struct Stretch {
     /// Indices of its pieces in the nominal path of the guide.
     pub(crate) pieces: std::ops::Range<usize>,
-    /// Where it begins and ends along that, mm.
+    /// Start and end along that, mm.
     pub(crate) along_mm: [f64; 2],
     pub(crate) turns: bool,
     /// Index of the move of the original.
@@ -72,8 +72,8 @@ impl<'a> Stretches<'a> {
         }
     }
 
-    /// Where the guide is at a share of a move of the original, and how far a point is from there; none of a move that the guide does
-    /// not make.
+    /// Place of the guide at a share of a move of the original, and distance of a point from there; `None` for a move that the guide
+    /// does not make.
     pub(crate) fn foot(&self, move_index: usize, share: f64, point: &Vector3<f64>) -> Option<Foot> {
         let [first, last] = *self.of_move.get(&move_index)?;
         let [begins, ends] = [self.all[first].along_mm[0], self.all[last].along_mm[1]];
@@ -110,13 +110,13 @@ impl<'a> Stretches<'a> {
         self.nominal.pieces()[piece].pass
     }
 
-    /// Those between the first and the last that go along a move of the original; none of a move that the guide does not make.
+    /// Range of stretches along a move of the original; `None` for a move that the guide does not make.
     pub(crate) fn along_move(&self, move_index: usize) -> Option<std::ops::RangeInclusive<usize>> {
         let [first, last] = self.of_move.get(&move_index)?;
         Some(*first..=*last)
     }
 
-    /// Where the guide begins and ends to go along a move of the original, mm.
+    /// Start and end of the guide along a move of the original, mm.
     pub(crate) fn span_mm(&self, move_index: usize) -> Option<[f64; 2]> {
         let [first, last] = self.of_move.get(&move_index)?;
         Some([self.all[*first].along_mm[0], self.all[*last].along_mm[1]])
@@ -154,7 +154,7 @@ impl<'a> Stretches<'a> {
         (ends - foot.along_mm <= within_mm).then_some(ends)
     }
 
-    /// Where the load turns at a place of a pass, mm along the guide.
+    /// Turn of the load at a place of a pass, mm along the guide.
     pub(crate) fn turn_at(&self, along_mm: f64, pass: usize) -> Option<[f64; 2]> {
         let first = (self.all).partition_point(|stretch| stretch.along_mm[1] < along_mm);
         let here = self.all[first..].iter();
@@ -163,8 +163,8 @@ impl<'a> Stretches<'a> {
         turns.next().map(|stretch| stretch.along_mm)
     }
 
-    /// The stretch of a place that was found on a piece of the guide. Where one pass ends another begins at the same length, and the
-    /// piece tells which of them it is.
+    /// The stretch of a place that was found on a piece of the guide. At the end of a pass another begins at the same length, and
+    /// the piece tells which of them it is.
     pub(crate) fn at(&self, along_mm: f64, piece: usize) -> usize {
         let pieces = self.nominal.pieces();
         let usual = self.from(along_mm);

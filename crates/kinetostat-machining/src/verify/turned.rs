@@ -6,11 +6,11 @@ use nalgebra::UnitQuaternion;
 use crate::verify::followed::Followed;
 use crate::verify::matched::Turned;
 
-/// Along a move that turns the tool a place is known to this share of it.
+/// Share of a turning move within which a place on it is known.
 const PLACED: f64 = 0.1;
 
-/// Where the tool is commanded to stand farthest from how the original has it at that place: the way from one move to the next is not
-/// looked at where both programs turn the tool.
+/// Largest difference of the commanded orientation from that of the original at its place: the way from one move to the next is not
+/// evaluated if both programs turn the tool.
 pub(crate) fn turned_most(original: &Path, other: &Path, pieces: &[Followed]) -> Option<Turned> {
     let of_piece = |own: &Followed| {
         let (index, share) = own.other_end;
@@ -31,7 +31,7 @@ pub(crate) fn turned_most(original: &Path, other: &Path, pieces: &[Followed]) ->
     all.max_by(|a, b| a.angle_deg.total_cmp(&b.angle_deg))
 }
 
-/// By how much a move turns the tool, rad.
+/// Rotation of the tool in a move, rad.
 fn turn_of(motion: &Move) -> Option<f64> {
     let at = |share: f64| -> Option<UnitQuaternion<f64>> { motion.orientation(share) };
     Some(at(0.0)?.angle_to(&at(1.0)?))

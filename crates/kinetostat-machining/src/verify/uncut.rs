@@ -1,14 +1,14 @@
-//! What of the original a program leaves out.
+//! Parts of the original that a program leaves out.
 
 use kinetostat_program::{Corrected, NominalPath, Path};
 
 use crate::verify::matched::Uncut;
 
-/// Less than this at an end of a pass is no part that is left out, mm: it is by what the tool is off there.
+/// Smallest length at an end of a pass, mm, that is a part left out: the tool is off by as much there.
 pub(crate) const LEAST_MM: f64 = 0.05;
 
-/// Less than this inside a pass, where the original goes on cutting and the program makes a rapid, is left out by what ends are rounded
-/// to, mm; or twice as much as the program is off its guide.
+/// Smallest length inside a pass, mm, where the original goes on cutting and the program makes a rapid, that is more than the rounding
+/// of ends; or twice the distance of the program from its guide.
 const LEAST_INSIDE_MM: f64 = 0.002;
 
 /// The parts of the guide that no pass of the program covers; `covered` are the lengths along the guide at which each begins and ends,

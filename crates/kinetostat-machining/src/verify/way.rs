@@ -12,7 +12,7 @@ pub(crate) struct Way {
 }
 
 impl Way {
-    /// Whether a place lies beside it within a distance, and not beyond its ends: corrections shift a way across, not along.
+    /// True if a place lies beside it within a distance, and not beyond its ends: corrections shift a way across, not along.
     pub(crate) fn holds(&self, point: &Vector3<f64>, within_mm: f64) -> bool {
         let [from, to] = &self.ends;
         let length = (to - from).norm();

@@ -15,7 +15,7 @@ pub enum Alignment {
     /// The nearest place, where only one stretch of the path comes by.
     #[default]
     Nearest,
-    /// In the order of the points, along the path.
+    /// Order of the points, along the path.
     ArcLength,
 }
 
@@ -32,9 +32,9 @@ pub struct AlignedPoint {
     pub pass: usize,
     /// Direction of the path.
     pub tangent: Vector3<f64>,
-    /// From the path to the point, across the path, mm.
+    /// Deviation of the point from the path, across the path, mm.
     pub deviation_mm: Vector3<f64>,
-    /// Its share in means.
+    /// Weight in means.
     pub weight: f64,
 }
 
@@ -43,9 +43,9 @@ pub struct AlignedPoint {
 pub struct LeftOut {
     /// Row of the measurement, from 1.
     pub row: usize,
-    /// How far it is from the path, mm; `None` where there is no number.
+    /// Distance from the path, mm; `None` if there is no number.
     pub distance_mm: Option<f64>,
-    /// Why.
+    /// Reason of the omission.
     pub why: WhyLeftOut,
 }
 
@@ -89,7 +89,7 @@ pub(crate) fn align(
             }
         }
     }
-    // By pieces, too: the end of one is the beginning of the next.
+    // Sorted by pieces, too: the end of one is the beginning of the next.
     aligned.sort_by(|a, b| {
         a.along_mm
             .total_cmp(&b.along_mm)
@@ -106,8 +106,8 @@ fn only(feet: &[Foot]) -> Result<Foot, WhyLeftOut> {
     }
 }
 
-/// Outside a corner the same place is the nearest of both its legs. The point belongs to the leg that it is beside: the one whose
-/// end it is less far beyond, along the leg.
+/// Chooses the leg at a corner, outside which the same place is the nearest of both: the point belongs to the leg that it is
+/// beside, the one whose end it is less far beyond, along the leg.
 fn on_the_better_side(nominal: &NominalPath<'_>, moved: &Vector3<f64>, foot: Foot) -> Foot {
     let own = nominal.passes()[nominal.pieces()[foot.piece].pass]
         .pieces

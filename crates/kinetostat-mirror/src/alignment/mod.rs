@@ -1,4 +1,4 @@
-//! Which place of the path belongs to a measured point.
+//! Assignment of measured points to places of the path.
 //!
 //! Both rules look no farther than a window: the tool leaves its path by no more. Places within it belong to one stretch where
 //! the path between them is no longer than four windows; stretches that come by a second time are others: the neighbouring

@@ -25,8 +25,8 @@ pub struct DeviationFigures {
     /// Standard deviation of a point in one direction, mm, from what differs between neighbours no farther apart than the
     /// smoothing length.
     pub scatter_mm: f64,
-    /// There are too few such neighbours: the scatter is that about the smoothed deviation, with all in it that bends within
-    /// a smoothing length. The true one is no larger.
+    /// True if there are too few such neighbours: the scatter is that about the smoothed deviation, with all in it that
+    /// bends within a smoothing length. The true one is no larger.
     #[serde(default)]
     pub scatter_has_bends: bool,
     /// Mean number of points that a smoothed deviation rests on.

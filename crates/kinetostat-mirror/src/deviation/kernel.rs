@@ -6,10 +6,10 @@
 //! e(s) = sum_i K(s - s_i) w_i e_i / (k0 + sum_i K(s - s_i) w_i),   K(u) = exp(-u^2 / (2 h^2))
 //! ```
 //!
-//! over the points of the same stretch without a corner, with the smoothing length `h`. Of a wave of length `l` it lets through
-//! `exp(-2 pi^2 h^2 / l^2)`: half at `5.34 h`, nine tenths at `13.7 h`. The constant `k0` is `K(3 h)` times the mean weight:
-//! where there are points it changes less than a hundredth, and farther than about `3 h` from all of them the mean fades to
-//! nothing instead of carrying the last one on.
+//! over the points of the same stretch without a corner, with the smoothing length `h`. It lets through the share
+//! `exp(-2 pi^2 h^2 / l^2)` of a wave of length `l`: half at `5.34 h`, nine tenths at `13.7 h`. The constant `k0` is `K(3 h)`
+//! times the mean weight: where there are points it changes less than a hundredth, and farther than about `3 h` from all of
+//! them the mean fades to nothing instead of carrying the last one on.
 //!
 //! Around a stretch that comes back to its beginning the kernel is the sum of its images, one turn of the length `L` apart. It stays
 //! positive definite: its Fourier series has the coefficients of the Gaussian's transform, all positive (Poisson's sum).
@@ -21,7 +21,7 @@ use nalgebra::Vector3;
 
 use crate::alignment::AlignedPoint;
 
-/// Farther than so many smoothing lengths a point counts nothing: `exp(-18)`.
+/// Reach of the kernel in smoothing lengths, beyond which a point counts nothing: `exp(-18)`.
 const REACH: f64 = 6.0;
 
 /// `K(3 h)`.
@@ -33,7 +33,7 @@ const MOST_TURNS: f64 = 64.0;
 /// A Gaussian kernel along the path.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Kernel {
-    /// Its standard deviation, mm.
+    /// Standard deviation, mm.
     pub length_mm: f64,
 }
 
@@ -49,7 +49,7 @@ pub struct Smoothed {
 }
 
 impl Kernel {
-    /// How much a point counts that is so far away along the path.
+    /// Weight of a point at this distance along the path.
     fn value(&self, apart_mm: f64) -> f64 {
         let parts = apart_mm / self.length_mm;
         (-0.5 * parts * parts).exp()
@@ -99,7 +99,7 @@ impl Kernel {
             .collect()
     }
 
-    /// The same around a stretch that begins and ends at the same place, at the lengths `from` and `to`.
+    /// Smoothed deviations around a stretch that begins and ends at the same place, at the lengths `from` and `to`.
     ///
     /// ```
     /// # use kinetostat_mirror::{AlignedPoint, Kernel};

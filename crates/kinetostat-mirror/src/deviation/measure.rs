@@ -16,7 +16,7 @@ use crate::points::{MeasuredPoint, MeasuredPoints};
 use crate::registration::{Motion, Registration, RegistrationOptions, of_the_same_size, register};
 use kinetostat_program::{NominalPath, WhyLeftOut};
 
-/// More points than this share beyond the window, and a motion onto the path is none.
+/// Largest share of points beyond the window for a motion onto the path.
 const MOST_BEYOND: f64 = 0.1;
 
 /// Motion that brings measured points into the frame of the program before they are compared with its path.
@@ -47,7 +47,7 @@ fn word_or_bool<'de, D: serde::Deserializer<'de>>(from: D) -> Result<Register, D
 }
 
 impl Register {
-    /// Its name on the command line and in states.
+    /// Name on the command line and in states.
     #[must_use]
     pub fn word(self) -> &'static str {
         match self {
@@ -58,16 +58,16 @@ impl Register {
     }
 }
 
-/// How points become deviations; the same for all trials of a program.
+/// Settings by which points become deviations; equal for all trials of a program.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct MeasureSettings {
     /// Standard deviation of the kernel along the path, mm.
     pub smoothing_mm: f64,
-    /// How far the tool may be from its path, mm.
+    /// Maximum distance of the tool from its path, mm.
     pub window_mm: f64,
-    /// How points find their places.
+    /// Rule by which points find their places.
     pub align: Alignment,
-    /// How they are brought onto the path first. What that takes away is not corrected.
+    /// Registration onto the path before that. The motion that it takes away is not corrected.
     #[serde(deserialize_with = "word_or_bool")]
     pub register: Register,
     /// True if a rigid motion onto the path has a scale.
@@ -103,7 +103,7 @@ pub struct Measurement {
     pub left_out: Vec<LeftOut>,
     /// Smoothed deviation at each station.
     pub at_stations: Vec<Smoothed>,
-    /// What the points leave open.
+    /// Parts of the path that the points do not cover.
     pub unseen: Vec<Unseen>,
     /// [`MeasuredPoints::known_to_mm`] of its points.
     pub known_to_mm: f64,

@@ -1,4 +1,4 @@
-//! What was measured of a feature of the part: of the feed moves on some lines of the program.
+//! Deviations on a feature of the part: on the feed moves of some lines of the program.
 
 use serde::Serialize;
 
@@ -17,11 +17,11 @@ pub struct OnLines {
     pub unseen_mm: f64,
     /// The largest deviation of a point there, mm; `None` without points.
     pub largest_mm: Option<f64>,
-    /// The same after smoothing, mm.
+    /// The largest deviation after smoothing, mm.
     pub smoothed_largest_mm: Option<f64>,
 }
 
-/// What a measurement says of the feed moves from the first line to the last.
+/// Deviations on the feed moves from the first line to the last.
 ///
 /// ```
 /// use kinetostat_mirror::{MeasureSettings, MeasuredPoints, NominalPath, Register, measure, on_lines};

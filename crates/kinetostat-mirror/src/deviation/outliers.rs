@@ -1,17 +1,17 @@
 //! Measured points that no neighbour bears out.
 //!
-//! The deviation of a point is compared with a straight line through those of its neighbours, five to each side along the
-//! path (ten to one side at an end) as far as it does not turn by more than 20 degrees, whose slope and height are medians (Theil 1950, Sen 1968): two of
-//! ten neighbours may be wrong themselves. It is an outlier if it is farther from the line than six standard deviations, more
-//! at the end of a straight stretch, where the line is drawn on from one side. The
-//! standard deviation comes from the median of these distances (Rayleigh: the median length of a vector of two
-//! directions is 1.177 of one direction's deviation) of all points, or from what three quarters of the sixteen around keep below
-//! where these are farther off (the deviation bends there, of which a few points in a row are enough), and no smaller than a thousandth of the deviation that 99 of 100 points keep below, than what the
-//! points are known to ([`MeasuredPoints::known_to`](crate::MeasuredPoints::known_to)), or than the rounding of the registration. Of a
-//! normal scatter one point in sixty million is farther. Beside a corner a point may have its place on the wrong side of it and
-//! so be off by the sine of the corner times twice the deviation there: one that is off by no more than that, within twice the
-//! deviation, is no outlier, but it does not count: at the end of a leg one such point among thirty would take a thirtieth of
-//! the whole deviation. Where the path turns between the neighbours, what is across it turns too, and a line is off by up to half that angle times the deviation.
+//! The deviation of a point is compared with a straight line through those of its neighbours, five to each side along the path (ten to one
+//! side at an end) as far as it does not turn by more than 20 degrees, whose slope and height are medians (Theil 1950, Sen 1968): two of
+//! ten neighbours may be wrong themselves. It is an outlier if it is farther from the line than six standard deviations, more at the end of
+//! a straight stretch, where the line is drawn on from one side. The standard deviation comes from the median of these distances (Rayleigh:
+//! the median length of a vector of two directions is 1.177 of one direction's deviation) of all points, or from what three quarters of the
+//! sixteen around keep below where these are farther off (the deviation bends there, of which a few points in a row are enough), and no
+//! smaller than a thousandth of the deviation that 99 of 100 points keep below, than what the points are known to
+//! ([`MeasuredPoints::known_to`](crate::MeasuredPoints::known_to)), or than the rounding of the registration. One point in sixty million of
+//! a normal scatter is farther. Beside a corner a point may have its place on the wrong side of it and so be off by the sine of the corner
+//! times twice the deviation there: one that is off by no more than that, within twice the deviation, is no outlier, but it does not count:
+//! at the end of a leg one such point among thirty would take a thirtieth of the whole deviation. If the path turns between the neighbours,
+//! the direction across it turns too, and a line is off by up to half that angle times the deviation.
 
 use nalgebra::Vector3;
 use serde::Serialize;
@@ -23,14 +23,14 @@ use kinetostat_program::NominalPath;
 const SIDE: usize = 5;
 const AROUND: usize = 8;
 const DEVIATIONS: f64 = 6.0;
-/// Of the points around this share tells how far one may be.
+/// Quantile of the neighbours' distances that sets how far a point may be.
 const BORNE_OUT: f64 = 0.75;
 const NEGLIGIBLE: f64 = 1e-3;
-/// As a share of the length of the path: what is left of points that lie on it, moved from another frame.
+/// Rounding of points that lie on the path but were moved from another frame, as a share of its length.
 const ROUNDING: f64 = 1e-9;
 /// Cosine of 20 degrees.
 const SAME_DIRECTION: f64 = 0.939_692_620_785_908_4;
-/// With fewer neighbours nothing is an outlier.
+/// Minimum number of neighbours for a test of outliers.
 const FEWEST: usize = 4;
 
 /// A point that was left out.
@@ -40,13 +40,13 @@ pub struct Outlier {
     pub row: usize,
     /// Length along the path, mm.
     pub along_mm: f64,
-    /// How far it is from the path, across it, mm.
+    /// Distance from the path, across it, mm.
     pub distance_mm: f64,
-    /// How far it is from what its neighbours say, mm.
+    /// Distance from the value that its neighbours predict, mm.
     pub from_neighbours_mm: f64,
-    /// How far it might have been, mm.
+    /// Allowed distance, mm.
     pub allowed_mm: f64,
-    /// Its deviation, mm.
+    /// Deviation of the point, mm.
     pub deviation_mm: Vector3<f64>,
 }
 
@@ -141,18 +141,18 @@ fn sharpest_turn(nominal: &NominalPath<'_>, point: &AlignedPoint, within_mm: f64
 /// A point beside the line of its neighbours.
 #[derive(Clone, Copy)]
 struct Line {
-    /// How far it is from the line, mm.
+    /// Distance from the line, mm.
     apart_mm: f64,
     /// Median deviation of the neighbours, mm.
     size_mm: f64,
     /// Sine of the largest angle between its direction and theirs.
     turn: f64,
-    /// How much farther its scatter reaches than that of a point amid its neighbours.
+    /// Scatter over that of a point amid its neighbours.
     spread: f64,
 }
 
-/// How much farther a point's distance from a line through its neighbours scatters than amid ten of them evenly to both
-/// sides, by least squares.
+/// Scatter of a point's distance from a line through its neighbours over that amid ten of them evenly to both sides, by
+/// least squares.
 fn spread(near: &[&AlignedPoint], along_mm: f64) -> f64 {
     let count = near.len() as f64;
     let middle = near.iter().map(|p| p.along_mm).sum::<f64>() / count;
@@ -171,7 +171,7 @@ fn from_line(points: &[AlignedPoint], i: usize) -> Option<Line> {
     let before = points[..i].iter().rev().take(2 * SIDE).take_while(goes_on);
     let after = points[i + 1..].iter().take(2 * SIDE).take_while(goes_on);
     let [before, after]: [Vec<&AlignedPoint>; 2] = [before.collect(), after.collect()];
-    // What one side lacks, the other gives.
+    // Each side makes up for points that the other lacks.
     let of_before = before.len().min(2 * SIDE - after.len().min(SIDE));
     let of_after = after.len().min(2 * SIDE - of_before.min(SIDE));
     let near: Vec<&AlignedPoint> = before

@@ -1,4 +1,4 @@
-//! What points say of the deviation, in means over short pieces of the path: all that a state keeps of the points of a trial.
+//! Deviations in means over short pieces of the path: all that a state keeps of the points of a trial.
 //!
 //! A piece is the way from one station to the next, a quarter of the smoothing length at most. A mean stands at the mean place of
 //! its points, so that it keeps what is straight; of a wave of the length `l` over a piece of the length `b` it loses
@@ -20,11 +20,11 @@ pub struct PieceMean {
     pub along_mm: f64,
     /// Mean deviation across the path, mm.
     pub deviation_mm: Vector3<f64>,
-    /// How many points of the same weight scatter as little.
+    /// Number of points of equal weight that would scatter as little.
     pub points: f64,
 }
 
-/// In a file a mean is one short row.
+/// Short row of a mean in a file.
 type Row = (usize, f64, Vector3<f64>, f64);
 
 impl From<Row> for PieceMean {

@@ -1,11 +1,11 @@
-//! How far a point scatters, from what differs between neighbours.
+//! Scatter of a point, from the differences between neighbours.
 //!
 //! Distances from the smoothed deviation have in them what the smoothing does not let through. Differences of a higher order have
-//! next to nothing of it: of the deviations of `m + 1` neighbours at the lengths `x_i` along the path the sum
-//! `sum c_i e_i`, `c_i = (-1)^i prod_{j < k; j, k != i} (x_k - x_j)`, is none for every polynomial below the order `m` (the divided
-//! difference times Vandermonde's determinant, so that two points at one place do no harm). Where the `e_i` have a scatter of
-//! the standard deviation `sigma`, it has `sigma |c|` (von Neumann 1941; of a higher order Gasser, Sroka and Jennen-Steinmetz 1986).
-//! The median of its length over all neighbours does not follow outliers (Rayleigh, two directions).
+//! next to nothing of it: of the deviations of `m + 1` neighbours at the lengths `x_i` along the path the sum `sum c_i e_i`,
+//! `c_i = (-1)^i prod_{j < k; j, k != i} (x_k - x_j)`, is none for every polynomial below the order `m` (the divided difference
+//! times Vandermonde's determinant, so that two points at one place do no harm). If the `e_i` scatter with the standard deviation
+//! `sigma`, it has `sigma |c|` (von Neumann 1941; of a higher order Gasser, Sroka and Jennen-Steinmetz 1986). The median of its
+//! length over all neighbours does not follow outliers (Rayleigh, two directions).
 //!
 //! A wave that turns by the angle `a` from point to point leaves about `a^m / sqrt((2 m)! / m!^2)` of its height: a high order sees
 //! less of it. An outlier spoils `m + 1` of them: a low order sees less of that. Each can only add to the scatter, so that
@@ -17,10 +17,11 @@ use crate::alignment::AlignedPoint;
 use crate::deviation::stations::Stations;
 use crate::number::{OF_TWO_DIRECTIONS, median, smaller};
 
-/// Of a wave of ten points four of them leave a nineteenth of its height, six a 176th.
+/// Orders of the differences: of a wave of ten points they leave a 19th and a 176th of its height.
 const ORDERS: [usize; 2] = [3, 5];
 
-/// With fewer a median may be anything: that of five which do not depend on each other is twice the true one once in 450 times.
+/// Minimum number of values for a median: that of five which do not depend on each other is twice the true one once in 450
+/// times.
 const FEWEST: usize = 5;
 
 /// The standard deviation of a point in one direction, mm, from neighbours that are no farther apart than this; `None` where

@@ -11,7 +11,7 @@ use kinetostat_program::NominalPath;
 /// Stations in a smoothing length: on cubic curves between them nothing is lost of what the kernel lets through.
 const IN_SMOOTHING_LENGTH: f64 = 4.0;
 
-/// More stations than this fill memory and state without telling more: a measurement has fewer points.
+/// Maximum number of stations: more fill memory and state without telling more, since a measurement has fewer points.
 const MOST: f64 = 1e6;
 
 /// Cosine of the turn (20 degrees) from which on a path has a corner; what is less is a curve in short lines.
@@ -25,11 +25,11 @@ const SAME_MM: f64 = 1e-6;
 pub struct Stretch {
     /// Index of its pass.
     pub pass: usize,
-    /// Its pieces of the path.
+    /// Pieces of the path.
     pub pieces: Range<usize>,
-    /// Its stations.
+    /// Stations of the stretch.
     pub stations: Range<usize>,
-    /// Its end is its beginning, without a corner between them.
+    /// True if it ends where it begins, without a corner between them.
     pub closed: bool,
 }
 
@@ -122,7 +122,8 @@ impl Stations {
     }
 }
 
-/// Beyond so many times the path nothing but the mean of its deviations is left: a slip, or another unit.
+/// Maximum smoothing length over that of the path: beyond it only the mean of its deviations is left, a slip, or
+/// another unit.
 const LONGEST: f64 = 10.0;
 
 /// A smoothing length that says something of this path, and with which its stations can be counted.

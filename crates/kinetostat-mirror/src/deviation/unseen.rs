@@ -1,4 +1,4 @@
-//! What measured points cannot tell.
+//! Parts of the path that measured points do not determine.
 
 use serde::Serialize;
 
@@ -6,7 +6,7 @@ use crate::alignment::AlignedPoint;
 use crate::number::larger;
 use kinetostat_program::NominalPath;
 
-/// Farther than so many smoothing lengths from every point nothing is known.
+/// Distance from every point, in smoothing lengths, beyond which nothing is known.
 const KNOWN: f64 = 3.0;
 
 /// Places along a gap at which its path is compared with a straight line.
@@ -20,14 +20,14 @@ pub enum Unseen {
     Pass {
         /// Lines of its first and last move.
         lines: [usize; 2],
-        /// Its length, mm.
+        /// Length, mm.
         length_mm: f64,
     },
     /// A stretch farther than three smoothing lengths from every point: the correction fades to nothing there.
     Stretch {
         /// Lines at its ends.
         lines: [usize; 2],
-        /// Its length, mm.
+        /// Length, mm.
         length_mm: f64,
     },
     /// Points of a pass farther apart than the smoothing length: deviations that bend between them are not seen.
@@ -36,20 +36,20 @@ pub enum Unseen {
         lines: [usize; 2],
         /// The largest way between two points, mm.
         gap_mm: f64,
-        /// How far the path bends away from the straight line there, mm.
+        /// Sagitta of the path there, mm.
         sagitta_mm: f64,
     },
     /// Moves longer than the smoothing length without a point of their own, between points of the same pass: their
     /// correction is interpolated from the moves beside them.
     Moves {
-        /// How many.
+        /// Number of moves.
         count: usize,
         /// Lines of the first ten.
         lines: Vec<usize>,
     },
 }
 
-/// What points, in the order along the path, leave open.
+/// Parts of the path that points, in the order along it, do not determine.
 pub(crate) fn unseen(
     nominal: &NominalPath<'_>,
     points: &[AlignedPoint],
@@ -104,7 +104,7 @@ pub(crate) fn unseen(
     found
 }
 
-/// How far the path is from the straight line between two of its places, mm.
+/// Distance of the path from the straight line between two of its places, mm.
 fn sagitta(nominal: &NominalPath<'_>, [from, to]: [f64; 2]) -> f64 {
     let (start, end) = (nominal.point_at(from), nominal.point_at(to));
     let along = (end - start).try_normalize(f64::MIN_POSITIVE);

@@ -1,4 +1,4 @@
-//! Which column of a measurement is what, by its name with its unit.
+//! Columns of a measurement, by their names with units.
 
 use crate::error::MirrorError;
 
@@ -13,7 +13,7 @@ const UNITS: [(&str, f64); 5] = [
 
 const NEEDED: &str = "expected x_mm,y_mm,z_mm (or _m, _um, _cm, _in) and, if they are known, weight or sigma_mm, and line (of the program)";
 
-/// Where each quantity stands, lengths with the mm of their unit.
+/// Index of each quantity's column, lengths with the mm of their unit.
 #[derive(Clone, Copy, Default)]
 pub(crate) struct Columns {
     pub axes: [(usize, f64); 3],

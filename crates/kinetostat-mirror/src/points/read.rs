@@ -6,7 +6,7 @@ use crate::error::MirrorError;
 use crate::points::columns::{Columns, shown};
 use crate::points::set::{MeasuredPoint, MeasuredPoints, possible};
 
-/// Nobody writes measured points with fewer digits, mm: where a file has no finer ones, it leaves out zeros.
+/// Coarsest digit of measured points, mm: a file without finer ones leaves out zeros.
 const COARSEST_DIGIT_MM: f64 = 0.01;
 
 impl MeasuredPoints {
@@ -85,7 +85,7 @@ fn cells(line: &str, separator: u8) -> Result<csv::StringRecord, MirrorError> {
     }
 }
 
-/// What the last digit of a number counts: 0.01 of `1.25`.
+/// Value of one unit in the last digit of a number: 0.01 of `1.25`.
 fn last_digit(cell: &str) -> f64 {
     let (digits, exponent) = cell.split_once(['e', 'E']).unwrap_or((cell, "0"));
     let after_point = digits.split_once('.').map_or(0, |(_, after)| after.len());

@@ -1,10 +1,11 @@
-//! Whether two measurements are one: by their points, whatever their files look like.
+//! Identity of two measurements: by their points, whatever their files look like.
 
 use sha2::{Digest, Sha256};
 
 use crate::points::set::MeasuredPoints;
 
-/// No measurement is finer than a nanometre, and units of a file round below it.
+/// Units per mm to which points are rounded: no measurement is finer than a nanometre, and units of a file round
+/// below it.
 const IN_MM: f64 = 1e6;
 
 impl MeasuredPoints {

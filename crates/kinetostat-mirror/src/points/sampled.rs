@@ -6,7 +6,7 @@ use crate::error::MirrorError;
 use crate::points::set::MeasuredPoints;
 use kinetostat_program::NominalPath;
 
-/// More points than this are of no use to anyone and fill the memory.
+/// Maximum number of points: more are of no use and fill the memory.
 const MOST: f64 = 1e7;
 
 impl MeasuredPoints {

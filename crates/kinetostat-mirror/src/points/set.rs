@@ -4,7 +4,7 @@ use nalgebra::Vector3;
 
 use crate::error::MirrorError;
 
-/// No workshop measures beyond this, mm: a number larger than it is in another unit than its column says.
+/// Largest coordinate in a workshop, mm: a larger number is in another unit than its column says.
 const FARTHEST_MM: f64 = 1e6;
 
 /// Weights beyond this and below its inverse are no measurement's, and sums of them lose all others: standard deviations from
@@ -14,16 +14,16 @@ const MOST_WEIGHT: f64 = 1e24;
 /// The fewest from which a rigid motion and a scatter can be told.
 const FEWEST: usize = 3;
 
-/// One place where the tool was.
+/// Measured point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MeasuredPoint {
     /// Row of the measurement, from 1; the header is not counted.
     pub row: usize,
     /// Line of the file, from 1; the row itself where there is no file.
     pub line: usize,
-    /// Where it was measured, mm, in the frame of the measurement.
+    /// Measured position, mm, in the frame of the measurement.
     pub position_mm: Vector3<f64>,
-    /// Its share in every mean, `1 / sigma^2` where standard deviations are stated.
+    /// Weight in every mean, `1 / sigma^2` if standard deviations are stated.
     pub weight: f64,
     /// Line of the program on which the tool was, where the measurement says so.
     pub program_line: Option<usize>,
@@ -99,7 +99,7 @@ impl MeasuredPoints {
 
     /// Differences of deviations from point to point say nothing below this standard deviation, mm: the repeatability of the
     /// measurement, the digits of its file (which [`MeasuredPoints::read`] takes itself), the tolerance within which the program that
-    /// was measured follows its correction. Of several the largest holds. No point is an outlier within six of them.
+    /// was measured follows its correction. The largest of several is taken. No point is an outlier within six of them.
     ///
     /// ```
     /// use kinetostat_mirror::MeasuredPoints;

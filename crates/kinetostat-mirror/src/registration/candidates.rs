@@ -1,4 +1,4 @@
-//! Which of several motions is the one, or that nothing tells.
+//! Choice among several motions, or the finding that the points do not determine it.
 //!
 //! Points that lie about where the path is are in the frame of the program: the motion found from there is the one, unless another
 //! leaves less than a tenth. Points of another frame may fit several places: a part that lies on itself when it is turned, or
@@ -17,33 +17,33 @@ use nalgebra::Vector3;
 /// A motion of points in the frame of the program is only given up for one that leaves less than this share.
 const CLEARLY: f64 = 0.1;
 
-/// Nearer than this share of the size of the points, none is nearer than another: that is rounding.
+/// Difference of distances, as a share of the size of the points, that is rounding.
 const SAME: f64 = 1e-9;
 
-/// As a share of the size: what a motion that fits all points may leave at most, of one that fits exactly.
+/// Largest residual, as a share of the size, of a motion that fits all points exactly.
 const EXACT: f64 = 1e-6;
 
-/// As a share of the size: what is left with motions that are no fit at all. That is for the window to say.
+/// Residual, as a share of the size, of motions that are no fit at all. The window refuses these.
 const NO_FIT: f64 = 0.1;
 
 /// A motion fits as well as another if no more than this share of the points leave the path with it.
 const AS_WELL: f64 = 0.02;
 
-/// Two motions are one if they bring the points to places no farther apart than this share of their size.
+/// Largest distance, as a share of the size, of the places of points under two motions that are one.
 const APART: f64 = 0.01;
 
 /// Points are in the order of the path if half of them are no farther than this share of their size from their share of it.
 const IN_ORDER: f64 = 0.05;
 
-/// What told the motion from others.
+/// Criterion by which the motion was chosen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum ToldBy {
     /// The points lay about where the path is.
     Frame,
-    /// They lay elsewhere, and fit the path in one place only.
+    /// The points lay elsewhere, and fit the path in one place only.
     Shape,
-    /// They lay elsewhere and fit in several places: in one of them they run along the path as it does.
+    /// The points lay elsewhere and fit in several places: in one of them they run along the path as it does.
     Order,
 }
 
@@ -51,7 +51,7 @@ pub enum ToldBy {
 pub(crate) struct Candidate {
     pub motion: Motion,
     pub closest: Closest,
-    /// It was found from where the points are, which is about where the path is.
+    /// True if it was found from where the points are, which is about where the path is.
     pub near: bool,
 }
 
@@ -111,13 +111,13 @@ pub(crate) fn chosen(
     }
 }
 
-/// How far apart two motions bring the points: the median, mm.
+/// Distance between the places to which two motions bring the points: the median, mm.
 fn apart(one: &Candidate, other: &Candidate) -> f64 {
     let both = one.closest.all.iter().zip(&other.closest.all);
     median(both.map(|(a, b)| (a.moved - b.moved).norm()).collect())
 }
 
-/// How far half of the points are, moved, from the same share of the path as of the way through them, mm.
+/// Median distance of the moved points from the same share of the path as of the way through them, mm.
 fn off_order(nominal: &NominalPath<'_>, points: &[MeasuredPoint], motion: &Motion) -> f64 {
     let places = places_in_order(nominal, points);
     let both = points.iter().zip(places);

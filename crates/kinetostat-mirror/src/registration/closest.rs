@@ -24,16 +24,16 @@ const COMPETING: f64 = 0.9;
 const SIDE: usize = 4;
 const BORNE_OUT: f64 = 0.5;
 
-/// Which points count nothing.
+/// Rule by which points are left out.
 ///
 /// Deviations are smooth: where most points lie on a line, a turn about it costs nothing, and a fit that lets go of points for being
-/// farther off than most lets go of the few that tell the turn. So within the window a point counts, unless it is an outlier
+/// farther off than most lets go of the few that tell the turn. Within the window a point therefore counts, unless it is an outlier
 /// that no neighbour bears out; and these are only looked for when all others have come to rest.
 #[derive(Clone, Copy)]
 pub(crate) struct Counting {
-    /// How far the tool may be from its path, mm.
+    /// Maximum distance of the tool from its path, mm.
     pub window_mm: f64,
-    /// Without points that are farther off than six standard deviations and than their neighbours.
+    /// True to leave out points that are farther off than six standard deviations and than their neighbours.
     pub without_outliers: bool,
 }
 
@@ -42,7 +42,7 @@ pub(crate) struct Counting {
 pub(crate) struct Followed {
     pub moved: Vector3<f64>,
     pub foot: Foot,
-    /// Of the point, 0 where it is an outlier.
+    /// Weight of the point, 0 for an outlier.
     pub weight: f64,
 }
 

@@ -15,7 +15,7 @@ use kinetostat_program::NominalPath;
 const SPACING: f64 = 0.03;
 const MOST_PLACES: f64 = 400.0;
 
-/// With a spacing beyond this share of the size a path winds too much to be searched in this way.
+/// Maximum spacing, as a share of the size: with a larger one a path winds too much to be searched in this way.
 const COARSEST: f64 = 0.15;
 
 /// Points far from one another are those that this share of all are nearer than: the farthest of all may be outliers.
@@ -28,7 +28,7 @@ const OFF: usize = 4;
 /// A point is near the path within so many spacings.
 const NEAR: f64 = 1.5;
 
-/// So many finds are followed, the best of those that differ.
+/// Number of distinct finds that are followed, the best first.
 const FOLLOWED: usize = 16;
 
 /// Motions with which most points lie near the path; none where it winds too much.

@@ -1,4 +1,4 @@
-//! Whether measured points are as large as what they are to be laid onto.
+//! Check that measured points are about as large as the path.
 
 use kinetostat_program::NominalPath;
 use nalgebra::Vector3;

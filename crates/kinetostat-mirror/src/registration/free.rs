@@ -1,4 +1,4 @@
-//! What the points leave open, as motions that one can name.
+//! Motions that the points do not determine, in a form that one can name.
 //!
 //! The directions of the unknowns that change no distance from the path are a space of which any basis is as good as another: on
 //! a line, a turn about it, a shift along it and a growth along it may come as three mixtures. Here growth is taken out
@@ -34,7 +34,7 @@ pub(crate) fn free_motions(
     // A projection: the square of its length is its own entry.
     if growth[GROWTH] > NONE {
         open -= growth * growth.transpose() / growth[GROWTH];
-        // Where none is sought it is open in any case.
+        // Growth is not determined if no scale is sought.
         free.extend(with_scale.then_some(FreeMotion::Growth));
     }
     let turns = Square::from_diagonal(&Unknowns::from_fn(|i, _| f64::from(u8::from(i < 3))));
@@ -64,7 +64,7 @@ pub(crate) fn free_motions(
     free
 }
 
-/// Of two opposite directions the one whose largest component is positive.
+/// Returns the one of two opposite directions whose largest component is positive.
 fn direction(of: Vector3<f64>) -> Option<Vector3<f64>> {
     let direction = of.try_normalize(f64::MIN_POSITIVE)?;
     Some(match direction[direction.iamax()] < 0.0 {

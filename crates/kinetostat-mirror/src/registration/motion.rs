@@ -37,7 +37,7 @@ impl Default for Motion {
 }
 
 impl Motion {
-    /// Where it brings a point, mm.
+    /// Moved point, mm.
     #[must_use]
     pub fn of(&self, position_mm: &Vector3<f64>) -> Vector3<f64> {
         self.rotation * position_mm * self.scale + self.shift_mm
@@ -51,12 +51,12 @@ pub enum FreeMotion {
     Turn {
         /// A place of the axis, mm.
         through_mm: Vector3<f64>,
-        /// Its direction.
+        /// Direction of the axis.
         along: Vector3<f64>,
     },
     /// A shift.
     Shift {
-        /// Its direction.
+        /// Direction of the shift.
         along: Vector3<f64>,
     },
     /// A scale, where one is sought.
@@ -64,7 +64,7 @@ pub enum FreeMotion {
 }
 
 impl FreeMotion {
-    /// In words.
+    /// Motion in words.
     ///
     /// ```
     /// use kinetostat_mirror::FreeMotion;

@@ -1,15 +1,15 @@
-//! How a registration is made.
+//! Options of a registration.
 
 use crate::registration::closest::Counting;
 
-/// How a registration is made.
+/// Options of a registration.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RegistrationOptions {
     /// Seek a scale too: where the part has another temperature than its drawing.
     pub with_scale: bool,
     /// Seek a shift only: no turn, and no scale.
     pub only_shift: bool,
-    /// How far the tool may be from its path, mm: points within that are not taken for others for being off.
+    /// Maximum distance of the tool from its path, mm: points within that are not outliers.
     pub window_mm: f64,
 }
 

@@ -21,7 +21,7 @@ const JUDGED: usize = 1000;
 /// Points with which a start is followed.
 const FOLLOWING: usize = 250;
 
-/// What is left where points lie about where the path is, as a share of their size, beyond which they are sought elsewhere, too.
+/// Residual of the motion nearest to the start, as a share of the points' size, beyond which others are sought, too.
 const NO_GOOD: f64 = 0.01;
 
 /// Steps with closest points from each start.
@@ -36,21 +36,21 @@ const AT_REST: f64 = 1e-13;
 /// The fewest places from which a motion can be told.
 const FEWEST: usize = 4;
 
-/// Two places are one where they are no farther apart than this, mm.
+/// Largest distance of two places that are one, mm.
 const SAME_MM: f64 = 1e-6;
 
 /// The motion found.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Registration {
-    /// From the frame of the measurement to that of the program.
+    /// Motion from the frame of the measurement to that of the program.
     pub motion: Motion,
-    /// What told it from others.
+    /// Criterion by which it was chosen.
     pub told_by: ToldBy,
-    /// What the points do not determine; it was left as at the start.
+    /// Motions that the points do not determine; they were left as at the start.
     pub free: Vec<FreeMotion>,
     /// Steps that were taken.
     pub steps: usize,
-    /// Whether the last step was below the rounding.
+    /// True if the last step was below the rounding.
     pub at_rest: bool,
     /// Standard deviation of the distance from the path in one direction, from what nine of ten points keep below, mm.
     pub deviation_mm: f64,

@@ -22,11 +22,11 @@ const LINE: f64 = 1e-6;
 pub(crate) struct Starts {
     /// The points lie about where the path is: where they are is a start, too.
     pub near: bool,
-    /// In their order, and by principal axes: of points along the whole path.
+    /// Starts by order, and by principal axes: for points along the whole path.
     pub of_whole: Vec<Motion>,
 }
 
-/// Where to start from.
+/// Starts of the search.
 ///
 /// From another frame closest points may slide half of the points beyond the end of a straight path, so that where they are is no
 /// start.
@@ -126,7 +126,7 @@ fn ends_of_line(from: &Principal, to: &Principal) -> [Motion; 2] {
 struct Principal {
     middle: Vector3<f64>,
     axes: Matrix3<f64>,
-    /// There is no second axis.
+    /// True if there is no second axis.
     line: bool,
 }
 

@@ -13,7 +13,7 @@ const UNDETERMINED: f64 = 1e-6;
 /// A step, and what it left as it was.
 pub(crate) struct Step {
     pub motion: Motion,
-    /// How far points move by it, mm: the shift and the turn at the mean distance from the middle.
+    /// Motion of the points by it, mm: the shift and the turn at the mean distance from the middle.
     pub way_mm: f64,
     pub free: Vec<FreeMotion>,
 }

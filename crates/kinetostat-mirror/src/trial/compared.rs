@@ -19,7 +19,7 @@ pub(crate) struct Place<'m> {
     pub before: Vec<(usize, f64)>,
     /// Deviation now less that before.
     pub change_mm: Vector3<f64>,
-    /// The same by straight interpolation.
+    /// Change by straight interpolation.
     pub straight_mm: Vector3<f64>,
     /// The correction, with the opposite sign.
     pub sent_mm: Vector3<f64>,

@@ -1,16 +1,16 @@
-//! How fast the error falls, and for which relaxation it cannot rise.
+//! Rate at which the error falls, and bound on the relaxation below which it cannot rise.
 //!
 //! A machine that is sent to the path plus a correction `c` leaves the deviation `e(c) = e0 + (I + D) c` across the path: `D` is
 //! how far its answer to a correction departs from the correction itself. The trial after it has
 //! `c' = c - rho S e`, so that `e' = (I - rho (I + D) S) e` with the kernel's smoothing `S`.
 //!
-//! The Gaussian kernel is positive definite and no row of `S` sums to more than 1, so that in the metric `M = diag(w r)` (weight
-//! of a point times the weight that its mean rests on) `S` is symmetric with eigenvalues from 0 to 1, however the points are
-//! spaced. What is left across the path is a projection, which keeps both. In the norm `|e|_S^2 = <e, S e>_M`
-//! ([`passing_rms_mm`](crate::DeviationFigures::passing_rms_mm)) three things follow.
-//! This is proven for points at the same places of the path in every trial, at which the correction acts as smoothed. Here it is kept
-//! at stations a quarter of the smoothing length apart and runs on cubic curves between them, and the written program has its own
-//! tolerance: both are below what the tests tell apart (`tests/mirror/trials.rs`).
+//! The Gaussian kernel is positive definite and no row of `S` sums to more than 1, so that in the metric `M = diag(w r)` (weight of a
+//! point times the weight that its mean rests on) `S` is symmetric with eigenvalues from 0 to 1, however the points are spaced. The
+//! remainder across the path is a projection, which keeps both. In the norm `|e|_S^2 = <e, S e>_M`
+//! ([`passing_rms_mm`](crate::DeviationFigures::passing_rms_mm)) three things follow. This is proven for points at the same places of
+//! the path in every trial, at which the correction acts as smoothed. Here it is kept at stations a quarter of the smoothing length
+//! apart and runs on cubic curves between them, and the written program has its own tolerance: both are below what the tests tell
+//! apart (`tests/mirror/trials.rs`).
 //!
 //! - `D = d`, a number above -1: a component that the kernel lets through with the share `mu` is multiplied by `1 - rho mu (1 + d)`
 //!   in each trial; none grows while `0 < rho < 2 / (1 + d)`.
@@ -23,7 +23,8 @@
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
-/// Below which relaxation the error never rises, for a departure of at most this size, symmetric; `None` where it is 1 or more.
+/// Bound on the relaxation below which the error never rises, for a departure of at most this size, symmetric; `None` if it is
+/// 1 or more.
 ///
 /// ```
 /// use kinetostat_mirror::bound_on_relaxation;
@@ -36,18 +37,18 @@ pub fn bound_on_relaxation(departure: f64) -> Option<f64> {
     (departure.abs() < 1.0).then_some(2.0 / (1.0 + departure.abs()))
 }
 
-/// What two trials in a row say about the machine.
+/// Response of the machine, from two trials in a row.
 ///
-/// With the smoothed deviation `a = S e` of the trial before, mirrored with `rho`, the one after is `a' = a - rho S (I + D) a`. So the
-/// answer `1 + d` is the number with which `rho (1 + d) S a` comes nearest to `a - a'`: what the kernel lets through of the
-/// correction counts, not all of it (with all of it the answer would seem smaller, and the bound larger, than they are). What is
-/// left over of `a - a'` is by how much `D` differs along the path, and scatter; as a share of `rho S a` it is `spread`, and the
-/// bound is that of a departure of `|d| + spread`.
+/// With the smoothed deviation `a = S e` of the trial before, mirrored with `rho`, the one after is `a' = a - rho S (I + D) a`. The
+/// response `1 + d` is the number with which `rho (1 + d) S a` comes nearest to `a - a'`: only the part of the correction that the
+/// kernel lets through counts (with all of it the response would seem smaller, and the bound larger, than they are). The residual of
+/// `a - a'` is the variation of `D` along the path, and scatter; as a share of `rho S a` it is `spread`, and the bound is that of a
+/// departure of `|d| + spread`.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Convergence {
     /// Share of the smoothed error of the trial before that is left.
     pub factor: f64,
-    /// The same as a projection of it, with its sign: negative where the correction was too large.
+    /// Projection on it of the smoothed error that is left, negative if the correction was too large.
     pub signed_factor: f64,
     /// The departure `d` that explains the change best.
     pub departure: f64,
@@ -61,8 +62,8 @@ pub struct Convergence {
 }
 
 impl Convergence {
-    /// From the smoothed deviations of two trials at the stations of a path, with the lengths that they stand for, and the first of
-    /// them smoothed once more.
+    /// Convergence from the smoothed deviations of two trials at the stations of a path, with the lengths that they stand for, and
+    /// the first of them smoothed once more.
     pub(crate) fn between(
         [before, after, passed]: [&[Vector3<f64>]; 3],
         lengths_mm: &[f64],

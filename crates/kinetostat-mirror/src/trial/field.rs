@@ -15,12 +15,12 @@ use kinetostat_program::NominalPath;
 /// A step no larger than the last digit of most programs is none, mm.
 const SAME_STEP_MM: f64 = 1e-4;
 
-/// Where a move stands among the pieces of the path.
+/// Place of a move among the pieces of the path.
 #[derive(Clone, Copy, Debug)]
 enum Place {
-    /// It is one of them.
+    /// Index of the piece.
     Piece(usize),
-    /// It lies between two places of the path (stretch, length along the path in mm), from one share of the way to another.
+    /// Way between two places of the path (stretch, length along the path in mm), from one share of the way to another.
     Between([(usize, f64); 2], [f64; 2]),
 }
 
@@ -88,9 +88,9 @@ impl<'a> MirrorField<'a> {
     }
 }
 
-/// What two legs of a corner may disagree by for the scatter of their points, mm: four standard deviations. At an end a mean
-/// rests on half the points, there are two ends, and a correction carries `rho / (2 - rho)` of the variance of a measurement.
-/// Without a trial any disagreement may be scatter.
+/// Scatter of the difference between two legs of a corner, mm: four standard deviations. At an end a mean rests on half the
+/// points, there are two ends, and a correction carries `rho / (2 - rho)` of the variance of a measurement. Without a trial
+/// any disagreement may be scatter.
 fn scatter_at_corners_mm(state: &MirrorState) -> f64 {
     let Some(last) = state.trials.last() else {
         return f64::INFINITY;
@@ -187,7 +187,7 @@ impl CorrectionField for MirrorField<'_> {
     }
 }
 
-/// Two fields, one on top of the other: a model's compensation, and what was measured besides.
+/// Sum of two fields: a model's compensation, and what was measured besides.
 pub struct SumOfFields<'a> {
     /// Corrects the orientation too, where it does.
     pub model: &'a dyn CorrectionField,

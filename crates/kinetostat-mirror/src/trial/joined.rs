@@ -16,10 +16,10 @@ use crate::deviation::{Stations, Stretch};
 /// Legs that turn back by less than this (sine of 20 degrees) from a whole half turn are in one line, those of a seam as well.
 const IN_LINE: f64 = 0.342_020_143_325_668_7;
 
-/// So many smoothing lengths from a corner nothing is left of it.
+/// Distance from a corner, in smoothing lengths, at which the joint has faded.
 const FADED: f64 = 3.0;
 
-/// Two places are one where they are no farther apart than this, mm.
+/// Largest distance of two places that are one, mm.
 const SAME_MM: f64 = 1e-6;
 
 /// An end of a stretch at a corner: its station, and the direction of the path there.
@@ -60,8 +60,7 @@ pub(crate) fn joined(
     joined
 }
 
-/// Where a stretch ends at the beginning of another of the same pass: at corners, and at seams of passes that come back to
-/// where they began.
+/// Ends of stretches at the beginning of another of the same pass: at corners, and at seams of closed passes.
 fn corners(nominal: &NominalPath<'_>, stations: &Stations) -> Vec<[End; 2]> {
     let all = stations.stretches();
     let mut found = Vec::new();
@@ -119,7 +118,8 @@ fn ends(
     Some([end, start])
 }
 
-/// The correction that both legs have in common; nothing where neither has one. What is zero to the last digit was not measured.
+/// The correction that both legs have in common; nothing where neither has one. A value that is zero to the last digit was not
+/// measured.
 fn common(
     [first, second]: [Vector3<f64>; 2],
     [before, after]: [Vector3<f64>; 2],

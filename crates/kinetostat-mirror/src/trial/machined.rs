@@ -1,9 +1,10 @@
-//! Whether the program that was measured had the last correction in it.
+//! Test that the measured program had the last correction in it.
 //!
-//! A trial that found the smoothed deviation `a` corrected the program by `-rho a`. A machine that answers with the share `beta` of
-//! a correction shows `e - beta rho a` in the next trial, with the `e` that the points of the trial before had there; of the program
-//! before, run or measured once more, `beta` is 0. So the change from trial to trial is fitted by `-beta rho a` (weighted least squares,
-//! the weight of a place by how many points its change rests on), and `beta` is known to the standard deviation `s` by three things that add up:
+//! A trial that found the smoothed deviation `a` corrected the program by `-rho a`. A machine that answers with the share `beta` of a
+//! correction shows `e - beta rho a` in the next trial, with the `e` that the points of the trial before had there; of the program before,
+//! run or measured once more, `beta` is 0. The change from trial to trial is therefore fitted by `-beta rho a` (weighted least squares, the
+//! weight of a place by how many points its change rests on), and `beta` is known to the standard deviation `s` by three things that add
+//! up:
 //!
 //! - the scatter of the points, as it goes through the interpolation of those before to the places of those now;
 //! - what the fit leaves beyond it (drift, an answer that differs along the path): alike over a smoothing length, so that it
@@ -24,27 +25,27 @@ use crate::number::larger;
 use crate::trial::compared::Place;
 use crate::trial::passing::between_stations;
 
-/// A machine may answer with this share of a correction: ten trials then leave a tenth of the error. None that answers with less is
-/// worth correcting by trials.
+/// A machine may answer with this share of a correction: ten trials then leave a tenth of the error. A machine that answers with
+/// less is not worth correcting by trials.
 const LEAST_ANSWER: f64 = 0.2;
 
 /// A hundred times as likely: `2 ln 100`, three standard deviations.
 const CLEARLY: f64 = 9.210_340_371_976_184;
 
-/// To what a share is known of points without any scatter: sums of numbers of sixteen digits.
+/// Share to which a correction is known from points without any scatter: sums of numbers of sixteen digits.
 const ROUNDING: f64 = 1e-9;
 
 /// The trial before, whose correction is looked for.
 pub(crate) struct Before<'a> {
-    /// Its smoothed deviation at the stations, mm.
+    /// Smoothed deviation at the stations, mm.
     pub deviation_mm: &'a [Vector3<f64>],
-    /// What its points say.
+    /// Means of its points.
     pub means: &'a [PieceMean],
     pub relaxation: f64,
     pub smoothing_mm: f64,
 }
 
-/// What is seen of a correction.
+/// Estimate of a correction's response.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Seen {
     /// Share of it, NaN where no place was measured before and now.
@@ -53,13 +54,14 @@ pub(crate) struct Seen {
     pub known_to: f64,
 }
 
-/// To which a point of a measurement is known, mm.
+/// Standard deviation to which a point of a measurement is known, mm.
 pub(crate) fn scatter_mm(measured: &Measurement) -> f64 {
     larger(measured.figures.scatter_mm, measured.known_to_mm)
 }
 
 impl Seen {
-    /// In the means of a trial, of what the trial before corrected; points before and now scatter by `scatter_mm`.
+    /// Estimate from the means of a trial of the correction of the trial before; points before and now scatter by
+    /// `scatter_mm`.
     pub(crate) fn of(
         stations: &Stations,
         before: &Before<'_>,
@@ -117,20 +119,20 @@ impl Seen {
         }
     }
 
-    /// How much worse the fit is for a machine that was not given the correction, and for one that was.
+    /// Excess of `-2 ln` of the likelihood for a machine without the correction, and for one with it.
     fn worse(&self) -> [f64; 2] {
         let below = larger(LEAST_ANSWER - self.answer, 0.0);
         [self.answer, below].map(|off| (off / self.known_to).powi(2))
     }
 
-    /// That the program was run without the correction explains the measurement, and clearly better than that it was run with it.
+    /// True if a run without the correction explains the measurement, and clearly better than one with it.
     pub(crate) fn is_missing(&self) -> bool {
         let [without, with] = self.worse();
         let explains = without < CLEARLY || self.answer.abs() < 0.5 * LEAST_ANSWER;
         explains && with - without > CLEARLY
     }
 
-    /// That it was run with the correction explains the measurement clearly better.
+    /// True if a run with the correction explains the measurement clearly better.
     pub(crate) fn is_there(&self) -> bool {
         let [without, with] = self.worse();
         without - with > CLEARLY

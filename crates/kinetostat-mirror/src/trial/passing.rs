@@ -1,12 +1,12 @@
-//! What is seen again of a correction after it was smoothed.
+//! Part of a correction that remains after smoothing.
 
 use nalgebra::Vector3;
 
 use crate::alignment::AlignedPoint;
 use crate::deviation::{Kernel, Measurement, Stations, smoothed_along};
 
-/// What the kernel lets through of a correction by these deviations at the stations, at the points of a measurement: what is across
-/// the path there, smoothed once more.
+/// Part of a correction by these deviations at the stations that the kernel lets through, at the points of a measurement: the part
+/// across the path there, smoothed once more.
 pub(crate) fn passed(
     stations: &Stations,
     deviation_mm: &[Vector3<f64>],
@@ -32,7 +32,7 @@ pub(crate) fn passed(
         .collect()
 }
 
-/// What is kept at the stations, at a place between them: a stretch and a length along the path, mm.
+/// Value at a place between stations: a stretch and a length along the path, mm.
 pub(crate) fn between_stations(
     stations: &Stations,
     at_stations: &[Vector3<f64>],

@@ -1,4 +1,4 @@
-//! What is kept of a trial.
+//! Record of a trial.
 
 use serde::{Deserialize, Serialize};
 
@@ -8,7 +8,7 @@ use crate::trial::convergence::Convergence;
 /// A file of measured points.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct MeasuredFile {
-    /// Its name.
+    /// Name of the file.
     pub name: String,
     /// [`MeasuredPoints::sha256`](crate::MeasuredPoints::sha256): of its points, not of its text.
     pub sha256: String,
@@ -19,29 +19,29 @@ fn yes() -> bool {
     true
 }
 
-/// One trial: what was measured of the program with the correction before, and what became of it.
+/// Record of a trial: the measurement of the program with the correction before, and its outcome.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Trial {
-    /// From 1; trial 1 is the program without a correction by measurement.
+    /// Number from 1; trial 1 is the program without a correction by measurement.
     pub number: usize,
     /// The measurements.
     pub measured: Vec<MeasuredFile>,
     /// Share of the deviation that was mirrored.
     pub relaxation: f64,
-    /// Whether the correction was changed by it: not where nothing was left to correct.
+    /// True if the correction was changed by it: not if nothing was left to correct.
     #[serde(default = "yes")]
     pub mirrored: bool,
     /// Sizes, of the first measurement where there are several.
     pub figures: DeviationFigures,
     /// Root mean square of the smoothed deviation, of the mean of all measurements, mm.
     pub left_mm: f64,
-    /// What a smoothed deviation of nothing has, mm, where the repeatability is known.
+    /// Noise floor of the smoothed deviation, mm, if the repeatability is known.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub floor_mm: Option<f64>,
-    /// Against the trial before.
+    /// Convergence from the trial before.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub convergence: Option<Convergence>,
-    /// Whether it was seen that the program that was measured had the last correction in it; none where there was no correction.
+    /// True if the measurement shows that the program had the last correction in it; `None` if there was no correction.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub shows_correction: Option<bool>,
 }

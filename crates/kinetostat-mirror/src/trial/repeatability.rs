@@ -1,4 +1,4 @@
-//! What a machine that repeats itself no better, and a measurement of it, can tell.
+//! Smallest deviation that can be resolved with the repeatability of a machine and of its measurement.
 //!
 //! With the standard deviation `sigma` of one measured deviation in each of the two directions across the path, a smoothed
 //! deviation of nothing has the root mean square `sqrt(2) sigma / sqrt(n)` over `n` effective points.
@@ -16,7 +16,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::deviation::Measurement;
 
-/// How well trials repeat.
+/// Repeatability of trials.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Repeatability {
@@ -27,7 +27,8 @@ pub enum Repeatability {
 }
 
 impl Repeatability {
-    /// From several measurements of the same trial with the same settings; `None` without two that have a station in common.
+    /// Repeatability from several measurements of the same trial with the same settings; `None` without two that have a
+    /// station in common.
     #[must_use]
     pub fn of_repeats<'m>(repeats: impl IntoIterator<Item = &'m Measurement>) -> Option<Self> {
         let repeats: Vec<&Measurement> = repeats.into_iter().collect();
@@ -53,12 +54,12 @@ impl Repeatability {
     }
 }
 
-/// What the scatter of a smoothed deviation is averaged over.
+/// Averaging of the scatter of a smoothed deviation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Averaging {
     /// Effective number of points of one measurement.
     pub effective_points: f64,
-    /// How many measurements of the trial the mean is of.
+    /// Number of measurements of the trial in the mean.
     pub measurements: usize,
     /// Smoothing length, mm.
     pub smoothing_mm: f64,
@@ -69,7 +70,7 @@ pub struct Averaging {
 }
 
 impl Averaging {
-    /// How many stretches of the path are smoothed apart from one another.
+    /// Number of stretches of the path that are smoothed independently.
     pub(crate) fn independent(&self) -> f64 {
         self.length_mm / (std::f64::consts::PI.sqrt() * self.smoothing_mm)
     }

@@ -15,19 +15,19 @@ use crate::trial::taking::{are_new, have_places, may_show_the_correction};
 use crate::trial::together::mean_deviation;
 use kinetostat_program::NominalPath;
 
-/// Of the form of the state.
+/// Version of the form of the state.
 const SCHEMA: u32 = 1;
 
 /// A smoothed deviation up to this, mm, is none.
 const NOTHING_MM: f64 = 1e-6;
 
-/// What follows from a trial.
+/// Outcome of a trial.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Outcome {
     /// Go on with the correction.
     GoOn,
-    /// What is left is within the repeatability: the correction is left as it is.
+    /// The rest is within the repeatability: the correction is left as it is.
     WithinRepeatability,
     /// The points lie on the path, to less than anyone measures: there is nothing to correct, and the correction is left as it is.
     NothingToCorrect,
@@ -38,11 +38,11 @@ pub enum Outcome {
 /// All trials of a program.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct MirrorState {
-    /// Of this form.
+    /// Version of the form.
     pub schema: u32,
     /// SHA-256 of the program as it is drawn.
     pub program_sha256: String,
-    /// How points become deviations.
+    /// Settings by which points become deviations.
     pub settings: MeasureSettings,
     /// The trials so far.
     #[serde(default)]
@@ -53,7 +53,7 @@ pub struct MirrorState {
     pub correction_mm: Vec<Vector3<f64>>,
     /// Smoothed deviation of the last trial at each of them, mm.
     pub deviation_mm: Vec<Vector3<f64>>,
-    /// What the points of the last trial say, against which those of the next are held.
+    /// Means of the points of the last trial, with which those of the next are compared.
     #[serde(default)]
     pub means: Vec<PieceMean>,
     /// Compensation by a model, or none, on top of which the trials are made, by name and value; absent in earlier versions.
@@ -62,7 +62,7 @@ pub struct MirrorState {
 }
 
 impl MirrorState {
-    /// Of a program without trials.
+    /// State of a program without trials.
     ///
     /// # Errors
     /// A smoothing length that this path does not allow ([`Stations::of`]).
@@ -86,7 +86,7 @@ impl MirrorState {
         })
     }
 
-    /// Whether it belongs to this program and these settings.
+    /// Checks that it belongs to this program and these settings.
     ///
     /// # Errors
     /// Names the first field that differs, with both values.
@@ -165,7 +165,7 @@ impl MirrorState {
         self.taken((nominal, measured), relaxation, repeatability, false)
     }
 
-    /// As [`Self::take`] where the program that was measured is the last one for certain: measurements that show nothing of its
+    /// Variant of [`Self::take`] for a measured program that is the last one for certain: measurements that show nothing of its
     /// correction are taken too, and the trial says so ([`Trial::shows_correction`]).
     ///
     /// # Errors

@@ -1,4 +1,4 @@
-//! Which measurements a trial takes.
+//! Selection of the measurements that a trial takes.
 
 use crate::alignment::LeftOut;
 use crate::deviation::Measurement;
@@ -31,8 +31,8 @@ pub(crate) fn are_new(
     Ok(())
 }
 
-/// Measurements that may be of the program with the correction before: those of the program without it would have it corrected twice.
-/// Whether they show it. Of a program that `was_run` for certain nothing is refused.
+/// Checks that measurements may be of the program with the last correction: those of the program without it would have it corrected
+/// twice. Returns true if they show it. Measurements of a program that `was_run` for certain are not refused.
 pub(crate) fn may_show_the_correction(
     (measured, trials): (&[(MeasuredFile, Measurement)], &[Trial]),
     seen: &Seen,
@@ -109,7 +109,7 @@ fn counted(without: &[LeftOut]) -> String {
     named.join(", ")
 }
 
-/// Against the reason of most of them.
+/// Remedy against the most frequent reason.
 fn what_to_do(without: &[LeftOut]) -> &'static str {
     let most = REASONS
         .iter()

@@ -1,4 +1,4 @@
-//! What several measurements of a trial say together.
+//! Mean of several measurements of a trial.
 
 use nalgebra::Vector3;
 

@@ -1,6 +1,6 @@
-//! How long a search looks.
+//! Effort of a search.
 
-/// How long to look.
+/// Effort of a search.
 #[derive(Clone, Copy, Debug)]
 pub struct Effort {
     /// Placements that fill the space, of each fixture; by the number of variables without it.
@@ -9,9 +9,9 @@ pub struct Effort {
     pub starts: usize,
     /// Next best placements that are listed.
     pub listed: usize,
-    /// Most places of the program; of a longer one every so many are looked at.
+    /// Maximum number of places of the program; a longer one is thinned.
     pub most_places: usize,
-    /// Whether slices are solved for pictures.
+    /// True if slices are solved for pictures.
     pub maps: bool,
 }
 

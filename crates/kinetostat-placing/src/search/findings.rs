@@ -1,4 +1,4 @@
-//! What is to be known about an answer.
+//! Remarks on an answer.
 
 use kinetostat::number::larger;
 
@@ -6,7 +6,7 @@ use crate::answer::{Candidate, Finding, Placed};
 use crate::search::looking::Search;
 
 impl Search<'_, '_> {
-    /// That it lies at an end, is as good as any, or rests on few.
+    /// Remarks on an answer at the end of a range, with equals, or from few samples.
     pub(super) fn findings(&self, placed: &Placed, best: &Candidate) -> Vec<Finding> {
         let mut findings = Vec::new();
         let mut add = |kind, message| findings.push(Finding { kind, message });

@@ -8,7 +8,7 @@ use crate::search::looking::{SAME, Search};
 use crate::space::Place;
 use crate::value::Value;
 
-/// Most placements that are solved at all places for the list.
+/// Maximum number of placements that are solved at all places for the list.
 const MOST_CHECKED: usize = 40;
 
 impl Search<'_, '_> {

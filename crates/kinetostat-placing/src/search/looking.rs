@@ -1,4 +1,4 @@
-//! What every part of a search asks: what a placement is worth at some places or at all, and whether an answer is still wanted.
+//! Services for every part of a search: the value of a placement at some places or at all, and cancellation.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 

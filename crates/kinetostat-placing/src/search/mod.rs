@@ -1,9 +1,9 @@
 //! The search: everywhere, then locally, and checked at all places of the program.
 //!
-//! A placement is looked at at a few dozen places of the program: some along the path, those that lie farthest out, and those
-//! that have turned out to be worst. The best placement is then solved at all places. Where another place is worse, or
-//! refuses it, that place is added and the search goes on from where it is. So the figures of the search are never above those of the
-//! whole program, and the best one is that of the whole program.
+//! A placement is looked at at a few dozen places of the program: some along the path, those that lie farthest out, and those that
+//! have turned out to be worst. The best placement is then solved at all places. If another place is worse, or refuses it, that place
+//! is added and the search goes on from where it is. The figures of the search are therefore never above those of the whole program,
+//! and the best one is that of the whole program.
 
 mod effort;
 mod findings;
@@ -37,10 +37,10 @@ const ROUNDS: usize = 8;
 /// A figure of some places is that of all up to this share.
 const AGREES: f64 = 1e-6;
 
-/// Where the program of a task lies best.
+/// Finds the best placement of the program of a task.
 ///
-/// # Errors
-/// [`RunError::NoMotion`], [`RunError::Cancelled`]. That no placement can be taken is an answer ([`Placed::nowhere`]).
+/// # Errors [`RunError::NoMotion`], [`RunError::Cancelled`]. A search without a placement that can be taken is no
+/// error ([`Placed::nowhere`]).
 pub fn place(
     task: &Task<'_>,
     space: &Space,

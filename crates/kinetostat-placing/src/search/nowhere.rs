@@ -1,4 +1,4 @@
-//! Where no placement can be taken: which comes nearest, and how far the part would have to be moved.
+//! Explanation of a search without result: the nearest placement, and the displacement of the part that would help.
 
 use nalgebra::Vector3;
 

@@ -1,4 +1,4 @@
-//! Where a search begins: places of the program, and placements that fill the space.
+//! Starts of a search: places of the program, and placements that fill the space.
 
 use nalgebra::Vector3;
 use rayon::prelude::*;

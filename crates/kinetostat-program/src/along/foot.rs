@@ -22,7 +22,7 @@ pub struct Foot {
     pub place_mm: Vector3<f64>,
     /// Direction of the path there.
     pub tangent: Vector3<f64>,
-    /// How far the point is from it, mm.
+    /// Distance of the point from the path, mm.
     pub distance_mm: f64,
 }
 

@@ -16,11 +16,11 @@ struct Reached {
     before: Option<(usize, usize)>,
 }
 
-/// Which of its feet belongs to each point, of points in the order in which the tool went; or why none does.
+/// Assigns one of its feet to each point, given in the order in which the tool went; or the reason why it has none.
 ///
-/// Of all ways through the feet along which none goes back by more than the window, that with the least sum of `(d / window)^2` and
-/// `((way along the path - way between the points) / (way between the points + window))^2`, the latter 4 at most; found as the
-/// shortest way through a graph (Viterbi 1967), not point by point. Lengths in mm.
+/// The result minimises, over all ways through the feet along which none goes back by more than the window, the sum of
+/// `(d / window)^2` and `((way along the path - way between the points) / (way between the points + window))^2`, the latter 4 at
+/// most; found as the shortest way through a graph (Viterbi 1967), not point by point. Lengths in mm.
 #[must_use]
 pub fn in_order(
     points: &[Vector3<f64>],
@@ -32,8 +32,8 @@ pub fn in_order(
     })
 }
 
-/// As [`in_order`], of points between which the way is known otherwise than from where they are: `way_mm` tells it for the indices
-/// of two points. Between two cuts, for one, it is none, however far the rapid goes: the length along a path leaves rapids out.
+/// Variant of [`in_order`] for points between which the length along the path is known by other means: `way_mm` returns it for the
+/// indices of two points. It is zero between two cuts however long the rapid is: rapids do not add to the length along a path.
 ///
 /// ```
 /// use kinetostat_program::{NominalPath, Program, ReadOptions, in_order_by, interpret};
@@ -106,7 +106,7 @@ pub fn in_order_by(
     chosen
 }
 
-/// What a step along the path costs where the points are so far apart; `None` if it goes back.
+/// Cost of a step along the path between points at this distance; `None` if it goes back.
 fn step(along_mm: f64, way_mm: f64, window_mm: f64) -> Option<f64> {
     let cost = ((along_mm - way_mm) / (way_mm + window_mm)).powi(2);
     (along_mm >= -window_mm).then_some(cost.min(DEAREST_STEP))

@@ -14,10 +14,10 @@ use crate::path::moves::{Move, Path};
 )]
 pub struct NoFeedMove;
 
-/// Two places are one where they are no farther apart than this, mm: what is left after inches and increments.
+/// Largest distance of two places that are one, mm: rounding of increments and inches.
 pub(crate) const SAME_MM: f64 = 1e-6;
 
-/// How far the chords that a search goes by leave their arcs, mm.
+/// Chord error of the search, mm.
 const CHORD_MM: f64 = 0.01;
 
 /// A feed move with its place along the path.
@@ -27,7 +27,7 @@ pub struct FeedPiece {
     pub move_index: usize,
     /// Length of the path before it, mm.
     pub from_mm: f64,
-    /// Its own length, mm.
+    /// Length of the piece, mm.
     pub length_mm: f64,
     /// Index of its pass in [`NominalPath::passes`].
     pub pass: usize,
@@ -36,9 +36,9 @@ pub struct FeedPiece {
 /// Feed moves one after the other, without a rapid between them: the tool stays on the part.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Pass {
-    /// Its pieces, in [`NominalPath::pieces`].
+    /// Pieces of the pass, in [`NominalPath::pieces`].
     pub pieces: std::ops::Range<usize>,
-    /// Where it begins and ends along the path, mm.
+    /// Start and end along the path, mm.
     pub along_mm: [f64; 2],
 }
 
@@ -73,11 +73,11 @@ impl<'a> NominalPath<'a> {
     pub fn new(path: &'a Path) -> Result<Self, NoFeedMove> {
         let (mut pieces, mut passes) = (Vec::<FeedPiece>::new(), Vec::<Pass>::new());
         let mut along_mm = 0.0;
-        // Where the pass that goes on has come to.
+        // End of the current pass.
         let mut reached: Option<Vector3<f64>> = None;
         for (move_index, motion) in path.moves.iter().enumerate() {
             if !motion.is_known_feed() {
-                // What has no length does not leave the part.
+                // A block without length does not leave the part.
                 reached = reached.filter(|_| !motion.has_length());
                 continue;
             }

@@ -2,16 +2,16 @@
 
 use serde::Serialize;
 
-/// Why a point has no place.
+/// Reason for which a point has no place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum WhyLeftOut {
     /// The path does not come within the window.
     BeyondWindow,
-    /// Several stretches of it do.
+    /// Several stretches of the path come within the window.
     SeveralStretches,
-    /// It names a line, and only cuts of other lines come within the window.
+    /// The point names a line, and only cuts of other lines come within the window.
     NotOnItsLine,
-    /// It would lie behind the points before it.
+    /// The place would lie before those of earlier points.
     OutOfOrder,
 }

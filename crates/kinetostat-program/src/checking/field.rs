@@ -20,8 +20,8 @@ const SEED: u64 = 3;
 /// Irregular places on every stretch between two breaks of the field.
 const PLACES: u64 = 2;
 
-/// Further places in a piece that is an arc: its ends may leave the curve, and between them it is farthest near the middle. Not at
-/// an end itself, where the correction may jump.
+/// Additional places in a piece that is an arc: its ends may leave the curve, and between them it is farthest near the middle. Not
+/// at an end itself, where the correction may jump.
 const ON_ARCS: [f64; 3] = [0.01, 0.5, 0.99];
 
 /// Places evaluated in one call of the field.
@@ -30,9 +30,9 @@ const BATCH: usize = 8192;
 /// The place of a program that is farthest from where path and field want it.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
 pub struct Farthest {
-    /// Its distance from where path and field want it, in mm.
+    /// Distance from the desired place, in mm.
     pub distance_mm: f64,
-    /// Line of the input; none where nothing is off.
+    /// Line of the input; `None` if nothing is off.
     pub line: Option<usize>,
     /// Line of the output, counted from 1; 0 where nothing is off.
     pub output_line: usize,
@@ -42,7 +42,7 @@ pub struct Farthest {
 
 impl Farthest {
     fn note(&mut self, look: &Look, distance_mm: f64) {
-        // What is no number stays seen.
+        // NaN is kept.
         if distance_mm > self.distance_mm || distance_mm.is_nan() {
             *self = Self {
                 distance_mm,
@@ -54,33 +54,33 @@ impl Farthest {
     }
 }
 
-/// How far a written program is from the field it was written for.
+/// Deviation of a written program from the field it was written for.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
 pub struct FieldCheck {
     /// Places looked at.
     pub places: usize,
-    /// Where the program goes farthest from where path and field want it, with what was left out because the
-    /// program never states its axis.
+    /// Largest deviation of the written program, including corrections left out because the program never states
+    /// their axis.
     pub after: Farthest,
-    /// Where it would go farthest at feed if it were left as it is.
+    /// Largest deviation at feed of the uncorrected program.
     pub before: Farthest,
     /// The largest distance, if it were left as it is, of the ends of rapids and of moves from an unknown
     /// place, in mm.
     pub before_at_ends_mm: f64,
-    /// What is allowed at most, in mm: the tolerance of the path with what may be unknown between its
-    /// places (a tenth of it), of chords where there are arcs, and the rounding.
+    /// Largest allowed deviation, in mm: the tolerance of the path with what may be unknown between its places (a
+    /// tenth of it), the chord error where there are arcs, and the rounding.
     pub allowed_mm: f64,
 }
 
-/// Where along its piece a place lies.
+/// Position of a place within its piece.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum At {
-    /// Inside, where the division may have overlooked something.
+    /// Interior of the piece, where the division may have overlooked something.
     Inside,
-    /// At an end on the path, where the field's own correction was written: what is left out there shows.
-    /// Beside a jump the field has another answer than the one that was written.
+    /// At an end on the path, where the field's own correction was written: what is left out there shows. Next to a
+    /// jump the answer of the field differs from the one that was written.
     End,
-    /// At the end of a move of which nothing else is corrected.
+    /// End of a move that is corrected only there.
     EndOfMove,
 }
 
@@ -97,8 +97,8 @@ struct Look {
 /// Asks the field again along what was written: at both ends of every piece's stretches between the
 /// field's breaks, and at two irregular places inside each; on arcs near the ends and in the middle, too.
 ///
-/// Axes that the program never states cannot be written. How far it is off in them is measured with the rest,
-/// and refuses nothing: whoever asked for the program decides that.
+/// Axes that the program never states cannot be written. The deviation in them is measured with the rest, but does
+/// not refuse the program: its user decides.
 ///
 /// A corner step is looked at inside where the field knows what happens there
 /// ([`CorrectionField::turns`]).
@@ -142,7 +142,7 @@ pub fn verify_against_field(
             allowed += 1.2 * writing.chord_tolerance_mm;
         }
         if piece.is_fitted() {
-            // Its centre is rounded as well.
+            // The centre of a fitted arc is rounded as well.
             allowed += 2.0 * writing.last_digit_mm(motion.words.mm_per_unit);
         }
         if writing.smallest_step_mm() > writing.tolerance_mm {
@@ -168,7 +168,7 @@ pub fn verify_against_field(
 }
 
 impl Look {
-    /// At a part of a piece, a share of its move, and a turn of the load.
+    /// Place on a piece: its part, the share of its move, and the turn of the load.
     fn on(
         motion: &Move,
         piece: &Piece,

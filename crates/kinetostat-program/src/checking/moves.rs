@@ -23,7 +23,7 @@ const SPEED_TOLERANCE: f64 = 1e-3;
 /// Directions of the tool as written and as read again differ by less, rad: their digits.
 const SAME_DIRECTION: f64 = 1e-6;
 
-/// Between two ends the tool may lean by more, rad: near a pole digits of directions turn the axes by more.
+/// Largest difference between two ends, rad: near a pole digits of directions turn the axes by more.
 const SAME_WAY: f64 = 1e-4;
 
 /// Largest difference between an angle as written and as read again, in deg: arithmetic only.
@@ -79,7 +79,7 @@ impl Verifier<'_> {
             }
             let start = (read.start - piece.commanded_from).norm();
             let end = (read.end - piece.commanded_to).norm();
-            // Where an axis is not known yet, only its later places can be compared.
+            // If an axis is not known yet, only its later places can be compared.
             if end > SAME_PLACE_MM || start > SAME_PLACE_MM && motion.known == Knowledge::Whole {
                 return broken(format!(
                     "its place is read {:.7} mm away from where it was written",
@@ -103,8 +103,8 @@ impl Verifier<'_> {
         Ok(())
     }
 
-    /// Where the place is not known, the axes that a block names go where the input has them: no correction
-    /// is left in them. The others are off by what an earlier block left, which is at most the largest correction.
+    /// If the position is not known, the axes that a block names go where the input has them: no correction is left
+    /// in them. The others are off by what an earlier block left, which is at most the largest correction.
     fn check_uncorrected(
         &self,
         motion: &Move,
@@ -276,7 +276,7 @@ impl Verifier<'_> {
         let width = piece.share_to - piece.share_from;
         let stands = (piece.commanded_to - piece.commanded_from).norm() <= NO_LENGTH_MM;
         let error = match (written.mode, motion.turn_seconds()) {
-            // Where only rotary axes move F is theirs.
+            // F is in degrees per minute if only rotary axes move.
             (mode, Some(_)) if mode == feed.mode && mode != FeedMode::InverseTime => {
                 if !stands || width < 1.0 {
                     return broken("X, Y and Z move beside a feed in degrees a minute");
@@ -306,8 +306,8 @@ fn is_same_arc(read: &Move, point: impl Fn(f64) -> Vector3<f64>) -> bool {
 }
 
 impl Verifier<'_> {
-    /// Where directions say how the tool stands (G43.5), it stands so in the end of a piece as it was written, and goes between its ends as
-    /// the program has it.
+    /// Checks tool directions (G43.5): at the end of a piece the tool has the written direction, and between its ends the one of the
+    /// program.
     fn check_directions(&self, index: usize, motion: &Move, read: &Move) -> Result<(), WriteError> {
         let rotary = |motion: &Move| motion.tool_turn.as_ref()?.rotary.clone();
         let Some(own) = rotary(motion).filter(|own| own.stated == StatedBy::Direction) else {
@@ -357,8 +357,8 @@ impl Verifier<'_> {
         }
     }
 
-    /// Rotary axes whose angles are corrected stand where they were written, near those of the program. Which letters they have;
-    /// none where the words of the program stay.
+    /// Checks that corrected rotary axes have their written angles, near those of the program. Returns their letters; none
+    /// if the words of the program stay.
     fn check_turned_axes(
         &self,
         index: usize,
@@ -403,10 +403,10 @@ impl Verifier<'_> {
 /// Largest angle of an axis on a great circle from where it was written, deg, beside what the digits of directions leave.
 const SAME_ON_CIRCLE_DEG: f64 = 0.1;
 
-/// What the digits of a direction leave of it, rad.
+/// Error of a direction by the digits that it is written with, rad.
 const DIGITS_RAD: f64 = 4e-8;
 
-/// Nearer to the pole directions say nothing of one axis, rad.
+/// Distance from the pole, rad, below which directions do not determine one axis.
 const AT_POLE_RAD: f64 = 1e-6;
 
 /// Directions on a great circle lead the axes to the angles for which the pieces were corrected, not to others of the same direction.

@@ -211,7 +211,7 @@ impl Verifier<'_> {
             codes.retain(|code| !(code.0 == b'G' && [10, 20, 30].contains(&code.1)));
         }
         if kept_arc && !names_motion {
-            // It may need to be named again behind arcs that were divided.
+            // The motion code may have to be repeated after arcs that were divided.
             codes.retain(|code| !(code.0 == b'G' && [20, 30].contains(&code.1)));
         }
         wanted.sort_unstable();
@@ -238,7 +238,7 @@ impl Verifier<'_> {
             .collect()
     }
 
-    /// Whether the pieces of a turn in place have their time as feed, where the block had degrees a minute.
+    /// True if a rotation in place is written with inverse time feed where the block had degrees per minute.
     fn is_by_time(&self, motion: &Move, first: &Line) -> bool {
         let per_minute = |feed: Feed| feed.mode == FeedMode::PerMinute;
         motion.turns_in_place()
@@ -246,7 +246,7 @@ impl Verifier<'_> {
             && self.codes(self.output, first).contains(&(b'G', 930))
     }
 
-    /// Whether the angles of the program are corrected, and these words with them: they are checked with the moves.
+    /// True if the rotary axes of the program are corrected: their words are checked with the moves.
     fn turned(&self, motion: &Move) -> bool {
         let turn = motion.tool_turn.as_ref();
         !self.rotary_deg.is_empty() && turn.is_some_and(|turn| turn.rotary.is_some())
@@ -257,7 +257,7 @@ impl Verifier<'_> {
         self.codes(self.input, line).iter().any(ends)
     }
 
-    /// The line behind pieces in inverse time: G94 and F. Which F is checked with the moves behind it.
+    /// The line behind pieces in inverse time: G94 and F. The value of F is checked with the moves after it.
     fn check_line_of_feed(
         &self,
         number: usize,
@@ -303,10 +303,10 @@ impl Verifier<'_> {
                     decimals_of(text) == decimals
                 }
                 b'F' => true,
-                // Whether the input named the motion too is checked with the codes.
+                // The codes are checked for a motion that the input does not name.
                 b'G' | b'M' => is_after_motion(word) || word.letter == b'G' && is_own(word),
                 b'A' | b'B' | b'C' if self.turned(motion) => true,
-                // Which direction it is, is checked with the moves.
+                // The direction itself is checked with the moves.
                 b'I' | b'J' | b'K' if is_directed(motion) => true,
                 letter => motion
                     .extra
@@ -333,14 +333,14 @@ impl Verifier<'_> {
     }
 }
 
-/// Whether a direction says how the tool stands (G43.5).
+/// True if the tool direction is given as a vector (G43.5).
 fn is_directed(motion: &Move) -> bool {
     let turn = motion.tool_turn.as_ref();
     let rotary = turn.and_then(|turn| turn.rotary.as_ref());
     rotary.is_some_and(|rotary| rotary.stated == StatedBy::Direction)
 }
 
-/// How a piece of a block is written.
+/// Form in which a piece of a block is written.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Shape {
     Straight,

@@ -1,4 +1,4 @@
-//! What a check of a written program looks at, and what it found.
+//! Inputs and results of the check of a written program.
 
 use serde::Serialize;
 
@@ -9,7 +9,7 @@ use crate::writing::accounting::Accounting;
 use crate::writing::options::WriteOptions;
 use crate::writing::written::Piece;
 
-/// What the check found in a program that passed.
+/// Results of the check of a program that passed.
 #[derive(Debug, Clone, PartialEq, Default, Serialize)]
 pub struct Verification {
     /// Lines of the output that were read.

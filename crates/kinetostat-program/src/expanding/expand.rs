@@ -53,7 +53,8 @@ pub fn expand(
     finished(runner)
 }
 
-/// As [`expand`], in the same single run with everything that is refused, as [`expansion_faults`] lists it.
+/// Variant of [`expand`] that returns, from the same single run, everything that is refused, as [`expansion_faults`]
+/// lists it.
 ///
 /// ```
 /// use kinetostat_program::{ExpandOptions, NoSubprograms, expand_or_faults};
@@ -84,7 +85,7 @@ pub fn expand_or_faults(
     }
 }
 
-/// What a run that came to its end has made.
+/// Result of a completed run.
 fn finished(runner: Runner<'_>) -> Result<Expanded, ProgramError> {
     let files = runner.sources.iter().map(|s| s.name.clone()).collect();
     let (program, path, origins, warnings) = runner.flat.finish()?;
@@ -100,8 +101,8 @@ fn finished(runner: Runner<'_>) -> Result<Expanded, ProgramError> {
 /// Everything that is refused while a program is run once, in the order of the lines, those of its subprograms behind those of
 /// the program; empty where [`expand`] takes it.
 ///
-/// Of a refused line the words that are understood are followed: where it ends, its modes. A line on which the rest depends, such as
-/// the condition of a loop, ends the list and says so.
+/// The understood words of a refused line are followed: its end and its modes. A line on which the rest depends, such as the
+/// condition of a loop, ends the list and says so.
 ///
 /// ```
 /// use kinetostat_program::{ExpandOptions, NoSubprograms, expansion_faults};

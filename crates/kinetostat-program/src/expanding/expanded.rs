@@ -3,7 +3,7 @@
 use crate::path::moves::{Path, Warning};
 use crate::text::program::Program;
 
-/// Where a flat block came from.
+/// Source of a flat block.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Origin {
@@ -19,11 +19,11 @@ pub struct Origin {
 pub struct Expanded {
     /// Plain blocks.
     pub program: Program,
-    /// Where they go.
+    /// Path of the flat program.
     pub path: Path,
-    /// Of each line of the flat program, where it came from.
+    /// Source of each line of the flat program.
     pub origins: Vec<Origin>,
-    /// What is to be known about blocks, by their lines in the flat program, beside the warnings of the path.
+    /// Warnings about blocks, by their lines in the flat program, in addition to the warnings of the path.
     pub warnings: Vec<Warning>,
     /// Names of the files that blocks came from; the first is the program and has none.
     pub files: Vec<String>,

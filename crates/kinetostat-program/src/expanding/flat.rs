@@ -22,12 +22,12 @@ pub(crate) struct Flat<'o> {
     /// Names of the files that blocks came from, by their index.
     files: BTreeMap<usize, String>,
     comments: OriginComments,
-    /// What the path does not say.
+    /// Warnings in addition to those of the path.
     warnings: Vec<Warning>,
-    /// What is said once of many lines.
+    /// Warnings given once for many lines.
     repeated: Repeated,
     options: &'o ExpandOptions,
-    /// Whether the places in the plane of arcs rested on a refused line when the last block came.
+    /// True if the position in the plane of arcs rested on a refused line when the last block came.
     was_unsure: bool,
 }
 
@@ -62,7 +62,7 @@ impl<'o> Flat<'o> {
         }
     }
 
-    /// Says something about the last block.
+    /// Adds a warning about the last block.
     pub fn warn(&mut self, text: &str) {
         self.warnings.push(Warning {
             line: self.origins.len(),
@@ -70,7 +70,7 @@ impl<'o> Flat<'o> {
         });
     }
 
-    /// Says something about a line that may hold for many.
+    /// Adds a warning about a line that may hold for many.
     pub fn warn_of_lines(&mut self, line: usize, text: &str) {
         self.repeated.note(line, text);
     }
@@ -80,17 +80,17 @@ impl<'o> Flat<'o> {
         in_source_lines(text, &self.origins, &self.files)
     }
 
-    /// Where the tool's point is at the machine's zero, mm, where that is known.
+    /// Tool point at machine zero, mm, if known.
     pub fn machine_zero_mm(&self) -> Option<Vector3<f64>> {
         self.options.reading.machine_zero_mm
     }
 
-    /// Whether the closing tape mark is behind us.
+    /// True after the closing tape mark.
     pub fn is_closed(&self) -> bool {
         self.reader.is_closed()
     }
 
-    /// Whether there are blocks with words so far.
+    /// True if there are blocks with words so far.
     pub fn has_words(&self) -> bool {
         self.reader.has_blocks()
     }
@@ -141,14 +141,14 @@ impl<'o> Flat<'o> {
         })
     }
 
-    /// Whether no further block is allowed.
+    /// True if no further block is allowed.
     pub fn is_full(&self) -> bool {
         self.origins.len() >= self.options.most_blocks
     }
 
     /// Takes over what is understood of a line that was refused, so that the lines behind it have no fault because of it.
     pub fn take_over(&mut self, text: &[u8], origin: Origin) {
-        // What is wrong with it is reported already.
+        // The error of the line is reported already.
         let _ = self.reader.add_line(text);
         self.origins.push(origin);
         let program = self.reader.program();
@@ -157,12 +157,12 @@ impl<'o> Flat<'o> {
         }
     }
 
-    /// Where the tool is now is not known, and is not asked for.
+    /// Marks the tool position as unknown; it is not asked for.
     pub fn doubt_places(&mut self) {
         self.interpreter.places.doubt();
     }
 
-    /// Whether the places in the plane of arcs rested on a refused line when the last block came.
+    /// True if the position in the plane of arcs rested on a refused line when the last block came.
     pub fn came_from_nowhere(&self) -> bool {
         self.was_unsure
     }
@@ -207,7 +207,7 @@ impl<'o> Flat<'o> {
     }
 }
 
-/// A block with its origin behind it; none for tape marks, numbers of programs and lines without a word.
+/// A block with its origin behind it; `None` for tape marks, numbers of programs and lines without a word.
 fn commented(text: &[u8], line: usize, file: &str) -> Option<Vec<u8>> {
     let first = text.trim_ascii_start().first()?;
     let is_block = first.is_ascii_alphabetic() && !matches!(first, b'O' | b'o');

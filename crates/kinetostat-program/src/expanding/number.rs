@@ -8,5 +8,5 @@ pub(crate) fn number(value: f64) -> String {
     }
 }
 
-/// Less than any program means.
+/// Smallest size that a program means.
 const NOTHING: f64 = 1e-12;

@@ -1,19 +1,19 @@
-//! What a program does not say and its expansion needs.
+//! Settings that the expansion needs and a program does not state.
 
 use std::collections::BTreeMap;
 
 use crate::reading::options::ReadOptions;
 
-/// Most blocks of a flat program, if nothing else is said.
+/// Default limit of the blocks of a flat program.
 const MOST_BLOCKS: usize = 5_000_000;
 
-/// Whether flat blocks say where they came from.
+/// Origin comments in flat blocks.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum OriginComments {
     /// Nothing is added; [`crate::Expanded::origins`] knows it.
     #[default]
     Left,
-    /// Behind each block, as in `(line 12)` or `(drill, line 3)`.
+    /// At the end of each block, as in `(line 12)` or `(drill, line 3)`.
     Written,
 }
 
@@ -47,11 +47,11 @@ pub enum Dialect {
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct ExpandOptions {
-    /// How the flat program is read.
+    /// Options for reading the flat program.
     pub reading: ReadOptions,
-    /// Most blocks of the flat program: loops that do not end are refused by their line.
+    /// Maximum number of blocks of the flat program: endless loops are refused by their line.
     pub most_blocks: usize,
-    /// Whether flat blocks say where they came from.
+    /// Origin comments in flat blocks.
     pub origin_comments: OriginComments,
     /// The controller that the program is written for.
     pub dialect: Dialect,

@@ -1,11 +1,11 @@
-//! What is wrong with the flat program, said of the lines of the files that it came from.
+//! Maps errors of the flat program to the lines of its source files.
 
 use std::collections::BTreeMap;
 
 use crate::error::ProgramError;
 use crate::expanding::expanded::Origin;
 
-/// What is wrong with a flat block, said of the line that it came from.
+/// Error of a flat block, mapped to its source line.
 pub(crate) fn of_source(error: ProgramError, line: usize, file: &str) -> ProgramError {
     let (reason, remedy) = while_expanding(error.reason, error.remedy);
     let reason = match file {
@@ -20,7 +20,7 @@ pub(crate) fn of_source(error: ProgramError, line: usize, file: &str) -> Program
     }
 }
 
-/// What is advised where a program is only read names the expansion, which is under way here.
+/// Rewrites remedies that advise `--expand`, which is under way here.
 fn while_expanding(reason: String, remedy: String) -> (String, String) {
     if !remedy.starts_with("add --expand") {
         return (reason, remedy);

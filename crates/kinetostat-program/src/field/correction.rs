@@ -1,8 +1,8 @@
-//! What is to be added to a place of a program.
+//! Correction of a place of a program.
 
 use nalgebra::{UnitQuaternion, Vector3, Vector6};
 
-/// What a field adds to the pose of the program so that the tool comes to be where the program wants it, part axes.
+/// Correction that a field adds to the programmed pose so that the tool reaches the desired one, part axes.
 ///
 /// A [`Vector3`] is a correction of the position alone:
 ///
@@ -33,7 +33,7 @@ impl From<Vector3<f64>> for Correction {
 }
 
 impl Correction {
-    /// As one vector of lengths, in mm: a turn counts by the way of a point so far from the tip.
+    /// The correction as one vector of lengths, in mm: rotations are multiplied by the lever.
     pub(crate) fn in_lengths(&self, lever_mm: f64) -> Vector6<f64> {
         let (shift, turn) = (self.shift_mm, self.turn * lever_mm);
         Vector6::new(shift.x, shift.y, shift.z, turn.x, turn.y, turn.z)

@@ -130,7 +130,7 @@ impl CorrectionMap {
         if !faults.is_empty() {
             return Err(faults);
         }
-        // As many rows as nodes and none doubled: every node is filled.
+        // Every node is filled: there are as many rows, and none is doubled.
         let values = values.into_iter().map(Option::unwrap_or_default).collect();
         Ok(Self { axes, values })
     }
@@ -171,7 +171,7 @@ impl CorrectionMap {
             return Ok((0, 0, 0.0));
         }
         if !(first - BORDER_MM..=last + BORDER_MM).contains(&value) {
-            // As many digits as show on which side of the border it lies.
+            // Uses enough digits to show on which side of the border it lies.
             let shown = |decimals: usize| format!("{value:.decimals$}");
             let outside = |text: &String| {
                 let read = text.parse().unwrap_or(value);
@@ -199,8 +199,8 @@ impl CorrectionField for CorrectionMap {
         shifts.map(|shift| shift.map(Correction::from)).collect()
     }
 
-    /// In a cell the correction is linear in each coordinate, so along a line of third degree at most;
-    /// where the move passes from one cell to the next its slope jumps.
+    /// The correction is linear in each coordinate within a cell, so along a line of third degree at most; where the
+    /// move passes from one cell to the next its slope jumps.
     fn structure(&self, _move_index: usize, motion: &Move) -> Structure {
         Structure {
             breaks: (0..3)
@@ -363,7 +363,7 @@ fn columns_of(
     }
 }
 
-/// What to write for a column that is not known.
+/// Suggestion for a column that is not known.
 fn meant(name: &str) -> String {
     let all = COLUMNS.join(",");
     if name.contains([';', '\t']) {

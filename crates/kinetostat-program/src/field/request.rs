@@ -19,7 +19,7 @@ pub struct Request {
     pub tangent: Option<Vector3<f64>>,
     /// Orientation of the tool there, part axes from tool axes; `None` in a program of positions.
     pub orientation: Option<UnitQuaternion<f64>>,
-    /// Inside a corner step: how far the load has turned. `None` on the path itself.
+    /// Turn of the load inside a corner step; `None` on the path itself.
     pub turning: Option<Turning>,
 }
 
@@ -37,10 +37,10 @@ pub struct Turning {
     pub part: f64,
 }
 
-/// Why a field has no correction for a point.
+/// Reason for which a field has no correction for a point.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct FieldFailure {
-    /// What is wrong and what to do, without the place: the caller names line and point.
+    /// Error and remedy, without the place: the caller names line and point.
     pub message: String,
 }
 
@@ -63,18 +63,18 @@ pub trait CorrectionField: Sync {
     /// Corrections, part axes, to be added to the poses of the query.
     fn corrections(&self, requests: &[Request]) -> Vec<Result<Correction, FieldFailure>>;
 
-    /// Whether the field knows what happens inside a corner step ([`Request::turning`]). Otherwise
-    /// such a step is one straight piece.
+    /// True if the field follows the turn of the load inside a corner step ([`Request::turning`]). Otherwise such a
+    /// step is one straight piece.
     fn turns(&self) -> bool {
         false
     }
 
-    /// Whether the field corrects the orientation too ([`Correction::turn`]). Arcs of such a program are written with straight pieces.
+    /// True if the field corrects the orientation too ([`Correction::turn`]). Arcs of such a program are written with straight pieces.
     fn turns_tool(&self) -> bool {
         false
     }
 
-    /// What the field knows of its own course along a move that is to be divided.
+    /// Structure of the field along a move that is to be divided.
     fn structure(&self, _move_index: usize, _motion: &Move) -> Structure {
         Structure::default()
     }
@@ -86,15 +86,14 @@ pub struct Structure {
     /// Shares of the move, between 0 and 1 and in any order, at which the correction or its slope may
     /// jump. Each of them is evaluated, and what lies between two is looked at by itself.
     pub breaks: Vec<f64>,
-    /// What the correction is between two of them.
+    /// Form of the correction between two of them.
     pub course: Course,
 }
 
-/// What a correction is on a stretch without breaks.
+/// Form of a correction on a stretch without breaks.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Course {
-    /// Along a straight line a polynomial of third degree in the share, or of a lower one. Five values
-    /// say all about it.
+    /// Polynomial of at most third degree in the share, along a straight line. Five values determine it.
     Cubic,
     /// Smooth: it could be continued as a power series this far (in mm) beyond every place of the
     /// stretch, and would be at most twice as large there. The shorter this length, the more places are
@@ -103,8 +102,8 @@ pub enum Course {
         /// The length, in mm.
         radius_mm: f64,
     },
-    /// The same of a straight move along which nothing but the place changes. Where that is short beside the length, the
-    /// corrections at its two ends say all about it.
+    /// Smooth along a straight move on which only the place changes. If the move is short compared with the length, the
+    /// corrections at its two ends determine it.
     Steady {
         /// The length, in mm.
         radius_mm: f64,
@@ -112,7 +111,7 @@ pub enum Course {
 }
 
 impl Default for Course {
-    /// Of a field that says nothing of itself: smooth over 25 mm.
+    /// Default of a field that declares nothing: smooth over 25 mm.
     fn default() -> Self {
         Self::Smooth { radius_mm: 25.0 }
     }
@@ -139,12 +138,12 @@ impl CorrectionField for NoCorrection {
     }
 }
 
-/// Who watches a long run and may stop it.
+/// Observer of a long run, who may stop it.
 pub trait Monitor: Sync {
     /// `done` of `total` points are answered; the total grows while blocks are divided.
     fn progress(&self, done: usize, total: usize);
 
-    /// Whether to stop. Asked between batches.
+    /// True if the run is to stop. Asked between batches.
     fn cancelled(&self) -> bool;
 }
 

@@ -1,4 +1,4 @@
-//! Where the parts of a long program begin, noted while it is surveyed: each can then be read by itself.
+//! Beginnings of the parts of a long program, noted during the survey: each part can then be read by itself.
 
 use std::collections::VecDeque;
 use std::hash::{DefaultHasher, Hasher};
@@ -9,10 +9,10 @@ use crate::parts::length::PartLength;
 use crate::reading::interpreting::interpreter::InterpreterState;
 use crate::text::program::ReaderState;
 
-/// What the lines before one tell of those that follow.
+/// Modal state of reader and interpreter before a line.
 pub(crate) type States = (ReaderState, InterpreterState);
 
-/// Where a part begins: the first line that is looked at for it.
+/// Beginning of a part: the first line that is looked at for it.
 pub(crate) struct Beginning {
     /// Number of its first own line.
     pub own: usize,
@@ -50,7 +50,7 @@ struct Candidate {
     states: Arc<States>,
     /// Moves before it.
     moves: usize,
-    /// Of the lines from it on.
+    /// Checksum of the lines from it on.
     check: Check,
 }
 
@@ -62,7 +62,7 @@ struct Open {
     moves_to_end: Option<usize>,
 }
 
-/// The same while the survey goes on.
+/// Beginnings found so far during the survey.
 pub(crate) struct Beginnings {
     length: PartLength,
     found: Vec<(Beginning, ByKnown)>,
@@ -80,7 +80,8 @@ pub(crate) struct NextLine<'a> {
     pub bytes: &'a [u8],
 }
 
-/// So many lines without a motion beside those of a part are looked at, at least; of more the motions on the other side are not known.
+/// Minimum number of lines without a motion that are looked at on each side of a part; beyond them the motions on the other side are
+/// not known.
 const FAR: usize = 1000;
 
 impl Beginnings {
@@ -106,7 +107,7 @@ impl Beginnings {
         (self.own() + self.beside()).max(FAR)
     }
 
-    /// Whether a part begins with this line.
+    /// True if a part begins with this line.
     pub fn is_first_own(&self, line: usize) -> bool {
         (line - 1).is_multiple_of(self.own())
     }

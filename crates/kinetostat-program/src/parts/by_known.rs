@@ -9,19 +9,19 @@ impl ByKnown {
         self.0[index_of(known)] += length_mm;
     }
 
-    /// Of the moves from known places, in a program that states these axes.
+    /// Length of the moves from known places, in a program that states these axes.
     pub fn whole_mm(&self, stated: [bool; 3]) -> f64 {
         let counts = (0..8).filter(|index| covers(*index, stated));
         counts.map(|index| self.0[index]).sum()
     }
 }
 
-/// Which axes are known, as one number below 8.
+/// Index below 8 of a set of known axes.
 pub(crate) fn index_of(known: [bool; 3]) -> usize {
     (0..3).map(|axis| usize::from(known[axis]) << axis).sum()
 }
 
-/// Whether of the axes that are stated none is unknown.
+/// True if all axes that are stated are known.
 pub(crate) fn covers(index: usize, stated: [bool; 3]) -> bool {
     (0..3).all(|axis| index >> axis & 1 == 1 || !stated[axis])
 }

@@ -16,7 +16,7 @@ use crate::writing::written::Corrected;
 pub struct GcodePart<'a, 'o> {
     /// The part.
     pub part: &'a Part,
-    /// Its place among the others.
+    /// Place of the part among the others.
     pub place: &'a PlaceInOrder<'a, 'o>,
 }
 

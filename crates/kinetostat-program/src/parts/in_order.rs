@@ -5,10 +5,10 @@ use std::sync::{Arc, Condvar, Mutex, MutexGuard, OnceLock, PoisonError};
 
 use crate::parts::written_so_far::WrittenSoFar;
 
-/// Parts that are worked on side by side and written one behind the other. What is written of a part depends on those before it, if
-/// little: on the modes in which they leave the controller, the feed rate in force and the last position. A part goes on as soon as
-/// the one before it was written once. Should that be written again, with other pieces, the part is to be done anew: its bytes are
-/// those of parts that are done one after the other.
+/// Parts that are worked on side by side and written one behind the other. The text of a part depends slightly on those before it:
+/// on the modes in which they leave the controller, the feed rate in force and the last position. A part goes on as soon as the one
+/// before it was written once. Should that be written again, with other pieces, the part is to be done anew: its bytes are those of
+/// parts that are done one after the other.
 ///
 /// ```
 /// use kinetostat_program::*;
@@ -40,7 +40,7 @@ pub struct PartsInOrder<'o> {
     changed: Condvar,
 }
 
-/// Where the written program stands before a part, in one of the versions that there were of it.
+/// Version of the written program before a part.
 #[derive(Clone)]
 struct Before<'o> {
     version: u64,
@@ -50,8 +50,7 @@ struct Before<'o> {
 struct State<'o> {
     /// Parts that are taken.
     taken: usize,
-    /// What is written before the next part to be taken, and before those behind it as far as is known. The first is there always,
-    /// and stays.
+    /// Written program before the next part to be taken, and before later ones as far as known. The first entry always exists.
     before: VecDeque<Before<'o>>,
     versions: u64,
     /// A part was written again: from then on a part waits until those before it are taken.
@@ -60,7 +59,7 @@ struct State<'o> {
 }
 
 impl<'o> State<'o> {
-    /// What is written before a part, if that is known and may be used.
+    /// Written program before a part, if it is known and may be used.
     fn before(&self, part: usize) -> Option<&Before<'o>> {
         let ahead = part.checked_sub(self.taken)?;
         let may_be = ahead == 0 || !self.waits;
@@ -68,19 +67,19 @@ impl<'o> State<'o> {
     }
 }
 
-/// How a part stands that waited for its turn.
+/// State of a part that waited for its turn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Standing {
-    /// It is the next to be taken, as it was written.
+    /// The part is the next to be taken, as it was written.
     Next,
-    /// It would be, but what is written before it has changed: it is to be done again.
+    /// The part would be next, but the program written before it has changed: it is to be done again.
     Again,
     /// No part is taken any more.
     Ended,
 }
 
 impl<'o> PartsInOrder<'o> {
-    /// So many parts are taken already, and this is what is written of them.
+    /// Continues after parts that are already taken and written.
     #[must_use]
     pub fn from(taken: usize, written: WrittenSoFar<'o>) -> Self {
         let first = Before {
@@ -116,13 +115,13 @@ impl<'o> PartsInOrder<'o> {
         self.lock().taken
     }
 
-    /// No part is taken any more, and whoever waits need wait no longer.
+    /// Ends the order: no part is taken any more, and nobody waits any longer.
     pub fn end(&self) {
         self.lock().ended = true;
         self.changed.notify_all();
     }
 
-    /// Whether no part is taken any more.
+    /// True if no part is taken any more.
     #[must_use]
     pub fn has_ended(&self) -> bool {
         self.lock().ended
@@ -152,12 +151,12 @@ impl<'o> PartsInOrder<'o> {
 pub struct PlaceInOrder<'p, 'o> {
     order: &'p PartsInOrder<'o>,
     part: usize,
-    /// What it is written behind: the same however often it is written on this way.
+    /// Program before the part: the same version however often the part is written.
     used: OnceLock<Before<'o>>,
 }
 
 impl<'o> PlaceInOrder<'_, 'o> {
-    /// Where the written program stands before the part, which may be waited for; `None` once no part is taken any more.
+    /// Waits for the written program before the part; `None` once no part is taken any more.
     pub(crate) fn before(&self) -> Option<Arc<WrittenSoFar<'o>>> {
         if let Some(used) = self.used.get() {
             return Some(used.written.clone());
@@ -166,7 +165,7 @@ impl<'o> PlaceInOrder<'_, 'o> {
         Some(self.used.get_or_init(|| found).written.clone())
     }
 
-    /// So it stands behind the part, as it was just written and read again.
+    /// Stores the written program after the part, as it was just written and read again.
     pub(crate) fn put_behind(&self, written: WrittenSoFar<'o>) {
         let mut state = self.order.lock();
         let ahead = self.part.wrapping_sub(state.taken);

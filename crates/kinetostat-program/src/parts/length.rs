@@ -1,6 +1,6 @@
-//! How long the parts of a program are.
+//! Length of the parts of a program.
 
-/// How long the parts are.
+/// Length of the parts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct PartLength {
     /// Lines that are a part's own.

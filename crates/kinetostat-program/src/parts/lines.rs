@@ -7,7 +7,7 @@ use thiserror::Error;
 use crate::error::ProgramError;
 use crate::text::program::MAX_READ_LINE_BYTES;
 
-/// Why a part of a program cannot be read.
+/// Reason for which a part of a program cannot be read.
 #[derive(Debug, Error)]
 pub enum PartError {
     /// The file cannot be read.
@@ -16,7 +16,7 @@ pub enum PartError {
     /// The program cannot be followed.
     #[error("{0}")]
     Program(#[from] ProgramError),
-    /// Its lines are not those that were surveyed.
+    /// The lines are not those that were surveyed.
     #[error("the program was changed since it was surveyed")]
     Changed,
 }
@@ -31,8 +31,8 @@ impl<R: BufRead> Lines<R> {
         Self { from }
     }
 
-    /// Puts the next line behind `to`; whether there was one. Of a line that is longer than any block only the beginning comes,
-    /// which the reader refuses.
+    /// Appends the next line to `to`; returns false at the end. Only the beginning of a line that is longer than any block
+    /// is read, which the reader refuses.
     pub fn next(&mut self, to: &mut Vec<u8>) -> Result<bool, IoError> {
         let start = to.len();
         loop {

@@ -1,4 +1,4 @@
-//! What only the whole of a program tells, found in one reading that keeps nothing of it.
+//! Facts about a whole program, found in one reading that keeps nothing of it.
 
 use std::io::BufRead;
 
@@ -17,10 +17,10 @@ use crate::writing::blocks::block_text::motion_word;
 /// Lines that are in memory at a time.
 const BLOCK: usize = 4096;
 
-/// What only the whole of a program tells.
+/// Facts that only the whole of a program gives.
 #[derive(Default)]
 pub struct Survey {
-    /// How long its parts are.
+    /// Length of the parts.
     pub length: PartLength,
     /// Lines of the program.
     pub lines: usize,
@@ -34,19 +34,19 @@ pub struct Survey {
     pub feed_mm: f64,
     /// Arcs at feed.
     pub feed_arcs: usize,
-    /// Whether X, Y, Z are ever stated.
+    /// True for each of X, Y, Z that is ever stated.
     pub stated: [bool; 3],
-    /// What may surprise, with lines.
+    /// Warnings, with lines.
     pub warnings: Vec<Warning>,
     /// Line of the mark of a compensated program.
     pub mark_line: Option<usize>,
-    /// Its comments begin with `;`.
+    /// True if comments begin with `;`.
     pub(crate) semicolons: bool,
     /// The ending of its first line.
     pub(crate) usual_ending: Vec<u8>,
     /// Every motion has its own motion word.
     pub(crate) repeats_motion: bool,
-    /// Where its parts begin.
+    /// Beginnings of the parts.
     pub(crate) parts: Vec<Beginning>,
 }
 
@@ -61,7 +61,7 @@ struct Behind {
 struct Surveyor {
     found: Survey,
     feed: ByKnown,
-    /// Of all moves.
+    /// Lengths of all moves.
     all: ByKnown,
     beginnings: Beginnings,
     behind: [Behind; 8],
@@ -146,7 +146,7 @@ impl Survey {
         }
     }
 
-    /// How many parts it has.
+    /// Number of parts.
     #[must_use]
     pub fn part_count(&self) -> usize {
         self.parts.len()

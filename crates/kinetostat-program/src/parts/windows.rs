@@ -14,11 +14,11 @@ use crate::text::program::{PartOfText, Program, Reader};
 /// A part of a program.
 #[derive(Debug, Clone)]
 pub struct Part {
-    /// Its lines, and some on either side.
+    /// Lines of the part, and some on either side.
     pub program: Program,
-    /// Where the tool goes on them.
+    /// Path of the tool on them.
     pub path: Path,
-    /// It is the last one.
+    /// True for the last part.
     pub is_last: bool,
 }
 
@@ -44,7 +44,7 @@ pub struct Parts<'o> {
 }
 
 impl<'o> Parts<'o> {
-    /// Of a program of which a survey was made, with the same options.
+    /// Parts of a program that was surveyed with the same options.
     ///
     /// ```
     /// use kinetostat_program::{PartLength, Parts, ReadOptions, Survey, Program, interpret};
@@ -72,7 +72,7 @@ impl<'o> Parts<'o> {
         Self { survey, reading }
     }
 
-    /// One after the other.
+    /// Returns the parts one after the other.
     pub fn in_order<R: BufRead + Seek>(
         self,
         mut text: R,
@@ -89,7 +89,7 @@ impl<'o> Parts<'o> {
         let beginning = survey.parts.get(index).ok_or(PartError::Changed)?;
         let next = survey.parts.get(index + 1);
         let end = next.map_or(survey.lines + 1, |next| next.own);
-        // Behind the last line there is none.
+        // There is no line after the last one.
         let more = usize::from(beginning.behind > survey.lines);
         let most = beginning.behind - 1 - beginning.states.0.lines + more;
         text.seek(SeekFrom::Start(beginning.offset))?;

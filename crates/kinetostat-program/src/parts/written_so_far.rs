@@ -1,4 +1,4 @@
-//! Where a written program stands between two parts of the program that it is written from.
+//! State of a written program between two parts of its source.
 
 use std::io::BufRead;
 
@@ -13,7 +13,7 @@ use crate::text::program::{PartOfText, Program, Reader, ReaderState};
 use crate::writing::writer_state::WriterState;
 use crate::writing::written::Corrected;
 
-/// Where a written program stands: what a controller that has run it so far holds, and where its writer does.
+/// State of a written program: the modal state of a controller that has run it so far, and that of its writer.
 pub struct WrittenSoFar<'o> {
     survey: &'o Survey,
     reader: ReaderState,
@@ -22,7 +22,7 @@ pub struct WrittenSoFar<'o> {
 }
 
 impl<'o> WrittenSoFar<'o> {
-    /// Nothing is written yet.
+    /// State before anything is written.
     #[must_use]
     pub fn nothing(survey: &'o Survey, reading: &'o ReadOptions) -> Self {
         Self {
@@ -33,7 +33,7 @@ impl<'o> WrittenSoFar<'o> {
         }
     }
 
-    /// These lines were written, and the writer stands so behind them: from what an interrupted run has left.
+    /// Continues after these written lines, with this state of the writer: from what an interrupted run has left.
     ///
     /// # Errors
     /// They cannot be read.
@@ -62,7 +62,7 @@ impl<'o> WrittenSoFar<'o> {
         Ok(())
     }
 
-    /// Where the writer stands; `None` before the first part.
+    /// State of the writer; `None` before the first part.
     #[must_use]
     pub fn writer(&self) -> Option<&WriterState> {
         self.writer.as_ref()
@@ -74,7 +74,7 @@ impl<'o> WrittenSoFar<'o> {
         self.reader.lines
     }
 
-    /// What was written of a part, read again behind all that was written before, and where the written program stands behind it.
+    /// Reads the text of a part again after all that was written before, and returns the state of the written program after it.
     pub(crate) fn read_again(
         &self,
         written: &Corrected,

@@ -1,4 +1,4 @@
-//! How far a machine stands from where one of its rotary axes turns the tool about itself.
+//! Distance of a machine from postures in which a rotary axis turns the tool about itself.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -18,8 +18,8 @@ impl RotaryAxes {
             .map_or(f64::INFINITY, |[area, _]| area)
     }
 
-    /// How far the second of two axes stands from the nearest angle at which directions say little of the first, rad: where the tool lies
-    /// along the first axis (the pole), or as far from it as it comes. None where there are not two axes that differ.
+    /// Angle of the second of two axes to the nearest singular one, rad, where the tool lies along the first axis (the pole), or as far
+    /// from it as it comes. `None` if there are not two different axes.
     ///
     /// ```
     /// use kinetostat_program::{Carries, RotaryAxes, RotaryAxis};

@@ -1,11 +1,11 @@
-//! How far an arc about a stated centre turns, and whether that can be said at all.
+//! Sweep of an arc about a stated centre, and arcs for which it is ambiguous.
 //!
-//! A full circle ends where it begins. Where its words are rounded apart, it ends a hair behind its start, and reads as an arc of a
-//! micrometre. Manuals say no more than that start and end are the same (Heidenhain, `C`; SINUMERIK, G2 with I and J), and
-//! controls differ in what they take for the same: below 5e-7 rad (grbl), 1e-6 rad (LinuxCNC), a length of their machine data. So
-//! an arc that is not longer than its words can be off is neither taken for a circle nor for an arc; the reader of G-code takes it
-//! as LinuxCNC and grbl do where these two agree, and says so. The other side is clear: an arc that lacks a hair of the whole turn
-//! is a full circle but for that hair.
+//! A full circle ends where it begins. If its words are rounded apart, it ends slightly after its start, and reads as an arc of a
+//! micrometre. Manuals say no more than that start and end are the same (Heidenhain, `C`; SINUMERIK, G2 with I and J), and controls
+//! differ in what they take for the same: below 5e-7 rad (grbl), 1e-6 rad (LinuxCNC), a length of their machine data. An arc that
+//! is not longer than the rounding of its words is therefore neither taken for a circle nor for an arc; the reader of G-code takes
+//! it as LinuxCNC and grbl do where these two agree, and says so. The other side is clear: an arc that lacks a hair of the whole
+//! turn is a full circle but for that hair.
 
 use std::f64::consts::TAU;
 use std::fmt;
@@ -15,17 +15,18 @@ use crate::number::{larger, smaller};
 /// Ends nearer than this are one point: the words were equal, up to the arithmetic, in mm.
 const SAME_POINT_MM: f64 = 1e-9;
 
-/// Below this angle some controllers take an arc for a full circle and some for nothing, in rad (5e-7 in grbl, 1e-6 in LinuxCNC;
+/// Angle in rad below which some controllers take an arc for a full circle and some for nothing (5e-7 in grbl, 1e-6 in LinuxCNC;
 /// neither asks whether the arc had an R).
 const DISPUTED_ANGLE: f64 = 1e-6;
 
-/// By how many last digits the ends of a full circle are apart where each was rounded, or summed up from steps.
+/// Distance of the ends of a full circle in last digits, if each was rounded or summed up from steps.
 const ROUNDED_DIGITS: f64 = 3.0;
 
 /// Radii at start and end that differ by more are no roundings (0.016 mm in Heidenhain's controls, 0.01 mm in SINUMERIK), in mm.
 const MOST_DIFFERENCE_MM: f64 = 0.02;
 
-/// Where the ends are apart by so large an angle, rad, the digits are too coarse for the radius to say anything.
+/// Largest angle between the ends, rad, of a possible full circle: beyond it the digits are too coarse for the radius
+/// to say anything.
 const LARGEST_DOUBT: f64 = 0.1;
 
 /// Finest digits that are looked for.
@@ -34,15 +35,15 @@ const MOST_DECIMALS: i32 = 9;
 /// The ends of an arc are so near each other that a full circle is meant as well as the arc between them.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct NearlyClosed {
-    /// How far its end is from its start in the plane, in mm.
+    /// Distance between end and start in the plane, in mm.
     pub apart_mm: f64,
-    /// The short arc between its ends, in rad, as LinuxCNC and grbl take it; none where they disagree as well, about less than
+    /// The short arc between its ends, in rad, as LinuxCNC and grbl take it; `None` if they disagree as well, about less than
     /// 1e-6 rad.
     pub short: Option<f64>,
 }
 
 impl NearlyClosed {
-    /// What to do with such an arc.
+    /// Remedy for such an arc.
     pub const REMEDY: &str =
         "end the circle exactly where it starts, or write a straight move instead of the arc";
 }

@@ -1,4 +1,4 @@
-//! Where a move passes planes of one coordinate.
+//! Intersections of a move with planes of one coordinate.
 
 use std::f64::consts::PI;
 
@@ -36,7 +36,7 @@ impl Move {
         }
     }
 
-    /// The same on a stretch where the coordinate only rises or only falls.
+    /// Intersections on a stretch where the coordinate is monotonic.
     fn shares_of_climb(
         &self,
         axis: usize,
@@ -77,8 +77,8 @@ fn turning_shares(arc: &Arc, axis: usize) -> Vec<f64> {
     if cosine.hypot(sine) < 1e-12 || arc.sweep == 0.0 {
         return Vec::new();
     }
-    // The coordinate is largest at `phase` and every whole turn from it, smallest half a turn on. That
-    // the radius may change by some micrometres on the way moves these places by as little.
+    // The coordinate is largest at `phase` and every whole turn from it, smallest half a turn on. A change of the
+    // radius by some micrometres on the way moves these places by as little.
     let phase = sine.atan2(cosine);
     let (low, high) = (
         arc.start_angle.min(arc.start_angle + arc.sweep),

@@ -1,10 +1,10 @@
-//! What a path says of feed and spindle on its lines and moves.
+//! Feed and spindle of a path on its lines and moves.
 
 use crate::path::moves::{FeedMode, Move, MoveKind, Path};
 use crate::path::spindle::Spindle;
 
 impl Path {
-    /// How the spindle turns while the block on a line is made.
+    /// Spindle state in the block on a line.
     ///
     /// Words are taken in the order in which LinuxCNC executes those of one block: speed (S, in the mode that G96 or G97 of
     /// the same block sets), change of tools (M6, which stops the spindle), M3 M4 M5 M19, motion, end of program (M2 and M30,

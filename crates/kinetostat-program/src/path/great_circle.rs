@@ -1,9 +1,9 @@
 //! The tool's axis on a great circle, by rotary axes.
 //!
-//! Where a program states directions of the tool, many controllers turn it from one to the next in the plane of both (ORIVECT of
-//! SINUMERIK, tool posture control of Fanuc, PATHCTRL VECTOR of Heidenhain; what postprocessors of APT divide for). The rotary axes then
-//! do not turn evenly, and near a pole fast. Their angles are followed along the circle once, in steps that are the smaller the nearer
-//! the tool comes to a pole, and are found from the direction wherever they are asked for.
+//! If a program states directions of the tool, many controllers turn it from one to the next in the plane of both (ORIVECT of SINUMERIK,
+//! tool posture control of Fanuc, PATHCTRL VECTOR of Heidenhain; what postprocessors of APT divide for). The rotary axes then do not
+//! turn evenly, and near a pole fast. Their angles are followed along the circle once, in steps that are the smaller the nearer the tool
+//! comes to a pole, and are found from the direction wherever they are asked for.
 
 use nalgebra::{UnitQuaternion, Vector3};
 
@@ -21,7 +21,7 @@ const TURN_IN_STEP: f64 = 0.2;
 /// Smallest angle of the circle in a step, rad: a tool that passes a pole nearer goes through it.
 const FINEST: f64 = 1e-6;
 
-/// Most steps of one way that are made smaller than the largest: the way of a tool passes few poles.
+/// Maximum number of steps of one way that are refined: the way of a tool passes few poles.
 const MOST_STEPS: usize = 20_000;
 
 /// Directions as opposite as this have no circle of their own.
@@ -33,29 +33,29 @@ pub struct GreatCircle {
     from: Vector3<f64>,
     /// Rotation vector to the other direction.
     turn: Vector3<f64>,
-    /// Where the axes stand, from the first share to the last.
+    /// Angles of the axes, from the first share to the last.
     guides: Vec<Guide>,
 }
 
-/// Where the axes stand at a share of the way.
+/// Angles of the axes at a share of the way.
 #[derive(Debug, Clone, PartialEq)]
 struct Guide {
     share: f64,
     angles_deg: Vec<f64>,
 }
 
-/// Why the tool's axis cannot go on a great circle.
+/// Reason for which the tool's axis cannot go on a great circle.
 #[derive(Debug, Clone, PartialEq)]
 pub enum OffCircle {
     /// The directions are opposite: over which side it goes is open.
     Opposite,
-    /// At a direction on the way the axes do not reach it.
+    /// The axes do not reach a direction on the way.
     Unreached(Vector3<f64>, Unreached),
 }
 
 impl GreatCircle {
-    /// From the angles at which the axes stand to a direction, a unit vector from the tip to the holder in axes of the part. Where the
-    /// tool begins along an axis (at the pole), that axis is turned at once to where the way leads.
+    /// Great circle from the angles of the axes to a direction, a unit vector from the tip to the holder in axes of the part. If
+    /// the tool begins along an axis (at the pole), that axis is turned at once to where the way leads.
     ///
     /// ```
     /// use kinetostat_program::{Carries, GreatCircle, RotaryAxes, RotaryAxis};
@@ -152,7 +152,7 @@ impl GreatCircle {
         UnitQuaternion::from_scaled_axis(self.turn * share) * self.from
     }
 
-    /// Where the axes stand at a share of the way, deg.
+    /// Angles of the axes at a share of the way, deg.
     #[must_use]
     pub fn angles_at(&self, axes: &RotaryAxes, share: f64) -> Vec<f64> {
         let behind = self.guides.partition_point(|guide| guide.share <= share);
@@ -167,19 +167,19 @@ impl GreatCircle {
         nearest(axes.pointing(&self.direction_at(share), &between)).unwrap_or(between)
     }
 
-    /// Where the axes stand at the beginning, deg.
+    /// Angles of the axes at the beginning, deg.
     #[must_use]
     pub fn start_deg(&self) -> &[f64] {
         &self.guides[0].angles_deg
     }
 
-    /// Where the axes stand at the end, deg.
+    /// Angles of the axes at the end, deg.
     #[must_use]
     pub fn end_deg(&self) -> &[f64] {
         &self.guides[self.guides.len() - 1].angles_deg
     }
 
-    /// How far each axis turns on the way, back and forth, deg.
+    /// Travel of each axis on the way, back and forth, deg.
     #[must_use]
     pub fn way_deg(&self) -> Vec<f64> {
         let mut ways = vec![0.0; self.start_deg().len()];
@@ -191,7 +191,7 @@ impl GreatCircle {
         ways
     }
 
-    /// How far each axis would turn on the whole way if it went on throughout as fast as where it is fastest between two shares, deg.
+    /// Travel of each axis on the whole way at its largest rate between two shares, deg.
     #[must_use]
     pub fn fastest_deg(&self, [from, to]: [f64; 2]) -> Vec<f64> {
         let mut ways = vec![0.0; self.start_deg().len()];
@@ -208,13 +208,13 @@ impl GreatCircle {
     }
 }
 
-/// How far each axis turns from one of two places to the other, deg.
+/// Travel of each axis between two guides, deg.
 fn turned(pair: &[Guide]) -> impl Iterator<Item = f64> {
     let both = pair[0].angles_deg.iter().zip(&pair[1].angles_deg);
     both.map(|(a, b)| (b - a).abs())
 }
 
-/// Whether an axis may stand anywhere.
+/// True if an axis may have any angle.
 fn at_pole(pointing: &[Pointing]) -> bool {
     pointing.iter().any(|found| found.free.contains(&true))
 }

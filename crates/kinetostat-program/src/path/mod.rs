@@ -1,4 +1,4 @@
-//! Where the tool goes: moves along straight lines and arcs, with what the program says beside them.
+//! Path of the tool: moves along straight lines and arcs, with their feed, spindle and tool.
 //!
 //! Plain geometry in mm, part frame. Knows no text.
 

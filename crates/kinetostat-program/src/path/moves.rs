@@ -13,7 +13,7 @@ use crate::path::spindle::SpindleChange;
 use crate::path::tool_change::ToolChange;
 use crate::path::tool_turn::ToolTurn;
 
-/// Whether a move is made at rapid rate or at the programmed feed.
+/// Rapid traverse or feed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum MoveKind {
@@ -23,7 +23,7 @@ pub enum MoveKind {
     Feed,
 }
 
-/// How the F word counts.
+/// Feed mode, the meaning of the F word.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum FeedMode {
@@ -39,13 +39,13 @@ pub enum FeedMode {
 /// A programmed feed.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Feed {
-    /// How the value counts.
+    /// Feed mode of the value.
     pub mode: FeedMode,
-    /// In mm/min, 1/min, or mm per revolution; inches are converted.
+    /// Value in mm/min, 1/min, or mm per revolution; inches are converted.
     pub value: f64,
 }
 
-/// How much of a move's place in the part is known from the program and the options.
+/// Extent to which a move's place in the part is known from the program and the options.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Knowledge {
@@ -57,7 +57,7 @@ pub enum Knowledge {
     Nothing,
 }
 
-/// How a word of an extra axis counts.
+/// Distance mode of an extra axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum ExtraMode {
@@ -73,14 +73,13 @@ pub enum ExtraMode {
 /// The motion of one axis other than X, Y, Z in a move.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct ExtraAxis {
-    /// One of A B C E U V W.
+    /// Letter, one of A B C E U V W.
     pub letter: char,
     /// The number as written: the end or the way, in the block's units.
     pub word: f64,
-    /// Where the axis stands before, in program coordinates and the block's units; `None` if the
-    /// program has not stated it.
+    /// Start of the axis, in program coordinates and the block's units; `None` if the program has not stated it.
     pub start: Option<f64>,
-    /// How the word counts.
+    /// Distance mode of the word.
     pub mode: ExtraMode,
 }
 
@@ -93,9 +92,9 @@ pub struct Move {
     pub kind: MoveKind,
     /// Straight or arc.
     pub curve: Curve,
-    /// Where the move begins, in mm.
+    /// Start of the move, in mm.
     pub start: Vector3<f64>,
-    /// Where the move ends, in mm.
+    /// End of the move, in mm.
     pub end: Vector3<f64>,
     /// Orientation of the tool; `None` in a program of positions, where the caller knows it.
     pub tool_turn: Option<Box<ToolTurn>>,
@@ -103,13 +102,13 @@ pub struct Move {
     pub extra: Vec<ExtraAxis>,
     /// The F in force, `None` before the first F word.
     pub feed: Option<Feed>,
-    /// Whether start and end are known.
+    /// Knowledge of start and end.
     pub known: Knowledge,
-    /// How the block's coordinate words are to be written.
+    /// Form of the block's coordinate words.
     pub words: CoordinateWords,
 }
 
-/// How a block's coordinate words count.
+/// Form of a block's coordinate words.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct CoordinateWords {
     /// Millimetres in one unit of the words.
@@ -126,7 +125,7 @@ pub struct CoordinateWords {
 }
 
 impl CoordinateWords {
-    /// Whether the block goes to a place of the machine.
+    /// True if the block goes to a place in machine coordinates.
     ///
     /// ```
     /// use kinetostat_program::{Program, ReadOptions, interpret};
@@ -153,7 +152,7 @@ impl Move {
         self.curve.tangent(&self.start, &self.end, share)
     }
 
-    /// Whether it is made at feed from a place that is known: such a move is corrected all along.
+    /// True if the move is a feed from a known place: it is corrected all along.
     ///
     /// ```
     /// use kinetostat_program::{Program, ReadOptions, interpret};
@@ -191,7 +190,7 @@ impl Move {
         }
     }
 
-    /// Whether it is longer than what is left of two equal places after the arithmetic of increments and inches.
+    /// True if the move is longer than the rounding of increments and inches between equal places.
     pub fn has_length(&self) -> bool {
         self.length_mm() > NO_LENGTH_MM
     }
@@ -210,20 +209,19 @@ pub struct Path {
     /// Unit vector from the tool's tip to its holder, in axes of the tool, where moves state the orientation
     /// ([`Move::tool_turn`]).
     pub tool_axis: Vector3<f64>,
-    /// Whether X, Y, Z are ever stated (or given by the start position). The others are never
-    /// written.
+    /// True for each of X, Y, Z that is ever stated (or given by the start position). The others are never written.
     pub stated: [bool; 3],
-    /// What may surprise the user, with lines.
+    /// Warnings, with lines.
     pub warnings: Vec<Warning>,
-    /// Where another tool is taken, in the order of lines; see [`Path::tool_on`].
+    /// Tool changes, in the order of lines; see [`Path::tool_on`].
     pub tool_changes: Vec<ToolChange>,
-    /// Where the spindle begins to turn otherwise, in the order of lines; see [`Path::spindle_on`].
+    /// Spindle changes, in the order of lines; see [`Path::spindle_on`].
     pub spindle_changes: Vec<SpindleChange>,
     /// Blocks in which the tool stands still, in the order of lines; see [`Path::pauses_between`].
     pub pauses: Vec<Pause>,
-    /// What changes between the moves and matters to who writes them.
+    /// Changes between the moves that matter to the writer.
     pub(crate) events: Vec<Event>,
-    /// What of a longer path this is; `None` of a whole one.
+    /// Position in a longer path; `None` for a whole one.
     pub part: Option<PathPart>,
     /// First line with lengths whose unit the program does not state: they are taken for millimetres.
     pub units_assumed_on: Option<usize>,
@@ -234,7 +232,7 @@ pub struct Path {
 pub struct Warning {
     /// Line of the input program, counted from 1.
     pub line: usize,
-    /// What, and what follows from it.
+    /// Text of the warning, with its consequence.
     pub text: String,
 }
 
@@ -279,7 +277,7 @@ impl Path {
         self.part.as_ref().map_or(0, |part| part.moves_before)
     }
 
-    /// Whether nothing of the program comes before its own moves.
+    /// True if nothing of the program comes before the path's own moves.
     pub fn begins(&self) -> bool {
         self.part.as_ref().is_none_or(|part| part.begins)
     }

@@ -1,4 +1,4 @@
-//! What moves and paths say of the orientation of the tool.
+//! Orientation of the tool on moves and paths.
 
 use nalgebra::{Isometry3, UnitQuaternion, Vector3};
 
@@ -20,8 +20,8 @@ impl Move {
         self.tool_turn.as_ref().map(|turn| turn.at(share))
     }
 
-    /// How far a table has turned the part at a share of the move from where it lies where all rotary axes stand at zero, in the axes of
-    /// the part there, mm; `None` where no table turns it.
+    /// Motion of the part by a table at a share of the move, from its place with all rotary axes at zero, in the axes of the part there,
+    /// mm; `None` if no table turns it.
     ///
     /// ```
     /// use kinetostat_program::{Program, ReadOptions, interpret};
@@ -36,7 +36,7 @@ impl Move {
         self.tool_turn.as_ref()?.part(share)
     }
 
-    /// Whether the tool stands at one place and turns there: the move has no length, and two orientations.
+    /// True if the tool rotates in place: the move has no length, and two orientations.
     ///
     /// ```
     /// use kinetostat_program::{Program, ReadOptions, interpret};

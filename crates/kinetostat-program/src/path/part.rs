@@ -1,8 +1,8 @@
-//! What a path that is a part of a longer one tells of the whole.
+//! Position of a path within a longer one.
 
 use std::ops::Range;
 
-/// What a path that is a part of a longer one tells of the whole.
+/// Position of a path within a longer one.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PathPart {
     /// Indices of the moves that are its own: the others say how these begin and end (directions, corners, the way on which a

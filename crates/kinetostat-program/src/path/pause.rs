@@ -6,11 +6,11 @@
 pub struct Pause {
     /// Line of the block, counted from 1.
     pub line: usize,
-    /// Why.
+    /// Kind of the pause.
     pub kind: PauseKind,
 }
 
-/// Why a tool stands still.
+/// Kind of a pause.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum PauseKind {
@@ -27,7 +27,7 @@ pub enum PauseKind {
 }
 
 impl PauseKind {
-    /// In words.
+    /// Kind in words.
     ///
     /// ```
     /// use kinetostat_program::PauseKind;

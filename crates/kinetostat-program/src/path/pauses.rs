@@ -1,4 +1,4 @@
-//! What a path says of the pauses between its moves.
+//! Pauses between the moves of a path.
 
 use crate::path::moves::Path;
 use crate::path::pause::Pause;

@@ -1,4 +1,4 @@
-//! Where directions of the tool say little of its rotary axes: near a pole.
+//! Poles, near which directions of the tool determine its rotary axes poorly.
 //!
 //! Two axes turn the tool, one after the other. The area that the two turns span is `n . R(second) z` times one, with `n` the cross
 //! product of both axes: it depends on the angle of the second axis alone, as a cosine, and is zero twice in a revolution. There the
@@ -17,7 +17,7 @@ const NO_TURN: f64 = 1e-9;
 
 impl RotaryTurn {
     /// The shares of a move of evenly turning axes between which the second axis stands nearer than `near_rad` (less by the sine of the
-    /// angle between both axes) to an angle at which directions say little, two for each pole. None where it stands there all along.
+    /// angle between both axes) to an angle at which directions say little, two for each pole. Empty if it stands there all along.
     ///
     /// ```
     /// use kinetostat_program::{Carries, RotaryAxes, RotaryAxis, RotaryTurn, StatedBy};

@@ -3,7 +3,7 @@
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
-/// What a block does to the position offset.
+/// Change of the position offset by a block.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum OffsetChange {
     /// G92: the place where the tool stands gets these coordinates (in mm).

@@ -5,7 +5,7 @@
 
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, UnitVector3, Vector3};
 
-/// What a rotary axis turns.
+/// Element that a rotary axis turns.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Carries {
     /// A head.
@@ -17,16 +17,16 @@ pub enum Carries {
 /// A rotary axis of a machine, where all of them stand at zero.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RotaryAxis {
-    /// Its word: A, B or C.
+    /// Letter of its word: A, B or C.
     pub letter: char,
-    /// What it turns.
+    /// Element that it turns.
     pub carries: Carries,
     /// About which its word counts, right-handed: axes of the part as it lies where all axes stand at zero. A table that turns
     /// the part clockwise for positive words, seen against z, has -z here.
     pub direction: UnitVector3<f64>,
-    /// A point on it, mm, part frame there. That of a head does not matter: the tip goes where the program says.
+    /// A point on it, mm, part frame there. The point of a head does not matter: the tip goes where the program says.
     pub point_mm: Vector3<f64>,
-    /// Least and largest angle that it reaches, deg; `None` where it turns without end.
+    /// Minimum and maximum angle, deg; `None` for endless rotation.
     pub limits_deg: Option<[f64; 2]>,
 }
 
@@ -53,7 +53,7 @@ pub struct RotaryAxis {
 /// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct RotaryAxes {
-    /// From the base outwards: of two heads the one that carries the other first, and of two tables too.
+    /// Axes from the base outwards: of two heads the one that carries the other first, and of two tables too.
     pub axes: Vec<RotaryAxis>,
     /// Orientation of the tool where all axes stand at zero, part axes from tool axes.
     pub tool_at_zero: UnitQuaternion<f64>,
@@ -70,7 +70,7 @@ impl RotaryAxes {
             .map(|(axis, angle)| (axis, angle.to_radians()))
     }
 
-    /// How far the part has turned from where it lies at zero, in the axes of the part there, mm.
+    /// Motion of the part by the tables from its place at zero, in the axes of the part there, mm.
     #[must_use]
     pub fn part(&self, angles_deg: &[f64]) -> Isometry3<f64> {
         let turns = self.turns(Carries::Part, angles_deg);
@@ -91,7 +91,7 @@ impl RotaryAxes {
         self.part(angles_deg).rotation.inverse() * head * self.tool_at_zero
     }
 
-    /// Whether there are tables.
+    /// True if there are tables.
     pub(crate) fn turns_part(&self) -> bool {
         self.axes.iter().any(|axis| axis.carries == Carries::Part)
     }

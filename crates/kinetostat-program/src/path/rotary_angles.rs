@@ -20,12 +20,12 @@ const SAME_WAY: f64 = 1e-6;
 /// An axis stands within its limits up to this, deg.
 const AT_LIMIT: f64 = 1e-6;
 
-/// Why rotary axes do not point the tool in a direction.
+/// Reason for which rotary axes cannot point the tool in a direction.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Unreached {
-    /// No angles do.
+    /// No angles reach the direction.
     Direction,
-    /// These angles do, deg, in the order of the axes, and they lie outside the limits of an axis; all others do, too.
+    /// Angles, deg, in the order of the axes, that reach it outside the limits of an axis; all others do so, too.
     Limits(Vec<f64>),
 }
 
@@ -42,8 +42,8 @@ pub(crate) struct Pointing {
 impl RotaryAxes {
     /// The angles at which the tool's axis points in a direction, deg, in the order of the axes; of those that do, the nearest to
     /// others: the sum of the turns counts, and an axis that need not turn stays. `direction` is a unit vector from the tip to the
-    /// holder, in axes of the part as it stands then; the tool's axis is along z of the part where all axes stand at zero. Of
-    /// more than two axes no angles are found.
+    /// holder, in axes of the part as it stands then; the tool's axis is along z of the part where all axes stand at zero. No
+    /// angles are found for more than two axes.
     ///
     /// ```
     /// use kinetostat_program::{Carries, RotaryAxes, RotaryAxis, Unreached};
@@ -149,7 +149,7 @@ impl RotaryAxes {
         placed.filter(reaches).collect()
     }
 
-    /// The same direction within the limits of the axes: full turns away, or anywhere where an axis need not turn.
+    /// Moves the solution into the limits of the axes: by full turns, or freely for an axis that need not turn.
     fn within_limits_of(&self, pointing: &Pointing) -> Option<Pointing> {
         let mut within = pointing.clone();
         for (index, axis) in self.axes.iter().enumerate() {
@@ -187,7 +187,7 @@ impl RotaryAxes {
         })
     }
 
-    /// Which axis would leave its limits at these angles, in words, with all of them.
+    /// Text with all angles and the axis that would leave its limits there.
     #[must_use]
     pub fn words_of_limits(&self, angles_deg: &[f64]) -> String {
         let each = self.axes.iter().zip(angles_deg);

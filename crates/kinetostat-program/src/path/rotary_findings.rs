@@ -1,4 +1,4 @@
-//! What a person should know of rotary axes along a path: angles beyond their limits, and angles that nothing says.
+//! Warnings about rotary axes along a path: angles beyond their limits, and angles that are not determined.
 
 use nalgebra::Vector3;
 
@@ -54,7 +54,7 @@ impl Path {
         let mut before = StatedBy::Angles;
         for (motion, turn) in turns {
             note_beyond(motion, turn, &mut beyond);
-            // Where words have said the angle it is known.
+            // The angle is known after words have stated it.
             if before == StatedBy::Direction {
                 note_open(motion, turn, &self.tool_axis, &mut open);
             }
@@ -135,7 +135,7 @@ fn note_open(
     }
 }
 
-/// Whether the tool lies along an axis: turning that leaves its direction in the part.
+/// True if the tool lies along an axis: its rotation leaves the direction of the tool in the part.
 fn lies_along(
     axes: &RotaryAxes,
     angles_deg: &[f64],

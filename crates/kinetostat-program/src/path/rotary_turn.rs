@@ -1,4 +1,4 @@
-//! What the rotary axes of a machine do in a move.
+//! Motion of a machine's rotary axes in a move.
 
 use std::sync::Arc;
 
@@ -7,35 +7,36 @@ use nalgebra::{Isometry3, UnitQuaternion};
 use crate::path::great_circle::GreatCircle;
 use crate::path::rotary::RotaryAxes;
 
-/// What the rotary axes do in a move: each turns evenly with the share, or all of them lead the tool's axis on a great circle.
+/// Motion of the rotary axes in a move: each turns linearly with the share, or all of them lead the tool's axis on a great
+/// circle.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RotaryTurn {
     /// The axes.
     pub axes: Arc<RotaryAxes>,
-    /// Where they stand at the start of the move, in their order, deg.
+    /// Angles at the start of the move, in the order of the axes, deg.
     pub start_deg: Vec<f64>,
-    /// Where they stand at its end.
+    /// Angles at the end of the move.
     pub end_deg: Vec<f64>,
-    /// Where the words of the program count from (`G10 L2`).
+    /// Origin of the program's words (`G10 L2`).
     pub origin_deg: Vec<f64>,
-    /// On which the tool's axis goes in the part; `None` where each axis turns evenly with the share.
+    /// Great circle of the tool's axis in the part; `None` if each axis turns linearly with the share.
     pub great_circle: Option<GreatCircle>,
-    /// What the program says of them.
+    /// Kind of the program's words: angles or a direction.
     pub stated: StatedBy,
 }
 
-/// How a program says where rotary axes stand.
+/// Kind of words by which a program states the angles of rotary axes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum StatedBy {
-    /// By their words.
+    /// Words of the axes.
     #[default]
     Angles,
-    /// By a direction of the tool (G43.5 I J K, A3 B3 C3, six numbers of a GOTO).
+    /// Direction of the tool (G43.5 I J K, A3 B3 C3, six numbers of a GOTO).
     Direction,
 }
 
 impl RotaryTurn {
-    /// Where the axes stand at a share of the move, deg.
+    /// Angles of the axes at a share of the move, deg.
     #[must_use]
     pub fn angles_deg(&self, share: f64) -> Vec<f64> {
         if let Some(circle) = &self.great_circle
@@ -49,7 +50,7 @@ impl RotaryTurn {
             .collect()
     }
 
-    /// How far each axis turns, back and forth, deg.
+    /// Travel of each axis, back and forth, deg.
     #[must_use]
     pub fn ways_deg(&self) -> Vec<f64> {
         if let Some(circle) = &self.great_circle {
@@ -65,7 +66,7 @@ impl RotaryTurn {
         self.axes.tool(&self.angles_deg(share))
     }
 
-    /// How far the part has turned at a share of the move from where it lies at zero; `None` on a machine without tables.
+    /// Motion of the part at a share of the move from its place at zero; `None` on a machine without tables.
     ///
     /// ```
     /// use kinetostat_program::{Carries, RotaryAxes, RotaryAxis, RotaryTurn, StatedBy};

@@ -1,6 +1,6 @@
-//! How the spindle turns while a block is made, and what a feed is in a turn of it.
+//! Spindle state of a block, and conversion of feed per revolution.
 
-/// Which way the spindle turns, seen from the spindle towards the part.
+/// Direction of the spindle, seen from the spindle towards the part.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum SpindleRotation {
@@ -13,7 +13,7 @@ pub enum SpindleRotation {
     Stopped,
 }
 
-/// How the S word counts.
+/// Speed mode, the meaning of the S word.
 #[derive(Debug, Clone, Copy, PartialEq, Default, serde::Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum SpeedMode {
@@ -27,12 +27,12 @@ pub enum SpeedMode {
     },
 }
 
-/// What the program says about the spindle.
+/// Spindle state that the program states.
 #[derive(Debug, Clone, Copy, PartialEq, Default, serde::Serialize)]
 pub struct Spindle {
-    /// Which way it turns.
+    /// Direction of rotation.
     pub rotation: SpindleRotation,
-    /// How `speed` counts.
+    /// Speed mode of `speed`.
     pub mode: SpeedMode,
     /// The S in force: in rpm with G97, in m/min with G96 (feet are converted). `None` before the first S, after a change
     /// of G96 and G97 without S, and where it is not known whether an S beside G96 was in metres or feet.
@@ -70,6 +70,6 @@ pub struct SpindleChange {
     /// Line of the first block that is made so, counted from 1. The stop of an M2 or M30 beside a motion holds from the
     /// line after it.
     pub line: usize,
-    /// What holds from this block on.
+    /// State from this block on.
     pub spindle: Spindle,
 }

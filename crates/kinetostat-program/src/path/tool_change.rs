@@ -1,4 +1,4 @@
-//! Which tool a block is made with.
+//! Tool of a block.
 
 /// A block from which on another tool is used.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]

@@ -1,10 +1,10 @@
 //! The rule from a direction of the tool to the angles of rotary axes.
 //!
 //! Takes a direction in the part, gives the angles nearest to others at which the tool lies along it. The turn about the tool is
-//! free. Where two axes turn the tool about nearly the same direction (the pole: the tool lies along an axis) the direction is
-//! not followed across it, and the angles stay. Beside the closed form of [`crate::path::rotary_angles`], which finds all angles
-//! of a direction that a program states, this stands for corrections: small turns from where the axes are, of any number of
-//! axes, and what they cannot do is left.
+//! free. If two axes turn the tool about nearly the same direction (the pole: the tool lies along an axis) the direction is not
+//! followed across it, and the angles stay. The closed form of [`crate::path::rotary_angles`] finds all angles of a direction
+//! that a program states; this rule serves corrections: small turns from the present angles, of any number of axes, and
+//! rotations that they cannot make are left.
 
 use nalgebra::{DMatrix, DVector, Vector3};
 
@@ -31,7 +31,7 @@ const SAME: f64 = 1e-12;
 /// Angles of rotary axes for a direction of the tool.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Directed {
-    /// Where the axes stand, in their order, deg.
+    /// Angles of the axes, in their order, deg.
     pub angles_deg: Vec<f64>,
     /// Angle between the tool and the direction that is left, rad.
     pub left_rad: f64,
@@ -46,8 +46,8 @@ impl RotaryAxes {
         self.tool(angles_deg) * tool_axis
     }
 
-    /// How the axes must turn, in rad, so that the tool turns from its direction by a small vector across it, and whether it is
-    /// near the pole. Least squares: what the axes cannot do is left out, and so is what they could only do by large angles.
+    /// Rotations of the axes, in rad, that turn the tool from its direction by a small vector across it, and whether it is near
+    /// the pole. Least squares: rotations that the axes cannot make are left out, and so are those that need large angles.
     #[must_use]
     pub fn turns_for(
         &self,
@@ -68,8 +68,8 @@ impl RotaryAxes {
         (turns.iter().copied().collect(), free < needed)
     }
 
-    /// The same turns, less of what turns the axes near the pole: all of it 2 degrees beside it, nothing at 1 degree and nearer, so
-    /// that they begin gradually.
+    /// Rotations reduced by those that turn the axes near the pole: all of it 2 degrees beside it, nothing at 1 degree and nearer,
+    /// so that they begin gradually.
     #[must_use]
     pub fn gradual_turns(
         &self,
@@ -85,7 +85,7 @@ impl RotaryAxes {
         kept.iter().copied().collect()
     }
 
-    /// How the tool's direction changes with every angle, a column each.
+    /// Jacobian of the tool's direction, one column for each angle.
     fn slopes(&self, angles_deg: &[f64], tool_axis: &Vector3<f64>) -> DMatrix<f64> {
         let mut slopes = DMatrix::zeros(3, angles_deg.len());
         let mut angles = angles_deg.to_vec();

@@ -13,11 +13,11 @@ use crate::path::rotary_turn::RotaryTurn;
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct ToolTurn {
-    /// At the start of the move.
+    /// Orientation at the start of the move.
     pub start: UnitQuaternion<f64>,
-    /// At its end.
+    /// Orientation at its end.
     pub end: UnitQuaternion<f64>,
-    /// What the rotary axes of the machine do, where the program states their angles.
+    /// Motion of the machine's rotary axes, if the program states their angles.
     pub rotary: Option<RotaryTurn>,
     /// The axis that swivels in a plane, axes of the tool; `None` where the tool turns about one axis.
     pub swivelling: Option<UnitVector3<f64>>,
@@ -63,7 +63,7 @@ impl ToolTurn {
         }
     }
 
-    /// As rotary axes turn.
+    /// Orientation along a motion of rotary axes.
     #[must_use]
     pub fn rotary(turn: RotaryTurn) -> Self {
         let ends = Self::shortest(turn.tool(0.0), turn.tool(1.0));
@@ -73,8 +73,8 @@ impl ToolTurn {
         }
     }
 
-    /// Between two other orientations, in the way in which the controller turns the tool here; about one axis where rotary axes
-    /// turn it.
+    /// Orientation between two other ends, in the way in which the controller turns the tool here; about one axis if rotary
+    /// axes turn it.
     ///
     /// ```
     /// use kinetostat_program::ToolTurn;
@@ -92,8 +92,8 @@ impl ToolTurn {
         }
     }
 
-    /// How far a table has turned the part at a share of the move from where it lies at zero, in the axes of the part there, mm;
-    /// `None` without a table.
+    /// Motion of the part by a table at a share of the move from its place at zero, in the axes of the part there, mm; `None`
+    /// without a table.
     #[must_use]
     pub fn part(&self, share: f64) -> Option<Isometry3<f64>> {
         self.rotary.as_ref()?.part(share)
@@ -126,7 +126,7 @@ impl ToolTurn {
         self.start * UnitQuaternion::from_scaled_axis(way * share)
     }
 
-    /// How an axis of the tool swivels, and how the tool turns about it; `None` where the axis is turned round: any plane would do.
+    /// Swivel of an axis of the tool, and rotation of the tool about it; `None` if the axis is reversed: any plane would do.
     fn swivel(&self, axis: &UnitVector3<f64>) -> Option<Swivel> {
         let [from, to] = [self.start, self.end].map(|orientation| orientation * axis.into_inner());
         let across = from.cross(&to);
@@ -145,7 +145,7 @@ impl ToolTurn {
 
 /// Two turns at the same time, rotation vectors in rad.
 struct Swivel {
-    /// Of the axis, part axes.
+    /// Rotation of the axis, part axes.
     way: Vector3<f64>,
     /// About it, axes of the tool.
     turn: Vector3<f64>,

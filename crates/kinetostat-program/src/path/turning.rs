@@ -1,13 +1,13 @@
-//! How far, and how long, a move turns the tool in the part.
+//! Angle and time of the tool's rotation in the part during a move.
 
 use crate::number::larger;
 use crate::path::moves::{FeedMode, Move};
 use crate::path::rotary::Carries;
 
 impl Move {
-    /// How far the tool turns in the part, in degrees: what the words of rotary axes turn, or else the angle between the two
-    /// orientations. Of several axes the root of the sum of squares, as controllers count the feed of a block in which
-    /// nothing else moves (NIST RS274/NGC, 2.1.2.5). Zero in a program of positions.
+    /// Rotation of the tool in the part, in degrees: the travel of rotary axes by their words, or else the angle between the
+    /// two orientations. For several axes it is the root of the sum of squares, as controllers count the feed of a block in
+    /// which nothing else moves (NIST RS274/NGC, 2.1.2.5). Zero in a program of positions.
     ///
     /// ```
     /// use kinetostat_program::*;
@@ -44,8 +44,8 @@ impl Move {
         }
     }
 
-    /// How long a turn in place takes at its programmed feed, in s: `F` of G94 counts degrees in a minute where nothing but rotary
-    /// axes moves. None where the program does not say it, and for the turns of robots, whose speeds are their own.
+    /// Time of a rotation in place at its programmed feed, in s: `F` of G94 is in degrees per minute if only rotary axes move.
+    /// `None` if the program does not state it, and for robots, whose rotation speeds are their own.
     pub(crate) fn turn_seconds(&self) -> Option<f64> {
         let feed = self.feed?;
         let turn = self.tool_turn.as_ref()?;
@@ -63,9 +63,8 @@ impl Move {
         larger(self.length_mm(), self.turn_deg().to_radians() * lever_mm)
     }
 
-    /// How much the machine moves while the tool turns, were it to turn on the whole move as fast as between two shares, over the length within which its deflection is a power series (in mm), or
-    /// over the angle within which that of a turn is one (a radian): the sum over all axes, a table with the distance of the tip
-    /// from it.
+    /// Motion of the machine per length within which its deflection is a power series (in mm), or per radian for rotations, if the tool
+    /// rotated on the whole move as fast as between two shares: the sum over all axes, a table with the distance of the tip from it.
     pub(crate) fn turn_ratio(&self, radius_mm: f64, between: [f64; 2]) -> f64 {
         let Some(turn) = &self.tool_turn else {
             return 0.0;

@@ -16,7 +16,7 @@ const LARGEST_RADIUS_MM: f64 = 1e7;
 /// An arc by radius whose chord is its diameter but for this share is half a circle (as LinuxCNC has it).
 const HALF_CIRCLE: f64 = 1e-12;
 
-/// What an arc block is read against.
+/// Modal state against which an arc block is read.
 pub(crate) struct ArcFrame {
     pub start: Vector3<f64>,
     pub end: Vector3<f64>,

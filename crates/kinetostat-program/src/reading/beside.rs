@@ -41,7 +41,7 @@ pub(crate) fn refuse_parameters_of_calls(
             false => b"IJKRP",
         };
         for letter in refused.iter().copied() {
-            // How the tool turns under tool centre point control.
+            // P selects the orientation law under tool centre point control.
             if letter == b'P' && block.codes.tool_centre_point {
                 continue;
             }

@@ -74,7 +74,7 @@ impl<'p> Block<'p> {
         Self::of(program, program.index_of(number).unwrap_or(0))
     }
 
-    /// What is understood of a block: words that are refused are left out.
+    /// Understood words of a block: refused ones are left out.
     pub fn understood(program: &'p Program, index: usize) -> Self {
         Self::read(program, index).0
     }
@@ -221,7 +221,8 @@ impl<'p> Block<'p> {
             ('G', 10) => codes.moves(Motion::Feed),
             ('G', 20) => codes.moves(Motion::Clockwise),
             ('G', 30) => codes.moves(Motion::CounterClockwise),
-            // Beside another code of motion it is nothing (LinuxCNC); on Fanuc's controls it is of a group of its own.
+            // G80 beside another motion code has no effect (LinuxCNC); on Fanuc's controls it is in a group of its
+            // own.
             ('G', 800) => {
                 codes.motion.get_or_insert(Motion::Off);
                 false
@@ -342,9 +343,9 @@ impl<'p> Block<'p> {
     }
 }
 
-/// Whether a code with these words sets how far the control looks ahead, or how exactly it follows the path, and moves nothing:
-/// `G5 P0`, `P2` and `P10000` and `G5.1 Q1` (Fanuc; `G5.1 Q3 X0 Y0 Z0` names axes), G103 and G187 (Haas). With places they are
-/// splines, and G5 with other numbers runs a cycle that lies in the control.
+/// True if a code with these words only sets look-ahead or path accuracy and moves nothing: `G5 P0`, `P2` and `P10000` and
+/// `G5.1 Q1` (Fanuc; `G5.1 Q3 X0 Y0 Z0` names axes), G103 and G187 (Haas). With places they are splines, and G5 with other
+/// numbers runs a cycle that lies in the control.
 pub(crate) fn looks_ahead(tenths: u32, value: impl Fn(u8) -> Option<f64>) -> bool {
     let has = |letters: &[u8]| letters.iter().any(|letter| value(*letter).is_some());
     let stays = b"XYZABCUVW"

@@ -1,17 +1,17 @@
 //! The table of G and M codes: what each is to the interpreter.
 
-/// What a code is to the interpreter.
+/// Treatment of a code by the interpreter.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Treatment {
-    /// Its meaning is followed.
+    /// The meaning of the code is followed.
     Understood,
-    /// It neither moves the tool nor changes where it goes; it is carried byte for byte.
+    /// The code neither moves the tool nor changes its path; it is carried byte for byte.
     Carried,
-    /// It can move the tool or change where it goes in a way that is not followed.
+    /// The code can move the tool or change its path in a way that is not followed.
     Refused {
-        /// Why.
+        /// Reason of the refusal.
         reason: &'static str,
-        /// What to do.
+        /// Remedy.
         remedy: &'static str,
     },
 }
@@ -23,9 +23,9 @@ pub struct Code {
     pub letter: char,
     /// The codes, each in tenths: G38.2 is 382. Exactly these and none between them.
     pub tenths: &'static [u32],
-    /// What it means on the controllers that have it.
+    /// Meaning on the controllers that have it.
     pub meaning: &'static str,
-    /// What is done with it.
+    /// Treatment by the interpreter.
     pub treatment: Treatment,
 }
 

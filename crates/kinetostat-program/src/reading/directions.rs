@@ -20,7 +20,7 @@ use crate::reading::rotary::RotaryWords;
 /// Vectors shorter than this say no direction.
 const SHORTEST: f64 = 1e-6;
 
-/// Whether a block has a word of a direction.
+/// True if a block has a word of a direction.
 pub(crate) fn states_direction(block: &Block<'_>) -> bool {
     b"IJK".iter().any(|letter| block.value(*letter).is_some())
 }
@@ -46,7 +46,7 @@ fn refused(block: &Block<'_>, word: u8, reason: &str, remedy: &str) -> ProgramEr
 }
 
 impl RotaryWords<'_> {
-    /// What the block of a G43.4 or G43.5 says of the way between directions; none of G43.4.
+    /// Interpolation between directions that the block of a G43.4 or G43.5 states; `None` for G43.4.
     pub fn law_of_directions(
         self,
         block: &Block<'_>,
@@ -137,7 +137,7 @@ impl RotaryWords<'_> {
         let (Some(law), Some(axes)) = (modes.directions, self.axes()) else {
             return Ok(None);
         };
-        // What follows from a refused G43.5 is not reported again.
+        // Consequences of a refused G43.5 are not reported again.
         if modes.axes_in_doubt {
             return Ok(None);
         }
@@ -211,7 +211,7 @@ impl RotaryWords<'_> {
     }
 }
 
-/// Why a direction is not reached, and what to do.
+/// Reason for which a direction is not reached, and remedy.
 fn why_unreached(
     axes: &RotaryAxes,
     end: &Vector3<f64>,

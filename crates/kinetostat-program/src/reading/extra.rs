@@ -3,19 +3,19 @@
 use crate::path::moves::{ExtraAxis, ExtraMode};
 use crate::reading::block::Block;
 
-/// Where the extra axes stand, in program coordinates and the units in force.
+/// Positions of the extra axes, in program coordinates and the units in force.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct ExtraAxes {
-    /// By position in [`ExtraAxes::LETTERS`]; `None` until the program states it.
+    /// Positions in the order of [`ExtraAxes::LETTERS`]; `None` until the program states them.
     places: [Option<f64>; 7],
     incremental: bool,
-    /// What M82 and M83 say, once they did.
+    /// Extruder mode of M82 and M83, once given.
     extruder_relative: Option<bool>,
-    /// What a firmware does that lets G90 and G91 set the extruder as well (Marlin).
+    /// Extruder mode of a firmware whose G90 and G91 set the extruder as well (Marlin).
     extruder_relative_by_last_word: bool,
-    /// Where A, B and C of the program count from, deg of the machine.
+    /// Origins of A, B and C of the program, deg of the machine.
     origin_deg: [f64; 3],
-    /// Whether A, B and C were sent to a place of the machine other than its zero (G53), and not back.
+    /// True for each of A, B and C that was sent to a machine place other than zero (G53), and not back.
     elsewhere: [bool; 3],
 }
 
@@ -39,7 +39,7 @@ impl ExtraAxes {
         }
     }
 
-    /// Where an axis stands, in program coordinates.
+    /// Position of an axis, in program coordinates.
     pub fn place(&self, letter: char) -> Option<f64> {
         let index = Self::LETTERS
             .iter()
@@ -47,7 +47,7 @@ impl ExtraAxes {
         self.places[index]
     }
 
-    /// Where a rotary axis of the machine stands, in its own degrees.
+    /// Angle of a rotary axis of the machine, in its own degrees.
     pub fn angle_deg(&self, letter: char) -> Option<f64> {
         Some(self.place(letter)? + self.origin_deg(letter))
     }
@@ -59,12 +59,12 @@ impl ExtraAxes {
         }
     }
 
-    /// Where the words of a rotary axis count from, in its own degrees.
+    /// Origin of the words of a rotary axis, in its own degrees.
     pub fn origin_deg(&self, letter: char) -> f64 {
         Self::rotary_index(letter as u8).map_or(0.0, |index| self.origin_deg[index])
     }
 
-    /// Of A, B and C.
+    /// Index of A, B or C.
     pub fn rotary_index(letter: u8) -> Option<usize> {
         Self::LETTERS[..3].iter().position(|own| *own == letter)
     }
@@ -109,7 +109,7 @@ impl ExtraAxes {
         }
     }
 
-    /// Whether a rotary axis was sent to a place of the machine that is not its zero.
+    /// True if a rotary axis was sent to a machine place that is not its zero.
     pub fn is_elsewhere(&self, letter: char) -> bool {
         Self::rotary_index(letter as u8).is_some_and(|index| self.elsewhere[index])
     }

@@ -13,8 +13,8 @@ use crate::text::syntax::VARIABLES;
 /// Everything that is refused in a program, in the order of its lines, at most one fault a line; empty
 /// where [`Program::read`] and [`crate::interpret`] take it.
 ///
-/// Of a line that is refused the words that are understood are followed: where it ends, its modes. Lines with
-/// variables are one fault, at the first of them, with their number.
+/// The understood words of a refused line are followed: its end and its modes. Lines with variables are one fault, at
+/// the first of them, with their number.
 ///
 /// ```
 /// use kinetostat_program::{ReadOptions, faults};
@@ -48,7 +48,7 @@ pub fn faults(bytes: impl Into<Vec<u8>>, options: &ReadOptions) -> Vec<ProgramEr
     if found.is_empty() {
         found.extend(interpreter.finish(&program).err());
     }
-    // Of two faults of a line the first found is that of its reading.
+    // The stable sort keeps the fault of reading before others of its line.
     found.sort_by_key(|fault| fault.line);
     found.dedup_by_key(|fault| fault.line);
     of_variables_once(found)
@@ -94,17 +94,17 @@ pub(crate) fn take_over_understood(
     }
 }
 
-/// What the axis words of a line with refused codes are.
+/// Meaning of the axis words of a line with refused codes.
 enum Ends {
     /// The end of its motion.
     AllAxes,
-    /// In the plane its end, across it a depth.
+    /// In the plane the end of its motion, across it a depth.
     Plane,
     /// Something else.
     Nowhere,
 }
 
-/// By the G codes in tenths.
+/// Selects it by the G codes in tenths.
 fn ends_of(refused: &[u32]) -> Ends {
     let mut ends = Ends::AllAxes;
     for code in refused {

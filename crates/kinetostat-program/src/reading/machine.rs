@@ -16,14 +16,14 @@ use crate::text::lex::{Spanned, Token, tokens_of};
 
 const COORDINATES: [u8; 3] = *b"XYZ";
 
-/// Where a block of this kind ends.
+/// End of a block in machine coordinates.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct MachinePlace {
     /// Axes that it moves.
     pub axes: [bool; 3],
     /// Their places in the part frame, in mm, where these are known.
     pub places_mm: [Option<f64>; 3],
-    /// It names no axis, and so moves all.
+    /// True if it names no axis, and so moves all.
     pub all: bool,
 }
 
@@ -67,7 +67,7 @@ pub(crate) fn machine_place(
                 }
                 _ => None,
             },
-            // Which axes a printer homes by `G28 X` is its own matter.
+            // The axes that `G28 X` homes depend on the printer.
             false => reference.filter(|_| !bare).map(|point| point[axis]),
         };
         places_mm[axis] = zero
@@ -81,7 +81,7 @@ pub(crate) fn machine_place(
     }))
 }
 
-/// What must not stand beside these codes.
+/// Refuses codes that must not stand beside these.
 fn check(block: &Block<'_>) -> Result<(), ProgramError> {
     let codes = &block.codes;
     let (is_g53, name) = match codes.machine {

@@ -19,7 +19,7 @@ pub(crate) struct Modes {
     /// Index of the work coordinate system: 0 for G54, from 9 on additional ones.
     pub work_offset: usize,
     pub extra: ExtraAxes,
-    /// G98 or G99, in tenths; none before the program says it.
+    /// G98 or G99, in tenths; `None` before the program says it.
     pub retract_mode: Option<u32>,
     units: Option<Units>,
     /// The units are those of the options: the program has named none and nothing has moved.
@@ -33,7 +33,7 @@ pub(crate) struct Modes {
     tool_length_on: [bool; 3],
     /// Places are those of the tool's tip in the part, however the rotary axes stand.
     pub tool_centre_point: bool,
-    /// How the tool turns between directions I, J and K (G43.5); none where angles say how it stands.
+    /// Interpolation of the tool between directions I, J and K (G43.5); `None` if angles state its orientation.
     pub directions: Option<DirectionLaw>,
     /// A block that began tool centre point control was refused: what its axes do is not asked until the next one.
     pub axes_in_doubt: bool,
@@ -47,7 +47,7 @@ const FIRST_ADDITIONAL: usize = 9;
 /// Index of G154 P1, which is behind all of G54.1.
 const FIRST_OF_HAAS: usize = 1000;
 
-/// How rotary axes turn the tool from one direction to the next.
+/// Interpolation of the tool from one direction to the next.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum DirectionLaw {
     /// Each axis evenly (G43.5, or with P0).
@@ -129,7 +129,7 @@ impl Modes {
         self.feed_mode = mode;
     }
 
-    /// Whether other units were in force before.
+    /// Sets the units; returns true if others were in force before.
     fn set_units(&mut self, code: u32) -> bool {
         let units = match code {
             200 => Units::Inches,
@@ -166,7 +166,7 @@ impl Modes {
             // A program may name F before its units; where none are named the first move is refused.
             _ => self.units.map_or(1.0, Units::mm_per_unit),
         };
-        // Beside a change of the units LinuxCNC reads F in those before, grbl in the new ones.
+        // LinuxCNC reads F beside a change of units in the old ones, grbl in the new ones.
         self.feed_is_stale =
             self.feed_mode != FeedMode::InverseTime && (self.units.is_none() || units_changed);
         self.feed = Some(Feed {
@@ -214,7 +214,7 @@ impl Modes {
         let number = block.value(b'H').filter(|_| code == 430);
         let before = std::mem::replace(&mut self.length_number, number);
         match code {
-            // The same length once more.
+            // The length in force is selected again.
             430 if number.is_some() && number == before => [false; 3],
             // Cancelling what was never set is a habit of the first block and changes nothing.
             490 => std::mem::take(&mut self.tool_length_on),
@@ -237,7 +237,7 @@ impl Modes {
         self.length_number = None;
     }
 
-    /// Whether a tool offset is in force along an axis.
+    /// True if a tool offset is in force along an axis.
     pub fn has_tool_length(&self, axis: usize) -> bool {
         self.tool_length_on[axis]
     }
@@ -265,7 +265,7 @@ impl Modes {
         self.units_are_assumed = false;
     }
 
-    /// Whether the units of the options are in force and the block names others.
+    /// True if the units of the options are in force and the block names others.
     pub fn overrides_options(&self, block: &Block<'_>) -> bool {
         let named = match block.codes.units {
             Some(200) => Some(Units::Inches),
@@ -296,7 +296,7 @@ impl Modes {
         })
     }
 
-    /// Whether the F in force says how fast the block is to be.
+    /// Checks that the F in force determines the speed of the block.
     pub fn check_feed(&self, block: &Block<'_>, kind: MoveKind) -> Result<(), ProgramError> {
         if kind == MoveKind::Rapid {
             return Ok(());

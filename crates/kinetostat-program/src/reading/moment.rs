@@ -1,9 +1,9 @@
 //! When the M codes of a block act: before its motion or after it, by controller.
 //!
-//! A block that is divided has a first and a last piece, so every code beside its motion must go to one
-//! of them. Controllers do not agree on some codes. Where they do, the code goes where it acts. Where they
-//! do not, it goes to the last piece: a spindle that stops and a coolant that goes off one block late do
-//! no harm, one that stops while the tool still cuts does.
+//! A block that is divided has a first and a last piece, so every code beside its motion must go to one of them.
+//! Controllers do not agree on some codes. If they do, the code goes where it acts. If they do not, it goes to the
+//! last piece: a spindle that stops and a coolant that goes off one block late do no harm, one that stops while the
+//! tool still cuts does.
 
 /// When a controller executes a code of a block with motion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -24,7 +24,7 @@ pub enum Acts {
     Unsaid,
 }
 
-/// Where a code of a divided block is written.
+/// Piece of a divided block in which a code is written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Placed {
     /// In the first piece.
@@ -40,16 +40,16 @@ pub enum Placed {
 pub struct Moment {
     /// Number of the M code.
     pub code: u32,
-    /// What it does.
+    /// Function of the code.
     pub meaning: &'static str,
     /// When it acts, in the order of [`CONTROLLERS`].
     pub acts: [Acts; 5],
-    /// Where it is written when its block is divided.
+    /// Piece in which it is written when its block is divided.
     pub placed: Placed,
 }
 
 impl Moment {
-    /// Whether some controllers execute it before the motion and some after it.
+    /// True if some controllers execute it before the motion and some after it.
     pub fn is_disputed(&self) -> bool {
         self.acts.contains(&Acts::After)
             && (self.acts.contains(&Acts::Before) || self.acts.contains(&Acts::During))
@@ -207,7 +207,7 @@ pub(crate) fn moment_of(tenths: u32) -> Option<&'static Moment> {
         .find(|moment| tenths.is_multiple_of(10) && moment.code == tenths / 10)
 }
 
-/// Whether a code is written in the last piece of a divided block. G9 is an exact stop at the block's end.
+/// True if a code is written in the last piece of a divided block. G9 is an exact stop at the block's end.
 pub(crate) fn is_written_last(letter: u8, tenths: u32) -> bool {
     match letter {
         b'M' => moment_of(tenths).is_some_and(|moment| moment.placed == Last),

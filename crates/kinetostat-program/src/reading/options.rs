@@ -1,4 +1,4 @@
-//! What a program does not say about itself.
+//! Settings of the reading that a program does not state.
 
 use std::sync::Arc;
 
@@ -26,7 +26,7 @@ impl Units {
     }
 }
 
-/// Whether blocks marked with `/` are run.
+/// Execution of blocks marked with `/`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum BlockDelete {
@@ -37,7 +37,7 @@ pub enum BlockDelete {
     Skip,
 }
 
-/// What is done with a program that moves axes other than X, Y, Z and the extruder E.
+/// Treatment of axes other than X, Y, Z and the extruder E.
 ///
 /// A rotary table or head (A B C) and a second set of slides (U V W) change where the tool stands in the
 /// part and in the machine, and there is no model of them here.
@@ -52,17 +52,17 @@ pub enum OtherAxes {
     /// divided block; a warning names the first block that moves one of them.
     StandStill,
     /// Words of A, B and C are carried, whatever they turn: for a program that is written flat ([`crate::expand`]) and read again
-    /// with the axes of its machine. Those of U, V and W are refused.
+    /// with the axes of its machine. Words of U, V and W are refused.
     Carried,
 }
 
 /// Whose places X, Y and Z are while rotary axes stand at an angle.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum ToolCentrePoint {
-    /// Those of the tool's tip in the part between G43.4 and G49, and of the machine's slides elsewhere.
+    /// The tool's tip in the part between G43.4 and G49, the machine's slides elsewhere.
     #[default]
     ByCode,
-    /// Those of the tool's tip in the part all along.
+    /// The tool's tip in the part all along.
     Throughout,
 }
 
@@ -77,7 +77,7 @@ pub struct ReadOptions {
     /// are not stated are zero: the program's coordinates are the part's. A program that uses one of them beside stated
     /// ones is warned of.
     pub work_offsets_mm: [Option<Vector3<f64>>; 9],
-    /// Where the tool stands before the first block, in mm, part frame.
+    /// Tool position before the first block, in mm, part frame.
     ///
     /// `None` (the default) means unknown. An axis is then unknown until the program states it (an
     /// absolute word or G92), and until all axes that the program ever states are known its blocks
@@ -85,18 +85,18 @@ pub struct ReadOptions {
     /// tool across the machine to an X and Y that nobody asked for. An axis that the program never
     /// states is taken as zero and never written.
     pub start_position_mm: Option<Vector3<f64>>,
-    /// Where the tool's point is in the part frame, in mm, when the machine stands at its zero and no tool
-    /// length is in force: G53 and the reference points count from there. `None` (the default): not known, and
-    /// where the axes are after G28, G30 and G53 is not known until the program states them.
+    /// Tool point in the part frame, in mm, when the machine is at its zero and no tool length is in force: G53 and
+    /// the reference points count from there. `None` (the default): not known, and the position after G28, G30 and
+    /// G53 is not known until the program states it.
     pub machine_zero_mm: Option<Vector3<f64>>,
     /// Reference points of G28 and G30, in mm, machine coordinates. `None` (the default): not known.
     pub reference_points_mm: [Option<Vector3<f64>>; 2],
     /// Largest difference of an arc's radii at start and end, in mm; 0.005 by default, as common
     /// controllers have it. Within it the radius changes evenly from one to the other.
     pub arc_tolerance_mm: f64,
-    /// Whether blocks marked with `/` are run.
+    /// Execution of blocks marked with `/`.
     pub block_delete: BlockDelete,
-    /// Whether words of the axes A B C U V W are taken.
+    /// Treatment of words of the axes A B C U V W.
     pub other_axes: OtherAxes,
     /// The rotary axes of the machine. Their words turn tool and part; words of others are read as [`OtherAxes`] says.
     pub rotary: Option<Arc<RotaryAxes>>,
@@ -106,8 +106,8 @@ pub struct ReadOptions {
     /// default) means one tool for the whole program: a second tool is warned of. With a list, a tool
     /// outside it is refused, and so is a tool change beside a motion.
     pub tools: Option<Vec<u32>>,
-    /// Beside such a list: whether the field knows the tool that is in the spindle before the program names one.
-    /// If not, a block that cuts before that is refused.
+    /// For such a list: true if the field knows the tool that is in the spindle before the program names one. If not,
+    /// a block that cuts before that is refused.
     pub tool_before_first: bool,
 }
 

@@ -6,7 +6,7 @@
 use crate::path::pause::{Pause, PauseKind};
 use crate::reading::block::Block;
 
-/// The pause that a block makes; none where it makes none.
+/// The pause that a block makes; `None` if it makes none.
 pub(crate) fn pause(block: &Block<'_>) -> Option<Pause> {
     let kind = match block.codes.dwell {
         true => dwell(block),

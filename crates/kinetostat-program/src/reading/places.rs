@@ -1,4 +1,4 @@
-//! Where the tool is, axis by axis, as far as the program says it.
+//! Tool position, axis by axis, as far as the program states it.
 //!
 //! An axis is unknown until the program states it by an absolute word, or the options do. It becomes unknown
 //! again where the program sends it to a place of the machine or changes the length of the tool. Its
@@ -7,7 +7,7 @@
 
 use nalgebra::Vector3;
 
-/// Why an axis is not known.
+/// Reason for which an axis is not known.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Cause {
     /// G43, G43.1, G43.2, G49.
@@ -21,14 +21,14 @@ pub(crate) enum Cause {
 /// Place and knowledge of the three axes.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Places {
-    /// In mm, part frame.
+    /// Position in mm, part frame.
     pub position: Vector3<f64>,
     pub known: [bool; 3],
     /// Axes that were known at some time.
     pub stated: [bool; 3],
-    /// What made a known axis unknown, and on which line.
+    /// Cause and line by which a known axis became unknown.
     lost: [Option<(Cause, usize)>; 3],
-    /// Behind a line that could not be read: it may have moved the axis.
+    /// True after a line that could not be read: it may have moved the axis.
     pub unsure: [bool; 3],
     /// The last line that turned a rotary axis.
     pub turned_on: usize,
@@ -65,7 +65,7 @@ impl Places {
         (0..3).find_map(|axis| self.lost[axis].map(|(cause, line)| (axis, cause, line)))
     }
 
-    /// Why an axis that was known is so no more, in words; none where it never was or still is.
+    /// Text of the reason for which a known axis became unknown; `None` if it never was known or still is.
     pub fn why_lost(&self, axis: usize) -> Option<String> {
         let (cause, line) = self.lost[axis]?;
         Some(match cause {
@@ -82,7 +82,7 @@ impl Places {
         self.take_as_known();
     }
 
-    /// What was lost counts as known again: for going on behind a fault.
+    /// Treats lost axes as known again, to continue after a fault.
     pub fn take_as_known(&mut self) {
         self.known = self.stated;
         self.lost = [None; 3];

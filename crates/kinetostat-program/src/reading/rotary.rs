@@ -13,7 +13,7 @@ use crate::reading::places::{Cause, Places};
 /// Angles below this are zero, deg.
 const ZERO_DEG: f64 = 1e-9;
 
-/// What words of rotary axes mean to a program.
+/// Interpretation of the words of rotary axes.
 #[derive(Clone, Copy)]
 pub(crate) struct RotaryWords<'o> {
     options: &'o ReadOptions,
@@ -24,14 +24,14 @@ impl<'o> RotaryWords<'o> {
         Self { options }
     }
 
-    /// Where the rotary axes stand, deg, as far as the program says it.
+    /// Angles of the rotary axes, deg, as far as the program states them.
     pub fn angles(self, modes: &Modes) -> Vec<Option<f64>> {
         let axes = self.options.rotary.iter().flat_map(|rotary| &rotary.axes);
         axes.map(|axis| modes.extra.angle_deg(axis.letter))
             .collect()
     }
 
-    /// Whether a word is that of a rotary axis of the machine, or may be.
+    /// True if a word is that of a rotary axis of the machine, or may be.
     pub fn is_counted(self, letter: u8) -> bool {
         let mut axes = self.options.rotary.iter().flat_map(|rotary| &rotary.axes);
         self.options.other_axes == OtherAxes::Carried
@@ -88,8 +88,8 @@ impl<'o> RotaryWords<'o> {
         letters.find(|letter| block.value(*letter).is_some())
     }
 
-    /// How the tool turns in a move, after its words were read; `before` are the angles before them. Where the places of a move are not
-    /// those of the tip in the part, they are lost.
+    /// Orientation of the tool in a move, after its words were read; `before` are the angles before them. Places that are not those of
+    /// the tip in the part are lost.
     pub fn turn_of_move(
         self,
         block: &Block<'_>,

@@ -2,7 +2,7 @@
 //!
 //! `G10 L2 Pn` states the origin of system n in machine coordinates; the tool stands still, and its coordinates change where
 //! the system is in force (LinuxCNC, `docs/src/gcode/g-code.adoc`, G10 L2). L1, L10 and L11 change the table of tools: no
-//! place changes before the next G43. What controllers read differently (P0, increments) is refused.
+//! place changes before the next G43. Words that controllers read differently (P0, increments) are refused.
 
 use nalgebra::Vector3;
 
@@ -15,7 +15,7 @@ use crate::text::line::Word;
 /// Systems that there are: G54 to G59.3.
 const SYSTEMS: usize = 9;
 
-/// What a block with G10 does.
+/// Setting that a block with G10 changes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Setting {
     /// The table of tools.

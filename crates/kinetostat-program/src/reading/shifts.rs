@@ -2,17 +2,17 @@
 
 use crate::path::position_offset::OffsetChange;
 
-/// Of which axes the coordinates are shifted by an amount that is not in the program.
+/// Axes whose coordinates are shifted by an amount that is not in the program.
 ///
-/// A first `G92 X0` says where the tool stands, and the program's coordinates count from there. When it
-/// is taken away they count from the machine's work offset again, and how far apart the two are only the
-/// machine knows. So it is with an offset from before the program that G92.3 brings back.
+/// A first `G92 X0` says where the tool stands, and the program's coordinates count from there. When it is taken away
+/// they count from the machine's work offset again, and how far apart the two are only the machine knows. The same is
+/// true of an offset from before the program that G92.3 brings back.
 #[derive(Clone, Copy, Default)]
 pub(crate) struct Shifts {
     pub now: [bool; 3],
-    /// Without G92.
+    /// Shift without G92.
     bare: [bool; 3],
-    /// After G92.3; `None` while that brings back an offset from before the program.
+    /// Shift after G92.3; `None` while that brings back an offset from before the program.
     saved: Option<[bool; 3]>,
     /// Line of the last change.
     pub line: usize,
@@ -21,8 +21,7 @@ pub(crate) struct Shifts {
 }
 
 impl Shifts {
-    /// Whether the program has said what G92 shifts the coordinates of an axis by: it has been cleared, or set where the tool
-    /// was known.
+    /// True if the program has stated the shift of an axis by G92: it has been cleared, or set where the tool was known.
     pub fn is_sure(&self, axis: usize) -> bool {
         self.stated[axis] && !self.bare[axis] && !self.now[axis]
     }

@@ -1,4 +1,4 @@
-//! How the spindle turns, block by block.
+//! Spindle state, block by block.
 //!
 //! Takes S, D beside G96, G96 and G97, M3 M4 M5 M13 M14 M19, M6 and the end of the program in the order in which LinuxCNC
 //! executes them (its documentation, `docs/src/gcode/overview.adoc`, "G-code Order of Execution"; that a change of tools and
@@ -16,7 +16,7 @@ const LARGEST_SPEED: f64 = 1e6;
 /// Metres in a foot.
 const METRES_PER_FOOT: f64 = 0.3048;
 
-/// What the words of a program say about its spindle.
+/// Spindle words of a program.
 #[derive(Default)]
 pub(crate) struct SpindleWords {
     now: Spindle,

@@ -1,4 +1,4 @@
-//! What a controller would answer about its state, after the last block.
+//! Modal state of a controller after the last block.
 
 use nalgebra::Vector3;
 
@@ -19,7 +19,7 @@ impl Interpreter<'_> {
         self.ended.is_some()
     }
 
-    /// How rotary axes, whose words are only carried, may have turned the tool; none where they have not.
+    /// Reason for which rotary axes, whose words are only carried, may have turned the tool; `None` if they have not.
     pub(crate) fn carried_turn(&self) -> Option<String> {
         if self.options.other_axes != OtherAxes::Carried {
             return None;
@@ -50,7 +50,7 @@ impl Interpreter<'_> {
         self.modes.absolute_centre
     }
 
-    /// Whether places without a code of motion are the ends of arcs.
+    /// True if places without a motion code are the ends of arcs.
     pub(crate) fn moves_in_arcs(&self) -> bool {
         matches!(
             self.modes.motion,
@@ -74,7 +74,7 @@ impl Interpreter<'_> {
         self.modes.units()
     }
 
-    /// Where the tool is in the part frame, mm; none where that is not known.
+    /// Tool position in the part frame, mm; `None` if it is not known.
     pub(crate) fn place_mm(&self, axis: usize) -> Option<f64> {
         self.places.known[axis].then_some(self.places.position[axis])
     }
@@ -91,7 +91,7 @@ impl Interpreter<'_> {
         self.modes.feed_mode()
     }
 
-    /// The F in force, in program units; none where there is none.
+    /// The F in force, in program units; `None` if there is none.
     pub(crate) fn feed_in_units(&self) -> Option<f64> {
         let feed = self.modes.feed?;
         let unit = self.modes.units().map_or(1.0, Units::mm_per_unit);
@@ -106,22 +106,22 @@ impl Interpreter<'_> {
         self.modes.work_offset
     }
 
-    /// Whether a tool length is in force along an axis.
+    /// True if a tool length is in force along an axis.
     pub(crate) fn has_tool_length_along(&self, axis: usize) -> bool {
         self.modes.has_tool_length(axis)
     }
 
-    /// Whether a tool length is in force.
+    /// True if a tool length is in force.
     pub(crate) fn has_tool_length(&self) -> bool {
         (0..3).any(|axis| self.has_tool_length_along(axis))
     }
 
-    /// The offset of G92 along an axis, mm; none where only the machine knows it.
+    /// The offset of G92 along an axis, mm; `None` if only the machine knows it.
     pub(crate) fn position_offset_mm(&self, axis: usize) -> Option<f64> {
         (!self.shifts.now[axis]).then_some(self.offset.active_mm[axis])
     }
 
-    /// Where the origin of the program's coordinates is, mm, part frame.
+    /// Origin of the program's coordinates, mm, part frame.
     pub(crate) fn origin_mm(&self) -> Vector3<f64> {
         self.work_offset_mm() + self.offset.active_mm
     }
@@ -131,12 +131,12 @@ impl Interpreter<'_> {
         self.places.position = place_mm;
     }
 
-    /// Whether cycles go back to their level R (G99) or to where they began (G98); none before the program says it.
+    /// True if cycles retract to level R (G99), false if to their start (G98); `None` before the program states it.
     pub(crate) fn retracts_to_level(&self) -> Option<bool> {
         self.modes.retract_mode.map(|code| code == 990)
     }
 
-    /// How the spindle turns.
+    /// Spindle state.
     pub(crate) fn spindle(&self) -> Spindle {
         self.spindle.now()
     }
@@ -145,7 +145,7 @@ impl Interpreter<'_> {
         self.spindle.now().rotation
     }
 
-    /// How far above its last depth a peck begins, in program units (LinuxCNC 2.9, `G83_RAPID_DELTA`).
+    /// Height above its last depth at which a peck begins, in program units (LinuxCNC 2.9, `G83_RAPID_DELTA`).
     pub(crate) fn peck_back(&self) -> f64 {
         match self.modes.units() {
             Some(Units::Inches) => PECK_BACK_MM / Units::Inches.mm_per_unit(),
@@ -153,7 +153,7 @@ impl Interpreter<'_> {
         }
     }
 
-    /// Where the tool is in program coordinates and units; the reason where that is not known.
+    /// Tool position in program coordinates and units; the error is the reason for which it is not known.
     pub(crate) fn coordinate(&self, axis: usize) -> Result<f64, String> {
         let unit = self.modes.units().map(Units::mm_per_unit);
         match (self.places.known[axis], unit) {
@@ -168,7 +168,7 @@ impl Interpreter<'_> {
         }
     }
 
-    /// A numbered parameter that the controller keeps; none for those that programs set.
+    /// A numbered parameter that the controller keeps; `None` for those that programs set.
     pub(crate) fn numbered_state(&self, number: u32) -> Option<Result<f64, String>> {
         match number {
             PLACE..=5422 => Some(self.coordinate((number - PLACE) as usize)),
@@ -205,7 +205,7 @@ impl Interpreter<'_> {
         }
     }
 
-    /// A named parameter of the state; none where there is none of this name.
+    /// A named parameter of the state; `None` if there is none of this name.
     pub(crate) fn named_state(&self, name: &str) -> Result<Option<f64>, String> {
         let truth = |holds: bool| Ok(Some(f64::from(u8::from(holds))));
         match name {

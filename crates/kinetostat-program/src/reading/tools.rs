@@ -1,4 +1,4 @@
-//! Which tool is in the spindle, block by block.
+//! Tool in the spindle, block by block.
 
 use std::collections::BTreeSet;
 
@@ -9,7 +9,7 @@ use crate::reading::block::Block;
 use crate::reading::options::ReadOptions;
 use crate::text::program::Program;
 
-/// What the words of a program say about its tools.
+/// Tool words of a program.
 #[derive(Default)]
 pub(crate) struct ToolWords {
     selected: Option<u32>,
@@ -37,7 +37,7 @@ impl ToolWords {
                 "write a whole number that is not negative, such as T2",
             ));
         }
-        // Behind G96, D is the largest speed of the spindle.
+        // D after G96 is the maximum speed of the spindle.
         let of_spindle = block.codes.speed_mode == Some(960);
         for letter in [b'D', b'H']
             .into_iter()
@@ -133,7 +133,7 @@ fn warn_of_other_lengths(path: &mut Path, lengths: &[ToolChange]) {
     }
 }
 
-/// From this line on another tool may be in the spindle than the one that corrections are made for.
+/// Warning of a line from which on another tool may be in the spindle than the one that corrections are made for.
 fn of_another_tool(line: usize, what: &str) -> Warning {
     Warning {
         line,
@@ -143,7 +143,7 @@ fn of_another_tool(line: usize, what: &str) -> Warning {
     }
 }
 
-/// What the program cut before its first change of tools, it cut with the tool that was in the spindle.
+/// Warns if the program cuts before its first tool change, with the tool that was in the spindle.
 fn warn_of_tool_after_cuts(path: &mut Path, by_hand: Option<usize>) {
     let named = path.tool_changes.first().map(|change| change.line);
     let Some(line) = named.into_iter().chain(by_hand).min() else {
@@ -201,7 +201,7 @@ fn before_first_tool(
     program: &Program,
     options: &ReadOptions,
 ) -> Result<(), ProgramError> {
-    // What is carried without a correction is corrected for no tool; what cuts is cut by one.
+    // Moves that are carried without a correction need no tool, but cuts do.
     let unnamed = |motion: &&Move| {
         let matters = motion.known != Knowledge::Nothing || motion.kind == MoveKind::Feed;
         matters && path.tool_on(motion.line).is_none()

@@ -1,4 +1,4 @@
-//! What stands after the closing tape mark `%`: text that no controller runs, or blocks that some do.
+//! Text after the closing tape mark `%`: comments that no controller runs, or blocks that some do.
 //!
 //! A `%` ends a program for controllers that read to it (LinuxCNC, Fanuc), others pass over it. A block
 //! behind it may therefore be run, and then it must be corrected like any other: it is refused.

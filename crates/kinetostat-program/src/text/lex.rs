@@ -47,7 +47,7 @@ pub(crate) struct Spanned {
 }
 
 impl Spanned {
-    /// The number of a G word in tenths: G43.1 is 431. None for every other token.
+    /// The number of a G word in tenths: G43.1 is 431. `None` for every other token.
     pub(crate) fn g_code(&self) -> Option<u32> {
         match self.token {
             Token::Word {

@@ -7,7 +7,7 @@ use crate::error::{ProgramError, ProgramErrorKind, excerpt};
 /// Names of subprograms that are shown.
 const NAMES_SHOWN: usize = 3;
 
-/// The one fault of a file that consists of `O.. sub` definitions; none where anything else stands in it.
+/// The one fault of a file that consists of `O.. sub` definitions; `None` if anything else stands in it.
 pub(crate) fn only_definitions(bytes: &[u8]) -> Option<ProgramError> {
     let mut names: Vec<String> = Vec::new();
     let mut first: Option<(usize, Range<usize>)> = None;

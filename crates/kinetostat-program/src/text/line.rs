@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-/// What a line is to the interpreter.
+/// Kind of a line.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum LineKind {
     /// A block of words, or nothing but comments and blanks.

@@ -35,11 +35,11 @@ pub struct Program {
     semicolon_comments: bool,
     /// Number of the first line: 1, but where lines before were read elsewhere.
     first_number: usize,
-    /// What of a longer program this is; `None` of a whole one.
+    /// Position in a longer program; `None` for a whole one.
     part: Option<PartOfText>,
 }
 
-/// What of a longer program the lines are.
+/// Position of the lines in a longer program.
 #[derive(Debug, Clone)]
 pub(crate) struct PartOfText {
     /// Numbers of the lines that are written: the others are there for what they tell of these.
@@ -66,8 +66,8 @@ impl Program {
         }
     }
 
-    /// What can be read, and every line that cannot, in order. Of a refused line the words before the
-    /// place of the fault are kept, so that its modes are not missed in the lines that follow.
+    /// Reads the program, with the faults of all lines in order. Words before the fault of a refused line are kept,
+    /// so that its modes are not missed in the lines that follow.
     pub(crate) fn read_with_faults(bytes: Vec<u8>) -> (Program, Vec<ProgramError>) {
         let mut reader = Reader::new(bytes);
         let mut faults = reader.read();
@@ -152,27 +152,27 @@ impl Program {
         &self.bytes[from..last.next as usize]
     }
 
-    /// Whether nothing of the program comes before its own lines.
+    /// True if nothing of the program comes before its own lines.
     pub(crate) fn begins(&self) -> bool {
         self.own_numbers().start == 1
     }
 
-    /// What of a longer program it is.
+    /// Position in a longer program.
     pub(crate) fn part(&self) -> Option<&PartOfText> {
         self.part.as_ref()
     }
 
-    /// Says what of a longer program it is.
+    /// Sets its position in a longer program.
     pub(crate) fn set_part(&mut self, part: PartOfText) {
         self.part = Some(part);
     }
 
-    /// Whether its comments begin with `;`, as the whole program says it.
+    /// Sets the style of the comments, true for `;`, of the whole program.
     pub(crate) fn set_semicolons(&mut self, semicolons: bool) {
         self.semicolon_comments = semicolons;
     }
 
-    /// Whether a comment marks the program as one that was written with corrections.
+    /// True if a comment marks the program as one that was written with corrections.
     pub fn is_marked_compensated(&self) -> bool {
         self.mark_line.is_some()
     }
@@ -182,7 +182,7 @@ impl Program {
         self.mark_line
     }
 
-    /// Whether the file has comments that begin with `;`.
+    /// True if the file has comments that begin with `;`.
     pub(crate) fn uses_semicolons(&self) -> bool {
         self.semicolon_comments
     }
@@ -278,7 +278,7 @@ fn byte_order_mark(bytes: &[u8]) -> usize {
     }
 }
 
-/// What lines before tell of those that follow.
+/// Reader state that lines leave for later ones.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct ReaderState {
     pub lines: usize,
@@ -339,7 +339,7 @@ impl Reader {
         self.program.words.reserve(5 * lines);
     }
 
-    /// What the lines that were read tell of those that follow.
+    /// Reader state after the lines that were read.
     pub(crate) fn state(&self) -> ReaderState {
         ReaderState {
             lines: self.program.lines_before() + self.program.lines.len(),
@@ -376,7 +376,7 @@ impl Reader {
         faults
     }
 
-    /// What was read so far.
+    /// Program read so far.
     pub(crate) fn program(&self) -> &Program {
         &self.program
     }
@@ -406,12 +406,12 @@ impl Reader {
         fault.map_or(Ok(()), Err)
     }
 
-    /// Whether a block was read.
+    /// True if a block was read.
     pub(crate) fn has_blocks(&self) -> bool {
         self.blocks > 0
     }
 
-    /// Whether the closing tape mark was read.
+    /// True if the closing tape mark was read.
     pub(crate) fn is_closed(&self) -> bool {
         self.tape_marks == 2
     }
@@ -600,7 +600,7 @@ impl Reader {
     }
 }
 
-/// What the comments of a line tell about the program.
+/// Style and mark found in the comments of a line.
 #[derive(Default)]
 struct Comments {
     semicolon: bool,

@@ -1,4 +1,4 @@
-//! What a line of tokens may be: a block of words, a vendor's command, or a refusal.
+//! Syntax of a line of tokens: a block of words, a vendor's command, or a refusal.
 
 use std::ops::Range;
 
@@ -8,7 +8,7 @@ use crate::text::line::LineKind;
 /// A line that may be kept.
 pub(crate) struct Checked {
     pub kind: LineKind,
-    /// How many of the significant tokens are words of the block.
+    /// Number of significant tokens that are words of the block.
     pub words: usize,
 }
 
@@ -22,7 +22,7 @@ pub(crate) struct Refused {
 const FLATTEN: &str = "add --expand (in a job file: a table [expand]), flatten the program with `kinetostat expand`, or post-process it without subprograms";
 const NO_VARIABLES: &str = "add --expand (in a job file: a table [expand]), flatten the program with `kinetostat expand`, or let the CAM system write plain numbers";
 
-/// Why a line with variables is refused.
+/// Reason for which a line with variables is refused.
 pub(crate) const VARIABLES: &str = "variables and expressions are not read";
 
 /// Checks the tokens of a line without comments and blanks.
@@ -142,7 +142,7 @@ fn printer_setting(code: u32) -> bool {
     )
 }
 
-/// Those of them that set something of each axis, so that X, Y and Z are theirs.
+/// True if a code sets something of each axis, so that it owns X, Y and Z.
 fn sets_axes(code: u32) -> bool {
     matches!(code, 17 | 18 | 84 | 92 | 201..)
 }
@@ -193,7 +193,7 @@ fn homing_axis(tokens: &[&Spanned]) -> bool {
     })
 }
 
-/// Whether no letter touches the letter at `index`.
+/// True if no letter touches the letter at `index`.
 fn stands_alone(tokens: &[&Spanned], index: usize) -> bool {
     let touches = |a: &Spanned, b: &Spanned| {
         a.span.end == b.span.start

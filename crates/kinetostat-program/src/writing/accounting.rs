@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::path::moves::{Feed, FeedMode, Move, Warning};
 
-/// What was done to a program. All lengths in mm.
+/// Summary of the changes to a program. All lengths in mm.
 #[derive(Debug, Clone, PartialEq, Default, Serialize)]
 pub struct Accounting {
     /// Blocks (lines with words) of the input; `blocks_carried + blocks_corrected`.
@@ -29,7 +29,7 @@ pub struct Accounting {
     pub bytes_out: usize,
     /// Lines of the header in the output; 0 where none is written.
     pub header_lines: usize,
-    /// How often the field was evaluated.
+    /// Number of evaluations of the field.
     pub evaluations: usize,
     /// Largest correction, before rounding.
     pub largest_correction_mm: f64,
@@ -82,15 +82,15 @@ pub struct Accounting {
     /// Feed blocks of the output in a second at the feeds written, on average; `None` without feeds
     /// per minute.
     pub mean_blocks_per_second: Option<f64>,
-    /// The same for the input.
+    /// Mean block rate of the input.
     pub mean_blocks_per_second_in: Option<f64>,
-    /// The same over the densest sixteen blocks in a row.
+    /// Block rate over the densest sixteen blocks in a row.
     pub peak_blocks_per_second: Option<f64>,
     /// The densest sixteen blocks of the input, for comparison.
     pub peak_blocks_per_second_in: Option<f64>,
     /// Blocks that are shorter than the controller takes, line by line.
     pub short_blocks: Vec<ShortBlocksOfLine>,
-    /// What may surprise, with lines of the input.
+    /// Warnings, with lines of the input.
     pub warnings: Vec<Warning>,
 }
 
@@ -101,7 +101,7 @@ pub struct Accounting {
 pub struct ShortBlocksOfLine {
     /// Line of the input, counted from 1.
     pub line: usize,
-    /// How many of its blocks are too short.
+    /// Number of its blocks that are too short.
     pub blocks: usize,
     /// The shortest of them, mm.
     pub shortest_mm: f64,

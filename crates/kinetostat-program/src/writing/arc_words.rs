@@ -14,7 +14,7 @@ use crate::writing::written_arc::WrittenArc;
 /// Digits to both sides of the rounded centre, or radius, that are looked at.
 const NEIGHBOURS: i32 = 2;
 
-/// How far rounding the centre may move the arc between its ends, in last digits, to make its radii equal.
+/// Distance by which rounding the centre may move the arc between its ends, in last digits, to make its radii equal.
 const MOVED_DIGITS: f64 = 1.5;
 
 /// An arc to be printed, between ends that are rounded already.
@@ -24,7 +24,7 @@ pub(crate) struct ToPrint<'a> {
     pub normal: usize,
     pub from: Vector3<f64>,
     pub to: Vector3<f64>,
-    /// From where its centre words count, mm.
+    /// Origin of its centre words, mm.
     pub reference: Vector3<f64>,
     pub mm_per_unit: f64,
     pub decimals: usize,
@@ -46,7 +46,7 @@ impl ToPrint<'_> {
         })
     }
 
-    /// Those, behind the number that stands there if it is as near as rounding comes.
+    /// Neighbouring values, after the existing number if that is as near as rounding comes.
     fn choices(&self, value: f64, standing: Option<f64>) -> Vec<(f64, Option<String>)> {
         standing
             .filter(|word| (word - value).abs() <= 0.5 * self.step() * (1.0 + 1e-6))
@@ -71,7 +71,7 @@ impl ToPrint<'_> {
         arc
     }
 
-    /// How far the printed arc is from the fitted one between its ends, and by how much its radii differ, mm.
+    /// Distance of the printed arc from the fitted one between its ends, and difference of its radii, mm.
     fn off(&self, arc: &WrittenArc) -> [f64; 2] {
         let curve = arc.between(&self.from, &self.to);
         let [first, second, _] = arc.axes();
@@ -130,7 +130,7 @@ impl ToPrint<'_> {
         Some((arc, words.to_vec()))
     }
 
-    /// Its radius, negative for more than half a circle; `standing` is that of the block.
+    /// Word of the radius, negative for more than half a circle; `standing` is that of the block.
     pub fn radius(&self, standing: Option<f64>) -> Option<(WrittenArc, Vec<ArcWord>)> {
         let axes = [(self.normal + 1) % 3, (self.normal + 2) % 3];
         let sign = match self.fitted.sweep_rad.abs() > PI {

@@ -1,4 +1,4 @@
-//! What the tool does where the correction jumps: at a corner the load turns, a cut begins.
+//! Motion of the tool where the correction jumps: at a corner the load turns, a cut begins.
 //!
 //! The load is taken to go evenly from the one before to the one after while the tool steps from one
 //! corrected place to the other. Between the two the correction is no straight line, so a long step is
@@ -17,8 +17,8 @@ use crate::writing::queries::FieldQueries;
 /// Halvings of one step at most: a thousandth of any jump is far below the tolerance.
 const DEPTH: u32 = 10;
 
-/// Where a step is looked at besides its middle: a load that turns round altogether has corrections
-/// that mirror each other about the middle, which then shows nothing.
+/// Place at which a step is evaluated besides its middle: a load that reverses has corrections that mirror each other
+/// about the middle, which then shows nothing.
 const BESIDE: f64 = 0.211_3;
 
 struct Stretch {
@@ -52,7 +52,7 @@ pub(crate) fn follow_turns(
                 .iter()
                 .any(|motion| motion.known == Knowledge::Nothing)
             {
-                // Behind a move without a correction the load comes from nowhere.
+                // The load before a cut is not known after a move without a correction.
                 continue;
             }
             (last.move_index, last.share, node.share, last.after)

@@ -19,7 +19,7 @@ impl Stretch {
         let mut differences = [row[0]; 5];
         for (order, difference) in differences.iter_mut().enumerate().skip(1) {
             for i in 0..5 - order {
-                // What is divided step by step is divided by the factorial in the end.
+                // Divided differences: dividing by the order at each step gives the factorial.
                 row[i] = (row[i + 1] - row[i]) / order as f64;
             }
             *difference = row[0];
@@ -51,7 +51,7 @@ pub(crate) struct CorrectedCurve<'a> {
 }
 
 impl<'a> CorrectedCurve<'a> {
-    /// Of the correction on the whole move, by share.
+    /// Corrected curve of the whole move, by share.
     pub fn new(motion: &'a Move, accepted: &[Accepted]) -> Self {
         let ends = accepted.iter().skip(1).map(|next| next.share).chain([1.0]);
         Self {
@@ -77,12 +77,12 @@ impl<'a> CorrectedCurve<'a> {
         })
     }
 
-    /// Where the tool is to go at a share of the move that is no end of it, in mm.
+    /// Corrected position at a share of the move that is no end of it, in mm.
     pub fn point(&self, share: f64) -> Vector3<f64> {
         self.motion.point(share) + self.correction(share).fixed_rows::<3>(0)
     }
 
-    /// How far the tool is turned there, as a length at [`crate::WriteOptions::turn_lever_mm`]; nothing where it is turned nowhere.
+    /// Rotation of the tool there, as a length at [`crate::WriteOptions::turn_lever_mm`]; `None` for a move without rotations.
     pub fn turn(&self, share: f64) -> Option<Vector3<f64>> {
         self.turned
             .then(|| self.correction(share).fixed_rows::<3>(3).into_owned())

@@ -1,11 +1,11 @@
-//! How far a correction departs from a chord, between the places where it was requested.
+//! Distance of a correction from its chord, between the places where it was requested.
 //!
-//! A stretch between two breaks of the field is followed by the polynomial of fourth degree through
-//! five values, `t = 0, 1/4, 1/2, 3/4, 1`. Of that polynomial the departure is bounded without a gap:
-//! it is looked at on a grid, and between two points of the grid a curve leaves its chord by no more
-//! than `h^2/8` times its largest second derivative.
+//! A stretch between two breaks of the field is followed by the polynomial of fourth degree through five values,
+//! `t = 0, 1/4, 1/2, 3/4, 1`. The departure of that polynomial is bounded without a gap: it is evaluated on a grid,
+//! and between two points of the grid a curve leaves its chord by no more than `h^2/8` times its largest second
+//! derivative.
 //!
-//! Whether the correction is that polynomial is another question, [`remainder`].
+//! The error of that polynomial is estimated by [`remainder`].
 
 use nalgebra::Vector6;
 

@@ -15,11 +15,11 @@ use crate::writing::node::{Node, is_divided};
 /// Digits after the point of directions.
 pub const DIRECTION_DECIMALS: usize = 8;
 
-/// No piece ends nearer to a pole, rad: digits of directions turn an axis by less than 2e-5 rad elsewhere. Of a move that is nearer
-/// for long the next of these counts: it hardly leans the tool, and the axis may be further off.
+/// Minimum distance of the end of a piece from a pole, rad: digits of directions turn an axis by less than 2e-5 rad elsewhere. The
+/// next of these limits holds for a move that is nearer for long: it hardly leans the tool, and the axis may be further off.
 const NEAR_POLE: [f64; 4] = [5e-4, 1e-4, 2e-5, 5e-6];
 
-/// Longer shares of a move are not left undivided.
+/// Largest share of a move that is left undivided.
 const LONG_SHARE: f64 = 0.05;
 
 /// Largest angle of the tool from where the undivided move has it, rad.
@@ -37,7 +37,8 @@ pub(crate) struct DirectedMove<'a> {
     pub approaching: Vec<f64>,
 }
 
-/// Of every move; none of those that state angles, or whose axes stand, or lead the tool on a great circle.
+/// Returns an entry for every move; `None` for those that state angles, do not turn their axes, or lead the tool on a
+/// great circle.
 pub(crate) fn directed_moves(path: &Path) -> Vec<Option<DirectedMove<'_>>> {
     path.moves.iter().map(DirectedMove::of).collect()
 }
@@ -79,7 +80,7 @@ impl<'a> DirectedMove<'a> {
         }
     }
 
-    /// Whether a controller goes between two ends of a piece as in the undivided move.
+    /// True if a controller moves between two ends of a piece as in the undivided move.
     pub fn goes_on(&self, from: f64, to: f64) -> bool {
         if from >= to || (from <= 0.0 && to >= 1.0) {
             return true;
@@ -108,7 +109,7 @@ impl<'a> DirectedMove<'a> {
         })
     }
 
-    /// Whether a stretch is one across a pole, in which no piece should end.
+    /// True if a stretch crosses a pole, in which no piece should end.
     pub fn is_across_pole(&self, [from, to]: [f64; 2]) -> bool {
         self.near_poles
             .iter()
@@ -116,7 +117,7 @@ impl<'a> DirectedMove<'a> {
     }
 }
 
-/// What cannot be divided without other angles is refused by line.
+/// Refuses, by line, moves that cannot be divided without other angles.
 pub(crate) fn refuse_other_angles(
     path: &Path,
     nodes: &[Node],

@@ -43,7 +43,7 @@ pub(crate) struct Emitter<'a> {
     pieces_before: usize,
     /// See [`Corrected::rotary_deg`].
     rotary_deg: Vec<Vec<f64>>,
-    /// Some of them stand otherwise than the program has them.
+    /// True if some of them differ from the program.
     rotary_corrected: bool,
 }
 
@@ -103,7 +103,7 @@ impl<'a> Emitter<'a> {
         }
     }
 
-    /// Where the rotary axes stand at the end of a piece that was just written.
+    /// Notes the angles of the rotary axes at the end of a piece that was just written.
     fn note_rotary(&mut self, motion: &Move, share_to: f64) {
         let rotary = motion
             .tool_turn
@@ -149,7 +149,7 @@ impl<'a> Emitter<'a> {
         let accounting = &mut self.account.accounting;
         let taken_up = &mut accounting.largest_jump_taken_up_mm;
         *taken_up = larger(*taken_up, self.steps.largest_jump_taken_up_mm);
-        // Of a part of a longer program others may be corrected.
+        // Other parts of a longer program may be corrected.
         let is_part = self.program.part().is_some();
         if accounting.blocks_corrected == 0 && !is_part {
             // Nothing to correct: the program as it is, which no header tells from its copy.
@@ -321,7 +321,8 @@ impl<'a> Emitter<'a> {
         Ok(())
     }
 
-    /// Whether pieces of a turn in place are written with their time: F counts degrees a minute only where X, Y and Z stand still.
+    /// True if pieces of a rotation in place are written with their time: F is in degrees per minute only if X, Y and Z stand
+    /// still.
     fn is_by_time(
         &self,
         block: &BlockWriter<'_>,
@@ -338,8 +339,8 @@ impl<'a> Emitter<'a> {
         Ok((trial.position - self.state.position).norm() > UNCHANGED_MM)
     }
 
-    /// Behind a cut whose angles are corrected a rapid brings the axes back to those of the program, before anything that does not
-    /// count with them.
+    /// Refuses to lose corrected angles: a rapid must bring the axes back to those of the program before anything that does not
+    /// state them.
     fn refuse_lost_turn(&self, motion: &Move) -> Result<(), WriteError> {
         let rotary = motion
             .tool_turn
@@ -402,7 +403,7 @@ impl<'a> Emitter<'a> {
         Ok(())
     }
 
-    /// Whether the output is where the input is, and no correction on the move can be written.
+    /// True if the output is where the input is, and no correction on the move can be written.
     fn is_uncorrected(&self, motion: &Move, nodes: &[Node], course: &[Accepted]) -> bool {
         let half = self.options.half_digit_mm(motion.words.mm_per_unit);
         let nothing = |correction: &Vector6<f64>| correction.iter().all(|part| part.abs() <= half);

@@ -46,8 +46,8 @@ fn plain(text: &str) -> String {
         .collect()
 }
 
-/// Number of lines at the top that stay above the header: the tape mark and the program number. None
-/// do in a program that has nothing else.
+/// Number of lines at the top that stay above the header: the tape mark and the program number. Zero for a program
+/// that has nothing else.
 pub(crate) fn lines_above(program: &Program) -> usize {
     let mut above = 0;
     for line in program.lines() {

@@ -21,7 +21,8 @@ pub struct Turn {
 }
 
 impl Turn {
-    /// Whether the step is where a rapid ends: the load is there at once, where others are at corners or inside a cut.
+    /// True if the step is at the end of a rapid: the load is there at once, where others are at corners or inside a
+    /// cut.
     ///
     /// ```
     /// use kinetostat_program::*;

@@ -84,7 +84,7 @@ fn merge_move(
         if at >= barrier {
             barrier = (at + 1..last).find(|index| !open(*index)).unwrap_or(last);
         }
-        // As far as nothing stops it, in strides that double, then halve.
+        // Extends the piece in strides that double, then halve.
         let mut next = at + 1;
         let mut stride = 1;
         while next + stride <= barrier && fits(at, next + stride) {

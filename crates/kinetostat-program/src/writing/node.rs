@@ -36,19 +36,19 @@ impl Node {
     }
 }
 
-/// Whether a move is divided at all: feed moves from a known start with a length, or with a turn of the tool.
+/// True if a move is divided: feed moves from a known start with a length, or with a rotation of the tool.
 pub(crate) fn is_divided(motion: &Move) -> bool {
     motion.is_known_feed() && (motion.has_length() || motion.turns_in_place())
 }
 
-/// Whether only the end of a move is corrected: rapids, and moves from an unknown place.
+/// True if only the end of a move is corrected: rapids, and moves from an unknown place.
 pub(crate) fn is_corrected_at_end(motion: &Move) -> bool {
     let at_once = motion.kind == MoveKind::Rapid;
     motion.known == Knowledge::End || motion.known == Knowledge::Whole && at_once
 }
 
-/// Where the first piece of a move begins: at its own first correction, or at the last one before it
-/// where the jump between them is too small for a step and small enough to be part of the tolerance.
+/// Start of the first piece of a move: its own first correction, or the last one before it if the jump between them
+/// is too small for a step and small enough to be part of the tolerance.
 pub(crate) fn taken_up(
     before: Option<Vector6<f64>>,
     first: Vector6<f64>,

@@ -1,10 +1,10 @@
-//! How a corrected program is written.
+//! Options for writing a corrected program.
 
 use serde::Serialize;
 
 use crate::error::WriteError;
 
-/// What becomes of the arcs of a program where they are corrected.
+/// Output for corrected arcs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Arcs {
@@ -15,28 +15,28 @@ pub enum Arcs {
     Lines,
 }
 
-/// How the language of a program can write what an arc of it becomes.
+/// Forms in which the language of a program can write a corrected arc.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Circles {
-    /// By straight motions.
+    /// Straight motions.
     #[default]
     Straight,
-    /// By circles through a place between their ends, which may lean.
+    /// Circles through a place between their ends, which may lean.
     ThroughPlace,
-    /// By arcs about a stated centre in the plane of the arc, which may rise evenly.
+    /// Arcs about a stated centre in the plane of the arc, which may rise evenly.
     AboutAxis,
 }
 
-/// How a corrected program is written.
+/// Options for writing a corrected program.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct WriteOptions {
-    /// How far straight pieces may leave the corrected curve because the correction varies, in mm.
-    /// Default 0.0005.
+    /// Maximum distance of straight pieces from the corrected curve because the correction varies, in mm. Default
+    /// 0.0005.
     pub tolerance_mm: f64,
-    /// What becomes of arcs, where the language has any that follow: in G-code those about the axis of the plane, in RAPID, KRL,
-    /// FANUC TP and SINUMERIK programs circles through places, in Heidenhain programs arcs and helices about centres. APT programs
-    /// get straight pieces in any case.
+    /// Output for arcs, if the language has any that follow: in G-code those about the axis of the plane, in RAPID, KRL, FANUC TP
+    /// and SINUMERIK programs circles through places, in Heidenhain programs arcs and helices about centres. APT programs get
+    /// straight pieces in any case.
     pub arcs: Arcs,
     /// Smallest jump of the correction (between blocks, where the load turns with the direction of
     /// motion, or inside one) that gets a step of its own, in mm; a smaller jump is taken up along the
@@ -45,15 +45,14 @@ pub struct WriteOptions {
     /// Distance from the tool's tip, in mm, at which a correction of the orientation is held to these tolerances: where a turn
     /// of the tool varies, a point so far from the tip is within `tolerance_mm`. Default 50.
     pub turn_lever_mm: f64,
-    /// How far the chords of an arc may leave it, in mm; an arc that is fitted may leave the corrected curve by this and
-    /// `tolerance_mm` together, as chords do, also where one arc of a block ends and the next begins. Default 0.0004.
+    /// Chord error of an arc, in mm; an arc that is fitted may leave the corrected curve by this and `tolerance_mm`
+    /// together, as chords do, also where one arc of a block ends and the next begins. Default 0.0004.
     pub chord_tolerance_mm: f64,
     /// A stretch this short (in mm) over which the correction still varies by more than the
     /// tolerance is taken for a jump: the tool steps there. Default 0.001.
     pub smallest_piece_mm: f64,
-    /// How many times the programmed feed a piece may be written with, at least 1. More would be
-    /// needed to keep the speed along the part where the tool's own path is much longer; there the part
-    /// is cut more slowly instead. Default 1.2.
+    /// Maximum feed of a piece over the programmed one, at least 1. More would be needed to keep the speed along the
+    /// part where the tool's own path is much longer; there the part is cut more slowly instead. Default 1.2.
     pub max_feed_factor: f64,
     /// Length against the direction of motion from which on a step or a piece is warned of, in mm.
     /// Default 0.05.
@@ -63,8 +62,8 @@ pub struct WriteOptions {
     /// Shortest block that the controller is to get, in mm: pieces, arcs as well, are shared out where that keeps them longer, and
     /// the lines with shorter ones are named. `None`, the default, sets no limit.
     pub min_block_mm: Option<f64>,
-    /// How many blocks the controller reads in a second: as `min_block_mm`, with the length that the programmed feed covers in
-    /// the time of one block.
+    /// Block rate of the controller per second: a limit like `min_block_mm`, with the length that the programmed feed covers
+    /// in the time of one block.
     pub max_blocks_per_s: Option<f64>,
     /// Lines of text for the header below the mark; `None` writes no header (and no mark).
     pub header: Option<Vec<String>>,
@@ -72,7 +71,7 @@ pub struct WriteOptions {
     pub max_line_bytes: usize,
     /// Largest number of pieces in all. Default ten million.
     pub max_pieces: usize,
-    /// Whether a program that is marked as compensated may be compensated once more.
+    /// True if a program that is marked as compensated may be compensated once more.
     pub again: bool,
 }
 

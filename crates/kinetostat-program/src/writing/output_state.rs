@@ -1,4 +1,4 @@
-//! What the controller that runs the output holds at a line, and the next piece to be written.
+//! Modal state of the controller that runs the output, and the next piece to be written.
 
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
@@ -8,12 +8,12 @@ use crate::path::position_offset::PositionOffset;
 use crate::writing::jump::Turn;
 use crate::writing::written_arc::WrittenArc;
 
-/// What the controller that runs the output holds at a line.
+/// Modal state, at a line, of the controller that runs the output.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct OutputState {
-    /// Where the tool is commanded to be, as written, in mm, part frame.
+    /// Commanded tool position, as written, in mm, part frame.
     pub position: Vector3<f64>,
-    /// The same before rounding.
+    /// Commanded tool position before rounding.
     pub target: Vector3<f64>,
     pub offset: PositionOffset,
     pub feed: Option<Feed>,
@@ -22,14 +22,14 @@ pub(crate) struct OutputState {
     pub feed_limited: bool,
     /// The piece written last, where it is an arc that was fitted.
     pub arc: Option<WrittenArc>,
-    /// By how much the rotary axes stand otherwise than the program has them, deg, in their order; empty where none ever did.
+    /// Correction of the rotary axes, deg, in their order; empty if there never was one.
     pub turned_deg: Vec<f64>,
 }
 
 /// An arc that was fitted to a corrected curve, before rounding.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct FittedArc {
-    /// In the plane of the arc that it stands for, mm.
+    /// Centre in the plane of the arc that it stands for, mm.
     pub centre_mm: [f64; 2],
     pub radius_mm: f64,
     pub sweep_rad: f64,
@@ -56,7 +56,7 @@ pub(crate) struct FittedCircle {
 pub(crate) struct OutputMove {
     pub share_from: f64,
     pub share_to: f64,
-    /// Where to go, before rounding, in mm.
+    /// Target before rounding, in mm.
     pub target: Vector3<f64>,
     /// Rotation vector by which the tool is turned there from the orientation of the program, part axes, rad.
     pub tilt: Vector3<f64>,
@@ -70,7 +70,7 @@ pub(crate) struct OutputMove {
 }
 
 impl OutputMove {
-    /// Where equal ways of the path are on an arc or a circle, see [`crate::WrittenArc::slip`].
+    /// Difference between equal ways on the path and on an arc or a circle, see [`crate::WrittenArc::slip`].
     pub fn slip(&self) -> Option<[f64; 2]> {
         let circle = self.circle.map(|circle| circle.slip);
         circle.or(self.arc.map(|arc| arc.slip))

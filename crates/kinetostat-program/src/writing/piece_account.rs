@@ -14,12 +14,12 @@ use crate::writing::written::Piece;
 use crate::writing::written_arc::WrittenArc;
 use crate::writing::written_circle::WrittenCircle;
 
-/// What was written of a piece.
+/// Text of a piece as written.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct AsWritten {
-    /// Where it begins as written, in mm.
+    /// Start as written, in mm.
     pub from: Vector3<f64>,
-    /// Where it ends as written, in mm.
+    /// End as written, in mm.
     pub to: Vector3<f64>,
     /// Line of the output.
     pub output_line: usize,
@@ -31,7 +31,7 @@ pub(crate) struct AsWritten {
     pub circle: Option<WrittenCircle>,
     /// The feed in force.
     pub feed: Option<Feed>,
-    /// It was held to its largest.
+    /// True if the feed was held to its largest.
     pub feed_limited: bool,
 }
 
@@ -46,7 +46,7 @@ pub(crate) struct PieceAccount<'a> {
     short: ShortBlocks,
     /// A piece of an earlier part of the program was corrected.
     pub corrected_before: bool,
-    /// Where the steps at one place began, and where that place is: move and share.
+    /// Start of the steps at one place, as move, share and position.
     jump_from: Option<(usize, f64, Vector3<f64>)>,
 }
 
@@ -203,11 +203,11 @@ impl<'a> PieceAccount<'a> {
         self.corrected_before || self.pieces.iter().any(|piece| piece.corrected)
     }
 
-    /// How far the output goes against the direction in which the part is cut.
+    /// Notes the distance by which the output goes against the direction in which the part is cut.
     fn note_backward(&mut self, move_index: usize, step: &OutputMove, written: &AsWritten) {
         let motion = &self.path.moves[move_index];
         if written.kept_arc || written.arc.is_some() || written.circle.is_some() {
-            // It goes round as the input does, never back.
+            // An arc goes round as the input does, never back.
             self.jump_from = None;
             return;
         }
@@ -216,7 +216,7 @@ impl<'a> PieceAccount<'a> {
                 self.jump_from = None;
                 written.from
             }
-            // Further pieces of one step count from where the first began.
+            // Later pieces of one step are measured from the start of the first.
             (true, Some((index, share, began)))
                 if (index, share) == (move_index, step.share_to) =>
             {

@@ -1,4 +1,4 @@
-//! What is to be written in place of every move: for writers of any language.
+//! Output for every move: for writers of any language.
 //!
 //! A [`Plan`] is made from the path and a field of corrections. A writer puts its pieces into the text of its language and says
 //! where each of them ends as written; [`Plan::corrected`] makes the account of it, the same for all languages.
@@ -28,7 +28,7 @@ use crate::writing::written_circle::WrittenCircle;
 pub struct PlannedPiece {
     /// Share of the move's length at which it ends.
     pub share_to: f64,
-    /// Where it ends, part frame, in mm.
+    /// End of the piece, part frame, in mm.
     pub position_mm: Vector3<f64>,
     /// A place between its ends, mm, through which it passes on a circle; `None` where it is straight.
     pub via_mm: Option<Vector3<f64>>,
@@ -37,14 +37,14 @@ pub struct PlannedPiece {
     pub arc: Option<PlannedArc>,
     /// Orientation of the tool there, part axes from tool axes; `None` in a program of positions.
     pub orientation: Option<UnitQuaternion<f64>>,
-    /// Its speed over that of the program, so that the speed along the part stays the same; at most
+    /// Speed over that of the program, so that the speed along the part stays the same; at most
     /// [`WriteOptions::max_feed_factor`].
     pub speed_factor: f64,
     /// The speed is held to that largest factor: the part is cut more slowly here.
     pub speed_limited: bool,
 }
 
-/// What is to be written in place of one move.
+/// Output for one move.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PlannedMove {
     /// The pieces, in order; one at least.
@@ -53,7 +53,7 @@ pub struct PlannedMove {
     pub kept: bool,
 }
 
-/// Where a piece ends as written.
+/// End of a piece as written.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct WrittenEnd {
     /// Rounded, part frame, in mm.
@@ -66,10 +66,10 @@ pub struct WrittenEnd {
     pub circle: Option<Arc>,
 }
 
-/// What a writer made of a move.
+/// Text that a writer made of a move.
 #[derive(Debug, Clone, PartialEq)]
 pub struct WrittenMove {
-    /// Where each piece ends.
+    /// End of each piece.
     pub ends: Vec<WrittenEnd>,
     /// The text of the move is byte for byte that of the input.
     pub same: bool,
@@ -99,8 +99,8 @@ impl<'a> Plan<'a> {
         Self::with_circles(path, field, (options, &[]), monitor)
     }
 
-    /// As [`Plan::new`]; the arcs among the moves for which `circles` (one entry for each move, straight where there is none) says
-    /// so become circles through a place, or arcs about the same axis, if [`WriteOptions::arcs`] asks for arcs.
+    /// Variant of [`Plan::new`] in which arcs become circles through a place, or arcs about the same axis, if `circles` (one entry
+    /// for each move, straight where there is none) says so and [`WriteOptions::arcs`] asks for arcs.
     ///
     /// ```
     /// use kinetostat_program::*;
@@ -178,7 +178,7 @@ impl<'a> Plan<'a> {
         })
     }
 
-    /// What is to be written, one entry for each move of the path.
+    /// Output for each move of the path.
     #[must_use]
     pub fn moves(&self) -> &[PlannedMove] {
         &self.moves

@@ -47,7 +47,7 @@ impl PlannedArc {
         }
     }
 
-    /// Its length between two ends, mm: of them only the heights along the axis count.
+    /// Length between two ends, mm: only their heights along the axis matter.
     #[must_use]
     pub fn length_mm(&self, from: &Vector3<f64>, to: &Vector3<f64>) -> f64 {
         (self.radius_mm * self.angle_rad).hypot((to - from).dot(&self.axis))

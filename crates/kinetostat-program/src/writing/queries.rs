@@ -75,7 +75,7 @@ impl FieldQueries<'_> {
                     None => return Err(failure("the field gave too few answers".to_owned())),
                 };
                 if is_last_with_rotary_axes(self.path, request.move_index) {
-                    // Behind it the angles count as those of the program.
+                    // The next block expects the angles of the program.
                     value.fixed_rows_mut::<3>(3).fill(0.0);
                 }
                 for axis in 0..3 {

@@ -22,7 +22,7 @@ pub(crate) struct TurnedAxes<'a> {
     pub motion: &'a Move,
     /// See [`crate::Path::tool_axis`].
     pub tool_axis: Vector3<f64>,
-    /// They stand otherwise than the program has them when the block begins.
+    /// True if they differ from the program when the block begins.
     pub were_turned: bool,
     /// G43.5 stands in the block: a direction does not, and the axes stay at the angles of the program.
     pub begins_directions: bool,
@@ -34,7 +34,7 @@ impl TurnedAxes<'_> {
         turn.rotary.as_ref()
     }
 
-    /// Whether a word is that of one of them, in a block whose angles are corrected.
+    /// True if a word is that of a corrected rotary axis of the block.
     pub fn has_word(&self, letter: char, steps: &[OutputMove]) -> bool {
         let mut axes = self
             .rotary()
@@ -43,25 +43,25 @@ impl TurnedAxes<'_> {
         self.are_turned(steps) && axes.any(|axis| axis.letter == letter)
     }
 
-    /// Whether angles of the block are others than those of the program, or were in the one before it.
+    /// True if angles of the block differ from those of the program, or did in the one before it.
     fn are_turned(&self, steps: &[OutputMove]) -> bool {
         let corrected = steps.iter().any(|step| step.tilt != Vector3::zeros());
         self.rotary().is_some() && (corrected || self.were_turned)
     }
 
-    /// Whether pieces of the block get words of their own here: what angles of the program say is shared out elsewhere.
+    /// True if pieces of the block get words of their own here: the angles of the program are shared out elsewhere.
     fn has_words(&self, steps: &[OutputMove]) -> bool {
         let divided = steps.len() > 1 && self.is_directed();
         !self.begins_directions && (divided || self.are_turned(steps))
     }
 
-    /// Whether directions say how the tool stands (G43.5).
+    /// True if directions state the orientation of the tool (G43.5).
     pub fn is_directed(&self) -> bool {
         let directed = |rotary: &RotaryTurn| rotary.stated == StatedBy::Direction;
         self.rotary().is_some_and(directed)
     }
 
-    /// By how much the axes stand otherwise at the end of a piece than the program has them, deg.
+    /// Correction of the axes at the end of a piece, deg.
     fn wanted_deg(&self, rotary: &RotaryTurn, step: &OutputMove) -> Vec<f64> {
         let near = rotary.angles_deg(step.share_to);
         if step.tilt == Vector3::zeros() {
@@ -135,7 +135,7 @@ impl TurnedAxes<'_> {
                     (reference + number::of_own_text(&text), Some(text))
                 }
             };
-            // What the arithmetic leaves of the program's own angle is none.
+            // A rounding error of the program's own angle is no correction.
             let left = reached - to[axis];
             *turned = if left.abs() < 1e-9 { 0.0 } else { left };
             words.push((letter as u8, text));

@@ -11,7 +11,7 @@ const NAMED: usize = 5;
 /// Relative error of the arithmetic.
 const ARITHMETIC: f64 = 1e-9;
 
-/// How much longer than the shortest block, in last digits, a piece is before its ends are rounded.
+/// Margin over the shortest block, in last digits, of a piece before its ends are rounded.
 const ROUNDING_DIGITS: f64 = 2.0;
 
 /// The shortest block of a move that a controller takes.
@@ -24,7 +24,7 @@ pub(crate) struct ShortestBlock {
 }
 
 impl ShortestBlock {
-    /// Whether a piece of this length, in place of so much of the part, is long enough.
+    /// True if a piece of this length, in place of so much of the part, is long enough.
     pub fn allows(&self, written_mm: f64, on_part_mm: f64) -> bool {
         written_mm >= self.written_mm && on_part_mm >= self.on_part_mm
     }
@@ -36,7 +36,7 @@ impl ShortestBlock {
 }
 
 impl WriteOptions {
-    /// The shortest block that this move is to have; none where no limit holds.
+    /// The shortest block that this move is to have; `None` if no limit holds.
     pub(crate) fn shortest_block(&self, motion: &Move) -> Option<ShortestBlock> {
         let seconds = self.max_blocks_per_s.map(f64::recip);
         let in_time = seconds.zip(motion.feed).and_then(|(seconds, feed)| {
@@ -79,14 +79,14 @@ struct Shortest {
     length_mm: f64,
     seconds: Option<f64>,
     line: usize,
-    /// How many pieces its block has; none before all of them are written.
+    /// Number of pieces of its block; `None` before all of them are written.
     pieces: Option<usize>,
 }
 
 impl Found {
     fn note(&mut self, line: usize, length_mm: f64, seconds: Option<f64>) {
         self.blocks += 1;
-        // What is no number is no length either, and is shown.
+        // NaN lengths are reported, not filtered.
         match self.lines.last_mut().filter(|last| last.line == line) {
             Some(last) => {
                 last.blocks += 1;
@@ -223,7 +223,7 @@ impl ShortBlocks {
         all
     }
 
-    /// What is to be said of them.
+    /// Warnings about short blocks.
     pub fn warnings(&self, options: &WriteOptions) -> Vec<Warning> {
         let length = options.min_block_mm.map(|mm| format!("{mm} mm"));
         let rate = options

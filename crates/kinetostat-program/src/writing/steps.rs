@@ -21,11 +21,11 @@ use crate::writing::node::{Node, is_corrected_at_end, is_divided};
 use crate::writing::options::WriteOptions;
 use crate::writing::output_state::OutputMove;
 
-/// Which nodes of a move are ends of pieces.
+/// Nodes of a move that are ends of pieces.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Ends {
     All,
-    /// Its own ends, and where the correction jumps.
+    /// Ends of the move, and jumps of the correction.
     OfJumps,
 }
 
@@ -38,7 +38,7 @@ pub(crate) struct Steps<'a> {
     courses: Vec<Accepted>,
     fitted: Vec<Fitted>,
     next_node: usize,
-    /// How far the tool is turned where it was last, as [`OutputMove::tilt`].
+    /// Last rotation of the tool, as [`OutputMove::tilt`].
     pub tilt: Vector3<f64>,
     /// Largest jump of the correction without a step of its own, in mm.
     pub largest_jump_taken_up_mm: f64,
@@ -78,7 +78,7 @@ impl<'a> Steps<'a> {
         first..self.next_node
     }
 
-    /// What is known of the correction between the nodes of a move, where arcs are fitted to it.
+    /// Correction between the nodes of a move to which arcs are fitted.
     pub fn course(&self, move_index: usize) -> &[Accepted] {
         let first = self
             .courses

@@ -1,4 +1,4 @@
-//! Where a writer stands between two parts of a program.
+//! State of a writer between two parts of a program.
 
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
@@ -6,11 +6,11 @@ use serde::{Deserialize, Serialize};
 use crate::path::position_offset::PositionOffset;
 use crate::writing::output_state::OutputState;
 
-/// Where a writer stands between two parts of a program: all that the second one is written from besides its own lines.
+/// State of a writer between two parts of a program: the second one is written from it and its own lines.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct WriterState {
     pub(crate) output: OutputState,
-    /// How far the tool is turned where it was last, rad.
+    /// Last rotation of the tool, rad.
     pub(crate) tilt: Vector3<f64>,
     /// Line of the output that is written next.
     pub(crate) output_line: usize,

@@ -20,18 +20,18 @@ pub struct Piece {
     pub share_from: f64,
     /// Share of the move's length at which it ends.
     pub share_to: f64,
-    /// Where it begins as written (rounded), in mm, part frame.
+    /// Start as written (rounded), in mm, part frame.
     pub commanded_from: Vector3<f64>,
-    /// Where it ends as written (rounded), in mm, part frame.
+    /// End as written (rounded), in mm, part frame.
     pub commanded_to: Vector3<f64>,
     /// Line of the output, counted from 1.
     pub output_line: usize,
     /// A step at one place of the part, where the correction jumps.
     pub corner_step: bool,
-    /// Which part of the load's turn such a step covers.
+    /// Part of the load's turn that such a step covers.
     pub turn: Option<Turn>,
-    /// Whether the field's correction is in its end; otherwise the move is carried (its place is not
-    /// known) or has no length.
+    /// True if the field's correction is in its end; otherwise the move is carried (its place is not known) or has no
+    /// length.
     pub corrected: bool,
     /// An arc that stays an arc, because no correction on it could be written.
     pub kept_arc: bool,
@@ -39,8 +39,8 @@ pub struct Piece {
     pub arc: Option<WrittenArc>,
     /// A circle through a place, or in Heidenhain programs an arc about a stated centre, that was fitted to the corrected curve of an arc.
     pub circle: Option<WrittenCircle>,
-    /// Its feed was held to [`WriteOptions::max_feed_factor`](crate::WriteOptions::max_feed_factor) times the programmed one, so the part is
-    /// cut more slowly here than programmed.
+    /// True if the feed was held to [`WriteOptions::max_feed_factor`](crate::WriteOptions::max_feed_factor) times the programmed one, so
+    /// the part is cut more slowly here than programmed.
     pub feed_limited: bool,
 }
 
@@ -70,13 +70,13 @@ impl Piece {
         }
     }
 
-    /// Whether it is round, whose ends and places between were fitted to the corrected curve.
+    /// True for an arc or a circle that was fitted to the corrected curve.
     #[must_use]
     pub fn is_fitted(&self) -> bool {
         self.arc.is_some() || self.circle.is_some()
     }
 
-    /// Where the tool is commanded to be, in mm, when a part (0 to 1) of the piece's stretch of its move is done.
+    /// Commanded tool position, in mm, when a part (0 to 1) of the piece's stretch of its move is done.
     #[must_use]
     pub fn commanded(&self, motion: &Move, part: f64) -> Vector3<f64> {
         match (&self.arc, &self.circle) {
@@ -113,19 +113,19 @@ impl Piece {
 pub struct Corrected {
     /// The program, to be written to a file as it is.
     pub bytes: Vec<u8>,
-    /// Its motions, in order.
+    /// Motions of the program, in order.
     pub pieces: Vec<Piece>,
     /// Other files of the program, in their order, by name: declarations of targets that changed with it. Empty in G-code.
     pub beside: Vec<(String, Vec<u8>)>,
     /// Orientation of the tool at the end of every piece as written, part axes from tool axes; empty where the program does not
     /// state it.
     pub orientations: Vec<UnitQuaternion<f64>>,
-    /// Where the rotary axes stand at the end of every piece as written, in deg and their order; empty where the words of the
+    /// Angles of the rotary axes at the end of every piece as written, in deg and their order; empty if the words of the
     /// program stay, and for pieces of moves that do not state them.
     pub rotary_deg: Vec<Vec<f64>>,
-    /// What was done.
+    /// Summary of the changes.
     pub accounting: Accounting,
-    /// Where the writer of a part of a longer program stands behind it; `None` of a whole one.
+    /// State of the writer after a part of a longer program; `None` for a whole one.
     #[doc(hidden)]
     pub writer: Option<Box<WriterState>>,
 }
@@ -138,8 +138,8 @@ impl Corrected {
         writer.map_or(0, |writer| writer.pieces - self.pieces.len())
     }
 
-    /// Its pieces as the moves of a path: where the tool is commanded to go. Moves have the index of their piece and its line in
-    /// the output; of what was not corrected nothing is known. `original` is the path that it was written from.
+    /// Pieces as the moves of a path: the commanded positions of the tool. Moves have the index of their piece and its line in
+    /// the output; the place of uncorrected ones is unknown. `original` is the path that it was written from.
     ///
     /// ```
     /// use kinetostat_program::*;

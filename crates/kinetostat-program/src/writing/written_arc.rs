@@ -35,7 +35,7 @@ pub(crate) fn slipped(slip: &[f64; 2], part: f64) -> f64 {
 pub struct WrittenArc {
     /// Axis about which it turns: 2 in the plane of X and Y (G17), 1 in that of Z and X (G18), 0 in that of Y and Z (G19).
     pub normal: usize,
-    /// Its centre in the plane, part frame, in mm, along the first two of [`WrittenArc::axes`].
+    /// Centre in the plane, part frame, in mm, along the first two of [`WrittenArc::axes`].
     pub centre_mm: [f64; 2],
     /// Angle from its start to its end, in rad, positive counter-clockwise (G3).
     pub sweep_rad: f64,
@@ -62,7 +62,7 @@ impl WrittenArc {
         slipped(&self.slip, part)
     }
 
-    /// Its curve between two ends; radius and height grow evenly with the angle.
+    /// Curve between two ends; radius and height change linearly with the angle.
     #[must_use]
     pub fn between(&self, from: &Vector3<f64>, to: &Vector3<f64>) -> Arc {
         let unit = |axis: usize| Vector3::ith(axis, 1.0);

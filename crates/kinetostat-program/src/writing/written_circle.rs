@@ -20,14 +20,14 @@ use crate::writing::written_arc::slipped;
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct WrittenCircle {
-    /// Its curve, part frame, in mm.
+    /// Curve, part frame, in mm.
     pub curve: Arc,
-    /// As [`crate::WrittenArc::slip`].
+    /// Slip, as in [`crate::WrittenArc::slip`].
     pub slip: [f64; 2],
 }
 
 impl WrittenCircle {
-    /// Where the tool is commanded to be when a part (0 to 1) of the piece's stretch of the path is done, mm.
+    /// Commanded tool position when a part (0 to 1) of the piece's stretch of the path is done, mm.
     #[must_use]
     pub fn commanded(&self, part: f64) -> Vector3<f64> {
         self.curve.point(slipped(&self.slip, part))

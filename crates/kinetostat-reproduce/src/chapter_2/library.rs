@@ -7,7 +7,7 @@ pub(crate) fn material(name: &str) -> Result<Material, CutError> {
     Materials::library().find(name).cloned()
 }
 
-/// Its law, which is Kienzle's in Table 2.2.
+/// Kienzle's law of a material of Table 2.2.
 pub(crate) fn kienzle(name: &str) -> Result<Kienzle, CutError> {
     let material = material(name)?;
     match material.law {

@@ -70,8 +70,8 @@ fn cutting_speed(diameter_mm: f64, rpm: f64) -> f64 {
     1e-3 * std::f64::consts::PI * diameter_mm * rpm
 }
 
-/// What a torque of 10 N m about the axis where that is least, and where it is most, does to a robot of the class of the KUKA KR 240:
-/// turns in deg and motions in mm.
+/// Effect of a torque of 10 N m about the axes of least and largest effect, on a robot of the class of the KUKA KR 240: turns in deg
+/// and motions in mm.
 fn deflections_by_torque() -> Result<[[f64; 2]; 2], Cause> {
     let machine = Model::preset("kuka_kr270_like")?.mechanism;
     let home = machine.platforms()[machine.tool()].home;

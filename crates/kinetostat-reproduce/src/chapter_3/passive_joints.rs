@@ -1,4 +1,4 @@
-//! What passive joints do to the stiffness of a link: equation 3.26, Tables 3.1 to 3.3.
+//! Effect of passive joints on the stiffness of a link: equation 3.26, Tables 3.1 to 3.3.
 
 use kinetostat::number::larger;
 use kinetostat::{

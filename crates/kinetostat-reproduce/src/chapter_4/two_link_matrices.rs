@@ -36,7 +36,7 @@ fn blocks(chain: &Chain, x: &[f64]) -> Result<Blocks, Error> {
 /// Rows x, y and rotation of a planar Jacobian.
 const ROWS: [usize; 3] = [0, 1, 5];
 
-/// One column: print and its value for each row.
+/// Adds one column: print and its value for each row.
 fn column(
     items: &mut Vec<Item>,
     name: &str,

@@ -215,7 +215,7 @@ pub(crate) fn fig_4_3() -> Result<Contents, Cause> {
             items.push(Item::unprinted(format!("K_x, {at}"), k_x(&e), "K/L^2", ""));
         }
     }
-    // Where K_x = 0 the curves have their extremum points.
+    // The curves have their extremum points at K_x = 0.
     for g in [0.5, 0.9, 0.95, 1.0, 1.005, 1.02, 1.05, 1.1, 1.5] {
         for (upper, side) in [(true, "upper"), (false, "lower")] {
             let c = curve(&chain, g, upper)?;

@@ -210,7 +210,7 @@ fn flat(items: &mut Vec<Item>) -> Result<(), Cause> {
     Ok(())
 }
 
-/// Where the stiffness of the upper shape at dx = 0 vanishes.
+/// Load at which the stiffness of the upper shape at dx = 0 vanishes.
 fn critical(chain: &Chain, items: &mut Vec<Item>) -> Result<(), Cause> {
     // The stiffness is steep here: converged beyond the default.
     let settings = Settings::default().with_torque(1e-13);

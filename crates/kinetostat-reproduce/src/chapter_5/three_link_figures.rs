@@ -120,7 +120,7 @@ pub(crate) fn outline(chain: &Chain, angles: &[f64], joints: &[&str]) -> Vec<(f6
     points
 }
 
-/// The same from the angles alone: links of unit length.
+/// Joints of the chain from the angles alone: links of unit length.
 fn links(e: &ThreeLinkShape) -> Vec<(f64, f64)> {
     let mut at = (0.0, 0.0);
     let mut turned = 0.0;

@@ -25,7 +25,7 @@ pub(crate) fn all(chain: &Chain, x: f64) -> Result<Equilibria, Cause> {
     )?)
 }
 
-/// What Table 5.1 lists of one equilibrium, K = l = 1.
+/// Row of Table 5.1 for one equilibrium, K = l = 1.
 #[derive(Clone, Debug)]
 pub(crate) struct ThreeLinkShape {
     /// q, theta1, theta2 and the end hinge, rad.

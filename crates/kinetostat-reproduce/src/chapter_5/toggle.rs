@@ -11,8 +11,8 @@ use nalgebra::Vector3;
 use crate::shared::curves::{Drawn, lines, marks, of_kind, unstable_entry};
 use crate::{Cause, Contents, Item};
 
-/// One of three equal legs: by symmetry its end moves along z and the machine carries three times
-/// its force. A slide along x with the spring, a hinge, a link of unit length.
+/// Leg of three equal ones: by symmetry its end moves along z and the machine carries three times its force. A slide
+/// along x with the spring, a hinge, a link of unit length.
 fn leg() -> Result<Chain, kinetostat::Error> {
     Chain::builder("leg of the toggle frame")
         .spring("slide", MotionKind::Prismatic, Vector3::x(), 1.0, 0.0)

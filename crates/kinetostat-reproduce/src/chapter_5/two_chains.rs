@@ -12,7 +12,7 @@ use kinetostat_report::{Plot, PlotLine};
 
 use crate::{Cause, Contents, Item};
 
-/// From the tool to the feet of the pressed chains, m.
+/// Distance from the tool to the feet of the pressed chains, m.
 const RADIUS: f64 = 1.35;
 
 /// All equilibria of a preset with its tool held at a place, m.

@@ -9,7 +9,7 @@ use kinetostat::{
 use crate::orthoglide::machine::{Orthoglide, POINTS, inclination, target};
 use crate::{Cause, Contents, Item, is_rounding};
 
-/// What the tables print, in mm, degrees and N m.
+/// Row of the tables, in mm, degrees and N m.
 #[derive(Clone, Copy, Default)]
 struct Row {
     shift: [f64; 3],
@@ -60,7 +60,7 @@ fn springs(row: &mut Row, posture: &Posture, deflections: &[Vec<f64>]) {
     }
 }
 
-/// To first order [R 6.15-6.20].
+/// Row to first order [R 6.15-6.20].
 fn linear(posture: &Posture, own: &Posture) -> Result<Row, Cause> {
     let LinearAssembly {
         shift,
@@ -283,7 +283,7 @@ pub(crate) fn table_6_2() -> Result<Contents, Cause> {
         let own = linear(&posture, &posture)?;
         let other = with_matrices_of_leg_1(&posture)?;
         let as_printed = linear(&other.posture(&target(*point))?, &posture)?;
-        // Where the legs are alike, so are their matrices.
+        // Legs that are alike have equal matrices.
         let alike = (own.turn[0] - own.turn[1]).abs() < 1e-9;
         for ((cell, print, value, unit), (_, _, copied, _)) in cells(&own, printed)
             .into_iter()

@@ -11,7 +11,7 @@ use nalgebra::Vector3;
 use crate::Cause;
 use crate::orthoglide::machine::{FOOT, Orthoglide, WIDTH, axes, bar, head};
 
-/// Such a machine at one nominal target of the tool, and the joints that command it.
+/// Machine with such bars at one nominal target of the tool, and the joints that command it.
 pub(crate) struct Barred {
     pub(super) mechanism: Mechanism,
     pub(super) joints: Vec<LimbPosture>,

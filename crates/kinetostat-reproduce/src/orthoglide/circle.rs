@@ -19,7 +19,7 @@ const POINTS: u32 = 72;
 /// Directions that are compensated: three drives move the tool in three directions.
 pub(super) const POSITION: Directions = Directions::POSITION;
 
-/// How chapter 7 is read: it leaves the stiffness of the drives and the place of the circles open.
+/// Reading of chapter 7, which leaves the stiffness of the drives and the place of the circles open.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Reading {
     pub(super) name: &'static str,
@@ -59,7 +59,7 @@ pub(super) const READINGS: [Reading; 4] = [
     },
 ];
 
-/// One angle of a circle.
+/// Point at one angle of a circle.
 #[derive(Clone, Debug)]
 pub(super) struct At {
     /// rad.
@@ -79,8 +79,7 @@ pub(super) struct At {
 }
 
 impl At {
-    /// By how much a displacement (mm) in the plane of the circle takes the tool off it: outwards
-    /// positive.
+    /// Radial component of a displacement (mm) in the plane of the circle: outwards positive.
     pub(super) fn outwards(&self, displacement: Vector3<f64>) -> f64 {
         (self.desired + displacement).xy().norm() - self.desired.norm()
     }

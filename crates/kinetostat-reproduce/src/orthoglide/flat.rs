@@ -20,7 +20,7 @@ struct Configuration {
     distance: &'static str,
     outside: [&'static str; 2],
     inside: [&'static str; 2],
-    /// How far the curves are followed, mm.
+    /// Range of the curves, mm.
     range: (f64, f64),
 }
 
@@ -58,10 +58,10 @@ const CONVENTIONS: [(&str, LinkConvention); 3] = [
     ("exponential coordinates", LinkConvention::Exponential),
 ];
 
-/// How far bars that bow are pulled inside, mm.
+/// Displacement inside up to which bars that bow are pulled, mm.
 const FAR_INSIDE: f64 = 40.0;
 
-/// What is computed for a configuration.
+/// Results for a configuration.
 struct Answer {
     /// mm.
     distance: f64,
@@ -79,7 +79,7 @@ struct Answer {
     /// The first limit of bars that bow on the way to [`FAR_INSIDE`], and the place there.
     bowed_inside: Option<DiagonalPoint>,
     bowed_far: DiagonalPoint,
-    /// Where outside the report's iteration stops converging, if it does before the flat posture.
+    /// Place outside at which the report's iteration stops converging, if it does before the flat posture.
     iteration: Option<DiagonalPoint>,
     /// Rate of the report's iteration at the printed displacement outside.
     rate: f64,
@@ -167,7 +167,7 @@ impl Configuration {
         Ok(items)
     }
 
-    /// Why the limit outside differs from its print, or what it is.
+    /// Note on the limit outside: the reason for a difference from its print, or its kind.
     fn note_outside(&self, at_out: f64) -> String {
         let out = self.printed(self.outside);
         match self.name {
@@ -181,7 +181,7 @@ impl Configuration {
         }
     }
 
-    /// What stands for the limit inside, which the curve does not have.
+    /// Note on the limit inside, which the curve does not have.
     fn note_inside(&self, a: &Answer, at_in: f64) -> String {
         let inn = self.printed(self.inside);
         format!(
@@ -190,7 +190,7 @@ impl Configuration {
         )
     }
 
-    /// What the report prints of this configuration.
+    /// Comparison with the report for this configuration.
     fn against_print(&self, a: &Answer, limit: &str, knee: &str) -> Vec<Item> {
         let q = self.name;
         vec![
@@ -281,7 +281,7 @@ impl Configuration {
         ]
     }
 
-    /// Where the report's own iteration stops converging.
+    /// Place at which the report's own iteration stops converging.
     fn by_the_iteration(&self, a: &Answer) -> Vec<Item> {
         let q = self.name;
         let mut items = vec![Item::unprinted(
@@ -398,7 +398,7 @@ impl Configuration {
         let (low, high) = range;
         for k in 0..=60 {
             let place = a.bowed.held(low + (high - low) * f64::from(k) / 60.0);
-            // Where a bar has lost its shape the solver may be on any of its branches, or on none.
+            // The solver may be on any branch, or on none, if a bar has lost its shape.
             if let Ok(place) = place
                 && place.share_to_buckling < 1.0
                 && a.bowed_outside

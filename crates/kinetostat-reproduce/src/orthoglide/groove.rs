@@ -9,10 +9,10 @@ use crate::orthoglide::machine::{POINTS, cutting};
 use crate::{Cause, Contents, Item};
 use kinetostat::number::{larger, smaller};
 
-/// What is true of all of chapter 7.
+/// Remark on all of chapter 7.
 const FRAME: &str = "The report gives neither the stiffness of the drives nor the places of the circles (they are in its figures only); its numbers are good to ±30 %.";
 
-/// One number of a circle under every reading, in words.
+/// Text of a number of a circle under every reading.
 fn readings(values: &[f64], unit: &str) -> String {
     let list: Vec<String> = READINGS
         .iter()
@@ -92,7 +92,7 @@ pub(super) fn load() -> Vec<Item> {
     ]
 }
 
-/// How a path is drawn: its name and its place from the centre.
+/// Path to be drawn: its name and its place from the centre.
 pub(super) type DrawnPath = (&'static str, fn(&At) -> Vector3<f64>);
 
 /// Paths of a circle in the plane, mm, drawn to about the same scale along x and y.
@@ -174,7 +174,7 @@ fn angle_plot(title: String, y_label: &str, lines: Vec<PlotLine>) -> Plot {
     }
 }
 
-/// What compensation leaves and costs at a location.
+/// Residual error and cost of compensation at a location.
 fn compensated(location: &Location, reading: &Reading) -> Result<Vec<Item>, Cause> {
     let (name, circle) = (location.name, location.main()?);
     Ok(vec![
@@ -341,7 +341,7 @@ pub(crate) fn fig_7_8() -> Result<Contents, Cause> {
     Ok(Contents { items, plots })
 }
 
-/// Over the angle: errors, changes and forces of all circles, and the actuators of the best and the worst.
+/// Plots over the angle: errors, changes and forces of all circles, and the actuators of the best and the worst.
 fn plots_7_8(locations: &[Location]) -> Result<Vec<Plot>, Cause> {
     let compared = |title: &str, y_label: &str, of: fn(&At) -> f64| -> Result<Plot, Cause> {
         let lines = locations

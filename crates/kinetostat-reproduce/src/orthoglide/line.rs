@@ -9,19 +9,19 @@ use rayon::prelude::*;
 use crate::orthoglide::machine::{LARGE, Orthoglide, SMALL, cutting, target};
 use crate::{Cause, Contents, Item};
 
-/// Where the tool goes for each source of error, mm from its target.
+/// Displacement of the tool from its target for each source of error, mm.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Sources {
     /// The cutting force alone.
     pub(super) force: Vector3<f64>,
     /// The errors of the legs alone.
     pub(super) errors: Vector3<f64>,
-    /// Both together.
+    /// Displacement by both together.
     pub(super) both: Vector3<f64>,
 }
 
 impl Sources {
-    /// At one target (m): `perfect` and `actual` are the machine without and with errors.
+    /// Displacements at one target (m): `perfect` and `actual` are the machine without and with errors.
     pub(super) fn at(
         perfect: &Mechanism,
         actual: &Mechanism,
@@ -44,7 +44,7 @@ impl Sources {
         self.force + self.errors
     }
 
-    /// By how much the sum differs from both together, mm.
+    /// Difference of the sum from both together, mm.
     pub(super) fn apart(&self) -> f64 {
         (self.superposed() - self.both).norm()
     }
@@ -67,7 +67,7 @@ fn line(case: &Orthoglide) -> Result<Vec<(f64, Sources)>, Cause> {
         .collect()
 }
 
-/// What the curves (1) to (5) of these figures and of Figure 7.5 are.
+/// Curves (1) to (5) of these figures and of Figure 7.5.
 type Curve = (&'static str, fn(&Sources) -> Vector3<f64>);
 const CURVES: [Curve; 5] = [
     ("(1) target", |_| Vector3::zeros()),

@@ -14,9 +14,9 @@ use nalgebra::{DMatrix, Matrix3, Matrix6, Rotation3, UnitQuaternion, Vector3};
 
 use crate::Cause;
 
-/// From the last joint to the platform's point, m.
+/// Distance from the last joint to the platform's point, m.
 pub(super) const HEAD: f64 = 0.0405;
-/// From the slider's line to the first joint, m.
+/// Distance from the slider's line to the first joint, m.
 pub(super) const FOOT: f64 = 0.1097;
 /// Distance of the bars of a parallelogram, m.
 pub(super) const WIDTH: f64 = 0.080;
@@ -42,7 +42,7 @@ pub(super) const CUTTING_N: [f64; 3] = [215.0, -10.0, -25.0];
 /// Length of the tool, m.
 pub(super) const TOOL: f64 = 0.100;
 
-/// What is varied.
+/// Parameters that are varied.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Orthoglide {
     /// Length of the bars, m.
@@ -126,7 +126,7 @@ impl Orthoglide {
         Ok(head(chain, leg).build()?)
     }
 
-    /// From the base to the first joint.
+    /// Chain from the base to the first joint.
     pub(super) fn foot(&self, leg: usize, with_errors: bool) -> Result<ChainBuilder, Cause> {
         let (turn, slide) = match with_errors {
             true => (self.line_error, self.slide_error),
@@ -147,7 +147,7 @@ impl Orthoglide {
     }
 }
 
-/// From the last joint to the platform.
+/// Chain from the last joint to the platform.
 pub(super) fn head(chain: ChainBuilder, leg: usize) -> ChainBuilder {
     chain
         .passive("q3", MotionKind::Revolute, Vector3::z(), 0.0)
@@ -183,7 +183,7 @@ fn foot_stiffness() -> Result<Matrix6<f64>, Cause> {
     Ok(tilt * section.cantilever(0.150)? * tilt.transpose())
 }
 
-/// One bar at its far end (SI). Bending along z, which the lumped parallelogram leaves out, is that
+/// Stiffness of one bar at its far end (SI). Bending along z, which the lumped parallelogram leaves out, is that
 /// along y.
 pub(super) fn bar() -> Matrix6<f64> {
     let mut k = Matrix6::zeros();

@@ -22,17 +22,17 @@ const TRIALS: usize = 4;
 /// Angles of the circle.
 const ANGLES: u32 = 72;
 
-/// By how much deviations are drawn larger.
+/// Magnification of drawn deviations.
 const DRAWN: f64 = 5.0;
 
-/// One angle through the trials: desired place from the centre, where the tool was sent and where it came to be, mm.
+/// Trials at one angle: desired place from the centre, commanded and reached place, mm.
 struct Angle {
     desired: Vector3<f64>,
     trials: [(Vector3<f64>, Vector3<f64>); TRIALS],
 }
 
 impl Angle {
-    /// How far off a trial is, mm.
+    /// Error of a trial, mm.
     fn off(&self, trial: usize) -> f64 {
         (self.trials[trial].1 - self.desired).norm()
     }
@@ -52,7 +52,7 @@ fn trials(
     for trial in &mut found {
         let command = target((centre + sent).into());
         let tool = machine.posture(&command)?.deflected_by(&wrench)?.tool;
-        // What a measurement of this trial would say.
+        // Simulated measurement of this trial.
         let deviation = -pose_residual(&place, &tool).linear();
         *trial = (1e3 * sent, 1e3 * (desired + deviation));
         // The target of the next trial: mirrored at the desired place.

@@ -36,9 +36,9 @@ pub(super) struct DiagonalPoint {
 /// The curve of the machine with its parallelograms as springs, translations before rotations.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Curve {
-    /// In order of the displacement.
+    /// Places in order of the displacement.
     pub(super) places: Vec<DiagonalPoint>,
-    /// Where the force is largest or smallest, in order of the displacement.
+    /// Extrema of the force, in order of the displacement.
     pub(super) limits: Vec<DiagonalPoint>,
 }
 
@@ -108,8 +108,8 @@ impl Curve {
         self.limits.iter().rev().find(|p| p.moved < 0.0).copied()
     }
 
-    /// Where the slope falls fastest on the way inside: the tip of the parabola through the three
-    /// lowest rates of the slope.
+    /// Place on the way inside at which the slope falls fastest: the tip of the parabola through the three lowest
+    /// rates of the slope.
     pub(super) fn knee(&self) -> Option<DiagonalPoint> {
         let inside: Vec<&DiagonalPoint> = self.places.iter().filter(|p| p.moved > 0.0).collect();
         let rates: Vec<(f64, f64)> = inside
@@ -188,7 +188,7 @@ pub(super) struct Bars {
 const STEPS: u32 = 24;
 
 impl Bars {
-    /// At home at `(at, at, at)` m, bars of one segment by a convention.
+    /// Creates the toggle at home at `(at, at, at)` m, with bars of one segment by a convention.
     pub(super) fn new(at: f64, convention: LinkConvention) -> Result<Self, Cause> {
         let machine = Orthoglide::default();
         let barred = Barred::new(&machine, &target([at; 3]), convention, 1)?;
@@ -200,10 +200,10 @@ impl Bars {
         hold(&self.barred.posture()?, self.at, moved)
     }
 
-    /// On the way to a displacement (mm), the last place before the first limit of the force or the
-    /// first loss of a bar's shape, whichever comes first.
+    /// Finds the last place, on the way to a displacement (mm), before the first limit of the force or the first loss
+    /// of a bar's shape, whichever comes first.
     pub(super) fn first_limit(&self, to: f64) -> Result<Option<DiagonalPoint>, Cause> {
-        // Where a bar has lost its shape the solver may find nothing at all.
+        // The solver may find nothing at all if a bar has lost its shape.
         let holds = |moved: f64| {
             let place = self.held(moved).ok()?;
             (place.slope > 0.0 && place.share_to_buckling < 1.0).then_some(place)

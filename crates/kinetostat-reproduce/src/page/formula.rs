@@ -18,7 +18,7 @@ pub(crate) const GREEK: [(&str, &str); 13] = [
     ("th", "\u{3b8}"),
 ];
 
-/// Other words for signs.
+/// Words for signs.
 const SIGNS: [(&str, &str); 3] = [
     ("sqrt", "\u{221a}"),
     ("thth", "\u{3b8}\u{3b8}"),
@@ -83,7 +83,7 @@ fn out_word(before: &[char]) -> usize {
         .count()
 }
 
-/// Where an index or a power that begins at `start` ends.
+/// End of an index or a power that begins at `start`.
 fn script(letters: &[char], start: usize) -> usize {
     if letters.get(start) == Some(&'(') {
         let close = letters[start..].iter().position(|c| *c == ')');

@@ -95,7 +95,7 @@ fn is_greek(word: &str) -> bool {
     formula::GREEK.iter().any(|(name, _)| *name == word)
 }
 
-/// What the report prints: formulas as such, numbers with true minus signs.
+/// Printed text of the report: formulas as such, numbers with true minus signs.
 fn printed(text: &str) -> String {
     let letters = text.contains(|c: char| c.is_ascii_alphabetic());
     let greek = text.split(|c: char| !c.is_ascii_alphabetic()).any(is_greek);

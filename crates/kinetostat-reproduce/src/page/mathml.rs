@@ -14,13 +14,13 @@ const FUNCTIONS: [&str; 5] = ["sin", "cos", "tan", "arccos", "arcsin"];
 /// Applies a function to what follows; joins factors.
 const APPLY: &str = "<mo>&#x2061;</mo>";
 const TIMES: &str = "<mo>&#x2062;</mo>";
-/// Between factors that blanks separate, and before what a function is applied to without brackets.
+/// Space between factors that blanks separate, and before the argument of a function without brackets.
 const THIN: &str = "<mspace width=\"0.17em\"/>";
 const OPEN: &str = "<mo stretchy=\"false\">(</mo>";
 const CLOSE: &str = "<mo stretchy=\"false\">)</mo>";
 const MINUS: &str = "<mo>\u{2212}</mo>";
 
-/// The formula as a `math` element; none where the text is no formula.
+/// The formula as a `math` element; `None` if the text is no formula.
 pub(crate) fn math(text: &str) -> Option<String> {
     let mut reader = Reader {
         rest: text.trim().chars().peekable(),
@@ -209,7 +209,7 @@ impl Reader<'_> {
         })
     }
 
-    /// With the index and the power that follow.
+    /// Adds the index and the power that follow.
     fn scripts(&mut self, base: &str, index: &str) -> Option<String> {
         let mut below = (!index.is_empty()).then(|| format!("<mn>{index}</mn>"));
         if self.peek() == Some('_') {

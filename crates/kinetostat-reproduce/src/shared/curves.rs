@@ -3,7 +3,7 @@
 use kinetostat::continuation::{CurvePoint, Curves, Special, SpecialKind};
 use kinetostat_report::{PlotLine, PlotMark};
 
-/// How a curve is drawn.
+/// Style of a drawn curve.
 pub(crate) struct Drawn<'d> {
     /// Name in the legend, of its stable parts.
     pub(crate) name: &'d str,

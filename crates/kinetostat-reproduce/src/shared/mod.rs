@@ -1,4 +1,4 @@
-//! What several chapters use: chains of the report, and curves with their marks.
+//! Shared parts of several chapters: chains of the report, and curves with their marks.
 
 pub(crate) mod curves;
 pub(crate) mod models;

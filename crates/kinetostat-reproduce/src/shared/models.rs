@@ -25,7 +25,7 @@ pub(crate) fn rigid_links() -> Result<Chain, Error> {
     rigid_links_of(1.0, 1.0)
 }
 
-/// The same with links of other lengths.
+/// Two rigid links of other lengths.
 pub(crate) fn rigid_links_of(first: f64, second: f64) -> Result<Chain, Error> {
     let z = Vector3::z();
     Chain::builder("two rigid links")
@@ -47,7 +47,7 @@ pub(crate) fn elastic_links(rest: f64) -> Result<Chain, Error> {
     elastic_links_of(1.0, 1.0, rest)
 }
 
-/// The same with links of other lengths.
+/// Two elastic links of other lengths.
 pub(crate) fn elastic_links_of(first: f64, second: f64, rest: f64) -> Result<Chain, Error> {
     let (z, x) = (Vector3::z(), Vector3::x());
     Chain::builder("two elastic links")
@@ -75,7 +75,7 @@ pub(crate) fn linked(name: &str, rest: &[f64]) -> ChainBuilder {
     b.translation(Vector3::new(1.0, 0.0, 0.0))
 }
 
-/// The same with the hinge at the end [R 5.5.1].
+/// Linked chain with the hinge at the end [R 5.5.1].
 fn hinged(name: &str, rest: &[f64]) -> Result<Chain, Error> {
     linked(name, rest)
         .passive("end", MotionKind::Revolute, Vector3::z(), 0.0)
@@ -93,7 +93,7 @@ pub(crate) fn z_chain() -> Result<Chain, Error> {
     hinged("Z chain", &[-a, a])
 }
 
-/// Where the end of the Z chain at rest is: `sqrt(5 + 4 cos 30 deg)`.
+/// End of the Z chain at rest: `sqrt(5 + 4 cos 30 deg)`.
 pub(crate) fn z_at_rest() -> f64 {
     (5.0 + 4.0 * 30_f64.to_radians().cos()).sqrt()
 }

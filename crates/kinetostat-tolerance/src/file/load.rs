@@ -15,7 +15,7 @@ const LOADS: [&str; 7] = [
     "factor",
 ];
 
-/// The same along a program.
+/// Words for a load along a program.
 const LOADS_OF_PROGRAM: [&str; 4] = [
     "factor",
     CUTTING_PARTS[0],
@@ -28,7 +28,7 @@ const LOADS_OF_PROGRAM: [&str; 4] = [
 pub(super) enum Load<'a> {
     /// One wrench on the tool: its components, or a factor.
     Stated(&'a Wrench),
-    /// That of a program, another at every place: factors on all of it, or on parts.
+    /// Load of a program, another at every place: factors on all of it, or on parts.
     AlongProgram,
 }
 

@@ -15,12 +15,12 @@ use crate::uncertain::{Uncertain, Uncertainties};
 pub use rows::SharedNumber;
 pub use source::{CUTTING_PARTS, Source};
 
-/// What a file of uncertainties says.
+/// Content of a file of uncertainties.
 #[derive(Clone, Debug, PartialEq)]
 pub struct UncertaintyFile {
     /// The numbers and their distributions.
     pub uncertainties: Uncertainties,
-    /// What each is of.
+    /// Source of each number.
     pub sources: Vec<Source>,
     /// Numbers that several limbs have and that move together in all of them.
     pub shared: Vec<SharedNumber>,
@@ -46,7 +46,7 @@ impl UncertaintyFile {
         Self::read_with(text, file, model, Load::Stated(load))
     }
 
-    /// The same for a run along a program, where the load differs from place to place: `load` is then `factor`, or one of
+    /// Variant for a run along a program, where the load differs from place to place: `load` is then `factor`, or one of
     /// [`CUTTING_PARTS`].
     ///
     /// # Errors

@@ -13,8 +13,8 @@ use crate::file::source::Source;
 use crate::file::written::{Pair, Reader, Row};
 use crate::uncertain::Uncertain;
 
-/// Largest spread of a length (m) and of an angle (rad): machines are built to micrometres or to tenths of a millimetre. What is off by
-/// more is measured and put into the model.
+/// Largest spread of a length (m) and of an angle (rad): machines are built to micrometres or to tenths of a millimetre. Larger errors
+/// are measured and put into the model.
 const LARGEST_LENGTH: f64 = 3e-3;
 const LARGEST_ANGLE: f64 = 2.0 * std::f64::consts::PI / 180.0;
 
@@ -347,7 +347,7 @@ fn largest_of(whole: f64, limit: f64) -> f64 {
     }
 }
 
-/// What no machine has negative or zero.
+/// True if a number of this kind must be positive.
 fn is_positive(kind: ParameterKind) -> bool {
     use ParameterKind as K;
     matches!(

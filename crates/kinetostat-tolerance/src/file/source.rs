@@ -1,6 +1,6 @@
-//! What uncertain numbers are of.
+//! Sources of uncertain numbers.
 
-/// What an uncertain number is of.
+/// Source of an uncertain number.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Source {
     /// A number of the model file, by its path.
@@ -15,7 +15,7 @@ pub enum Source {
 }
 
 impl Source {
-    /// Those of some values that are numbers of the model file.
+    /// Values of the numbers that belong to the model file.
     pub(crate) fn of_model(sources: &[Self], values: &[f64]) -> Vec<f64> {
         let each = sources.iter().zip(values);
         let own = each.filter(|(source, _)| matches!(source, Self::Parameter(_)));

@@ -1,4 +1,4 @@
-//! How cost grows with springs, limbs and postures.
+//! Growth of the cost with springs, limbs and postures.
 
 use anyhow::Result;
 use kinetostat::{

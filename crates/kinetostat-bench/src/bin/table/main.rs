@@ -34,8 +34,7 @@ fn pass(task: &Task, block: usize, results: &mut Results) -> Result<f64> {
     Ok(start.elapsed().as_secs_f64())
 }
 
-/// What all threads have computed so far, s: unlike the clock on the wall it does not count what other
-/// programs do meanwhile.
+/// Processor time of all threads so far, s: unlike the wall clock it does not count other programs.
 #[cfg(unix)]
 fn computed(_start: Instant) -> f64 {
     let time = rustix::time::clock_gettime(rustix::time::ClockId::ProcessCPUTime);

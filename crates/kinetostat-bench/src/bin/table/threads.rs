@@ -9,8 +9,8 @@ use crate::{BLOCK, median, pass};
 use kinetostat_bench::figure::{at_least, at_most};
 use kinetostat_bench::machines::{ARM, BenchMachine, HEXAPOD, LinkLaw, PUU3};
 
-/// What a call for two threads takes about, us: long against waking a thread, short enough that
-/// other programs leave both cores alone now and then.
+/// Approximate time of a call for two threads, us: long against waking a thread, short enough that other programs
+/// leave both cores alone now and then.
 const PASS: f64 = 4000.0;
 
 const CASES: [(&str, BenchMachine, BenchQuantity); 5] = [
@@ -21,7 +21,7 @@ const CASES: [(&str, BenchMachine, BenchQuantity); 5] = [
     ("W4", PUU3, BenchQuantity::Equilibrium),
 ];
 
-/// What one posture costs that is solved by itself.
+/// Cost of one posture that is solved by itself.
 pub fn single() -> Result<()> {
     println!("One posture in each call, us");
     println!("{:<8}{:>10}{:>10}{:>8}", "work", "batch", "single", "ratio");
@@ -42,7 +42,7 @@ pub fn single() -> Result<()> {
     Ok(())
 }
 
-/// Two threads against one, the results of many postures at once.
+/// Results of many postures at once, of two threads against one.
 pub fn two() -> Result<()> {
     let cores = std::thread::available_parallelism()?.get();
     println!("Two threads against one, many postures in each call, us each ({cores} cores here)");

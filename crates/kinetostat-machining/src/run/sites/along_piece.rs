@@ -23,7 +23,7 @@ pub(super) struct AlongPiece<'a> {
     pub motion: &'a Move,
     /// Share of its move that it is.
     pub width: f64,
-    /// Its length on a move at feed, mm.
+    /// Length on a move at feed, mm.
     pub length_mm: f64,
     kind: PointKind,
     start_mm: f64,
@@ -77,7 +77,7 @@ impl<'a> AlongPiece<'a> {
         }
     }
 
-    /// Where the rotary axes are commanded at a share of the piece, deg.
+    /// Commanded angles of the rotary axes at a share of the piece, deg.
     fn degrees(&self, place: f64) -> Option<Vec<f64>> {
         let [from, to] = self.angles.as_ref()?;
         if let (Some(circle), Some(rotary), true) = (

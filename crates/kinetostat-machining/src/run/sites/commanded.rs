@@ -1,9 +1,9 @@
-//! What a written program commands along a piece, beside its positions.
+//! Orientations and rotary axis angles that a written program commands along a piece.
 
 use kinetostat_program::{Corrected, GreatCircle, Move, Path, RotaryTurn, ToolTurn};
 use nalgebra::Vector3;
 
-/// How the written program turns the tool along a piece; none in a program of positions.
+/// Commanded rotation of the tool along a piece; `None` in a program of positions.
 pub(super) fn commanded_turn(path: &Path, written: &Corrected, index: usize) -> Option<ToolTurn> {
     let end = *written.orientations.get(index)?;
     let turn = path.moves[written.pieces[index].move_index]
@@ -20,7 +20,8 @@ pub(super) fn rotary(motion: &Move) -> Option<&RotaryTurn> {
     motion.tool_turn.as_ref()?.rotary.as_ref()
 }
 
-/// On which the tool's axis goes between the angles at both ends of a piece as written; none where each axis turns evenly.
+/// Great circle of the tool's axis between the angles at both ends of a piece as written; `None` if each axis turns
+/// linearly.
 pub(super) fn great_circle(motion: &Move, from: &[f64], to: &[f64]) -> Option<GreatCircle> {
     let own = rotary(motion).filter(|own| own.great_circle.is_some())?;
     let tool_axis = own.axes.tool_at_zero.inverse() * Vector3::z();
@@ -28,7 +29,7 @@ pub(super) fn great_circle(motion: &Move, from: &[f64], to: &[f64]) -> Option<Gr
     GreatCircle::new(&own.axes, from, &direction).ok()
 }
 
-/// Where the rotary axes stand at both ends of a piece as written, deg; none where they stand as in the program.
+/// Angles of the rotary axes at both ends of a piece as written, deg; `None` if they are those of the program.
 pub(super) fn commanded_angles(
     path: &Path,
     written: &Corrected,

@@ -1,4 +1,4 @@
-//! Where along a path, or along a written program, errors are looked at.
+//! Places along a path, or along a written program, at which errors are evaluated.
 
 mod along_piece;
 mod commanded;

@@ -1,4 +1,4 @@
-//! Where the load along a path asks for a place of its own.
+//! Places along a path that the load requires.
 
 use kinetostat::Wrench;
 use kinetostat_program::{Path, Piece, Turn};
@@ -28,8 +28,8 @@ pub(super) fn jumps(
 /// Departure of the load from the straight line between the ends of a block, share of it, that is looked at.
 const STRAIGHT: f64 = 1e-5;
 
-/// Where a load inside a block is farthest from what its ends say: where it or its slope jumps and midway between, and in the
-/// middle where it turns. None where it goes evenly from one end to the other.
+/// Places inside a block at which a load is farthest from the line between its ends: at jumps of it or its slope and midway
+/// between, and in the middle if it turns. Empty if it is linear.
 pub(super) fn places_of_load(
     load: &LoadAlongPath<'_>,
     placement: &Placement,

@@ -1,4 +1,4 @@
-//! Where a program is looked at as it is given.
+//! Places at which a program is evaluated as it is given.
 
 use kinetostat_program::{Knowledge, MoveKind, Path};
 
@@ -9,8 +9,8 @@ use crate::run::sites::programmed::Programmed;
 use crate::run::sites::site::{Site, kind, spacing_mm, starts, stays};
 use crate::task::Task;
 
-/// Where a program is looked at as it is given: ends and middles of all blocks, and their starts where the load jumps; of blocks longer
-/// than a spacing those of their pieces; and inside the others where the load departs from what their ends say.
+/// Places at which a program is evaluated as it is given: ends and middles of all blocks, and their starts where the load jumps; of
+/// blocks longer than a spacing those of their pieces; and inside the others where the load departs from the line between their ends.
 struct OfPath<'a> {
     path: &'a Path,
     load: &'a LoadAlongPath<'a>,

@@ -1,4 +1,4 @@
-//! Where a written program is looked at.
+//! Places at which a written program is evaluated.
 
 use kinetostat_program::{Corrected, Curve, Knowledge, Path, Piece, irregular};
 
@@ -97,8 +97,8 @@ impl OfWritten<'_> {
         sites
     }
 
-    /// Shares of the move between which the load of a piece is taken. Beside a jump of the load inside a move, the load is the
-    /// one before it or after it: within the micrometre in which it is located it steps, it does not turn gradually.
+    /// Shares of the move between which the load of a piece is taken. Next to a jump of the load inside a move, the load is
+    /// the one before it or after it: within the micrometre in which it is located it steps, it does not turn gradually.
     fn beside_steps(&self, index: usize, piece: &Piece) -> [f64; 2] {
         let step = |index: Option<usize>| {
             let beside = index.and_then(|index| self.written.pieces.get(index));
@@ -120,7 +120,7 @@ impl OfWritten<'_> {
     ) -> Vec<Spot> {
         let AlongPiece { piece, motion, .. } = along;
         let divided = piece.share_from > 0.0 || piece.share_to < 1.0;
-        // What the load does inside a block shows at no end of it.
+        // Variations of the load inside a block do not show at its ends.
         let pieces = self.programmed.pieces(motion);
         let is_one = pieces == 1;
         let of_load = match divided && !is_one {
@@ -167,7 +167,7 @@ impl OfWritten<'_> {
         spots
     }
 
-    /// How many irregular places there are on a piece.
+    /// Number of irregular places on a piece.
     fn count(&self, along: &AlongPiece<'_>) -> usize {
         let AlongPiece { piece, motion, .. } = along;
         let by_length = (along.length_mm / self.spacing_mm).ceil();

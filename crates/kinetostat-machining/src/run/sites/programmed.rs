@@ -34,7 +34,7 @@ impl Programmed {
     /// Into how many pieces a block is divided.
     pub fn pieces(&self, motion: &Move) -> usize {
         let length = motion.length_mm();
-        // Of a program that only turns all lengths are zero.
+        // All lengths are zero in a program that only turns.
         let pieces = match length > 0.0 {
             true => (length / self.longest_mm).ceil().clamp(1.0, 1e6) as usize,
             false => 1,

@@ -23,27 +23,28 @@ pub(crate) struct Site {
     pub path_mm: f64,
     /// Length of the path before its move, mm.
     pub start_mm: f64,
-    /// One of the places at which a program is looked at however it is written.
+    /// True for a place at which a program is evaluated however it is written.
     pub programmed: bool,
-    /// Where the tool should be, mm, program coordinates.
+    /// Desired position of the tool, mm, program coordinates.
     pub desired: Vector3<f64>,
-    /// What the written program commands, mm; the same without compensation.
+    /// Commanded position of the written program, mm; the desired one without compensation.
     pub commanded: Vector3<f64>,
     /// Orientation of the tool in the program, part axes from tool axes; `None` in a program of positions.
     pub orientation: Option<UnitQuaternion<f64>>,
-    /// What the written program commands; the same without compensation, or where only the position is corrected.
+    /// Commanded orientation of the written program; that of the program without compensation, or if only the
+    /// position is corrected.
     pub commanded_orientation: Option<UnitQuaternion<f64>>,
-    /// Where the written program has the rotary axes, deg; none where it has them as the program.
+    /// Angles of the rotary axes in the written program, deg; `None` if they are those of the program.
     pub commanded_deg: Option<Vec<f64>>,
     pub wrench: Wrench,
-    /// On a corner step, the load by the reading that was not chosen.
+    /// Load on a corner step by the reading that was not chosen.
     pub other_wrench: Option<Wrench>,
     /// End of a piece (or block), where a full answer is wanted; otherwise its middle.
     pub end: bool,
 }
 
 impl Site {
-    /// Where the program lies there.
+    /// Placement of the program there.
     pub(crate) fn placement(&self, task: &Task<'_>) -> Placement {
         let motion = &task.path().moves[self.move_index];
         task.placement.on(motion, self.share)
@@ -67,7 +68,7 @@ impl Site {
         )
     }
 
-    /// Where it lies as the written program turns it.
+    /// Placement there with the rotary axes of the written program.
     pub(crate) fn commanded_placement(&self, task: &Task<'_>) -> Placement {
         let motion = &task.path().moves[self.move_index];
         match (&self.commanded_deg, rotary(motion)) {

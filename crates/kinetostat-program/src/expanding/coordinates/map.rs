@@ -1,4 +1,4 @@
-//! What shifted, scaled and turned coordinates make of a place, in mm of the part frame.
+//! Transformation of shifted, scaled and rotated coordinates to places in mm of the part frame.
 
 use nalgebra::Vector3;
 
@@ -6,7 +6,7 @@ use crate::expanding::coordinates::switch::Ending;
 use crate::expanding::radius::geometry::{Axes, Point, Sense, in_plane};
 use crate::expanding::translate::wrong::Wrong;
 
-/// Two scales that differ by less keep a circle a circle.
+/// Largest difference of two scales that keep a circle a circle.
 const SAME: f64 = 1e-12;
 
 /// First the shift, then the scale about its centre, then the turn about its centre.
@@ -15,7 +15,7 @@ pub(crate) struct Map {
     pub shift: Vector3<f64>,
     /// Centre and factors, negative ones mirror.
     pub scale: Option<(Vector3<f64>, Vector3<f64>)>,
-    /// Whether G51.1 has made the scale; G51 otherwise.
+    /// True if G51.1 has made the scale, false if G51.
     pub is_mirror: bool,
     /// Axes of the plane, centre, angle in rad.
     pub turn: Option<(Axes, Point, f64)>,
@@ -37,7 +37,7 @@ impl Map {
         *self == Self::default()
     }
 
-    /// Whether places keep their differences.
+    /// True if differences of places are unchanged.
     pub fn only_shifts(&self) -> bool {
         self.scale.is_none() && self.turn.is_none()
     }
@@ -73,13 +73,13 @@ impl Map {
         Ok(())
     }
 
-    /// Whether left and right of a way in a plane change places: one of its axes is mirrored.
+    /// True if one axis of the plane is mirrored, which swaps left and right of a path.
     pub fn turns_over(&self, axes: Axes) -> bool {
         let sign = |(_, factors): &(_, Vector3<f64>)| factors[axes[0]] * factors[axes[1]] < 0.0;
         self.scale.as_ref().is_some_and(sign)
     }
 
-    /// Where a programmed place is.
+    /// Place in the part frame of a programmed place.
     pub fn place(&self, programmed: Vector3<f64>) -> Vector3<f64> {
         let mut at = programmed + self.shift;
         if let Some((centre, factors)) = self.scale {
@@ -92,7 +92,7 @@ impl Map {
         at
     }
 
-    /// Which programmed place is there.
+    /// Inverse of `place`.
     pub fn programmed(&self, place: Vector3<f64>) -> Vector3<f64> {
         let mut at = place;
         if let Some((axes, centre, angle)) = self.turn {
@@ -105,7 +105,7 @@ impl Map {
         at - self.shift
     }
 
-    /// The sense of an arc in a plane; none where it is no circle any more.
+    /// The sense of an arc in a plane; `None` if it is no circle any more.
     pub fn sense(&self, sense: Sense, axes: Axes) -> Option<Sense> {
         let Some((_, factors)) = self.scale else {
             return Some(sense);

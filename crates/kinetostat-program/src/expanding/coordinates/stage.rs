@@ -52,7 +52,7 @@ impl<'o> Coordinates<'o> {
         self.programmed.as_ref().map(|flat| &flat.interpreter)
     }
 
-    /// Why canned cycles cannot be run; none where they can.
+    /// Reason for which canned cycles cannot be run; `None` if they can.
     pub fn refuses_cycles(&self) -> Option<Wrong> {
         match (self.map.scale, self.to_state) {
             (Some(_), _) => Some((
@@ -135,7 +135,7 @@ impl<'o> Coordinates<'o> {
             self.code_due = None;
             let mut tokens: Vec<Spanned> = Vec::new();
             tokens_of(text, &mut tokens);
-            // Behind the number of the block.
+            // The code goes after the block number.
             let is_head = |one: &&Spanned| {
                 let number = matches!(one.token, Token::Word { letter: b'N', .. });
                 number || matches!(one.token, Token::Other(b'/') | Token::Blank)

@@ -4,7 +4,7 @@ use crate::expanding::translate::wrong::Wrong;
 use crate::text::lex::{Spanned, Token, tokens_of};
 use crate::text::line::tenths;
 
-/// What a block does to the coordinates.
+/// Change of the coordinates by a block.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Switch {
     /// G52.
@@ -17,7 +17,7 @@ pub(crate) enum Switch {
     Turn([Option<f64>; 3], f64),
 }
 
-/// What of scaling and mirroring ends.
+/// Scaling or mirroring that a block ends.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Ending {
     /// G50: the scale of G51.

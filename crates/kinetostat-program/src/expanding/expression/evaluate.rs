@@ -3,31 +3,31 @@
 use crate::expanding::expression::tree::{Expression, Function, Operator, Parameter};
 use crate::expanding::options::Dialect;
 
-/// Two numbers that differ by less are equal (LinuxCNC 2.9, `TOLERANCE_EQUAL`; later ones have 1e-6).
+/// Largest difference of two equal numbers (LinuxCNC 2.9, `TOLERANCE_EQUAL`; later ones have 1e-6).
 const EQUAL: f64 = 1e-4;
 
-/// Two numbers whose difference, as a share, is rounding.
+/// Relative difference of two numbers that is rounding.
 const ROUNDING: f64 = 1e-12;
 
 /// A whole number may be off by this.
 const WHOLE: f64 = 1e-4;
 
-/// Where the values of parameters come from.
+/// Source of the values of parameters.
 pub(crate) trait Parameters {
     /// The value of a numbered parameter.
     fn numbered(&self, number: u32) -> Result<f64, String>;
-    /// The value of a named one; none where it has not been given any.
+    /// The value of a named one; `None` if it has not been given any.
     fn named(&self, name: &str) -> Result<Option<f64>, String>;
-    /// Whether a numbered parameter has not been given a value.
+    /// True if a numbered parameter has no value.
     fn is_vacant(&self, number: u32) -> bool;
     /// Whose rules hold.
     fn rules(&self) -> Dialect;
-    /// Whether a number is that of a parameter.
+    /// True if a number is that of a parameter.
     fn has_number(&self, number: u32) -> bool;
 }
 
 impl Expression {
-    /// Whether this is a parameter that has not been given a value: Fanuc's vacant one.
+    /// True if this is a parameter without a value: Fanuc's vacant one.
     pub fn is_vacant(&self, parameters: &dyn Parameters) -> Result<bool, String> {
         let Self::Parameter(of) = self else {
             return Ok(false);
@@ -41,7 +41,7 @@ impl Expression {
         }
     }
 
-    /// Without the signs before it: `X-#1` is left out as `X#1` is, where #1 has no value.
+    /// Expression without the signs before it: `X-#1` is left out as `X#1` is, if #1 has no value.
     pub fn unsigned(&self) -> &Self {
         match self {
             Self::Negative(of) => of.unsigned(),
@@ -145,7 +145,7 @@ fn full_turn(angle: f64) -> f64 {
     }
 }
 
-/// Whether two values are equal. Fanuc's vacant parameter equals another vacant one and no number, not even 0 (B-63944EN, 16.1).
+/// True if two values are equal. Fanuc's vacant parameter equals another vacant one and no number, not even 0 (B-63944EN, 16.1).
 fn are_equal(
     left: &Expression,
     right: &Expression,
@@ -207,7 +207,7 @@ impl Function {
 }
 
 impl Function {
-    /// As Fanuc's controllers have it: FIX drops the digits behind the point, FUP goes away from zero.
+    /// Fanuc's variant: FIX truncates, FUP rounds away from zero.
     fn of_fanuc(self, x: f64) -> Result<f64, String> {
         match self {
             Self::Floor | Self::Ceiling => Ok(x.signum() * self.of(x.abs())?),
@@ -218,7 +218,7 @@ impl Function {
 }
 
 impl Operator {
-    /// As Fanuc's controllers have it: AND, OR and XOR bit by bit.
+    /// Fanuc's variant: AND, OR and XOR are bitwise.
     fn of_fanuc(self, left: f64, right: f64) -> Result<f64, String> {
         Ok(match self {
             Self::And => f64::from(bits(left)? & bits(right)?),

@@ -5,7 +5,7 @@ use crate::expanding::expression::tree::{Expression, Function, Operator, Paramet
 /// Brackets and signs within each other, more than any program has.
 const DEEPEST: usize = 64;
 
-/// What is wrong, at which byte of the line.
+/// A syntax error and its byte in the line.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Malformed {
     pub at: usize,
@@ -88,7 +88,7 @@ impl<'l> Cursor<'l> {
         found
     }
 
-    /// What may stand behind a letter: a number, a parameter, a function, an expression in brackets.
+    /// Value after a letter: a number, a parameter, a function, an expression in brackets.
     pub fn value(&mut self) -> Read<Expression> {
         self.deeper(|cursor| match cursor.peek() {
             Some(b'[') => cursor.bracketed(),
@@ -106,8 +106,8 @@ impl<'l> Cursor<'l> {
         })
     }
 
-    /// What may stand behind the sign of an assignment: Fanuc's controllers take operations without brackets there, and nothing
-    /// else could be meant elsewhere.
+    /// Right side of an assignment: Fanuc's controllers take operations without brackets there, and nothing else could be meant
+    /// elsewhere.
     pub fn assigned(&mut self) -> Read<Expression> {
         self.deeper(|cursor| Ok(cursor.operations(0)?.0))
     }

@@ -1,4 +1,4 @@
-//! What an expression is made of.
+//! Syntax tree of expressions.
 
 /// An expression that was read.
 #[derive(Debug, Clone, PartialEq)]
@@ -6,7 +6,7 @@ pub(crate) enum Expression {
     Number(f64),
     /// The value of a parameter.
     Parameter(Box<Parameter>),
-    /// Whether a parameter has a value: 1 or 0.
+    /// 1 if a parameter has a value, 0 if not.
     Exists(Box<Parameter>),
     Negative(Box<Self>),
     Function(Function, Box<Self>),
@@ -46,7 +46,7 @@ pub(crate) enum Function {
 }
 
 impl Function {
-    /// By their names.
+    /// Functions by their names.
     pub const ALL: [(&'static str, Self); 12] = [
         ("ABS", Self::Absolute),
         ("ACOS", Self::ArcCosine),
@@ -63,7 +63,7 @@ impl Function {
     ];
 }
 
-/// What combines two values.
+/// Binary operators.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Operator {
     Power,
@@ -84,7 +84,7 @@ pub(crate) enum Operator {
 }
 
 impl Operator {
-    /// By how they are written; of two that begin alike the longer stands first.
+    /// Operators by their spelling; a longer one stands before its own prefix.
     pub const ALL: [(&'static str, Self); 15] = [
         ("**", Self::Power),
         ("*", Self::Times),

@@ -70,7 +70,7 @@ impl Contour {
         Ok(())
     }
 
-    /// Where the tool stops before an inside corner and goes on along an arc.
+    /// Point at which the tool stops before an inside corner and continues along an arc.
     fn inside_arc(&self, arc: ProgrammedArc, before: Point) -> Result<Point, Wrong> {
         let within = arc.sense.of_tool(self.side);
         let circle = Circle {

@@ -19,7 +19,7 @@ pub(crate) struct Block<'b> {
     pub origin: Origin,
 }
 
-/// What the first move of a contour may be.
+/// First moves that a contour allows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum First {
     Any,
@@ -27,12 +27,12 @@ pub(crate) enum First {
     Straight,
 }
 
-/// Where the tool is behind a block that follows G40.
+/// Tool position after a block that follows G40.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Next {
-    /// Where the program has it.
+    /// At the programmed place.
     Together,
-    /// Beside that place.
+    /// Offset from the programmed place.
     Apart,
 }
 

@@ -30,12 +30,12 @@ pub(crate) struct ProgrammedArc {
     pub sense: Sense,
     /// Radii at the start and at the end, which may differ by the tolerance of arcs.
     pub radii: [f64; 2],
-    /// In rad, above 0.
+    /// Sweep in rad, above 0.
     pub sweep: f64,
 }
 
 impl Programmed {
-    /// What the block of a move means.
+    /// Programmed motion of a block.
     pub fn of(motion: &Move, axes: Axes) -> Result<Self, Wrong> {
         if motion
             .feed
@@ -86,7 +86,7 @@ pub(crate) fn arc_behind() -> Wrong {
     )
 }
 
-/// What stands around a motion in its block.
+/// Words around a motion in its block.
 #[derive(Debug, Clone)]
 pub(crate) struct Dress {
     pub depth: Option<f64>,
@@ -128,7 +128,7 @@ pub(crate) struct Contour {
     pub tool: f64,
     /// The last programmed place.
     pub at: Point,
-    /// From there to the tool, a unit vector; none before the first move.
+    /// Unit vector from there to the tool; `None` before the first move.
     pub normal: Option<Point>,
     pub pending: Pending,
     /// The controller that the program is written for.
@@ -147,7 +147,7 @@ impl Contour {
         }
     }
 
-    /// Where the tool stands beside the last programmed place.
+    /// Tool centre at the last programmed place, offset by the radius.
     pub fn tool_at(&self, normal: Point) -> Point {
         self.at + normal * self.tool
     }
@@ -163,7 +163,7 @@ impl Contour {
         }
     }
 
-    /// Whether the tool is beside the contour.
+    /// True if the tool is offset from the contour.
     pub fn has_begun(&self) -> bool {
         self.normal.is_some()
     }

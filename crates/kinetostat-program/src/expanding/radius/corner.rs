@@ -1,4 +1,4 @@
-//! Which way a contour turns away from its last direction, and what the tool does there.
+//! Angle between pieces of a contour, and the motion of the tool there.
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -8,26 +8,26 @@ use crate::expanding::translate::wrong::Wrong;
 /// Corners flatter than this are none, in rad (LinuxCNC, `TOLERANCE_CONCAVE_CORNER`).
 const FLAT: f64 = 0.05;
 
-/// Nearer to a bound than this the last digit would decide, in rad.
+/// Distance from a bound, in rad, below which the last digit would decide.
 const UNSURE: f64 = 1e-9;
 
-/// What the tool does between two pieces of a contour.
+/// Motion of the tool between two pieces of a contour.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Corner {
-    /// It goes on.
+    /// No turn.
     Flat,
-    /// It rolls round the corner.
+    /// The tool rolls round the corner.
     Outside,
-    /// It stops short of the corner.
+    /// The tool stops short of the corner.
     Inside,
 }
 
-/// What a contour does that turns back on itself.
+/// Motion at a reversal of the contour.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Reversal {
     /// The tool goes round its end.
     Outside,
-    /// It is the foot of an arc that bends away from the tool, as in the letter h.
+    /// The reversal is the foot of an arc that bends away from the tool, as in the letter h.
     Inside,
 }
 
@@ -61,7 +61,7 @@ pub(crate) fn corner(
     })
 }
 
-/// How far a contour turns away from the tool, in rad: from a quarter turn towards it to three quarters away.
+/// Angle by which a contour turns away from the tool, in rad: from a quarter turn towards it to three quarters away.
 fn opening(before: Point, after: Point, side: Side) -> f64 {
     let away = -side.sign() * before.perp(&after).atan2(before.dot(&after));
     match away < -FRAC_PI_2 {

@@ -15,7 +15,7 @@ const LARGEST_DIAMETER_MM: f64 = 1e4;
 /// A negative diameter is that of a tool thinner than the contour was made for, by its wear; beyond this it is a sign, in mm.
 const MOST_WEAR_MM: f64 = 1.0;
 
-/// Which tool a program has in the spindle.
+/// Tool in the spindle, as the program states it.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct InSpindle {
     selected: Option<u32>,

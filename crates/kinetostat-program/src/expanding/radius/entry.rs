@@ -49,8 +49,8 @@ impl Contour {
         }
     }
 
-    /// Where the move to the contour and the contour begin in one direction, controllers agree. Else LinuxCNC leads the tool beside
-    /// the end of that move, and Fanuc's controllers beside the start of the next one (B-63944EN, 14.4, start-up).
+    /// Controllers agree if the lead-in and the contour begin in one direction. Else LinuxCNC leads the tool beside the end of that
+    /// move, and Fanuc's controllers beside the start of the next one (B-63944EN, 14.4, start-up).
     pub fn check_lead_in(
         &self,
         normal: Point,

@@ -15,7 +15,7 @@ pub(crate) fn in_plane(place: &Vector3<f64>, axes: Axes) -> Point {
     Point::new(place[axes[0]], place[axes[1]])
 }
 
-/// On which side of the contour the tool is, looking along the motion.
+/// Side of the contour on which the tool is, looking along the motion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Side {
     /// G41.
@@ -40,7 +40,7 @@ impl Side {
         }
     }
 
-    /// From the contour to the tool, for a direction of motion; lengths stay.
+    /// Vector from the contour to the tool, for a direction of motion; its length is kept.
     pub fn normal(self, direction: Point) -> Point {
         left_of(direction) * self.sign()
     }
@@ -84,7 +84,7 @@ impl Sense {
         }
     }
 
-    /// Where a tool on a side of such an arc runs.
+    /// Side of such an arc, inside or outside, on which the tool runs.
     pub fn of_tool(self, side: Side) -> Within {
         match self.sign() == side.sign() {
             true => Within::Inside,
@@ -93,12 +93,12 @@ impl Sense {
     }
 }
 
-/// Where the tool runs along an arc.
+/// Side of an arc on which the tool runs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Within {
     /// Between the arc and its centre.
     Inside,
-    /// Round it.
+    /// Outside the arc.
     Outside,
 }
 
@@ -111,7 +111,7 @@ impl Within {
         }
     }
 
-    /// From a place on the arc to the tool, a unit vector.
+    /// Unit vector from a place on the arc to the tool.
     pub fn normal(self, place: Point, centre: Point) -> Point {
         let inwards = (centre - place).normalize();
         match self {

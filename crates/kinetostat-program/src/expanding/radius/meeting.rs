@@ -1,4 +1,4 @@
-//! Where the way of the tool beside one piece of a contour meets the way beside the next.
+//! Intersection of the offset curves of two consecutive pieces of a contour.
 //!
 //! The ways are straight lines and circles beside the contour at the tool's radius. Two of them may meet twice; the tool takes
 //! the place that it reaches without leaving the free side.
@@ -16,7 +16,7 @@ pub(crate) struct Circle {
     pub radius: f64,
 }
 
-/// Which of the two places on a line.
+/// Choice between the two intersections on a line.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Along {
     Forward,
@@ -39,7 +39,7 @@ fn no_room() -> Wrong {
     )
 }
 
-/// Two lines beside a corner, by the unit normals that lead to them: their meeting lies on the bisector.
+/// Meeting of two lines beside a corner, by the unit normals that lead to them: it lies on the bisector.
 pub(crate) fn lines(corner: Point, normals: [Point; 2], tool: f64) -> Point {
     let [a, b] = normals;
     corner + (a + b) * (tool / (1.0 + a.dot(&b)))
@@ -58,8 +58,8 @@ pub(crate) fn line_and_circle(
     Ok(circle.centre + across + direction * (along.sign() * circle.radius * cosine))
 }
 
-/// From a line to an arc inside a corner. The tool inside the arc runs on until it meets the far wall; outside it stops before
-/// the near one.
+/// Choice for a line and an arc inside a corner. The tool inside the arc runs on until it meets the far wall; outside it stops
+/// before the near one.
 pub(crate) fn onto_arc(within: Within) -> Along {
     match within {
         Within::Inside => Along::Forward,
@@ -67,7 +67,7 @@ pub(crate) fn onto_arc(within: Within) -> Along {
     }
 }
 
-/// From an arc to a line: as a line to an arc, run backwards.
+/// Choice for an arc and a line: that of a line and an arc, run backwards.
 pub(crate) fn off_arc(within: Within) -> Along {
     match within {
         Within::Inside => Along::Backward,
@@ -75,7 +75,7 @@ pub(crate) fn off_arc(within: Within) -> Along {
     }
 }
 
-/// Two circles, the first one run until it meets the second.
+/// Meeting of two circles, the first one run until it meets the second.
 ///
 /// By the law of cosines in the triangle of the two centres and the meeting point, which lies on the side of the line of
 /// centres where the tool leaves the first circle for the second.

@@ -30,7 +30,7 @@ pub(crate) struct Motion {
 }
 
 impl Motion {
-    /// The parts of a block; none for a block that moves nothing.
+    /// The parts of a block; `None` for a block that moves nothing.
     pub fn of(text: &[u8], state: &Interpreter<'_>) -> Option<Self> {
         let block = MotionBlock::of(text, Polar::default());
         let is_arc = match block.motion {
@@ -69,7 +69,7 @@ impl Motion {
         })
     }
 
-    /// Nothing but a straight move may stand behind G40.
+    /// Refuses an arc after G40: only a straight move may follow it.
     pub fn refuse_arc(&self) -> Result<(), Wrong> {
         match self.is_arc {
             true => Err(arc_behind()),
@@ -77,7 +77,7 @@ impl Motion {
         }
     }
 
-    /// Which of X, Y, Z it names.
+    /// True for each of X, Y, Z that the block names.
     pub fn states(&self) -> [bool; 3] {
         self.has
     }
@@ -96,7 +96,7 @@ impl Motion {
         Ok(programmed.interpreter.last_move().cloned())
     }
 
-    /// What stands around the motion in the flat program.
+    /// Words around the motion in the flat program.
     pub fn dress(self, made: &Move, axes: Axes, origin: Origin) -> Dress {
         Dress {
             depth: self.has[axes[2]].then_some(made.end[axes[2]]),

@@ -1,6 +1,6 @@
 //! Motions that wait: the end of the last one along the contour is not settled before the next one is known.
 //!
-//! Behind it wait moves in depth, which stand on its end, and all words that came since. An inside corner moves the end back; a
+//! Moves in depth, which stand on its end, and all words that came since wait after it. An inside corner moves the end back; a
 //! stop of the program or G40 leaves it where it is.
 
 use std::f64::consts::TAU;
@@ -13,10 +13,10 @@ use crate::expanding::radius::trouble::Trouble;
 use crate::expanding::translate::wrong::Wrong;
 use crate::reading::options::Units;
 
-/// What must be left of a straight move, in mm.
+/// Minimum remaining length of a straight move, in mm.
 const LEAST_MM: f64 = 1e-9;
 
-/// What must be left of an arc, in rad: less may be read as a full circle.
+/// Minimum remaining sweep of an arc, in rad: less may be read as a full circle.
 const LEAST_SWEEP: f64 = 2e-6;
 
 /// Ends of a circle nearer than this are one place, in mm.
@@ -25,8 +25,8 @@ const SAME_MM: f64 = 1e-10;
 /// A circle of which a corner leaves less than this share is none.
 const LEAST_SHARE: f64 = 0.125;
 
-/// By how much an arc may turn further than programmed, in rad. LinuxCNC takes the lengths 0.0254 mm and 0.001 inch for it,
-/// by the units in force.
+/// Angle by which an arc may turn further than programmed, in rad. LinuxCNC takes the lengths 0.0254 mm and 0.001 inch for
+/// it, by the units in force.
 fn further(units: Option<Units>) -> f64 {
     match units {
         Some(Units::Inches) => 0.001,
@@ -39,9 +39,9 @@ fn further(units: Option<Units>) -> f64 {
 pub(crate) enum Waiting {
     /// The move to the contour may end anywhere: it cuts nothing before its end.
     Entry,
-    /// From a place, in a direction.
+    /// Line from a place, in a direction.
     Line { from: Point, direction: Point },
-    /// From a place about a centre; `sweep` as programmed, in rad.
+    /// Arc from a place about a centre; `sweep` as programmed, in rad.
     Arc {
         from: Point,
         centre: Point,
@@ -55,7 +55,7 @@ enum Item {
     Move(Piece),
 }
 
-/// What waits, in the order of the program.
+/// Pending motions and words, in the order of the program.
 #[derive(Default)]
 pub(crate) struct Pending {
     along: Option<Waiting>,
@@ -68,7 +68,7 @@ impl Pending {
         self.along
     }
 
-    /// Whether anything waits.
+    /// True if a motion or a word is pending.
     pub fn is_waiting(&self) -> bool {
         !self.items.is_empty()
     }
@@ -112,7 +112,7 @@ pub(crate) fn write(piece: &Piece, flat: &mut Flat<'_>) -> Result<(), Trouble> {
     Ok(())
 }
 
-/// Whether something of a motion is left that ends at a place, and no more than was programmed.
+/// Checks that something of a motion is left that ends at a place, and no more than was programmed.
 ///
 /// LinuxCNC looks only where an inside corner or a straight move follows; here it is looked at before every next motion. It also
 /// wants the radius of a shortened arc to stay within 0.01: the ends come from the arc's own circle here, so that it does.

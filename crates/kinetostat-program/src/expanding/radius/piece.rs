@@ -9,7 +9,7 @@ use crate::reading::interpreting::interpreter::Interpreter;
 /// Words are rounded here, in program units: far below what counts, above what the arithmetic leaves.
 const DIGITS: f64 = 1e12;
 
-/// What a piece is.
+/// Shape of a piece.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Shape {
     /// `G0` or `G1`.
@@ -24,7 +24,7 @@ pub(crate) enum Shape {
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Piece {
     pub shape: Shape,
-    /// In mm, part frame.
+    /// End in mm, part frame.
     pub to: Point,
     /// Depth, in mm, where the block states it.
     pub depth: Option<f64>,
@@ -36,7 +36,7 @@ pub(crate) struct Piece {
 }
 
 impl Piece {
-    /// The block from where the tool is, in the modes in force; none for a straight move that goes nowhere.
+    /// The block from where the tool is, in the modes in force; `None` for a straight move that goes nowhere.
     pub fn text(&self, state: &Interpreter<'_>) -> Result<Option<Vec<u8>>, Wrong> {
         let mut words = String::new();
         let [first, second, across] = state.plane_axes();
@@ -98,7 +98,7 @@ fn here(state: &Interpreter<'_>, axis: usize) -> Result<f64, Wrong> {
     place.map_err(|reason| (reason, "state X, Y and Z before cutter radius compensation"))
 }
 
-/// A word of an axis of the plane; none where the axis stands still.
+/// A word of an axis of the plane; `None` if the axis stands still.
 fn word(state: &Interpreter<'_>, axis: usize, to: f64) -> Result<Option<String>, Wrong> {
     let (to, here) = (state.in_program(axis, to), here(state, axis)?);
     if (to - here).abs() * DIGITS < 1.0 {

@@ -1,8 +1,8 @@
 //! Compensation off, on, and between G40 and the next move.
 //!
 //! While it is on, the blocks are run as they are programmed beside the flat program: that run knows the modes and the
-//! programmed places; the flat program knows where the tool's centre is. Behind G40 the two places stay apart until a
-//! straight move brings the tool to a place that the program says.
+//! programmed places; the flat program knows where the tool's centre is. After G40 the two places stay apart until a
+//! straight move brings the tool to a programmed place.
 
 use std::collections::BTreeMap;
 
@@ -19,7 +19,7 @@ use crate::expanding::translate::wrong::Wrong;
 use crate::reading::interpreting::interpreter::Interpreter;
 use crate::reading::options::Units;
 
-/// What the compensation does.
+/// State of the compensation.
 enum State {
     Off,
     /// A tool without a radius: its centre is on the contour.
@@ -29,7 +29,7 @@ enum State {
         /// The tool was beside the programmed place when G41 or G42 came: no move since the last G40.
         begins_beside: bool,
     },
-    /// Behind G40. A change of the tool ends the difference between the two places (LinuxCNC asks the machine where the tool
+    /// After G40. A change of the tool ends the difference between the two places (LinuxCNC asks the machine where the tool
     /// is), and there is no other run any more; the next move must be straight all the same.
     Beside,
 }
@@ -67,7 +67,7 @@ impl<'o> Radius<'o> {
         self.diameters_mm.insert(tool, diameter_mm);
     }
 
-    /// Why cycles cannot be run here; none where they can.
+    /// Reason for which cycles cannot be run here; `None` if they can.
     pub fn refuses_cycles(&self) -> Option<Wrong> {
         match self.state {
             State::Off => None,
@@ -79,7 +79,7 @@ impl<'o> Radius<'o> {
         }
     }
 
-    /// Whether programs may not ask for the place of the tool: it is not the programmed one.
+    /// True if programs may not query the tool position: it is not the programmed one.
     pub fn hides_the_place(&self) -> bool {
         matches!(self.state, State::On { .. } | State::Without)
     }

@@ -58,7 +58,7 @@ impl Contour {
         Ok(())
     }
 
-    /// Where the tool stops before an inside corner and goes on along a straight move.
+    /// Point at which the tool stops before an inside corner and continues along a straight move.
     fn inside_straight(&self, direction: Point, normals: [Point; 2]) -> Result<Point, Wrong> {
         match self.pending.along() {
             None => Err(behind_a_stop()),

@@ -1,9 +1,9 @@
-//! What can be wrong with a compensated block.
+//! Errors of a compensated block.
 
 use crate::error::ProgramError;
 use crate::expanding::translate::wrong::Wrong;
 
-/// Why a block is refused.
+/// Reason for which a block is refused.
 pub(crate) enum Trouble {
     /// Reading a block found it.
     Block(ProgramError),

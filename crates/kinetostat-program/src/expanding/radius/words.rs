@@ -15,7 +15,7 @@ const FUNCTIONS: &[u32] = &[0, 10, 20, 300, 600, 30, 40, 50, 70, 80, 90, 190];
 
 const STOPS: &[u32] = &[0, 10, 20, 300, 600];
 
-/// From here on functions are the machine builder's own.
+/// First function of the machine builder's own.
 const OWN_FUNCTIONS: u32 = 1000;
 
 /// Codes that ask where the tool is: after G40 that is two places, in tenths.
@@ -23,11 +23,11 @@ const ASKING: &[u32] = &[100, 280, 281, 300, 301, 382, 383, 384, 385, 520, 530, 
 
 const CHANGES: &[u32] = &[60, 610];
 
-/// What a block does to the compensation.
+/// Change of the compensation by a block.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Switch {
     Off,
-    /// By the tool of a number (D), or of the one in the spindle.
+    /// Radius of the tool with this number (D), or of the one in the spindle.
     Tool(Side, Option<f64>),
     /// G41.1 and G42.1: by the diameter in D.
     Diameter(Side, Option<f64>),
@@ -147,7 +147,7 @@ pub(crate) fn other_side(text: &[u8]) -> Vec<u8> {
     other
 }
 
-/// Whether a function may stand in a contour.
+/// True if a function is allowed in a contour.
 fn may_stand(function: u32) -> bool {
     FUNCTIONS.contains(&function) || function >= OWN_FUNCTIONS
 }
@@ -164,7 +164,7 @@ fn switch_of(tenths: u32) -> Option<Switch> {
 }
 
 impl Words {
-    /// Whether the block changes the tool (M6), or says which one is in the spindle (M61).
+    /// True if the block has a function, as M6 (tool change) or M61 (tool in the spindle).
     pub fn has_function(&self, tenths: u32) -> bool {
         self.m.contains(&tenths)
     }
@@ -188,7 +188,7 @@ impl Words {
         ))
     }
 
-    /// Whether the block stops the program, or ends it.
+    /// True if the block stops the program, or ends it.
     pub fn stops(&self) -> bool {
         STOPS.iter().any(|code| self.m.contains(code))
     }
@@ -237,7 +237,7 @@ impl Words {
     }
 }
 
-/// What asks for the place of the tool behind G40.
+/// Error of a query of the tool position after G40.
 pub(crate) fn asks_behind() -> Wrong {
     (
         "behind G40 the tool is beside the place that the program counts from, until it moves"

@@ -18,7 +18,7 @@ impl Runner<'_> {
             .coordinates
             .block(text, origin, below, self.options.dialect);
         added.map_err(|trouble| match trouble {
-            // What stands in the file: its flat block is another one, which nobody has seen.
+            // Shows the text of the file: the user has not seen the flat block.
             Trouble::Block(error) if error.line == origin.line => ProgramError {
                 found: excerpt(self.sources[origin.file].text(origin.line - 1)),
                 ..error
@@ -29,7 +29,7 @@ impl Runner<'_> {
         self.note_functions(text)
     }
 
-    /// What is no motion of a block that is translated.
+    /// Adds the words of a translated block that are no motion.
     pub fn add_rest(&mut self, words: &[u8]) -> Result<(), ProgramError> {
         match words.trim_ascii() {
             [] => Ok(()),

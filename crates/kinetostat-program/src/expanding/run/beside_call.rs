@@ -7,7 +7,7 @@ use crate::expanding::options::Dialect;
 use crate::expanding::run::runner::Runner;
 use crate::text::lex::{Spanned, Token, tokens_of};
 
-/// Which of the two it is.
+/// Kind of the jump.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Jump {
     /// M98.
@@ -26,14 +26,14 @@ pub(crate) struct CallBlock {
     pub times: Option<f64>,
     /// The block without them, its N word and / in front.
     pub rest: Vec<u8>,
-    /// Whether the rest has words that do something.
+    /// True if the rest has words with an effect.
     pub does_more: bool,
     /// A word that cannot stand here.
     unclear: Option<&'static str>,
 }
 
 impl CallBlock {
-    /// None where the block has neither code; M beside G65 is an argument.
+    /// Returns `None` if the block has neither code; M beside G65 is an argument.
     pub fn of(text: &[u8]) -> Option<Self> {
         if !text.contains(&b'9') {
             return None;

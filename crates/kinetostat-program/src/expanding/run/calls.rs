@@ -8,7 +8,7 @@ use crate::expanding::run::frame::{Frame, LOCAL, Label, Locals, Opened};
 use crate::expanding::run::runner::{Next, Runner};
 use crate::expanding::run::source::Source;
 
-/// Which word closes a subprogram.
+/// Keyword that closes a subprogram.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Closing {
     /// `endsub`.
@@ -40,7 +40,7 @@ impl Runner<'_> {
         files.find_map(|file| Some((file, *line(&self.sources[file])?)))
     }
 
-    /// Where a subprogram is: in the file that runs, in the program, in a file of its own.
+    /// Finds a subprogram: in the file that runs, in the program, in a file of its own.
     pub fn find_sub(&mut self, label: &Label) -> Result<(usize, usize), ProgramError> {
         if let Some(found) = self.in_sources(|source| source.subs.get(label)) {
             return Ok(found);

@@ -7,7 +7,7 @@ use crate::expanding::translate::block::MotionBlock;
 use crate::expanding::translate::cycle::cycle;
 use crate::expanding::translate::turns::turns;
 
-/// What a block without a code is where a cycle is in force.
+/// Meaning of a block without a code while a cycle is in force.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum InCycle {
     /// One more hole.
@@ -19,7 +19,7 @@ pub(crate) enum InCycle {
 }
 
 impl Runner<'_> {
-    /// What a block is that names no motion, where a cycle is in force.
+    /// Meaning of a block that names no motion while a cycle is in force.
     pub fn in_cycle(&self, block: &MotionBlock) -> Result<InCycle, ProgramError> {
         if block.wants_axes {
             return Ok(InCycle::Nothing);

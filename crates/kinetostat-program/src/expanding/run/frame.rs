@@ -1,4 +1,4 @@
-//! Where a program is while it runs: a frame for the program, one more for every subprogram that is open.
+//! Call stack of a running program: a frame for the program, one more for every open subprogram.
 
 use std::collections::BTreeMap;
 
@@ -8,7 +8,7 @@ use crate::expanding::run::modal::Context;
 /// Numbered parameters that are a subprogram's own: 1 to 30.
 pub(crate) const LOCAL: usize = 30;
 
-/// So many are they on Fanuc: 1 to 33.
+/// Fanuc's local parameters: 1 to 33.
 const LOCAL_OF_FANUC: usize = 33;
 
 /// Numbered parameters of an open subprogram.
@@ -30,7 +30,7 @@ impl Locals {
         }
     }
 
-    /// Whether a number is one of a subprogram's own.
+    /// True if a number is that of a local parameter.
     pub fn has(&self, number: u32) -> bool {
         let most = match self.rules {
             Dialect::LinuxCnc | Dialect::Undecided => LOCAL,
@@ -80,11 +80,11 @@ pub(crate) enum LoopKind {
     While,
     /// `do`, whose `while` stands at its end.
     Do,
-    /// How many times more.
+    /// Remaining repeats.
     Repeat(u32),
 }
 
-/// What a subprogram goes back to.
+/// Kind of the call that opened a frame.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Opened {
     /// The program itself.
@@ -106,7 +106,7 @@ pub(crate) struct Frame {
     pub opened: Opened,
     /// Parameters 1 to 30, or 33.
     pub numbered: Locals,
-    /// With what G65 called it: each repeat begins with these.
+    /// Arguments of the G65 that called it: each repeat begins with these.
     pub arguments: Option<Locals>,
     pub named: BTreeMap<String, f64>,
     pub loops: Vec<Loop>,

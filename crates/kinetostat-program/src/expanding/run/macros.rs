@@ -10,7 +10,7 @@ use crate::expanding::run::frame::{Frame, Locals, Opened};
 use crate::expanding::run::runner::Runner;
 use crate::text::lex::{Spanned, Token, tokens_of};
 
-/// Most repeats of a call.
+/// Maximum repeats of a call.
 const MOST_REPEATS: f64 = 1e6;
 
 /// The number that a letter is.

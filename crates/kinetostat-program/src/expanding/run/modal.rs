@@ -11,7 +11,7 @@ use crate::reading::options::Units;
 use crate::text::lex::{Spanned, Token};
 use crate::text::line::tenths;
 
-/// What blocks leave in force and the path does not know.
+/// Modal functions that the path does not know.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Functions {
     speed: f64,
@@ -22,9 +22,9 @@ pub(crate) struct Functions {
     speed_override: bool,
     adaptive_feed: bool,
     feed_hold: bool,
-    /// G61, G61.1, G64 with P and Q; none before the program names it.
+    /// G61, G61.1, G64 with P and Q; `None` before the program names it.
     path_mode: Option<(u32, Option<f64>, Option<f64>)>,
-    /// Whether G92 is in force; none before the program says it.
+    /// True if G92 is in force; `None` before the program states it.
     shifted: Option<bool>,
 }
 
@@ -87,7 +87,7 @@ impl Functions {
         }
     }
 
-    /// Whether an offset of G92 is in force.
+    /// True if an offset of G92 is in force.
     pub fn is_shifted(&self) -> bool {
         self.shifted == Some(true)
     }
@@ -121,7 +121,7 @@ pub(crate) struct Saved {
     incremental: bool,
     centres_are_places: bool,
     feed_mode: FeedMode,
-    /// In units of the program.
+    /// Feed in units of the program.
     feed: Option<f64>,
     system: usize,
     tool_length: bool,
@@ -154,7 +154,7 @@ impl Saved {
         }
     }
 
-    /// Whether LinuxCNC puts back a feed of zero: there was no F, or G94 and G95 take it away behind G93.
+    /// True if LinuxCNC restores a feed of zero: there was no F, or G94 and G95 take it away after G93.
     pub fn takes_the_feed_away(&self, now: &Saved) -> bool {
         let behind_inverse =
             now.feed_mode == FeedMode::InverseTime && self.feed_mode != now.feed_mode;

@@ -37,7 +37,7 @@ impl Words {
         own.next().map(|(_, value)| *value)
     }
 
-    /// Whether nothing but a code and some letters stands in the block.
+    /// True if the block has only a code and some letters.
     fn only(&self, code: f64, letters: &[u8]) -> bool {
         self.0.iter().all(|(letter, value)| match letter {
             b'G' => *value == code,
@@ -48,7 +48,7 @@ impl Words {
 }
 
 impl Runner<'_> {
-    /// The blocks in the place of one with G10 or G52; none where the block is another, or may stand as it is.
+    /// The blocks in the place of one with G10 or G52; `None` if the block is another, or may stand as it is.
     pub fn offsets(&mut self, text: &[u8]) -> Result<Option<Vec<String>>, ProgramError> {
         if !text.contains(&b'1') && !text.contains(&b'5') {
             return Ok(None);

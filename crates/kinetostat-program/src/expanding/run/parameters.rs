@@ -12,7 +12,7 @@ use crate::reading::interpreting::interpreter::Interpreter;
 /// Numbers below this are parameters (LinuxCNC, `RS274NGC_MAX_PARAMETERS`).
 const NUMBERS: u32 = 5602;
 
-/// Why the place of the tool cannot be asked for.
+/// Reason for which the tool position cannot be queried.
 const HIDDEN: &str = "where the tool is cannot be asked for while cutter radius compensation is on";
 
 /// Values that all subprograms see.
@@ -27,9 +27,9 @@ pub(crate) struct Seen<'r, 'o> {
     pub shared: &'r Shared,
     pub frame: &'r Frame,
     pub state: &'r Interpreter<'o>,
-    /// Whether the place of the tool is another one than the programmed one.
+    /// True if the tool position differs from the programmed one.
     pub place_is_hidden: bool,
-    /// Whether coordinates are scaled, mirrored or turned.
+    /// True if coordinates are scaled, mirrored or rotated.
     pub is_turned: bool,
     /// Open subprograms.
     pub depth: usize,
@@ -43,12 +43,12 @@ impl Parameters for Seen<'_, '_> {
             5001..=5003 | 5420..=5428 if self.place_is_hidden => Err(HIDDEN.to_owned()),
             n if self.frame.numbered.has(n) => Ok(self.frame.numbered.value(n)),
             n if n < NUMBERS => match self.state.numbered_state(n) {
-                // Where the state does not know it, the user may.
+                // The user may know a value that the state does not.
                 Some(of_state) => of_state.or_else(|reason| {
                     let given = self.shared.numbered.get(&n);
                     given.copied().ok_or(reason)
                 }),
-                // As a controller has it that nobody has told a value.
+                // Default value of a controller that was given none.
                 None => match self.shared.numbered.get(&n) {
                     Some(given) => Ok(*given),
                     None => {

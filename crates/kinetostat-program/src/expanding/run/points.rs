@@ -1,5 +1,5 @@
-//! What settings and switches of a Fanuc control decide: numbers without a decimal point, which are lengths to controls that read
-//! as a calculator does and least increments to others, and blocks marked with a slash and a number.
+//! Settings and switches of a Fanuc control: numbers without a decimal point, which are lengths (calculator-type input) or least
+//! increments, and optional block skip with a slash and a number.
 
 use crate::error::ProgramError;
 use crate::expanding::options::Dialect;

@@ -1,6 +1,6 @@
 //! A program is run on behind lines that are refused, to list them all.
 //!
-//! What is understood of a refused line is taken over: where it ends, its modes. A line on which the rest depends (branches, loops,
+//! The understood words of a refused line are taken over: its end and its modes. A line on which the rest depends (branches, loops,
 //! assignments, lines in other coordinates or with radius compensation) ends the list.
 
 use std::collections::BTreeMap;
@@ -10,7 +10,7 @@ use crate::expanding::run::runner::Runner;
 use crate::expanding::source::statement::{Piece, Statement, Structure};
 use crate::text::lex::{Spanned, Token, tokens_of};
 
-/// What comes behind the last refused line.
+/// End of the message of the last refused line.
 const NOT_RUN: &str = " (the lines behind this one were not run: what they do depends on it)";
 
 impl Runner<'_> {
@@ -56,7 +56,7 @@ impl Runner<'_> {
         self.frames.len() > 1 || frame.next < self.sources[frame.file].lines.len()
     }
 
-    /// Whether the program can be run on behind the line that was refused.
+    /// True if the program can be run on after the line that was refused.
     fn rest_is_independent(&self) -> bool {
         let elsewhere =
             self.radius.refuses_cycles().is_some() || self.coordinates.interpreter().is_some();
@@ -103,7 +103,7 @@ impl Runner<'_> {
     }
 }
 
-/// Whether a line that could not be read decides which line comes next, or what a parameter is.
+/// True if a line that could not be read decides which line comes next, or sets a parameter.
 fn controls(text: &[u8]) -> bool {
     let text: Vec<u8> = text
         .iter()
@@ -122,7 +122,7 @@ fn controls(text: &[u8]) -> bool {
     text.contains(&b'=') || words.iter().any(|word| bare.starts_with(word))
 }
 
-/// Whether a block calls a subprogram: where the tool is behind it is not known.
+/// True if a block calls a subprogram: the tool position after it is not known.
 fn calls(text: &[u8]) -> bool {
     let mut tokens: Vec<Spanned> = Vec::new();
     tokens_of(text, &mut tokens);

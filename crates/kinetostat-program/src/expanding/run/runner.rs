@@ -20,7 +20,7 @@ use crate::reading::interpreting::interpreter::Interpreter;
 /// Subprograms within each other.
 const DEEPEST: usize = 100;
 
-/// What goes on after a line.
+/// Continuation after a line.
 pub(crate) enum Next {
     Line,
     End,
@@ -43,7 +43,7 @@ pub(crate) struct Runner<'o> {
     /// The spline that bare places go on with.
     pub spline: Option<Spline>,
     pub steps: usize,
-    /// What blocks leave in force and the path does not know.
+    /// Modal functions that the path does not know.
     pub functions: Functions,
     /// M72 has put back the modes from before the first F.
     pub no_feed: bool,
@@ -144,7 +144,7 @@ impl<'o> Runner<'o> {
         found.map_err(|reason| self.refuse(&reason, "correct the expression"))
     }
 
-    /// Whether an expression is a parameter without a value.
+    /// True if an expression is a parameter without a value.
     pub fn is_vacant(&self, of: &Expression) -> Result<bool, ProgramError> {
         let found = of.is_vacant(&self.seen());
         found.map_err(|reason| self.refuse(&reason, "correct the expression"))

@@ -6,7 +6,7 @@ use crate::expanding::run::runner::Runner;
 use crate::text::lex::{Spanned, Token, tokens_of};
 use crate::text::line::tenths;
 
-/// What to do about modes that cannot be put back.
+/// Remedy for modes that cannot be put back.
 const REMEDY: &str = "name it before M70 or M73, or write the modes as words and leave out M72";
 
 /// Functions that LinuxCNC runs before M70 of their block.
@@ -20,7 +20,7 @@ pub(crate) struct SavingBlock {
 }
 
 impl SavingBlock {
-    /// Divides a block; none where no such code is in it.
+    /// Divides a block; `None` if no such code is in it.
     pub fn of(text: &[u8]) -> Option<Self> {
         if !text.contains(&b'7') {
             return None;

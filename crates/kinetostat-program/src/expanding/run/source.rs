@@ -7,9 +7,9 @@ use crate::expanding::run::frame::Label;
 use crate::expanding::source::read::{Fault, lines};
 use crate::expanding::source::statement::{OLabel, SourceLine, Statement, Structure};
 
-/// Where files of subprograms come from: this crate reads none.
+/// Source of the files of subprograms: this crate reads none.
 pub trait Subprograms {
-    /// The bytes of the file `name` with one of the endings that programs have; none where there is none.
+    /// The bytes of the file `name` with one of the endings that programs have; `None` if there is none.
     fn find(&self, name: &str) -> Option<Vec<u8>>;
 }
 
@@ -75,7 +75,7 @@ impl Source {
         Some(index)
     }
 
-    /// Where the program that begins at a line ends: at the number of the next one.
+    /// End of the program that begins at a line: the number of the next program.
     pub fn end_of_program(&self, first: usize) -> usize {
         let says_nothing = |index: usize| {
             let text = self.text(index).trim_ascii();

@@ -9,7 +9,7 @@ use crate::expanding::translate::spline::{Spline, is_spline, spline};
 use crate::path::moves::FeedMode;
 
 impl Runner<'_> {
-    /// The code of the spline that a block makes or goes on with, in tenths; none where it is no spline.
+    /// The code of the spline that a block makes or goes on with, in tenths; `None` if it is no spline.
     pub fn code_of_spline(&self, block: &MotionBlock) -> Option<u32> {
         let goes_on = block.motion.is_none() && !block.wants_axes;
         let has_words = block.has_place() || block.value(b'P').is_some();
@@ -67,13 +67,13 @@ impl Runner<'_> {
         }
         self.spline = made.next;
         if code == 53 {
-            // Behind a NURBS no motion is in force.
+            // No motion is in force after a NURBS.
             self.add(b"G80")?;
         }
         self.add_rest(&block.after)
     }
 
-    /// Another motion begins.
+    /// Ends the spline when another motion begins.
     pub fn leave_spline(&mut self) -> Result<(), ProgramError> {
         match self.spline.take() {
             Some(Spline::Open { .. }) => Err(self.refuse(

@@ -52,7 +52,7 @@ pub(crate) fn not_given(
     }
 }
 
-/// Whether a program may give a number a value; the reason and what to do where it may not.
+/// Checks that a program may assign a number; the error has the reason and the remedy.
 pub(crate) fn may_be_given(number: u32, rules: Dialect) -> Result<(), (String, &'static str)> {
     match (rules, number) {
         (Dialect::LinuxCnc, _) => Ok(()),

@@ -121,7 +121,7 @@ fn structure(cursor: &mut Cursor<'_>) -> Result<Structure, Malformed> {
         Some(b'[') => cursor.bracketed().map(Some),
         _ => Ok(None),
     };
-    // Of two keywords that begin alike the longer stands first.
+    // A longer keyword stands before its own prefix.
     for (name, made) in [
         ("SUB", Structure::Sub),
         ("ELSE", Structure::Else),
@@ -207,7 +207,7 @@ fn fanuc(cursor: &mut Cursor<'_>) -> Result<Option<Statement>, Malformed> {
     Ok(None)
 }
 
-/// Words with expressions and assignments, from a byte of the line on; none where all words are plain.
+/// Words with expressions and assignments, from a byte of the line on; `None` if all words are plain.
 fn block(text: &[u8], first: usize) -> Result<Option<Statement>, Malformed> {
     let mut pieces = Vec::new();
     let mut cursor = Cursor::new(text, 0);
@@ -263,7 +263,7 @@ fn block(text: &[u8], first: usize) -> Result<Option<Statement>, Malformed> {
     Ok(Some(Statement::Block(pieces)))
 }
 
-/// Whether what follows a letter is more than a number.
+/// True if the text after a letter is more than a number.
 fn is_expression(cursor: &mut Cursor<'_>) -> bool {
     let mut ahead = cursor.clone();
     while ahead.take("-") || ahead.take("+") {}
@@ -287,7 +287,7 @@ fn skip_comment(cursor: &mut Cursor<'_>, text: &[u8]) {
     cursor.go_to(end);
 }
 
-/// Nothing but blanks and comments is left.
+/// True if only blanks and comments are left.
 fn is_at_end(cursor: &mut Cursor<'_>) -> bool {
     matches!(cursor.peek(), None | Some(b';' | b'('))
 }

@@ -1,4 +1,4 @@
-//! What a line of a program is to its run.
+//! Statements of a program.
 
 use std::ops::Range;
 
@@ -17,10 +17,10 @@ pub(crate) struct SourceLine {
     pub statement: Statement,
 }
 
-/// What a line does.
+/// Kind of a statement.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Statement {
-    /// Nothing but plain words and comments: run as it stands.
+    /// Plain words and comments only: run as it stands.
     Plain,
     /// Words with expressions, and assignments, in the order of the line.
     Block(Vec<Piece>),
@@ -49,7 +49,7 @@ pub(crate) enum Piece {
     Assignment(Parameter, Expression),
 }
 
-/// What an O word names.
+/// Label of an O word.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum OLabel {
     Name(String),

@@ -1,6 +1,6 @@
 //! Blanks within numbers, which LinuxCNC passes over: `X 1 0` is X10.
 
-/// A block without the blanks within its numbers; none where it has none. Comments stay.
+/// A block without the blanks within its numbers; `None` if it has none. Comments stay.
 pub(crate) fn without_blanks_in_numbers(text: &[u8]) -> Option<Vec<u8>> {
     let is_blank = |byte: &u8| matches!(byte, b' ' | b'\t');
     let mut made = Vec::with_capacity(text.len());

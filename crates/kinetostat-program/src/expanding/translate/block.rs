@@ -45,7 +45,7 @@ pub(crate) struct MotionBlock {
     pub after: Vec<u8>,
     /// N word and block delete.
     pub head: Vec<u8>,
-    /// What the block says twice, in words.
+    /// Words that the block has twice.
     pub twice: Option<String>,
 }
 
@@ -65,7 +65,7 @@ impl MotionBlock {
                 Token::Other(b'/') if block.before.is_empty() => {
                     block.head.extend_from_slice(piece)
                 }
-                // What is taken out leaves no second blank.
+                // Removed words leave no second blank.
                 Token::Blank if block.before.last().is_none_or(|last| *last == b' ') => {}
                 _ => block.before.extend_from_slice(piece),
             }
@@ -175,7 +175,7 @@ impl MotionBlock {
         words && !self.wants_axes && self.has_only_own_words()
     }
 
-    /// Whether the codes beside the motion are modes, spindle and coolant, which have no words of their own but S and F.
+    /// True if the codes beside the motion are modes, spindle and coolant, which have no words of their own but S and F.
     pub fn has_only_own_words(&self) -> bool {
         let mut tokens: Vec<Spanned> = Vec::new();
         tokens_of(&self.before, &mut tokens);

@@ -7,13 +7,13 @@ use crate::expanding::translate::moves::Place;
 use crate::expanding::translate::wrong::Wrong;
 use crate::reading::interpreting::interpreter::Interpreter;
 
-/// Most repeats of a cycle.
+/// Maximum repeats of a cycle.
 const MOST_REPEATS: f64 = 1e5;
 
-/// What a cycle keeps.
+/// Modal parameters of a canned cycle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Cycle {
-    /// Its code in tenths.
+    /// Code of the cycle in tenths.
     pub code: u32,
     retract: f64,
     depth: f64,
@@ -22,7 +22,7 @@ pub(crate) struct Cycle {
     shift: [Option<f64>; 3],
     /// Depth coordinate before the first cycle of a row.
     initial: f64,
-    /// Whether R and the depth are increments (G91), and the levels that they mean.
+    /// True if R and the depth are increments (G91); `levels` has the resulting levels.
     incremental: bool,
     levels: [f64; 2],
 }
@@ -31,7 +31,7 @@ fn wrong<T>(reason: impl Into<String>, remedy: &'static str) -> Result<T, Wrong>
     Err((reason.into(), remedy))
 }
 
-/// Whether a code (in tenths) is a canned cycle.
+/// True if a code (in tenths) is a canned cycle.
 pub(crate) fn is_cycle(code: u32) -> bool {
     matches!(code, 730 | 740 | 760) || (810..=890).contains(&code)
 }
@@ -73,7 +73,7 @@ pub(crate) fn cycle(
     cycle.levels = levels_of(&cycle, same, (block, letters[2]), dialect)?;
     let [level, bottom] = cycle.levels;
     if dialect != Dialect::LinuxCnc && same.is_some_and(|one| one.incremental != incremental) {
-        // What holes behind this one keep are the levels, in words of the distance mode now.
+        // Later holes keep the levels, in words of the current distance mode.
         (cycle.retract, cycle.depth) = match incremental {
             true => (level - cycle.initial, bottom - level),
             false => (level, bottom),
@@ -154,7 +154,7 @@ fn refuse_other_words(block: &MotionBlock, normal: usize) -> Result<(), Wrong> {
     Ok(())
 }
 
-/// What the words of a block and those of the cycle before it say; its levels are not known yet.
+/// Merges the words of a block with the modal ones of the cycle before it; its levels are not known yet.
 fn words_of(
     code: u32,
     block: &MotionBlock,
@@ -208,7 +208,7 @@ fn words_of(
     })
 }
 
-/// How often a cycle is run.
+/// Number of repeats of a cycle.
 fn repeats_of(code: u32, block: &MotionBlock, dialect: Dialect) -> Result<usize, Wrong> {
     // Fanuc repeats by K (others of its kind by L), and K0 only keeps the words.
     let of_fanuc = dialect == Dialect::Fanuc && !matches!(code, 760 | 870);
@@ -275,7 +275,7 @@ fn levels_of(
     Ok([level, bottom])
 }
 
-/// Whether a cycle goes back to the level of R (G99), and not to its start (G98); none where it is not known.
+/// True if a cycle retracts to the level of R (G99), false if to its start (G98); `None` if it is not known.
 fn goes_to_level(stated: Option<bool>, dialect: Dialect) -> Option<bool> {
     stated.or(match dialect {
         Dialect::LinuxCnc => Some(true),

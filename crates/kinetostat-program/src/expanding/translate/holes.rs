@@ -9,7 +9,7 @@ use crate::reading::interpreting::interpreter::Interpreter;
 /// Pecks of one hole.
 const MOST_PECKS: f64 = 1e5;
 
-/// How the spindle turns when the cycle begins.
+/// Spindle state when the cycle begins.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Spindle {
     on: Option<[&'static str; 2]>,
@@ -38,7 +38,7 @@ impl Spindle {
 /// A hole.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Hole {
-    /// Its place in the plane.
+    /// Position of the hole in the plane.
     pub at: [f64; 2],
     pub level: f64,
     pub clear: f64,
@@ -46,14 +46,14 @@ pub(crate) struct Hole {
     pub dwell: Option<f64>,
     pub peck: Option<f64>,
     pub shift: [Option<f64>; 3],
-    /// Where G87 begins to bore, downwards its end.
+    /// Level at which G87 begins to bore; its end is below.
     pub middle: Option<f64>,
-    /// How far above the last depth a peck begins.
+    /// Height above the last depth at which a peck begins.
     pub peck_back: f64,
     pub dialect: Dialect,
 }
 
-/// Writes a move; none where it goes nowhere.
+/// Writes a move; `None` if it goes nowhere.
 type Go<'g> = dyn FnMut(&str, [f64; 2], f64) -> Option<String> + 'g;
 
 impl Hole {

@@ -5,7 +5,7 @@ use crate::reading::interpreting::interpreter::Interpreter;
 
 const LETTERS: [char; 3] = ['X', 'Y', 'Z'];
 
-/// Where the tool is in program coordinates, as far as that is known, and how places are written.
+/// Tool position in program coordinates, as far as it is known, and the distance mode for writing places.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Place {
     pub at: [Option<f64>; 3],
@@ -20,7 +20,7 @@ impl Place {
         }
     }
 
-    /// A straight move to a place, `G0` or `G1`; none where it goes nowhere. Axes without a place stand still.
+    /// A straight move to a place, `G0` or `G1`; `None` if it goes nowhere. Axes without a place stand still.
     pub fn go(&mut self, code: &str, to: [Option<f64>; 3]) -> Option<String> {
         let mut text = code.to_owned();
         for axis in 0..3 {

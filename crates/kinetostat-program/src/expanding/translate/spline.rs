@@ -34,16 +34,16 @@ pub(crate) enum Spline {
     },
 }
 
-/// Whether a code (in tenths) is one of a spline.
+/// True if a code (in tenths) is one of a spline.
 pub(crate) fn is_spline(code: u32) -> bool {
     matches!(code, 50..=53)
 }
 
-/// What a block with a spline's code makes.
+/// Chords of a block with a spline code.
 pub(crate) struct Made {
     /// Ends of the chords.
     pub ends: Vec<[f64; 2]>,
-    /// What the next block may go on with; none behind G5.3.
+    /// Spline that the next block may continue; `None` after G5.3.
     pub next: Option<Spline>,
 }
 
@@ -150,7 +150,7 @@ fn check(code: u32, block: &MotionBlock, before: Option<&Spline>) -> Result<(), 
     }
 }
 
-/// One more control point.
+/// Adds a control point.
 fn open(
     block: &MotionBlock,
     before: Option<Spline>,
@@ -215,7 +215,7 @@ fn chords(points: &[ControlPoint], order: usize) -> Vec<[f64; 2]> {
     let step = most / count as f64;
     let mut ends = Vec::with_capacity(count + 1);
     let mut parameter = 0.0;
-    // As LinuxCNC adds it up: a last chord of nearly no length may come of it.
+    // LinuxCNC sums the parameter in this way: the last chord may have nearly no length.
     while parameter + step < most {
         ends.push(point(points, order, parameter + step));
         parameter += step;

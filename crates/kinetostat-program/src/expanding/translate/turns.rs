@@ -11,7 +11,7 @@ use crate::expanding::translate::moves::Place;
 use crate::expanding::translate::wrong::Wrong;
 use crate::reading::interpreting::interpreter::Interpreter;
 
-/// Most turns of one block.
+/// Maximum turns of one block.
 const MOST_TURNS: f64 = 1e5;
 
 /// Ends nearer than this share of the radius are one place: a full circle.
@@ -21,7 +21,7 @@ fn wrong<T>(reason: &str, remedy: &'static str) -> Result<T, Wrong> {
     Err((reason.to_owned(), remedy))
 }
 
-/// Whether a block is an arc with P.
+/// True if a block is an arc with P.
 pub(crate) fn counts_turns(block: &MotionBlock, state: &Interpreter<'_>) -> bool {
     let is_arc = match block.motion {
         Some(code) => matches!(code, 20 | 30),
@@ -125,7 +125,7 @@ pub(crate) fn turns(block: &MotionBlock, state: &Interpreter<'_>) -> Result<Vec<
     Ok(texts)
 }
 
-/// Which part of a turn an arc is: above 0, up to 1.
+/// Fraction of a turn of an arc: above 0, up to 1.
 fn part_of_turn(from: [f64; 2], to: [f64; 2], centre: [f64; 2], clockwise: bool) -> f64 {
     let radius = (from[0] - centre[0]).hypot(from[1] - centre[1]);
     if (to[0] - from[0]).hypot(to[1] - from[1]) <= SAME * radius {

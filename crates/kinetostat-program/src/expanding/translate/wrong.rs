@@ -1,4 +1,4 @@
-//! Why words have no moves.
+//! Errors of the translation of words to moves.
 
-/// What is wrong, and what to do.
+/// Reason and remedy.
 pub(crate) type Wrong = (String, &'static str);

@@ -10,8 +10,8 @@ use crate::reading::interpreting::interpreter::Interpreter;
 use crate::text::program::Program;
 
 impl Interpreter<'_> {
-    /// The path of a part of a longer program, which states these axes anywhere. What is to be said of the whole is said
-    /// elsewhere.
+    /// The path of a part of a longer program, which states these axes anywhere. Warnings about the whole program are
+    /// made elsewhere.
     pub(crate) fn finish_part(
         mut self,
         program: &Program,
@@ -29,7 +29,7 @@ impl Interpreter<'_> {
         self.warn_of_moved_axes();
         self.warnings.extend(self.repeated.finish());
         let mut path = Path {
-            // Where all rotary axes stand at zero the spindle is along z of the part.
+            // The spindle is along z of the part if all rotary axes are at zero.
             tool_axis: match &self.options.rotary {
                 Some(rotary) => rotary.tool_at_zero.inverse() * Vector3::z(),
                 None => Vector3::z(),
@@ -92,7 +92,7 @@ impl Interpreter<'_> {
     }
 }
 
-/// So many blocks, the first of them on this line, come before the program states where the tool is.
+/// Warning for the blocks, the first of them on this line, before the program states where the tool is.
 pub(crate) fn unknown_beginning(line: usize, count: usize) -> Warning {
     let (blocks, carried) = match count {
         1 => ("1 block moves".to_owned(), "it is"),

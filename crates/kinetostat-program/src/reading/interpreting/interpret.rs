@@ -1,4 +1,4 @@
-//! Where the tool goes: the second stage of reading.
+//! Path of the tool: the second stage of reading.
 
 use crate::error::{ProgramError, ProgramErrorKind};
 use crate::path::moves::{Motion, Path};

@@ -1,4 +1,4 @@
-//! What is known while a program is read.
+//! Modal state while a program is read.
 
 use nalgebra::Vector3;
 
@@ -16,14 +16,14 @@ use crate::reading::shifts::Shifts;
 use crate::reading::spindle::SpindleWords;
 use crate::reading::tools::ToolWords;
 
-/// What is known while a program is read line by line.
+/// Modal state while a program is read line by line.
 pub(crate) struct Interpreter<'o> {
     pub(in crate::reading) options: &'o ReadOptions,
     pub(super) rotary: RotaryWords<'o>,
     pub(crate) modes: Modes,
     pub(in crate::reading) offset: PositionOffset,
     pub(in crate::reading) shifts: Shifts,
-    /// Origins of the work coordinate systems, mm, part frame; none where they are not stated.
+    /// Origins of the work coordinate systems, mm, part frame; `None` if they are not stated.
     pub(in crate::reading) origins_mm: [Option<Vector3<f64>>; 9],
     pub(super) rotary_origins: RotaryOrigins,
     pub(crate) places: Places,
@@ -33,8 +33,7 @@ pub(crate) struct Interpreter<'o> {
     /// Work coordinate system of the first motion.
     pub(super) first_system: Option<usize>,
     pub(super) moves: Vec<Move>,
-    /// For each move: which axes are known before and after it, and whether one was known before and is so no
-    /// more.
+    /// Known axes before and after each move, and whether one was known before and is so no more.
     pub(super) knowledge: Vec<([bool; 3], [bool; 3], bool)>,
     pub(super) events: Vec<Event>,
     pub(super) pauses: Vec<Pause>,
@@ -45,7 +44,7 @@ pub(crate) struct Interpreter<'o> {
     pub(super) units_assumed_on: Option<usize>,
 }
 
-/// What blocks tell of those behind them.
+/// Modal state that blocks leave for later ones.
 pub(crate) struct InterpreterState {
     modes: Modes,
     offset: PositionOffset,
@@ -150,7 +149,7 @@ impl<'o> Interpreter<'o> {
         self.knowledge.push(([true; 3], [true; 3], false));
     }
 
-    /// How many motions were read since they were last looked at.
+    /// Number of motions read since they were last taken.
     pub(crate) fn move_count(&self) -> usize {
         self.moves.len()
     }
@@ -186,7 +185,7 @@ impl<'o> Interpreter<'o> {
         }
     }
 
-    /// How the words of a move count that goes to places of the machine along these axes.
+    /// Form of the words of a move that goes to machine places along these axes.
     pub(super) fn coordinate_words(
         &self,
         mm_per_unit: f64,
@@ -206,7 +205,7 @@ impl<'o> Interpreter<'o> {
         origin.copied().flatten().unwrap_or_default()
     }
 
-    /// Where A, B and C count from in a work coordinate system.
+    /// Origin of A, B and C in a work coordinate system.
     pub(super) fn rotary_origin(&self, system: usize) -> [f64; 3] {
         self.rotary_origins.get(system).copied().unwrap_or_default()
     }

@@ -74,7 +74,7 @@ impl Interpreter<'_> {
             };
             self.repeated.note(block.line_number, &text);
         }
-        // Where the slides go while a rotary axis turns is no way of the tip.
+        // The path of the slides while a rotary axis turns is not that of the tip.
         let known_before = match lost {
             Some((_, Cause::Rotary, _)) => [false; 3],
             _ => known_before,
@@ -98,7 +98,7 @@ impl Interpreter<'_> {
         Ok(())
     }
 
-    /// What is cut from an unknown place is cut somewhere else than the program says.
+    /// Refuses a cut from an unknown place: it lies elsewhere than the program says.
     fn refuse_cut_from_lost_place(&self, block: &Block<'_>) -> Result<(), ProgramError> {
         let Some((axis, cause, _)) = self.places.first_lost() else {
             return Ok(());

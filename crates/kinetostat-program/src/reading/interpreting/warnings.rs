@@ -1,4 +1,4 @@
-//! What is read as it stands, and may surprise.
+//! Warnings about words that are read literally.
 
 use crate::path::moves::ExtraMode;
 use crate::reading::beside::{COORDINATES, OTHER_AXES};

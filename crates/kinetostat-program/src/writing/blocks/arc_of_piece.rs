@@ -10,7 +10,7 @@ use crate::writing::blocks::block_text::{BlockText, Place};
 use crate::writing::fitting::stretch::ArcForm;
 use crate::writing::output_state::{OutputMove, OutputState};
 
-/// How the block says where its arc is.
+/// Form of the arc in the block: radius or centre.
 pub(crate) fn arc_form(text: &BlockText<'_>) -> ArcForm {
     match text.word(b'R') {
         Some(_) => ArcForm::Radius,

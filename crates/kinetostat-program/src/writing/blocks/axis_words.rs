@@ -10,7 +10,7 @@ use crate::writing::output_state::OutputState;
 /// Places nearer than this are the same, up to the arithmetic, in mm.
 pub(crate) const UNCHANGED_MM: f64 = 1e-9;
 
-/// Says where the pieces of a block end.
+/// Axis words of the pieces of a block.
 ///
 /// Each word is chosen against where the output really is, so rounded increments never add up.
 pub(crate) struct AxisWords<'a> {
@@ -41,7 +41,7 @@ impl AxisWords<'_> {
         words
     }
 
-    /// The same for the axes that the block itself names; the others stay where they are.
+    /// Words for the axes that the block itself names; the others stay where they are.
     pub fn own_words_to(
         &self,
         state: &mut OutputState,
@@ -95,7 +95,7 @@ impl AxisWords<'_> {
         (AXES[axis], number)
     }
 
-    /// Whether the axis words of the block would bring the output to the block's own end.
+    /// True if the axis words of the block would bring the output to the block's own end.
     pub fn words_still_hold(&self, state: &OutputState) -> bool {
         AXES.into_iter().enumerate().all(|(axis, letter)| {
             let reached = match self.text.number_of(letter) {
@@ -106,7 +106,7 @@ impl AxisWords<'_> {
         })
     }
 
-    /// From where the words of an axis count, in mm.
+    /// Origin of the words of an axis, in mm.
     fn reference_mm(&self, state: &OutputState, axis: usize) -> f64 {
         let words = &self.motion.words;
         match words.incremental {
@@ -120,7 +120,7 @@ impl AxisWords<'_> {
         (place_mm - self.reference_mm(state, axis)) / self.motion.words.mm_per_unit
     }
 
-    /// Where a word brings an axis, in mm.
+    /// Position of an axis for a word, in mm.
     fn place(&self, state: &OutputState, axis: usize, word: f64) -> f64 {
         self.reference_mm(state, axis) + word * self.motion.words.mm_per_unit
     }

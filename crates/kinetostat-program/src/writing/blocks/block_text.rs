@@ -16,12 +16,12 @@ pub(crate) fn motion_word(words: &[Word]) -> Option<&Word> {
         .find(|word| word.letter == b'G' && [0.0, 1.0, 2.0, 3.0].contains(&word.value))
 }
 
-/// Whether a word acts when the block's motion is over.
+/// True if a word acts after the block's motion.
 pub(crate) fn is_after_motion(word: &Word) -> bool {
     is_written_last(word.letter, word.tenths())
 }
 
-/// Where the number of a word stands.
+/// Bytes of the number of a word.
 pub(crate) fn number_span(word: &Word) -> Range<usize> {
     word.number as usize..word.end as usize
 }
@@ -36,7 +36,7 @@ pub(crate) enum Place {
 /// Changes of a line.
 #[derive(Default)]
 pub(crate) struct Edits {
-    /// What replaces which bytes.
+    /// Replaced bytes and their new text.
     pub replaced: Vec<(Range<usize>, String)>,
     /// Words that the line has not.
     pub added: String,
@@ -48,7 +48,7 @@ pub(crate) struct BlockText<'a> {
     pub program: &'a Program,
     pub line: &'a Line,
     pub words: &'a [Word],
-    /// What stands between two words.
+    /// Separator between two words.
     pub separator: &'static str,
     lower_case: bool,
 }
@@ -117,7 +117,7 @@ impl<'a> BlockText<'a> {
         self.words.iter().filter(|word| is_after_motion(word))
     }
 
-    /// Whether the block ends the program.
+    /// True if the block ends the program.
     pub fn ends_program(&self) -> bool {
         let ends = |word: &Word| word.letter == b'M' && [2.0, 30.0].contains(&word.value);
         self.words.iter().any(ends)
@@ -133,8 +133,8 @@ impl<'a> BlockText<'a> {
         start..word.end as usize
     }
 
-    /// Where words are added: after the last coordinate word, else where the arc's words stood, else
-    /// after the last axis word, else at the end of the words.
+    /// Position for added words: after the last coordinate word, else where the arc's words stood, else after the
+    /// last axis word, else at the end of the words.
     pub fn place_for_added(&self) -> usize {
         let last = |letters: &[u8]| {
             self.words

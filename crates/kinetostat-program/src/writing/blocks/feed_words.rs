@@ -10,7 +10,7 @@ use crate::writing::output_state::{OutputMove, OutputState, motion_of};
 /// Relative error of the feed in force from which a new F word is written.
 const FEED_TOLERANCE: f64 = 5e-4;
 
-/// Says how fast the pieces of a block go.
+/// Feed words of the pieces of a block.
 pub(crate) struct FeedWords<'a> {
     pub text: BlockText<'a>,
     pub motion: &'a Move,
@@ -64,7 +64,7 @@ impl FeedWords<'_> {
             0.0
         };
         let moves = part_mm > 0.0 && written_mm > 0.0;
-        // How many times the programmed speed the tool's own path would need.
+        // Speed of the tool's own path over the programmed one.
         let raised = match step.corner_step || !moves {
             true => 1.0,
             false => written_mm / part_mm,
@@ -73,7 +73,7 @@ impl FeedWords<'_> {
         let held = (self.max_feed_factor / raised).min(1.0);
         let value = match feed.mode {
             FeedMode::InverseTime if pieces == 1 && !state.feed_limited => return None,
-            // As long as the programmed speed takes for the step.
+            // The step takes as long as it would at the programmed speed.
             FeedMode::InverseTime if step.corner_step && written_mm > 0.0 => {
                 feed.value * whole_mm / written_mm
             }
@@ -104,7 +104,7 @@ impl FeedWords<'_> {
         let width = step.share_to - step.share_from;
         let seconds = match step.corner_step {
             false => seconds * width,
-            // As fast as a point of the tool goes that is so far from the tip.
+            // The feed is that of a point of the tool at the lever's distance from the tip.
             true => {
                 let way_mm = self.motion.turn_deg().to_radians() * self.turn_lever_mm;
                 seconds * (written_mm / way_mm).clamp(1e-6, 1.0)
@@ -139,7 +139,7 @@ impl FeedWords<'_> {
         Some(text)
     }
 
-    /// Whether the block is a turn in place by G94.
+    /// True if the block is a rotation in place with G94.
     pub fn may_be_by_time(&self) -> bool {
         let motion = self.motion;
         let per_minute = |feed: Feed| feed.mode == FeedMode::PerMinute;

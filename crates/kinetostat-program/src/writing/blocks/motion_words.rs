@@ -33,7 +33,7 @@ pub(crate) fn code_of(motion: Motion) -> &'static str {
     }
 }
 
-/// On the block's own line the motion of its piece: where that is straight, G2 and G3 become G1, and the words of the arc go.
+/// Edits the motion on the block's own line: if its piece is straight, G2 and G3 become G1, and the words of the arc go.
 pub(crate) fn edit_motion_words(
     (text, motion): (&BlockText<'_>, &Move),
     state: &OutputState,

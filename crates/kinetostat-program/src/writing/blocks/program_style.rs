@@ -1,4 +1,4 @@
-//! What holds for all blocks of a program.
+//! Style common to all blocks of a program.
 
 use nalgebra::Vector3;
 
@@ -6,7 +6,7 @@ use crate::path::moves::{Move, Path};
 use crate::text::program::Program;
 use crate::writing::blocks::block_text::motion_word;
 
-/// What holds for all blocks of a program.
+/// Style common to all blocks of a program.
 pub(crate) struct ProgramStyle {
     /// Axes that may be written.
     pub stated: [bool; 3],

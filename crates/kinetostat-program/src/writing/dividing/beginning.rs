@@ -15,7 +15,7 @@ use crate::writing::queries::FieldQueries;
 /// Stretches of an arc to which arcs are fitted are no longer than this, in rad, before anything is known of the correction.
 const FIRST_ANGLE: f64 = std::f64::consts::FRAC_PI_2;
 
-/// What is fitted to the corrected curve of a move.
+/// Curves that are fitted to the corrected curve of a move.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Fitted {
     Nothing,
@@ -73,7 +73,7 @@ fn boundaries(
                 fixed: false,
             }),
     );
-    // Of two at one place the end of a chord stays.
+    // The end of a chord is kept if two entries are at one place.
     list.sort_by(|a, b| a.share.total_cmp(&b.share).then(b.fixed.cmp(&a.fixed)));
     list.dedup_by(|b, a| a.share == b.share);
     if let Some(own) = directed {
@@ -112,7 +112,7 @@ fn insert(share: f64, fixed: bool, list: &mut Vec<Boundary>) {
 /// Share of the length over which a correction is smooth: the ends of shorter moves most often say all.
 const SHORT: f64 = 0.01;
 
-/// Whether the middle of a move is asked for only where its ends turn out not to say all.
+/// True if the middle of a move is requested only when its ends do not determine the correction.
 fn is_short(
     motion: &Move,
     (course, list): (Course, &[Boundary]),
@@ -168,7 +168,7 @@ pub(crate) fn first_round(
     let mut answer = || answers.next().unwrap_or_default();
     let mut open = Vec::with_capacity(first.len());
     nodes.reserve(requests.len());
-    // What holds before a move: the last answer of the one before it.
+    // Correction before a move: the last answer of the one before it.
     let mut before: Option<(usize, Vector6<f64>)> = None;
     for (move_index, list, course, middles) in first {
         let mut value = answer();

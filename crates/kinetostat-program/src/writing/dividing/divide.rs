@@ -23,7 +23,7 @@ pub(crate) struct Division {
     /// The correction on the moves to which arcs are fitted, and on those whose straight pieces may be shared out anew, by move
     /// and share.
     pub courses: Vec<Accepted>,
-    /// What is fitted to the moves.
+    /// Curves that are fitted to the moves.
     pub fitted: Vec<Fitted>,
     pub evaluations: usize,
     /// Largest part of a correction along axes that the program never states, in mm.
@@ -137,7 +137,7 @@ fn next_round(
     let mut next = Vec::new();
     for stretch in open {
         let (Some(middle), move_index) = (stretch.middle, stretch.move_index) else {
-            // Its ends say all.
+            // The ends determine the correction.
             continue;
         };
         let [from, to] = stretch.share;

@@ -1,4 +1,4 @@
-//! Where a block must be divided so that straight pieces follow the corrected curve.
+//! Division of a block so that straight pieces follow the corrected curve.
 //!
 //! The corrected curve of a move is `point(s) + c(s)`, `s` the share of its length. A piece from `a`
 //! to `b` is good if `c` differs from the straight line between `c(a)` and `c(b)` by no more than the

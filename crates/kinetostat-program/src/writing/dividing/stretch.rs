@@ -20,10 +20,10 @@ const UNKNOWN: f64 = 0.1;
 /// Part of the tolerance by which the field may differ from the polynomial at the irregular place.
 const SURPRISE: f64 = 0.25;
 
-/// The same where arcs are fitted to the polynomial: they use the tolerance up to a part that this must stay well within.
+/// Limit for a fit of arcs to the polynomial: they use the tolerance up to a part that this must stay well within.
 const SURPRISE_FITTED: f64 = 0.08;
 
-/// How many times the tolerance a correction may leave a straight line on a stretch that is no piece: a polynomial follows it.
+/// Limit, in tolerances, of the distance from a straight line on a stretch that is no piece: a polynomial follows it.
 const BENT: f64 = 20.0;
 
 /// A place of a stretch at which the correction is evaluated.
@@ -32,12 +32,12 @@ pub(crate) enum Place {
     Middle,
     FirstQuarter,
     LastQuarter,
-    /// One that follows no pattern, at a part of the stretch.
+    /// Place that follows no pattern, at a part of the stretch.
     Irregular(f64),
 }
 
 impl Place {
-    /// Which part of the stretch lies before it.
+    /// Part of the stretch before the place.
     pub fn part(self) -> f64 {
         match self {
             Place::Middle => 0.5,
@@ -56,12 +56,13 @@ pub(crate) struct Stretch {
     pub entire: bool,
     /// Arcs are fitted to its move.
     pub fitted: bool,
-    /// No piece ends in it unless the correction bends there: directions of the tool would say little of the axes.
+    /// True if no piece ends in it unless the correction bends there: directions of the tool would say little of the
+    /// axes.
     pub across_pole: bool,
     pub share: [f64; 2],
     pub ends: [Vector6<f64>; 2],
-    /// Where the piece begins that the tool goes along; differs from the first end where a jump too
-    /// small for a step is taken up.
+    /// Start of the piece that the tool goes along; differs from the first end where a jump too small for a step is
+    /// taken up.
     pub begins: Vector6<f64>,
     pub middle: Option<Vector6<f64>>,
     pub quarters: Option<[Vector6<f64>; 2]>,
@@ -69,7 +70,7 @@ pub(crate) struct Stretch {
     pub irregular: Option<(f64, Vector6<f64>)>,
 }
 
-/// What becomes of a stretch with the values known of it.
+/// Decision on a stretch with the values known of it.
 pub(crate) enum Decision {
     Accept,
     /// The place that follows no pattern confirms it, or not.
@@ -107,19 +108,20 @@ impl Stretch {
     fn length_mm(&self, path: &Path, options: &WriteOptions) -> f64 {
         let motion = &path.moves[self.move_index];
         let [from, to] = self.share;
-        // Of a move that turns the tool, the way of a point of the tool where that is longer.
+        // The length of a move that turns the tool is the way of a point of the tool if that is longer.
         let turned = motion.way_with_turn_mm(options.turn_lever_mm) * (to - from);
         larger(motion.length_between_mm(from, to), turned)
     }
 
-    /// Whether it is too short to be halved.
+    /// True if the stretch is too short to be halved.
     pub fn is_shortest(&self, path: &Path, options: &WriteOptions) -> bool {
         let [from, to] = self.share;
         let short = self.length_mm(path, options) <= options.smallest_piece_mm;
         short || self.at(0.5) <= from || self.at(0.5) >= to
     }
 
-    /// Whether it is so short that the correction is what lies between its ends, as far as the field is as smooth as it says.
+    /// True if the stretch is so short that the correction is linear between its ends, given the declared smoothness of the
+    /// field.
     fn is_straight(&self, path: &Path, options: &WriteOptions) -> bool {
         let (Course::Steady { radius_mm }, true) = (self.course, self.entire && !self.fitted)
         else {
@@ -132,7 +134,7 @@ impl Stretch {
         remainder(2, size, way, radius_mm) <= UNKNOWN * tolerance && off <= 0.25 * tolerance
     }
 
-    /// Whether a stretch that [is straight](Self::is_straight) needs no more values: it changes by less than the tolerance, or
+    /// True if a stretch that [is straight](Self::is_straight) needs no more values: it changes by less than the tolerance, or
     /// the place that follows no pattern confirms it.
     fn is_confirmed(&self, options: &WriteOptions) -> bool {
         let (tolerance, [first, last]) = (options.tolerance_mm, self.ends);
@@ -142,7 +144,7 @@ impl Stretch {
         }
     }
 
-    /// Whether its ends say all.
+    /// True if the ends determine the correction.
     fn ends_suffice(&self, path: &Path, options: &WriteOptions) -> bool {
         self.is_straight(path, options) && self.is_confirmed(options)
     }
@@ -187,7 +189,7 @@ impl Stretch {
         }
     }
 
-    /// What becomes of it.
+    /// Decides what to do with the stretch.
     pub fn decide(&self, path: &Path, options: &WriteOptions) -> Decision {
         if self.middle.is_none() && self.ends_suffice(path, options) {
             return Decision::Accept;
@@ -207,7 +209,7 @@ impl Stretch {
             Course::Cubic if !self.fitted => (0.0, true),
             Course::Cubic => (self.unknown_round(motion, &values), true),
             Course::Smooth { radius_mm } | Course::Steady { radius_mm } => {
-                // That nothing was seen yet does not make it small: it counts as the tolerance at least.
+                // A size of zero may only mean that nothing was seen yet: it is the tolerance at least.
                 let seen = self.irregular.iter().map(|(_, value)| value);
                 let size = values
                     .iter()
@@ -241,7 +243,7 @@ impl Stretch {
         };
         if off > bent || surprised {
             return match (all_requested, self.is_shortest(path, options)) {
-                // As ever: what is off is looked at once more before it is halved.
+                // A stretch outside the tolerance is evaluated once more before it is halved.
                 (false, _) => Decision::Refine,
                 (true, true) => Decision::Jump,
                 (true, false) => Decision::Halve,
@@ -260,9 +262,9 @@ impl Stretch {
         Decision::Accept
     }
 
-    /// What a polynomial through five values may be off from a correction that is one of third degree along straight lines, on an
-    /// arc: along it the coordinates are no polynomials, and a stretch of an angle `a` is a straight line but for terms of `a^2`
-    /// and more. They begin with those of the fifth degree.
+    /// Bound of the error of a polynomial through five values on an arc, for a correction that is one of third degree along
+    /// straight lines: the coordinates are no polynomials along an arc, and a stretch of an angle `a` is a straight line but for
+    /// terms of `a^2` and more. They begin with those of the fifth degree.
     fn unknown_round(&self, motion: &Move, values: &Values) -> f64 {
         let Curve::Arc(arc) = &motion.curve else {
             return 0.0;

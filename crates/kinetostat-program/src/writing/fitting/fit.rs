@@ -24,7 +24,7 @@ impl Fit<'_> {
         })
     }
 
-    /// In place of straight pieces others with fewer short ones, or fewer at all; none of them is shorter than a block may be, if
+    /// Replaces straight pieces by others with fewer short ones, or fewer at all; none of them is shorter than a block may be, if
     /// that can be within the tolerances.
     pub fn instead_of(
         &self,

@@ -11,10 +11,10 @@ use crate::writing::short_blocks::ShortestBlock;
 /// Parts of the longest piece at which the next one is tried to begin.
 const BEGINNINGS: [f64; 3] = [1.0, 0.86, 0.6];
 
-/// Most pieces of a stretch that are looked for in this way, which takes its time.
+/// Maximum number of pieces of a stretch for this search, which takes long.
 const MOST: usize = 100;
 
-/// How much longer than the shortest block, along the path, what is left for the last piece is: the corrected arc may be shorter.
+/// Factor over the shortest block, along the path, that is left for the last piece: the corrected arc may be shorter.
 const MARGIN: f64 = 1.05;
 
 /// Steps in the search for the least tolerance that as many pieces keep.
@@ -24,23 +24,23 @@ const NARROWINGS: u32 = 2;
 struct Reach {
     share: f64,
     tube: Tube,
-    /// It ends where the stretch does.
+    /// True if it ends where the stretch does.
     whole: bool,
 }
 
-/// What the ends of the pieces of one stretch are held to.
+/// Limits for the ends of the pieces of one stretch.
 struct Search<'a> {
     fit: &'a Fit<'a>,
     arc: &'a Arc,
     span: &'a Span,
     within_mm: f64,
-    /// No piece is shorter than this.
+    /// Minimum length of a piece.
     shortest: Option<&'a ShortestBlock>,
 }
 
 impl Fit<'_> {
-    /// As few arcs as these tolerances allow, none of them shorter than a block may be, and of those the ones that leave the curve
-    /// least; none where they are too many or where one would be straight.
+    /// Fits the fewest arcs that these tolerances allow, none of them shorter than a block may be, and of those the ones that
+    /// leave the curve least; `None` if they are too many or if one would be straight.
     pub fn free_ends(
         &self,
         span: &Span,
@@ -114,7 +114,7 @@ impl Search<'_> {
         let start = last.target.dot(&self.arc.axis);
         let end = 0.5 * (reach.tube.heights[0] + reach.tube.heights[1]);
         let mut found = Vec::new();
-        // What is left behind the piece is long enough as well, and not nothing.
+        // The rest after the piece is long enough as well, and not empty.
         let [_, to] = self.span.share;
         let rest = larger(
             MARGIN * self.shortest.map_or(0.0, ShortestBlock::longer_mm)
@@ -165,7 +165,7 @@ impl Search<'_> {
                 whole: true,
             });
         }
-        // As exactly as the tolerance is worth.
+        // The accuracy of the search is a fraction of the stride.
         let shortest = larger(self.fit.shortest(), 2e-3 * stride);
         let (share, tube) = farthest([from, to], (stride, shortest), |share| {
             self.tube(last, share, self.fit.curve.point(share))

@@ -1,7 +1,7 @@
 //! Pieces that are as long as a controller wants its blocks, where the tolerances allow it.
 //!
-//! What fits best has short pieces where the correction bends most, or at the end, where little is left. Others may do: with free
-//! ends and a last piece of some length ([`crate::writing::fitting::free_ends`]), equally long ones, or a way through places of the
+//! The best fit has short pieces where the correction bends most, or at the end, where little is left. Others may do: with free ends
+//! and a last piece of some length ([`crate::writing::fitting::free_ends`]), equally long ones, or a way through places of the
 //! curve. The places stand so near each other that the shortest block spans eight of them. From every place that can be reached each
 //! piece that fits and is long enough leads to another one; of the ways to the end the one with the fewest pieces is taken.
 
@@ -20,13 +20,13 @@ const TRIALS: usize = 16;
 /// Chords by which the length of a curve is taken.
 const CHORDS: usize = 64;
 
-/// How much shorter than their mean equal pieces of the path may be where they are written: the correction varies along it.
+/// Minimum length, over their mean, of equal pieces of the path as written: the correction varies along it.
 const SHORTEST_OF_MEAN: f64 = 0.998;
 
-/// How many times the pieces that are needed are looked for at most.
+/// Maximum number of pieces to try, over that needed.
 const FINEST: f64 = 4.0;
 
-/// How a place is reached.
+/// Way by which a place is reached.
 #[derive(Clone, Copy)]
 struct Reached {
     /// The last piece of the way.
@@ -62,7 +62,7 @@ impl Fit<'_> {
         }
     }
 
-    /// How many of these pieces are shorter than a block may be.
+    /// Number of these pieces that are shorter than a block may be.
     pub fn short_ones(
         &self,
         span: &Span,
@@ -77,7 +77,7 @@ impl Fit<'_> {
         short.count()
     }
 
-    /// Whether a piece that begins where another ends is no shorter than a block may be.
+    /// True if a piece that begins where another ends is no shorter than a block may be.
     pub fn is_long(
         &self,
         before: &FittedPiece,
@@ -144,7 +144,7 @@ impl Fit<'_> {
                 continue;
             };
             for next in further(place, count) {
-                // Where a piece does not fit, no longer one does.
+                // A longer piece does not fit if this one does not.
                 let Some(piece) = self.fitting(&self.part(span, &way.piece, share(next))) else {
                     break;
                 };

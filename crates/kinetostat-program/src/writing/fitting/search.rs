@@ -41,7 +41,7 @@ pub(crate) fn farthest<T>(
 }
 
 impl Fit<'_> {
-    /// So many pieces of the same length, if all of them fit.
+    /// Returns `count` pieces of equal length, if all of them fit.
     pub fn equal(&self, span: &Span, count: usize) -> Option<Vec<FittedPiece>> {
         let [from, to] = span.share;
         let mut pieces = Vec::with_capacity(count);

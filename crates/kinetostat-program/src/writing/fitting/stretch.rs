@@ -12,7 +12,7 @@ use crate::writing::options::WriteOptions;
 use crate::writing::output_state::{FittedArc, FittedCircle};
 use crate::writing::written_arc::slipped;
 
-/// How the arcs of a block are written.
+/// Form of the arcs of a block.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum ArcForm {
     /// I, J and K.
@@ -21,7 +21,7 @@ pub(crate) enum ArcForm {
     Radius,
 }
 
-/// What a stretch of a move becomes.
+/// Shape of the pieces of a move.
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum Shape<'a> {
     /// Arcs about the axis of this one, which is that of the path.
@@ -48,7 +48,7 @@ pub(crate) struct FittedPiece {
 }
 
 impl FittedPiece {
-    /// No piece, but where the first one begins.
+    /// Empty piece at the start of the first one.
     pub fn start(span: &Span) -> Self {
         Self {
             share_to: span.share[0],
@@ -58,7 +58,7 @@ impl FittedPiece {
         }
     }
 
-    /// Its length from where it begins, in mm, about an axis of this direction.
+    /// Length of the piece from its start, in mm, about an axis of this direction.
     pub fn length_mm(&self, from: &Vector3<f64>, axis: &Vector3<f64>) -> f64 {
         let way = self.target - from;
         match (&self.arc, &self.circle) {
@@ -83,7 +83,7 @@ const FEW_PLACES: usize = 8;
 /// Part of the tolerance that is used: the places in between, and what the correction may be off from its polynomial.
 const USED: f64 = 0.85;
 
-/// Most of a turn in one arc: behind it start and end come near each other, and the digits decide how far it goes.
+/// Maximum sweep of one arc: beyond it start and end come near each other, and the digits decide how far it goes.
 const LARGEST_SWEEP: f64 = 300.0 / 360.0 * TAU;
 
 /// Sweeps that are not written by R: the centre of nearly half a circle is anywhere.
@@ -105,7 +105,7 @@ const LARGEST_RADIUS_MM: f64 = 1e6;
 /// A place of the corrected curve, by the part of its stretch.
 type Place = (f64, Vector3<f64>);
 
-/// What pieces are fitted to.
+/// Curve, shape and tolerances of a fit.
 pub(crate) struct Fit<'a> {
     pub curve: CorrectedCurve<'a>,
     pub shape: Shape<'a>,
@@ -113,7 +113,7 @@ pub(crate) struct Fit<'a> {
 }
 
 impl Fit<'_> {
-    /// Where the curve is at a share of a stretch, with the ends where they are to be.
+    /// Point of the curve at a share of a stretch; the ends are those of the stretch.
     pub fn point(&self, span: &Span, share: f64) -> Vector3<f64> {
         match share {
             share if share >= span.share[1] => span.ends[1],
@@ -130,7 +130,7 @@ impl Fit<'_> {
         }
     }
 
-    /// How far pieces may leave the curve, in mm.
+    /// Maximum distance of pieces from the curve, in mm.
     pub fn allowed_mm(&self) -> f64 {
         let options = self.options;
         // On an arc they may leave the curve by what its chords may leave it, too.
@@ -145,8 +145,8 @@ impl Fit<'_> {
         }
     }
 
-    /// What the turn of the tool leaves of a tolerance, in mm, where it changes evenly between the ends of a stretch; none where it
-    /// leaves nothing.
+    /// Tolerance that remains, in mm, after the error of interpolating the rotation of the tool linearly between the ends of a
+    /// stretch; `None` if nothing remains.
     fn left_mm(&self, span: &Span, within_mm: f64) -> Option<f64> {
         let [from, to] = span.share;
         let (Some(first), Some(last)) = (self.curve.turn(from), self.curve.turn(to)) else {
@@ -222,7 +222,7 @@ impl Fit<'_> {
         }
         let [start, end] = &span.ends;
         let straight = places.iter().all(|(part, place)| {
-            // What is no number does not fit.
+            // NaN does not fit.
             (start.lerp(end, *part) - place).norm() <= allowed_mm
         });
         straight.then(|| piece(None))
@@ -336,8 +336,8 @@ fn even(count: usize) -> impl Iterator<Item = f64> {
     (1..count).map(move |place| place as f64 / count as f64)
 }
 
-/// How far equal ways of the path and of the arc are apart: two polynomials that have nothing in common over even places, and
-/// little over others.
+/// Difference between equal ways of the path and of the arc, as coefficients of two polynomials that are orthogonal over even
+/// places, and nearly so over others.
 fn slip(places: &[Place], turned: impl Fn(usize, f64) -> f64) -> [f64; 2] {
     let mut sums = [[0.0; 2]; 2];
     for (index, (part, _)) in places.iter().enumerate() {
@@ -373,7 +373,7 @@ fn heights(
             circle.centre[0] + circle.radius * cosine - point[0],
             circle.centre[1] + circle.radius * sine - point[1],
         ];
-        // What the plane leaves of the distance; no number where it leaves nothing.
+        // Distance that remains beside the error in the plane; NaN if nothing remains.
         let left = (within_mm * within_mm - off[0] * off[0] - off[1] * off[1]).sqrt();
         let rise = place.dot(&arc.axis) - start;
         low = larger(low, (rise - left) / turned);
