@@ -25,7 +25,7 @@ pub fn measured(figures: &mut Vec<Figure>) -> Result<()> {
 
 /// LinuxCNC's own programs through its interpreter, as they are and run flat. The script says what it leaves out.
 fn linuxcnc(figures: &mut Vec<Figure>) -> Result<()> {
-    let script = "scripts/nc_files_with_linuxcnc.py";
+    let script = "validation/scripts/nc_files_with_linuxcnc.py";
     let output = Command::new("python3")
         .arg(script)
         .current_dir(root())

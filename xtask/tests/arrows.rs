@@ -379,10 +379,15 @@ fn cycle(arrows: &BTreeMap<String, BTreeSet<String>>) -> Option<Vec<String>> {
         .find_map(|at| visit(at, arrows, &mut Vec::new(), &mut done))
 }
 
+/// Folders of crates.
+const FOLDERS: [&str; 2] = [
+    concat!(env!("CARGO_MANIFEST_DIR"), "/../crates"),
+    concat!(env!("CARGO_MANIFEST_DIR"), "/../validation"),
+];
+
 fn crates() -> Vec<(String, Crate)> {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../crates");
-    let mut found: Vec<_> = std::fs::read_dir(&root)
-        .expect("the folder of the crates")
+    let mut found: Vec<_> = (FOLDERS.iter())
+        .flat_map(|folder| std::fs::read_dir(folder).expect("a folder of crates"))
         .map(|entry| entry.expect("an entry").path())
         .filter(|path| path.join("src").exists())
         .collect();
@@ -402,10 +407,10 @@ fn crates() -> Vec<(String, Crate)> {
 
 /// For every crate the names of methods that libraries have, and those of our crates on which it depends.
 fn methods_of_others(crates: &[(String, Crate)]) -> BTreeMap<String, BTreeSet<String>> {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../crates");
     let others_of = |own: &String| -> BTreeSet<String> {
-        let manifest =
-            std::fs::read_to_string(root.join(own).join("Cargo.toml")).expect("a manifest");
+        let manifests = FOLDERS.map(|folder| Path::new(folder).join(own).join("Cargo.toml"));
+        let mut manifests = manifests.iter().map(std::fs::read_to_string);
+        let manifest = manifests.find_map(Result::ok).expect("a manifest");
         let needed = |name: &String| {
             let mut lines = manifest.lines();
             name != own

@@ -1,4 +1,4 @@
-//! One lobe point of a tool that vibrates in no axis, against `scripts/lobe_point.py`: a collocation and a
+//! One lobe point of a tool that vibrates in no axis, against `validation/scripts/lobe_point.py`: a collocation and a
 //! semi-discretisation that were written from the theory alone. The numbers are what it prints.
 
 #![allow(clippy::unwrap_used, reason = "a failing test may panic")]

@@ -2,7 +2,7 @@
 //!
 //! `expand [--diameter TOOL=MM ...] PROGRAM [FOLDER ...] > flat.ngc`: subprograms are looked for in the folder of the program
 //! and in the folders behind it. `expand [--diameter ...] [--folder ...] --into FOLDER PROGRAM ...`: each program is written
-//! into the folder under its name, and a line says what is refused (`scripts/compare_expanded_with_linuxcnc.py` reads it).
+//! into the folder under its name, and a line says what is refused (`validation/scripts/compare_expanded_with_linuxcnc.py` reads it).
 //! `--as-linuxcnc`: millimetres, the tool at zero, all offsets zero, other axes stand still; `--parameter NUMBER=VALUE`.
 
 use std::error::Error;

@@ -1,5 +1,5 @@
 //! Prints what programs mean, one line of JSON for each motion, so that another interpreter can be
-//! compared with this crate (`scripts/compare_with_linuxcnc.py` does).
+//! compared with this crate (`validation/scripts/compare_with_linuxcnc.py` does).
 //!
 //! `moves [--offsets] [--machine] [--correct none|smooth|jumps FOLDER] PROGRAM...`: with `-` the names are read
 //! from the standard input. `--offsets` gives each work coordinate system an origin of its own, `--machine` says that the

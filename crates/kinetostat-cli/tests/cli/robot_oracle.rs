@@ -1,7 +1,7 @@
 //! Compensated programs of arms against Pinocchio: where the real, elastic arm has its tool when a controller runs
 //! the program that was written.
 //!
-//! The script `scripts/robot_program_pinocchio.py` shares nothing with the command but files: it reads the programs
+//! The script `validation/scripts/robot_program_pinocchio.py` shares nothing with the command but files: it reads the programs
 //! itself, interpolates as the controller does, and finds commands, deflection and weight with Pinocchio.
 
 #![allow(clippy::unwrap_used, reason = "a failing test may panic")]
@@ -190,7 +190,7 @@ fn text(language: Language, tool: &str, [x, y, z]: [i32; 3]) -> String {
 fn asked(request: &Value) -> Option<Value> {
     let script = concat!(
         env!("CARGO_MANIFEST_DIR"),
-        "/../../scripts/robot_program_pinocchio.py"
+        "/../../validation/scripts/robot_program_pinocchio.py"
     );
     let started = Command::new("python3")
         .arg(script)

@@ -1,4 +1,4 @@
-//! A machine of closed loops under load against Exudyn: `scripts/platform_exudyn.py`.
+//! A machine of closed loops under load against Exudyn: `validation/scripts/platform_exudyn.py`.
 //!
 //! Without weight: the tangent by which Exudyn finds its modes has that of the springs and their preload, but not that of
 //! loads, so that a weight off the reference point is missing in it (7e-4 of `w^2` here). `platform.rs` has such a weight.

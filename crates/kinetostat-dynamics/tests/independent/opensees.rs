@@ -1,4 +1,4 @@
-//! Frequencies after a loaded step against OpenSees: `scripts/frame_opensees.py`.
+//! Frequencies after a loaded step against OpenSees: `validation/scripts/frame_opensees.py`.
 //!
 //! Its corotational beams converge in second order under axial load, and so do our segments where a frame bends far; both
 //! sides are extrapolated from two subdivisions before they are compared.

@@ -1,4 +1,4 @@
-//! A loaded machine of six elastic legs, off every axis, against `scripts/platform_modes.py`: a program that knows energies
+//! A loaded machine of six elastic legs, off every axis, against `validation/scripts/platform_modes.py`: a program that knows energies
 //! and nothing of Jacobians, tangents or multipliers' geometric stiffness. The numbers below are what it prints. It takes the strain of
 //! links from the library (rotation vector, not the three turns of the theory): see there.
 

@@ -7,7 +7,10 @@ use serde_json::Value;
 
 /// What a script under `scripts/` answers; `None`, said in words, where Python or what the script needs is not installed.
 pub fn ask(script: &str, needs: &str, request: &Value) -> Option<Value> {
-    let path = format!("{}/../../scripts/{script}", env!("CARGO_MANIFEST_DIR"));
+    let path = format!(
+        "{}/../../validation/scripts/{script}",
+        env!("CARGO_MANIFEST_DIR")
+    );
     let started = Command::new("python3")
         .arg(path)
         .stdin(Stdio::piped())

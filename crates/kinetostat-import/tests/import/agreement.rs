@@ -154,7 +154,7 @@ pub fn ask_pinocchio(urdf: &str, imported: &Imported, postures: &[Vec<f64>]) -> 
     });
     let script = concat!(
         env!("CARGO_MANIFEST_DIR"),
-        "/../../scripts/urdf_pinocchio.py"
+        "/../../validation/scripts/urdf_pinocchio.py"
     );
     let started = Command::new("python3")
         .arg(script)

@@ -1,6 +1,6 @@
 //! LinuxCNC's own tree of programs (Debian: linuxcnc-uspace): each file is taken or refused as docs/linuxcnc-nc_files.csv says.
 //!
-//! The table is made by `scripts/nc_files_with_linuxcnc.py`, which also compares every program that is taken with LinuxCNC's
+//! The table is made by `validation/scripts/nc_files_with_linuxcnc.py`, which also compares every program that is taken with LinuxCNC's
 //! interpreter. The files are GPL and not part of the repository.
 
 use std::collections::BTreeMap;

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Every file of LinuxCNC's tree of programs: taken by `expand` or refused, and what LinuxCNC itself says.
 
-    scripts/nc_files_with_linuxcnc.py [--tree FOLDER] [--write] [--keep FOLDER] [--expand FILE] [PROGRAM ...]
+    validation/scripts/nc_files_with_linuxcnc.py [--tree FOLDER] [--write] [--keep FOLDER] [--expand FILE] [PROGRAM ...]
 
 Writes (`--write`) or checks the table docs/linuxcnc-nc_files.csv: file, class, what kinetostat says without and with what the
 machine knows (units, where the tool is, offsets, diameters of tools, other axes stand still, the dialect), and LinuxCNC's
@@ -27,7 +27,7 @@ import tempfile
 
 from linuxcnc_tools import environment_with_tools, load_tools
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent
+ROOT = pathlib.Path(__file__).resolve().parents[2]
 TABLE = ROOT / "docs" / "linuxcnc-nc_files.csv"
 MM = 25.4
 PLACE_MM = 1e-9

@@ -69,7 +69,8 @@ fn quoted(cell: &str) -> Vec<&str> {
 /// All source of the workspace, tests included.
 fn source() -> String {
     let mut all = String::new();
-    for krate in fs::read_dir(root().join("crates")).expect("crates") {
+    let folders = ["crates", "validation"].map(|folder| fs::read_dir(root().join(folder)));
+    for krate in folders.into_iter().flat_map(|all| all.expect("crates")) {
         let krate = krate.expect("a crate").path();
         for folder in ["tests", "src"] {
             if krate.join(folder).is_dir() {
@@ -394,7 +395,7 @@ fn the_picture_of_the_readme_is_that_of_the_introduction() {
 
 #[test]
 fn no_example_escapes_the_tests() {
-    let tested = read(&root().join("crates/kinetostat-book/src/lib.rs"));
+    let tested = read(&root().join("validation/kinetostat-book/src/lib.rs"));
     let source = root().join("book/src");
     let (mut wrong, mut counts) = (Vec::new(), BTreeSet::new());
     for page in pages() {

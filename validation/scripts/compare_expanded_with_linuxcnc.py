@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Compares programs that kinetostat-program writes flat with LinuxCNC's interpreter: cutter radius compensation.
 
-    scripts/compare_expanded_with_linuxcnc.py [--programs N] [--seed N] [--keep FOLDER] [--lines N] [--expand FILE]
+    validation/scripts/compare_expanded_with_linuxcnc.py [--programs N] [--seed N] [--keep FOLDER] [--lines N] [--expand FILE]
 
 Random contours (in XY and ZX; lines, arcs and circles, corners of all angles, both sides, places and increments, inches and millimetres,
 work offsets, G92, moves in depth, rapids, stops) are run by LinuxCNC as they are, and as kinetostat has written them flat.

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Compares kinetostat-program with LinuxCNC's interpreter, an independent reader of G-code.
 
-    scripts/compare_with_linuxcnc.py [--programs N] [--mutants N] [--corrected N] [--seed N]
+    validation/scripts/compare_with_linuxcnc.py [--programs N] [--mutants N] [--corrected N] [--seed N]
                                      [--keep FOLDER] [--lines N] [--moves FILE] [PROGRAM ...]
 
 Four comparisons over random programs (the same for the same seed):
@@ -31,7 +31,7 @@ import tempfile
 
 from linuxcnc_tools import environment_with_tools, load_tools
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent
+ROOT = pathlib.Path(__file__).resolve().parents[2]
 MM = 25.4
 PLACE_MM = 1e-6
 # Of G28 and G30, as `moves --machine` has them.
