@@ -30,13 +30,10 @@ pub(crate) fn read_again(
     files: &[(String, Vec<u8>)],
     language: MakeLanguage,
 ) -> Result<Vec<ReadMotion>, MakeError> {
-    match language {
-        MakeLanguage::Krl => of_robot(files, Language::Krl),
-        MakeLanguage::Rapid => of_robot(files, Language::Rapid),
-        MakeLanguage::FanucLs => of_robot(files, Language::FanucLs),
-        MakeLanguage::Apt => of_robot(files, Language::Apt),
-        MakeLanguage::Gcode => of_gcode(files),
-        MakeLanguage::Csv => of_table(files),
+    match (language, language.language()) {
+        (MakeLanguage::Csv, _) => of_table(files),
+        (_, Some(language)) => of_robot(files, language),
+        (_, None) => of_gcode(files),
     }
 }
 
