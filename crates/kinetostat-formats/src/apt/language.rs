@@ -2,6 +2,7 @@
 
 use crate::apt::flat::expand::expand_apt;
 use crate::apt::reader::parse_apt;
+use crate::apt::spindle::spindle_changes;
 use crate::apt::table::APT_STATEMENTS;
 use crate::apt::write::write_apt;
 use crate::error::WriteError;
@@ -14,6 +15,7 @@ use crate::table::StatementRow;
 use crate::text::flat::FlatText;
 use crate::text::source::SourceFile;
 use crate::writing::piece::Piece;
+use kinetostat_program::SpindleChange;
 
 /// APT and CLDATA.
 pub(crate) struct AptLanguage;
@@ -74,5 +76,65 @@ impl ProgramLanguage for AptLanguage {
 
     fn held_word(&self) -> Option<&'static str> {
         Some("GOTO")
+    }
+
+    fn is_of_robot(&self) -> bool {
+        false
+    }
+
+    fn is_loaded(&self) -> bool {
+        false
+    }
+
+    fn states_turn(&self) -> bool {
+        false
+    }
+
+    /// A `;` begins no comment.
+    fn takes_origin(&self, _line: &[u8]) -> bool {
+        false
+    }
+
+    fn has_rapid_word(&self) -> bool {
+        true
+    }
+
+    fn is_rapid(&self, speed: &str) -> bool {
+        speed.to_ascii_uppercase().starts_with("RAPID")
+    }
+
+    fn spindle_is_in_path(&self) -> bool {
+        true
+    }
+
+    fn spindle_changes(&self, file: &SourceFile) -> Vec<SpindleChange> {
+        spindle_changes(file)
+    }
+
+    fn code_of<'t>(&self, statement: &'t str) -> &'t str {
+        statement.split("$$").next().unwrap_or_default()
+    }
+
+    fn order_words(&self) -> &'static [&'static str] {
+        &[
+            "GOTO", "RAPID", "FEDRAT", "UNITS", "UNIT", "MULTAX", "TLAXIS", "PARTNO", "TRNTYP",
+            "FINI", "END",
+        ]
+    }
+
+    fn speed_remedy(&self) -> &'static str {
+        "state FEDRAT as a number (and SPINDL, where it is by turns), or state unstated_feed_mm_per_s in the template"
+    }
+
+    fn keeps_direction(&self) -> bool {
+        true
+    }
+
+    fn comment_behind_statement(&self) -> Option<&'static str> {
+        Some("$$")
+    }
+
+    fn jumps(&self) -> &'static [&'static str] {
+        &["JUMPTO", "LOOPST"]
     }
 }

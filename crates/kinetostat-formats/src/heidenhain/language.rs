@@ -106,4 +106,45 @@ impl ProgramLanguage for HeidenhainLanguage {
     fn numbered_again(&self, program: &[u8]) -> Option<Vec<u8>> {
         is_numbered(program).then(|| numbered_again(program))?
     }
+
+    fn is_of_robot(&self) -> bool {
+        false
+    }
+
+    fn is_in_blocks(&self) -> bool {
+        true
+    }
+
+    fn states_turn(&self) -> bool {
+        false
+    }
+
+    fn takes_origin(&self, line: &[u8]) -> bool {
+        let upper = line.to_ascii_uppercase();
+        let words = upper.split(|byte| byte.is_ascii_whitespace());
+        let mut words = words.skip_while(|word| word.iter().all(u8::is_ascii_digit));
+        let (first, second) = (words.next().unwrap_or_default(), words.next());
+        let ends = matches!(first, b"BEGIN" | b"END") && second == Some(b"PGM");
+        !first.is_empty() && !first.starts_with(b"*") && !ends && !line.ends_with(b"~")
+    }
+
+    fn is_rapid(&self, speed: &str) -> bool {
+        speed == "FMAX"
+    }
+
+    fn words_of_direction(&self) -> Option<&'static str> {
+        Some("TX, TY, TZ")
+    }
+
+    fn speed_remedy(&self) -> &'static str {
+        "write F as a number of mm/min (FZ, FU, FT and F AUTO state none; with M136 S in TOOL CALL and M3, too), or state unstated_feed_mm_per_s in the template"
+    }
+
+    fn has_centres(&self) -> bool {
+        true
+    }
+
+    fn goes_on_great_circles(&self) -> bool {
+        false
+    }
 }

@@ -2,10 +2,14 @@
 
 use crate::error::WriteError;
 use crate::krl::reader::{expand_krl, is_data_list, parse_krl};
+use crate::krl::system_frames::krl_needs_config;
 use crate::krl::table::KRL_STATEMENTS;
 use crate::krl::writing::write::write_krl;
+use crate::model::orientation::OrientationText;
 use crate::model::parsed::Parsed;
 use crate::model::program::RobotProgram;
+use crate::model::stated_arm::StatedArm;
+use crate::model::target::Configuration;
 use crate::options::{ReadOptions, WriteOptions};
 use crate::program_language::{ProgramLanguage, WrittenFile, of_run};
 use crate::refused_run::RefusedRun;
@@ -13,6 +17,22 @@ use crate::table::StatementRow;
 use crate::text::flat::FlatText;
 use crate::text::source::SourceFile;
 use crate::writing::piece::Piece;
+use nalgebra::Vector3;
+
+/// Variables that say how fast the arm moves beside `$VEL.CP`.
+const DYNAMICS: [&str; 8] = [
+    "ACC",
+    "ACC_AXIS",
+    "VEL_AXIS",
+    "ACC_AXIS_C",
+    "VEL_AXIS_C",
+    "ACC_EXTAX",
+    "VEL_EXTAX",
+    "OV_PRO",
+];
+
+/// Settings of `BAS` that do.
+const DYNAMICS_OF_BAS: [&str; 5] = ["VEL_PTP", "ACC_PTP", "ACC_CP", "PTP_PARAMS", "PTP_DAT"];
 
 /// KUKA KRL.
 pub(crate) struct KrlLanguage;
@@ -85,5 +105,156 @@ impl ProgramLanguage for KrlLanguage {
 
     fn header_below(&self) -> Option<&'static str> {
         Some("DEF")
+    }
+
+    fn data_ending(&self) -> Option<&'static str> {
+        Some("dat")
+    }
+
+    fn files_are_joined(&self) -> bool {
+        true
+    }
+
+    fn needs_config(&self, files: &[SourceFile]) -> bool {
+        krl_needs_config(files)
+    }
+
+    fn usual_tool_axis(&self) -> Vector3<f64> {
+        -Vector3::x()
+    }
+
+    fn tool_axis_is_open(&self) -> bool {
+        true
+    }
+
+    fn orientation_of_controller(&self) -> Option<OrientationText> {
+        Some(OrientationText::Abc)
+    }
+
+    fn stated_arm(&self, configuration: &Configuration) -> StatedArm {
+        let says_s = configuration.text.trim_start().starts_with(['S', 's']);
+        let status = configuration.numbers.first().filter(|_| says_s);
+        StatedArm::of_bits(status, [1, 2, 4])
+    }
+
+    fn words_of_arm(&self, arm: &StatedArm) -> Option<String> {
+        Some(format!("S {}", arm.in_bits([1, 2, 4])?))
+    }
+
+    fn elbow_flag_is_up(&self) -> bool {
+        true
+    }
+
+    fn wrist_is_sign_of_axis_5(&self) -> bool {
+        true
+    }
+
+    fn name_of_external_axis(&self, axis: usize) -> String {
+        format!("external axis E{}", axis + 1)
+    }
+
+    fn modes_of_motions(&self) -> &'static str {
+        ", or how motions behind it go (`$ORI_TYPE`, `$CIRC_TYPE`, `$ACC`, `$APO`)"
+    }
+
+    fn pieces_pass_their_ends(&self) -> bool {
+        true
+    }
+
+    fn code_of<'t>(&self, statement: &'t str) -> &'t str {
+        statement.split(';').next().unwrap_or_default()
+    }
+
+    fn order_words(&self) -> &'static [&'static str] {
+        &[
+            "&",
+            "DEF",
+            "DEFFCT",
+            "DEFDAT",
+            "END",
+            "ENDFCT",
+            "ENDDAT",
+            "ENDIF",
+            "ENDLOOP",
+            "ENDFOR",
+            "ENDWHILE",
+            "ENDSWITCH",
+            "DECL",
+            ";FOLD",
+            ";ENDFOLD",
+            "; ENDFOLD",
+            "INI",
+            "$BASE",
+            "$TOOL",
+            "$VEL",
+            "$APO",
+            "PDAT_ACT",
+            "FDAT_ACT",
+            "LDAT_ACT",
+            "BAS",
+            "BASE_DATA",
+            "TOOL_DATA",
+            "$BWDSTART",
+            "EXT",
+            "EXTFCT",
+            "INT ",
+            "REAL ",
+            "BOOL ",
+            "E6POS ",
+            "FRAME ",
+            "POS ",
+            "$ACC",
+            // Followed, or refused where the tool would go or turn otherwise.
+            "SPLINE",
+            "ENDSPLINE",
+            "$IPO_MODE",
+            "$ORI_TYPE",
+            "$CIRC_TYPE",
+            "$CIRC_MODE",
+        ]
+    }
+
+    fn states_dynamics(&self, words: &[&str]) -> bool {
+        match words {
+            ["VEL", "ORI1" | "ORI2", ..] => true,
+            ["BAS", what, ..] => DYNAMICS_OF_BAS.contains(what),
+            [first, rest @ ..] => {
+                // Behind WITH they hold for a motion.
+                let with = rest.iter().position(|word| *word == "WITH");
+                let own = with.map_or(&[][..], |with| &rest[with..]);
+                (DYNAMICS.contains(first) && !rest.is_empty())
+                    || own.iter().any(|word| DYNAMICS.contains(word))
+            }
+            [] => false,
+        }
+    }
+
+    /// LIN and CIRC with `#VAR` do, and turn with `$VEL.ORI1` and `$VEL.ORI2`. Of motions of a spline nothing is published: they count as
+    /// turns about one axis.
+    fn swivels(&self, word: &[u8]) -> bool {
+        word.eq_ignore_ascii_case(b"LIN") || word.eq_ignore_ascii_case(b"CIRC")
+    }
+
+    /// `$VEL.CP` takes no more.
+    fn most_speed_mm_per_s(&self) -> Option<f64> {
+        Some(3000.0)
+    }
+
+    fn numbers_frames(&self) -> bool {
+        true
+    }
+
+    fn comment_behind_statement(&self) -> Option<&'static str> {
+        Some(";")
+    }
+
+    fn routines(&self) -> [&'static [&'static str]; 2] {
+        [&["DEF", "DEFFCT"], &["END", "ENDFCT"]]
+    }
+
+    fn opens_block(&self, words: &[String]) -> bool {
+        let opening = ["IF", "FOR", "WHILE", "LOOP", "REPEAT", "SWITCH"];
+        let first = words.first();
+        first.is_some_and(|first| opening.contains(&first.as_str()))
     }
 }

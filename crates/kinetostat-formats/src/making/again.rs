@@ -90,7 +90,7 @@ fn of_robot(files: &[(String, Vec<u8>)], language: Language) -> Result<Vec<ReadM
             }
             _ => Curve::Line,
         };
-        let by_axis = language == Language::Apt;
+        let by_axis = !language.states_turn();
         motions.push(ReadMotion {
             line: starts[motion.file] + motion.line,
             place: pose.position_mm,

@@ -82,4 +82,25 @@ impl ProgramLanguage for PosesLanguage {
             _ => Some(below).filter(|_| lines.next().is_some_and(|first| first.contains(&b','))),
         }
     }
+
+    fn is_of_robot(&self) -> bool {
+        false
+    }
+
+    fn is_list(&self) -> bool {
+        true
+    }
+
+    fn is_loaded(&self) -> bool {
+        false
+    }
+
+    /// Rows and keys state poses; the rest of a list goes with its pose.
+    fn order_words(&self) -> &'static [&'static str] {
+        &[""]
+    }
+
+    fn speed_remedy(&self) -> &'static str {
+        "write it as speed_mm_per_s, or state unstated_feed_mm_per_s in the template"
+    }
 }

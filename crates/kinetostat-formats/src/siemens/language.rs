@@ -4,6 +4,7 @@ use crate::error::WriteError;
 use crate::model::parsed::Parsed;
 use crate::model::program::RobotProgram;
 use crate::options::{ReadOptions, WriteOptions};
+use crate::program_language::SPEED_REMEDY_OF_BLOCKS;
 use crate::program_language::{ProgramLanguage, WrittenFile, with_ending};
 use crate::refused_run::RefusedRun;
 use crate::siemens::flat::run_or_refused;
@@ -99,6 +100,39 @@ impl ProgramLanguage for SiemensLanguage {
             line.to_ascii_uppercase().starts_with(b";$PATH") && line.ends_with(b"\n")
         };
         Some(below + next.filter(is_path).map_or(0, <[u8]>::len))
+    }
+
+    fn is_of_robot(&self) -> bool {
+        false
+    }
+
+    fn is_in_blocks(&self) -> bool {
+        true
+    }
+
+    fn has_slash_switch(&self) -> bool {
+        true
+    }
+
+    fn states_turn(&self) -> bool {
+        false
+    }
+
+    fn is_rapid(&self, speed: &str) -> bool {
+        speed == "G0"
+    }
+
+    fn words_of_direction(&self) -> Option<&'static str> {
+        Some("A3, B3, C3")
+    }
+
+    fn speed_remedy(&self) -> &'static str {
+        SPEED_REMEDY_OF_BLOCKS
+    }
+
+    /// A CIP stands in place of G2 and G3.
+    fn writes_circles(&self, _is_fixed: bool) -> bool {
+        true
     }
 }
 
