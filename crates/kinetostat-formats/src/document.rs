@@ -2,33 +2,12 @@
 
 use std::collections::BTreeSet;
 
-use crate::apt::flat::expand::expand_apt;
-use crate::apt::reader::read_apt;
-use crate::apt::write::write_apt;
 use crate::error::{ProgramError, WriteError};
-use crate::heidenhain::expand::flat::run_or_refused as run_heidenhain;
-use crate::heidenhain::expand::program::called as called_by_heidenhain;
-use crate::heidenhain::reading::reader::read_heidenhain;
-use crate::heidenhain::writing::write::write_heidenhain;
-use crate::krl::reader::{expand_krl, is_data_list, read_krl};
-use crate::krl::writing::write::write_krl;
-use crate::ls::reader::read_ls;
-use crate::ls::write::write_ls;
 use crate::model::language::Language;
 use crate::model::program::RobotProgram;
 use crate::options::{ReadOptions, WriteOptions};
-use crate::poses::reader::read_poses;
-use crate::poses::write::write_poses;
-use crate::rapid::reader::{expand_rapid, read_rapid};
-use crate::rapid::write::RapidSyntax;
-use crate::refused_run::RefusedRun;
-use crate::siemens::flat::run_or_refused as run_siemens;
-use crate::siemens::flat::unresolved::called as called_by_siemens;
-use crate::siemens::reader::read_siemens;
-use crate::siemens::writing::write::write_siemens;
 use crate::text::flat::FlatText;
 use crate::text::source::SourceFile;
-use crate::writing::motions::write_with;
 use crate::writing::piece::Piece;
 
 /// Reads the files of a program together.
@@ -51,15 +30,7 @@ pub fn read(
     options: &ReadOptions,
 ) -> Result<RobotProgram, Vec<ProgramError>> {
     ended_by_line_feeds(language, &files)?;
-    match language {
-        Language::Rapid => read_rapid(files, options),
-        Language::FanucLs => read_ls(files, options),
-        Language::Apt => read_apt(files, options),
-        Language::Krl => read_krl(files, options),
-        Language::Poses => read_poses(files, options),
-        Language::Siemens => read_siemens(files, options),
-        Language::Heidenhain => read_heidenhain(files, options),
-    }
+    language.parse(files, options).without_faults()
 }
 
 /// Runs a program once and writes it flat, where its language has loops, jumps and calls that are followed so; `None` where the reader
@@ -82,15 +53,7 @@ pub fn expand(
     options: &ReadOptions,
 ) -> Result<Option<FlatText>, Vec<ProgramError>> {
     ended_by_line_feeds(language, &files)?;
-    let done = match language {
-        Language::Heidenhain => run_heidenhain(&files, options),
-        Language::Siemens => run_siemens(&files, options),
-        Language::Apt => expand_apt(&files).map_err(RefusedRun::from),
-        Language::Rapid => expand_rapid(&files, options).map_err(RefusedRun::from),
-        Language::Krl => expand_krl(&files, options).map_err(RefusedRun::from),
-        _ => return Ok(None),
-    };
-    done.map(Some).map_err(|refused| {
+    language.expand(&files, options).map_err(|refused| {
         refused.with_reading(&files, |flat| {
             read(language, vec![flat], options)
                 .err()
@@ -110,13 +73,12 @@ pub fn expand(
 /// ```
 #[must_use]
 pub fn stays_beside_flat(language: Language, file: &SourceFile) -> bool {
-    language == Language::Krl && is_data_list(file)
+    language.stays_beside_flat(file)
 }
 
 /// A file whose lines end with a carriage return alone would be one line: refused, as no controller reads it.
 fn ended_by_line_feeds(language: Language, files: &[SourceFile]) -> Result<(), Vec<ProgramError>> {
-    // Tables may be binary, and their readers know all endings.
-    if language == Language::Poses {
+    if language.reads_all_line_ends() {
         return Ok(());
     }
     let is_one_line = |file: &&SourceFile| {
@@ -153,14 +115,10 @@ fn ended_by_line_feeds(language: Language, files: &[SourceFile]) -> Result<(), V
 /// ```
 #[must_use]
 pub fn called_files(language: Language, file: &SourceFile) -> Vec<String> {
-    let (names, ending) = match language {
-        Language::Siemens => (called_by_siemens(file), "SPF"),
-        Language::Heidenhain => (called_by_heidenhain(file), "H"),
-        _ => return Vec::new(),
-    };
     let mut known = BTreeSet::new();
-    let names = names.into_iter().filter(|name| known.insert(name.clone()));
-    names.map(|name| format!("{name}.{ending}")).collect()
+    let mut names = language.called_files(file);
+    names.retain(|name| known.insert(name.clone()));
+    names
 }
 
 /// The files of a program with pieces in place of its motions: names and bytes, in the order of the files.
@@ -195,13 +153,5 @@ pub fn write(
     pieces: &[Piece],
     options: &WriteOptions,
 ) -> Result<Vec<(String, Vec<u8>)>, WriteError> {
-    match program.language {
-        Language::Rapid => write_with(program, pieces, options, &RapidSyntax),
-        Language::FanucLs => write_ls(program, pieces, options),
-        Language::Apt => write_apt(program, pieces, options),
-        Language::Krl => write_krl(program, pieces, options),
-        Language::Poses => write_poses(program, pieces, options),
-        Language::Siemens => write_siemens(program, pieces, options),
-        Language::Heidenhain => write_heidenhain(program, pieces, options),
-    }
+    program.language.write(program, pieces, options)
 }

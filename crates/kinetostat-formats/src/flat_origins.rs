@@ -46,18 +46,5 @@ impl FlatText {
 /// Whether a line is a block that a comment may stand behind.
 fn is_block(language: Language, text: &[u8]) -> bool {
     let text = text.trim_ascii_start();
-    let upper = text.to_ascii_uppercase();
-    let words = upper.split(|byte| byte.is_ascii_whitespace());
-    let mut words = words.skip_while(|word| word.iter().all(u8::is_ascii_digit));
-    let (first, second) = (words.next().unwrap_or_default(), words.next());
-    let own = match language {
-        Language::Heidenhain => {
-            let ends = matches!(first, b"BEGIN" | b"END") && second == Some(b"PGM");
-            first.is_empty() || first.starts_with(b"*") || ends || text.ends_with(b"~")
-        }
-        // `;` begins no comment there.
-        Language::Apt | Language::Rapid => true,
-        _ => text.is_empty() || text.starts_with(b"%"),
-    };
-    !own && text.len() <= LONGEST && !text.contains(&b';')
+    language.takes_origin(text) && text.len() <= LONGEST && !text.contains(&b';')
 }

@@ -17,45 +17,15 @@ const SHARED: [&str; 7] = ["prg", "sys", "sysx", "dat", "sub", "cl", "h"];
 /// assert!(Language::ALL.iter().all(|language| !endings_of(*language).is_empty()));
 /// ```
 #[must_use]
-pub const fn endings_of(language: Language) -> &'static [&'static str] {
-    match language {
-        Language::Rapid => &["mod", "modx", "prg", "sys", "sysx"],
-        Language::Krl => &["src", "dat", "sub"],
-        Language::FanucLs => &["ls"],
-        Language::Apt => &["apt", "cls", "cl", "aptsource", "apt_source", "cldata"],
-        Language::Poses => &["csv", "tsv", "yaml", "yml", "parquet"],
-        Language::Siemens => &["mpf", "spf"],
-        Language::Heidenhain => &["h"],
-    }
-}
-
-/// What a file of a language holds where its ending alone does not say it, and a short name of the language.
-fn held_by(language: Language) -> Option<(&'static str, &'static str)> {
-    match language {
-        Language::Rapid => Some(("MODULE", "RAPID")),
-        Language::Krl => Some(("DEF", "KRL")),
-        Language::FanucLs => Some(("/PROG", "FANUC")),
-        Language::Apt => Some(("GOTO", "APT")),
-        Language::Heidenhain => Some(("BEGIN PGM", "Heidenhain")),
-        // None of them is ever anything else that is read.
-        Language::Poses | Language::Siemens => None,
-    }
+pub fn endings_of(language: Language) -> &'static [&'static str] {
+    language.endings()
 }
 
 /// The language whose files have an ending.
 fn by_ending(ending: &str) -> Option<Language> {
-    let all = Language::ALL.into_iter();
-    all.into_iter()
-        .find(|language| endings_of(*language).contains(&ending))
+    let mut all = Language::ALL.into_iter();
+    all.find(|language| language.endings().contains(&ending))
 }
-
-/// Words in which a language differs from G-code, and the ending that its files have.
-const OWN_WORDS: [(&str, &str, &str); 4] = [
-    ("ENDMODULE", "RAPID", "mod"),
-    ("ENDDAT", "KRL", "dat"),
-    ("&ACCESS", "KRL", "src"),
-    ("/PROG", "FANUC", "ls"),
-];
 
 /// Why a file that [`language_of`] does not know is hardly G-code, and what to do; `None` where it may be.
 ///
@@ -73,7 +43,8 @@ pub fn odd_program(name: &str, bytes: &[u8]) -> Option<String> {
         .map(|(_, ending)| ending.to_ascii_lowercase());
     let own = ending.filter(|ending| !SHARED.contains(&ending.as_str()));
     let known = own.and_then(|ending| by_ending(&ending));
-    if let Some((word, language)) = known.and_then(held_by) {
+    let held = known.and_then(|language| Some((language.held_word()?, language.name())));
+    if let Some((word, language)) = held {
         return Some(format!(
             "its ending is that of {language}, and no `{word}` stands in it: give the program as the controller saves it"
         ));
@@ -83,10 +54,16 @@ pub fn odd_program(name: &str, bytes: &[u8]) -> Option<String> {
         let mut parts = beginning.windows(word.len());
         parts.any(|part| part == word.as_bytes())
     };
-    let (_, language, ending) = OWN_WORDS.iter().find(|(word, _, _)| holds(word))?;
-    Some(format!(
-        "it looks like {language}, and its ending is not .{ending}: give the file that ending"
-    ))
+    let known = Language::ALL.iter().find_map(|language| {
+        let mut own = language.own_words().iter();
+        let found = own.find(|(word, _)| holds(word))?;
+        Some((language.name(), found.1))
+    });
+    known.map(|(language, ending)| {
+        format!(
+            "it looks like {language}, and its ending is not .{ending}: give the file that ending"
+        )
+    })
 }
 
 /// The language of a file by the ending of its name and what stands in it; `None` where it is none of these languages.
@@ -109,33 +86,10 @@ pub fn language_of(name: &str, bytes: &[u8]) -> Option<Language> {
             .any(|part| part == word.as_bytes())
     };
     if let Some(language) = by_ending(&ending) {
-        let is_held = held_by(language).is_none_or(|(word, _)| holds(word));
+        let is_held = language.held_word().is_none_or(holds);
         return is_held.then_some(language);
     }
     let shared = ["nc", "cnc", "tap", "ngc", "iso", "txt"].contains(&ending.as_str());
-    (shared && is_siemens(&beginning)).then_some(Language::Siemens)
-}
-
-/// Whether a program that may as well be G-code has lines that only a SINUMERIK reads; in capitals.
-fn is_siemens(beginning: &[u8]) -> bool {
-    beginning.split(|byte| *byte == b'\n').any(|line| {
-        let line = line.trim_ascii();
-        let numbered = line
-            .strip_prefix(b"N")
-            .filter(|rest| rest.first().is_some_and(u8::is_ascii_digit));
-        let digits = numbered.map_or(0, |rest| {
-            1 + rest.iter().take_while(|byte| byte.is_ascii_digit()).count()
-        });
-        let words = line[digits..].trim_ascii_start();
-        let cycle = words.strip_prefix(b"CYCLE8").is_some_and(|rest| {
-            let digits = rest.iter().take_while(|byte| byte.is_ascii_digit()).count();
-            digits > 0 && rest.get(digits) == Some(&b'(')
-        });
-        cycle
-            || words.starts_with(b"%_N_")
-            || words.starts_with(b"DEF REAL ")
-            || words == b"TRAORI"
-            || words.starts_with(b"TRAORI(")
-            || words.starts_with(b"TRAORI ")
-    })
+    let mut all = Language::ALL.into_iter().filter(|_| shared);
+    all.find(|language| language.is_beginning(&beginning))
 }

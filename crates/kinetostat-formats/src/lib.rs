@@ -37,6 +37,9 @@
 //! assert!(output.contains("MoveJ Offs(p1,0,0,50),v500,z10,tool0;\nMoveL p1_2,v20,fine,tool0;"));
 //! ```
 
+#[macro_use]
+mod registry;
+
 mod apt;
 mod axis_count;
 mod corner;
@@ -59,6 +62,7 @@ mod model;
 mod options;
 mod path;
 mod poses;
+mod program_language;
 mod rapid;
 mod refused_run;
 mod siemens;

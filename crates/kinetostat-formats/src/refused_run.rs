@@ -14,7 +14,7 @@ const NOT_RUN: &str = " (the lines behind this one were not run: what they do de
 const MOST_FAULTS: usize = 100_000;
 
 /// Why a program is not written flat.
-pub(crate) struct RefusedRun {
+pub struct RefusedRun {
     pub faults: Vec<ProgramError>,
     /// What was written all the same, with refused lines as they stand in their files.
     pub flat: Option<Box<FlatText>>,

@@ -51,8 +51,8 @@ pub(crate) fn as_joints(
     start.base = base;
     // Those of G-code are.
     let language = read.robot().map(|robot| robot.program.language);
-    start.straight_rapids =
-        template.rapids == Rapids::Linear && language.is_none_or(Language::rapids_are_straight);
+    start.straight_rapids = template.rapids == Rapids::Linear
+        && language.is_none_or(|language| language.rapids_are_straight());
     start.near = match &template.start_joints_deg {
         Some(joints) => joints.clone(),
         None => {

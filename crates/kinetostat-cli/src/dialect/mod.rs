@@ -9,7 +9,7 @@ mod rows;
 use serde::Serialize;
 
 use crate::dialect::arguments::{DialectArgs, DialectCommand};
-use crate::dialect::languages::{LANGUAGES, Language};
+use crate::dialect::languages::{Language, languages};
 use crate::dialect::rows::{Row, rows};
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::json;
@@ -36,16 +36,16 @@ pub(crate) fn run(args: &DialectArgs) -> Answer<()> {
         kinetostat_version: env!("CARGO_PKG_VERSION"),
         language: language.name,
         endings: language.endings,
-        words: rows(language),
+        words: rows(&language),
     };
-    json::print_answer(&text(language, &table), &table, show.json)
+    json::print_answer(&text(&language, &table), &table, show.json)
 }
 
-fn named(name: &str) -> Answer<&'static Language> {
+fn named(name: &str) -> Answer<Language> {
     let lower = name.to_lowercase();
-    let found = LANGUAGES.iter().find(|language| language.name == lower);
+    let found = languages().find(|language| language.name == lower);
     found.ok_or_else(|| {
-        let names: Vec<&str> = LANGUAGES.iter().map(|language| language.name).collect();
+        let names: Vec<&str> = languages().map(|language| language.name).collect();
         Failure::input(format!(
             "there is no language `{name}`; there are: {}",
             names.join(", ")
@@ -54,7 +54,7 @@ fn named(name: &str) -> Answer<&'static Language> {
 }
 
 fn list() -> Answer<()> {
-    let row = |language: &Language| {
+    let row = |language: Language| {
         let endings: Vec<String> = language.endings.iter().map(|e| format!(".{e}")).collect();
         vec![
             language.name.to_owned(),
@@ -62,7 +62,7 @@ fn list() -> Answer<()> {
             endings.join(" "),
         ]
     };
-    let all: Vec<Vec<String>> = LANGUAGES.iter().map(row).collect();
+    let all: Vec<Vec<String>> = languages().map(row).collect();
     screen::print(Stream::Out, &listed(&all, 0))
 }
 

@@ -11,6 +11,7 @@ pub(crate) mod arc;
 pub(crate) mod dialect;
 pub(crate) mod file_reader;
 pub(crate) mod flat;
+pub(crate) mod language;
 pub(crate) mod lines;
 pub(crate) mod motions;
 pub(crate) mod numbers;

@@ -16,6 +16,7 @@ pub(crate) mod digits;
 pub(crate) mod ends;
 pub(crate) mod expand;
 pub(crate) mod flow;
+pub(crate) mod language;
 pub(crate) mod numbering;
 pub(crate) mod path_words;
 pub(crate) mod plane;

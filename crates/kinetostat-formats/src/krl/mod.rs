@@ -18,6 +18,7 @@ pub(crate) mod folds;
 mod frames;
 mod instructions;
 pub(crate) mod kept;
+pub(crate) mod language;
 pub(crate) mod lex;
 pub(crate) mod loads;
 mod motion;

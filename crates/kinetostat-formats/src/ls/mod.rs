@@ -15,6 +15,7 @@ mod ends;
 mod expression;
 mod found;
 mod instructions;
+pub(crate) mod language;
 pub(crate) mod lines;
 mod linking;
 mod made_motion;

@@ -30,13 +30,10 @@ pub(crate) fn read_again(
     files: &[(String, Vec<u8>)],
     language: MakeLanguage,
 ) -> Result<Vec<ReadMotion>, MakeError> {
-    match language {
-        MakeLanguage::Krl => of_robot(files, Language::Krl),
-        MakeLanguage::Rapid => of_robot(files, Language::Rapid),
-        MakeLanguage::FanucLs => of_robot(files, Language::FanucLs),
-        MakeLanguage::Apt => of_robot(files, Language::Apt),
-        MakeLanguage::Gcode => of_gcode(files),
-        MakeLanguage::Csv => of_table(files),
+    match (language, language.language()) {
+        (MakeLanguage::Csv, _) => of_table(files),
+        (_, Some(language)) => of_robot(files, language),
+        (_, None) => of_gcode(files),
     }
 }
 
@@ -93,7 +90,7 @@ fn of_robot(files: &[(String, Vec<u8>)], language: Language) -> Result<Vec<ReadM
             }
             _ => Curve::Line,
         };
-        let by_axis = language == Language::Apt;
+        let by_axis = !language.states_turn();
         motions.push(ReadMotion {
             line: starts[motion.file] + motion.line,
             place: pose.position_mm,

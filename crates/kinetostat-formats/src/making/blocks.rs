@@ -27,10 +27,7 @@ impl Blocks {
 
     /// Jumps make the order of lines no order of time.
     pub(crate) fn jump(&mut self, words: &[String]) {
-        let jumps: &[&str] = match self.language {
-            Language::Apt => &["JUMPTO", "LOOPST"],
-            _ => &["GOTO", "JMP", "LBL", "SELECT", "INTERRUPT"],
-        };
+        let jumps = self.language.jumps();
         self.is_lost |= words.iter().any(|word| jumps.contains(&word.as_str()));
     }
 
@@ -40,16 +37,6 @@ impl Blocks {
             return;
         };
         let has = |word: &str| words.iter().any(|own| own == word);
-        let opens = match (self.language, first) {
-            // One instruction on a condition is one of its own.
-            (Language::Rapid, _) => {
-                has("IF") && has("THEN") || has("FOR") || has("WHILE") || has("TEST")
-            }
-            (Language::FanucLs, "IF") => has("THEN"),
-            (Language::Krl, "IF" | "FOR" | "WHILE" | "LOOP" | "REPEAT" | "SWITCH") => true,
-            (Language::FanucLs, "FOR") => true,
-            _ => false,
-        };
         let ends = [
             "ENDIF",
             "ENDFOR",
@@ -63,7 +50,7 @@ impl Blocks {
             .iter()
             .filter(|word| ends.contains(&word.as_str()))
             .count();
-        self.open += usize::from(opens);
+        self.open += usize::from(self.language.opens_block(words));
         match self.open.checked_sub(closes) {
             Some(open) => self.open = open,
             None => self.is_lost = true,
@@ -81,7 +68,7 @@ impl Blocks {
             "BACKWARD",
         ];
         let is_statement = leaves.contains(&first) && words.len() == 1 || has("RETURN");
-        self.is_lost |= is_statement && self.language != Language::Apt;
-        self.is_lost |= self.language == Language::FanucLs && matches!(first, "END" | "ABORT");
+        self.is_lost |= is_statement && self.language.is_of_robot();
+        self.is_lost |= self.language.ends_of_run().contains(&first);
     }
 }

@@ -41,8 +41,8 @@ pub(crate) fn computed_frames(program: &RobotProgram, template: &Template) -> Ve
 fn is_computed(language: Language, used: &FrameUse) -> bool {
     let name = used.name.as_str();
     let Some((_, inside)) = name.split_once(['[', '{', '(']) else {
-        // Tools and bases of KRL have numbers; where nothing sets $TOOL and $BASE, those of the controller count.
-        return language == Language::Krl && !name.starts_with('$');
+        // Where nothing sets $TOOL and $BASE, those of the controller count.
+        return language.numbers_frames() && !name.starts_with('$');
     };
     let index = inside.trim_end_matches([']', '}', ')']);
     index.trim().parse::<u32>().is_err()

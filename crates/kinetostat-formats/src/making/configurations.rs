@@ -14,12 +14,7 @@ use crate::text::line_words::in_words;
 
 /// Whether a program is made in the language of its source, of those whose targets state configurations.
 pub(crate) fn is_same(source: Language, made: MakeLanguage) -> bool {
-    matches!(
-        (source, made),
-        (Language::Krl, MakeLanguage::Krl)
-            | (Language::Rapid, MakeLanguage::Rapid)
-            | (Language::FanucLs, MakeLanguage::FanucLs)
-    )
+    source.is_of_robot() && made.language() == Some(source)
 }
 
 /// The configurations of every move of a path, where the source is in the same language.

@@ -10,63 +10,15 @@ use crate::model::program::RobotProgram;
 use crate::path::of_program::RobotPath;
 use crate::text::line_words::in_words;
 
-/// Variables of KRL that say how fast the arm moves beside `$VEL.CP`.
-const OF_KRL: [&str; 8] = [
-    "ACC",
-    "ACC_AXIS",
-    "VEL_AXIS",
-    "ACC_AXIS_C",
-    "VEL_AXIS_C",
-    "ACC_EXTAX",
-    "VEL_EXTAX",
-    "OV_PRO",
-];
-
-/// What `BAS` sets of it.
-const OF_BAS: [&str; 5] = ["VEL_PTP", "ACC_PTP", "ACC_CP", "PTP_PARAMS", "PTP_DAT"];
-
-/// Instructions of RAPID that do, wherever they stand on their line.
-const OF_RAPID: [&str; 5] = [
-    "VELSET",
-    "SPEEDREFRESH",
-    "ACCSET",
-    "PATHACCLIM",
-    "WORLDACCLIM",
-];
-
-/// Statements of TP programs.
-const OF_TP: [&str; 3] = ["OVERRIDE", "JOINT_MAX_SPEED", "LINEAR_MAX_SPEED"];
-
-/// Whether a line states such a thing.
-fn states(language: Language, words: &[String]) -> bool {
-    let words: Vec<&str> = words.iter().map(String::as_str).collect();
-    match (language, words.as_slice()) {
-        (Language::Krl, ["VEL", "ORI1" | "ORI2", ..]) => true,
-        (Language::Krl, ["BAS", what, ..]) => OF_BAS.contains(what),
-        (Language::Krl, [first, rest @ ..]) => {
-            // Behind WITH they hold for a motion.
-            let with = rest.iter().position(|word| *word == "WITH");
-            let own = with.map_or(&[][..], |with| &rest[with..]);
-            (OF_KRL.contains(first) && !rest.is_empty())
-                || own.iter().any(|word| OF_KRL.contains(word))
-        }
-        (Language::Rapid, all) => all.iter().any(|word| OF_RAPID.contains(word)),
-        (Language::FanucLs, [first, ..]) if OF_TP.contains(first) => true,
-        // Behind the zone of a motion.
-        (Language::FanucLs, ["J" | "L" | "C" | "A", others @ ..]) => others.iter().any(|word| {
-            let percent = word.strip_prefix("ACC");
-            percent.is_some_and(|percent| percent.bytes().all(|byte| byte.is_ascii_digit()))
-        }),
-        _ => false,
-    }
-}
-
-/// The lines of the file with the motions that do.
+/// Names the lines of the file with the motions that state such a thing.
 pub(crate) fn dynamics(program: &RobotProgram, file: usize) -> Option<MakeFinding> {
     let source = program.files.get(file)?;
-    let lines: Vec<usize> = (1..=source.line_count())
-        .filter(|line| states(program.language, &words_of(program.language, source, *line)))
-        .collect();
+    let states = |line: &usize| {
+        let words = words_of(program.language, source, *line);
+        let words: Vec<&str> = words.iter().map(String::as_str).collect();
+        program.language.states_dynamics(&words)
+    };
+    let lines: Vec<usize> = (1..=source.line_count()).filter(states).collect();
     Some(MakeFinding::of(
         *lines.first()?,
         format!(

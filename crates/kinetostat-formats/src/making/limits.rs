@@ -2,6 +2,7 @@
 
 use crate::file_form::FileForm;
 use crate::making::template::Template;
+use crate::model::language::Language;
 
 /// A language that a program is made in.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -58,6 +59,16 @@ const RAPID_SWEEP_RAD: f64 = 4.0 * std::f64::consts::PI / 180.0;
 const LS_MOST_POINTS: usize = 32_766;
 
 impl MakeLanguage {
+    /// Each of them once.
+    pub const ALL: [Self; 6] = [
+        Self::Krl,
+        Self::Rapid,
+        Self::FanucLs,
+        Self::Apt,
+        Self::Gcode,
+        Self::Csv,
+    ];
+
     /// Whether the controller of an arm runs it.
     pub(crate) fn is_of_an_arm(self) -> bool {
         matches!(self, Self::Krl | Self::Rapid | Self::FanucLs)
@@ -172,14 +183,41 @@ impl MakeLanguage {
     /// ```
     #[must_use]
     pub fn form(self) -> FileForm {
+        FileForm::of(self.language(), "", b"")
+    }
+
+    /// The language that reads it; `None` for G-code.
+    ///
+    /// ```
+    /// use kinetostat_formats::{Language, MakeLanguage};
+    ///
+    /// assert_eq!(MakeLanguage::Krl.language(), Some(Language::Krl));
+    /// assert_eq!(MakeLanguage::Gcode.language(), None);
+    /// ```
+    #[must_use]
+    pub const fn language(self) -> Option<Language> {
         match self {
-            Self::Krl => FileForm::Krl,
-            Self::Rapid => FileForm::Rapid,
-            Self::FanucLs => FileForm::FanucLs,
-            Self::Apt => FileForm::Apt,
-            Self::Gcode => FileForm::Gcode,
-            Self::Csv => FileForm::Csv,
+            Self::Krl => Some(Language::Krl),
+            Self::Rapid => Some(Language::Rapid),
+            Self::FanucLs => Some(Language::FanucLs),
+            Self::Apt => Some(Language::Apt),
+            Self::Csv => Some(Language::Poses),
+            Self::Gcode => None,
         }
+    }
+
+    /// The one that a language is made in (`None`: G-code), if programs are made in it.
+    ///
+    /// ```
+    /// use kinetostat_formats::{Language, MakeLanguage};
+    ///
+    /// assert_eq!(MakeLanguage::of(Some(Language::Poses)), Some(MakeLanguage::Csv));
+    /// assert_eq!(MakeLanguage::of(Some(Language::Siemens)), None);
+    /// ```
+    #[must_use]
+    pub fn of(language: Option<Language>) -> Option<Self> {
+        let mut all = Self::ALL.into_iter();
+        all.find(|made| made.language() == language)
     }
 
     /// Its name in sentences.

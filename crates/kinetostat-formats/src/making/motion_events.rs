@@ -74,7 +74,7 @@ fn events_of_motion(
     let begin = source.range_of(motion.line).start;
     let number = Some(number);
     let mut events = Vec::new();
-    if language == Language::Rapid && free.start <= begin {
+    if language.has_several_statements_a_line() && free.start <= begin {
         // What stands between two motions of a line is behind the first.
         let text = words(source.part(&(begin..motion.span.start.max(begin))));
         events.extend(of_line(language, motion.line, &text));
@@ -114,16 +114,9 @@ fn behind(
     let last = source.line_of(motion.span.end.saturating_sub(1));
     let end = source.range_of(last).end.min(next);
     let text = words(source.part(&(motion.span.end.min(end)..end)));
-    let comment = match language {
-        Language::Krl => ";",
-        Language::Apt => "$$",
-        _ => "!",
-    };
-    let is_said = match language {
-        Language::Rapid => true,
-        Language::Krl | Language::Apt => text.starts_with(comment),
-        _ => false,
-    };
+    let is_comment = |sign| text.starts_with(sign);
+    let is_said = language.has_several_statements_a_line()
+        || language.comment_behind_statement().is_some_and(is_comment);
     let found = match is_said {
         true => of_line(language, motion.line, &text),
         false => Vec::new(),

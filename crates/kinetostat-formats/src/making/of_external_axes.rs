@@ -1,7 +1,6 @@
 //! External axes of a source, which no made program states: where they stand is named.
 
 use crate::making::fault::MakeFinding;
-use crate::model::external::name_of_axis;
 use crate::model::motion::Motion;
 use crate::model::program::RobotProgram;
 
@@ -27,7 +26,7 @@ pub(crate) fn external_axes(program: &RobotProgram) -> Vec<MakeFinding> {
         let is_open =
             |motion: &Motion| motion.target.pose().is_some() && at(&motion.site.external).is_none();
         let moves = all().filter_map(at).any(|other| other != value) || before.any(is_open);
-        let name = name_of_axis(program.language, axis);
+        let name = program.language.name_of_external_axis(axis);
         found.push(MakeFinding::of(
             Some(first.line),
             match moves {

@@ -312,11 +312,7 @@ fn base_by_number(
         _ => return None,
     };
     // The part of APT and of tables is that of the template.
-    let has_name = matches!(
-        program.language,
-        Language::Rapid | Language::Krl | Language::FanucLs
-    );
-    (has_name && base.number.is_none()).then(|| {
+    (program.language.is_of_robot() && base.number.is_none()).then(|| {
         MakeFinding::of(
             program.motions.first().map(|motion| motion.line),
             format!(

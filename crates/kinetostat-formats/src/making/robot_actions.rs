@@ -26,7 +26,7 @@ pub(crate) fn action_of(language: Language, text: &str) -> Option<EventAction> {
         },
         Language::Apt => of_apt(upper.split("$$").next()?.trim()),
         // Of blocks each word for itself.
-        Language::Heidenhain | Language::Siemens | Language::Poses => None,
+        _ => None,
     }
 }
 
@@ -64,14 +64,10 @@ fn seconds(text: &str) -> Option<EventAction> {
 /// What a statement is about that does nothing in other languages.
 pub(crate) fn kind_of(language: Language, upper: &str) -> EventKind {
     let has = |words: &[&str]| words.iter().any(|word| upper.starts_with(word));
-    let comment = match language {
-        Language::Rapid | Language::FanucLs => "!",
-        Language::Krl | Language::Siemens | Language::Heidenhain => ";",
-        Language::Poses => "#",
-        Language::Apt => "$$",
-    };
     match () {
-        () if upper.starts_with(comment) || has(&["PPRINT", "REMARK"]) => EventKind::Comment,
+        () if upper.starts_with(language.comment()) || has(&["PPRINT", "REMARK"]) => {
+            EventKind::Comment
+        }
         () if has(&["SPINDL"]) => EventKind::Spindle,
         () if has(&["COOLNT"]) => EventKind::Coolant,
         () if has(&["LOAD", "TOOLNO", "TOOL PATH", "TLDATA"]) => EventKind::Tool,

@@ -4,7 +4,6 @@ use std::ops::Range;
 
 use kinetostat_program::SpindleChange;
 
-use crate::apt::spindle::spindle_changes;
 use crate::making::action::EventAction;
 use crate::making::course::place_of;
 use crate::making::event_kind::EventKind;
@@ -42,17 +41,14 @@ pub fn events_of_robot(program: &RobotProgram) -> Vec<SourceEvent> {
         Language::Siemens => return events_of_siemens(source, &moving).0,
         _ => {}
     }
-    let spindle = match program.language {
-        Language::Apt => spindle_changes(source),
-        _ => Vec::new(),
-    };
+    let spindle = program.language.spindle_changes(source);
     let mut events = events_of_motions(program, file);
     for line in instructions(program.language, source) {
         if moving.contains(&line) {
             continue;
         }
         let text = String::from_utf8_lossy(source.line(line).unwrap_or_default()).into_owned();
-        let text = body(program.language, &text);
+        let text = program.language.statement_in(&text);
         let upper = text.to_ascii_uppercase();
         if text.is_empty() {
             continue;
@@ -122,25 +118,7 @@ pub(crate) fn instructions(language: Language, source: &SourceFile) -> Range<usi
             text.to_ascii_uppercase().starts_with(word)
         })
     };
-    match language {
-        Language::FanucLs => begins(b"/MN").unwrap_or(1)..begins(b"/POS").unwrap_or(count),
-        _ => 1..count,
-    }
-}
-
-/// The statement of a line: without the number and the end of a line of a TP program.
-pub(crate) fn body(language: Language, text: &str) -> &str {
-    let text = text.trim();
-    match language {
-        Language::FanucLs => {
-            let behind = text.split_once(':').map_or(text, |(number, rest)| {
-                match number.trim().bytes().all(|byte| byte.is_ascii_digit()) {
-                    true => rest,
-                    false => text,
-                }
-            });
-            behind.trim().trim_end_matches(';').trim()
-        }
-        _ => text,
-    }
+    language.section().map_or(1..count, |[head, end]| {
+        begins(head).unwrap_or(1)..begins(end).unwrap_or(count)
+    })
 }

@@ -5,7 +5,7 @@ use std::ops::Range;
 
 use crate::making::block_order::{Part, Running, running_blocks, until_end};
 use crate::making::blocks::Blocks;
-use crate::making::robot_events::{body, instructions};
+use crate::making::robot_events::instructions;
 use crate::making::statements::statements;
 use crate::model::language::Language;
 use crate::model::program::RobotProgram;
@@ -64,9 +64,9 @@ pub(crate) fn running_lines(program: &RobotProgram, file: usize) -> Option<Vec<R
     let names = whole.iter().enumerate().rev();
     let names = names.map(|(index, routine)| (routine.name.as_str(), index));
     let names: BTreeMap<&str, usize> = names.collect();
-    // RAPID begins with main, wherever it stands; it calls what runs of the others.
+    // A main routine calls what runs of the others.
     let is_main =
-        |index: &usize| program.language == Language::Rapid && whole[*index].name == "MAIN";
+        |index: &usize| program.language.main_routine() == Some(whole[*index].name.as_str());
     let main = (0..whole.len()).find(is_main);
     let others = (0..whole.len()).filter(|index| Some(*index) != main);
     main.into_iter()
@@ -93,14 +93,10 @@ pub(crate) fn running_lines(program: &RobotProgram, file: usize) -> Option<Vec<R
 }
 
 fn routines_of(language: Language, source: &SourceFile, lines: Range<usize>) -> Vec<Routine> {
-    let (heads, ends): (&[&str], &[&str]) = match language {
-        Language::Rapid => (
-            &["PROC", "FUNC", "TRAP"],
-            &["ENDPROC", "ENDFUNC", "ENDTRAP"],
-        ),
-        Language::Krl => (&["DEF", "DEFFCT"], &["END", "ENDFCT"]),
-        _ => return Vec::new(),
-    };
+    let [heads, ends] = language.routines();
+    if heads.is_empty() {
+        return Vec::new();
+    }
     let mut routines = Vec::new();
     let mut open: Option<(String, usize)> = None;
     for line in lines {
@@ -135,17 +131,9 @@ fn routines_of(language: Language, source: &SourceFile, lines: Range<usize>) -> 
 /// The words of a line in capitals, without its comment and texts.
 pub(crate) fn words_of(language: Language, source: &SourceFile, line: usize) -> Vec<String> {
     let text = String::from_utf8_lossy(source.line(line).unwrap_or_default()).to_ascii_uppercase();
-    let text = body(language, &text);
-    let comment = match language {
-        Language::Rapid | Language::FanucLs => '!',
-        _ => ';',
-    };
+    let text = language.statement_in(&text);
     let code = text.split('"').step_by(2).collect::<Vec<_>>().join(" ");
-    let code = match language {
-        Language::Apt => code.split("$$").next().unwrap_or_default(),
-        _ => code.split(comment).next().unwrap_or_default(),
-    };
-    words_in(code)
+    words_in(code.split(language.comment()).next().unwrap_or_default())
 }
 
 fn words_in(code: &str) -> Vec<String> {
@@ -177,7 +165,7 @@ impl Walk<'_> {
             let is_certain = is_certain && blocks.is_certain();
             let text = String::from_utf8_lossy(self.source.line(line).unwrap_or_default());
             let text = text.to_ascii_uppercase();
-            for statement in statements(self.language, body(self.language, &text)) {
+            for statement in statements(self.language, self.language.statement_in(&text)) {
                 let called = self.called(statement);
                 let Some(called) = called.filter(|called| !self.seen[*called] && depth < DEEPEST)
                 else {
@@ -203,10 +191,6 @@ impl Walk<'_> {
         let name = words_in(statement).into_iter().next()?;
         let index = *self.names.get(name.as_str())?;
         let behind = statement.strip_prefix(name.as_str())?.trim_start();
-        let calls = match self.language {
-            Language::Rapid => !behind.starts_with(":=") && !behind.starts_with(':'),
-            _ => behind.starts_with('('),
-        };
-        calls.then_some(index)
+        self.language.is_call(behind).then_some(index)
     }
 }

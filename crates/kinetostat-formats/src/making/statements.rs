@@ -31,12 +31,7 @@ fn of_statement(language: Language, line: usize, text: &str) -> SourceEvent {
 
 /// The comment behind the statement of a line; none where the line is one.
 pub(crate) fn comment_behind(language: Language, text: &str) -> Option<&str> {
-    let sign = match language {
-        Language::Rapid => "!",
-        Language::Krl => ";",
-        Language::Apt => "$$",
-        _ => return None,
-    };
+    let sign = language.comment_behind_statement()?;
     let mut in_text = false;
     let begins = |(at, letter): (usize, char)| {
         in_text ^= letter == '"';
@@ -52,7 +47,7 @@ pub(crate) fn statements(language: Language, text: &str) -> Vec<&str> {
     let is_word = |c: char| c.is_ascii_alphanumeric() || c == '_';
     let capitals = text.to_ascii_uppercase();
     let is_of_block = (capitals.split(|c| !is_word(c))).any(|word| OF_BLOCKS.contains(&word));
-    if language != Language::Rapid || is_of_block {
+    if !language.has_several_statements_a_line() || is_of_block {
         return vec![text.trim()];
     }
     let mut found = Vec::new();

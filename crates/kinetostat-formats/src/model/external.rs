@@ -37,7 +37,7 @@ pub(crate) fn ways_of_external_axes(program: &RobotProgram) -> Vec<Vec<AxisWay>>
         let mut now = before.cloned().unwrap_or_default();
         let stated = &motion.site.external;
         // Positions of TP programs state all groups that there are: others say nothing of these.
-        if program.language == Language::FanucLs && now.len() != stated.len() {
+        if program.language.states_all_axes() && now.len() != stated.len() {
             now.clear();
         }
         now.resize(now.len().max(stated.len()), None);
@@ -64,18 +64,6 @@ fn moved_behind(program: &RobotProgram, motion: usize) -> bool {
     motion.is_none_or(|motion| motion.site.external_moved_behind)
 }
 
-/// An external axis, counted from 0, as the language names it.
-pub(crate) fn name_of_axis(language: Language, axis: usize) -> String {
-    match (language, u8::try_from(axis)) {
-        (Language::Rapid, Ok(axis @ 0..=5)) => {
-            format!("external axis eax_{}", char::from(b'a' + axis))
-        }
-        (Language::Krl, _) => format!("external axis E{}", axis + 1),
-        (Language::FanucLs, _) => format!("external axis or group axis {}", axis + 1),
-        _ => format!("external axis {}", axis + 1),
-    }
-}
-
 /// The first motion at which an external axis is elsewhere than at the motions before it.
 pub(crate) fn moving_axis(
     files: &[SourceFile],
@@ -84,7 +72,7 @@ pub(crate) fn moving_axis(
 ) -> Option<ProgramError> {
     let mut known: Vec<Option<f64>> = Vec::new();
     // A pose before does not state the axis: where it stands there is not known. Positions of TP programs state all that there is.
-    let may_be_open = language != Language::FanucLs;
+    let may_be_open = !language.states_all_axes();
     let mut has_pose = false;
     for motion in motions {
         let external = &motion.site.external;
@@ -110,7 +98,7 @@ pub(crate) fn moving_axis(
                 motion.span.clone(),
                 format!(
                     "{} {what}: the arm stands elsewhere then",
-                    name_of_axis(language, axis)
+                    language.name_of_external_axis(axis)
                 ),
                 remedy,
             ));

@@ -1,40 +1,28 @@
 //! The languages of robots and machines.
 
-/// The languages that are read.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum Language {
-    /// ABB RAPID.
-    Rapid,
-    /// FANUC TP programs as text.
-    FanucLs,
-    /// APT and CLDATA.
-    Apt,
-    /// KUKA KRL.
-    Krl,
-    /// Lists of poses: tables (CSV) and YAML.
-    Poses,
-    /// SINUMERIK 840D.
-    Siemens,
-    /// Heidenhain conversational.
-    Heidenhain,
+macro_rules! enumerated {
+    ($($name:ident, $words:literal, $entry:expr;)*) => {
+        /// The languages that are read.
+        ///
+        /// Facts of a language are asked of it by methods.
+        ///
+        /// ```
+        /// use kinetostat_formats::Language;
+        ///
+        /// assert_eq!(Language::Krl.name(), "KRL");
+        /// assert!(Language::Siemens.rapids_are_straight());
+        /// ```
+        #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+        #[non_exhaustive]
+        pub enum Language {
+            $(#[doc = $words] $name,)*
+        }
+
+        impl Language {
+            /// Each language once.
+            pub const ALL: [Self; [$($words),*].len()] = [$(Self::$name),*];
+        }
+    };
 }
 
-impl Language {
-    /// Whether its rapids go straight: those of robots' languages move all joints in step.
-    #[must_use]
-    pub const fn rapids_are_straight(self) -> bool {
-        matches!(self, Self::Siemens | Self::Heidenhain | Self::Apt)
-    }
-
-    /// Each language once.
-    pub const ALL: [Self; 7] = [
-        Self::Rapid,
-        Self::Krl,
-        Self::FanucLs,
-        Self::Apt,
-        Self::Siemens,
-        Self::Heidenhain,
-        Self::Poses,
-    ];
-}
+each_language!(enumerated);

@@ -61,7 +61,7 @@ impl CallsOfOne<'_> {
             1 => String::new(),
             _ => format!(" ({})", in_words(&self.lines)),
         };
-        let modes = modes_of(language);
+        let modes = language.modes_of_motions();
         match self.name {
             Some(name) => format!(
                 "`{name}` is in none of the files: {}taken not to move the tool and not to change speed, tool or frame{modes}; state it under [calls] if it moves, or give its file{all}",
@@ -117,17 +117,4 @@ pub(crate) fn stated_to_move(
         }));
     }
     stated
-}
-
-/// What else it may do: statements that stay in force behind it, of which no motion behind it says anything.
-fn modes_of(language: Language) -> &'static str {
-    match language {
-        Language::Rapid => {
-            ", or how motions behind it go (`CirPathMode`, `SingArea`, `ConfL`, `ConfJ`, `AccSet`, `VelSet`)"
-        }
-        Language::Krl => {
-            ", or how motions behind it go (`$ORI_TYPE`, `$CIRC_TYPE`, `$ACC`, `$APO`)"
-        }
-        _ => "",
-    }
 }

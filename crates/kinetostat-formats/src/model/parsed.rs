@@ -16,7 +16,7 @@ use crate::text::finding::Finding;
 use crate::text::source::SourceFile;
 
 /// A program as far as it could be read, and what is refused: with a fault it must not be corrected.
-pub(crate) struct Parsed {
+pub struct Parsed {
     /// All but the motions that are refused.
     pub program: RobotProgram,
     /// In order of files and lines.

@@ -41,47 +41,25 @@ impl StatedArm {
     /// What a configuration says.
     #[must_use]
     pub fn of(language: Language, configuration: &Configuration) -> Self {
-        let bits = |value: Option<&f64>| {
-            let whole =
-                value.filter(|value| (0.0..8.0).contains(*value) && value.fract() == 0.0)?;
-            Some([1, 2, 4].map(|bit| (*whole as u8) & bit != 0))
-        };
-        let numbers = &configuration.numbers;
-        match language {
-            Language::Krl => {
-                let says_s = configuration.text.trim_start().starts_with(['S', 's']);
-                let flags = bits(numbers.first().filter(|_| says_s));
-                flags.map_or_else(Self::default, |[back, elbow, wrist]| Self {
-                    is_back: Some(back),
-                    elbow: Some(elbow),
-                    wrist: Some(wrist),
-                })
-            }
-            Language::Rapid => {
-                bits(numbers.get(3)).map_or_else(Self::default, |[wrist, elbow, back]| Self {
-                    is_back: Some(back),
-                    elbow: Some(elbow),
-                    wrist: Some(wrist),
-                })
-            }
-            Language::FanucLs => {
-                let letters = configuration.text.split(',').next().unwrap_or_default();
-                let one_of = |yes: &str, no: &str| {
-                    letters.split_whitespace().find_map(|word| match word {
-                        word if word == yes => Some(true),
-                        word if word == no => Some(false),
-                        _ => None,
-                    })
-                };
-                Self {
-                    is_back: one_of("B", "T"),
-                    elbow: one_of("D", "U"),
-                    wrist: one_of("F", "N"),
-                }
-            }
-            Language::Apt | Language::Heidenhain | Language::Poses | Language::Siemens => {
-                Self::default()
-            }
+        language.stated_arm(configuration)
+    }
+
+    /// Shoulder, elbow and wrist in a number below 8, each with the value of its bit.
+    pub(crate) fn of_bits(number: Option<&f64>, bits: [u8; 3]) -> Self {
+        let is_whole = |value: &&f64| (0.0..8.0).contains(*value) && value.fract() == 0.0;
+        let whole = number.filter(is_whole).map(|value| *value as u8);
+        let [is_back, elbow, wrist] = bits.map(|bit| whole.map(|whole| whole & bit != 0));
+        Self {
+            is_back,
+            elbow,
+            wrist,
         }
+    }
+
+    /// Number of [`Self::of_bits`], where all three are known.
+    pub(crate) fn in_bits(&self, bits: [u8; 3]) -> Option<u8> {
+        let all = [self.is_back?, self.elbow?, self.wrist?];
+        let set = all.into_iter().zip(bits);
+        Some(set.map(|(is, bit)| if is { bit } else { 0 }).sum())
     }
 }

@@ -2,19 +2,12 @@
 
 use thiserror::Error;
 
-use crate::apt::reader::parse_apt;
 use crate::error::ProgramError;
-use crate::heidenhain::reading::reader::parse_heidenhain;
-use crate::krl::reader::parse_krl;
-use crate::ls::reader::parse_ls;
 use crate::model::language::Language;
 use crate::model::parsed::Parsed;
 use crate::options::ReadOptions;
 use crate::path::fault::PathError;
 use crate::path::motion_faults::faults_of_motions;
-use crate::poses::reader::parse_poses;
-use crate::rapid::reader::parse_rapid;
-use crate::siemens::reader::parse_siemens;
 use crate::text::source::SourceFile;
 
 /// What keeps a program from being corrected.
@@ -81,15 +74,7 @@ pub fn all_faults(
     options: &ReadOptions,
 ) -> Vec<ProgramFault> {
     let names: Vec<String> = files.iter().map(|file| file.name().to_owned()).collect();
-    let Parsed { program, faults } = match language {
-        Language::Krl => parse_krl(files, options),
-        Language::Rapid => parse_rapid(files, options),
-        Language::FanucLs => parse_ls(files, options),
-        Language::Poses => parse_poses(files, options),
-        Language::Siemens => parse_siemens(files, options),
-        Language::Heidenhain => parse_heidenhain(files, options),
-        Language::Apt => parse_apt(files, options),
-    };
+    let Parsed { program, faults } = language.parse(files, options);
     let of_path = faults_of_motions(&program);
     let of_text = faults.into_iter().map(ProgramFault::from);
     let mut all: Vec<ProgramFault> = of_text

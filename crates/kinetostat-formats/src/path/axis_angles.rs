@@ -9,7 +9,6 @@
 use kinetostat_program::{GreatCircle, OffCircle, RotaryAxes, StatedBy, Unreached};
 use nalgebra::Vector3;
 
-use crate::model::language::Language;
 use crate::model::motion::Motion;
 use crate::model::program::RobotProgram;
 use crate::model::stated_axes::AxesStated;
@@ -29,10 +28,7 @@ pub(crate) struct AxesOfMotion {
 
 /// Whether the tool's axis goes on a great circle in a motion.
 pub(crate) fn on_great_circle(program: &RobotProgram, index: usize) -> bool {
-    match program.language {
-        Language::Heidenhain => false,
-        _ => !program.rotary.even.contains(&index),
-    }
+    program.language.goes_on_great_circles() && !program.rotary.even.contains(&index)
 }
 
 /// What the rotary axes do in every motion; they stay where a motion states no axis. Nothing is known of them where a program that states

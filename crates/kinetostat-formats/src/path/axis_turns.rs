@@ -7,7 +7,6 @@
 
 use nalgebra::{Isometry3, Matrix3, Rotation3, UnitQuaternion, Vector3};
 
-use crate::model::language::Language;
 use crate::model::motion::Motion;
 use crate::model::orientation::OrientationText;
 use crate::model::program::RobotProgram;
@@ -62,10 +61,7 @@ const OPPOSITE: f64 = 1e-6;
 
 /// Whether the pose of a motion states the direction of the tool's axis, and not the turn about it.
 pub(crate) fn is_by_axis(program: &RobotProgram, motion: &Motion) -> bool {
-    let by_language = matches!(
-        program.language,
-        Language::Apt | Language::Siemens | Language::Heidenhain
-    );
+    let by_language = !program.language.states_turn();
     let by_text = matches!(&motion.site.target, TargetSite::Literal(text) if text.convention == OrientationText::Axis);
     motion.target.pose().is_some() && (by_language || by_text)
 }

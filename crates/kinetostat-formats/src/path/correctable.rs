@@ -9,7 +9,6 @@ use nalgebra::{Isometry3, UnitQuaternion, Vector3};
 
 use crate::document::{read, write};
 use crate::error::WriteError;
-use crate::model::language::Language;
 use crate::model::motion::{Motion, MotionKind};
 use crate::model::orientation::OrientationText;
 use crate::model::program::RobotProgram;
@@ -192,19 +191,12 @@ impl Correctable<'_> {
         let of = |number: &usize| {
             let motion = &self.program.motions[*number];
             let site = motion.site.via.as_ref().map(|(_, site)| site);
-            let about = self.program.language == Language::Heidenhain
-                && matches!(motion.kind, MotionKind::Arc { .. });
-            if about {
+            let language = self.program.language;
+            if language.has_centres() && matches!(motion.kind, MotionKind::Arc { .. }) {
                 return Circles::AboutAxis;
             }
-            let written = match self.program.language {
-                Language::Rapid | Language::Krl | Language::FanucLs => {
-                    site.is_some_and(|site| !matches!(site, TargetSite::Fixed(_)))
-                }
-                // CIP in place of G2 and G3.
-                Language::Siemens => true,
-                _ => false,
-            };
+            let is_fixed = site.is_none_or(|site| matches!(site, TargetSite::Fixed(_)));
+            let written = language.writes_circles(is_fixed);
             match written && motion.site.indivisible.is_none() {
                 true => Circles::ThroughPlace,
                 false => Circles::Straight,

@@ -50,10 +50,10 @@ pub(super) fn kept_lines(
                 continue;
             }
             let names = renamed.get(&(index, number + 1));
-            let wanted = without_number(program.language, line);
+            let wanted = program.language.behind_number(line);
             let is_there = |(_, written): (usize, &[u8])| match names {
                 Some(names) => only_names_changed(line, written, names),
-                None => without_number(program.language, written) == wanted,
+                None => program.language.behind_number(written) == wanted,
             };
             if !output.any(is_there) {
                 let with = match names {
@@ -176,21 +176,4 @@ fn is_data_of(old: &[u8], new: &[u8], names: &[Renamed<'_>]) -> bool {
     };
     let of = |(from, to): &Renamed<'_>| from.eq_ignore_ascii_case(old) && *to == new;
     a.eq_ignore_ascii_case(&b'F') && a == b && names.iter().any(of)
-}
-
-/// A line without what is counted anew where lines are added: its number and the count of lines.
-fn without_number(language: Language, line: &[u8]) -> &[u8] {
-    if language == Language::Heidenhain {
-        let digits = line.iter().take_while(|byte| byte.is_ascii_digit()).count();
-        return line[digits..].trim_ascii_start();
-    }
-    if language != Language::FanucLs {
-        return line;
-    }
-    if line.starts_with(b"LINE_COUNT") {
-        return b"";
-    }
-    let colon = line.iter().position(|byte| *byte == b':');
-    let number = |at: &usize| line[..*at].iter().all(|b| *b == b' ' || b.is_ascii_digit());
-    colon.filter(number).map_or(line, |at| &line[at..])
 }

@@ -7,7 +7,6 @@ use kinetostat_program::{
 };
 use nalgebra::{Isometry3, Point3, Unit, UnitQuaternion, Vector3};
 
-use crate::model::language::Language;
 use crate::model::motion::{Motion, MotionKind};
 use crate::model::orientation::OrientationText;
 use crate::model::site::{PoseText, TargetSite};
@@ -129,10 +128,7 @@ impl Maker<'_> {
     /// Whether the text of a target, or the rule for the turn about its axis, says how the tool stands.
     fn states_orientation(&self, motion: &Motion) -> bool {
         // Languages of machines state at most the axis.
-        let by_axis = matches!(
-            self.program.language,
-            Language::Apt | Language::Siemens | Language::Heidenhain
-        );
+        let by_axis = !self.program.language.states_turn();
         if by_axis || self.turns.is_some() {
             return self.turns.is_some();
         }
@@ -148,13 +144,11 @@ impl Maker<'_> {
         }
     }
 
-    /// Whether the x of the tool swivels in a plane while the tool turns about it: KUKA's LIN and CIRC with `#VAR` do, and turn with
-    /// `$VEL.ORI1` and `$VEL.ORI2`. Of motions of a spline nothing is published: they count as turns about one axis.
+    /// True where the x of the tool swivels in a plane while the tool turns about it.
     fn swivels(&self, motion: &Motion) -> bool {
         let file = self.program.files.get(motion.file).map(SourceFile::bytes);
         let word = file.and_then(|bytes| bytes.get(motion.site.keyword.clone()));
-        let is = |name: &str| word.is_some_and(|word| word.eq_ignore_ascii_case(name.as_bytes()));
-        self.program.language == Language::Krl && (is("LIN") || is("CIRC"))
+        word.is_some_and(|word| self.program.language.swivels(word))
     }
 }
 

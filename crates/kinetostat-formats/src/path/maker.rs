@@ -5,7 +5,6 @@ use std::sync;
 use kinetostat_program::RotaryAxes;
 use nalgebra::{Isometry3, UnitQuaternion, Vector3};
 
-use crate::model::language::Language;
 use crate::model::motion::{Motion, MotionKind};
 use crate::model::program::RobotProgram;
 use crate::model::target::Target;
@@ -101,12 +100,7 @@ impl<'a> Maker<'a> {
             fastest || motion.speed.mm_per_s.is_some_and(|speed| speed >= limit)
         };
         // APT says it beside the motion, a machine's control in it.
-        let said = match self.program.language {
-            Language::Apt => motion.speed.text.to_ascii_uppercase().starts_with("RAPID"),
-            Language::Siemens => motion.speed.text == "G0",
-            Language::Heidenhain => motion.speed.text == "FMAX",
-            _ => false,
-        };
+        let said = self.program.language.is_rapid(&motion.speed.text);
         motion.kind == MotionKind::Joint
             || !motion.has_known_way()
             || said

@@ -3,9 +3,7 @@
 use kinetostat_program::{Move, Path, Warning};
 use nalgebra::{Isometry3, UnitQuaternion};
 
-use crate::apt::spindle::spindle_changes;
 use crate::model::frame::FrameUse;
-use crate::model::language::Language;
 use crate::model::motion::{Motion, Runs};
 use crate::model::program::RobotProgram;
 use crate::model::stated_axes::AxesStated;
@@ -111,9 +109,9 @@ pub fn path_of(program: &RobotProgram, options: &PathOptions) -> Result<RobotPat
     let findings = made.rotary_findings();
     made.warnings.extend(findings);
     made.warnings.extend(turns_alone(&made.moves));
-    if let (Language::Apt, Some(file)) = (program.language, program.files.get(file)) {
-        made.spindle_changes = spindle_changes(file);
-    }
+    let source = program.files.get(file).into_iter();
+    let changes_of = |source| program.language.spindle_changes(source);
+    made.spindle_changes.extend(source.flat_map(changes_of));
     if tools.len() > 1 {
         made.tool_changes = changes(&poses, &tools);
     }

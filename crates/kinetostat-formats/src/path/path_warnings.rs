@@ -5,7 +5,6 @@ use std::f64::consts::PI;
 use kinetostat_program::{Knowledge, Move, MoveKind, StatedBy, ToolTurn, Warning};
 use nalgebra::{UnitQuaternion, Vector3};
 
-use crate::model::language::Language;
 use crate::model::motion::{Motion, MotionKind};
 use crate::model::orientation::OrientationText;
 use crate::model::program::RobotProgram;
@@ -25,9 +24,6 @@ const NO_PART_MM: f64 = 0.5;
 
 /// Slower and faster cuts are mostly in another unit, mm/s: robots cut with 1 to 300 mm/s.
 const USUAL_CUTS: [f64; 2] = [0.1, 1000.0];
-
-/// `$VEL.CP` of KRL takes no more, mm/s.
-const MOST_OF_KRL: f64 = 3000.0;
 
 /// Turns that are nearer to half a turn are one but for the last digits of quaternions with four decimals, rad (0.01 deg).
 const NEAR_HALF_A_TURN: f64 = 1.75e-4;
@@ -153,9 +149,10 @@ fn odd_speed(program: &RobotProgram, moves: &[Move]) -> Option<Warning> {
     let fastest = known.max_by(|a, b| a.1.total_cmp(&b.1));
     let is_odd = |(_, speed): &(usize, f64)| !(USUAL_CUTS[0]..=USUAL_CUTS[1]).contains(speed);
     let too_fast = || {
+        let most = program.language.most_speed_mm_per_s()?;
         let mut motions = program.motions.iter();
-        let motion = motions.find(|m| m.speed.mm_per_s.is_some_and(|v| v > MOST_OF_KRL))?;
-        (program.language == Language::Krl).then_some((motion.line, motion.speed.mm_per_s?))
+        let motion = motions.find(|m| m.speed.mm_per_s.is_some_and(|v| v > most))?;
+        Some((motion.line, motion.speed.mm_per_s?))
     };
     let (line, speed) = fastest.filter(is_odd).or_else(too_fast)?;
     Some(Warning {
@@ -203,13 +200,7 @@ pub(crate) fn by_rule(
     let by_axes = |index: &usize| has_angles && program.rotary.motions.contains_key(index);
     let mut motions = program.motions.iter().enumerate();
     let first = motions.find(|(index, motion)| unstated(motion) && !by_axes(index));
-    let words = match program.language {
-        Language::Siemens => Some("A3, B3, C3"),
-        Language::Heidenhain => Some("TX, TY, TZ"),
-        // APT says z where it says nothing.
-        _ => None,
-    };
-    if let (Some(words), Some((_, motion))) = (words, first) {
+    if let (Some(words), Some((_, motion))) = (program.language.words_of_direction(), first) {
         warnings.push(Warning {
             line: motion.line,
             text: format!(

@@ -14,6 +14,7 @@ pub(crate) mod columns;
 pub(crate) mod csv;
 pub(crate) mod decimal_comma;
 pub(crate) mod joints;
+pub(crate) mod language;
 pub(crate) mod layout;
 #[cfg(feature = "parquet")]
 pub(crate) mod parquet;

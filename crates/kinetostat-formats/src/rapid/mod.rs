@@ -12,6 +12,7 @@ pub(crate) mod expression;
 mod frames;
 mod functions;
 mod instructions;
+pub(crate) mod language;
 pub(crate) mod lex;
 pub(crate) mod literals;
 pub(crate) mod loads;

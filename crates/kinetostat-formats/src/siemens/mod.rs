@@ -17,6 +17,7 @@ mod files;
 pub(crate) mod flat;
 pub(crate) mod frames;
 mod gathering;
+pub(crate) mod language;
 mod made_motion;
 mod motion;
 mod place;

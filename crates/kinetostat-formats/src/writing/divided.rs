@@ -2,7 +2,6 @@
 
 use nalgebra::UnitQuaternion;
 
-use crate::model::language::Language;
 use crate::model::motion::{Motion, MotionKind};
 use crate::model::orientation::OrientationText;
 use crate::model::site::PoseText;
@@ -40,8 +39,7 @@ impl Writer<'_> {
         check_pieces(&pieces)?;
         let states_none = |text: &PoseText| text.convention == OrientationText::Unstated;
         let turns = |to: UnitQuaternion<f64>| to.angle_to(&end.orientation) > SAME_RAD;
-        // Places of APT may have an axis from before: its own writer knows.
-        if self.program.language != Language::Apt
+        if !self.program.language.keeps_direction()
             && text_of(self.program, &motion.site.target).is_some_and(states_none)
             && pieces
                 .iter()

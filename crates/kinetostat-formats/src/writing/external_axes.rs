@@ -1,7 +1,7 @@
 //! External axes of a motion that is divided: each piece takes them along as far as it goes.
 
 use crate::error::WriteError;
-use crate::model::external::{AxisWay, name_of_axis};
+use crate::model::external::AxisWay;
 use crate::model::motion::Motion;
 use crate::model::program::RobotProgram;
 use crate::model::site::PoseText;
@@ -30,7 +30,10 @@ pub(crate) fn shared_axes(
     let refused = |way: &AxisWay, reason: &str, remedy: &str| WriteError::Motion {
         file: program.files[motion.file].name().to_owned(),
         line: motion.line,
-        reason: format!("{} {reason}", name_of_axis(program.language, way.axis)),
+        reason: format!(
+            "{} {reason}",
+            program.language.name_of_external_axis(way.axis)
+        ),
         remedy: remedy.to_owned(),
     };
     let shares = shares_of(program, motion, pieces);
