@@ -252,6 +252,7 @@ impl<'a> LongRun<'a> {
                 .within(Failure::input("the program has no block")));
         };
         result.warnings.extend(stands);
+        result.warnings.extend(self.machine.not_carried.clone());
         let found = too_many_blocks(self.setting, result.summary.blocks_per_second);
         result.warnings.extend(found);
         let (written, allowed_mm) = match self.aim {
@@ -349,12 +350,16 @@ impl<'a> LongRun<'a> {
                         Aim::Analyse => analyse_part(task, Some(&whole), watch),
                         Aim::Compensate => compensate_part(task, Some(&whole), watch),
                     };
-                    let run = self.answered(run, part)?;
-                    let rows = self.rows(&run, (outputs, count, part.first_line() == 1))?;
+                    let mut run = self.answered(run, part)?;
+                    let listed = (outputs, count, part.first_line() == 1);
+                    let mut rows = self.rows(&run, listed)?;
                     if place.wait_for_turn() != Standing::Next {
                         return Ok(false);
                     }
                     let (work, last) = &mut *locked(&taking);
+                    if work.state.merged.join(task, &mut run) {
+                        rows = self.rows(&run, listed)?;
+                    }
                     work.take(task, run, &rows)?;
                     progress.advance(part.next_line() - 1);
                     if last.elapsed() >= every || part.is_last {
