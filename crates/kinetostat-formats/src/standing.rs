@@ -61,14 +61,16 @@ impl Standing {
         turn: AxisTurn,
         turning: Turning<'_>,
     ) -> Result<(), AxisFault> {
+        if std::mem::take(&mut self.by_direction) {
+            // The other axes stand where the direction has brought them.
+            for axis in &mut self.axes {
+                axis.sent = true;
+            }
+        }
         let Some(axis) = self.axes.get_mut(place) else {
             return Ok(());
         };
         self.any = true;
-        if self.by_direction {
-            // The other axes stand where the direction has brought them.
-            self.by_direction = false;
-        }
         if axis.take_turn(turn, turning)? {
             self.halved = Some(axis.letter);
         }
@@ -157,7 +159,7 @@ impl Standing {
                 let letter = axis.letter;
                 return Some((
                     format!(
-                        "axis {letter} was sent to a place of the machine, and tool centre point control is off: where the tip is in the part is not known"
+                        "axis {letter} was sent to a place of the machine, or turned with a direction of the tool, and tool centre point control is off: where the tip is in the part is not known"
                     ),
                     format!(
                         "turn it back with an absolute word ({rapid}{letter}{zero}) before the cut, or let the CAM system write places of the tool's tip in the part ({control})"

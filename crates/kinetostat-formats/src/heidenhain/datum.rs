@@ -1,4 +1,4 @@
-//! Where the coordinates of a program are: datum shift, mirror image, rotation and scaling (cycles 7, 8, 10, 11).
+//! Where the coordinates of a program are: datum shift, mirror image, rotation and scaling (cycles 7, 8, 10, 11), tilted planes.
 
 use nalgebra::{Matrix3, Vector3};
 
@@ -14,6 +14,8 @@ pub(crate) enum Bend {
     /// About Z, degrees.
     Rotation(f64),
     Scale(f64),
+    /// PLANE tilts the axes.
+    Tilt(Matrix3<f64>),
 }
 
 impl Bend {
@@ -23,7 +25,7 @@ impl Bend {
             Self::None => Some(1.0),
             Self::Mirror(axes) if axes[axis] => Some(-1.0),
             Self::Mirror(_) => Some(1.0),
-            Self::Rotation(_) | Self::Scale(_) => None,
+            Self::Rotation(_) | Self::Scale(_) | Self::Tilt(_) => None,
         }
     }
 }
@@ -48,6 +50,7 @@ impl Datum {
                 Matrix3::new(cos, -sin, 0.0, sin, cos, 0.0, 0.0, 0.0, 1.0)
             }
             Bend::Scale(factor) => Matrix3::identity() * factor,
+            Bend::Tilt(turn) => turn,
         }
     }
 
@@ -67,7 +70,7 @@ impl Datum {
             Bend::Scale(factor) => place / factor,
             // Its own inverse, or turned back.
             Bend::Mirror(_) => self.matrix() * place,
-            Bend::Rotation(_) => self.matrix().transpose() * place,
+            Bend::Rotation(_) | Bend::Tilt(_) => self.matrix().transpose() * place,
         }
     }
 
@@ -93,7 +96,7 @@ impl Datum {
 
     /// Whether a step along one axis is one along the same axis of the preset.
     pub(crate) fn keeps_axes(&self) -> bool {
-        !matches!(self.bend, Bend::Rotation(_))
+        !matches!(self.bend, Bend::Rotation(_) | Bend::Tilt(_))
     }
 }
 

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use crate::heidenhain::blocks::Block;
 use crate::heidenhain::words::{Value, Word};
+use crate::model::slash_blocks::SlashBlocks;
 
 /// The labels of a file: by number or text, the block.
 pub(crate) type Labels = BTreeMap<String, usize>;
@@ -114,7 +115,10 @@ pub(crate) fn order(
 }
 
 /// Where a block leads, as far as it says so without a parameter.
-pub(crate) fn step_of(bytes: &[u8], block: &Block) -> Step {
+pub(crate) fn step_of(bytes: &[u8], block: &Block, slash: SlashBlocks) -> Step {
+    if block.skipped && slash == SlashBlocks::Skipped {
+        return Step::Next;
+    }
     let words = block.words(bytes);
     let Some(first) = words.first() else {
         return Step::Next;

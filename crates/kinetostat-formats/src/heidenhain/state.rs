@@ -7,6 +7,7 @@ use nalgebra::{Vector2, Vector3};
 use crate::heidenhain::aside::Aside;
 use crate::heidenhain::datum::{Bend, Datum};
 use crate::heidenhain::plane::Plane;
+use crate::heidenhain::reading::tilted::Tilt;
 use crate::heidenhain::tip_control::TipControl;
 use crate::model::motion::Speed;
 use crate::standing::Standing;
@@ -51,6 +52,7 @@ pub(crate) struct State {
     /// The control's preset by its name.
     pub preset: String,
     pub datum: Datum,
+    pub tilt: Tilt,
     /// The last motion.
     pub last: Option<usize>,
     /// Axis of the tool in the programmed axes.

@@ -2,6 +2,7 @@
 
 use crate::heidenhain::blocks::{Block as Statement, blocks_of};
 use crate::heidenhain::flow::{Step, labels_of, order, step_of};
+use crate::model::slash_blocks::SlashBlocks;
 use crate::siemens::block::{Block, What};
 use crate::siemens::values::{Variables, whole};
 use crate::text::source::SourceFile;
@@ -37,7 +38,7 @@ pub(crate) fn running_blocks(source: &SourceFile) -> Vec<Running> {
     };
     let first = blocks.iter().position(begins).unwrap_or(0);
     let (labels, _) = labels_of(bytes, &blocks);
-    let step = |at: usize| step_of(bytes, &blocks[at]);
+    let step = |at: usize| step_of(bytes, &blocks[at], SlashBlocks::Run);
     let ordered = order(first, blocks.len(), &labels, step).unwrap_or_default();
     let lines = |at: usize| {
         let lines = &blocks[at].lines;

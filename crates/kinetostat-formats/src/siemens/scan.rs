@@ -6,7 +6,7 @@ use std::ops::Range;
 use nalgebra::Isometry3;
 
 use crate::axis_count::{CountShown, shown_by_both};
-use crate::model::slash_blocks::SlashBlocks;
+use crate::model::slash_blocks::{SLASHED, SlashBlocks};
 use crate::options::ReadOptions;
 use crate::siemens::block::{Block, What};
 use crate::siemens::declarations::define;
@@ -21,11 +21,6 @@ use crate::siemens::walker::{Corners, Reader, Scan};
 use crate::standing::Standing;
 use crate::table::Treatment;
 use crate::text::source::{BEHIND_END, SourceFile};
-
-/// Why a block behind a slash is refused, and what to do.
-pub(super) const SLASHED: &str = "whether the block runs, depends on a switch at the machine (/)";
-pub(super) const SLASHED_REMEDY: &str =
-    "say it (--block-delete run or skip), or take the slash out, or the block";
 
 /// Reads all files, each for itself.
 pub(crate) fn scan(files: &[SourceFile], options: &ReadOptions) -> Scan {
@@ -131,7 +126,7 @@ impl Reader<'_> {
             match self.options.slash_blocks {
                 SlashBlocks::Refused if self.is_harmless(block) => {}
                 SlashBlocks::Refused => {
-                    return self.fault(&block.span.clone(), SLASHED, SLASHED_REMEDY);
+                    return self.fault(&block.span.clone(), SLASHED.0, SLASHED.1);
                 }
                 SlashBlocks::Run => self.slashed(block, "runs"),
                 SlashBlocks::Skipped => {

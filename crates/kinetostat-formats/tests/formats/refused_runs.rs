@@ -20,7 +20,7 @@ fn lines(found: &[(String, usize, String)]) -> Vec<usize> {
 fn all_of_a_heidenhain_program() {
     let text = "BEGIN PGM X MM\nTOOL CALL 1 Z S5000\nL X+0 Y+0 Z+50 R0 FMAX M3\nCYCL DEF 208 BORE MILLING ~\nQ200=2 ~\nQ201=-10\n\
         L X+10 Y+10 M99\nL X+5\nFPOL X+0 Y+0\nCYCL DEF 262 THREAD MILLING ~\nQ335=10\nL X+20 Y+10 M99\n\
-        TCH PROBE 0.0 REF. PLANE Q5 X-\nTCH PROBE 0.1 X+5 Y+0 Z-5\nPLANE SPATIAL SPA+10 SPB+0 SPC+0 STAY\n\
+        TCH PROBE 0.0 REF. PLANE Q5 X-\nTCH PROBE 0.1 X+5 Y+0 Z-5\nPLANE RELATIV SPB+10 STAY\n\
         CALL PGM NOWHERE\nAPPR LT X+1 Y+1 LEN5 RL\nL X+3 Y+3 Z+0 F100\nEND PGM X MM\n";
     let found = refused(Language::Heidenhain, &[("x.h", text)]);
     assert_eq!(lines(&found), [7, 9, 12, 13, 14, 15, 16, 17], "{found:?}");
@@ -38,7 +38,7 @@ fn all_of_a_heidenhain_program() {
     );
     // In programs that are called, at their lines.
     let main = "BEGIN PGM A MM\nCALL PGM B\nL X+Q7\nEND PGM A MM\n";
-    let sub = "BEGIN PGM B MM\nL X+Q9\nPLANE SPATIAL SPA+10 SPB+0 SPC+0 STAY\nEND PGM B MM\n";
+    let sub = "BEGIN PGM B MM\nL X+Q9\nPLANE RELATIV SPB+10 STAY\nEND PGM B MM\n";
     let found = refused(Language::Heidenhain, &[("a.h", main), ("b.h", sub)]);
     let places: Vec<(&str, usize)> = found.iter().map(|(f, l, _)| (f.as_str(), *l)).collect();
     assert_eq!(places, [("a.h", 3), ("b.h", 2), ("b.h", 3)]);

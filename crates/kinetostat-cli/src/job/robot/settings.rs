@@ -186,9 +186,11 @@ fn stated_values(
         found.insert(name.clone(), value.clone());
     }
     match found.keys().next() {
-        Some(name) if !is_run(language) => Err(Failure::input(format!(
-            "a value of '{name}' is stated ([values] in the job, --set), which is for programs in RAPID, KRL and FANUC TP: leave it out"
-        ))),
+        Some(name) if !is_run(language) && language != Language::Heidenhain => {
+            Err(Failure::input(format!(
+                "a value of '{name}' is stated ([values] in the job, --set), which is for programs in RAPID, KRL, FANUC TP and Heidenhain: leave it out"
+            )))
+        }
         _ => Ok(found),
     }
 }

@@ -14,7 +14,7 @@ use crate::text::source::SourceFile;
 pub(crate) enum Kind {
     /// By rapid: DRILL, FACE, CSINK.
     Drill,
-    /// By rapid behind each step: DEEP.
+    /// By rapid behind each step: DEEP, DEEP2 of SolidWorks CAM.
     Deep,
     /// By rapid, and behind each step a little: BRKCHP.
     Break,
@@ -50,6 +50,8 @@ pub(crate) struct Cycle {
     /// Seconds, as written.
     pub dwell: Option<String>,
     pub step: Option<f64>,
+    /// The first step, where it is another one.
+    pub first_step: Option<f64>,
 }
 
 /// Why a cycle is not followed, and what to do.
@@ -82,6 +84,7 @@ struct Words {
     retract: Option<Retract>,
     dwell: Option<String>,
     step: Option<f64>,
+    first_step: Option<f64>,
     unit: Option<String>,
     unit_is_last: bool,
 }
@@ -122,7 +125,7 @@ fn words_of(texts: &[(String, Option<f64>)]) -> Result<Words, Wrong> {
         };
         let kind = match word.as_str() {
             "DRILL" | "FACE" | "CSINK" => Some(Kind::Drill),
-            "DEEP" => Some(Kind::Deep),
+            "DEEP" | "DEEP2" => Some(Kind::Deep),
             "BRKCHP" => Some(Kind::Break),
             "BORE" | "REAM" => Some(Kind::Bore),
             "TAP" => Some(Kind::Tap),
@@ -152,7 +155,8 @@ fn words_of(texts: &[(String, Option<f64>)]) -> Result<Words, Wrong> {
                 });
             }
             (_, "DWELL") => words.dwell = Some(value()?.1),
-            (_, "STEP" | "INCR" | "PECK") => words.step = Some(value()?.0),
+            (_, "1STPECK") => words.first_step = Some(value()?.0),
+            (_, "STEP" | "INCR" | "PECK" | "SUBPECK") => words.step = Some(value()?.0),
             (_, "MMPM" | "IPM" | "MMPR" | "IPR" | "PERMIN" | "PERREV") => {
                 words.unit = Some(word.clone());
                 words.unit_is_last = true;
@@ -228,7 +232,9 @@ impl Words {
             );
         }
         let clear = larger(clear.unwrap_or(rapid_to), rapid_to);
-        if matches!(kind, Kind::Deep | Kind::Break) && self.step.is_none_or(|step| step <= 0.0) {
+        let in_steps = matches!(kind, Kind::Deep | Kind::Break);
+        let is_none = |step: f64| step <= 0.0;
+        if in_steps && (self.step.is_none_or(is_none) || self.first_step.is_some_and(is_none)) {
             return wrong("by which steps it drills, is not stated", "state STEP");
         }
         Ok(Cycle {
@@ -239,9 +245,8 @@ impl Words {
             clear,
             retract: self.retract.unwrap_or(Retract::Clear),
             dwell: self.dwell,
-            step: self
-                .step
-                .filter(|_| matches!(kind, Kind::Deep | Kind::Break)),
+            step: self.step.filter(|_| in_steps),
+            first_step: self.first_step,
         })
     }
 }

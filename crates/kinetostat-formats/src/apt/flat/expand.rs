@@ -20,7 +20,7 @@ use crate::text::source::SourceFile;
 
 /// Writes the holes of an APT file (`CYCLE` and the GOTO behind it) as plain motions: by rapid over the hole and down to `RAPTO` or `CLEAR`,
 /// at the cycle's feed to its depth along the tool's axis, and out again; between holes at `CLEAR`, `RTRCTO` or higher. DRILL, FACE and
-/// CSINK come out by rapid, DEEP behind each `STEP`, BRKCHP draws back 1 mm (half a step at most), BORE and REAM come out at feed, TAP with
+/// CSINK come out by rapid, DEEP behind each `STEP` (DEEP2 behind `1STPECK` and each `SUBPECK`), BRKCHP draws back 1 mm (half a step at most), BORE and REAM come out at feed, TAP with
 /// the spindle turned back: it must float in its holder. A file without holes comes back byte for byte.
 ///
 /// ```

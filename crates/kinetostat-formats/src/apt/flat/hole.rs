@@ -4,7 +4,7 @@ use kinetostat_program::{Spindle, SpindleRotation};
 use nalgebra::Vector3;
 
 use crate::apt::flat::cycle::{Cycle, Kind, Retract, Wrong};
-use crate::extreme::smaller;
+use crate::extreme::{larger, smaller};
 
 /// Most steps of one hole.
 const MOST_STEPS: usize = 10_000;
@@ -103,17 +103,18 @@ impl Hole {
         let Some(step) = cycle.step else {
             return Ok(vec![bottom()]);
         };
-        let count = (cycle.depth / step - SAME).ceil();
+        let first = cycle.first_step.unwrap_or(step);
+        let count = ((cycle.depth - first) / step - SAME).ceil() + 1.0;
         if !count.is_finite() || count >= MOST_STEPS as f64 {
             return Err((
                 "the hole has more than 10 000 steps".to_owned(),
                 "state a larger STEP",
             ));
         }
-        let back = smaller(BACK_MM / self.unit_mm, 0.5 * step);
+        let back = smaller(BACK_MM / self.unit_mm, 0.5 * smaller(step, first));
         let mut parts = Vec::new();
-        for index in 1..count as usize {
-            let depth = step * index as f64;
+        for index in 1..larger(count, 1.0) as usize {
+            let depth = first + step * (index - 1) as f64;
             parts.push(Part::Feed(self.above(-depth)));
             if cycle.kind == Kind::Deep {
                 parts.push(Part::Rapid(self.above(cycle.rapid_to)));

@@ -21,7 +21,8 @@ use crate::text::source::SourceFile;
 ///
 /// Coordinates that parameters say are written with 4 decimals in mm (5 in inches), as the control resolves them. Holes become
 /// `L` blocks along the tool's axis, their dwell cycle 9; the feed of before is stated again behind them. Other cycles that are
-/// called are refused, or stay as written with [`crate::UnknownTargets::LeftAsWritten`].
+/// called are refused, or stay as written with [`crate::UnknownTargets::LeftAsWritten`]. Parameters that the machine alone knows (`FN 18`)
+/// have the values of [`ReadOptions::values`].
 ///
 /// ```
 /// use kinetostat_formats::{ReadOptions, SourceFile, expand_heidenhain};
@@ -81,16 +82,19 @@ fn run_within(
     if !equal.is_empty() {
         return Err(equal.into());
     }
-    if !main.needs() {
+    if !main.needs(options.slash_blocks) {
         return with_corners(FlatText::unchanged(main.file, 0), Vec::new(), out);
     }
+    let parameters = Values::of(options)
+        .map_err(|(reason, remedy)| vec![ProgramError::at(main.file, 0..0, reason, remedy)])?;
+    let findings = parameters.findings(main.file.bytes());
     let mut run = Run {
         options,
         files,
         programs: &programs,
         unit_mm: main.unit_mm(),
         number: is_numbered(main.file.bytes()).then_some(0),
-        parameters: Values::default(),
+        parameters,
         frames: Vec::new(),
         written: Written::new(main.file),
         at: Some((0, 0)),
@@ -106,5 +110,5 @@ fn run_within(
     run.begin();
     run.run(most_steps);
     run.written
-        .into_flat(main.file, (Vec::new(), Vec::new()), out)
+        .into_flat(main.file, (Vec::new(), findings), out)
 }

@@ -4,6 +4,7 @@ use crate::error::ProgramError;
 use crate::heidenhain::expand::expression::value_of;
 use crate::heidenhain::expand::program::{Program, called_name};
 use crate::heidenhain::expand::run::{Fault, Frame, Next, Run};
+use crate::heidenhain::expand::values::STATE_VALUE;
 use crate::heidenhain::flow::label_name;
 use crate::heidenhain::title::other_end;
 use crate::heidenhain::words::Word;
@@ -159,9 +160,8 @@ impl Run<'_> {
         let is_true = match by {
             Some((name, at_word)) if from < at_word && at_word < goes => {
                 let value = |text: &[u8]| {
-                    value_of(text, &self.parameters).map_err(|reason| {
-                        self.fault(at, reason, "state the value as a number: FN 0: Q1 = +5")
-                    })
+                    value_of(text, &self.parameters)
+                        .map_err(|reason| self.fault(at, reason, STATE_VALUE))
                 };
                 let left = value(&bytes[behind(from)..words[at_word].span.start])?;
                 let right = value(&bytes[behind(at_word)..words[goes].span.start])?;

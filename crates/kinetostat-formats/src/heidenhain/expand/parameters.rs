@@ -4,7 +4,8 @@ use crate::heidenhain::digits::length;
 use crate::heidenhain::expand::expression::value_of;
 use crate::heidenhain::expand::run::{Fault, Run};
 use crate::heidenhain::expand::values::Parameters;
-use crate::heidenhain::expand::values::{begins_value, no_value};
+use crate::heidenhain::expand::values::{STATE_VALUE, begins_value, no_value};
+use crate::heidenhain::reading::tilted::is_of_plane;
 use crate::heidenhain::words::{Value, Word};
 use crate::text::edits::Edits;
 use crate::text::number::short;
@@ -47,9 +48,7 @@ impl Run<'_> {
                 continue;
             }
             let value = value_of(text, &self.parameters);
-            let value = value.map_err(|reason| {
-                self.fault(at, reason, "state the value as a number: FN 0: Q1 = +5")
-            })?;
+            let value = value.map_err(|reason| self.fault(at, reason, STATE_VALUE))?;
             self.parameters.insert(key, value);
         }
         Ok(())
@@ -80,8 +79,12 @@ impl Run<'_> {
                 .map(u8::to_ascii_uppercase)
                 .collect();
             let key = String::from_utf8_lossy(&key).into_owned();
-            let Some(value) = self.parameters.value(&key) else {
-                return Err(self.fault(at, no_value(&key), "state it before: FN 0: Q1 = +5"));
+            let held = self.parameters.value(&key);
+            if held.is_none() && is_of_plane(word, bytes) {
+                continue;
+            }
+            let Some(value) = held else {
+                return Err(self.fault(at, no_value(&key), STATE_VALUE));
             };
             let plain = ["F", "S", "M", "CALL", "DEF"]
                 .iter()

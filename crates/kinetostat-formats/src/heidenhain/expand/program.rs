@@ -4,6 +4,7 @@ use crate::error::ProgramError;
 use crate::heidenhain::blocks::{Block, blocks_of};
 use crate::heidenhain::flow::{Labels, NAME_IT, label_twice, labels_of, order, step_of};
 use crate::heidenhain::words::{Value, Word};
+use crate::model::slash_blocks::SlashBlocks;
 use crate::text::source::SourceFile;
 
 /// A file of the program.
@@ -66,7 +67,7 @@ impl<'f> Program<'f> {
     }
 
     /// Whether anything is to be flattened.
-    pub(crate) fn needs(&self) -> bool {
+    pub(crate) fn needs(&self, slash: SlashBlocks) -> bool {
         let bytes = self.file.bytes();
         let Some(begin) = self.begin else {
             return false;
@@ -99,7 +100,7 @@ impl<'f> Program<'f> {
         }
         calls
             && order(begin, self.blocks.len(), &self.labels, |at| {
-                step_of(bytes, &self.blocks[at])
+                step_of(bytes, &self.blocks[at], slash)
             })
             .is_err()
     }

@@ -89,7 +89,12 @@ impl Run<'_> {
             .number
             .map_or(Vec::new(), |number| format!("{number} ").into());
         self.number = self.number.map(|number| number + 1);
-        self.written.line(&[&number, text].concat(), (at.0, line));
+        let slash: &[u8] = match program.blocks[at.1].skipped {
+            true => b"/",
+            false => b"",
+        };
+        self.written
+            .line(&[slash, &number, text].concat(), (at.0, line));
     }
 
     pub(crate) fn may_enter(&self, at: (usize, usize)) -> Result<(), Fault> {

@@ -8,6 +8,7 @@ use crate::heidenhain::expand::run::{DEEPEST, Fault, Frame, Next, Run};
 use crate::heidenhain::expand::values::begins_value;
 use crate::heidenhain::flow::NOT_ALONE;
 use crate::heidenhain::words::{EXPONENT, Value, Word, exponent};
+use crate::model::slash_blocks::{SLASHED, SlashBlocks};
 use crate::refused_run::Behind;
 use crate::text::source::SourceFile;
 
@@ -163,12 +164,15 @@ impl Run<'_> {
             }
             return Ok(Next::Block);
         };
-        if block.skipped {
-            return Err(self.fault(
-                at,
-                "the block is skipped or not, as a switch of the machine says",
-                "take the sign `/` away, or the block out",
-            ));
+        match self.options.slash_blocks {
+            SlashBlocks::Refused if block.skipped => {
+                return Err(self.fault(at, SLASHED.0, SLASHED.1));
+            }
+            SlashBlocks::Skipped if block.skipped => {
+                self.write(file.part(&block.text), at);
+                return Ok(Next::Block);
+            }
+            _ => {}
         }
         if exponent(&words).is_some() {
             return Err(self.fault(at, EXPONENT.0, EXPONENT.1));
@@ -243,14 +247,14 @@ impl Run<'_> {
                         let letters =
                             String::from_utf8_lossy(pair[0].letters.letters()).into_owned();
                         let key = format!("{letters}{}", pair[0].whole().unwrap_or(0));
-                        self.parameters.remove(&key);
+                        self.parameters.read_from_machine(&key);
                         reads = true;
                     }
                     for word in pair.iter().filter(|_| reads) {
                         // `SYSREAD Q11`.
                         if let Value::Parameter { name, .. } = &word.value {
                             let key = String::from_utf8_lossy(&bytes[name.clone()]);
-                            self.parameters.remove(&key.to_ascii_uppercase());
+                            self.parameters.read_from_machine(&key.to_ascii_uppercase());
                         }
                     }
                 }
@@ -260,7 +264,7 @@ impl Run<'_> {
                     .map(|word| &word.value)
                 {
                     let key = String::from_utf8_lossy(&bytes[name.clone()]).to_ascii_uppercase();
-                    self.parameters.remove(&key);
+                    self.parameters.read_from_machine(&key);
                 }
                 let block = &self.programs[at.0].blocks[at.1];
                 self.write(self.programs[at.0].file.part(&block.text), at);

@@ -2,7 +2,10 @@
 
 use std::collections::BTreeMap;
 
-use crate::heidenhain::words::Word;
+use crate::heidenhain::words::{Word, parameter_at};
+use crate::model::stated_value::StatedValue;
+use crate::options::ReadOptions;
+use crate::text::finding::Finding;
 
 /// Values of parameters by their names in capitals; none where there is none.
 pub(crate) trait Parameters {
@@ -18,6 +21,8 @@ pub(crate) trait Parameters {
 pub(crate) struct Values {
     shared: BTreeMap<String, f64>,
     local: BTreeMap<String, f64>,
+    /// Of parameters that only the machine knows, as the caller states them.
+    stated: BTreeMap<String, f64>,
 }
 
 /// QL parameters of one program.
@@ -29,19 +34,73 @@ fn is_local(name: &str) -> bool {
 }
 
 impl Values {
-    fn of(&mut self, name: &str) -> &mut BTreeMap<String, f64> {
+    fn of_kind(&mut self, name: &str) -> &mut BTreeMap<String, f64> {
         match is_local(name) {
             true => &mut self.local,
             false => &mut self.shared,
         }
     }
 
+    /// Parameters begin with the values that the caller states; those that are none, with the reason.
+    pub(crate) fn of(options: &ReadOptions) -> Result<Self, (String, &'static str)> {
+        let mut values = Self::default();
+        for (name, value) in &options.values {
+            let key = name.to_ascii_uppercase();
+            let is_name = parameter_at(key.as_bytes(), 0, key.len()) == Some(0..key.len());
+            match value {
+                StatedValue::Number(number) if is_name && number.is_finite() => {
+                    values.insert(key.clone(), *number);
+                    values.stated.insert(key, *number);
+                }
+                _ => {
+                    return Err((
+                        format!(
+                            "a value of `{name}` is stated, and it is no Q parameter with a number"
+                        ),
+                        "state it so: --set Q11=5.5",
+                    ));
+                }
+            }
+        }
+        Ok(values)
+    }
+
+    /// The machine gives a parameter a value: none is known but one that the caller states.
+    pub(crate) fn read_from_machine(&mut self, name: &str) {
+        match self.stated.get(name) {
+            Some(value) => self.insert(name.to_owned(), *value),
+            None => self.remove(name),
+        }
+    }
+
+    /// What is said of the values that the caller states, beside the bytes of the program.
+    pub(crate) fn findings(&self, bytes: &[u8]) -> Vec<Finding> {
+        let text = String::from_utf8_lossy(bytes).to_ascii_uppercase();
+        let names = |name: &str| {
+            let mut found = text.match_indices(name);
+            found.any(|(at, _)| {
+                !text[at + name.len()..].starts_with(|next: char| next.is_ascii_digit())
+            })
+        };
+        let finding = |(name, value): (&String, &f64)| Finding {
+            file: 0,
+            line: 1,
+            message: match names(name) {
+                true => format!(
+                    "`{name}` is {value}, as is stated, unless the program gives it another value"
+                ),
+                false => format!("a value of `{name}` is stated, and the program does not name it"),
+            },
+        };
+        self.stated.iter().map(finding).collect()
+    }
+
     pub(crate) fn insert(&mut self, name: String, value: f64) {
-        self.of(&name).insert(name, value);
+        self.of_kind(&name).insert(name, value);
     }
 
     pub(crate) fn remove(&mut self, name: &str) {
-        self.of(name).remove(name);
+        self.of_kind(name).remove(name);
     }
 
     /// Another program begins, without QL parameters: those of the program that calls.
@@ -74,6 +133,10 @@ pub(crate) fn no_value(name: &str) -> String {
         false => format!("{name} has no value that the program states"),
     }
 }
+
+/// What to do.
+pub(crate) const STATE_VALUE: &str =
+    "state it before (FN 0: Q1 = +5), or give the value that it has on the machine (--set Q1=5)";
 
 /// Whether a word is the sign before a value.
 pub(crate) fn begins_value(word: &Word, bytes: &[u8]) -> bool {

@@ -5,7 +5,7 @@ use std::ops::Range;
 use crate::heidenhain::blocks::{Block, STRAY, STRAY_REMEDY};
 use crate::heidenhain::datum::{Bend, Change, PARAMETER, change};
 use crate::heidenhain::plane::XY;
-use crate::heidenhain::reading::walker::{Reader, TILTED, TILTED_REMEDY};
+use crate::heidenhain::reading::walker::{BUILDERS, Reader, TILTED, TILTED_REMEDY};
 use crate::heidenhain::words::{Value, Word};
 
 /// Cycles that do nothing before they are called: drilling, pockets, studs, slots, contours, threads, gears.
@@ -89,6 +89,8 @@ impl Reader<'_> {
                 "the cycle moves the tool or the coordinates where it is defined",
                 "take it into a program of its own",
             ),
+            // HEIDENHAIN, TNC 640, user's manual, cycles, "Machine-specific cycles": 300 to 399.
+            (300..=399, _) => self.remark(span, &format!("cycle {cycle}"), BUILDERS),
             _ => self.fault(
                 span,
                 "what the cycle does where it is defined is not known",
@@ -110,6 +112,13 @@ impl Reader<'_> {
                 };
                 let shifts: Vec<(usize, f64)> = shifts.into_iter().map(target).collect();
                 let differs = shifts.iter().any(|(axis, to)| now[*axis] != *to);
+                if matches!(state.datum.bend, Bend::Tilt(_)) {
+                    // In which axes it counts there is not followed: it is to be stated again.
+                    for (axis, to) in shifts {
+                        state.tilt.shifted[axis] |= to != 0.0 || now[axis] != 0.0;
+                    }
+                    return;
+                }
                 let bent = state.datum.bend != Bend::None;
                 if bent && differs {
                     return self.fault(
@@ -120,8 +129,11 @@ impl Reader<'_> {
                 }
                 for (axis, to) in shifts {
                     state.shift(axis, to);
+                    state.tilt.shifted[axis] = false;
                 }
             }
+            // The plane stays.
+            Change::Bend(Bend::None) if matches!(state.datum.bend, Bend::Tilt(_)) => {}
             Change::Bend(Bend::Rotation(_)) if state.plane != XY => self.fault(
                 span,
                 "the coordinates are turned about the tool's axis, which is not Z",

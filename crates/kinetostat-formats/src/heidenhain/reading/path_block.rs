@@ -5,7 +5,7 @@ use std::ops::Range;
 use crate::heidenhain::aside::Aside;
 use crate::heidenhain::blocks::Block;
 use crate::heidenhain::path_words::{FeedWord, Odd, PathWords};
-use crate::heidenhain::reading::walker::{BY_PARAMETER, EXPAND, Reader};
+use crate::heidenhain::reading::walker::{BUILDERS, BY_PARAMETER, EXPAND, Reader};
 use crate::heidenhain::reading::ways::Acts;
 use crate::heidenhain::table::{Function, function};
 use crate::heidenhain::words::{Value, Word};
@@ -31,6 +31,8 @@ impl Reader<'_> {
             }
             false => words,
         };
+        let rest = self.turn_to_plane(words, span);
+        let words = rest.as_deref().unwrap_or(words);
         let parsed = match PathWords::of(words) {
             Ok(parsed) => parsed,
             Err(odd) => {
@@ -82,6 +84,7 @@ impl Reader<'_> {
             };
         }
         let turns = self.turn_axes(words, &parsed, span, acts.machine);
+        self.follow_plane();
         self.moved(block, words, (&parsed, turns), span, &acts);
         let functions = parsed.functions.iter().map(|(_, number)| *number);
         for number in functions.filter(|number| matches!(number, 127 | 129)) {
@@ -110,16 +113,7 @@ impl Reader<'_> {
                 Function::PerTurn => self.state.per_turn = true,
                 Function::PerMinute => self.state.per_turn = false,
                 Function::Refused(reason) => self.fault(&span, reason, "take it out"),
-                Function::Unknown => {
-                    if self.remarked.insert(*number) {
-                        self.finding(
-                            &span,
-                            format!(
-                                "M{number} is the machine builder's: taken as one that does not move the tool"
-                            ),
-                        );
-                    }
-                }
+                Function::Unknown => self.remark(&span, &format!("M{number}"), BUILDERS),
             }
         }
         acts.calls |= self.state.calls && parsed.moves();

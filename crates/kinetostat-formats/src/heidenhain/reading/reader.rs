@@ -58,6 +58,7 @@ pub(crate) fn parse_heidenhain(files: Vec<SourceFile>, options: &ReadOptions) ->
     let found = interpret(&files, options);
     let (motions, findings) = (found.motions, found.findings);
     let mut parsed = Parsed::of(Language::Heidenhain, files, motions, findings, found.faults);
+    parsed.program.slash_blocks = options.slash_blocks;
     parsed.program.rotary = StatedAxes {
         letters: options.rotary_axes.clone(),
         motions: found.axes,
@@ -157,14 +158,15 @@ impl Reader<'_> {
                 true => note(&mut self.found.faults, || fault),
             }
         }
+        let slash = self.options.slash_blocks;
         let calls = |block: &Block| {
             let is_call = bytes.get(block.text.start).map(u8::to_ascii_uppercase) == Some(b'C');
-            is_call && matches!(step_of(bytes, block), Step::Call(_))
+            is_call && matches!(step_of(bytes, block, slash), Step::Call(_))
         };
         let ordered = match labels.is_empty() || !blocks.iter().any(calls) {
             true => None,
             false => Some(order(first, blocks.len(), &labels, |at| {
-                step_of(bytes, &blocks[at])
+                step_of(bytes, &blocks[at], slash)
             })),
         };
         let mut last = first;

@@ -4,9 +4,10 @@ use std::ops::Range;
 
 use crate::heidenhain::blocks::Block;
 use crate::heidenhain::flow::{NOT_ALONE, label_name};
-use crate::heidenhain::reading::walker::{EXPAND, Reader, TILTED, TILTED_REMEDY};
+use crate::heidenhain::reading::walker::{EXPAND, Reader};
 use crate::heidenhain::table::row;
-use crate::heidenhain::words::{EXPONENT, Value, Word, exponent};
+use crate::heidenhain::words::{EXPONENT, Word, exponent};
+use crate::model::slash_blocks::{SLASHED, SlashBlocks};
 use crate::table::Treatment;
 
 impl Reader<'_> {
@@ -18,11 +19,14 @@ impl Reader<'_> {
         };
         let span = first.span.start..words[words.len() - 1].span.end;
         if block.skipped {
-            self.fault(
-                &span,
-                "the block is skipped or not, as a switch of the machine says",
-                "take the sign `/` away, or the block out",
-            );
+            match self.options.slash_blocks {
+                SlashBlocks::Refused => self.fault(&span, SLASHED.0, SLASHED.1),
+                SlashBlocks::Run => self.remark(&span, "a block behind a slash", "runs"),
+                SlashBlocks::Skipped => {
+                    self.remark(&span, "a block behind a slash", "does not run");
+                    return false;
+                }
+            }
         }
         if let Some(word) = exponent(&words) {
             self.fault(&word.span, EXPONENT.0, EXPONENT.1);
@@ -46,6 +50,11 @@ impl Reader<'_> {
     /// By the word that it begins with.
     fn statement(&mut self, block: &Block, words: &[Word], span: &Range<usize>) -> bool {
         let first = &words[0];
+        let sets = |word: &Word| word.is("Q") && matches!(word.whole(), Some(120..=122));
+        if words.iter().any(sets) {
+            // A value of the program's own takes the place of the angle that the control computed.
+            self.state.tilt.across = None;
+        }
         match first.letters.letters() {
             b"L" | b"LN" | b"LP" | b"C" | b"CP" | b"CR" | b"CT" | b"CTP" | b"M" | b"F" => {
                 return self.path(block, words, span);
@@ -80,19 +89,6 @@ impl Reader<'_> {
             },
         }
         false
-    }
-
-    fn plane(&mut self, words: &[Word], span: &Range<usize>) {
-        let flat = words[1..]
-            .iter()
-            .all(|word| word.value().unwrap_or(0.0) == 0.0);
-        if !flat
-            || words
-                .iter()
-                .any(|word| matches!(word.value, Value::Parameter { .. }))
-        {
-            self.fault(span, TILTED, TILTED_REMEDY);
-        }
     }
 
     fn function(&mut self, words: &[Word], span: &Range<usize>) {

@@ -63,6 +63,9 @@ impl Reader<'_> {
             words: &TIP,
             rapid: parsed.feed == FeedWord::Max,
         };
+        if !parsed.rotary.is_empty() {
+            self.turned_by_words(!self.options.rotary_axes.is_empty());
+        }
         for word in &parsed.rotary {
             let at = &words[word.at].span;
             let Some(place) = self.state.standing.place_of_letter(word.letter) else {

@@ -28,8 +28,8 @@ pub(crate) struct Reader<'r> {
     pub has_corners: bool,
     pub line: Option<Line>,
     pub corner: Option<Pending>,
-    /// Functions of the machine's builder that were remarked on.
-    pub remarked: BTreeSet<u32>,
+    /// Words that were remarked on.
+    pub remarked: BTreeSet<String>,
 }
 
 /// What is to be done with what runs more than once or by parameters.
@@ -39,6 +39,9 @@ pub(crate) const TILTED: &str = "it tilts the plane in which the places are";
 
 pub(crate) const TILTED_REMEDY: &str = "let the CAM system write the places in the axes of the part, with LN blocks (TX, TY, TZ) where the tool leans, or give each plane as a program of its own";
 
+pub(crate) const BUILDERS: &str =
+    "is the machine builder's: taken as one that does not move the tool";
+
 pub(crate) const BY_PARAMETER: &str = "a Q parameter says its value";
 
 impl Reader<'_> {
@@ -47,6 +50,13 @@ impl Reader<'_> {
         note(&mut self.found.faults, || {
             ProgramError::at(file, span.clone(), reason, remedy)
         });
+    }
+
+    /// Remarks once on a word that is taken in some way.
+    pub(crate) fn remark(&mut self, span: &Range<usize>, word: &str, taken: &str) {
+        if self.remarked.insert(word.to_owned()) {
+            self.finding(span, format!("{word} {taken}"));
+        }
     }
 
     pub(crate) fn finding(&mut self, span: &Range<usize>, message: String) {

@@ -6,10 +6,12 @@ use nalgebra::{UnitQuaternion, Vector3};
 
 use crate::corner::Beside;
 use crate::heidenhain::blocks::Block;
+use crate::heidenhain::datum::Bend;
 use crate::heidenhain::ends::{Ends, Went};
 use crate::heidenhain::path_words::{FeedWord, PathWords};
 use crate::heidenhain::plane::XY;
 use crate::heidenhain::reading::motions::{Carried, UNSTATED};
+use crate::heidenhain::reading::tilted::Stands;
 use crate::heidenhain::reading::walker::Reader;
 use crate::heidenhain::words::Word;
 use crate::model::motion::MotionKind;
@@ -89,11 +91,12 @@ impl Reader<'_> {
                 Some(_) => {
                     (self.state.axis, self.state.directed) = (axis, true);
                     self.state.standing.take_direction_instead();
+                    self.state.tilt.stands = Stands::AsWords;
                 }
                 None => self.fault(span, "the tool's axis has not the length 1", "mend it"),
             }
         }
-        if self.no_place_by_axes(span, rapid) {
+        if self.no_place_by_plane(span, rapid) || self.no_place_by_axes(span, rapid) {
             self.unknown(
                 block,
                 words,
@@ -183,7 +186,10 @@ impl Reader<'_> {
             orientation: Vec::new(),
             convention: match self.state.directed {
                 true => OrientationText::Axis,
-                false if self.state.plane != XY => OrientationText::Axis,
+                false if self.state.plane != XY || self.state.axis != Vector3::z() => {
+                    OrientationText::Axis
+                }
+                false if matches!(datum.bend, Bend::Tilt(_)) => OrientationText::Axis,
                 false => OrientationText::Unstated,
             },
             external: Vec::new(),

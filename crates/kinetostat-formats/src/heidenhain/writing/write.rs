@@ -47,6 +47,7 @@ pub(crate) fn write_heidenhain(
     }
     let reading = ReadOptions {
         rotary_axes: program.rotary.letters.clone(),
+        slash_blocks: program.slash_blocks,
         ..ReadOptions::default().as_written()
     };
     let Found { ways, shown, .. } = interpret(&program.files, &reading);

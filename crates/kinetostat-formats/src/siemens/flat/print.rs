@@ -1,6 +1,6 @@
 //! The blocks of a program as they run: numbers in place of expressions, without labels and assignments.
 
-use crate::model::slash_blocks::SlashBlocks;
+use crate::model::slash_blocks::{SLASHED, SlashBlocks};
 use crate::siemens::block::{Block, Item, What};
 use crate::siemens::expression::Expression;
 use crate::siemens::flat::holes::drilling_of;
@@ -8,7 +8,6 @@ use crate::siemens::flat::modes::is_frame;
 use crate::siemens::flat::runner::{Fault, Runner};
 use crate::siemens::flat::structure::Line;
 use crate::siemens::place::number_text;
-use crate::siemens::scan::{SLASHED, SLASHED_REMEDY};
 use crate::siemens::values::Value;
 use crate::text::edits::Edits;
 
@@ -42,7 +41,7 @@ impl Runner<'_> {
             // What stays in the flat program is for the reader to say.
             let runs = items.iter().any(acts) || self.call(items)?.is_some();
             if runs || !matches!(self.end(items)?, End::No) {
-                return Err(self.fault(&line.block.span, SLASHED, SLASHED_REMEDY));
+                return Err(self.fault(&line.block.span, SLASHED.0, SLASHED.1));
             }
         }
         if let Some(call) = self.call(items)? {

@@ -109,6 +109,21 @@ fn steps_are_drilled_and_a_tap_turns_back() {
             .all(|(a, b)| (a - b).abs() < 1e-9),
         "{heights:?}"
     );
+    // The first step of DEEP2 is one of its own, and may be deeper than the hole.
+    for (first, expected) in [
+        (
+            5,
+            &[20.0, 3.0, -5.0, 3.0, -4.0, -9.0, 3.0, -8.0, -10.0, 3.0][..],
+        ),
+        (12, &[20.0, 3.0, -10.0, 3.0]),
+    ] {
+        let found = holes(&format!(
+            "CYCLE/DEEP2,FEDTO,10,1STPECK,{first},SUBPECK,4,MMPM,150,RAPTO,3,RTRCTO,3"
+        ));
+        let heights = found[1..].iter().map(|(place, _)| place[2]);
+        let near = |(a, b): (f64, &f64)| (a - b).abs() < 1e-9;
+        assert!(heights.zip(expected).all(near), "{first}: {found:?}");
+    }
     let found = holes("CYCLE/DRILL,BRKCHP,FEDTO,-10,INCR,5,MMPM,150,RAPTO,3");
     let heights: Vec<f64> = found[1..7].iter().map(|(place, _)| place[2]).collect();
     let expected = [20.0, 3.0, -5.0, -4.0, -10.0, 3.0];
@@ -188,6 +203,10 @@ fn cycles_that_are_not_followed_are_refused_by_line() {
             "DEPTH and FEDTO both state",
         ),
         ("CYCLE/DEEP,DEPTH,10,CLEAR,3", "by which steps it drills"),
+        (
+            "CYCLE/DEEP2,DEPTH,10,1STPECK,0,SUBPECK,2,CLEAR,3",
+            "by which steps it drills",
+        ),
         (
             "CYCLE/BORE,BACK,DEPTH,10,CLEAR,3",
             "what BACK says of the cycle is not followed",

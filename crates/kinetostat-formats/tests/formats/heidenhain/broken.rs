@@ -69,7 +69,7 @@ fn blocks_that_move_the_tool_otherwise_are_refused_by_line() {
             "a rotary axis (C) turns the part or the tool",
         ),
         (
-            "PLANE SPATIAL SPA+0 SPB+45 SPC+0 STAY",
+            "PLANE PROJECTED PROPR+0 PROMIN+45 ROT+0 STAY",
             "it tilts the plane in which the places are",
         ),
         (
@@ -146,7 +146,7 @@ fn blocks_that_move_the_tool_otherwise_are_refused_by_line() {
         ),
         (
             "/L X+10",
-            "the block is skipped or not, as a switch of the machine says; take the sign `/` away",
+            "whether the block runs, depends on a switch at the machine (/); say it (--block-delete run or skip)",
         ),
         (
             "L X+1 M118 X1 Y1",

@@ -191,17 +191,18 @@ fn each_of_these_files_is_refused_with_its_line_and_a_remedy() {
             BETWEEN,
         ),
         // Tilted planes.
+        (AS_IT_IS, "PLANE SPATIAL SPA+0 SPB+30 TURN FMAX", 4, PLANE),
         (
             AS_IT_IS,
-            "PLANE SPATIAL SPA+0 SPB+30 SPC+0 TURN FMAX",
-            4,
-            PLANE,
+            "PLANE VECTOR BX1 BY0 BZ0 NX0 NY0.5 NZ0.8 STAY\nL X+0 Y+0 Z+5 FMAX\nL Z-1 F100",
+            6,
+            "the rotary axes do not stand as the plane in force says",
         ),
         (
             AS_IT_IS,
-            "PLANE VECTOR BX1 BY0 BZ0 NX0 NY0.5 NZ0.8 STAY",
+            "L X+1 B+Q121",
             4,
-            "it tilts the plane in which the places are",
+            "no PLANE before it has computed these angles; write the program flat first (--expand)",
         ),
         (
             AS_IT_IS,

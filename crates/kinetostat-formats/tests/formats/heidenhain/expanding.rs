@@ -88,7 +88,7 @@ fn local_parameters_are_those_of_one_program() {
     let without = called(main, "L Y+QL1\n").unwrap_err()[0].to_string();
     assert_eq!(
         without,
-        "SUBQ.H, line 2: `L Y+QL1`: QL1 has no value that its program states (QL parameters are those of one program: one that is called has its own); state it before: FN 0: Q1 = +5"
+        "SUBQ.H, line 2: `L Y+QL1`: QL1 has no value that its program states (QL parameters are those of one program: one that is called has its own); state it before (FN 0: Q1 = +5), or give the value that it has on the machine (--set Q1=5)"
     );
     let behind = called("CALL PGM SUBQ\nL X+QL2\n", "QL2 = 1\n").unwrap_err();
     assert!(
@@ -289,7 +289,7 @@ fn runs_are_bounded_and_faults_name_their_line() {
         ),
         (
             "L X+Q7\n",
-            "line 2: `L X+Q7`: Q7 has no value that the program states; state it before: FN 0: Q1 = +5",
+            "line 2: `L X+Q7`: Q7 has no value that the program states; state it before (FN 0: Q1 = +5), or give the value",
         ),
         (
             "Q1 = Q2 + 1\nL X+Q1\n",
@@ -337,7 +337,7 @@ fn runs_are_bounded_and_faults_name_their_line() {
             "CYCL DEF 200 DRILLING ~\n Q201=-10 ~\n Q206=+9 ~\n Q203=+0\nL X+1 M99\n",
             "Q200 of cycle 200 is stated nowhere",
         ),
-        ("Q1 = 1\n/L X+Q1\n", "skipped or not"),
+        ("Q1 = 1\n/L X+Q1\n", "depends on a switch at the machine"),
         (
             "FN 14: ERROR = 1000\nCALL LBL 1\nLBL 1\nL X+1\nLBL 0\n",
             "ends here with an error of its own",

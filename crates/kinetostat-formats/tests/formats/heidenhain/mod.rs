@@ -12,6 +12,7 @@ pub mod random;
 mod real;
 mod refused_words;
 mod sides;
+mod tilted;
 mod tool_axes;
 mod zero_change;
 

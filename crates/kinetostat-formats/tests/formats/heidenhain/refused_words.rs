@@ -47,7 +47,7 @@ fn cycles_that_act_where_they_are_defined_are_refused_and_unknown_ones_too() {
             "where it is defined",
         );
     }
-    for cycle in ["1001 STROKE", "600 OWN", "332 TUNING", "999 OEM"] {
+    for cycle in ["1001 STROKE", "600 OWN", "299 TUNING", "999 OEM"] {
         only(&format!("CYCL DEF {cycle}\n{path}"), 3, "is not known");
     }
     for cycle in [
