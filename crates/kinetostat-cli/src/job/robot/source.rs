@@ -133,8 +133,7 @@ pub(crate) fn robot_source(
         source.paths.push(path);
         Ok(())
     };
-    let beside = path.with_extension("dat");
-    if has_data_beside(language) && beside.is_file() {
+    for beside in files_beside(language, path, bytes) {
         take(beside)?;
     }
     if let Some((j, table)) = table {
@@ -175,13 +174,35 @@ fn is_data(path: &Path) -> bool {
         .is_some_and(|ending| ending.eq_ignore_ascii_case("dat"))
 }
 
-/// Whether targets are declared in a file of the same name with the ending `.dat`.
-fn has_data_beside(language: Language) -> bool {
-    match language {
-        Language::Rapid => false,
-        Language::Krl => true,
-        _ => false,
+/// Files in the folder of a program that belong to it, and those that belong to them.
+fn files_beside(language: Language, path: &Path, bytes: &[u8]) -> Vec<PathBuf> {
+    let own_name = |path: &Path| {
+        path.file_name()
+            .map(|name| name.to_string_lossy().into_owned())
+    };
+    let folder = path
+        .parent()
+        .filter(|folder| !folder.as_os_str().is_empty());
+    let entries = std::fs::read_dir(folder.unwrap_or(Path::new("."))).into_iter();
+    let files = entries.flatten().flatten().map(|entry| entry.path());
+    let mut names: Vec<String> = files
+        .filter(|file| file.is_file())
+        .filter_map(|file| own_name(&file))
+        .collect();
+    names.sort();
+    let first = own_name(path).unwrap_or_default();
+    let mut open = vec![SourceFile::new(first.clone(), bytes)];
+    names.retain(|name| *name != first);
+    let mut found = Vec::new();
+    while let Some(file) = open.pop() {
+        for name in language.files_beside(&file, &names) {
+            let beside = path.with_file_name(&name);
+            open.extend(std::fs::read(&beside).map(|bytes| SourceFile::new(name.clone(), bytes)));
+            names.retain(|other| *other != name);
+            found.push(beside);
+        }
     }
+    found
 }
 
 /// The first key of a table that only programs of robots have, with the name of the table.
