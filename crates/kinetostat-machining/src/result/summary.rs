@@ -1,7 +1,6 @@
 //! Figures of a whole run.
 
 use crate::load::ramp_findings::LoadRamp;
-use crate::result::decimals::WrittenDecimals;
 use crate::result::largest_change::LargestChange;
 use crate::result::solving::Solving;
 use kinetostat_program::ShortBlocksOfLine;
@@ -82,9 +81,6 @@ pub struct Summary {
     /// Maximum allowed feed along the tool's own path, over the programmed one.
     #[serde(default)]
     pub max_feed_factor: f64,
-    /// Digits behind the point of the numbers that were written anew.
-    #[serde(default)]
-    pub decimals: WrittenDecimals,
     /// Pieces whose feed was held to that: they are slower along the part than programmed, and not
     /// part of `max_speed_deviation_percent`.
     #[serde(default)]
