@@ -25,6 +25,8 @@ mod poses;
 mod rapid;
 #[path = "../tests/formats/siemens/random.rs"]
 mod siemens;
+#[path = "../tests/formats/val3/random.rs"]
+mod val3;
 
 use std::process::ExitCode;
 use std::time::{Duration, Instant};
@@ -34,7 +36,7 @@ use harness::Kind;
 /// A language by its folder.
 type Named = (&'static str, fn() -> Kind);
 
-const LANGUAGES: [Named; 7] = [
+const LANGUAGES: [Named; 8] = [
     ("apt", apt::kind),
     ("heidenhain", heidenhain::kind),
     ("krl", krl::kind),
@@ -42,6 +44,7 @@ const LANGUAGES: [Named; 7] = [
     ("poses", poses::kind),
     ("rapid", rapid::kind),
     ("siemens", siemens::kind),
+    ("val3", val3::kind),
 ];
 
 fn main() -> ExitCode {

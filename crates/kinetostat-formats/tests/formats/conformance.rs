@@ -217,4 +217,14 @@ conforms! {
         partial: &[23, 24],
         ends: 10,
     };
+    val3: Example {
+        files: &[
+            ("start.pgx", include_str!("fixtures/everything.pgx")),
+            ("cell.dtx", include_str!("fixtures/everything.dtx")),
+        ],
+        remark: b"<!-- behind -->",
+        values: &[("bGo", 1.0)],
+        partial: &[],
+        ends: 6,
+    };
 }

@@ -31,6 +31,8 @@ pub struct Kind {
     /// Reasons for which the writer may refuse a correction by chance.
     pub said: &'static [&'static str],
     pub own: OwnCheck,
+    /// Names of the files.
+    pub names: [&'static str; 2],
 }
 
 impl Kind {
@@ -52,6 +54,7 @@ impl Kind {
             whole,
             said: &[],
             own: |_, _, _| Ok(()),
+            names: ["a.txt", "a.dat"],
         }
     }
 
@@ -98,13 +101,10 @@ pub fn broken(chance: &mut Chance, text: &str, kind: &Kind) -> Vec<u8> {
 
 /// The program of a file, or of one with its data list.
 pub fn read_files(kind: &Kind, files: &[Vec<u8>]) -> Result<RobotProgram, Vec<ProgramError>> {
-    let named = NAMES.iter().zip(files);
+    let named = kind.names.iter().zip(files);
     let files = named.map(|(name, bytes)| SourceFile::new(*name, bytes.as_slice()));
     read(kind.language, files.collect(), &kind.options)
 }
-
-/// Names of files.
-const NAMES: [&str; 2] = ["a.txt", "a.dat"];
 
 /// What was written, without the names.
 fn bytes_of(files: Vec<(String, Vec<u8>)>) -> Vec<Vec<u8>> {
@@ -366,7 +366,8 @@ pub fn check(chance: &mut Chance, files: &[Vec<u8>], kind: &Kind) -> Result<bool
     let program = match read_files(kind, files) {
         Ok(program) => program,
         Err(errors) => {
-            let place = |error: &ProgramError| NAMES.iter().position(|name| *name == error.file);
+            let place =
+                |error: &ProgramError| kind.names.iter().position(|name| *name == error.file);
             let fits = |error: &ProgramError| {
                 let Some(bytes) = place(error).and_then(|file| files.get(file)) else {
                     return false;

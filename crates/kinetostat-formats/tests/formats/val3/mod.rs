@@ -2,6 +2,7 @@
 
 mod broken;
 mod corrections;
+pub mod random;
 mod runs;
 
 use kinetostat_formats::*;
