@@ -84,9 +84,13 @@ pub trait ProgramLanguage: Sync {
         Vec::new()
     }
 
-    /// Files that belong to one of a program, of those in its folder.
-    fn files_beside(&self, _file: &SourceFile, _folder: &[String]) -> Vec<String> {
-        Vec::new()
+    /// Files that belong to one of a program, of those in its folder: the data of the same name.
+    fn files_beside(&self, file: &SourceFile, folder: &[String]) -> Vec<String> {
+        let stem = file.name().rsplit_once('.').map_or("", |(stem, _)| stem);
+        let data = self.data_ending().map(|data| format!("{stem}.{data}"));
+        data.filter(|name| folder.contains(name))
+            .into_iter()
+            .collect()
     }
 
     /// True where its reader knows lines that end with a carriage return alone.
@@ -164,9 +168,14 @@ pub trait ProgramLanguage: Sync {
         None
     }
 
-    /// True for a language of robots, whose programs are run with values that the caller states.
+    /// True for a language of robots.
     fn is_of_robot(&self) -> bool {
         true
+    }
+
+    /// True for programs that are run with values that the caller states.
+    fn takes_values(&self) -> bool {
+        self.is_of_robot()
     }
 
     /// True for a list of poses or joint values, which has no statements.

@@ -2,7 +2,6 @@
 
 use std::sync::Arc;
 
-use kinetostat_formats::Language;
 use kinetostat_machining::number::counted;
 use kinetostat_program::{Program, RotaryAxes, interpret};
 
@@ -77,7 +76,7 @@ fn of_gcode(setting: &Setting) -> Answer<(String, Option<String>)> {
 
 /// The same of a program of SINUMERIK or Heidenhain, whose flat form says something.
 fn of_control(setting: &Setting, source: &RobotSource) -> Answer<(String, Option<String>)> {
-    if !matches!(source.language, Language::Siemens | Language::Heidenhain) {
+    if !source.language.is_in_blocks() {
         return Err(Failure::input(
             "--no-compensation writes a program of a machine as it was read, or with --expand its flat form; a program of a robot would be its own copy: leave it where it is",
         ));

@@ -12,7 +12,6 @@ mod long;
 
 use std::path::{Path, PathBuf};
 
-use kinetostat_formats::Language;
 use kinetostat_machining::merged;
 
 use crate::compensate::arguments::CompensateArgs;
@@ -300,10 +299,7 @@ fn refuse_turn_without_words(setting: &Setting) -> Answer<()> {
 /// Whether the language of the program states how the tool is turned about its own axis.
 fn states_turn(setting: &Setting) -> bool {
     let language = setting.robot.as_ref().map(|robot| robot.language);
-    matches!(
-        language,
-        Some(Language::Krl | Language::Rapid | Language::FanucLs | Language::Poses)
-    )
+    language.is_some_and(|language| language.states_turn())
 }
 
 fn writing(args: &CompensateArgs) -> WritingFlags<'_> {

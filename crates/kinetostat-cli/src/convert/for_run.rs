@@ -164,7 +164,7 @@ pub(crate) fn settings_of_made(
     found.making.tool_axis = axis;
     // Straight rapids have this speed, but for the last digit; APT has a word for them.
     found.making.rapid_from_mm_per_s =
-        (of_robot != Language::Apt).then_some(0.999_999 * template.rapid_speed_mm_per_s);
+        (!of_robot.has_rapid_word()).then_some(0.999_999 * template.rapid_speed_mm_per_s);
     Ok(found)
 }
 

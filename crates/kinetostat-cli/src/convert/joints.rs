@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use kinetostat::{Mechanism, Pose, PostureRequest};
 use kinetostat_formats::{
-    BetweenRows, FrameUse, JointStart, Language, Made, Rapids, TableArm, Template, joint_table,
+    BetweenRows, FrameUse, JointStart, Made, Rapids, TableArm, Template, joint_table,
 };
 use kinetostat_machining::number::counted;
 use kinetostat_model::Model;

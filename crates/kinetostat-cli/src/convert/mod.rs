@@ -15,7 +15,7 @@ mod text;
 
 use std::path::Path;
 
-use kinetostat_formats::{BetweenRows, Language, Template};
+use kinetostat_formats::{BetweenRows, Template};
 use kinetostat_report::turns_svg;
 
 use crate::convert::arguments::ConvertArgs;
@@ -179,7 +179,7 @@ fn with_arm(
     setting: &mut Setting,
     template: &Template,
 ) -> Answer<()> {
-    let is_table = (setting.robot.as_ref()).is_some_and(|of| of.language == Language::Poses);
+    let is_table = (setting.robot.as_ref()).is_some_and(|of| of.language.is_list());
     if !is_table && args.to != TargetWord::Joints {
         let given = [
             ("--model", args.model.is_some()),

@@ -3,7 +3,7 @@
 //! Its tool and its frames are asked for before the machine of the run is known; where its words turn rotary axes, it cannot be
 //! read without these.
 
-use kinetostat_formats::{Language, read};
+use kinetostat_formats::read;
 
 use crate::files::input_files::InputFiles;
 use crate::job::arguments::ProgramArgs;
@@ -25,7 +25,7 @@ pub(crate) fn give_axes(
     let Some(source) = &setting.robot else {
         return Ok(());
     };
-    if !matches!(source.language, Language::Siemens | Language::Heidenhain) {
+    if !source.language.is_in_blocks() {
         return Ok(());
     }
     let (named, base) = model_named(job, flag_model)?;

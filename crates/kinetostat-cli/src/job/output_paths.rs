@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use kinetostat_formats::{Language, endings_of, language_of};
+use kinetostat_formats::{Language, language_of};
 use serde_spanned::Spanned;
 
 use crate::files::file_names::file_name;
@@ -188,11 +188,9 @@ pub(crate) fn refuse_unused(flags: &ProgramArgs, targets: &OutputPaths) -> Answe
 fn keeps_name(program: &Path, bytes: &[u8]) -> bool {
     let ending = program.extension().unwrap_or_default().to_string_lossy();
     let ending = ending.to_ascii_lowercase();
-    let mut loaded = Language::ALL
-        .iter()
-        .filter(|l| !matches!(l, Language::Poses | Language::Apt));
-    loaded.any(|language| endings_of(*language).contains(&ending.as_str()))
-        || language_of(&file_name(program), bytes) == Some(Language::Siemens)
+    let mut loaded = Language::ALL.iter().filter(|language| language.is_loaded());
+    loaded.any(|language| language.endings().contains(&ending.as_str()))
+        || language_of(&file_name(program), bytes).is_some_and(|language| language.is_loaded())
 }
 
 /// A program under its own name in a folder beside `near`, which leads to no other place.

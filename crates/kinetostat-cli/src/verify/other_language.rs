@@ -150,15 +150,9 @@ pub(crate) fn words_of_cell(
     if !placement.orientation_follows {
         found.extend(leaning(machine, own));
     }
-    let of_arm = |language| {
-        matches!(
-            language,
-            Language::Krl | Language::Rapid | Language::FanucLs | Language::Poses
-        )
-    };
     if own
         .robot()
-        .is_some_and(|robot| of_arm(robot.program.language))
+        .is_some_and(|robot| robot.program.language.states_turn())
     {
         found.extend(spindle_of_cell(template, verified, original));
     }

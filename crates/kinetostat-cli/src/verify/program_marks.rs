@@ -1,8 +1,6 @@
 //! The marks of a program, from what its reader gives: motions, events, words of blocks.
 
-use kinetostat_formats::{
-    BlockWord, EventKind, Language, Motion, Runs, Target, each_block, events_of_robot,
-};
+use kinetostat_formats::{BlockWord, EventKind, Motion, Runs, Target, each_block, events_of_robot};
 use kinetostat_program::{Path, Program};
 
 use crate::job::program::ReadProgram;
@@ -63,7 +61,7 @@ impl<'r> Marks<'r> {
         each_block(read.program, |line, words| {
             marks.add_block(line, Some(language), words);
         });
-        if !matches!(language, Language::Siemens | Language::Heidenhain) {
+        if !language.is_in_blocks() {
             marks.add_statements(read);
         }
         marks
@@ -97,12 +95,7 @@ impl<'r> Marks<'r> {
         let language = read.program.language;
         for event in events_of_robot(read.program) {
             let text = event.text.to_ascii_uppercase();
-            let code = match language {
-                Language::Krl => text.split(';').next(),
-                Language::Apt => text.split("$$").next(),
-                _ => Some(text.trim_end().trim_end_matches(';')),
-            };
-            let words = code.unwrap_or_default().split_whitespace();
+            let words = language.code_of(&text).split_whitespace();
             let text = words.collect::<Vec<_>>().join(" ");
             // Targets are in the places, and APT has the spindle along the path.
             let dense = text.replace(' ', "");
@@ -110,7 +103,7 @@ impl<'r> Marks<'r> {
                 dense.contains("={") || dense.contains(":=[") || dense.starts_with("PR[");
             let is_compared = match event.kind {
                 EventKind::Comment | EventKind::End => true,
-                EventKind::Spindle => language == Language::Apt,
+                EventKind::Spindle => language.spindle_is_in_path(),
                 _ => is_place || text.is_empty(),
             };
             if is_compared {

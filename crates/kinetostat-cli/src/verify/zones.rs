@@ -1,6 +1,6 @@
 //! How near the tool comes to the ends of motions of robots.
 
-use kinetostat_formats::{Language, Zone};
+use kinetostat_formats::Zone;
 
 use crate::job::robot::read_program::RobotRead;
 use crate::ui::numbers::short;
@@ -67,7 +67,7 @@ fn radii(
     let of_original = largest(original).map_or(0.0, |(mm, _)| mm);
     // Pieces of a motion of KRL that stops pass their ends within the distance in force.
     let may_be_pieces =
-        verified.program.language == Language::Krl && of_original == 0.0 && !stops_less;
+        verified.program.language.pieces_pass_their_ends() && of_original == 0.0 && !stops_less;
     let fault = (!may_be_pieces).then_some(FaultKind::PathMode);
     (mm > PASSED_MM && mm > of_original).then(|| {
         let text = format!(

@@ -107,6 +107,10 @@ impl ProgramLanguage for HeidenhainLanguage {
         is_numbered(program).then(|| numbered_again(program))?
     }
 
+    fn takes_values(&self) -> bool {
+        true
+    }
+
     fn is_of_robot(&self) -> bool {
         false
     }

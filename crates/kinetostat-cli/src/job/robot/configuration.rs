@@ -1,6 +1,6 @@
 //! The configuration of the arm that a program states, beside that in which the model was solved.
 
-use kinetostat_formats::{Language, RobotProgram, StatedArm};
+use kinetostat_formats::{Language, StatedArm};
 use kinetostat_machining::{
     ArmConfiguration, Elbow, PointResult, Shoulder, Warning, WarningCode, Wrist,
 };
@@ -31,13 +31,13 @@ pub(crate) fn as_stated(
 ) -> StatedArm {
     let beyond = |distance: f64| distance > ON_NEITHER_SIDE;
     let is_down = solved.elbow == Elbow::Down;
-    let by_sign = axis_5_deg.filter(|_| matches!(language, Language::Krl | Language::Rapid));
+    let by_sign = axis_5_deg.filter(|_| language.wrist_is_sign_of_axis_5());
     let flips = by_sign.map_or(solved.wrist == Wrist::Flip, |angle| angle < 0.0);
     StatedArm {
         is_back: beyond(solved.shoulder_from_singular_mm)
             .then_some(solved.shoulder == Shoulder::Back),
         elbow: beyond(solved.elbow_from_singular_deg)
-            .then_some(is_down != (language == Language::Krl)),
+            .then_some(is_down != language.elbow_flag_is_up()),
         wrist: beyond(solved.wrist_from_singular_deg).then_some(flips),
     }
 }
@@ -73,11 +73,11 @@ pub(crate) fn other_configuration(
     let (program, language) = (read.program, read.program.language);
     let made = read.settings.made_arm.as_ref();
     // The others of a made program state nothing: the arm takes what is near.
-    let only_first = made.is_some() && language == Language::Rapid;
+    let only_first = made.is_some() && language.may_take_near_configurations();
     if only_first && made.is_some_and(|made| !made.states_configuration) {
         return None;
     }
-    let is_near = language == Language::Rapid && made.is_none() && takes_what_is_near(program);
+    let is_near = made.is_none() && language.takes_near_configurations(program);
     let is_last = |(index, point): &(usize, &PointResult)| {
         let next = points.get(index + 1);
         next.is_none_or(|next| next.move_index != point.move_index)
@@ -141,13 +141,4 @@ fn of_parts(parts: &[&str]) -> String {
         }
         _ => parts.concat(),
     }
-}
-
-/// A program in RAPID that switches the supervision of configurations off: what it states of elbow and wrist is not kept.
-fn takes_what_is_near(program: &RobotProgram) -> bool {
-    let mut files = program.files.iter();
-    files.any(|file| {
-        let text = String::from_utf8_lossy(file.bytes()).to_ascii_lowercase();
-        text.contains("confl\\off") && text.contains("confj\\off")
-    })
 }

@@ -21,21 +21,12 @@ pub(crate) struct Divided {
     files: Vec<SourceFile>,
 }
 
-/// How comments begin in languages whose files can be joined, and the word of the line below which they may stand.
-fn comment_of(language: Language) -> Option<(&'static str, &'static [u8])> {
-    match language {
-        Language::Krl => Some((";", b"DEF")),
-        Language::Rapid => Some(("!", b"MODULE")),
-        _ => None,
-    }
-}
-
 impl Divided {
     /// Files of a program that are to be joined; none in a language that has one routine a file.
     pub(crate) fn of(language: Language, files: Vec<SourceFile>) -> Option<Self> {
-        let (comment, below) = comment_of(language)?;
-        Some(Self {
-            comment,
+        let below = language.header_below()?.as_bytes();
+        language.files_are_joined().then(|| Self {
+            comment: language.comment(),
             below,
             files,
         })

@@ -1,7 +1,6 @@
 //! The posture in which the model's arm comes to the first place of a program that was converted, in words: its language does not say
 //! it, or not all of it.
 
-use kinetostat_formats::{Language, StatedArm};
 use kinetostat_machining::{ArmConfiguration, PointResult, Warning, WarningCode};
 
 use crate::job::robot::configuration::{as_stated, joint_words, shown, shown_by_controller};
@@ -32,7 +31,8 @@ pub(crate) fn of_first_place(
     };
     let language = read.program.language;
     let axis_5 = shown_by_controller(Some(arm), point).and_then(|shown| shown.get(4).copied());
-    let text = stated_words(language, &as_stated(language, &solved, axis_5));
+    let words = language.words_of_arm(&as_stated(language, &solved, axis_5));
+    let text = words.map_or_else(String::new, |words| format!(" ({words})"));
     let mut found = vec![Warning::at_line(
         WarningCode::OtherConfiguration,
         point.line,
@@ -90,26 +90,4 @@ fn otherwise(
         ),
         helps: "",
     })
-}
-
-/// The configuration as the language states it, where all of it is known.
-fn stated_words(language: Language, arm: &StatedArm) -> String {
-    let (Some(is_back), Some(elbow), Some(wrist)) = (arm.is_back, arm.elbow, arm.wrist) else {
-        return String::new();
-    };
-    let of = |is: bool, yes: u8| if is { yes } else { 0 };
-    match language {
-        Language::FanucLs => {
-            let letter = |is: bool, yes: char, no: char| if is { yes } else { no };
-            format!(
-                " (`{} {} {}`)",
-                letter(wrist, 'F', 'N'),
-                letter(elbow, 'D', 'U'),
-                letter(is_back, 'B', 'T')
-            )
-        }
-        Language::Krl => format!(" (S {})", of(is_back, 1) + of(elbow, 2) + of(wrist, 4)),
-        Language::Rapid => format!(" (cfx {})", of(wrist, 1) + of(elbow, 2) + of(is_back, 4)),
-        _ => String::new(),
-    }
 }

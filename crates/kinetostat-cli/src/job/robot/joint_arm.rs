@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use kinetostat::Pose;
-use kinetostat_formats::{JointArm, Language, Motion, TableArm, Target, read};
+use kinetostat_formats::{JointArm, Motion, TableArm, Target, read};
 use kinetostat_machining::{ArmConfiguration, ArmJoints};
 use kinetostat_model::{Controller, Model};
 use nalgebra::Isometry3;
@@ -95,7 +95,7 @@ pub(crate) fn give_arm(
     (job, flag_model): (Option<&JobFile>, Option<&str>),
     flags: &ProgramArgs,
 ) -> Answer<()> {
-    let Some(source) = source.filter(|source| source.language == Language::Poses) else {
+    let Some(source) = source.filter(|source| source.language.is_list()) else {
         return Ok(());
     };
     // Its faults are reported where it is read.

@@ -1,6 +1,6 @@
 //! Orientations as the controller of a robot shows them: what stands on a paper is compared with its pendant.
 
-use kinetostat_formats::{Language, OrientationText};
+use kinetostat_formats::OrientationText;
 use nalgebra::UnitQuaternion;
 
 use crate::job::robot::read_program::RobotRead;
@@ -17,12 +17,7 @@ pub(crate) struct OwnAngles {
 impl OwnAngles {
     /// Those of a program in the language of a robot; others have none of their own.
     pub(crate) fn of(read: &RobotRead<'_>) -> Option<Self> {
-        let text = match read.program.language {
-            Language::Rapid => OrientationText::Quaternion,
-            Language::Krl => OrientationText::Abc,
-            Language::FanucLs => OrientationText::Wpr,
-            _ => return None,
-        };
+        let text = read.program.language.orientation_of_controller()?;
         let mut feeds = read.path.path.moves.iter().filter(|m| m.is_known_feed());
         let first = feeds.find_map(|m| Some((m.line, m.tool_turn.as_ref()?.start)));
         Some(Self { text, first })

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use kinetostat_formats::{Language, SourceFile, read};
+use kinetostat_formats::{SourceFile, read};
 use kinetostat_machining::{FileRead, FlatProgram};
 
 use crate::files::input_files::InputFiles;
@@ -28,7 +28,7 @@ pub(crate) struct Joined {
 /// Joins a program whose motions stand in several files: those that the job names, else the numbered parts beside the program that
 /// it calls. None where it is no such program.
 pub(crate) fn join_parts(source: &mut RobotSource, program: &Path) -> Answer<Option<Joined>> {
-    if !matches!(source.language, Language::Krl | Language::Rapid) {
+    if !source.language.files_are_joined() {
         return Ok(None);
     }
     let mut files = source.files.clone();

@@ -5,8 +5,8 @@ use std::sync::Arc;
 
 use kinetostat::Directions;
 use kinetostat_formats::{
-    Correctable, Language, Motion, ProgramFault, RobotPath, RobotProgram, Target, Zone, all_faults,
-    path_of, read, spindle_of_blocks,
+    Correctable, Motion, ProgramFault, RobotPath, RobotProgram, Target, Zone, all_faults, path_of,
+    read, spindle_of_blocks,
 };
 use kinetostat_machining::{Assumption, AssumptionKind};
 use kinetostat_program::{Move, StatedBy, Warning};
@@ -51,7 +51,7 @@ impl RobotRead<'_> {
 
     /// The tool's axis is not stated, and the language has no convention for it.
     pub(crate) fn axis_is_open(&self) -> bool {
-        self.program.language == Language::Krl && !self.settings.axis_is_stated
+        self.program.language.tool_axis_is_open() && !self.settings.axis_is_stated
     }
 
     /// That what none of its files holds is taken not to move the tool.
@@ -121,8 +121,10 @@ fn read_files(source: &RobotSource) -> Answer<ReadOnce> {
         refused(&all, ProgramFault::reason)
     })?;
     let joints = |motion: &&Motion| matches!(motion.target, Target::Joints { .. });
-    if let (Language::Poses, Some(motion)) = (source.language, program.motions.iter().find(joints))
-    {
+    if let (true, Some(motion)) = (
+        source.language.is_list(),
+        program.motions.iter().find(joints),
+    ) {
         return Err(Failure::input(format!(
             "line {}: the table states joint values; which poses they give only a model says, and none is asked here: compensate with a model, or let the CAM system or the controller write poses (x_mm, y_mm, z_mm, qw, qx, qy, qz)",
             motion.line

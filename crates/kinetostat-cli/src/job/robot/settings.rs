@@ -84,7 +84,7 @@ pub(crate) fn settings(
             reading.cutter_compensation = CutterCompensation::CentrePath;
         }
         if let Some(unit) = &table.length_unit {
-            if language != Language::Poses {
+            if !language.is_list() {
                 return Err(j.error(
                     unit,
                     "this unit is for lists of poses: the program is in a language that has its own",
@@ -97,7 +97,7 @@ pub(crate) fn settings(
             });
         }
         if let Some(rows) = &table.joint_rows {
-            if language != Language::Poses {
+            if !language.is_list() {
                 return Err(j.error(
                     rows,
                     "this way is for tables of joint values: the program is in a language that has its own",
@@ -157,19 +157,11 @@ fn moving_calls(
     let mut found: BTreeSet<String> = flags.moving_calls.iter().cloned().collect();
     found.extend((job.iter()).flat_map(|j| j.job.calls.keys().map(|name| name.get_ref().clone())));
     match found.first() {
-        Some(name) if !is_run(language) => Err(Failure::input(format!(
+        Some(name) if !language.is_of_robot() => Err(Failure::input(format!(
             "'{name}' is stated to move the tool ([calls] in the job, --call), which is for programs in RAPID, KRL and FANUC TP: leave it out"
         ))),
         _ => Ok(found),
     }
-}
-
-/// True for languages whose programs are run with values that the caller states.
-fn is_run(language: Language) -> bool {
-    matches!(
-        language,
-        Language::Rapid | Language::Krl | Language::FanucLs
-    )
 }
 
 /// Values that only the controller knows, for programs that are run with them.
@@ -186,11 +178,9 @@ fn stated_values(
         found.insert(name.clone(), value.clone());
     }
     match found.keys().next() {
-        Some(name) if !is_run(language) && language != Language::Heidenhain => {
-            Err(Failure::input(format!(
-                "a value of '{name}' is stated ([values] in the job, --set), which is for programs in RAPID, KRL, FANUC TP and Heidenhain: leave it out"
-            )))
-        }
+        Some(name) if !language.takes_values() => Err(Failure::input(format!(
+            "a value of '{name}' is stated ([values] in the job, --set), which is for programs that are run with values (RAPID, KRL, FANUC TP, VAL3, Heidenhain and the like): leave it out"
+        ))),
         _ => Ok(found),
     }
 }

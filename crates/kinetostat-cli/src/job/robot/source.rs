@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 
-use kinetostat_formats::{Language, SlashBlocks, SourceFile, endings_of, language_of, odd_program};
+use kinetostat_formats::{FileForm, Language, SlashBlocks, SourceFile, language_of, odd_program};
 use nalgebra::Vector3;
 
 use serde_spanned::Spanned;
@@ -102,12 +102,17 @@ pub(crate) fn robot_source(
         };
     };
     refuse_unfit(job, program, language)?;
-    if language == Language::Krl && is_data(path) {
+    if let Some(data) = language.data_ending().filter(|data| has_ending(path, data)) {
         return Err(Failure::input(format!(
-            "'{name}' holds data of a program: give its .src as the program; the .dat of the same name is read with it"
+            "'{name}' holds data of a program: give its .{} as the program; the .{data} of the same name is read with it",
+            FileForm::Program(language).ending()
         )));
     }
-    let mut settings = settings(job, flags, (language, usual_axis(language)))?;
+    let mut settings = settings(
+        job,
+        flags,
+        (language, Vector3::from(language.usual_tool_axis())),
+    )?;
     settings.reading.slash_blocks = slash_blocks(job, &program.reading);
     let text = parquet::as_text(name, bytes)?;
     let mut source = RobotSource {
@@ -156,22 +161,14 @@ pub(crate) fn slash_blocks(job: Option<&JobFile>, flags: &ReadingArgs) -> SlashB
 
 /// The usual endings of all languages: `.mod, .src, ...`.
 fn known_endings() -> String {
-    let first = |language: &Language| Some(format!(".{}", endings_of(*language).first()?));
+    let first = |language: &Language| Some(format!(".{}", language.endings().first()?));
     let all: Vec<String> = Language::ALL.iter().filter_map(first).collect();
     all.join(", ")
 }
 
-/// From the tool's tip to its holder, in axes of the tool, as is usual.
-fn usual_axis(language: Language) -> Vector3<f64> {
-    match language {
-        Language::Krl => -Vector3::x(),
-        _ => -Vector3::z(),
-    }
-}
-
-fn is_data(path: &Path) -> bool {
+fn has_ending(path: &Path, ending: &str) -> bool {
     path.extension()
-        .is_some_and(|ending| ending.eq_ignore_ascii_case("dat"))
+        .is_some_and(|own| own.eq_ignore_ascii_case(ending))
 }
 
 /// Files in the folder of a program that belong to it, and those that belong to them.

@@ -2,9 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use kinetostat_formats::{
-    KRL_CONFIG, Language, RobotProgram, SourceFile, krl_frames_of_config, krl_needs_config,
-};
+use kinetostat_formats::{KRL_CONFIG, RobotProgram, SourceFile, krl_frames_of_config};
 use kinetostat_machining::FileRead;
 use kinetostat_program::Warning;
 
@@ -28,7 +26,7 @@ pub(crate) fn with_system_frames(
     source: &mut RobotSource,
     program: &Path,
 ) -> Answer<Option<(PathBuf, FileRead)>> {
-    if source.language != Language::Krl || !krl_needs_config(&source.files) {
+    if !source.language.needs_config(&source.files) {
         return Ok(None);
     }
     let Some(path) = places(program)

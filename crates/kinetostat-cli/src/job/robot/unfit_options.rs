@@ -15,7 +15,7 @@ pub(crate) fn refuse_unfit(
     language: Language,
 ) -> Answer<()> {
     // A control has the switch for blocks behind a slash, as G-code has.
-    let has_switch = matches!(language, Language::Siemens | Language::Heidenhain);
+    let has_switch = language.has_slash_switch();
     let refuse = |what: &str, why: &str| {
         Err(Failure::input(format!(
             "{what} is for G-code; {why}: leave it out"

@@ -3,8 +3,6 @@
 use kinetostat_formats::*;
 
 use super::{DATA, data_of, files_with, program_of, read_with};
-use crate::chance::Chance;
-use crate::harness::{Kind, PLACE_MM, broken};
 
 fn read_texts(start: &str, data: &str) -> Result<RobotProgram, Vec<ProgramError>> {
     let files = vec![
