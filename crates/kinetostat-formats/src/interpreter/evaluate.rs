@@ -11,6 +11,11 @@ pub(crate) trait Names {
     /// The way to a component of a value.
     fn component(&self, of: &Datum, name: &Name) -> Option<Step>;
 
+    /// The way to an element of a value.
+    fn element(&self, _of: &Datum, index: &Datum) -> Option<Step> {
+        index_of(index).map(Step::Index)
+    }
+
     /// The result of an operator with two operands.
     fn operation(&self, operator: Operator, left: &Datum, right: &Datum) -> Datum {
         two(operator, left, right)
@@ -121,7 +126,7 @@ pub(crate) fn evaluate(
             if let Some(reason) = at.iter().find_map(Datum::unknown_reason) {
                 return Datum::unknown(reason.clone());
             }
-            let path = at.iter().map(|index| index_of(index).map(Step::Index));
+            let path = at.iter().map(|index| names.element(&of, index));
             let path: Option<Vec<Step>> = path.collect();
             let part = path.and_then(|path| of.part(&path).cloned());
             part.unwrap_or_else(|| {

@@ -3,7 +3,6 @@
 use std::collections::BTreeSet;
 use std::ops::Range;
 
-use crate::interpreter::token::Kind;
 use crate::model::motion::{Motion, Zone};
 use crate::model::program::RobotProgram;
 use crate::model::site::ReplacedText;
@@ -11,11 +10,11 @@ use crate::options::{ExactStops, WriteOptions};
 use crate::rapid::lex::tokens_of;
 use crate::rapid::table::{MotionRow, motion_row};
 use crate::text::edits::Edits;
-use crate::text::name::{LONGEST, Name};
+use crate::text::name::Name;
 use crate::text::number::Width;
 use crate::text::source::SourceFile;
 use crate::writing::literal::{Wanted, put};
-use crate::writing::syntax::{PieceLiterals, Syntax, replace_word};
+use crate::writing::syntax::{PieceLiterals, Syntax, names_of, replace_word};
 
 /// RAPID.
 pub(crate) struct RapidSyntax;
@@ -28,34 +27,7 @@ fn row_of(program: &RobotProgram, motion: &Motion) -> Option<&'static MotionRow>
 
 impl Syntax for RapidSyntax {
     fn names(&self, program: &RobotProgram) -> BTreeSet<Vec<u8>> {
-        let mut names = BTreeSet::new();
-        for file in &program.files {
-            for token in tokens_of(file.bytes()) {
-                if token.kind == Kind::Word {
-                    names.insert(file.part(&token.bytes()).to_ascii_uppercase());
-                }
-            }
-        }
-        names
-    }
-
-    fn free_name(
-        &self,
-        near: &[u8],
-        number: &mut usize,
-        taken: &mut BTreeSet<Vec<u8>>,
-    ) -> Option<Vec<u8>> {
-        // One of so many is free.
-        for _ in 0..=taken.len() {
-            let end = format!("_{number}");
-            *number += 1;
-            let kept = near.len().min(LONGEST.checked_sub(end.len())?);
-            let name = [&near[..kept], end.as_bytes()].concat();
-            if taken.insert(name.to_ascii_uppercase()) {
-                return Some(name);
-            }
-        }
-        None
+        names_of(program, tokens_of)
     }
 
     fn writes_circles(&self) -> bool {

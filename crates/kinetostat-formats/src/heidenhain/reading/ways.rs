@@ -181,6 +181,7 @@ impl Reader<'_> {
                 value: place[i],
             }),
             orientation: Vec::new(),
+            unit_mm: 1.0,
             convention: match self.state.directed {
                 true => OrientationText::Axis,
                 false if self.state.plane != XY => OrientationText::Axis,
