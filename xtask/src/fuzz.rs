@@ -17,7 +17,7 @@ fn example(what: &str, package: &str, words: &[&str]) -> Result<()> {
 
 /// Fuzz of thousands of cases in a second, by package and words of its example: a twelfth of the time each. One case is repeated with
 /// `cargo run --package kinetostat-program --example fuzz_codes -- case SEED`, and so of the others.
-const QUICK: [(&str, &str, &[&str]); 11] = [
+const QUICK: [(&str, &str, &[&str]); 12] = [
     ("codes", "kinetostat-program", &["fuzz_codes"]),
     (
         "programs with macros",
@@ -30,6 +30,7 @@ const QUICK: [(&str, &str, &[&str]); 11] = [
     ("APT files", FORMATS, &["fuzz_programs", "apt"]),
     ("KRL programs", FORMATS, &["fuzz_programs", "krl"]),
     ("lists of poses", FORMATS, &["fuzz_programs", "poses"]),
+    ("URScript programs", FORMATS, &["fuzz_programs", "urscript"]),
     ("VAL3 programs", FORMATS, &["fuzz_programs", "val3"]),
     ("SINUMERIK programs", FORMATS, &["fuzz_programs", "siemens"]),
     (

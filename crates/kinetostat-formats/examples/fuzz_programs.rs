@@ -25,6 +25,8 @@ mod poses;
 mod rapid;
 #[path = "../tests/formats/siemens/random.rs"]
 mod siemens;
+#[path = "../tests/formats/urscript/random.rs"]
+mod urscript;
 #[path = "../tests/formats/val3/random.rs"]
 mod val3;
 
@@ -36,7 +38,7 @@ use harness::Kind;
 /// A language by its folder.
 type Named = (&'static str, fn() -> Kind);
 
-const LANGUAGES: [Named; 8] = [
+const LANGUAGES: [Named; 9] = [
     ("apt", apt::kind),
     ("heidenhain", heidenhain::kind),
     ("krl", krl::kind),
@@ -44,6 +46,7 @@ const LANGUAGES: [Named; 8] = [
     ("poses", poses::kind),
     ("rapid", rapid::kind),
     ("siemens", siemens::kind),
+    ("urscript", urscript::kind),
     ("val3", val3::kind),
 ];
 

@@ -70,6 +70,7 @@ mod standing;
 mod table;
 mod text;
 mod turned_axis;
+mod urscript;
 mod val3;
 mod writing;
 
@@ -137,6 +138,7 @@ pub use table::{StatementRow, Treatment};
 pub use text::finding::Finding;
 pub use text::flat::FlatText;
 pub use text::source::SourceFile;
+pub use urscript::table::URSCRIPT_STATEMENTS;
 pub use val3::reader::read_val3;
 pub use val3::table::VAL3_STATEMENTS;
 pub use writing::piece::Piece;

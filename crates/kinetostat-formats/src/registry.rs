@@ -19,6 +19,7 @@ macro_rules! each_language {
             Siemens, "SINUMERIK 840D.", crate::siemens::language::SiemensLanguage;
             Heidenhain, "Heidenhain conversational.", crate::heidenhain::language::HeidenhainLanguage;
             Val3, "Staubli VAL3.", crate::val3::language::Val3Language;
+            UrScript, "Universal Robots URScript.", crate::urscript::dialect::URSCRIPT;
             Poses, "Lists of poses: tables (CSV) and YAML.", crate::poses::language::PosesLanguage;
         }
     };

@@ -29,6 +29,7 @@ pub(crate) fn pose_text(file: usize, numbers: Vec<NumberText>, old: Option<f64>)
         file,
         whole,
         position,
+        unit_mm: 1.0,
         convention: match orientation.is_empty() {
             true => OrientationText::Unstated,
             false => OrientationText::Axis,

@@ -35,7 +35,7 @@ impl<D: Dialect> Run<'_, '_, D> {
         match flow {
             Flow::Returns(value) => Flow::Returns(value),
             Flow::Ends => Flow::Ends,
-            Flow::Next | Flow::Breaks | Flow::To(..) => Flow::Returns(None),
+            Flow::Next | Flow::Breaks | Flow::Continues | Flow::To(..) => Flow::Returns(None),
         }
     }
 
@@ -236,6 +236,7 @@ impl<D: Dialect> Run<'_, '_, D> {
                 Flow::Returns(value.map(|value| self.value(&value)))
             }
             Leave::Breaks => Flow::Breaks,
+            Leave::Continues => Flow::Continues,
             Leave::Ends => {
                 self.log_instruction(tokens);
                 Flow::Ends
@@ -355,7 +356,7 @@ impl<D: Dialect> Run<'_, '_, D> {
                 return self.block(block);
             }
             match self.block(block) {
-                Flow::Next => {}
+                Flow::Next | Flow::Continues => {}
                 Flow::Breaks => return Flow::Next,
                 flow => return flow,
             }
@@ -373,7 +374,7 @@ impl<D: Dialect> Run<'_, '_, D> {
                 return self.block(block);
             }
             match self.block(block) {
-                Flow::Next => {}
+                Flow::Next | Flow::Continues => {}
                 Flow::Breaks => return Flow::Next,
                 flow => return flow,
             }
@@ -400,7 +401,7 @@ impl<D: Dialect> Run<'_, '_, D> {
                     .to_owned(),
             );
             return match self.one_pass(header, block) {
-                Flow::Next => Flow::Ends,
+                Flow::Next | Flow::Continues => Flow::Ends,
                 flow => flow,
             };
         }
@@ -414,7 +415,7 @@ impl<D: Dialect> Run<'_, '_, D> {
                 return self.block(block);
             }
             match self.block(block) {
-                Flow::Next => {}
+                Flow::Next | Flow::Continues => {}
                 Flow::Breaks => return Flow::Next,
                 flow => return flow,
             }
@@ -425,7 +426,7 @@ impl<D: Dialect> Run<'_, '_, D> {
     fn one_pass(&mut self, header: &Range<usize>, block: &[Statement]) -> Flow {
         let begin = self.motions.len();
         let flow = self.block(block);
-        if !matches!(flow, Flow::Next) || self.motions.len() == begin {
+        if !matches!(flow, Flow::Next | Flow::Continues) || self.motions.len() == begin {
             return flow;
         }
         let (end, here, logged) = (
@@ -530,7 +531,7 @@ impl<D: Dialect> Run<'_, '_, D> {
                 self.log_counter(&variable, value);
             }
             flow = self.block(block);
-            if !matches!(flow, Flow::Next) || !self.counts_statement() {
+            if !matches!(flow, Flow::Next | Flow::Continues) || !self.counts_statement() {
                 break;
             }
             if own.is_none() {
@@ -552,13 +553,13 @@ impl<D: Dialect> Run<'_, '_, D> {
             (Some(name), None) => {
                 self.calls[depth].slots.remove(&name);
             }
-            (None, _) if matches!(flow, Flow::Next) => {
+            (None, _) if matches!(flow, Flow::Next | Flow::Continues) => {
                 self.lose(&variable, &"it counted a loop that has ended".into());
             }
             (None, _) => {}
         }
         match flow {
-            Flow::Breaks => Flow::Next,
+            Flow::Breaks | Flow::Continues => Flow::Next,
             flow => flow,
         }
     }
@@ -570,7 +571,7 @@ fn has_way_out<D: Dialect>(file: &TokenFile<'_>, block: &[Statement], is_innermo
         Statement::Leaves { tokens } => match D::leave(file, tokens) {
             Leave::Jump(_) | Leave::Returns(_) => true,
             Leave::Breaks => is_innermost,
-            Leave::Ends => false,
+            Leave::Ends | Leave::Continues => false,
         },
         Statement::Branches { blocks, .. } => {
             (blocks.iter()).any(|block| has_way_out::<D>(file, block, is_innermost))

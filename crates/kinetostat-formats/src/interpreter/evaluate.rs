@@ -11,9 +11,9 @@ pub(crate) trait Names {
     /// The way to a component of a value.
     fn component(&self, of: &Datum, name: &Name) -> Option<Step>;
 
-    /// The index of the first element of an array.
-    fn first_index(&self) -> usize {
-        1
+    /// The way to an element of a value.
+    fn element(&self, _of: &Datum, index: &Datum) -> Option<Step> {
+        index_of(index, 1).map(Step::Index)
     }
 
     /// The result of an operator with two operands.
@@ -110,15 +110,16 @@ pub(crate) fn evaluate(
                 .iter()
                 .map(|index| evaluate(file, index, names))
                 .collect();
-            let first = names.first_index();
             if let Some(stated) = names.stated(expression, &at) {
                 return stated;
             }
             let of = match &inner.node {
                 Node::Word(name) => {
                     // Of an index that is not known nothing is used.
-                    if let Some(index) = at.first().and_then(|index| index_of(index, first)) {
-                        names.uses(name, Some(Step::Index(index)));
+                    let none = Datum::list(Vec::new());
+                    let element = at.first().and_then(|index| names.element(&none, index));
+                    if element.is_some() {
+                        names.uses(name, element);
                     }
                     names.word(name, inner)
                 }
@@ -127,9 +128,7 @@ pub(crate) fn evaluate(
             if let Some(reason) = at.iter().find_map(Datum::unknown_reason) {
                 return Datum::unknown(reason.clone());
             }
-            let path = at
-                .iter()
-                .map(|index| index_of(index, first).map(Step::Index));
+            let path = at.iter().map(|index| names.element(&of, index));
             let path: Option<Vec<Step>> = path.collect();
             let part = path.and_then(|path| of.part(&path).cloned());
             part.unwrap_or_else(|| {

@@ -73,6 +73,19 @@ pub(crate) struct Expression {
     pub tokens: Range<usize>,
 }
 
+impl Expression {
+    /// What the function of a name in capitals is given, where this is its call.
+    pub(crate) fn given_to(&self, name: &str) -> Option<Vec<&Self>> {
+        match &self.node {
+            Node::Call(own, arguments) if own.is(name) => {
+                let values = arguments.iter().filter_map(|own| own.value.as_ref());
+                Some(values.collect())
+            }
+            _ => None,
+        }
+    }
+}
+
 /// An argument of a call: `value`, `\Option` or `\Option:=value`.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Argument {

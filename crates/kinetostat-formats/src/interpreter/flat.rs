@@ -308,6 +308,27 @@ pub(crate) fn flat_of<D: Dialect>(
     let left_out = |index: usize| left_out.contains(&index);
     let mut out = Flat::default();
     let own = symbols.routines[main].file;
+    // Routines between the statements of `main` that stay are put before them.
+    let statements = &symbols.routines[main].routine.statements;
+    let is_between = |index: usize| {
+        let (home, whole) = (
+            symbols.routines[index],
+            &symbols.routines[index].routine.whole,
+        );
+        home.file == own && statements.start <= whole.start && whole.end <= statements.end
+    };
+    let between =
+        (0..symbols.routines.len()).filter(|index| is_between(*index) && !left_out(*index));
+    let between = between.map(|index| {
+        let span = token_files[own].span(&symbols.routines[index].routine.whole);
+        let text = files[own].part(&span).to_vec();
+        Logged {
+            file: own,
+            at: span.start,
+            text,
+        }
+    });
+    let log: Vec<Logged> = between.chain(log).collect();
     for file in token_files
         .iter()
         .filter(|file| D::JOINS_FILES || file.index == own)
@@ -316,7 +337,7 @@ pub(crate) fn flat_of<D: Dialect>(
         for (index, home) in symbols.routines.iter().enumerate() {
             if home.file == file.index && index == main {
                 cuts.push((file.span(&home.routine.statements), true));
-            } else if home.file == file.index && left_out(index) {
+            } else if home.file == file.index && left_out(index) && !is_between(index) {
                 cuts.push((file.span(&home.routine.whole), false));
             }
         }
@@ -363,7 +384,8 @@ fn left_out(
     let mut named: BTreeSet<Name> = words.filter_map(Name::of).collect();
     let mut out: BTreeSet<usize> = (called.iter().copied())
         .filter(|index| {
-            *index != main && symbols.routines[*index].routine.kind == RoutineKind::Procedure
+            let kind = symbols.routines[*index].routine.kind;
+            *index != main && matches!(kind, RoutineKind::Procedure | RoutineKind::Inner)
         })
         .collect();
     let words_of = |index: usize| {

@@ -14,6 +14,8 @@ pub(crate) enum Flow {
     To(Name, Range<usize>),
     /// Behind the innermost loop.
     Breaks,
+    /// To the next pass of the innermost loop.
+    Continues,
     /// Nowhere: the program ends.
     Ends,
 }
@@ -26,6 +28,8 @@ pub(crate) enum Leave {
     Returns(Option<Range<usize>>),
     /// From the innermost loop.
     Breaks,
+    /// To the next pass of the innermost loop.
+    Continues,
     /// The program ends.
     Ends,
 }

@@ -1,5 +1,18 @@
 //! Functions of one number that have one name and one meaning in all languages; angles are in degrees.
 
+/// The same of a language whose angles are in radians.
+pub(crate) fn in_radians(name: &str) -> Option<fn(f64) -> f64> {
+    Some(match name {
+        "SIN" => f64::sin,
+        "COS" => f64::cos,
+        "TAN" => f64::tan,
+        "ASIN" => f64::asin,
+        "ACOS" => f64::acos,
+        "ATAN" => f64::atan,
+        _ => return function(name),
+    })
+}
+
 /// The function of a name in capitals.
 pub(crate) fn function(name: &str) -> Option<fn(f64) -> f64> {
     Some(match name {

@@ -3,21 +3,28 @@
 //! A program is run concretely, as its controller runs it. A value that only the controller knows is unknown, with its reason; a branch
 //! or a loop on an unknown value is passed over where its arms neither move the tool nor change what is in force.
 //!
-//! A language brings its tokens ([`token`]), its grammar of expressions ([`reading`]), its statements as a [`tree`] with [`symbols`], and
-//! what is its own by [`run::Dialect`]. Shared are the order of the run ([`control`], [`flow`], [`passing`]), its data ([`storage`],
-//! [`evaluate`], [`operation`], [`functions`], [`value`], [`stated`]), and the declared targets at which motions end ([`declared`], [`targets`]);
+//! A language brings its tokens ([`token`]), its grammar of expressions ([`reading`]), its statements as a [`tree`] with [`symbols`] (by the
+//! words of its blocks: [`lexing`], [`blocks`], [`assigned`], [`block_files`]), and what is its own by [`run::Dialect`]. Shared are the order of the run ([`control`], [`flow`], [`passing`]), its data ([`storage`],
+//! [`evaluate`], [`operation`], [`functions`], [`value`], [`stated`]), and the targets at which motions end ([`ends`], [`declared`], [`targets`]);
 //! [`whole`] runs all programs of the files and says at the end what a person should know;
 //! [`flat`] writes a program flat.
 
+pub(crate) mod assigned;
+pub(crate) mod block_files;
+pub(crate) mod blocks;
+pub(crate) mod calls;
 mod control;
 pub(crate) mod declared;
+pub(crate) mod ends;
 pub(crate) mod evaluate;
 pub(crate) mod expression;
 pub(crate) mod flat;
 pub(crate) mod flow;
 pub(crate) mod functions;
+pub(crate) mod lexing;
 pub(crate) mod operation;
 mod passing;
+pub(crate) mod printing;
 pub(crate) mod reading;
 pub(crate) mod run;
 pub(crate) mod stated;
@@ -28,3 +35,4 @@ pub(crate) mod token;
 pub(crate) mod tree;
 pub(crate) mod value;
 mod whole;
+pub(crate) mod words;

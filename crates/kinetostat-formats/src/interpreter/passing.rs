@@ -134,7 +134,7 @@ impl<D: Dialect> Run<'_, '_, D> {
             // A program that ends here does not cut what follows: it is taken to go on.
             Statement::Leaves { tokens } => match D::leave(file, tokens) {
                 Leave::Ends => false,
-                Leave::Breaks => !in_loop,
+                Leave::Breaks | Leave::Continues => !in_loop,
                 Leave::Jump(_) | Leave::Returns(_) => true,
             },
             Statement::Call { tokens } | Statement::Assignment { tokens, .. } => {

@@ -26,6 +26,14 @@ pub(crate) struct Grammar {
     pub list: Option<[u8; 2]>,
     /// True where braces hold members by their names.
     pub has_members: bool,
+    /// True where an argument may be named: `name=value`.
+    pub names_arguments: bool,
+    /// True where the first element of a list is that of index 1; otherwise of index 0, and members have indices, too.
+    pub counts_from_one: bool,
+    /// As it writes what is not true, and what is.
+    pub truths: [&'static str; 2],
+    /// A list behind this word is an aggregate with these members: `p[x,y,z,rx,ry,rz]`.
+    pub aggregate: Option<(&'static str, &'static [&'static str])>,
     /// True where AND beside a comparison without brackets is not read: controllers bind it otherwise than people do.
     pub separates_comparisons: bool,
 }
@@ -101,6 +109,12 @@ impl Reader<'_, '_> {
                     let value = valued.then(|| self.expression(depth));
                     found.push(Argument { option, value });
                 }
+                Kind::Word if self.grammar.names_arguments && self.is_named() => {
+                    let option = self.name();
+                    self.at += 1;
+                    let value = Some(self.expression(depth));
+                    found.push(Argument { option, value });
+                }
                 _ => {
                     let start = self.at;
                     let value = Some(self.expression(depth));
@@ -116,6 +130,11 @@ impl Reader<'_, '_> {
             }
         }
         found
+    }
+
+    fn is_named(&self) -> bool {
+        let next = self.file.tokens.get(self.at + 1);
+        self.at + 1 < self.end && next.is_some_and(|next| next.kind == Kind::Assign)
     }
 
     fn name(&mut self) -> Option<Name> {
@@ -378,7 +397,35 @@ impl Reader<'_, '_> {
         }
     }
 
+    /// True at the word of an aggregate, where the bracket of a list adjoins it.
+    fn is_tag(&self, word: &str) -> bool {
+        let opens = (self.grammar.list).is_some_and(|[open, _]| self.file.is(self.at + 1, open));
+        let adjoins = || self.file.span(&(self.at..self.at + 2)).len() == word.len() + 1;
+        opens && self.file.word(self.at) == word.as_bytes() && adjoins()
+    }
+
     fn named(&mut self, depth: usize) -> Option<Node> {
+        if let Some((_, names)) = (self.grammar.aggregate).filter(|(word, _)| self.is_tag(word)) {
+            let start = self.at;
+            let word = self.name()?;
+            self.at += 1;
+            let list = self.list(depth, self.grammar.list?[1])?;
+            if list.len() != names.len() {
+                // An element of what has this name.
+                let tokens = start..start + 1;
+                let of = Expression {
+                    node: Node::Word(word),
+                    tokens,
+                };
+                return Some(Node::Element(Box::new(of), list));
+            }
+            let names = names.iter().map(|name| Name::of(name.as_bytes()));
+            let members = names
+                .zip(list)
+                .map(|(name, value)| Some((name?, value)))
+                .collect::<Option<_>>();
+            return Some(Node::Members(members?));
+        }
         let name = self.name()?;
         if name.is("TRUE") || name.is("FALSE") {
             return Some(Node::Truth(name.is("TRUE")));

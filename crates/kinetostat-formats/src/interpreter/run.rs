@@ -3,19 +3,23 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
-use crate::error::{ProgramError, note};
+use crate::error::{ProgramError, excerpt, note};
+use crate::interpreter::evaluate::index_of;
 use crate::interpreter::expression::{Argument, Expression, Operator};
 use crate::interpreter::flow::{Counting, Flow, Leave};
 use crate::interpreter::operation::two;
+use crate::interpreter::printing::printed;
+use crate::interpreter::reading::{self, Grammar};
 use crate::interpreter::stated::StatedValues;
 use crate::interpreter::symbols::{Scope, Symbols};
 use crate::interpreter::targets::Targets;
 use crate::interpreter::token::TokenFile;
-use crate::interpreter::tree::{Choice, DatumNode};
+use crate::interpreter::tree::{Choice, DatumNode, RoutineKind};
 use crate::interpreter::value::{Datum, Step};
 use crate::model::motion::{Motion, Runs};
 use crate::model::outside_call::OutsideCall;
 use crate::options::ReadOptions;
+use crate::table::{StatementRow, Treatment};
 use crate::text::finding::Finding;
 use crate::text::name::Name;
 
@@ -90,26 +94,75 @@ pub(crate) trait Dialect: Sized {
     /// True where a name that no file declares is one of the controller, and gets its value by an assignment.
     const DECLARES_BY_USE: bool;
 
-    /// The index of the first element of an array.
-    const FIRST_INDEX: usize = 1;
+    /// How it writes expressions.
+    const GRAMMAR: &'static Grammar;
+
+    /// What is carried, and changes what deflection depends on: words and what they do.
+    const EFFECTS: &'static [(&'static str, &'static str)] = &[];
 
     /// The expression that tokens are.
-    fn expression_of(file: &TokenFile<'_>, tokens: Range<usize>) -> Expression;
+    fn expression_of(file: &TokenFile<'_>, tokens: Range<usize>) -> Expression {
+        reading::expression_of(Self::GRAMMAR, file, tokens)
+    }
 
-    /// The arguments of a call between two tokens.
-    fn arguments_of(file: &TokenFile<'_>, tokens: Range<usize>) -> Vec<Argument>;
+    /// The arguments of a call, those in brackets where these are the brackets of a statement `name(a,b)`.
+    fn arguments_of(file: &TokenFile<'_>, tokens: Range<usize>) -> Vec<Argument> {
+        let is_bracketed = file.is(tokens.start, b'(');
+        let close = file.find(tokens.start + 1..tokens.end, b')');
+        let inner = match (is_bracketed, close) {
+            (true, Some(close)) => tokens.start + 1..close,
+            _ => tokens,
+        };
+        reading::arguments_of(Self::GRAMMAR, file, inner)
+    }
+
+    /// The row of a word in the table of the language.
+    fn row(_word: &[u8]) -> Option<&'static StatementRow> {
+        None
+    }
+
+    /// The motion of a statement that is a call, or why it is refused.
+    fn motion(
+        _run: &mut Run<'_, '_, Self>,
+        _tokens: &Range<usize>,
+        _arguments: &[Argument],
+    ) -> Result<Motion, Reason> {
+        Err(("it is no motion".to_owned(), "take it out"))
+    }
+
+    /// Puts in force what the call of a word with a value sets.
+    fn sets(_run: &mut Run<'_, '_, Self>, _word: &[u8], _value: &Expression) {}
 
     /// The way to a component of a value.
-    fn component(of: &Datum, name: &Name) -> Option<Step>;
+    fn component(_of: &Datum, _name: &Name) -> Option<Step> {
+        None
+    }
+
+    /// The way to an element of a value.
+    fn element(of: &Datum, index: &Datum) -> Option<Step> {
+        let is_from_one = Self::GRAMMAR.counts_from_one;
+        let index = index_of(index, usize::from(is_from_one))?;
+        match of.members() {
+            [] => Some(Step::Index(index)),
+            _ if is_from_one => Some(Step::Index(index)),
+            members => members.get(index).map(|(name, _)| Step::Member(*name)),
+        }
+    }
 
     /// The value of a name that every controller declares.
-    fn predefined(name: &Name) -> Option<Datum>;
+    fn predefined(_name: &Name) -> Option<Datum> {
+        None
+    }
 
     /// The value of a declaration without one; none where only the controller knows it.
-    fn of_type(node: &DatumNode) -> Option<Datum>;
+    fn of_type(_node: &DatumNode) -> Option<Datum> {
+        None
+    }
 
     /// What is said of data of which the controller may hold another value than the file.
-    fn kept(run: &Run<'_, '_, Self>, index: usize) -> Option<String>;
+    fn kept(_run: &Run<'_, '_, Self>, _index: usize) -> Option<String> {
+        None
+    }
 
     /// True for data that decide where the tool goes: such data must not keep another value for the next run.
     fn decides_places(_node: &DatumNode) -> bool {
@@ -149,11 +202,20 @@ pub(crate) trait Dialect: Sized {
         whole: &Expression,
     ) -> Option<Datum>;
 
+    /// The result of a function of the controller with these values; none of one that is not computed here.
+    fn computed(_name: &Name, _values: &[Datum]) -> Option<Datum> {
+        None
+    }
+
     /// True for a function of the controller that leaves its arguments as they are.
-    fn leaves_arguments(function: &Name) -> bool;
+    fn leaves_arguments(_function: &Name) -> bool {
+        true
+    }
 
     /// True for an instruction that changes what it is given.
-    fn changes_arguments(instruction: &Name) -> bool;
+    fn changes_arguments(_instruction: &Name) -> bool {
+        false
+    }
 
     /// True for the word of a motion.
     fn is_motion(word: &Name) -> bool;
@@ -167,14 +229,32 @@ pub(crate) trait Dialect: Sized {
     /// Reads a statement that leaves its block.
     fn leave(file: &TokenFile<'_>, tokens: &Range<usize>) -> Leave;
 
-    /// Reads how a loop counts.
-    fn counting(file: &TokenFile<'_>, header: &Range<usize>) -> Option<Counting>;
+    /// Reads how a loop counts; none where the language has no such loops.
+    fn counting(_file: &TokenFile<'_>, _header: &Range<usize>) -> Option<Counting> {
+        None
+    }
+
+    /// Words that change modal state.
+    const MODAL: &'static [&'static str] = &[];
 
     /// True for an instruction that moves the tool or changes modal state.
-    fn acts(run: &Run<'_, '_, Self>, file: &TokenFile<'_>, tokens: &Range<usize>) -> bool;
+    fn acts(_run: &Run<'_, '_, Self>, file: &TokenFile<'_>, tokens: &Range<usize>) -> bool {
+        let called = tokens.clone().filter(|at| file.is(*at + 1, b'('));
+        called.map(|at| file.word(at)).any(|word| {
+            let treatment = Self::row(word).map(|row| row.treatment);
+            let is_refused = matches!(treatment, Some(Treatment::Refused { .. }));
+            let is_modal = || Self::MODAL.iter().any(|own| word == own.as_bytes());
+            let is_motion = || Name::of(word).is_some_and(|name| Self::is_motion(&name));
+            is_refused || is_modal() || is_motion()
+        })
+    }
 
-    /// Routines that interrupts call.
-    fn interrupting(run: &Run<'_, '_, Self>) -> Vec<usize>;
+    /// Routines that run beside the program or break into it.
+    fn interrupting(run: &Run<'_, '_, Self>) -> Vec<usize> {
+        let all = run.symbols.routines.iter().enumerate();
+        let traps = all.filter(|(_, home)| home.routine.kind == RoutineKind::Trap);
+        traps.map(|(index, _)| index).collect()
+    }
 
     /// Takes the modal state with which a program begins.
     fn begin(run: &mut Run<'_, '_, Self>);
@@ -189,7 +269,9 @@ pub(crate) trait Dialect: Sized {
     fn motion_parts(file: &TokenFile<'_>, tokens: &Range<usize>) -> MotionParts;
 
     /// A value as the language writes it; none where a part of it is not known.
-    fn printed(datum: &Datum) -> Option<String>;
+    fn printed(datum: &Datum) -> Option<String> {
+        printed(Self::GRAMMAR, datum)
+    }
 }
 
 /// Expressions in the statement of a motion.
@@ -352,6 +434,28 @@ impl<'r, 'p, D: Dialect> Run<'r, 'p, D> {
             note(&mut self.faults, || {
                 ProgramError::at(file.source, span, reason, remedy)
             });
+        }
+    }
+
+    /// Notes a call of what is in none of the files, by its row in the table of the language; one that the table refuses is a fault. What
+    /// stands in no table is taken not to move the tool and not to change what is in force.
+    pub(crate) fn note_call(&mut self, row: Option<&'static StatementRow>, tokens: &Range<usize>) {
+        match row.map(|row| row.treatment) {
+            Some(Treatment::Refused { reason, remedy }) => {
+                self.fault(tokens, (reason.to_owned(), remedy));
+            }
+            Some(_) => {}
+            None => {
+                let file = self.file();
+                let call = OutsideCall {
+                    file: file.index,
+                    line: file.line_of(tokens.start),
+                    name: Some(excerpt(file.word(tokens.start))),
+                };
+                if !self.outside_calls.contains(&call) {
+                    self.outside_calls.push(call);
+                }
+            }
         }
     }
 

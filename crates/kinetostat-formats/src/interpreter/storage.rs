@@ -265,11 +265,13 @@ impl<D: Dialect> Run<'_, '_, D> {
             }
             Node::Element(of, indices) => {
                 let mut place = self.place(of)?;
+                let whole = self.stored(place.root);
+                let none = Datum::list(Vec::new());
+                let whole = whole.as_ref().and_then(|whole| whole.part(&place.path));
                 for index in indices {
                     let index = self.value(index);
-                    place
-                        .path
-                        .push(Step::Index(index_of(&index, D::FIRST_INDEX)?));
+                    let step = D::element(whole.unwrap_or(&none), &index)?;
+                    place.path.push(step);
                 }
                 Some(place)
             }
@@ -428,8 +430,8 @@ impl<D: Dialect> Names for Run<'_, '_, D> {
         D::component(of, name)
     }
 
-    fn first_index(&self) -> usize {
-        D::FIRST_INDEX
+    fn element(&self, of: &Datum, index: &Datum) -> Option<Step> {
+        D::element(of, index)
     }
 
     fn operation(&self, operator: Operator, left: &Datum, right: &Datum) -> Datum {

@@ -64,7 +64,10 @@ pub(crate) struct Parameter {
 pub(crate) enum RoutineKind {
     Procedure,
     Function,
+    /// It runs beside the program or breaks into it.
     Trap,
+    /// A procedure that is no program of its own: in another one, or with arguments.
+    Inner,
 }
 
 /// A routine.

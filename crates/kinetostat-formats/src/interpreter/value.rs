@@ -4,6 +4,7 @@ use std::ops::Range;
 use std::rc::Rc;
 
 use crate::text::name::Name;
+use crate::text::number::NumberText;
 
 /// The literal in a file that states a value.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -126,6 +127,15 @@ impl Datum {
             *number = part.as_number()?;
         }
         Some(numbers)
+    }
+
+    /// The number that it states in these bytes of a file.
+    pub(crate) fn number_in(&self, file: usize, span: &Range<usize>) -> Option<NumberText> {
+        let literal = self.literal.filter(|own| own.is_within(file, span))?;
+        Some(NumberText {
+            span: literal.span(),
+            value: self.as_number()?,
+        })
     }
 
     /// Members of an aggregate that names them; none of another value.

@@ -5,6 +5,7 @@ use std::ops::Range;
 use crate::interpreter::expression::{Argument, Expression, Node, Operator};
 use crate::interpreter::flow::{Counting, Flow, Leave};
 use crate::interpreter::operation::two;
+use crate::interpreter::reading::Grammar;
 use crate::interpreter::run::{Dialect, MotionParts};
 use crate::interpreter::symbols::Scope;
 use crate::interpreter::token::TokenFile;
@@ -32,19 +33,7 @@ impl Dialect for Krl {
     const OWN_COUNTER: bool = false;
     const DECLARES_BY_USE: bool = true;
 
-    fn expression_of(file: &TokenFile<'_>, tokens: Range<usize>) -> Expression {
-        expression::expression_of(file, tokens)
-    }
-
-    fn arguments_of(file: &TokenFile<'_>, tokens: Range<usize>) -> Vec<Argument> {
-        // Of a statement `name(a,b)` those in the brackets.
-        let is_bracketed = file.is(tokens.start, b'(');
-        let close = file.find(tokens.start + 1..tokens.end, b')');
-        match (is_bracketed, close) {
-            (true, Some(close)) => expression::arguments_of(file, tokens.start + 1..close),
-            _ => expression::arguments_of(file, tokens),
-        }
-    }
+    const GRAMMAR: &'static Grammar = &expression::GRAMMAR;
 
     fn component(_: &Datum, name: &Name) -> Option<Step> {
         Some(Step::Member(*name))

@@ -168,6 +168,7 @@ impl Run<'_, '_> {
             if matches!(expression.node, Node::Members(_)) {
                 // Angles that are left out are those of before: known, though no number of them stands here.
                 return TargetSite::Literal(PoseText {
+                    unit_mm: 1.0,
                     convention: OrientationText::Abc,
                     ..text
                 });

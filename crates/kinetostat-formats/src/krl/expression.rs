@@ -8,7 +8,7 @@ use crate::interpreter::token::TokenFile;
 
 /// Source: KUKA System Software 8.x, Operating and Programming Instructions for System Integrators, Priority of operators. It binds AND
 /// more strongly than `==`, which few programs mean: where both stand without brackets, nothing is read.
-static GRAMMAR: Grammar = Grammar {
+pub(super) const GRAMMAR: Grammar = Grammar {
     operators: &[
         ("OR", Operator::Or, 0),
         ("EXOR", Operator::Xor, 1),
@@ -30,6 +30,10 @@ static GRAMMAR: Grammar = Grammar {
     index: [b'[', b']'],
     list: None,
     has_members: true,
+    names_arguments: false,
+    counts_from_one: true,
+    truths: ["FALSE", "TRUE"],
+    aggregate: None,
     separates_comparisons: true,
 };
 

@@ -14,7 +14,6 @@ use crate::krl::settings::is_in_force;
 use crate::krl::state::Run;
 use crate::krl::table::{Ends, MotionRow, OPERATORS, motion_row, row};
 use crate::model::motion::Zone;
-use crate::model::outside_call::OutsideCall;
 use crate::table::Treatment;
 use crate::text::finding::Finding;
 use crate::text::name::Name;
@@ -115,24 +114,7 @@ impl Run<'_, '_> {
 
     /// Notes a call of what is in none of the files; one that the table refuses is a fault.
     pub(super) fn note_outside(&mut self, name: &Name, tokens: &Range<usize>) {
-        match row(name).map(|row| row.treatment) {
-            Some(Treatment::Refused { reason, remedy }) => {
-                self.fault(tokens, (reason.to_owned(), remedy));
-            }
-            Some(_) => {}
-            None => {
-                let file = self.file();
-                // It is taken not to move the tool and not to change what is in force.
-                let call = OutsideCall {
-                    file: file.index,
-                    line: file.line_of(tokens.start),
-                    name: Some(excerpt(file.word(tokens.start))),
-                };
-                if !self.outside_calls.contains(&call) {
-                    self.outside_calls.push(call);
-                }
-            }
-        }
+        self.note_call(row(name), tokens);
     }
 
     /// `INTERRUPT DECL 3 WHEN condition DO routine()` and `TRIGGER WHEN PATH=0 DELAY=0 DO routine() PRIO=-1` call at any time. Every program

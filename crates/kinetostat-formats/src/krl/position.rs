@@ -165,6 +165,7 @@ impl Position {
             whole,
             position: [x, y, z],
             orientation,
+            unit_mm: 1.0,
             convention,
             external: external
                 .map(|axis| axis.as_ref().and_then(|axis| axis.text.clone()))

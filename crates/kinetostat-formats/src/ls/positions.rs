@@ -276,6 +276,7 @@ impl Parts {
                                 whole: open.unwrap_or(span.start)..span.end,
                                 position: [x.clone(), y.clone(), z.clone()],
                                 orientation: [w, p, r].map(NumberText::clone).to_vec(),
+                                unit_mm: 1.0,
                                 convention: OrientationText::Wpr,
                                 external: (self.external.iter())
                                     .map(|axis| axis.number.clone())

@@ -15,12 +15,17 @@ pub enum OrientationText {
     Xyz,
     /// Direction of the tool's axis, the turn about it unstated (APT).
     Axis,
+    /// The axis by the angle about it, radians (URScript).
+    RotationVector,
     /// No numbers: the orientation is that of before.
     Unstated,
 }
 
 /// Farthest that the length of a written quaternion or direction is from 1: 9.2e-7 in programs seen.
 const UNIT_TOLERANCE: f64 = 1e-3;
+
+/// Largest angle of a rotation vector that is taken to mean one, rad.
+const FARTHEST_RAD: f64 = 1e3;
 
 impl OrientationText {
     /// The rotation that numbers mean; none where they mean none.
@@ -47,6 +52,10 @@ impl OrientationText {
                 is_unit.then(|| {
                     UnitQuaternion::rotation_between(&Vector3::z(), &axis).unwrap_or(half_turn)
                 })
+            }
+            (Self::RotationVector, &[x, y, z]) => {
+                let vector = Vector3::new(x, y, z);
+                (vector.norm() < FARTHEST_RAD).then(|| UnitQuaternion::from_scaled_axis(vector))
             }
             (Self::Unstated, &[]) => Some(UnitQuaternion::identity()),
             _ => None,
@@ -81,9 +90,24 @@ impl OrientationText {
             Self::Axis => (rotation * Unit::new_unchecked(Vector3::z()))
                 .as_slice()
                 .to_vec(),
+            Self::RotationVector => rotation_vector(rotation, near).as_slice().to_vec(),
             Self::Unstated => Vec::new(),
         }
     }
+}
+
+/// The rotation vector that is the nearest to one of before, by whole turns about its axis.
+fn rotation_vector(rotation: &UnitQuaternion<f64>, near: &[f64]) -> Vector3<f64> {
+    let near = Vector3::new(at(near, 0), at(near, 1), at(near, 2));
+    let vector = rotation.scaled_axis();
+    let angle = vector.norm();
+    // About no axis the one of before is as good.
+    let axis = match angle < 1e-9 {
+        true => near.try_normalize(1.0).unwrap_or_default(),
+        false => vector / angle,
+    };
+    let turns = ((near.dot(&axis) - angle) / std::f64::consts::TAU).round();
+    vector + axis * (std::f64::consts::TAU * turns)
 }
 
 fn at(numbers: &[f64], index: usize) -> f64 {

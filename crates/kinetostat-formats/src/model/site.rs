@@ -19,6 +19,8 @@ pub(crate) struct PoseText {
     pub whole: Range<usize>,
     /// X, Y, Z.
     pub position: [NumberText; 3],
+    /// How many mm one of them is.
+    pub unit_mm: f64,
     /// As many as the convention has, in the order of the convention.
     pub orientation: Vec<NumberText>,
     /// What they mean.
@@ -185,6 +187,25 @@ pub(crate) struct MotionSite {
     pub indivisible: Option<&'static str>,
     /// Why the tool does not turn evenly from its start to its end: it is refused where it turns.
     pub turns_otherwise: Option<TurnsOtherwise>,
+}
+
+impl MotionSite {
+    /// A motion whose parts stand nowhere but for its word and its end.
+    pub(crate) fn of(keyword: Range<usize>, target_span: Range<usize>, target: TargetSite) -> Self {
+        Self {
+            keyword,
+            target_span,
+            target,
+            via: None,
+            speed: None,
+            other_speeds: None,
+            zone: None,
+            external: Vec::new(),
+            external_moved_behind: false,
+            indivisible: None,
+            turns_otherwise: None,
+        }
+    }
 }
 
 /// Why a tool does not turn evenly from the start of a motion to its end.

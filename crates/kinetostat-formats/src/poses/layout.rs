@@ -179,7 +179,8 @@ fn parts(convention: OrientationText) -> &'static [&'static str] {
         OrientationText::Abc => &["a_deg", "b_deg", "c_deg"],
         OrientationText::Wpr => &["rx_deg", "ry_deg", "rz_deg"],
         OrientationText::Axis => &["i", "j", "k"],
-        // No list has them.
+        OrientationText::RotationVector => &["rx_rad", "ry_rad", "rz_rad"],
+        // No list has the others.
         OrientationText::Xyz | OrientationText::Unstated => &[],
     }
 }

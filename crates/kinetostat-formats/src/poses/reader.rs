@@ -290,6 +290,7 @@ impl Reader<'_> {
                     whole: row.span.clone(),
                     position,
                     orientation,
+                    unit_mm: 1.0,
                     convention,
                     external: row.external,
                     width: Width::Free,

@@ -4,9 +4,11 @@ use std::ops::Range;
 
 use crate::interpreter::expression::{Argument, Expression};
 use crate::interpreter::flow::{Counting, Flow, Leave};
+use crate::interpreter::printing::printed as by_grammar;
+use crate::interpreter::reading::Grammar;
 use crate::interpreter::run::{Dialect, MotionParts};
 use crate::interpreter::token::TokenFile;
-use crate::interpreter::tree::{Change, Choice, DatumNode, RoutineKind};
+use crate::interpreter::tree::{Change, Choice, DatumNode};
 use crate::interpreter::value::{Datum, Step, Value};
 use crate::options::ExternalAxes;
 use crate::rapid::arguments::Arguments;
@@ -24,9 +26,7 @@ impl Dialect for Rapid {
     const OWN_COUNTER: bool = true;
     const DECLARES_BY_USE: bool = false;
 
-    fn expression_of(file: &TokenFile<'_>, tokens: Range<usize>) -> Expression {
-        expression::expression_of(file, tokens)
-    }
+    const GRAMMAR: &'static Grammar = &expression::GRAMMAR;
 
     fn arguments_of(file: &TokenFile<'_>, tokens: Range<usize>) -> Vec<Argument> {
         expression::arguments_of(file, tokens)
@@ -141,12 +141,6 @@ impl Dialect for Rapid {
         }
     }
 
-    fn interrupting(run: &Run<'_, '_>) -> Vec<usize> {
-        let all = run.symbols.routines.iter().enumerate();
-        let traps = all.filter(|(_, home)| home.routine.kind == RoutineKind::Trap);
-        traps.map(|(index, _)| index).collect()
-    }
-
     fn begin(run: &mut Run<'_, '_>) {
         run.own.modes = Modes::BASIC;
         run.own.displacement = None;
@@ -185,14 +179,11 @@ impl Dialect for Rapid {
 fn printed(datum: &Datum) -> Option<String> {
     Some(match &datum.value {
         Value::Number(value) if value.abs() >= 8e9 => "9E9".to_owned(),
-        Value::Number(value) => value.to_string(),
-        Value::Truth(value) => if *value { "TRUE" } else { "FALSE" }.to_owned(),
-        Value::Text(text) => format!("\"{text}\""),
         Value::List(parts) => {
             let parts: Option<Vec<String>> = parts.iter().map(printed).collect();
             format!("[{}]", parts?.join(","))
         }
-        Value::Unknown(_) | Value::Members(_) => return None,
+        _ => return by_grammar(&expression::GRAMMAR, datum),
     })
 }
 

@@ -7,7 +7,7 @@ use crate::interpreter::reading::{self, Grammar};
 use crate::interpreter::token::TokenFile;
 
 /// Source: ABB, Technical reference manual - RAPID kernel, Priority between operators.
-static GRAMMAR: Grammar = Grammar {
+pub(super) const GRAMMAR: Grammar = Grammar {
     operators: &[
         ("OR", Operator::Or, 0),
         ("XOR", Operator::Xor, 0),
@@ -30,6 +30,10 @@ static GRAMMAR: Grammar = Grammar {
     index: [b'{', b'}'],
     list: Some([b'[', b']']),
     has_members: false,
+    names_arguments: false,
+    counts_from_one: true,
+    truths: ["FALSE", "TRUE"],
+    aggregate: None,
     separates_comparisons: false,
 };
 

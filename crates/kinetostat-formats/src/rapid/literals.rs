@@ -52,17 +52,6 @@ pub(crate) fn pose_of(files: &[TokenFile<'_>], datum: &Datum) -> Result<PoseTarg
     })
 }
 
-/// A number of a value that stands as a number in these bytes of a file.
-fn number_in(datum: &Datum, file: usize, span: &Range<usize>) -> Option<NumberText> {
-    let literal = datum
-        .literal
-        .filter(|literal| literal.is_within(file, span))?;
-    Some(NumberText {
-        span: literal.span(),
-        value: datum.as_number()?,
-    })
-}
-
 /// All numbers of a list, where they stand as numbers in these bytes of a file.
 pub(crate) fn numbers_in(
     datum: &Datum,
@@ -70,7 +59,7 @@ pub(crate) fn numbers_in(
     span: &Range<usize>,
 ) -> Option<Vec<NumberText>> {
     let parts = datum.parts().iter();
-    parts.map(|part| number_in(part, file, span)).collect()
+    parts.map(|part| part.number_in(file, span)).collect()
 }
 
 /// The literal of a robtarget, where all numbers of its place, orientation and external axes stand in it.
@@ -85,6 +74,7 @@ pub(crate) fn text_of(datum: &Datum) -> Option<PoseText> {
         file,
         position: numbers_in(position, file, &whole)?.try_into().ok()?,
         orientation: numbers_in(orientation, file, &whole)?,
+        unit_mm: 1.0,
         convention: OrientationText::Quaternion,
         external: (axes.into_iter())
             .map(|number| is_stated(number.value).then_some(number))

@@ -102,17 +102,17 @@ impl Run<'_, '_> {
             runs: Runs::Once,
             follows: None,
             site: MotionSite {
-                keyword: file.span(&(tokens.start..tokens.start + 1)),
-                target_span: file.span(&end.tokens),
-                target: target_site,
                 via,
                 speed: speed_site,
                 zone: Some(file.span(&arguments.ordered[tool_at - 1].tokens)),
                 external,
                 other_speeds,
-                external_moved_behind: false,
                 indivisible,
-                turns_otherwise: None,
+                ..MotionSite::of(
+                    file.span(&(tokens.start..tokens.start + 1)),
+                    file.span(&end.tokens),
+                    target_site,
+                )
             },
             span,
         })

@@ -3,7 +3,6 @@
 use std::collections::BTreeSet;
 use std::ops::Range;
 
-use crate::interpreter::token::Kind;
 use crate::model::motion::{Motion, Zone};
 use crate::model::program::RobotProgram;
 use crate::model::site::ReplacedText;
@@ -15,7 +14,7 @@ use crate::text::name::Name;
 use crate::text::number::Width;
 use crate::text::source::SourceFile;
 use crate::writing::literal::{Wanted, put};
-use crate::writing::syntax::{PieceLiterals, Syntax, replace_word};
+use crate::writing::syntax::{PieceLiterals, Syntax, names_of, replace_word};
 
 /// RAPID.
 pub(crate) struct RapidSyntax;
@@ -28,15 +27,7 @@ fn row_of(program: &RobotProgram, motion: &Motion) -> Option<&'static MotionRow>
 
 impl Syntax for RapidSyntax {
     fn names(&self, program: &RobotProgram) -> BTreeSet<Vec<u8>> {
-        let mut names = BTreeSet::new();
-        for file in &program.files {
-            for token in tokens_of(file.bytes()) {
-                if token.kind == Kind::Word {
-                    names.insert(file.part(&token.bytes()).to_ascii_uppercase());
-                }
-            }
-        }
-        names
+        names_of(program, tokens_of)
     }
 
     fn writes_circles(&self) -> bool {

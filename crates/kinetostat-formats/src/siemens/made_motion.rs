@@ -212,6 +212,7 @@ impl Reader<'_> {
             whole: anchor..anchor,
             position: [number(0), number(1), number(2)],
             orientation: direction.map(parts).unwrap_or_default(),
+            unit_mm: 1.0,
             convention: match direction {
                 Some(_) => OrientationText::Axis,
                 None => OrientationText::Unstated,

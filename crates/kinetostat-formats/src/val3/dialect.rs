@@ -9,6 +9,7 @@ use crate::interpreter::expression::{Argument, Expression, Operator};
 use crate::interpreter::flow::{Counting, Flow, Leave};
 use crate::interpreter::functions::function;
 use crate::interpreter::operation::two;
+use crate::interpreter::reading::Grammar;
 use crate::interpreter::run::{self, Dialect, MotionParts};
 use crate::interpreter::symbols::Symbols;
 use crate::interpreter::token::{Kind, TokenFile};
@@ -52,7 +53,7 @@ impl Val3 {
 impl Dialect for Val3 {
     const OWN_COUNTER: bool = false;
     const DECLARES_BY_USE: bool = false;
-    const FIRST_INDEX: usize = 0;
+    const GRAMMAR: &'static Grammar = &expression::GRAMMAR;
     const JOINS_FILES: bool = false;
     const NO_MAIN: [&'static str; 2] = [
         "there is no program in these files: which one is to be run is not known",

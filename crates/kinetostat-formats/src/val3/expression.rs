@@ -8,7 +8,7 @@ use crate::interpreter::token::{Kind, TokenFile};
 use crate::text::name::Name;
 
 /// Source: Staubli, VAL3 Reference Manual, Operators.
-static GRAMMAR: Grammar = Grammar {
+pub(super) const GRAMMAR: Grammar = Grammar {
     operators: &[
         ("or", Operator::Or, 0),
         ("xor", Operator::Xor, 1),
@@ -30,6 +30,10 @@ static GRAMMAR: Grammar = Grammar {
     index: [b'[', b']'],
     list: Some([b'{', b'}']),
     has_members: false,
+    names_arguments: false,
+    counts_from_one: false,
+    truths: ["false", "true"],
+    aggregate: None,
     separates_comparisons: false,
 };
 

@@ -226,6 +226,7 @@ impl Run<'_, '_> {
             convention: OrientationText::Xyz,
             external: Vec::new(),
             width: Width::Free,
+            unit_mm: 1.0,
         })
     }
 

@@ -42,12 +42,13 @@ pub(crate) fn put_pose(
     options: &WriteOptions,
     edits: &mut Edits,
 ) {
+    let more = literal.unit_mm.log10().ceil() as usize;
     for (number, value) in literal.position.iter().zip(wanted.position_mm.iter()) {
         put(
             file,
             number,
-            *value,
-            options.position_decimals,
+            *value / literal.unit_mm,
+            options.position_decimals + more,
             literal.width,
             edits,
         );
@@ -62,7 +63,9 @@ pub(crate) fn put_pose(
         return;
     };
     let least = match literal.convention {
-        OrientationText::Quaternion | OrientationText::Axis => options.quaternion_decimals,
+        OrientationText::Quaternion | OrientationText::Axis | OrientationText::RotationVector => {
+            options.quaternion_decimals
+        }
         _ => options.angle_decimals,
     };
     let near: Vec<f64> = literal

@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 use std::ops::Range;
 
+use crate::interpreter::token::{Kind, Token};
 use crate::model::motion::Motion;
 use crate::model::program::RobotProgram;
 use crate::model::site::{Declaration, ReplacedText};
@@ -34,17 +35,7 @@ pub(crate) trait Syntax {
         number: &mut usize,
         taken: &mut BTreeSet<Vec<u8>>,
     ) -> Option<Vec<u8>> {
-        // One of so many is free.
-        for _ in 0..=taken.len() {
-            let end = format!("_{number}");
-            *number += 1;
-            let kept = near.len().min(LONGEST.checked_sub(end.len())?);
-            let name = [&near[..kept], end.as_bytes()].concat();
-            if taken.insert(name.to_ascii_uppercase()) {
-                return Some(name);
-            }
-        }
-        None
+        numbered_name(near, number, taken)
     }
 
     /// Whether the pieces of a motion to a declared end get declared ends of their own: the statement has no literals.
@@ -121,6 +112,41 @@ pub(crate) struct Renamed {
     pub place: Range<usize>,
     /// The further name.
     pub name: Vec<u8>,
+}
+
+/// All names of a program in capitals, by the tokens of its files.
+pub(crate) fn names_of(
+    program: &RobotProgram,
+    tokens_of: impl Fn(&[u8]) -> Vec<Token>,
+) -> BTreeSet<Vec<u8>> {
+    let mut names = BTreeSet::new();
+    for file in &program.files {
+        for token in tokens_of(file.bytes()) {
+            if token.kind == Kind::Word {
+                names.insert(file.part(&token.bytes()).to_ascii_uppercase());
+            }
+        }
+    }
+    names
+}
+
+/// A free name with the number at its end, of as many letters as identifiers have.
+fn numbered_name(
+    near: &[u8],
+    number: &mut usize,
+    taken: &mut BTreeSet<Vec<u8>>,
+) -> Option<Vec<u8>> {
+    // One of so many is free.
+    for _ in 0..=taken.len() {
+        let end = format!("_{number}");
+        *number += 1;
+        let kept = near.len().min(LONGEST.checked_sub(end.len())?);
+        let name = [&near[..kept], end.as_bytes()].concat();
+        if taken.insert(name.to_ascii_uppercase()) {
+            return Some(name);
+        }
+    }
+    None
 }
 
 /// A word of the same letters stays as it is written.

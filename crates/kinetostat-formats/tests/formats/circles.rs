@@ -69,6 +69,15 @@ fn krl() -> String {
     )
 }
 
+fn urscript() -> String {
+    let target = |[x, y]: [f64; 2]| format!("p[{},{},-0.002,3.14159265359,0,0]", x / 1e3, y / 1e3);
+    let [start, up, left, down, end] = PLACES.map(target);
+    format!(
+        "def m():\n  set_tcp(p[0,0,0,0,0,0])\n  movel({start},v=0.01)\n  movec({up},{left},1.2,0.01,0.001,0)\n\
+         \x20 movec({down}, {end}, v=0.01) # closed\nend\n"
+    )
+}
+
 fn tp() -> String {
     let mut text = "/PROG  PART\n/ATTR\nLINE_COUNT\t= 3;\n/MN\n   1:L P[1] 10mm/sec FINE ;\n\
         \x20  2:C P[2]    \n    :  P[3] 10mm/sec CNT50    ;\n   3:C P[4]    \n    :  P[5] 10mm/sec FINE    ;\n/POS\n"
@@ -149,6 +158,7 @@ fn a_groove_has_at_most_five_circles_for_each_of_two_in_every_language() {
         (Language::Rapid, rapid(), "MoveC"),
         (Language::Krl, krl(), "CIRC"),
         (Language::FanucLs, tp(), ":C P["),
+        (Language::UrScript, urscript(), "movec"),
         (Language::Siemens, SIEMENS.to_owned(), "CIP"),
     ] {
         for turns in [false, true] {

@@ -17,7 +17,7 @@ struct Example {
     remark: &'static [u8],
     /// Values that the caller states.
     values: &'static [(&'static str, f64)],
-    /// Lines of motions that state only a part of their ends, or state them otherwise than in X, Y and Z.
+    /// Lines of motions that state only a part of their ends, state them otherwise than in X, Y and Z, or go elsewhere each time.
     partial: &'static [usize],
     /// Ends that are stated again as they are; arcs stay.
     ends: usize,
@@ -216,6 +216,13 @@ conforms! {
         values: &[],
         partial: &[23, 24],
         ends: 10,
+    };
+    urscript: Example {
+        files: &[("part.script", include_str!("fixtures/everything.script"))],
+        remark: b"# \xff\xfe",
+        values: &[],
+        partial: &[11, 32, 41],
+        ends: 8,
     };
     val3: Example {
         files: &[

@@ -41,4 +41,5 @@ mod siemens;
 mod starts_alone;
 mod turned_work_objects;
 mod turns_in_place;
+mod urscript;
 mod val3;

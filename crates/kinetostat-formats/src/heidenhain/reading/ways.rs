@@ -184,6 +184,7 @@ impl Reader<'_> {
                 value: place[i],
             }),
             orientation: Vec::new(),
+            unit_mm: 1.0,
             convention: match self.state.directed {
                 true => OrientationText::Axis,
                 false if self.state.plane != XY || self.state.axis != Vector3::z() => {

@@ -111,7 +111,7 @@ impl Parser<'_, '_> {
         let mut statements = None;
         let mut handlers = Vec::new();
         let end = match kind {
-            RoutineKind::Procedure => "ENDPROC",
+            RoutineKind::Procedure | RoutineKind::Inner => "ENDPROC",
             RoutineKind::Function => "ENDFUNC",
             RoutineKind::Trap => "ENDTRAP",
         };

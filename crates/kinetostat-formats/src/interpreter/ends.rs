@@ -1,0 +1,171 @@
+//! Ends of motions and frames, by the expressions that state them as poses.
+
+use std::ops::Range;
+
+use nalgebra::{Isometry3, Translation3, Vector3};
+
+use crate::interpreter::declared::Around;
+use crate::interpreter::expression::{Expression, Node};
+use crate::interpreter::run::{Dialect, Reason, Run};
+use crate::interpreter::value::{Datum, Value};
+use crate::model::frame::{Frame, FrameUse};
+use crate::model::motion::{Motion, MotionKind, Runs, Speed, Zone};
+use crate::model::orientation::OrientationText;
+use crate::model::site::{MotionSite, PoseText, ReplacedText, TargetSite};
+use crate::model::target::{Configuration, PoseTarget, Target};
+use crate::options::UnknownTargets;
+use crate::text::name::Name;
+use crate::text::number::{NumberText, Width};
+
+/// How a language states poses: as six numbers or more, of which the first three are the place.
+pub(crate) struct PoseForm {
+    pub unit_mm: f64,
+    pub orientation: OrientationText,
+    /// Of a further declaration.
+    pub around: Around,
+    /// What to do where an end is not known.
+    pub remedy: &'static str,
+}
+
+impl PoseForm {
+    /// The frame of a pose, mm.
+    pub(crate) fn frame_of(&self, pose: &Datum) -> Option<Isometry3<f64>> {
+        let members = pose.members().iter().map(|(_, part)| part);
+        let numbers = members.chain(pose.parts()).map(Datum::as_number);
+        let numbers: Vec<f64> = numbers.collect::<Option<_>>()?;
+        let (place, turn) = numbers.split_at_checked(3)?;
+        let place = Translation3::from(self.unit_mm * Vector3::from_column_slice(place));
+        Some(Isometry3::from_parts(
+            place,
+            self.orientation.rotation_of(turn)?,
+        ))
+    }
+
+    /// The pose of a frame, with members of these names.
+    pub(crate) fn pose_of(&self, frame: &Isometry3<f64>, names: &[&str]) -> Datum {
+        let place = frame
+            .translation
+            .vector
+            .iter()
+            .map(|part| part / self.unit_mm);
+        let numbers = place.chain(self.orientation.numbers_of(&frame.rotation, &[]));
+        let names = names.iter().filter_map(|name| Name::of(name.as_bytes()));
+        let members: Vec<(Name, Datum)> = names.zip(numbers.map(Datum::number)).collect();
+        Datum::of(Value::Members(members.into()))
+    }
+}
+
+/// Where the numbers of a pose stand.
+fn text_of(form: &PoseForm, value: &Datum) -> Option<PoseText> {
+    let whole = value.literal?;
+    let (file, span) = (whole.file, whole.span());
+    let members = value.members().iter().map(|(_, part)| part);
+    let parts = members.chain(value.parts());
+    let numbers = parts.map(|part| part.number_in(file, &span));
+    let mut position: Vec<NumberText> = numbers.collect::<Option<_>>()?;
+    let orientation = position.split_off(3.min(position.len()));
+    Some(PoseText {
+        file,
+        whole: span,
+        position: position.try_into().ok()?,
+        unit_mm: form.unit_mm,
+        orientation,
+        convention: form.orientation,
+        external: Vec::new(),
+        width: Width::Free,
+    })
+}
+
+impl<D: Dialect> Run<'_, '_, D> {
+    /// The end that an expression of this value is, and where its numbers stand.
+    pub(crate) fn pose_end(
+        &mut self,
+        form: &PoseForm,
+        expression: &Expression,
+        value: &Datum,
+    ) -> Result<(Target, TargetSite), Reason> {
+        let Some(pose) = form.frame_of(value) else {
+            let unknown = value.unknown_reason().map(ToString::to_string);
+            let shown = || self.file().text(&expression.tokens);
+            let reason = unknown.unwrap_or_else(|| format!("`{}` is no pose", shown()));
+            if self.options.unknown_targets == UnknownTargets::LeftAsWritten {
+                let site = TargetSite::Fixed("its end is not known from the text");
+                return Ok((Target::Unknown { reason }, site));
+            }
+            return Err((reason, form.remedy));
+        };
+        let pose = PoseTarget {
+            position_mm: pose.translation.vector,
+            orientation: pose.rotation,
+            configuration: Configuration::default(),
+            external: Vec::new(),
+        };
+        let text = text_of(form, value);
+        let found = match &expression.node {
+            Node::Members(_) | Node::List(_) => text.map(TargetSite::Literal),
+            _ => text.and_then(|text| self.declared(expression, text, &pose, &form.around)),
+        };
+        let site = found.unwrap_or_else(|| {
+            TargetSite::Replaced(Box::new(ReplacedText {
+                span: self.file().span(&expression.tokens),
+                pose: pose.clone(),
+                parts: None,
+            }))
+        });
+        Ok((Target::Pose(pose), site))
+    }
+
+    /// A motion of a statement, with tool and work object, that stops at its end; of its speed nothing is said.
+    pub(crate) fn made_motion(
+        &self,
+        tokens: &Range<usize>,
+        kind: MotionKind,
+        (target, site): (Target, MotionSite),
+        [tool, work_object]: [FrameUse; 2],
+    ) -> Motion {
+        let file = self.file();
+        let span = file.span(tokens);
+        Motion {
+            file: file.index,
+            line: file.source.line_of(span.start),
+            span,
+            kind,
+            target,
+            speed: Speed::default(),
+            zone: Zone::Exact,
+            tool,
+            work_object,
+            runs: Runs::Once,
+            follows: None,
+            site,
+        }
+    }
+
+    /// The length of the straight way from where the tool is to the end of a motion.
+    pub(crate) fn way_mm(&self, motion: &Motion) -> Option<f64> {
+        let start = self.motions.get(self.here?)?;
+        let is_same = start.tool == motion.tool;
+        let [start, end] = [start.base_pose()?, motion.base_pose()?];
+        is_same.then(|| (end.translation.vector - start.translation.vector).norm())
+    }
+
+    /// The frame that an expression names: as the caller states it, or as its value is read.
+    pub(crate) fn frame_use(&mut self, form: &PoseForm, expression: &Expression) -> FrameUse {
+        let name = self.file().text(&expression.tokens);
+        let stated = self.options.frames.get(&name).copied();
+        let value = self.value(expression);
+        let frame = match (
+            stated.or_else(|| form.frame_of(&value)),
+            value.unknown_reason(),
+        ) {
+            (Some(frame), _) => Frame::Known(frame),
+            (None, Some(reason)) => Frame::Unknown {
+                reason: format!("{reason}; state it under [robot.frames]"),
+            },
+            (None, None) => Frame::Unknown {
+                reason: "it is no pose".to_owned(),
+            },
+        };
+        FrameUse { name, frame }
+    }
+}

@@ -1,0 +1,96 @@
+//! Tokens of a language in which a statement is a line, with their places; blanks and comments are none.
+//!
+//! A line that ends outside brackets is a token: it ends the statement.
+
+use crate::interpreter::token::{Kind, Token};
+use crate::text::source::BYTE_ORDER_MARK;
+
+/// Marks of a language.
+pub(crate) struct Marks {
+    /// Before a comment, to the end of its line.
+    pub comment: u8,
+    /// Before a line that is none of the program.
+    pub aside: u8,
+}
+
+/// The tokens of a file shorter than 4 GiB.
+pub(crate) fn tokens_of(marks: &Marks, bytes: &[u8]) -> Vec<Token> {
+    let mut tokens: Vec<Token> = Vec::with_capacity(bytes.len() / 3);
+    let mut at = match bytes.starts_with(BYTE_ORDER_MARK) {
+        true => BYTE_ORDER_MARK.len(),
+        false => 0,
+    };
+    let (mut open, mut begins_line) = (0_usize, true);
+    while let Some(first) = bytes.get(at) {
+        let rest = &bytes[at..];
+        let run =
+            |is_part: &dyn Fn(u8) -> bool| rest.iter().take_while(|byte| is_part(**byte)).count();
+        let line = || run(&|byte| byte != b'\n');
+        let (kind, length) = match first {
+            b'\n' => ((open == 0).then_some(Kind::Symbol(b'\n')), 1),
+            mark if *mark == marks.comment => (None, line()),
+            mark if *mark == marks.aside && begins_line => (None, line()),
+            byte if byte.is_ascii_whitespace() || *byte == 0x1a => (None, 1),
+            b'0'..=b'9' | b'.' => match number(rest) {
+                0 => (Some(Kind::Symbol(*first)), 1),
+                length => (Some(Kind::Number), length),
+            },
+            b'"' => match rest[1..line()].iter().position(|byte| *byte == b'"') {
+                Some(close) => (Some(Kind::Text), close + 2),
+                None => (Some(Kind::OpenText), line()),
+            },
+            byte if is_part(*byte) => (Some(Kind::Word), run(&is_part)),
+            // `==`, `<=`, `>=` and `!=` are operators.
+            b'=' => {
+                let compares = |token: &Token| {
+                    matches!(token.kind, Kind::Symbol(b'=' | b'<' | b'>' | b'!'))
+                        && token.bytes().end == at
+                };
+                match rest.get(1) == Some(&b'=') || tokens.last().is_some_and(compares) {
+                    true => (Some(Kind::Symbol(b'=')), 1),
+                    false => (Some(Kind::Assign), 1),
+                }
+            }
+            byte => (Some(Kind::Symbol(*byte)), 1),
+        };
+        match first {
+            b'(' | b'[' | b'{' => open += 1,
+            b')' | b']' | b'}' => open = open.saturating_sub(1),
+            _ => {}
+        }
+        begins_line = *first == b'\n' || begins_line && kind.is_none();
+        if let Some(kind) = kind {
+            tokens.push(Token::new(kind, &(at..at + length)));
+        }
+        at += length.max(1);
+    }
+    tokens
+}
+
+fn is_part(byte: u8) -> bool {
+    byte.is_ascii_alphanumeric() || byte == b'_' || byte >= 0x80
+}
+
+/// Bytes of the number that begins here; 0 where none does.
+fn number(text: &[u8]) -> usize {
+    let digits = |from: usize| {
+        text[from..]
+            .iter()
+            .take_while(|byte| byte.is_ascii_digit())
+            .count()
+    };
+    let whole = digits(0);
+    let fraction = match text.get(whole) {
+        Some(b'.') => 1 + digits(whole + 1),
+        _ => 0,
+    };
+    if whole + fraction < 2 && whole == 0 {
+        return 0;
+    }
+    let mantissa = whole + fraction;
+    let sign = usize::from(matches!(text.get(mantissa + 1), Some(b'+' | b'-')));
+    match (text.get(mantissa), text.get(mantissa + 1 + sign)) {
+        (Some(b'e' | b'E'), Some(b'0'..=b'9')) => mantissa + 1 + sign + digits(mantissa + 1 + sign),
+        _ => mantissa,
+    }
+}
