@@ -636,7 +636,8 @@ fn joints_turn_on_across_the_seams_of_parts() {
         let at = table.headers().expect("a heading");
         let at = at.iter().position(|name| name == "turn_command_deg");
         let rows = table.records().map(|row| row.expect("a row"));
-        let turn = |row: csv::StringRecord| row[at.expect("a column")].parse().expect("a number");
+        let turn =
+            |row: csv::StringRecord| row[at.expect("a column")].parse::<f64>().expect("a number");
         rows.map(turn).collect()
     };
     let (found, wanted) = (turns(&parts), turns(&whole));
