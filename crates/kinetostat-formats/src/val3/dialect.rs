@@ -209,7 +209,7 @@ impl Dialect for Val3 {
         let Some(name) = file.name(tokens.start) else {
             return true;
         };
-        let acts = ["resetMotion", "taskCreate"];
+        let acts = ["resetMotion", "taskCreate", "taskCreateSync"];
         let is_refused =
             row(&name).is_some_and(|row| matches!(row.treatment, Treatment::Refused { .. }));
         is_motion(&name) || is_refused || is_one_of(&name, &acts)
@@ -223,7 +223,10 @@ impl Dialect for Val3 {
             for statement in &home.routine.body {
                 statement.each(&mut |statement: &Statement| {
                     if let Statement::Call { tokens } = statement
-                        && file.is_word(tokens.start, "TASKCREATE")
+                        && file
+                            .text(&(tokens.start..tokens.start + 1))
+                            .to_ascii_uppercase()
+                            .starts_with("TASKCREATE")
                     {
                         let names = tokens
                             .clone()

@@ -110,7 +110,7 @@ impl Run<'_, '_> {
                         .to_owned(),
                 );
             }
-            "taskCreate" => self.begin_task(tokens),
+            "taskCreate" | "taskCreateSync" => self.begin_task(tokens),
             _ => {}
         }
         if is_one_of(name, &CHANGE_THEIRS) {

@@ -67,6 +67,16 @@ pub(crate) fn parse_val3(files: Vec<SourceFile>, options: &ReadOptions) -> Parse
             message,
         });
     }
+    let is_world = |name: &String| name.eq_ignore_ascii_case("world");
+    if let (Some(first), false) = (run.motions.first(), options.frames.keys().any(is_world)) {
+        let message = "`world` is taken as the base of the model; that of an arm of Staubli may lie where its axes 1 and 2 meet: state `world` under [robot.frames] where it is another frame".to_owned();
+        let (file, line) = (first.file, first.line);
+        findings.push(Finding {
+            file,
+            line,
+            message,
+        });
+    }
     let read = Read {
         motions: run.motions,
         declarations: run.targets.declarations,
