@@ -15,8 +15,8 @@ use crate::text::finding::Finding;
 use crate::text::flat::FlatText;
 use crate::text::name::Name;
 use crate::text::source::SourceFile;
-use crate::val3::dialect::Val3;
 use crate::val3::parser::routine_of;
+use crate::val3::state::Val3;
 use crate::val3::xml::content_of;
 
 /// Most bytes of a file.
