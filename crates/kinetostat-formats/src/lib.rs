@@ -70,6 +70,7 @@ mod standing;
 mod table;
 mod text;
 mod turned_axis;
+mod val3;
 mod writing;
 
 pub use apt::flat::expand::expand_apt;
@@ -136,4 +137,6 @@ pub use table::{StatementRow, Treatment};
 pub use text::finding::Finding;
 pub use text::flat::FlatText;
 pub use text::source::SourceFile;
+pub use val3::reader::read_val3;
+pub use val3::table::VAL3_STATEMENTS;
 pub use writing::piece::Piece;

@@ -84,6 +84,11 @@ pub trait ProgramLanguage: Sync {
         Vec::new()
     }
 
+    /// Files that belong to one of a program, of those in its folder.
+    fn files_beside(&self, _file: &SourceFile, _folder: &[String]) -> Vec<String> {
+        Vec::new()
+    }
+
     /// True where its reader knows lines that end with a carriage return alone.
     fn reads_all_line_ends(&self) -> bool {
         false

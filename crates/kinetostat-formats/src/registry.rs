@@ -18,6 +18,7 @@ macro_rules! each_language {
             Apt, "APT and CLDATA.", crate::apt::language::AptLanguage;
             Siemens, "SINUMERIK 840D.", crate::siemens::language::SiemensLanguage;
             Heidenhain, "Heidenhain conversational.", crate::heidenhain::language::HeidenhainLanguage;
+            Val3, "Staubli VAL3.", crate::val3::language::Val3Language;
             Poses, "Lists of poses: tables (CSV) and YAML.", crate::poses::language::PosesLanguage;
         }
     };

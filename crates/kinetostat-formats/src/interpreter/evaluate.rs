@@ -11,6 +11,11 @@ pub(crate) trait Names {
     /// The way to a component of a value.
     fn component(&self, of: &Datum, name: &Name) -> Option<Step>;
 
+    /// The index of the first element of an array.
+    fn first_index(&self) -> usize {
+        1
+    }
+
     /// The result of an operator with two operands.
     fn operation(&self, operator: Operator, left: &Datum, right: &Datum) -> Datum {
         two(operator, left, right)
@@ -105,13 +110,14 @@ pub(crate) fn evaluate(
                 .iter()
                 .map(|index| evaluate(file, index, names))
                 .collect();
+            let first = names.first_index();
             if let Some(stated) = names.stated(expression, &at) {
                 return stated;
             }
             let of = match &inner.node {
                 Node::Word(name) => {
                     // Of an index that is not known nothing is used.
-                    if let Some(index) = at.first().and_then(index_of) {
+                    if let Some(index) = at.first().and_then(|index| index_of(index, first)) {
                         names.uses(name, Some(Step::Index(index)));
                     }
                     names.word(name, inner)
@@ -121,7 +127,9 @@ pub(crate) fn evaluate(
             if let Some(reason) = at.iter().find_map(Datum::unknown_reason) {
                 return Datum::unknown(reason.clone());
             }
-            let path = at.iter().map(|index| index_of(index).map(Step::Index));
+            let path = at
+                .iter()
+                .map(|index| index_of(index, first).map(Step::Index));
             let path: Option<Vec<Step>> = path.collect();
             let part = path.and_then(|path| of.part(&path).cloned());
             part.unwrap_or_else(|| {
@@ -143,11 +151,11 @@ pub(crate) fn evaluate(
     }
 }
 
-/// An index from 0 for one from 1.
-pub(crate) fn index_of(datum: &Datum) -> Option<usize> {
+/// An index from 0 for one from another.
+pub(crate) fn index_of(datum: &Datum, first: usize) -> Option<usize> {
     let value = datum.as_number()?;
-    let is_index = (1.0..1e7).contains(&value) && value.fract() == 0.0;
-    is_index.then(|| value as usize - 1)
+    let is_index = (0.0..1e7).contains(&value) && value.fract() == 0.0;
+    (value as usize).checked_sub(first).filter(|_| is_index)
 }
 
 fn not_a_part(of: &Datum, reason: impl FnOnce() -> String) -> Datum {

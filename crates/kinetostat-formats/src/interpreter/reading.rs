@@ -154,7 +154,8 @@ impl Reader<'_, '_> {
             return None;
         }
         let start = self.at;
-        let mut left = match self.is_word("NOT") {
+        let is_mark = self.kind() == Some(Kind::Symbol(b'!')) && self.operator().is_none();
+        let mut left = match is_mark || self.is_word("NOT") {
             true => {
                 self.at += 1;
                 let operand = self.operation(depth + 1, self.grammar.not)?;

@@ -90,6 +90,9 @@ pub(crate) trait Dialect: Sized {
     /// True where a name that no file declares is one of the controller, and gets its value by an assignment.
     const DECLARES_BY_USE: bool;
 
+    /// The index of the first element of an array.
+    const FIRST_INDEX: usize = 1;
+
     /// The expression that tokens are.
     fn expression_of(file: &TokenFile<'_>, tokens: Range<usize>) -> Expression;
 

@@ -219,7 +219,7 @@ impl<D: Dialect> Run<'_, '_, D> {
         let outer = std::mem::replace(&mut self.scope, datum.scope);
         let sizes: Vec<Option<usize>> = D::arguments_of(&self.files[datum.file], sizes)
             .iter()
-            .map(|size| index_of(&self.value(size.value.as_ref()?)).map(|last| last + 1))
+            .map(|size| index_of(&self.value(size.value.as_ref()?), 1).map(|last| last + 1))
             .collect();
         self.scope = outer;
         let count = sizes
@@ -264,7 +264,9 @@ impl<D: Dialect> Run<'_, '_, D> {
                 let mut place = self.place(of)?;
                 for index in indices {
                     let index = self.value(index);
-                    place.path.push(Step::Index(index_of(&index)?));
+                    place
+                        .path
+                        .push(Step::Index(index_of(&index, D::FIRST_INDEX)?));
                 }
                 Some(place)
             }
@@ -421,6 +423,10 @@ pub(super) fn behind(ways: &Ways, step: Step) -> Ways {
 impl<D: Dialect> Names for Run<'_, '_, D> {
     fn component(&self, of: &Datum, name: &Name) -> Option<Step> {
         D::component(of, name)
+    }
+
+    fn first_index(&self) -> usize {
+        D::FIRST_INDEX
     }
 
     fn operation(&self, operator: Operator, left: &Datum, right: &Datum) -> Datum {

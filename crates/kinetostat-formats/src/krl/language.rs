@@ -91,6 +91,15 @@ impl ProgramLanguage for KrlLanguage {
         is_data_list(file)
     }
 
+    /// The data list of the same name.
+    fn files_beside(&self, file: &SourceFile, folder: &[String]) -> Vec<String> {
+        let stem = file.name().rsplit_once('.').map(|(stem, _)| stem);
+        let list = stem.map(|stem| format!("{stem}.dat"));
+        list.filter(|name| folder.contains(name))
+            .into_iter()
+            .collect()
+    }
+
     fn held_word(&self) -> Option<&'static str> {
         Some("DEF")
     }

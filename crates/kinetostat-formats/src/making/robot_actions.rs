@@ -25,6 +25,14 @@ pub(crate) fn action_of(language: Language, text: &str) -> Option<EventAction> {
             None => (upper == "PAUSE").then_some(EventAction::Stop),
         },
         Language::Apt => of_apt(upper.split("$$").next()?.trim()),
+        Language::Val3 => seconds(
+            upper
+                .split("//")
+                .next()?
+                .trim()
+                .strip_prefix("DELAY(")?
+                .strip_suffix(')')?,
+        ),
         // Of blocks each word for itself.
         _ => None,
     }

@@ -11,6 +11,8 @@ pub enum OrientationText {
     Abc,
     /// W about X, P about Y, R about Z, fixed axes, degrees (FANUC).
     Wpr,
+    /// RX about X, RY about the new Y, RZ about the new Z, degrees (VAL3).
+    Xyz,
     /// Direction of the tool's axis, the turn about it unstated (APT).
     Axis,
     /// No numbers: the orientation is that of before.
@@ -35,6 +37,8 @@ impl OrientationText {
                 let all = [a, b, c].iter().all(|angle| angle.is_finite());
                 all.then(|| UnitQuaternion::from_euler_angles(c, b, a))
             }
+            // Backward they are the angles of KRL.
+            (Self::Xyz, &[x, y, z]) => Some(Self::Abc.rotation_of(&[-z, -y, -x])?.inverse()),
             (Self::Axis, &[i, j, k]) => {
                 let axis = Vector3::new(i, j, k);
                 let is_unit = (axis.norm() - 1.0).abs() <= UNIT_TOLERANCE;
@@ -68,6 +72,11 @@ impl OrientationText {
             Self::Wpr => {
                 let [a, b, c] = angles(rotation, &[at(near, 2), at(near, 1), at(near, 0)]);
                 [c, b, a].map(within_half_a_turn).to_vec()
+            }
+            Self::Xyz => {
+                let near = [-at(near, 2), -at(near, 1), -at(near, 0)];
+                let [z, y, x] = angles(&rotation.inverse(), &near);
+                vec![-x, -y, -z]
             }
             Self::Axis => (rotation * Unit::new_unchecked(Vector3::z()))
                 .as_slice()

@@ -179,7 +179,8 @@ fn parts(convention: OrientationText) -> &'static [&'static str] {
         OrientationText::Abc => &["a_deg", "b_deg", "c_deg"],
         OrientationText::Wpr => &["rx_deg", "ry_deg", "rz_deg"],
         OrientationText::Axis => &["i", "j", "k"],
-        OrientationText::Unstated => &[],
+        // No list has them.
+        OrientationText::Xyz | OrientationText::Unstated => &[],
     }
 }
 

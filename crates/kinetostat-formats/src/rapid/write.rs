@@ -11,7 +11,7 @@ use crate::options::{ExactStops, WriteOptions};
 use crate::rapid::lex::tokens_of;
 use crate::rapid::table::{MotionRow, motion_row};
 use crate::text::edits::Edits;
-use crate::text::name::{LONGEST, Name};
+use crate::text::name::Name;
 use crate::text::number::Width;
 use crate::text::source::SourceFile;
 use crate::writing::literal::{Wanted, put};
@@ -37,25 +37,6 @@ impl Syntax for RapidSyntax {
             }
         }
         names
-    }
-
-    fn free_name(
-        &self,
-        near: &[u8],
-        number: &mut usize,
-        taken: &mut BTreeSet<Vec<u8>>,
-    ) -> Option<Vec<u8>> {
-        // One of so many is free.
-        for _ in 0..=taken.len() {
-            let end = format!("_{number}");
-            *number += 1;
-            let kept = near.len().min(LONGEST.checked_sub(end.len())?);
-            let name = [&near[..kept], end.as_bytes()].concat();
-            if taken.insert(name.to_ascii_uppercase()) {
-                return Some(name);
-            }
-        }
-        None
     }
 
     fn writes_circles(&self) -> bool {

@@ -8,6 +8,7 @@ use crate::model::program::RobotProgram;
 use crate::model::site::{Declaration, ReplacedText};
 use crate::options::WriteOptions;
 use crate::text::edits::Edits;
+use crate::text::name::LONGEST;
 use crate::text::source::SourceFile;
 use crate::writing::literal::Wanted;
 
@@ -29,10 +30,20 @@ pub(crate) trait Syntax {
     /// A name like `near` with a number, from this one on, that is not taken; it is taken then, and the number is the next.
     fn free_name(
         &self,
-        _near: &[u8],
-        _number: &mut usize,
-        _taken: &mut BTreeSet<Vec<u8>>,
+        near: &[u8],
+        number: &mut usize,
+        taken: &mut BTreeSet<Vec<u8>>,
     ) -> Option<Vec<u8>> {
+        // One of so many is free.
+        for _ in 0..=taken.len() {
+            let end = format!("_{number}");
+            *number += 1;
+            let kept = near.len().min(LONGEST.checked_sub(end.len())?);
+            let name = [&near[..kept], end.as_bytes()].concat();
+            if taken.insert(name.to_ascii_uppercase()) {
+                return Some(name);
+            }
+        }
         None
     }
 

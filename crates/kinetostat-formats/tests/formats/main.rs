@@ -40,3 +40,4 @@ mod siemens;
 mod starts_alone;
 mod turned_work_objects;
 mod turns_in_place;
+mod val3;

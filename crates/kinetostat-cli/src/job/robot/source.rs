@@ -102,7 +102,6 @@ pub(crate) fn robot_source(
         };
     };
     refuse_unfit(job, program, language)?;
-    let data_beside = language.data_ending().map(|data| path.with_extension(data));
     if let Some(data) = language.data_ending().filter(|data| has_ending(path, data)) {
         return Err(Failure::input(format!(
             "'{name}' holds data of a program: give its .{} as the program; the .{data} of the same name is read with it",
@@ -139,7 +138,7 @@ pub(crate) fn robot_source(
         source.paths.push(path);
         Ok(())
     };
-    if let Some(beside) = data_beside.filter(|beside| beside.is_file()) {
+    for beside in files_beside(language, path, bytes) {
         take(beside)?;
     }
     if let Some((j, table)) = table {
@@ -170,6 +169,37 @@ fn known_endings() -> String {
 fn has_ending(path: &Path, ending: &str) -> bool {
     path.extension()
         .is_some_and(|own| own.eq_ignore_ascii_case(ending))
+}
+
+/// Files in the folder of a program that belong to it, and those that belong to them.
+fn files_beside(language: Language, path: &Path, bytes: &[u8]) -> Vec<PathBuf> {
+    let own_name = |path: &Path| {
+        path.file_name()
+            .map(|name| name.to_string_lossy().into_owned())
+    };
+    let folder = path
+        .parent()
+        .filter(|folder| !folder.as_os_str().is_empty());
+    let entries = std::fs::read_dir(folder.unwrap_or(Path::new("."))).into_iter();
+    let files = entries.flatten().flatten().map(|entry| entry.path());
+    let mut names: Vec<String> = files
+        .filter(|file| file.is_file())
+        .filter_map(|file| own_name(&file))
+        .collect();
+    names.sort();
+    let first = own_name(path).unwrap_or_default();
+    let mut open = vec![SourceFile::new(first.clone(), bytes)];
+    names.retain(|name| *name != first);
+    let mut found = Vec::new();
+    while let Some(file) = open.pop() {
+        for name in language.files_beside(&file, &names) {
+            let beside = path.with_file_name(&name);
+            open.extend(std::fs::read(&beside).map(|bytes| SourceFile::new(name.clone(), bytes)));
+            names.retain(|other| *other != name);
+            found.push(beside);
+        }
+    }
+    found
 }
 
 /// The first key of a table that only programs of robots have, with the name of the table.
