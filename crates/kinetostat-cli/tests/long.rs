@@ -581,3 +581,81 @@ fn a_run_that_is_stopped_says_how_to_go_on() {
         "{said}"
     );
 }
+
+/// A column that turns the carriage of a portal: its joint values know no whole turns of their own.
+const POLAR: &str = r#"schema = 1
+[mechanism]
+name = "polar"
+source = "own"
+[[platform]]
+name = "tool"
+home = { position_mm = [80, 0, 300] }
+[chain.arm]
+elements = [
+  { actuator = "revolute", name = "turn", axis = "z", stiffness_n_m_per_rad = 2e6, home_deg = 0 },
+  { actuator = "prismatic", name = "lift", axis = "z", stiffness_n_per_m = 2e7, home_mm = 300 },
+  { actuator = "prismatic", name = "reach", axis = "x", stiffness_n_per_m = 1e7, home_mm = 80 },
+  { actuator = "revolute", name = "wrist", axis = "z", stiffness_n_m_per_rad = 2e5, home_deg = 0 },
+]
+[[limb]]
+name = "arm"
+from = "base"
+to = "tool"
+chain = "arm"
+"#;
+
+#[test]
+fn joints_turn_on_across_the_seams_of_parts() {
+    let around = |word: &str, deg: i32| {
+        let (y, x) = f64::from(deg).to_radians().sin_cos();
+        format!("{word} X{:.3} Y{:.3}\n", 80.0 * x, 80.0 * y)
+    };
+    let rapids = (0..10).map(|i| around("G0", 30 * i));
+    let feeds = (1..=20).map(|i| around("G1", 270 + 2 * i));
+    let text = format!(
+        "G21 G90 G17\nG0 X80 Y0 Z5\n{}G1 Z-1 F800\n{}G0 Z5\nM2\n",
+        rapids.collect::<String>(),
+        feeds.collect::<String>()
+    );
+    let job = job().replace("\"orthoglide\"", "\"polar.toml\"");
+    let [parts, whole] = [&["--part-lines", "13"][..], &[]].map(|parts| {
+        let here = tempfile::tempdir().expect("a directory");
+        for (name, text) in [
+            ("part.ngc", &*text),
+            ("job.toml", &job),
+            ("polar.toml", POLAR),
+        ] {
+            fs::write(here.path().join(name), text).expect("written");
+        }
+        let (code, said) = end(start(here.path(), parts, &[]));
+        assert_eq!(code, Some(0), "{said}");
+        outputs(here.path())
+    });
+    let turns = |of: &BTreeMap<_, Vec<u8>>| -> Vec<f64> {
+        let mut table = csv::Reader::from_reader(of["points.csv"].as_slice());
+        let at = table.headers().expect("a heading");
+        let at = at.iter().position(|name| name == "turn_command_deg");
+        let rows = table.records().map(|row| row.expect("a row"));
+        let turn =
+            |row: csv::StringRecord| row[at.expect("a column")].parse::<f64>().expect("a number");
+        rows.map(turn).collect()
+    };
+    let (found, wanted) = (turns(&parts), turns(&whole));
+    assert_eq!(found.len(), wanted.len());
+    let last = *wanted.last().expect("a row");
+    assert!((last - 310.0).abs() < 0.01, "{last}");
+    for (found, wanted) in found.iter().zip(&wanted) {
+        assert!((found - wanted).abs() < 1e-3, "{found} {wanted}");
+    }
+    let [found, wanted] = [&parts, &whole]
+        .map(|of| serde_json::from_slice::<Value>(&of["result.json"]).expect("a result"));
+    compare(&found["joints"], &wanted["joints"], "joints");
+    let first = |of: &Value| of["points"].as_array().expect("points").clone();
+    for pair in first(&found).windows(2) {
+        let [a, b] = [&pair[0], &pair[1]].map(|p| p["actuator_command_mm_or_deg"][0].as_f64());
+        assert!(
+            (a.expect("a number") - b.expect("a number")).abs() < 90.0,
+            "{pair:?}"
+        );
+    }
+}

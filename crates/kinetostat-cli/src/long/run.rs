@@ -349,12 +349,16 @@ impl<'a> LongRun<'a> {
                         Aim::Analyse => analyse_part(task, Some(&whole), watch),
                         Aim::Compensate => compensate_part(task, Some(&whole), watch),
                     };
-                    let run = self.answered(run, part)?;
-                    let rows = self.rows(&run, (outputs, count, part.first_line() == 1))?;
+                    let mut run = self.answered(run, part)?;
+                    let listed = (outputs, count, part.first_line() == 1);
+                    let mut rows = self.rows(&run, listed)?;
                     if place.wait_for_turn() != Standing::Next {
                         return Ok(false);
                     }
                     let (work, last) = &mut *locked(&taking);
+                    if work.state.merged.join(task, &mut run) {
+                        rows = self.rows(&run, listed)?;
+                    }
                     work.take(task, run, &rows)?;
                     progress.advance(part.next_line() - 1);
                     if last.elapsed() >= every || part.is_last {

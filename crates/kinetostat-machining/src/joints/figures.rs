@@ -54,11 +54,8 @@ impl<'r> JointFigures<'r> {
 
     /// Takes turning joints to the whole turn next to that of the point before. A solution may take any of the values that are whole
     /// turns apart, and a controller turns its joints on: in a feed motion always, in a rapid as far as the limits allow.
-    pub(crate) fn unwind(&self, before: &PointResult, point: &mut PointResult) {
-        let commands = point
-            .actuator_command
-            .iter_mut()
-            .zip(&before.actuator_command);
+    pub(crate) fn unwind(&self, before: &[f64], point: &mut PointResult) {
+        let commands = point.actuator_command.iter_mut().zip(before);
         for ((command, last), (kind, limits)) in commands.zip(&self.joints) {
             let turns = ((last - *command) / 360.0).round();
             if *kind != MotionKind::Revolute || turns == 0.0 || !turns.is_finite() {

@@ -11,6 +11,7 @@ use crate::load::along_path::LoadAlongPath;
 use crate::load::ramp_findings::TooFast;
 use crate::result::assessment::{Assumption, AssumptionKind};
 use crate::result::envelope::Envelope;
+use crate::result::joints::JointsResult;
 use crate::result::kept_points::KeptPoints;
 use crate::result::point::{PointKind, PointResult};
 use crate::result::program_place::ProgramPlace;
@@ -71,15 +72,11 @@ pub(crate) fn conclude(
     let near_singularity = nearest_singular(task, &points);
     let joints = joints_result(task, &points);
     let mut warnings = warnings(task, load, &points, &summary, written.as_ref(), checked);
-    warnings.splice(0..0, whole_turns(task, &points));
     warnings.splice(0..0, posture_warning(task, &points, &joints));
     // Said first: near a singular posture every other figure is larger than elsewhere.
     if let Some(near) = &near_singularity {
         warnings.insert(0, near_singular_warning(near));
     }
-    let (mut envelope, mut kept) = (Envelope::default(), KeptPoints::new(RunResult::MAX_POINTS));
-    envelope.extend(&points);
-    kept.extend(&points);
     let mut result = RunResult {
         schema: RESULT_SCHEMA,
         kinetostat_version: env!("CARGO_PKG_VERSION").into(),
@@ -87,14 +84,8 @@ pub(crate) fn conclude(
         cutting: task.cut.map(|forces| cutting_result(forces, task.path())),
         force_band: checked.force_band.clone(),
         run_inputs: run_inputs_of(task, load, &points, written.is_some()),
-        worst_points: kept.worst_before(),
-        worst_points_after: match written {
-            Some(_) => kept.worst_after(),
-            None => Vec::new(),
-        },
         warnings,
         near_singularity,
-        joints,
         ..RunResult::default()
     };
     result.tolerance = tolerance(
@@ -104,7 +95,15 @@ pub(crate) fn conclude(
         &checked.ramps.too_fast,
         task.path(),
     );
-    result.points = kept.points();
+    let mut run = Run {
+        result,
+        points,
+        envelope: Envelope::default(),
+        written,
+        places: checked.places.clone(),
+    };
+    run.keep(task, joints);
+    let result = &mut run.result;
     result.assess();
     if let Some(line) = task.path().units_assumed_on {
         let text = format!(
@@ -112,12 +111,52 @@ pub(crate) fn conclude(
         );
         result.assume(Assumption::new(AssumptionKind::Units, None, text));
     }
-    Run {
-        result,
-        points,
-        envelope,
-        written,
-        places: checked.places.clone(),
+    run
+}
+
+impl Run {
+    /// Takes turning joints of a part on from their values at the point before it, as those of a whole program go on; says
+    /// whether one changed.
+    pub(crate) fn go_on_from(&mut self, task: &Task<'_>, before: &[f64]) -> bool {
+        let figures = JointFigures::new(task.mechanism, &task.bounds.ratings);
+        let mut before = before.to_vec();
+        for (index, point) in self.points.iter_mut().enumerate() {
+            let own = point.actuator_command.clone();
+            figures.unwind(&before, point);
+            // All that follow are next to the first.
+            if index == 0 && own == point.actuator_command {
+                return false;
+            }
+            figures.fill(point);
+            before.clone_from(&point.actuator_command);
+        }
+        let joints = joints_result(task, &self.points);
+        self.keep(task, joints);
+        !self.points.is_empty()
+    }
+
+    /// States what rests on the joint values of the points, and keeps points of a long path.
+    fn keep(&mut self, task: &Task<'_>, joints: JointsResult) {
+        let (mut envelope, mut kept) =
+            (Envelope::default(), KeptPoints::new(RunResult::MAX_POINTS));
+        envelope.extend(&self.points);
+        kept.extend(&self.points);
+        self.envelope = envelope;
+        let result = &mut self.result;
+        result.joints = joints;
+        result.worst_points = kept.worst_before();
+        if self.written.is_some() {
+            result.worst_points_after = kept.worst_after();
+        }
+        result.points = kept.points();
+        let first = [WarningCode::NearSingular, WarningCode::PostureChanges];
+        let warnings = &mut result.warnings;
+        warnings.retain(|w| w.code != WarningCode::JointTurnsOn);
+        let at = warnings
+            .iter()
+            .take_while(|w| first.contains(&w.code))
+            .count();
+        warnings.splice(at..at, whole_turns(task, &self.points));
     }
 }
 

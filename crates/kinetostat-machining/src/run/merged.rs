@@ -68,6 +68,13 @@ impl MergedRun {
         self.parts
     }
 
+    /// Takes turning joints of the next part on from where the last one left them; says whether that changed its points.
+    pub fn join(&self, task: &Task<'_>, run: &mut Run) -> bool {
+        // The last point of a part is always kept.
+        let last = self.points.last();
+        last.is_some_and(|last| run.go_on_from(task, &last.actuator_command))
+    }
+
     /// Takes the next part.
     pub fn add(&mut self, task: &Task<'_>, run: &Run) {
         self.parts += 1;

@@ -62,7 +62,7 @@ pub(crate) fn solve(
         for (site, point) in batch.iter().zip(solved) {
             let mut point = point?;
             if let Some(before) = points.last() {
-                figures.unwind(before, &mut point);
+                figures.unwind(&before.actuator_command, &mut point);
             }
             figures.fill(&mut point);
             worse = worse.or_else(|| worse_than_before(task, site, &point));
