@@ -81,6 +81,7 @@ pub use postures::configurations::{Configurations, posture_at};
 pub use result::assessment::{Assessment, Assumption, AssumptionKind, Level};
 pub use result::chatter::{ChatterLines, ChatterPlace, ChatterResult};
 pub use result::cutting::{CutPlace, CuttingResult};
+pub use result::decimals::WrittenDecimals;
 pub use result::envelope::{Envelope, Quantity, StretchRange};
 pub use result::feature::{
     Feature, FeatureResult, add_to_features, feature_results, judge_features,

@@ -5,6 +5,7 @@ mod assess;
 pub(crate) mod assessment;
 pub(crate) mod chatter;
 pub(crate) mod cutting;
+pub(crate) mod decimals;
 pub(crate) mod envelope;
 pub(crate) mod feature;
 pub(crate) mod figures;

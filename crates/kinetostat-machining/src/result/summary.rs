@@ -1,6 +1,7 @@
 //! Figures of a whole run.
 
 use crate::load::ramp_findings::LoadRamp;
+use crate::result::decimals::WrittenDecimals;
 use crate::result::largest_change::LargestChange;
 use crate::result::solving::Solving;
 use kinetostat_program::ShortBlocksOfLine;
@@ -82,6 +83,9 @@ pub struct Summary {
     /// How many times the programmed feed was allowed at most along the tool's own path.
     #[serde(default)]
     pub max_feed_factor: f64,
+    /// Digits behind the point of the numbers that were written anew.
+    #[serde(default)]
+    pub decimals: WrittenDecimals,
     /// Pieces whose feed was held to that: they are slower along the part than programmed, and not
     /// part of `max_speed_deviation_percent`.
     #[serde(default)]

@@ -243,6 +243,7 @@ fn summary(own: &mut Summary, next: &Summary) {
     own.corner_steps += next.corner_steps;
     own.entry_steps += next.entry_steps;
     own.backward_steps += next.backward_steps;
+    own.decimals.merge(&next.decimals);
     own.feed_limited_pieces += next.feed_limited_pieces;
     own.feed_limited_line = own.feed_limited_line.or(next.feed_limited_line);
     own.feed_length_before_mm += next.feed_length_before_mm;

@@ -8,6 +8,7 @@ pub(crate) mod compensate;
 pub(crate) mod conclude;
 pub(crate) mod corner_steps;
 pub(crate) mod cutting;
+pub(crate) mod decimals;
 pub(crate) mod divide_again;
 pub(crate) mod fast_change;
 pub(crate) mod first_look;

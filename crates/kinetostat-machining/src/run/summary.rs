@@ -9,6 +9,7 @@ use crate::result::point::{PointKind, PointResult, size};
 use crate::result::solving::{Solving, one_by_one_because};
 use crate::result::summary::Summary;
 use crate::run::checked::Checked;
+use crate::run::decimals::written_decimals;
 use crate::run::fast_change::of_correction;
 use crate::task::Task;
 use kinetostat::number::smaller;
@@ -140,6 +141,7 @@ fn of_what_was_written(
     summary.smallest_piece_mm = a.smallest_piece_mm.unwrap_or(0.0);
     summary.blocks_per_second = a.peak_blocks_per_second;
     summary.max_rounding_error_mm = a.largest_rounding_mm;
+    summary.decimals = written_decimals(task.program.bytes(), &written.bytes);
     summary.feed_arcs = feed_arcs(task.path());
     summary.unchanged = written.bytes == task.program.bytes();
     summary.within_tolerance_before = checked.within_before;

@@ -30,7 +30,7 @@ pub(crate) fn tolerance(
         let reason = if rounding_mm > 0.5 * allowed_mm {
             format!(
                 "rounding to {} decimals alone leaves up to {}; write more of them, or allow more",
-                result.run_inputs.decimals,
+                result.summary.decimals.shown(result.run_inputs.decimals, "to").0,
                 largest_length(rounding_mm)
             )
         } else if a.left_out_mm > 0.5 * error(p) {

@@ -384,10 +384,11 @@ impl Left {
                 let band = result.uncertainty.as_ref();
                 band.map_or_else(String::new, uncertain_words)
             }
-            Self::Rounding => format!(
-                "Numbers are written with {} decimals at least: those that had more keep them. This part of the error after compensation comes from that alone.",
-                result.run_inputs.decimals
-            ),
+            Self::Rounding => {
+                let (lengths, angles) = summary.decimals.shown(result.run_inputs.decimals, "to");
+                let angles = angles.map_or_else(String::new, |angles| format!(", angles with {angles}"));
+                format!("Lengths are written with {lengths} decimals{angles}. This part of the error after compensation comes from that alone.")
+            }
             Self::CornerSteps => format!(
                 "Where the load turns at once, as at a sharp corner, the correction turns with it: the program makes a short \
                  step there while the tool stays at its corner. {}",

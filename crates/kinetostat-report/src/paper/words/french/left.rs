@@ -28,7 +28,11 @@ pub(crate) fn left(left: Left, result: &Shown<'_>) -> [String; 3] {
             let linear = match linear { true => "La propagation linéaire concorde", false => "La propagation linéaire ne suffit pas : les écarts ne sont pas linéaires dans ces nombres" };
             format!("Machines tirées avec {numbers}, graine {seed}. Moyenne et écart-type du plus grand écart. {linear} (avant compensation : écart-type {}).", nombre(&deviation))
         }),
-        Left::Rounding => ("Arrondi", format!("Les nombres sont écrits avec {} décimales au moins : ceux qui en avaient plus les gardent. Cette part de l’écart après compensation ne vient que de là.", result.run_inputs.decimals)),
+        Left::Rounding => ("Arrondi", {
+            let (lengths, angles) = summary.decimals.shown(result.run_inputs.decimals, "à");
+            let angles = angles.map_or_else(String::new, |angles| format!(", les angles avec {angles}"));
+            format!("Les longueurs sont écrites avec {lengths} décimales{angles}. Cette part de l’écart après compensation ne vient que de là.")
+        }),
         Left::CornerSteps => ("Pas aux angles", format!("Là où la charge tourne d’un coup, comme à un angle vif, la correction tourne avec elle : le programme y fait un petit pas pendant que l’outil reste à son angle. {}", said(Statement::Assumed(AssumptionKind::Corners))).trim_end().to_owned()),
         Left::EntrySteps => ("Pas en fin de rapide", "La charge est là d’un coup à la fin d’un déplacement rapide : le programme fait un pas pendant que l’outil reste à sa place.".to_owned()),
         Left::Change => ("Variation de la correction", {

@@ -28,7 +28,11 @@ pub(crate) fn left(left: Left, result: &Shown<'_>) -> [String; 3] {
             let linear = match linear { true => "Lineare Fortpflanzung stimmt damit überein", false => "Lineare Fortpflanzung reicht nicht: die Fehler sind in diesen Zahlen nicht linear" };
             format!("Maschinen gezogen mit {numbers}, Startwert {seed}. Mittel und Standardabweichung des größten Fehlers. {linear} (vor der Kompensation: Abweichung {}).", zahl(&deviation))
         }),
-        Left::Rounding => ("Runden", format!("Zahlen werden mit mindestens {} Nachkommastellen geschrieben: solche, die mehr hatten, behalten sie. Dieser Teil des Fehlers nach der Kompensation kommt allein davon.", result.run_inputs.decimals)),
+        Left::Rounding => ("Runden", {
+            let (lengths, angles) = summary.decimals.shown(result.run_inputs.decimals, "bis");
+            let angles = angles.map_or_else(String::new, |angles| format!(", Winkel mit {angles}"));
+            format!("Längen werden mit {lengths} Nachkommastellen geschrieben{angles}. Dieser Teil des Fehlers nach der Kompensation kommt allein davon.")
+        }),
         Left::CornerSteps => ("Schritte an Ecken", format!("Wo sich die Last sofort dreht, wie an einer scharfen Ecke, dreht sich die Korrektur mit: das Programm macht dort einen kurzen Schritt, während das Werkzeug an seiner Ecke steht. {}", said(Statement::Assumed(AssumptionKind::Corners))).trim_end().to_owned()),
         Left::EntrySteps => ("Schritte am Ende von Eilgängen", "Die Last ist am Ende eines Eilgangs sofort da: das Programm macht einen Schritt, während das Werkzeug an seinem Ort steht.".to_owned()),
         Left::Change => ("Änderung der Korrektur", {
