@@ -156,6 +156,7 @@ fn findings(files: &InputFiles, path: &Path, flags: &ProgramArgs) -> Answer<JobF
     let is_placed = setting.free_turn == FreeTurnWord::AsStated;
     let stands = tool_over_part(&machine, is_of_positions(motion));
     warnings.extend(stands.map_err(|failure| setting.within(failure))?);
+    warnings.extend(machine.not_carried.clone());
     let check = |task: &Task<'_>| (refused_question(task, is_placed), unusual_question(task));
     let forces = forces_of(&machine, &setting, motion, &Unwatched)?;
     let forces = forces.as_ref();

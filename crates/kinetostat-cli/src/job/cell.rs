@@ -5,15 +5,17 @@
 
 use kinetostat::{Mechanism, Pose};
 use kinetostat_formats::Template;
-use kinetostat_machining::{Placement, ProgramLoad, ToolGiven};
+use kinetostat_machining::{Placement, ProgramLoad, ToolGiven, Warning, WarningCode};
 
 use crate::files::input_files::InputFiles;
 use crate::job::arguments::ProgramArgs;
 use crate::job::job_file::JobFile;
 use crate::job::robot::frames::in_metres;
 use crate::job::template_file::TemplateFile;
+use crate::job::tool_mass::ToolMass;
 use crate::job::tools::tip_words;
 use crate::ui::failure::{Answer, Failure};
+use crate::ui::numbers::short;
 
 /// Differences below this are those of digits, m and rad.
 const SAME: f64 = 1e-6;
@@ -70,6 +72,27 @@ impl Cell {
             }
             _ => Ok(()),
         }
+    }
+
+    /// Masses of tools that only the template states: the controller counts with them, and the model does not carry them.
+    pub(crate) fn not_carried(&self, carried: &[(Option<u32>, ToolMass)]) -> Option<Warning> {
+        let numbered = self.template.tools.iter().filter(|(number, _)| {
+            let is_own = |(of_job, _): &(Option<u32>, ToolMass)| *of_job == Some(**number);
+            !carried.iter().any(is_own)
+        });
+        let only = [("[tool]".to_owned(), self.template.tool.mass_kg)].into_iter();
+        let masses = only
+            .filter(|_| carried.is_empty())
+            .chain(numbered.map(|(number, tool)| (format!("tool {number}"), tool.mass_kg)));
+        let stated = masses.filter_map(|(name, mass)| Some(format!("{name}: {} kg", short(mass?))));
+        let stated: Vec<String> = stated.collect();
+        (!stated.is_empty()).then(|| {
+            let text = format!(
+                "the template states a mass that the job does not ({}): the controller counts with it, and the model here carries no such weight. Write mass_kg under [tool] of the job, too (numbered ones: under [[tools]])",
+                stated.join(", ")
+            );
+            Warning::new(WarningCode::Model, text)
+        })
     }
 
     /// Puts the part where the template has it, and the tool as it stands there.

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use kinetostat::Mechanism;
 use kinetostat_machining::{
-    Bounds, FileRead, Placement, ProgramLoad, RunInputs, ToolGiven, WeightCorrection,
+    Bounds, FileRead, Placement, ProgramLoad, RunInputs, ToolGiven, Warning, WeightCorrection,
 };
 use kinetostat_model::Model;
 use kinetostat_program::{RotaryAxes, WriteOptions};
@@ -59,6 +59,8 @@ pub(crate) struct MachineSetup {
     pub(crate) fingerprint: u64,
     /// Its flange's z axis points away from it.
     pub(crate) is_arm: bool,
+    /// Masses that a template states and the job does not, where weights act.
+    pub(crate) not_carried: Option<Warning>,
 }
 
 /// A model as it was read.
@@ -218,6 +220,10 @@ pub(crate) fn machine_setup(
             placement,
             load,
             weight,
+            not_carried: cell.and_then(|cell| {
+                let weighs = model.mechanism.gravity().norm() > 0.0;
+                cell.not_carried(&tool_masses).filter(|_| weighs)
+            }),
             tool_masses,
             cut,
             measured,

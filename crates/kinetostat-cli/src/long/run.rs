@@ -252,6 +252,7 @@ impl<'a> LongRun<'a> {
                 .within(Failure::input("the program has no block")));
         };
         result.warnings.extend(stands);
+        result.warnings.extend(self.machine.not_carried.clone());
         let found = too_many_blocks(self.setting, result.summary.blocks_per_second);
         result.warnings.extend(found);
         let (written, allowed_mm) = match self.aim {

@@ -290,6 +290,7 @@ pub(crate) fn turned(
         put_chatter(&mut run, found, judging);
     }
     run.result.warnings.extend(stands);
+    run.result.warnings.extend(machine.not_carried.clone());
     run.result.warnings.extend(warnings(forces.as_ref()));
     run.result.warnings.extend(setting.of_expansion());
     if let ReadProgram::Robot(read) = &read {

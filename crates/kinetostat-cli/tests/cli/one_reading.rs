@@ -195,6 +195,25 @@ fn a_spindle_that_is_not_started_is_in_every_headline() {
     }
 }
 
+/// The controller counts with the mass of a template, the model with that of the job.
+#[test]
+fn a_mass_that_only_the_template_states_is_said() {
+    let here = EVERY[1].place("krl", "mass_kg = 12\n");
+    let said = |line: &str| answer(here.path(), line)["warnings"].to_string();
+    for line in [
+        "check job.toml --json",
+        "deflect job.toml --json",
+        "compensate job.toml --json",
+    ] {
+        assert!(said(line).contains("does not ([tool]: 12 kg)"), "{line}");
+    }
+    let job = here.path().join("job.toml");
+    let text = std::fs::read_to_string(&job).unwrap();
+    std::fs::write(&job, text.replace("[tool]\n", "[tool]\nmass_kg = 12\n")).unwrap();
+    let line = "deflect job.toml --json";
+    assert!(!said(line).contains("does not ([tool]"), "{line}");
+}
+
 /// A template is for one controller.
 #[test]
 fn statements_of_another_controller_are_refused() {
