@@ -1,9 +1,7 @@
 //! The curve of a chain: all branches that cross, and what happens on them.
 
 use kinetostat::{
-    ChainProblem, CurveSettings, Equilibrium, Settings,
-    continuation::Curves,
-    equilibria,
+    ChainProblem, CurveSettings, Equilibrium, Settings, equilibria,
     equilibrium::{Bounds, SearchSettings},
     follow as follow_chain, solve_chain,
 };
@@ -12,7 +10,7 @@ use kinetostat_analysis::serial_chain::{SerialChain, problem_at};
 use kinetostat_machining::{Warning, WarningCode};
 
 use crate::curve::critical::critical_loads;
-use crate::curve::followed::{Followed, Shapes, add_shapes_off_the_curve, settings};
+use crate::curve::followed::{Followed, Shapes, add_shapes_off_the_curve, is_locked, settings};
 use crate::curve::query::{CurveQuery, Measure};
 use crate::ui::background::Stage;
 use crate::ui::failure::{Answer, Failure};
@@ -34,7 +32,7 @@ pub(crate) fn follow(
     stage.is("following the curve");
     let mut curves = follow_chain(&problem, &q.parameter, &start, value, &settings)?;
     let mut warnings: Vec<Warning> = Vec::new();
-    if !q.by_load() && is_locked(&curves) {
+    if !q.by_load() && is_locked(&curves.branches) {
         warnings.extend(widen_for_locked(chain, q, value, &mut settings));
         curves = follow_chain(&problem, &q.parameter, &start, value, &settings)?;
     }
@@ -123,10 +121,4 @@ fn not_there(q: &CurveQuery, there: &ChainProblem<'_>, error: kinetostat::Error)
         "{error}; nothing loads the chain: its tool may be out of reach where the curve starts, {} {unit} from the commanded place. Start nearer to that place",
         number(q.shown(q.start()), 6)
     ))
-}
-
-/// The displacement stands still at the start.
-fn is_locked(curves: &Curves<'_>) -> bool {
-    let points = curves.branches.first().map(|b| b.points.as_slice());
-    points.is_some_and(|list| list.iter().all(|p| !p.slope.is_finite()))
 }

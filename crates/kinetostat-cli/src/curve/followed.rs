@@ -38,6 +38,12 @@ pub(crate) fn settings(q: &CurveQuery) -> CurveSettings {
     settings
 }
 
+/// The displacement stands still on the start's own branch.
+pub(crate) fn is_locked<E: CurveEquilibrium>(branches: &[Branch<E>]) -> bool {
+    let points = branches.first().map(|b| b.points.as_slice());
+    points.is_some_and(|list| list.iter().all(|p| !p.slope.is_finite()))
+}
+
 /// Shapes that a search found at one value of the parameter.
 pub(crate) struct Shapes<E> {
     pub(crate) list: Vec<E>,

@@ -1,8 +1,9 @@
 //! The curve of a machine of several limbs or platforms: its tool is moved or loaded, all limbs follow.
 
-use kinetostat::{MechanismEquilibrium, equilibrium::SpreadSettings};
+use kinetostat::{MechanismEquilibrium, continuation::BranchEnd, equilibrium::SpreadSettings};
+use kinetostat_machining::{Warning, WarningCode};
 
-use crate::curve::followed::{Followed, Shapes, add_shapes_off_the_curve, settings};
+use crate::curve::followed::{Followed, Shapes, add_shapes_off_the_curve, is_locked, settings};
 use crate::curve::query::{CurveQuery, Measure};
 use crate::end_condition::machine::CommandedMachine;
 use crate::ui::background::Stage;
@@ -23,7 +24,14 @@ pub(crate) fn follow(
     let mut warnings = machine.near_singular(far)?;
     stage.is("following the curve");
     let mut curves = posture.curves(&q.parameter, end, &settings(q))?;
-    if q.all {
+    let locked = !q.by_load() && is_locked(&curves.branches);
+    if locked {
+        warnings.push(Warning::new(
+            WarningCode::CurveEnds,
+            "the machine is stretched out and locked along this motion at the start: any load stays there without a displacement, and no step leads away from it. Shapes that a search finds at the ends of the range are followed instead (as with --all)",
+        ));
+    }
+    if q.all || locked {
         let search = |value: f64| {
             let there = q.parameter.end_at(end, value);
             let all = posture.equilibria(&there, &SpreadSettings::default())?;
@@ -35,6 +43,11 @@ pub(crate) fn follow(
         };
         let add = |shape: &MechanismEquilibrium, _| curves.add(shape);
         warnings.extend(add_shapes_off_the_curve(q, stage, search, add)?);
+    }
+    // Loads of a step where none moves the tool are no figures.
+    if let Some(own) = curves.branches.first_mut().filter(|_| locked) {
+        own.points = vec![own.points.swap_remove(own.start)];
+        (own.start, own.ends) = (0, [BranchEnd::Range; 2]);
     }
     stage.is("looking where the jumps land");
     let jumps = curves.jumps()?;

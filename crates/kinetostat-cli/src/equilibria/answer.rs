@@ -73,7 +73,8 @@ pub(crate) struct Coverage {
     pub(crate) ended_outside_bounds: usize,
     /// Starts since the last new equilibrium.
     pub(crate) fruitless: usize,
-    pub(crate) chance_of_more: f64,
+    /// Null where every equilibrium was found more than once: only the upper end is known then.
+    pub(crate) chance_of_more: Option<f64>,
     pub(crate) chance_of_more_at_most: f64,
     #[serde(rename = "settled")]
     pub(crate) exhausted: bool,

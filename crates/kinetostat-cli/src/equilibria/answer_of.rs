@@ -34,7 +34,7 @@ pub(crate) fn answer_of<S: Subject>(
             ended_within_bounds: all.hits,
             ended_outside_bounds: all.outside,
             fruitless: all.fruitless,
-            chance_of_more: all.chance_of_more,
+            chance_of_more: Some(all.chance_of_more).filter(|chance| *chance > 0.0),
             chance_of_more_at_most: all.chance_of_more_at_most,
             exhausted: all.exhausted,
             incomplete: all.incomplete,

@@ -6,9 +6,17 @@ use nalgebra::Vector3;
 use crate::equilibria::answer::EquilibriaAnswer;
 use kinetostat::number::{larger, smaller};
 
+/// Shapes that are drawn, those of least energy: names of more find no room.
+const MOST_DRAWN: usize = 32;
+
 /// The shapes over the two axes of the base in which they differ most.
 pub(crate) fn plot(a: &EquilibriaAnswer) -> Plot {
-    let points = || a.outlines.iter().flatten();
+    let outlines = &a.outlines[..a.outlines.len().min(MOST_DRAWN)];
+    let left_out = match a.outlines.len() - outlines.len() {
+        0 => String::new(),
+        more => format!(" ({MOST_DRAWN} of least energy, {more} more)"),
+    };
+    let points = || outlines.iter().flatten();
     let extent = |k: usize| {
         let (low, high) = points().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), p| {
             (smaller(l, p[k]), larger(h, p[k]))
@@ -25,7 +33,7 @@ pub(crate) fn plot(a: &EquilibriaAnswer) -> Plot {
     let at = |p: &Vector3<f64>| (1e3 * p[u], 1e3 * p[v]);
     let mut lines = Vec::new();
     let mut marks = Vec::new();
-    for (e, outline) in a.equilibria.iter().zip(&a.outlines) {
+    for (e, outline) in a.equilibria.iter().zip(outlines) {
         lines.push(PlotLine {
             name: format!(
                 "{}: {}, {} J",
@@ -41,8 +49,7 @@ pub(crate) fn plot(a: &EquilibriaAnswer) -> Plot {
         let farthest = outline
             .iter()
             .map(|p| {
-                let away = a
-                    .outlines
+                let away = outlines
                     .iter()
                     .filter(|other| *other != outline)
                     .flat_map(|other| other.iter())
@@ -66,11 +73,11 @@ pub(crate) fn plot(a: &EquilibriaAnswer) -> Plot {
     }
     // Both ends, if all shapes share them.
     for (name, end) in [
-        ("base", a.outlines.first().and_then(|o| o.first())),
-        ("tool", a.outlines.first().and_then(|o| o.last())),
+        ("base", outlines.first().and_then(|o| o.first())),
+        ("tool", outlines.first().and_then(|o| o.last())),
     ] {
         let shared = |p: &Vector3<f64>| {
-            a.outlines.iter().all(|o| {
+            outlines.iter().all(|o| {
                 [o.first(), o.last()]
                     .iter()
                     .flatten()
@@ -86,7 +93,7 @@ pub(crate) fn plot(a: &EquilibriaAnswer) -> Plot {
         }
     }
     Plot {
-        title: format!("{}: shapes of equilibrium", a.head.model),
+        title: format!("{}: shapes of equilibrium{left_out}", a.head.model),
         x_label: format!("{}, mm", axes[u]),
         y_label: format!("{}, mm", axes[v]),
         lines,

@@ -227,12 +227,12 @@ fn chance(c: &Coverage) -> String {
         return "too few of the starts ended at the equilibria listed to say how many are missing: others may well exist. Search on with more --starts and --fruitless".to_owned();
     }
     let at_most = number(100.0 * c.chance_of_more_at_most, 2);
-    let so_far = match c.chance_of_more > 0.0 {
-        true => format!(
+    let so_far = match c.chance_of_more {
+        Some(chance) => format!(
             "about {} % of further such starts would end at a new one, with 95 % confidence at most {at_most} %",
-            number(100.0 * c.chance_of_more, 2)
+            number(100.0 * chance, 2)
         ),
-        false => format!(
+        None => format!(
             "with 95 % confidence at most {at_most} % of further such starts would end at a new one"
         ),
     };

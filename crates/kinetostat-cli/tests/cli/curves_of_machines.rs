@@ -239,6 +239,71 @@ fn straight_chains_with_one_tool_have_sixteen_shapes() {
     assert_eq!(answer["coverage"]["known"], 16);
     assert_eq!(answer["coverage"]["known_stable"], 4);
     assert_eq!(answer["coverage"]["incomplete"], false);
+    // Each was found often: only an upper end of the chance of more is known.
+    assert!(answer["coverage"]["chance_of_more"].is_null());
+    assert!(number(&answer["coverage"]["chance_of_more_at_most"]) > 0.0);
+    // A curve of that way begins where the machine is locked, and has the same shapes with the same forces at its end.
+    let force_along = |e: &Value| {
+        let [x, y] = [0, 1].map(|k| number(&e["force_n"][k]));
+        (50.0 * x + 86.6 * y) / 50_f64.hypot(86.6)
+    };
+    let shapes = answer["equilibria"].as_array().expect("a list").iter();
+    let mut wanted: Vec<(f64, bool)> = shapes
+        .map(|e| (force_along(e), e["stable"] == true))
+        .collect();
+    let far = 50_f64.hypot(86.6);
+    let line = format!("curve two_chains --direction 50 86.6 0 --displacement-mm 0 {far}");
+    let curve = json(here.path(), &words(&line));
+    let branches = curve["branches"].as_array().expect("a list").iter();
+    let points = branches.flat_map(|b| b["points"].as_array().expect("a list"));
+    let at_end = points.filter(|p| (number(&p["displacement_mm"]) - far).abs() < 1e-6);
+    let mut found: Vec<(f64, bool)> = at_end
+        .map(|p| {
+            let stable = p["stable_under_prescribed_motion"] == true;
+            (number(&p["force_along_n"]), stable)
+        })
+        .collect();
+    for list in [&mut wanted, &mut found] {
+        list.sort_by(|a, b| a.0.total_cmp(&b.0));
+    }
+    assert_eq!(found.len(), wanted.len(), "{found:?}");
+    for (found, wanted) in found.iter().zip(&wanted) {
+        assert!((found.0 - wanted.0).abs() < 1e-6, "{found:?} {wanted:?}");
+        assert_eq!(found.1, wanted.1);
+    }
+    assert!(
+        curve["warnings"]
+            .to_string()
+            .contains("locked along this motion")
+    );
+}
+
+/// Four chains of four shapes each: their combinations are answered in the time of their limbs' own searches.
+#[test]
+fn four_chains_have_256_shapes() {
+    let here = tempfile::tempdir().expect("a directory");
+    let chain = |i: usize| {
+        let (k1, k2) = (1.0 - 0.07 * i as f64, 1.3 - 0.11 * i as f64);
+        let (s, c) = (0.7 * i as f64 - 0.95).sin_cos();
+        let rod = "{ rigid = { translation_mm = [500, 0, 0] } }";
+        let axes = format!("x_axis = [{}, {}, 0], y_axis = [{s}, {}, 0]", -c, -s, -c);
+        format!(
+            "[chain.c{i}]\nelements = [{{ passive = \"revolute\", name = \"q\", axis = \"z\" }}, {rod}, {{ spring = \"revolute\", name = \"t1\", axis = \"z\", stiffness_n_m_per_rad = {k1}, rest_deg = 0 }}, {rod}, {{ spring = \"revolute\", name = \"t2\", axis = \"z\", stiffness_n_m_per_rad = {k2}, rest_deg = 0 }}, {rod}, {{ passive = \"revolute\", name = \"e\", axis = \"z\" }}]\n[[limb]]\nname = \"l{i}\"\nfrom = \"base\"\nto = \"tool\"\nchain = \"c{i}\"\nstart = {{ position_mm = [{}, {}, 0], {axes} }}\nend = {{ {axes} }}\n",
+            1500.0 * c,
+            1500.0 * s
+        )
+    };
+    let chains: String = (0..4).map(chain).collect();
+    let model = format!(
+        "schema = 1\n[mechanism]\nname = \"four\"\nsource = \"own\"\n[[platform]]\nname = \"tool\"\nhome = {{ position_mm = [0, 0, 0] }}\n{chains}"
+    );
+    std::fs::write(here.path().join("four.toml"), model).expect("written");
+    let line = "equilibria four.toml --displaced-mm 60 3 0 --plot shapes.svg";
+    let answer = json(here.path(), &words(line));
+    assert_eq!(answer["coverage"]["known"], 256);
+    assert_eq!(answer["coverage"]["known_stable"], 16);
+    let drawn = std::fs::read_to_string(here.path().join("shapes.svg")).expect("a drawing");
+    assert!(drawn.contains("32 of least energy, 224 more"));
 }
 
 #[test]
