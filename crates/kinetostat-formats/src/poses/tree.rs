@@ -177,7 +177,7 @@ impl Tree {
         let behind = small(self.nodes.len());
         let node = &mut self.nodes[own];
         node.behind = behind;
-        let opens = matches!(bytes.get(node.start as usize), Some(b'[' | b'{'));
+        let opens = opens(bytes.get(node.start as usize..).unwrap_or_default());
         let closes = matches!(bytes.get(at), Some(b']' | b'}'));
         if closes && opens && at >= node.end as usize {
             node.end = small(at + 1);
@@ -205,6 +205,15 @@ impl Tree {
             own.end = small(end).max(own.end);
         }
     }
+}
+
+/// Whether a list or map is written between brackets, which may stand behind an anchor and a tag (`&a !!map {`).
+fn opens(mut rest: &[u8]) -> bool {
+    while let Some(b'&' | b'!') = rest.first() {
+        let name = rest.split(u8::is_ascii_whitespace).next();
+        rest = rest[name.map_or(0, <[u8]>::len)..].trim_ascii_start();
+    }
+    matches!(rest.first(), Some(b'[' | b'{'))
 }
 
 /// Files are shorter than 4 GiB.

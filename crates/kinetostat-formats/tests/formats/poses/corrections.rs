@@ -26,6 +26,27 @@ fn only_the_numbers_change() {
     assert_eq!(output, wanted);
 }
 
+/// Anchors and tags stand before the bracket of a map: its end is that of the bracket all the same.
+#[test]
+fn a_map_with_an_anchor_or_a_tag_is_copied_whole() {
+    for own in ["&a ", "!!map ", "&a !!map "] {
+        let pose = |x: u8| {
+            format!(
+                "- orientation: {own}{{w: 1, x: 0, y: 0, z: 0}}\n  position: {own}{{x_mm: {x}, y_mm: 0, z_mm: 5}}\n"
+            )
+        };
+        let poses = program("a.yaml", &[pose(0), pose(8)].concat());
+        let pieces = [
+            Piece::to(1, Vector3::new(4.0, 1.0, 5.0)),
+            Piece::to(1, Vector3::new(8.0, 0.0, 5.0)),
+        ];
+        let output = written(&poses, &pieces);
+        let again = program("a.yaml", &output);
+        assert_eq!(again.motions.len(), 3, "{output}");
+        assert_eq!(place(&again, 1), [4.0, 1.0, 5.0]);
+    }
+}
+
 #[test]
 fn a_pose_that_becomes_several_is_written_with_its_own_layout() {
     let rasters = program("a.yaml", RASTERS);
