@@ -205,6 +205,15 @@ fn damping_and_coefficients_that_nothing_has_are_told() {
     assert!(warned(&json(&answer), "70.0 % of critical"), "{answer:?}");
     let answer = lobes(&format!("{cut} --damping 0.03 --json")).answered();
     assert!(!warned(&json(&answer), "damping:"), "{answer:?}");
+    // KA counts with its sign, positive towards the spindle, as in the laws of `force`.
+    for (axial, limit_mm) in [(222, 0.7775), (-222, 0.7767)] {
+        let line = format!(
+            "--tool-length-mm 150 --damping 0.03 --immersion 0.5 --coefficients-n-per-mm2 796 168 {axial} --json"
+        );
+        let answer = json(&lobes(&line).answered());
+        let found = answer["points"][0]["limit_mm"].as_f64().expect("a limit");
+        assert!((found - limit_mm).abs() < 5e-5, "{axial}: {found}");
+    }
     // Oblique cutting: a helix that lifts the chip draws the tool to the part, where KA is below zero.
     let right = "--helix-deg 30 --diameter-mm 12";
     let left = "--helix-deg -30 --diameter-mm 12";

@@ -57,6 +57,30 @@ fn the_library_is_there_and_every_entry_says_where_it_comes_from() {
     }
 }
 
+/// Oblique cutting from geometry alone. The edge of a helix leans back against the turn as it rises, so that its rake face looks ahead
+/// and up: what presses on it pushes the tool down. Against the edge the chip slides up along it and (Stabler) leaves it at the angle of
+/// the helix: what rubs pushes the tool up, by less than that with friction below 1.
+#[test]
+fn a_helix_that_lifts_the_chip_draws_the_tool_to_the_part() {
+    for (helix_deg, friction) in [10.0, 30.0, 45.0, -30.0]
+        .into_iter()
+        .flat_map(|helix| [0.0, 0.3, 0.6, 0.9].map(|friction| (helix, friction)))
+    {
+        let (sin, cos) = f64::to_radians(helix_deg).sin_cos();
+        // Ahead with the tooth, and up to the spindle.
+        let (edge, face) = ([-sin, cos], [cos, sin]);
+        let work: [f64; 2] = [-1.0, 0.0];
+        let along_edge = work[0] * edge[0] + work[1] * edge[1];
+        let up = -face[1] + friction * along_edge * edge[1];
+        let lifts_the_chip = helix_deg > 0.0;
+        assert_eq!(up < 0.0, lifts_the_chip, "{helix_deg} {friction}: {up}");
+    }
+    let materials = Materials::library();
+    let steel = materials.find("C45").unwrap();
+    let milled = steel.for_milling(&Correction::default()).unwrap();
+    assert!(milled.law.edge_force(0.1).axial < 0.0);
+}
+
 #[test]
 fn table_2_2_of_the_report_is_in_the_library() {
     let materials = Materials::library();
