@@ -319,20 +319,12 @@ mod tests {
         kept.keep(&state(2)).unwrap();
         assert!(kept.open(&manifest("a"), false).unwrap());
         let mut other = Checkpoint::beside(&here.path().join("out.ngc"));
-        let failure = other.open(&manifest("a"), false).unwrap_err();
-        assert!(
-            failure.plain.contains("another run writes"),
-            "{}",
-            failure.plain
-        );
+        let said = other.open(&manifest("a"), false).unwrap_err().plain;
+        assert!(said.contains("another run writes"), "{said}");
         let parts: Vec<usize> = kept.states().map(|state| state.parts).collect();
         assert_eq!(parts, [2, 1]);
-        let failure = kept.open(&manifest("b"), false).unwrap_err();
-        assert!(
-            failure.plain.contains("what differs now is the model"),
-            "{}",
-            failure.plain
-        );
+        let said = kept.open(&manifest("b"), false).unwrap_err().plain;
+        assert!(said.contains("what differs now is the model"), "{said}");
         let bytes = fs::read(kept.path(STATE)).unwrap();
         fs::write(kept.path(STATE), &bytes[..bytes.len() / 2]).unwrap();
         assert_eq!(kept.states().next().unwrap().parts, 1);

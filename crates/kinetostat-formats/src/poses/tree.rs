@@ -207,7 +207,7 @@ impl Tree {
     }
 }
 
-/// Whether a list or map is written between brackets, which may stand behind an anchor and a tag (`&a !!map {`).
+/// True if a list or map is written between brackets, which may stand behind an anchor and a tag (`&a !!map {`).
 fn opens(mut rest: &[u8]) -> bool {
     while let Some(b'&' | b'!') = rest.first() {
         let name = rest.split(u8::is_ascii_whitespace).next();

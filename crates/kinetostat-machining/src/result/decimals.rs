@@ -7,9 +7,9 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct WrittenDecimals {
-    /// Of lengths.
+    /// Lengths.
     pub lengths: Option<[u8; 2]>,
-    /// Of angles, quaternions and directions.
+    /// Angles, quaternions and directions.
     pub angles: Option<[u8; 2]>,
 }
 
@@ -41,7 +41,7 @@ impl WrittenDecimals {
         }
     }
 
-    /// Of lengths and of angles, as in `4` and `6 to 8` (`to` in the language of the text). Where no number was written, lengths
+    /// Digits of lengths and of angles, as in `4` and `6 to 8` (`to` in the language of the text). Where no number was written, lengths
     /// have the digits that were asked for.
     ///
     /// ```

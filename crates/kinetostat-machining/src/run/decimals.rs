@@ -77,7 +77,7 @@ fn each_number<'t>(text: &'t [u8], mut take: impl FnMut(Stated<'t>)) {
     }
 }
 
-/// Where a list of a place and a direction begins in a line, and none of its numbers.
+/// Start of a list of a place and a direction in a line, with none of its numbers counted yet.
 fn in_list(line: &[u8]) -> Option<(usize, usize)> {
     let behind = |word: &[u8]| {
         let found = line.windows(word.len()).position(|part| part == word);
@@ -86,7 +86,7 @@ fn in_list(line: &[u8]) -> Option<(usize, usize)> {
     behind(b"[[").or_else(|| behind(b"GOTO"))
 }
 
-/// What a number states behind the letter of an axis.
+/// Quantity of a number behind the letter of an axis.
 fn of_letter(before: &[u8]) -> Option<Quantity> {
     let is_between = |byte: &u8| matches!(byte, b' ' | b'\t' | b'=' | b'+' | b'-');
     let end = before.len() - before.iter().rev().take_while(|b| is_between(b)).count();
