@@ -93,6 +93,7 @@ mod uncertain;
 mod verify;
 mod verify_ends;
 mod verify_in_force;
+mod verify_order;
 mod verify_others;
 mod verify_robot;
 mod verify_words;

@@ -15,6 +15,7 @@ use crate::interpreter::tree::{Choice, DatumNode};
 use crate::interpreter::value::{Datum, Step};
 use crate::model::motion::{Motion, Runs};
 use crate::model::outside_call::OutsideCall;
+use crate::model::program::RanStatement;
 use crate::options::ReadOptions;
 use crate::text::finding::Finding;
 use crate::text::name::Name;
@@ -247,6 +248,8 @@ pub(crate) struct Run<'r, 'p, D> {
     pub(crate) statement: Range<usize>,
     /// The branch or the loop that ran last was passed over.
     pub(crate) passed_over: bool,
+    /// Statements beside the motions that ran, where the program is not to be written flat.
+    pub(crate) ran_beside: Vec<RanStatement>,
     /// Statements that ran, where the program is to be written flat.
     pub(crate) log: Option<Vec<Logged>>,
     /// Results of functions in the statement that runs, by the depth of the call, the file and the token.
@@ -295,6 +298,7 @@ impl<'r, 'p, D: Dialect> Run<'r, 'p, D> {
             in_loops: 0,
             statement: 0..0,
             passed_over: false,
+            ran_beside: Vec::new(),
             log: None,
             results: BTreeMap::new(),
             call_sites: BTreeMap::new(),
