@@ -94,6 +94,7 @@ mod val3;
 mod verify;
 mod verify_ends;
 mod verify_in_force;
+mod verify_order;
 mod verify_others;
 mod verify_robot;
 mod verify_words;

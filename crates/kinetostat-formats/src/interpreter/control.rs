@@ -209,9 +209,9 @@ impl<D: Dialect> Run<'_, '_, D> {
     fn assign(&mut self, tokens: &Range<usize>, assign: usize) {
         let file = self.file();
         let to = D::expression_of(file, tokens.start..assign);
-        let value = D::expression_of(file, file.value_behind(assign, tokens));
-        let value = self.value(&value);
-        self.log_assignment(tokens, assign);
+        let written = D::expression_of(file, file.value_behind(assign, tokens));
+        let value = self.value(&written);
+        self.log_assignment(tokens, [&to, &written]);
         D::assigned(self, tokens, assign);
         match self.place(&to) {
             Some(place) => {

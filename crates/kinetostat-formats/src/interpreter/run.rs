@@ -18,6 +18,7 @@ use crate::interpreter::tree::{Choice, DatumNode, RoutineKind};
 use crate::interpreter::value::{Datum, Step};
 use crate::model::motion::{Motion, Runs};
 use crate::model::outside_call::OutsideCall;
+use crate::model::program::RanStatement;
 use crate::options::ReadOptions;
 use crate::table::{StatementRow, Treatment};
 use crate::text::finding::Finding;
@@ -332,6 +333,8 @@ pub(crate) struct Run<'r, 'p, D> {
     pub(crate) statement: Range<usize>,
     /// The branch or the loop that ran last was passed over.
     pub(crate) passed_over: bool,
+    /// Statements beside the motions that ran, where the program is not to be written flat.
+    pub(crate) ran_beside: Vec<RanStatement>,
     /// Statements that ran, where the program is to be written flat.
     pub(crate) log: Option<Vec<Logged>>,
     /// Results of functions in the statement that runs, by the depth of the call, the file and the token.
@@ -380,6 +383,7 @@ impl<'r, 'p, D: Dialect> Run<'r, 'p, D> {
             in_loops: 0,
             statement: 0..0,
             passed_over: false,
+            ran_beside: Vec::new(),
             log: None,
             results: BTreeMap::new(),
             call_sites: BTreeMap::new(),

@@ -31,6 +31,40 @@ const ASYNCHRONOUS: Treatment = Refused {
     remedy: "take this statement into a program of its own",
 };
 
+/// Settings of how motions run: path mode, acceleration, orientation, zone.
+pub(crate) const MODES: &[&[&str]] = &[
+    &["$APO"],
+    &["$ACC"],
+    &["$JERK"],
+    &["$GEAR_JERK"],
+    &["$VEL"],
+    &["$ORI_TYPE"],
+    &["$CIRC_TYPE"],
+    &["$CIRC_MODE"],
+    &["$IPO_MODE"],
+    &["$SINGUL_STRATEGY"],
+    &["$EX_AX_IGNORE"],
+    &["$TECH"],
+    &["$ADVANCE"],
+    &["FDAT_ACT"],
+    &["LDAT_ACT"],
+    &["BAS"],
+];
+
+/// Settings and data that are in the places, frames, speeds and zones of the motions.
+pub(crate) const IN_MOTIONS: &[&str] = &[
+    "$BASE",
+    "$TOOL",
+    "BASE_DATA",
+    "TOOL_DATA",
+    "$VEL.CP",
+    "$VEL=",
+    "$APO.CDIS",
+    "BAS(#BASE",
+    "BAS(#TOOL",
+    "BAS(#VEL_CP",
+];
+
 /// How the end of a motion is stated.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Ends {

@@ -50,6 +50,17 @@ impl Run<'_, '_> {
     fn step(&mut self, at: usize, step: &Step) -> Flow {
         let program = &self.all.programs[self.program()];
         let lead = || program.leads.get(&at).copied().unwrap_or(at + 1);
+        if matches!(
+            step,
+            Step::Assign(_)
+                | Step::Offset(..)
+                | Step::Wait(_)
+                | Step::Run
+                | Step::Abort
+                | Step::Carried
+        ) {
+            self.log(at);
+        }
         match step {
             Step::Motion(text) => return self.motion(at, text),
             Step::Assign(sides) => self.assign(at, sides),
@@ -131,6 +142,7 @@ impl Run<'_, '_> {
             },
         };
         let Some(called) = name.as_ref().and_then(|name| self.all.named(name)) else {
+            self.log(at);
             if self.calls.iter().any(|called| !called.counters.is_empty()) {
                 self.find(
                     at,

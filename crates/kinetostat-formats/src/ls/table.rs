@@ -72,6 +72,20 @@ const GROUPS: &[Alike] = &[
     alike(OWN_WAY, OPTIONS, &["PALLETIZING", "PL", "SPOT"]),
 ];
 
+/// Settings of how motions run.
+pub(crate) const MODES: &[&[&str]] = &[
+    &["JOINT_MAX_SPEED"],
+    &["LINEAR_MAX_SPEED"],
+    &["PAYLOAD"],
+    &["TORQ_LIMIT"],
+    &["COL DETECT"],
+    &["COL GUARD ADJUST"],
+    &["WEAVE"],
+];
+
+/// Settings and data that are in the places and frames of the motions.
+pub(crate) const IN_MOTIONS: &[&str] = &["UFRAME", "UTOOL", "PR["];
+
 /// The row of a statement: the longest name with which its text begins.
 pub(crate) fn row(text: &[u8]) -> Option<&'static StatementRow> {
     let is_part = |byte: &u8| byte.is_ascii_alphanumeric() || *byte == b'_';

@@ -58,12 +58,6 @@ impl SourceEvent {
         }
     }
 
-    /// Whether it stands in the statement of a motion, or acts behind one.
-    #[must_use]
-    pub fn is_of_motion(&self) -> bool {
-        self.motion.is_some() || self.is_behind
-    }
-
     /// It does nothing: whether and how often it runs is not known.
     pub(crate) fn only_words(&mut self) {
         if !self.actions.is_empty() {

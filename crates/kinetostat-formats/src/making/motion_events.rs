@@ -62,15 +62,7 @@ fn events_of_motion(
     (motion, number): (&Motion, usize),
     free: Range<usize>,
 ) -> Vec<SourceEvent> {
-    let found = match language {
-        Language::Rapid => of_rapid(source, motion),
-        Language::FanucLs => {
-            let event = event_of(source.bytes(), &motion.span);
-            let text = event.map(|span| words(source.part(&span)));
-            text.map(|text| (text.trim_end_matches(';').trim_end().to_owned(), true))
-        }
-        _ => None,
-    };
+    let found = done_in_motion(language, source, motion);
     let begin = source.range_of(motion.line).start;
     let number = Some(number);
     let mut events = Vec::new();
@@ -102,6 +94,23 @@ fn events_of_motion(
         }),
     );
     events
+}
+
+/// Text of an action in the statement of a motion, and true if it is done at the end of the motion.
+pub(crate) fn done_in_motion(
+    language: Language,
+    source: &SourceFile,
+    motion: &Motion,
+) -> Option<(String, bool)> {
+    match language {
+        Language::Rapid => of_rapid(source, motion),
+        Language::FanucLs => {
+            let event = event_of(source.bytes(), &motion.span);
+            let text = event.map(|span| words(source.part(&span)));
+            text.map(|text| (text.trim_end_matches(';').trim_end().to_owned(), true))
+        }
+        _ => None,
+    }
 }
 
 /// What stands behind a motion on its last line, up to where the next one begins.
@@ -140,7 +149,7 @@ fn comments_inside(source: &SourceFile, motion: &Motion) -> Vec<(usize, String)>
 }
 
 /// A line of RAPID up to its comment.
-fn code_of(line: &str) -> &str {
+pub(crate) fn code_of(line: &str) -> &str {
     let mut in_text = false;
     let begins = |(_, letter): &(usize, char)| {
         in_text ^= *letter == '"';

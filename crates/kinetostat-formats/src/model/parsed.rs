@@ -61,6 +61,7 @@ impl Parsed {
             declarations: Vec::new(),
             values: BTreeMap::new(),
             outside_calls: Vec::new(),
+            ran: Vec::new(),
             slash_blocks: SlashBlocks::default(),
             rotary: StatedAxes::default(),
         };

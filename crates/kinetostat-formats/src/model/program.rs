@@ -1,6 +1,7 @@
 //! A program of any language.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::ops::Range;
 
 use crate::model::language::Language;
 use crate::model::motion::Motion;
@@ -10,6 +11,18 @@ use crate::model::stated_axes::StatedAxes;
 use crate::model::stated_value::StatedValue;
 use crate::text::finding::Finding;
 use crate::text::source::SourceFile;
+
+/// A statement beside the motions that ran.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct RanStatement {
+    /// An index of the files.
+    pub file: usize,
+    pub span: Range<usize>,
+    /// How many motions ran before it.
+    pub motions: usize,
+    /// With values in place of names that its routine alone knows; none where it has no such names.
+    pub text: Option<Vec<u8>>,
+}
 
 /// A program as it was read: its files byte for byte, and what moves in them.
 #[derive(Debug, Clone, PartialEq)]
@@ -28,6 +41,8 @@ pub struct RobotProgram {
     pub(crate) values: BTreeMap<String, StatedValue>,
     /// What it calls and none of its files holds.
     pub(crate) outside_calls: Vec<OutsideCall>,
+    /// Statements beside the motions in the order in which they ran, of languages that are run.
+    pub(crate) ran: Vec<RanStatement>,
     /// What it says of the rotary axes of a machine.
     pub(crate) rotary: StatedAxes,
     /// How blocks behind a slash were read.

@@ -41,6 +41,21 @@ pub(crate) const EXTERNAL: Treatment = Refused {
     remedy: "take it into a program of its own, or read with external axes carried",
 };
 
+/// Settings of how motions run: path mode, acceleration, configurations, orientation.
+pub(crate) const MODES: &[&[&str]] = &[
+    &["SINGAREA"],
+    &["CIRPATHMODE"],
+    &["CONFL"],
+    &["CONFJ"],
+    &["ACCSET"],
+    &["PATHACCLIM"],
+    &["WORLDACCLIM"],
+    &["PATHRESOL"],
+    &["TUNESERVO", "TUNERESET"],
+    &["GRIPLOAD"],
+    &["MECHUNITLOAD"],
+];
+
 /// How the end of a motion is stated.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Ends {

@@ -176,6 +176,20 @@ const GROUPS: &[Alike] = &[
     alike(OTHER, WORK, &["G291"]),
 ];
 
+/// Words of how motions run, in groups of which one is in force: path mode, acceleration, orientation, corners.
+#[rustfmt::skip]
+pub(crate) const MODES: &[&[&str]] = &[
+    &["G9"], &["G60", "G64", "G641", "G642", "G643", "G644", "G645"], &["G601", "G602", "G603"],
+    &["ADIS"], &["ADISPOS"], &["CYCLE832"], &["CTOL"], &["OTOL"], &["ATOL"], &["FFWON", "FFWOF"],
+    &["SOFT", "BRISK", "DRIVE"], &["SOFTA"], &["BRISKA"], &["DRIVEA"], &["ACC"],
+    &["DYNNORM", "DYNPOS", "DYNROUGH", "DYNSEMIFIN", "DYNFINISH", "DYNPREC"],
+    &["COMPON", "COMPOF", "COMPCURV", "COMPCAD", "COMPSURF"], &["UPATH", "SPATH"],
+    &["ORIAXES", "ORIVECT", "ORIPLANE"], &["ORIWKS", "ORIMKS"], &["ORIEULER", "ORIRPY"],
+    &["ORISON", "ORISOF"], &["OSOF", "OSC", "OSD", "OST", "OSS", "OSSE"],
+    &["G450", "G451"], &["CFC", "CFTCP", "CFIN"], &["NORM", "KONT"], &["CUT2D", "CUT2DF"],
+    &["CDOF", "CDOF2", "CDON"], &["RTLION", "RTLIOF"], &["FGROUP"], &["FGREF"], &["FNORM"],
+];
+
 /// The row of a word, in capitals. Frames of G505 to G599 have one row.
 pub(crate) fn row(word: &str) -> Option<&'static StatementRow> {
     SIEMENS_STATEMENTS.iter().find(|row| row.name == word)

@@ -12,6 +12,11 @@ impl Edits {
         self.0.push((span, bytes.into()));
     }
 
+    /// True if nothing is to be replaced.
+    pub(crate) fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
     /// Adds those of another.
     pub(crate) fn append(&mut self, mut other: Self) {
         self.0.append(&mut other.0);
