@@ -90,6 +90,7 @@ mod stability;
 mod tables;
 mod tolerances;
 mod uncertain;
+mod urscript;
 mod verify;
 mod verify_ends;
 mod verify_in_force;
