@@ -90,6 +90,7 @@ mod stability;
 mod tables;
 mod tolerances;
 mod uncertain;
+mod urscript;
 mod val3;
 mod verify;
 mod verify_ends;

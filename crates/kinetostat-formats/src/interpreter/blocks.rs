@@ -267,7 +267,7 @@ impl Parser<'_, '_> {
     fn name(&mut self, at: usize) -> Option<Name> {
         let name = self.file.name(at);
         if name.is_none() {
-            let reason = "a name of at most 32 characters is missing here";
+            let reason = "a name of at most 64 characters is missing here";
             self.fault(
                 at..at + 1,
                 reason,

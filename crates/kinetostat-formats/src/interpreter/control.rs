@@ -414,7 +414,10 @@ impl<D: Dialect> Run<'_, '_, D> {
             if !self.counts_statement() {
                 return self.block(block);
             }
+            let before = self.faults.len();
             match self.block(block) {
+                // What leaves it may be what is refused.
+                Flow::Next | Flow::Continues if self.faults.len() > before => return Flow::Next,
                 Flow::Next | Flow::Continues => {}
                 Flow::Breaks => return Flow::Next,
                 flow => return flow,

@@ -48,6 +48,12 @@ impl Token {
     }
 }
 
+/// Places of the words among tokens.
+pub(crate) fn words_of(tokens: &[Token]) -> Vec<Range<usize>> {
+    let words = tokens.iter().filter(|token| token.kind == Kind::Word);
+    words.map(Token::bytes).collect()
+}
+
 /// A line of a language in which a statement is a line.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Line {

@@ -1,9 +1,9 @@
-//! Identifiers: letters of any case are the same, 32 at most.
+//! Identifiers: letters of any case are the same, 64 at most; a language may have a limit of its own.
 
 use std::fmt;
 
 /// Most characters of an identifier.
-pub(crate) const LONGEST: usize = 32;
+pub(crate) const LONGEST: usize = 64;
 
 /// An identifier as RAPID compares it.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]

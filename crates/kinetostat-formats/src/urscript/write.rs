@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 
 use crate::interpreter::lexing::tokens_of;
+use crate::interpreter::token::words_of;
 use crate::model::motion::{Motion, Zone};
 use crate::model::program::RobotProgram;
 use crate::model::site::ReplacedText;
@@ -41,7 +42,7 @@ fn straight(source: &SourceFile, motion: &Motion, edits: &mut Edits) {
 
 impl Syntax for UrScriptSyntax {
     fn names(&self, program: &RobotProgram) -> BTreeSet<Vec<u8>> {
-        names_of(program, |bytes| tokens_of(&WORDS.marks, bytes))
+        names_of(program, |bytes| words_of(&tokens_of(&WORDS.marks, bytes)))
     }
 
     fn writes_circles(&self) -> bool {

@@ -3,13 +3,11 @@
 use std::collections::BTreeSet;
 use std::ops::Range;
 
-use crate::interpreter::token::{Kind, Token};
 use crate::model::motion::Motion;
 use crate::model::program::RobotProgram;
 use crate::model::site::{Declaration, ReplacedText};
 use crate::options::WriteOptions;
 use crate::text::edits::Edits;
-use crate::text::name::LONGEST;
 use crate::text::source::SourceFile;
 use crate::writing::literal::Wanted;
 
@@ -114,23 +112,23 @@ pub(crate) struct Renamed {
     pub name: Vec<u8>,
 }
 
-/// All names of a program in capitals, by the tokens of its files.
+/// All names of a program in capitals, by the places of the words of its files.
 pub(crate) fn names_of(
     program: &RobotProgram,
-    tokens_of: impl Fn(&[u8]) -> Vec<Token>,
+    words_of: impl Fn(&[u8]) -> Vec<Range<usize>>,
 ) -> BTreeSet<Vec<u8>> {
     let mut names = BTreeSet::new();
     for file in &program.files {
-        for token in tokens_of(file.bytes()) {
-            if token.kind == Kind::Word {
-                names.insert(file.part(&token.bytes()).to_ascii_uppercase());
-            }
-        }
+        let words = words_of(file.bytes()).into_iter();
+        names.extend(words.map(|word| file.part(&word).to_ascii_uppercase()));
     }
     names
 }
 
-/// A free name with the number at its end, of as many letters as identifiers have.
+/// Most letters of a further name: as many as RAPID takes.
+const LONGEST: usize = 32;
+
+/// A free name with the number at its end.
 fn numbered_name(
     near: &[u8],
     number: &mut usize,

@@ -74,7 +74,7 @@ impl Parser<'_, '_> {
             return None;
         }
         self.at += 1;
-        let name = Name::of(self.file.word(at));
+        let name = Name::of(self.file.word(at)).filter(|name| name.letters().len() <= 32);
         if name.is_none() {
             self.fault(
                 at..at + 1,
