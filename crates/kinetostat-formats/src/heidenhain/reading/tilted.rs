@@ -16,19 +16,19 @@ use crate::heidenhain::words::{Value, Word};
 /// Entries of rotations and directions that differ by less are one.
 const SAME: f64 = 1e-9;
 
-/// How the rotary axes stand.
+/// Position of the rotary axes.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) enum Stands {
-    /// As their words say.
+    /// The rotary axes follow their words.
     #[default]
     AsWords,
-    /// So that the tool lies along a direction, in the axes of the preset.
+    /// The tool lies along a direction, in the axes of the preset.
     Along(Vector3<f64>),
     /// Words turned them from there, and there is no model of them.
     Unknown,
 }
 
-/// What PLANE has left behind.
+/// State after PLANE.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct Tilt {
     /// Across the plane of the last PLANE, in the axes of the preset; none behind a reset.
@@ -194,7 +194,7 @@ impl Reader<'_> {
         }
     }
 
-    /// Whether places are not those of the tool's tip in the part, for the plane; a cut is refused there, once.
+    /// True if, due to the plane, positions are not those of the tool tip in the part; a cut is refused there, once.
     pub(crate) fn no_place_by_plane(&mut self, span: &Range<usize>, rapid: bool) -> bool {
         let across = self.state.datum.direction(&self.state.plane.across());
         let aligned = match self.state.tilt.stands {
@@ -220,7 +220,7 @@ impl Reader<'_> {
     }
 }
 
-/// Whether a word turns a rotary axis to its angle of the plane: `A+Q120`, `B+Q121`, `C+Q122`.
+/// True if a word moves a rotary axis to its angle of the plane: `A+Q120`, `B+Q121`, `C+Q122`.
 pub(crate) fn is_of_plane(word: &Word, bytes: &[u8]) -> bool {
     let name = match word.letters.letters() {
         b"A" => b"Q120",
