@@ -1,8 +1,8 @@
-//! What frames are used as.
+//! Roles of frames.
 
 use crate::text::name::Name;
 
-/// What a frame is used as.
+/// Role of a frame.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Role {
     Tool,

@@ -1,5 +1,4 @@
-//! What the values of a column mean: numbers of all types, and what is none.
-//!
+//! Value types of a column: numbers of all types, and other values.
 //! Source: Apache Parquet format 2, logical types.
 
 use parquet::basic::{ConvertedType, LogicalType, Type as PhysicalType};
@@ -7,10 +6,10 @@ use parquet::schema::types::ColumnDescriptor;
 
 use crate::poses::parquet::data::Data;
 
-/// What the values of a column mean.
+/// Value type of a column.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Kind {
-    /// As they are stored: signed whole numbers, and those of 32 and 64 bits with a fraction.
+    /// Stored number: signed integers, and floats of 32 and 64 bits.
     Number,
     /// Whole numbers without a sign.
     Unsigned,
