@@ -25,7 +25,7 @@ use crate::val3::table::{CHANGE_THEIRS, is_motion, is_one_of, row};
 /// A run of a VAL3 program.
 pub(super) type Run<'r, 'p> = run::Run<'r, 'p, Val3>;
 
-/// What a run keeps beside its data.
+/// State of a VAL3 run beside its data.
 pub(crate) struct Val3 {
     /// Frames that the caller states.
     pub stated: BTreeMap<Name, Isometry3<f64>>,

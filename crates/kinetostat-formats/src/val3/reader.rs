@@ -19,7 +19,7 @@ use crate::val3::dialect::Val3;
 use crate::val3::parser::routine_of;
 use crate::val3::xml::content_of;
 
-/// Most bytes of a file.
+/// Limit of the bytes of a file.
 const MOST_BYTES: usize = 1 << 26;
 
 /// Files of an application: their tokens, and what each declares.
