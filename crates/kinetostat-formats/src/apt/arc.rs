@@ -32,6 +32,7 @@ const SAME_MM: f64 = 1e-4;
 
 impl Circle {
     /// Circle of a statement, in a unit of so many mm.
+    ///
     /// # Errors
     /// Reason why its arc is unknown.
     pub(crate) fn of(

@@ -69,6 +69,7 @@ pub(crate) fn about(
 }
 
 /// Arc by a radius, negative for more than half a turn.
+///
 /// # Errors
 /// No circle of this radius passes through both points.
 pub(crate) fn by_radius(

@@ -34,7 +34,8 @@ pub(crate) fn on_great_circle(program: &RobotProgram, index: usize) -> bool {
 /// Positions of the rotary axes in every motion; they stay if a motion states no axis. They are unknown where a program that states angles omits
 /// them.
 ///
-/// Of the angles that point the tool along the axis, those nearest to the ones before, within the limits of the axes; at first, to zero.
+/// Among the angles that point the tool along the axis, those nearest to the previous ones within the axis limits apply; at first,
+/// those nearest to zero.
 pub(crate) fn axes_of_motions(
     program: &RobotProgram,
     rotary: &RotaryAxes,

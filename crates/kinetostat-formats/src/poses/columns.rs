@@ -64,6 +64,7 @@ const WAY: Refusal = (
 const PER_MINUTE: f64 = 1.0 / 60.0;
 
 /// Meaning of a name; case is ignored.
+///
 /// # Errors
 /// The name may move the tool in an unknown way.
 pub(crate) fn column_of(name: &str) -> Result<Column, Refusal> {

@@ -46,6 +46,7 @@ fn fault(named: &Named, (reason, remedy): Refusal) -> NameFault {
 }
 
 /// Layout of a row by its names; `whole` is the span that a missing name is reported at.
+///
 /// # Errors
 /// All faults of the names.
 pub(crate) fn layout_of(names: &[Named], whole: &Range<usize>) -> Result<Layout, Vec<NameFault>> {

@@ -104,6 +104,9 @@ impl Block {
     }
 
     /// Decodes a line of a file, and returns its tokens.
+    ///
+    /// # Errors
+    /// The part of the line that cannot be read.
     pub(crate) fn of(bytes: &[u8], line: Range<usize>) -> Result<(Self, Vec<Token>), Broken> {
         let mark = match line.start {
             0 => beginning(&bytes[line.clone()]),

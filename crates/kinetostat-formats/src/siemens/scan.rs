@@ -28,6 +28,7 @@ pub(crate) fn scan(files: &[SourceFile], options: &ReadOptions) -> Scan {
 }
 
 /// Scans a program with corners that are refused or followed.
+///
 /// Words may show the way of counting of a rotary axis after the words that depend on it: such programs are read twice.
 pub(crate) fn scan_with(files: &[SourceFile], options: &ReadOptions, corners: Corners) -> Scan {
     let first = scan_once(files, options, corners, &[]);

@@ -134,6 +134,7 @@ const LONGEST_TEXT: usize = 1000;
 
 impl Variables {
     /// Evaluates an expression.
+    ///
     /// # Errors
     /// Reason why its value is unknown.
     pub(crate) fn value(&self, bytes: &[u8], expression: &Expression) -> Result<Value, Why> {

@@ -44,6 +44,7 @@ pub fn expand_heidenhain(
 }
 
 /// Expands a program with a limit of the executed blocks.
+///
 /// # Errors
 /// The same errors as without the limit.
 pub fn expand_within(

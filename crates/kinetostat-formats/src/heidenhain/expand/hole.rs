@@ -96,6 +96,7 @@ impl Hole {
     }
 
     /// Strokes of the hole.
+    ///
     /// # Errors
     /// The parameters give no valid strokes.
     pub(crate) fn strokes(&self) -> Result<Vec<Stroke>, String> {

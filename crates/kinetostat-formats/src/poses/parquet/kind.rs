@@ -1,4 +1,5 @@
 //! Value types of a column: numbers of all types, and other values.
+//!
 //! Source: Apache Parquet format 2, logical types.
 
 use parquet::basic::{ConvertedType, LogicalType, Type as PhysicalType};
