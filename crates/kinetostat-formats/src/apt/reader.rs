@@ -11,7 +11,6 @@ use crate::model::program::RobotProgram;
 use crate::options::ReadOptions;
 use crate::text::source::SourceFile;
 
-/// Limit of the bytes of a file.
 const MOST_BYTES: usize = 1 << 28;
 
 /// Reads APT and CLDATA (`.apt`, `.cls`, `.aptsource`), each file for itself, as SOLIDWORKS CAM, Siemens NX, CATIA and others

@@ -16,7 +16,6 @@ pub(crate) const STRAY_REMEDY: &str = "take the `~` at the end of the line befor
 pub(crate) struct Block {
     /// From the beginning of its first line behind its last line end.
     pub lines: Range<usize>,
-    /// Block number.
     pub number: Option<Range<usize>>,
     /// Text after the block number and the skip sign.
     pub text: Range<usize>,

@@ -59,7 +59,6 @@ pub(crate) struct Parameter {
     pub is_optional: bool,
 }
 
-/// Kind of routine.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum RoutineKind {
     Procedure,

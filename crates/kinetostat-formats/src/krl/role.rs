@@ -2,7 +2,6 @@
 
 use crate::text::name::Name;
 
-/// Role of a frame.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Role {
     Tool,

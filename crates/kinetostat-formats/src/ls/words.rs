@@ -4,7 +4,6 @@ use std::ops::Range;
 
 use crate::ls::lines::number_of;
 
-/// Kind of a word.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Kind {
     /// Letters and `_`; digits behind them are a number of their own (`CNT100`).

@@ -31,12 +31,12 @@ pub(crate) fn at(line: usize, motion: usize) -> usize {
     of_motion(line, motion) + 1
 }
 
-/// Order key after all motions of a line.
+/// Order key of events after all motions of a line.
 pub(crate) fn behind(line: usize) -> usize {
     OF_A_LINE * line + OF_A_LINE - 1
 }
 
-/// Order key before the motion with a key.
+/// Order key of events before the motion with this key.
 pub(crate) fn before_motion(number: usize) -> usize {
     number - number % OF_A_MOTION
 }

@@ -15,7 +15,7 @@ const MOST_SHOWN: usize = 20;
 /// Counts of the conversion losses.
 #[derive(Default)]
 pub(crate) struct Otherwise {
-    /// Approximated arcs by reason: their count, the line of the first, and the number of lines.
+    /// Approximated arcs by reason: their count, the source line of the first, and the number of straight segments.
     followed: BTreeMap<Followed, (usize, usize, usize)>,
     /// Events reduced to notes, by kind: their count, with the first of them.
     lost: BTreeMap<EventKind, (usize, String)>,

@@ -177,7 +177,6 @@ pub(crate) struct MotionSite {
     pub speed: Option<SpeedSite>,
     /// Speeds of turning, deg/s, and of external axes, mm/s and deg/s, as in `500,5000,1000` (RAPID); none where they are not known.
     pub other_speeds: Option<String>,
-    /// Position of the zone.
     pub zone: Option<Range<usize>>,
     /// External axes at the end as the text states them, of poses and of joint values.
     pub external: Vec<Option<f64>>,
@@ -211,9 +210,7 @@ impl MotionSite {
 /// Uneven rotation of the tool between the ends of a motion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct TurnsOtherwise {
-    /// Reason for the uneven rotation.
     pub reason: &'static str,
-    /// Remedy for the user.
     pub remedy: &'static str,
     /// The statement before the motion with which it does, where it may be written.
     pub evenly: Option<&'static str>,

@@ -21,7 +21,6 @@ use crate::text::number::{Width, values_of};
 use crate::text::source::SourceFile;
 use nalgebra::Vector3;
 
-/// Limit of the bytes of a file.
 const MOST_BYTES: usize = 1 << 28;
 
 /// With these bytes a file in Parquet begins.

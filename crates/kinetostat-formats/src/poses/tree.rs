@@ -10,7 +10,6 @@ use saphyr_parser::{Event, Parser};
 use crate::poses::characters::Characters;
 use crate::text::source::beginning;
 
-/// Kind of a node.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Kind {
     Scalar,

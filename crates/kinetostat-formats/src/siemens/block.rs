@@ -15,9 +15,7 @@ pub(crate) struct Block {
     pub span: Range<usize>,
     /// `/` stands before it.
     pub skip: bool,
-    /// Block number.
     pub number: Option<u64>,
-    /// Label of the block.
     pub label: Option<Range<usize>>,
     /// First byte of the words, after block number and label.
     pub words_at: usize,
@@ -27,7 +25,6 @@ pub(crate) struct Block {
 /// One word of a block.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Item {
-    /// Bytes of the item.
     pub span: Range<usize>,
     /// Name or address.
     pub name: Range<usize>,

@@ -5,7 +5,6 @@ use std::ops::Range;
 use crate::error::{ProgramError, note};
 use crate::text::source::SourceFile;
 
-/// Limit of the bytes of a file.
 const MOST_BYTES: usize = 1 << 28;
 
 /// Checks that a file can be read at all; otherwise notes the error and returns false.

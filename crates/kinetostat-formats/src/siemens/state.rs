@@ -163,7 +163,7 @@ pub(crate) struct State {
     /// ORIAXES; or ORIVECT: the tool's axis goes on a great circle. Where neither is stated, ORIMKS turns the axes evenly, and ORIVECT
     /// is the basic setting.
     pub even_axes: Option<bool>,
-    /// The missing statement of the law was reported.
+    /// The missing ORIAXES or ORIVECT was reported.
     pub law_remarked: bool,
     /// Blocks behind a slash were remarked.
     pub slash_remarked: bool,

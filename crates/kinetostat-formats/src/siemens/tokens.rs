@@ -5,7 +5,6 @@
 
 use std::ops::Range;
 
-/// Kind of a token.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Kind {
     /// A word of letters, digits and underscores.

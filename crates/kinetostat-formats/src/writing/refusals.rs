@@ -42,7 +42,7 @@ pub(super) const SAME_RAD: f64 = 1e-7;
 /// Farther than any robot reaches, mm.
 pub(crate) const FARTHEST_MM: f64 = 1e6;
 
-/// Checks that the numbers of pieces are finite.
+/// Checks that the numbers of pieces are finite and within range.
 pub(crate) fn check_pieces(pieces: &[&Piece]) -> Result<(), Reason> {
     let finite = |piece: &&Piece| {
         let via = piece.via_mm.unwrap_or_default();

@@ -21,7 +21,6 @@ use crate::standing::Standing;
 use crate::text::finding::Finding;
 use crate::text::source::{BEHIND_END, SourceFile};
 
-/// Limit of the bytes of a file.
 const MOST_BYTES: usize = 1 << 28;
 
 /// Reads Heidenhain conversational programs (`.h`), each file for itself.

@@ -140,7 +140,7 @@ fn words<'f>(file: &'f TokenFile<'_>, line: usize) -> impl Iterator<Item = Range
     })
 }
 
-/// Position in a comment at which it shows a point.
+/// Positions in the comment of a line that show a point.
 fn shown_at<'f>(
     file: &'f TokenFile<'_>,
     line: usize,
@@ -150,7 +150,7 @@ fn shown_at<'f>(
     words(file, line).filter(move |word| bytes[word.clone()].eq_ignore_ascii_case(old))
 }
 
-/// Position at which a statement names the data of a point (`FDAT_ACT=FP1`, `$TOOL=STOOL2(FP1)`): the name after the F.
+/// Positions at which a statement names the data of a point (`FDAT_ACT=FP1`, `$TOOL=STOOL2(FP1)`): the name after the F.
 fn data_at<'f>(
     file: &'f TokenFile<'_>,
     line: usize,

@@ -41,7 +41,7 @@ pub(super) struct Level {
     /// Variables of the program that called it, and what is given back to them.
     pub caller: BTreeMap<Vec<u8>, Variable>,
     pub back: Vec<(Vec<u8>, Vec<u8>, Vec<f64>)>,
-    /// Remaining repetitions, and their kind.
+    /// Remaining repetitions.
     pub again: u32,
     /// Codes and frame in force at its call.
     pub modes: Modes,
