@@ -105,7 +105,7 @@ pub(crate) fn symbols_of<'p>(
     }
     let is_program = |index: &usize| {
         let routine = all.routines[*index].routine;
-        // Its own header names it once.
+        // The count includes the routine's own header.
         let is_called = mentions.get(&routine.name).is_some_and(|count| *count > 1);
         routine.kind == RoutineKind::Procedure && !is_called
     };

@@ -14,7 +14,7 @@ use crate::interpreter::tree::{Choice, LoopKind, Statement};
 use crate::interpreter::value::Datum;
 use crate::text::name::Name;
 
-/// Most statements of a run that are run again: in loops, and in routines that others call.
+/// Limit of repeated statements of a run: in loops, and in routines that others call.
 const MOST_REPEATED: usize = 1_000_000;
 
 impl<D: Dialect> Run<'_, '_, D> {
@@ -384,7 +384,7 @@ impl<D: Dialect> Run<'_, '_, D> {
                 Some(true) => return Flow::Next,
                 Some(false) => {}
                 None => {
-                    // It runs once for certain.
+                    // A loop that tests at its end runs at least once.
                     self.pass_over_loop(block, header, &value);
                     return Flow::Next;
                 }

@@ -418,7 +418,7 @@ fn left_out(
 #[derive(Default)]
 struct Flat {
     bytes: Vec<u8>,
-    /// Of all lines that have begun.
+    /// Origins of all started lines.
     origins: Vec<(usize, usize)>,
 }
 

@@ -42,7 +42,7 @@ impl Token {
         }
     }
 
-    /// Its bytes in the file.
+    /// Byte range in the file.
     pub(crate) fn bytes(&self) -> Range<usize> {
         self.start as usize..self.end as usize
     }

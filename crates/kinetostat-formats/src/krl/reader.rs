@@ -17,7 +17,7 @@ use crate::text::finding::Finding;
 use crate::text::flat::FlatText;
 use crate::text::source::SourceFile;
 
-/// Most bytes of a file; the memory needed is some forty times as much.
+/// Limit of the bytes of a file; the memory needed is some forty times as much.
 const MOST_BYTES: usize = 1 << 28;
 
 /// Reads KRL programs (`.src`) with their data (`.dat`) together; `$config.dat` for tools, bases and home positions if given.
@@ -117,7 +117,7 @@ fn token_files(files: &[SourceFile]) -> Vec<TokenFile<'_>> {
         .collect()
 }
 
-/// What each file holds.
+/// Parses each file.
 fn contents_of(files: &[TokenFile<'_>], faults: &mut Vec<ProgramError>) -> Vec<Content> {
     let mut contents: Vec<Content> = Vec::with_capacity(files.len());
     for file in files {

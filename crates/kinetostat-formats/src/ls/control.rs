@@ -13,10 +13,10 @@ use crate::model::motion::{Motion, Runs};
 /// Deepest nesting of calls.
 const DEEPEST: usize = 200;
 
-/// Most statements of a run.
+/// Limit of the statements of a run.
 const MOST_STATEMENTS: usize = 5_000_000;
 
-/// Most motions of statements that ran before.
+/// Limit of the motions of repeated statements.
 const MOST_REPEATED: usize = 200_000;
 
 impl Run<'_, '_> {
@@ -121,7 +121,7 @@ impl Run<'_, '_> {
         };
         match self.all.programs[self.program()].labels.get(&label) {
             Some(to) => Flow::To(*to),
-            // Of a number that is stated, this is said without a run.
+            // A constant label that does not exist is reported without a run.
             None if label_of(&index.node).is_some() => Flow::Next,
             None => {
                 let reason = format!("there is no label {label} in the program");

@@ -208,7 +208,7 @@ impl<'p> Run<'_, 'p> {
         }
     }
 
-    /// What steps that may have run assign is not known behind them.
+    /// Forgets the values that possibly executed steps assign.
     fn lose(&mut self, steps: &[OpenStep<'_>]) {
         for (program, _, step) in steps {
             match step {

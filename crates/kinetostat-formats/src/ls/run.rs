@@ -74,11 +74,11 @@ pub(super) fn index_of_axes(axes: OffsetAxes) -> usize {
     }
 }
 
-/// Where a run goes on behind a step.
+/// Continuation of a run after a step.
 pub(super) enum Flow {
     Next,
     To(usize),
-    /// Behind the call of the program.
+    /// Returns to the line after the call.
     Returns,
     /// Nowhere: all programs end.
     Ends,
@@ -98,7 +98,7 @@ pub(super) struct RunningCall {
     pub arguments: Vec<Datum>,
     /// Loops that run, by FOR: the counter and the last value.
     pub counters: BTreeMap<usize, (Name, f64)>,
-    /// By the step that jumps back.
+    /// State at each backward jump, by its step.
     pub passes: BTreeMap<usize, Pass>,
 }
 

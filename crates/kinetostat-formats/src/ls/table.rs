@@ -1,4 +1,4 @@
-//! What is done with each statement of FANUC TP programs, and with each option of a motion, as data.
+//! Treatment of each statement of FANUC TP programs, and of each motion option.
 
 use crate::model::site::OffsetAxes;
 use crate::table::Treatment::{Carried, Refused, Understood};
@@ -35,7 +35,7 @@ const FRAME_MENU: Treatment = Refused {
     remedy: "set the frame on the controller and take this statement into a program of its own",
 };
 
-/// What is done with each statement of FANUC TP programs. A statement that is not here is refused with its line.
+/// Treatment of each statement of FANUC TP programs. A statement that is not listed is refused with its line.
 pub const LS_STATEMENTS: &[StatementRow] = &rows::<{ count(GROUPS) }>(GROUPS);
 
 #[rustfmt::skip]
@@ -100,7 +100,7 @@ pub(crate) fn row(text: &[u8]) -> Option<&'static StatementRow> {
         .max_by_key(|row| row.name.len())
 }
 
-/// What follows the name of an option of a motion.
+/// Argument after the name of a motion option.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Follows {
     Nothing,
@@ -112,7 +112,7 @@ pub(crate) enum Follows {
     Event,
 }
 
-/// What an option does to a motion.
+/// Effect of an option on a motion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Effect {
     /// The end stays: carried.
@@ -142,7 +142,7 @@ const fn option(name: &'static str, follows: Follows, effect: Effect) -> OptionR
     }
 }
 
-/// Why an end is not known that is offset.
+/// Reason why an offset end is unknown.
 pub(crate) const OFFSET: &str =
     "it is offset by a register, whose value is not in the text, or which turns the tool";
 const ALONE: &str = "take this motion into a program of its own";

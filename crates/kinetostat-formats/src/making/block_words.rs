@@ -12,7 +12,7 @@ use crate::text::source::SourceFile;
 /// A word of a block.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct BlockWord {
-    /// Its letters in capitals: `M`, `S1`, `CYCLE832`; `/` of a block that a switch of the control leaves out.
+    /// Letters of the word in capitals; `/` for a block that a switch of the control skips.
     pub name: String,
     /// All of it in capitals, without blanks, and without zeros that say nothing: `M3`, `ADIS=0.5`, `CYCLE832(0.5,1)`.
     pub text: String,

@@ -1,4 +1,4 @@
-//! What a robot's program does in the statements of its motions and on their lines: outputs, procedures, triggers.
+//! Actions in and around the motion statements of a robot's program: outputs, procedures, triggers.
 
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -67,7 +67,7 @@ fn events_of_motion(
     let number = Some(number);
     let mut events = Vec::new();
     if language.has_several_statements_a_line() && free.start <= begin {
-        // What stands between two motions of a line is behind the first.
+        // Statements between two motions of a line belong after the first.
         let text = words(source.part(&(begin..motion.span.start.max(begin))));
         events.extend(of_line(language, motion.line, &text));
     }
@@ -159,7 +159,7 @@ pub(crate) fn code_of(line: &str) -> &str {
     &line[..at.map_or(line.len(), |(at, _)| at)]
 }
 
-/// What an instruction of RAPID does beside its motion, and whether it does so behind it.
+/// Action of a RAPID motion instruction beside its motion, and true if it acts after the motion.
 fn of_rapid(source: &SourceFile, motion: &Motion) -> Option<(String, bool)> {
     let keyword = words(source.part(&motion.site.keyword));
     let upper = keyword.to_ascii_uppercase();

@@ -1,4 +1,4 @@
-//! What a person should know of motions that were taken.
+//! Findings on the motions that were read.
 
 use std::collections::BTreeSet;
 
@@ -57,7 +57,7 @@ pub(crate) fn unknown_frames(motions: &[Motion]) -> Vec<Finding> {
     findings
 }
 
-/// What is called and none of the files holds: each name once, with its lines and what is assumed of it.
+/// Findings on calls that no file defines: each name once, with its lines and the assumption.
 pub(crate) fn outside_calls(language: Language, calls: &[OutsideCall]) -> Vec<Finding> {
     let all = by_name(calls).into_iter().map(|of| Finding {
         file: of.file,

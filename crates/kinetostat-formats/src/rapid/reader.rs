@@ -15,7 +15,7 @@ use crate::rapid::state::Rapid;
 use crate::text::flat::FlatText;
 use crate::text::source::SourceFile;
 
-/// Most bytes of a file; the memory needed is some twenty times as much.
+/// Limit of the bytes of a file; the memory needed is some twenty times as much.
 const MOST_BYTES: usize = 1 << 26;
 
 /// Reads RAPID modules (`.mod`, `.modx`, `.prg`, `.sys`) together: those that run together, with the data they use.

@@ -1,4 +1,4 @@
-//! What the writer must know of RAPID.
+//! Adapter of the writer for RAPID.
 
 use std::collections::BTreeSet;
 use std::ops::Range;

@@ -1,4 +1,4 @@
-//! What is done with each word of the SINUMERIK 840D, as data.
+//! Treatment of each word of the SINUMERIK 840D.
 
 use crate::table::Treatment::{Carried, Refused, Understood};
 use crate::table::{Alike, StatementRow, Treatment, alike, count, rows};
@@ -76,8 +76,7 @@ const INVERSE: Treatment = Refused {
     remedy: "let the CAM system write feeds in mm/min (G94)",
 };
 
-/// What is done with each word of a SINUMERIK program. A word that is not here is refused with its line; M, H and S words and
-/// variables are carried.
+/// Treatment of each word of a SINUMERIK program. A word that is not listed is refused with its line; M, H and S words and variables are carried.
 pub const SIEMENS_STATEMENTS: &[StatementRow] = &rows::<{ count(GROUPS) }>(GROUPS);
 
 #[rustfmt::skip]

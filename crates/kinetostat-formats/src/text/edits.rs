@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-/// What is to be replaced in one text. An empty range inserts.
+/// Replacements in one text. An empty range inserts.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Edits(Vec<(Range<usize>, Vec<u8>)>);
 
@@ -37,7 +37,7 @@ impl Edits {
         Some(output)
     }
 
-    /// Those of a part of the text, in places of that part: for a copy of a statement.
+    /// Edits of a part of the text, relative to that part: for a copy of a statement.
     pub(crate) fn applied_to_part(self, text: &[u8], part: &Range<usize>) -> Option<Vec<u8>> {
         let moved = |(span, bytes): (Range<usize>, Vec<u8>)| {
             let start = span.start.checked_sub(part.start)?;

@@ -1,4 +1,4 @@
-//! What the writer must know of URScript.
+//! Adapter of the writer for URScript.
 
 use std::collections::BTreeSet;
 
@@ -28,7 +28,7 @@ fn straight(source: &SourceFile, motion: &Motion, edits: &mut Edits) {
     let keyword = &site.keyword;
     replace_word(source.part(keyword), "movep", keyword, edits);
     edits.replace(via.clone(), "");
-    // Behind the end: acceleration, speed, blend, mode.
+    // Arguments after the end: acceleration, speed, blend, mode.
     let mut at = site.target_span.end;
     let rest = source.part(&(at..motion.span.end - 1));
     for (index, part) in rest.split(|byte| *byte == b',').enumerate() {

@@ -15,7 +15,7 @@ const KEYWORDS: [&str; 36] = [
     "TRYNEXT", "UNDO", "VAR", "WHILE",
 ];
 
-/// Where it reads, and what is wrong so far.
+/// Position of the parser, and the errors so far.
 pub(super) struct Parser<'f, 'a> {
     pub(super) file: &'f TokenFile<'a>,
     pub(super) at: usize,
