@@ -238,7 +238,7 @@ impl Parser<'_, '_> {
         None
     }
 
-    /// To the end of the line, or to a word that ends a block.
+    /// Reads to the end of the line, or to a word that ends a block.
     fn to_end_of_statement(&mut self, start: usize) -> usize {
         let mut open = 0_i64;
         while let Some(kind) = self.kind() {
@@ -324,7 +324,7 @@ impl Parser<'_, '_> {
         if !self.takes(end) {
             let reason = format!("no `{end}` ends it");
             self.fault(start..start + 1, &reason, &format!("end it with `{end}`"));
-            // Nothing behind it is read.
+            // The text after it is not read.
             self.at = self.file.tokens.len();
         }
     }

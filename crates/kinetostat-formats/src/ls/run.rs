@@ -32,7 +32,7 @@ pub(super) struct Files<'p> {
 /// The number of a frame or tool in force.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum InForce {
-    /// Nothing sets it.
+    /// No statement sets the number.
     Unset,
     Known(u32),
     /// Only the controller knows it.
@@ -53,7 +53,7 @@ impl InForce {
 pub(super) struct Modal {
     pub frame: InForce,
     pub tool: InForce,
-    /// In axes of the work object, and of the tool.
+    /// Offset registers in axes of the work object, and of the tool.
     pub conditions: [Option<u32>; 2],
 }
 
@@ -79,7 +79,7 @@ pub(super) enum Flow {
     To(usize),
     /// Returns to the line after the call.
     Returns,
-    /// Nowhere: all programs end.
+    /// End of all programs.
     Ends,
 }
 
