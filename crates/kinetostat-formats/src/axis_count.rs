@@ -12,9 +12,9 @@ pub(crate) enum AxisCount {
     /// The program does not show it.
     #[default]
     Open,
-    /// On, over whole turns.
+    /// The axis counts on over whole turns.
     On,
-    /// From 0 to 360 deg, again and again.
+    /// The axis counts from 0 to 360 deg, and again from 0.
     OneTurn,
 }
 
@@ -48,7 +48,7 @@ impl CountShown {
         }
     }
 
-    /// With what another part of the program shows.
+    /// Combines the evidence with that of another part of the program.
     pub(crate) fn joined_with(self, other: Self) -> Self {
         Self {
             one_turn: self.one_turn || other.one_turn,

@@ -36,7 +36,7 @@ pub(crate) fn not_followed(why: &str) -> String {
 }
 
 impl Corner {
-    /// Between lines from one place over the corner to another.
+    /// Cuts a corner between two lines, given by start, corner and end.
     ///
     /// # Errors
     /// Why there is none.
@@ -70,7 +70,7 @@ impl Corner {
         }
         Ok(Self {
             ends: [at + u * side, at + v * side],
-            // From `from` to the corner and on.
+            // Sense of the turn at the corner.
             sense: match u.perp(&v) < 0.0 {
                 true => 1.0,
                 false => -1.0,

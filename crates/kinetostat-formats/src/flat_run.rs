@@ -100,7 +100,7 @@ impl Written {
     ) -> Result<FlatText, RefusedRun> {
         faults.extend(self.faults.into_faults());
         if self.is_endless {
-            // To read millions of blocks of a loop takes gigabytes, and says nothing more.
+            // Reading millions of blocks of a loop would take gigabytes, and adds no information.
             return Err(faults.into());
         }
         let flat = FlatText {

@@ -33,7 +33,7 @@ pub(crate) enum Behind {
     Same,
     /// The rest depends on it.
     Depends,
-    /// Nothing.
+    /// The rest is not run.
     Nothing,
 }
 
@@ -55,7 +55,7 @@ impl FaultsOfRun {
         behind == Behind::Same && self.count < MOST_FAULTS
     }
 
-    /// In the order of files and lines.
+    /// Faults in the order of files and lines.
     pub(crate) fn into_faults(self) -> Vec<ProgramError> {
         self.found.into_values().collect()
     }

@@ -11,15 +11,15 @@ pub(crate) const ZERO_DEG: f64 = 1e-9;
 /// Turn of an axis by a word, deg.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum AxisTurn {
-    /// To an angle, straight on.
+    /// Absolute angle, direct.
     To(f64),
     /// Incremental angle.
     By(f64),
-    /// To an angle of one turn, the shorter way (DC; M126).
+    /// Angle of one turn, the shorter way (DC; M126).
     Shorter(f64),
-    /// To an angle of one turn, upwards (ACP).
+    /// Angle of one turn, upwards (ACP).
     Upwards(f64),
-    /// To an angle of one turn, downwards (ACN).
+    /// Angle of one turn, downwards (ACN).
     Downwards(f64),
 }
 
@@ -45,7 +45,7 @@ pub(crate) struct TipWords {
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Turning<'w> {
     pub words: &'w TipWords,
-    /// In rapid traverse: which way round the axis goes there, changes nothing in the part.
+    /// Rapid traverse: the sense of the turn changes nothing in the part.
     pub rapid: bool,
 }
 

@@ -11,9 +11,9 @@ pub(crate) struct Statement {
     pub word: Range<usize>,
     /// Text after the slash or comma; may be empty.
     pub arguments: Range<usize>,
-    /// From the word to the last argument.
+    /// Text from the word to the last argument.
     pub span: Range<usize>,
-    /// From the beginning of its first line behind its last line end.
+    /// Whole lines of the statement, with the last line end.
     pub lines: Range<usize>,
     /// A slash stands behind the word.
     pub slash: bool,

@@ -38,7 +38,7 @@ pub(crate) enum Turned {
     ToEnd { sense: f64, digit_mm: f64 },
 }
 
-/// About a centre, from a place to another. A whole turn where they are one place.
+/// Arc about a centre from a place to another. A full turn if both are the same.
 ///
 /// # Errors
 /// Where they lie on no circle about the centre, or it is not sure whether that is a whole turn; what to do.

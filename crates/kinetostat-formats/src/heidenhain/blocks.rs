@@ -14,7 +14,7 @@ pub(crate) const STRAY_REMEDY: &str = "take the `~` at the end of the line befor
 /// A block.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Block {
-    /// From the beginning of its first line behind its last line end.
+    /// Whole lines of the block, with the last line end.
     pub lines: Range<usize>,
     pub number: Option<Range<usize>>,
     /// Text after the block number and the skip sign.

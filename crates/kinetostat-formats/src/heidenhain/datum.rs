@@ -11,7 +11,7 @@ pub(crate) enum Bend {
     None,
     /// Axes that are mirrored.
     Mirror([bool; 3]),
-    /// About Z, degrees.
+    /// Rotation about Z, degrees.
     Rotation(f64),
     Scale(f64),
     /// PLANE tilts the axes.
@@ -106,7 +106,7 @@ pub(crate) enum Change {
     /// Axis, mm, whether it is added.
     Shift(Vec<(usize, f64, bool)>),
     Bend(Bend),
-    /// Nothing changes.
+    /// The transformation does not change.
     Kept,
     Refused(&'static str),
 }

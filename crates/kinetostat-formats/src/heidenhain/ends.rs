@@ -33,7 +33,7 @@ pub(crate) enum Shape {
     Straight,
     /// Polar: radius and angle; `whole` if both are stated, so that the end does not depend on the start.
     Polar { whole: bool },
-    /// About a pole or by a radius.
+    /// Arc about a pole or by a radius.
     Arc,
     /// An arc that begins in the direction of before.
     Tangential,

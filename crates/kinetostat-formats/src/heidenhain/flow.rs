@@ -60,7 +60,7 @@ pub(crate) fn labels_of(bytes: &[u8], blocks: &[Block]) -> (Labels, Vec<[usize; 
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Step {
     Next,
-    /// To a label and back at LBL 0.
+    /// Call of a label, with the return at LBL 0.
     Call(String),
     /// LBL 0.
     Back,

@@ -27,7 +27,7 @@ pub(crate) enum FeedWord {
     None,
     /// The word, and its number.
     Number(usize, f64),
-    /// In rapid traverse, in this block alone.
+    /// Rapid traverse in this block alone.
     Max,
     /// Feed of the tool call.
     Auto,

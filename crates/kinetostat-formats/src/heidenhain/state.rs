@@ -16,7 +16,7 @@ use crate::standing::Standing;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Pole {
     pub plane: Plane,
-    /// In it, in the programmed axes, mm.
+    /// Pole position in the plane, in the programmed axes, mm.
     pub at: Vector2<f64>,
     /// The centre was stated relative to the tool position.
     pub relative: bool,

@@ -79,9 +79,9 @@ pub(crate) fn row(letters: &[u8]) -> Option<&'static StatementRow> {
 /// Effect of a miscellaneous function on the tool position.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Function {
-    /// Nothing, from the beginning of its block on.
+    /// No effect on the position, active from the start of its block.
     AtStart,
-    /// Nothing, at the end of its block.
+    /// No effect on the position, active at the end of its block.
     AtEnd,
     /// The block's places are the machine's.
     Machine,

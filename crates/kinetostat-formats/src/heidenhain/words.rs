@@ -18,7 +18,7 @@ pub(crate) enum Value {
         sign: f64,
         name: Range<usize>,
     },
-    /// Between quotes.
+    /// Text between quotes.
     Text(Range<usize>),
 }
 
@@ -27,7 +27,7 @@ pub(crate) enum Value {
 pub(crate) struct Word {
     /// Letters and value.
     pub span: Range<usize>,
-    /// In capitals; empty of a number alone.
+    /// Letters in capitals; empty for a number alone.
     pub letters: Name,
     pub value: Value,
 }

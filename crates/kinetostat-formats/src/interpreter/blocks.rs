@@ -324,7 +324,7 @@ impl Parser<'_, '_> {
         if !self.takes(end) {
             let reason = format!("no `{end}` ends it");
             self.fault(start..start + 1, &reason, &format!("end it with `{end}`"));
-            // Nothing behind it is read.
+            // The text after it is not read.
             self.at = self.file.tokens.len();
         }
     }

@@ -10,25 +10,25 @@ pub(crate) enum Flow {
     Next,
     /// Return to the caller, with the value of a function.
     Returns(Option<Datum>),
-    /// At a label of a block around it.
+    /// Jump to a label of an enclosing block.
     To(Name, Range<usize>),
     /// Leaves the innermost loop.
     Breaks,
-    /// To the next pass of the innermost loop.
+    /// Next pass of the innermost loop.
     Continues,
-    /// Nowhere: the program ends.
+    /// End of the program.
     Ends,
 }
 
 /// A statement that leaves its block.
 pub(crate) enum Leave {
-    /// To a label.
+    /// Jump to a label.
     Jump(Name),
-    /// From its routine, with the tokens of a value.
+    /// Return from the routine, with the tokens of a value.
     Returns(Option<Range<usize>>),
-    /// From the innermost loop.
+    /// Exit from the innermost loop.
     Breaks,
-    /// To the next pass of the innermost loop.
+    /// Next pass of the innermost loop.
     Continues,
     /// The program ends.
     Ends,

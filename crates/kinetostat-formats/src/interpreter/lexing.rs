@@ -7,7 +7,7 @@ use crate::text::source::BYTE_ORDER_MARK;
 
 /// Marks of a language.
 pub(crate) struct Marks {
-    /// Before a comment, to the end of its line.
+    /// Byte before a comment that ends with its line.
     pub comment: u8,
     /// Before a line that is none of the program.
     pub aside: u8,

@@ -144,7 +144,7 @@ impl Reader<'_, '_> {
         is_word.then(|| Name::of(word))?
     }
 
-    /// Up to a comma, a backslash, a closing bracket or the end.
+    /// Parses an expression up to a comma, a backslash, a closing bracket or the end.
     fn expression(&mut self, depth: usize) -> Expression {
         let start = self.at;
         let found = (depth < DEEPEST)
@@ -274,7 +274,7 @@ impl Reader<'_, '_> {
         Some(self.over(start, Node::One(operator, Box::new(operand))))
     }
 
-    /// To the end of what is computed.
+    /// Skips to the end of the expression.
     fn skip(&mut self) {
         let mut open = 0_usize;
         while let Some(kind) = self.kind() {

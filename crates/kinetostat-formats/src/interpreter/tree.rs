@@ -81,7 +81,7 @@ pub(crate) struct Routine {
     pub body: Vec<Statement>,
     /// ERROR, UNDO and BACKWARD.
     pub handlers: Vec<Statement>,
-    /// From LOCAL, PROC, FUNC or TRAP to its end.
+    /// Tokens from LOCAL, PROC, FUNC or TRAP to the end of the routine.
     pub whole: Range<usize>,
     /// Statements before the handlers.
     pub statements: Range<usize>,
@@ -121,9 +121,9 @@ pub(crate) enum LoopKind {
     Counting,
     /// While the condition of its header holds.
     While,
-    /// Until the condition of its header holds, once at least.
+    /// Loop with its condition at the end: at least one pass.
     Until,
-    /// For ever: a statement in it leaves it.
+    /// Endless loop: only a statement in it leaves it.
     Endless,
 }
 
@@ -142,7 +142,7 @@ pub(crate) enum Statement {
         conditions: Vec<Range<usize>>,
         choice: Choice,
         blocks: Vec<Vec<Statement>>,
-        /// From IF or TEST to its end.
+        /// Tokens from IF or TEST to its end.
         whole: Range<usize>,
     },
     Loop {
@@ -150,7 +150,7 @@ pub(crate) enum Statement {
         /// Tokens of the counter, or of the condition.
         header: Range<usize>,
         block: Vec<Statement>,
-        /// From FOR or WHILE to its end.
+        /// Tokens from FOR or WHILE to its end.
         whole: Range<usize>,
     },
     /// `name:`, the token of the name.

@@ -10,21 +10,21 @@ use crate::interpreter::tree::RoutineKind;
 /// The words of a language.
 pub(crate) struct Words {
     pub marks: Marks,
-    /// Before a routine, and its kind where it stands in no other and has no parameters.
+    /// Word before a routine, and its kind if it is not nested and has no parameters.
     pub routines: &'static [(&'static str, RoutineKind)],
-    /// Before the first condition of a branch, a further one, and what runs otherwise.
+    /// Words before the first condition of a branch, a further one, and the alternative.
     pub branch: [&'static str; 3],
-    /// Before a loop with its condition.
+    /// Word before a loop with its condition.
     pub repeat: &'static str,
     /// Word after each block.
     pub end: &'static str,
     /// Byte after a header.
     pub colon: u8,
-    /// Before a name that all routines see, and before one of its routine.
+    /// Words before a global name, and before one of its routine.
     pub scopes: [&'static str; 2],
-    /// Before what returns, breaks a loop, goes on with its next pass, and ends the program.
+    /// Words of return, loop exit, next pass, and program end.
     pub leaves: [&'static str; 4],
-    /// Before a statement that is neither a call nor an assignment.
+    /// Words before a statement that is neither a call nor an assignment.
     pub plain: &'static [&'static str],
     /// A statement that does nothing.
     pub nothing: &'static str,

@@ -12,7 +12,7 @@ pub(crate) enum Rounding {
     Distance,
     /// Within `$APO.CPTP`.
     JointPercent,
-    /// With `$APO.CVEL`.
+    /// Approximation with `$APO.CVEL`.
     SpeedPercent,
     /// Point at which the tool is turned.
     Turning,

@@ -73,7 +73,7 @@ pub(crate) fn ends_of(
                 Kind::Symbol(b'{' | b'[' | b'(') => open += 1,
                 Kind::Symbol(b'}' | b']' | b')') => open = open.saturating_sub(1),
                 Kind::Symbol(b',') if open == 0 => break,
-                // In whose axes a step is: #BASE, #TOOL.
+                // Reference axes of a step: #BASE, #TOOL.
                 Kind::Symbol(b'#') if open == 0 && at > start => break,
                 // A word behind a whole value begins what is behind the end: C_DIS, WITH.
                 Kind::Word

@@ -6,7 +6,7 @@ use crate::interpreter::token::TokenFile;
 use crate::krl::lex::{closes, opens};
 use crate::model::frame::FrameUse;
 
-/// For each line the line that opens the fold around it.
+/// Opening line of the surrounding fold, for each line.
 pub(crate) fn folds_of(file: &TokenFile<'_>) -> Vec<Option<usize>> {
     let mut open: Vec<usize> = Vec::new();
     let mut around = Vec::with_capacity(file.lines.len());

@@ -1,4 +1,4 @@
-//! From a motion statement to a motion, with what is in force as it runs.
+//! Conversion of a motion statement to a motion, with the modal state at its execution.
 
 use std::ops::Range;
 

@@ -13,11 +13,11 @@ const METRE_MM: f64 = 1000.0;
 /// Text position of a motion's speed.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) enum SpeedPlace {
-    /// In force from before: another one is stated before the motion.
+    /// Modal speed: another one is stated before the motion.
     Before,
-    /// In the WITH of the motion, for it alone: the bytes of its number; none where it is none.
+    /// Speed in the WITH of the motion, for it alone: the bytes of its number; `None` if it is no number.
     Own(Option<Range<usize>>),
-    /// In force for a spline block, in which no assignment stands: its segments state another one in their WITH.
+    /// Modal speed in a spline block, which allows no assignment: its segments state another one in their WITH.
     OfBlock {
         /// Bytes at which it is written.
         at: usize,

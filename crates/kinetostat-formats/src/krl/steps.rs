@@ -12,7 +12,7 @@ pub(crate) const WRITE_END: &str = "write the end with LIN, or PTP, and all its 
 /// A step from where the tool is.
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum Step {
-    /// Along the axes of the base, or of the tool, mm.
+    /// Step along the axes of the base, or of the tool, mm.
     Along {
         step_mm: Vector3<f64>,
         in_tool: bool,

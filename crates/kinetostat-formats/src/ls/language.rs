@@ -147,7 +147,7 @@ impl ProgramLanguage for LsLanguage {
         }
     }
 
-    /// Without the count of lines, too.
+    /// Text of a line without its number; empty for the count of lines.
     fn behind_number<'l>(&self, line: &'l [u8]) -> &'l [u8] {
         if line.starts_with(b"LINE_COUNT") {
             return b"";

@@ -13,9 +13,9 @@ pub(crate) type Fault = (Range<usize>, &'static str, &'static str);
 pub(crate) struct Line {
     /// The digits of its number; empty where it has none.
     pub number: Range<usize>,
-    /// Between colon and semicolon; with line ends where it goes over several lines.
+    /// Text between colon and semicolon; with line ends if it spans several lines.
     pub text: Range<usize>,
-    /// From the number to the semicolon.
+    /// Text from the number to the semicolon.
     pub whole: Range<usize>,
 }
 
@@ -27,7 +27,7 @@ pub(crate) struct Layout {
     /// Number after `LINE_COUNT =`.
     pub line_count: Option<NumberText>,
     pub lines: Vec<Line>,
-    /// From the line behind `/POS` to the next section.
+    /// Text from the line after `/POS` to the next section.
     pub positions: Option<Range<usize>>,
     pub has_instructions: bool,
     pub has_end: bool,

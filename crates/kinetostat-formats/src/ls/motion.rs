@@ -9,7 +9,7 @@ use crate::ls::words::{Kind, Word, index_of, words_of};
 use crate::model::motion::{Speed, Zone};
 use crate::model::site::{OffsetAxes, SpeedSite};
 
-/// On which way.
+/// Type of interpolation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Way {
     Joint,
@@ -33,7 +33,7 @@ pub(crate) enum End {
 pub(crate) struct MotionText {
     pub way: Way,
     pub keyword: Range<usize>,
-    /// Whole, with `P` and brackets.
+    /// Auxiliary point, with `P` and brackets.
     pub via: Option<(Range<usize>, End)>,
     pub target_span: Range<usize>,
     pub target: End,
@@ -221,7 +221,7 @@ impl Reader<'_> {
             false => (Vec::new(), unit.span.end),
         };
         let span = from.start..end;
-        // In mm, and in seconds.
+        // Units: mm, and seconds.
         let [length, time] = match (&self.bytes[unit.span], per.as_slice()) {
             (b"%", b"") | (b"deg", b"sec") => {
                 return Some((self.speed_text(&span, None), None, How::Stated));

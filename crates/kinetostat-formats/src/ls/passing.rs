@@ -17,7 +17,7 @@ const SET_IT: &str = "state the value of what decides it (--set NAME=VALUE, [val
 pub(super) struct Open<'s> {
     /// Actions behind conditions.
     actions: Vec<&'s Step>,
-    /// From this step on.
+    /// First step of the range.
     from: usize,
     /// The run goes on here.
     to: usize,
@@ -297,7 +297,7 @@ impl<'p> Run<'_, 'p> {
 /// The program that a call names.
 enum Called {
     Program(usize),
-    /// In none of the files.
+    /// Program that is in none of the files.
     Outside,
     /// A register names it.
     Computed,

@@ -20,7 +20,7 @@ pub(crate) enum Held {
     Pose(usize),
     /// The joints of group 1, degrees or mm.
     Joints(Vec<f64>),
-    /// Nothing that can be used, and why.
+    /// Unusable position, with the reason.
     Nothing(&'static str),
 }
 

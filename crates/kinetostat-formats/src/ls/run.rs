@@ -33,7 +33,7 @@ pub(super) struct Files<'p> {
 /// The number of a frame or tool in force.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum InForce {
-    /// Nothing sets it.
+    /// No statement sets the number.
     Unset,
     Known(u32),
     /// Only the controller knows it.
@@ -54,7 +54,7 @@ impl InForce {
 pub(super) struct Modal {
     pub frame: InForce,
     pub tool: InForce,
-    /// In axes of the work object, and of the tool.
+    /// Offset registers in axes of the work object, and of the tool.
     pub conditions: [Option<u32>; 2],
 }
 
@@ -80,7 +80,7 @@ pub(super) enum Flow {
     To(usize),
     /// Returns to the line after the call.
     Returns,
-    /// Nowhere: all programs end.
+    /// End of all programs.
     Ends,
 }
 

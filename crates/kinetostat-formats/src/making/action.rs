@@ -34,10 +34,10 @@ pub enum Coolant {
 pub enum EventAction {
     /// The tool stands still for some time.
     Wait {
-        /// In s.
+        /// Dwell in s.
         seconds: f64,
     },
-    /// Until somebody starts again (`M0`, `STOP`, `HALT`, `PAUSE`).
+    /// Stop until somebody restarts the program (`M0`, `STOP`, `HALT`, `PAUSE`).
     Stop,
     /// Stop if a switch of the machine is set (`M1`, `OPSTOP`).
     OptionalStop,

@@ -11,7 +11,7 @@ pub(crate) struct Blocks {
 }
 
 impl Blocks {
-    /// At the beginning of a routine.
+    /// State at the start of a routine.
     pub(crate) fn of(language: Language) -> Self {
         Self {
             language,

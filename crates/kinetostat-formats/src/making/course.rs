@@ -1,4 +1,4 @@
-//! In which order moves, events and changes of tools run.
+//! Execution order of moves, events and tool changes.
 
 use kinetostat_program::Path;
 
@@ -87,7 +87,7 @@ impl Course {
         }
     }
 
-    /// In the order of the lines.
+    /// Course in the order of the lines.
     pub(crate) fn of_lines(path: &Path, events: &[SourceEvent]) -> Self {
         let in_order = path
             .moves

@@ -12,7 +12,7 @@ pub enum EventKind {
     Tool,
     /// The tool stands still for some time.
     Dwell,
-    /// Until somebody starts again.
+    /// Stop until somebody restarts the program.
     Stop,
     /// Text for people.
     Comment,
@@ -23,7 +23,7 @@ pub enum EventKind {
 }
 
 impl EventKind {
-    /// In words, for what is lost.
+    /// Description of the subject in reports of losses.
     pub(crate) fn words(self) -> &'static str {
         match self {
             Self::Spindle => "spindle",

@@ -101,7 +101,7 @@ fn action_text(action: EventAction) -> String {
     }
 }
 
-/// Without a point some controllers count in their least unit.
+/// Adds a decimal point: without it, some controllers count in their least unit.
 fn with_point(number: &str) -> String {
     match number.contains('.') {
         true => number.to_owned(),

@@ -19,7 +19,7 @@ const MOST_HALVINGS: u32 = 20;
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct JointStart {
-    /// From the axes of the poses into those of the robot's base, mm.
+    /// Transformation from the axes of the poses to those of the robot's base, mm.
     pub base: Isometry3<f64>,
     /// Joint values next to the first row, as the table has them: they say in which configuration the arm is.
     pub near: Vec<f64>,

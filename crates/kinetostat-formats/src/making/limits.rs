@@ -28,7 +28,7 @@ pub(crate) enum Arcs {
     None,
     /// Flat, through a place.
     Through,
-    /// About the z axis, rising where asked.
+    /// Arcs or helices about the z axis.
     AboutZ,
 }
 

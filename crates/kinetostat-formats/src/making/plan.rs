@@ -1,4 +1,4 @@
-//! From a path and what stands beside it to the steps of a program.
+//! Conversion of a path and its events to the steps of a program.
 
 use std::collections::BTreeSet;
 
@@ -171,7 +171,7 @@ impl Planner<'_> {
         let of_a_machine = matches!(self.language, MakeLanguage::Apt | MakeLanguage::Gcode);
         let before = self.tool;
         if of_a_machine {
-            // Before the spindle turns, say.
+            // The tool changes before a statement such as the start of the spindle.
             self.change_tool(order);
         }
         let mut lost: BTreeSet<EventKind> = BTreeSet::new();

@@ -153,7 +153,7 @@ impl<'t> Writer<'t> {
         let numbered = numbered.map(|(number, tool)| (Some(*number), tool));
         let mut declared = BTreeSet::new();
         for (number, tool) in own.into_iter().chain(numbered) {
-            // Nobody declares tool0 and wobj0.
+            // tool0 and wobj0 are predefined.
             let Some(pose) = (tool.frame.pose.as_ref()).filter(|_| !is_number_zero(&tool.frame))
             else {
                 continue;

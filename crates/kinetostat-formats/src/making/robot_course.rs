@@ -1,4 +1,4 @@
-//! In which order motions, events and changes of tools of a robot's program run.
+//! Execution order of motions, events and tool changes of a robot's program.
 
 use std::collections::{BTreeMap, VecDeque};
 

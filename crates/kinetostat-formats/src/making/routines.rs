@@ -1,4 +1,4 @@
-//! In which order the lines of a robot's program run, and which of them run for certain, once.
+//! Execution order of the lines of a robot's program, and the lines that run exactly once.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;

@@ -42,7 +42,7 @@ struct Walk<'w> {
     source: &'w SourceFile,
     variables: Variables,
     master: Master,
-    /// Else tools change at T.
+    /// True if tools change at M6, otherwise at T.
     changes_by_m6: bool,
 }
 

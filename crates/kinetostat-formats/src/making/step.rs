@@ -4,17 +4,17 @@ use nalgebra::{UnitQuaternion, Vector3};
 
 use crate::making::action::EventAction;
 
-/// On which way a made motion goes.
+/// Path of a made motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Way {
     Joint,
     Line,
-    /// Through a place, with the tool as it stands there.
+    /// Circle through an auxiliary point, with the tool orientation there.
     Circle {
         via: Vector3<f64>,
         via_orientation: Option<UnitQuaternion<f64>>,
     },
-    /// About the z axis of the part, with a centre; it may rise.
+    /// Arc or helix about the z axis of the part, with a centre.
     AboutZ {
         centre: Vector3<f64>,
         clockwise: bool,

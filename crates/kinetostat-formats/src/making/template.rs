@@ -58,11 +58,11 @@ pub struct StatedTool {
 /// ```
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct SpindleStatements {
-    /// For M3, one statement a line.
+    /// Statements for M3, one a line.
     pub clockwise: Vec<String>,
-    /// For M4.
+    /// Statements for M4.
     pub counter_clockwise: Vec<String>,
-    /// For M5.
+    /// Statements for M5.
     pub stop: Vec<String>,
 }
 
@@ -161,7 +161,7 @@ impl Default for Zones {
 pub struct Template {
     /// Name of the program, and of its file.
     pub program_name: String,
-    /// In whose axes the places are: the part.
+    /// Frame in whose axes the positions are: the part.
     pub base: StatedFrame,
     /// The tool of a program with one tool.
     pub tool: StatedTool,

@@ -95,7 +95,7 @@ struct Done {
     rest: Option<EventKind>,
     states_speed: bool,
     is_of_tool: bool,
-    /// Nothing but comments and the end of the program.
+    /// The words are only comments and the end of the program.
     is_silent: bool,
 }
 

@@ -7,7 +7,7 @@ use nalgebra::Isometry3;
 pub enum Frame {
     /// A tool in the flange's axes, a work object in the axes of the base (or the world, where the controller says so); mm.
     Known(Isometry3<f64>),
-    /// Neither the text nor the caller says it.
+    /// Frame that neither the text nor the caller states.
     Unknown {
         /// Reason in words.
         reason: String,

@@ -9,21 +9,21 @@ use crate::model::frame::FrameUse;
 use crate::model::site::MotionSite;
 use crate::model::target::Target;
 
-/// On which way the tool goes to the end of a motion.
+/// Path of the tool to the end of a motion.
 #[derive(Debug, Clone, PartialEq)]
 pub enum MotionKind {
     /// All joints in step: the way of the tool is the controller's.
     Joint,
-    /// On a straight line.
+    /// Straight line.
     Linear,
-    /// On a circle through a pose.
+    /// Circle through a pose.
     Circular {
-        /// Between start and end.
+        /// Auxiliary point between start and end.
         via: Target,
     },
-    /// On an arc about a stated centre, or a helix with an even rise: for languages that state centre and axis.
+    /// Arc about a stated centre, or a helix with an even rise: for languages that state centre and axis.
     Arc {
-        /// In the axes of the work object, mm.
+        /// Centre in the axes of the work object, mm.
         centre_mm: Vector3<f64>,
         /// Unit vector.
         axis: Vector3<f64>,
@@ -41,7 +41,7 @@ pub enum Zone {
     Radius(f64),
     /// Percent of what the controller allows (`CNT50`).
     Percent(f64),
-    /// Not known from the text.
+    /// The text does not state the zone.
     Unstated,
 }
 
@@ -50,11 +50,11 @@ pub enum Zone {
 pub enum Runs {
     /// Once in every run of the program.
     Once,
-    /// At most once: in a branch.
+    /// The motion is in a branch: at most one execution.
     OnCondition,
     /// More than once, or perhaps: in a loop, in a routine with a jump backward, or in one that is called more than once.
     Repeatedly,
-    /// In a routine that nothing in these files calls.
+    /// The motion is in a routine that nothing in these files calls.
     Elsewhere,
 }
 
@@ -79,7 +79,7 @@ pub struct Motion {
     pub line: usize,
     /// Bytes of the statement with what ends it.
     pub span: Range<usize>,
-    /// On which way.
+    /// Path of the motion.
     pub kind: MotionKind,
     /// End of the motion.
     pub target: Target,
@@ -87,9 +87,9 @@ pub struct Motion {
     pub speed: Speed,
     /// Approximation zone at the end.
     pub zone: Zone,
-    /// With which tool.
+    /// Tool of the motion.
     pub tool: FrameUse,
-    /// In the axes of which work object.
+    /// Work object in whose axes the target is.
     pub work_object: FrameUse,
     /// Execution count.
     pub runs: Runs,

@@ -19,7 +19,7 @@ use crate::text::source::SourceFile;
 pub struct Parsed {
     /// All but the motions that are refused.
     pub program: RobotProgram,
-    /// In order of files and lines.
+    /// Faults in order of files and lines.
     pub faults: Vec<ProgramError>,
 }
 

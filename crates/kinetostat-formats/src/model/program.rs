@@ -34,7 +34,7 @@ pub struct RobotProgram {
     pub files: Vec<SourceFile>,
     /// Each motion statement once, in the order in which they first run; those that nothing calls at the end.
     pub motions: Vec<Motion>,
-    /// In order of files and lines.
+    /// Findings in order of files and lines.
     pub findings: Vec<Finding>,
     pub(crate) declarations: Vec<Declaration>,
     /// Values that the caller stated for what only the controller knows.

@@ -49,14 +49,14 @@ pub(crate) struct PartialText {
 pub(crate) struct JointsText {
     /// The whole row.
     pub whole: Range<usize>,
-    /// In the order of the joints, with how many degrees or mm one of the text is.
+    /// Joint values in the order of the joints, with their unit in degrees or mm.
     pub numbers: Vec<(NumberText, f64)>,
-    /// Whose joints they are.
+    /// Arm of the joints.
     pub arm: TableArm,
 }
 
 impl JointsText {
-    /// In degrees or mm.
+    /// Joint values in degrees or mm.
     pub fn joints(&self) -> Vec<f64> {
         let numbers = self.numbers.iter();
         numbers.map(|(number, unit)| number.value * unit).collect()
@@ -94,7 +94,7 @@ pub(crate) enum DeclarationCopy {
     },
 }
 
-/// In whose axes the arguments of an offset are.
+/// Axes of the arguments of an offset.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum OffsetAxes {
     /// Axes of the work object (`Offs`).
@@ -149,7 +149,7 @@ pub(crate) enum TargetSite {
     Replaced(Box<ReplacedText>),
     /// Joint values in a row of a table.
     Joints(Box<JointsText>),
-    /// Nothing to correct, in words why.
+    /// Target that cannot be corrected, with the reason.
     Fixed(&'static str),
 }
 

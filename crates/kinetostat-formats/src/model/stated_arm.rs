@@ -31,9 +31,9 @@ use crate::model::target::Configuration;
 pub struct StatedArm {
     /// The centre of the wrist is behind axis 1 (KUKA: bit 0 of S; ABB: cfx of 4 and above; FANUC: B).
     pub is_back: Option<bool>,
-    /// To which side the elbow bends (KUKA: bit 1 of S; ABB: bit 1 of cfx; FANUC: D).
+    /// Elbow branch (KUKA: bit 1 of S; ABB: bit 1 of cfx; FANUC: D).
     pub elbow: Option<bool>,
-    /// To which side the wrist bends (KUKA: bit 2 of S; ABB: bit 0 of cfx; FANUC: F).
+    /// Wrist branch (KUKA: bit 2 of S; ABB: bit 0 of cfx; FANUC: F).
     pub wrist: Option<bool>,
 }
 

@@ -8,7 +8,7 @@ pub(crate) enum AxesStated {
     /// Angles by their words up to this block: positions at the start and the end, deg, in the order of the letters. Coordinates are those of the
     /// tool tip in the part.
     Angles { start: Vec<f64>, end: Vec<f64> },
-    /// Not at all, or places are not those of the tip.
+    /// The angles are unknown, or positions are not those of the tool tip.
     Open,
 }
 

@@ -52,10 +52,10 @@ pub enum Target {
     Pose(PoseTarget),
     /// Values of the robot's joints as written: degrees, or mm of linear ones.
     Joints {
-        /// In the order of the joints.
+        /// Values in the order of the joints.
         values_deg: Vec<f64>,
     },
-    /// Not known from the text: only with [`crate::UnknownTargets::LeftAsWritten`].
+    /// Target that is unknown from the text: only with [`crate::UnknownTargets::LeftAsWritten`].
     Unknown {
         /// Reason in words.
         reason: String,

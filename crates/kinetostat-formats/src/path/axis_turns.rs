@@ -41,11 +41,11 @@ pub enum TurnAboutAxis {
     /// behind a rapid to the opposite axis.
     #[default]
     Least,
-    /// At every pose a direction of the tool lies as near as possible to one of the work object.
+    /// Alignment: at every pose a direction of the tool lies as near as possible to one of the work object.
     Towards {
-        /// In axes of the tool's frame, not along the tool's axis.
+        /// Direction in axes of the tool's frame, not along the tool axis.
         of_tool: Vector3<f64>,
-        /// In axes of the work object; the tool's axis never points along it.
+        /// Direction in axes of the work object; the tool axis never points along it.
         in_part: Vector3<f64>,
     },
 }
@@ -159,7 +159,7 @@ pub(crate) fn axis_turns(
             (TurnAboutAxis::Least, Some(before)) => {
                 match least(&(before * tool_axis), &(frame * axis)) {
                     Some(turn) => Ok(turn * before),
-                    // In air it begins anew.
+                    // The rule starts again in air.
                     None if is_rapid(motion) => Ok(frame * begun(tool_axis, axis)),
                     None => Err(OVER),
                 }

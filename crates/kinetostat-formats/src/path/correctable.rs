@@ -95,7 +95,7 @@ impl Correctable<'_> {
         }
     }
 
-    /// From the axes of the path to those of a motion's work object.
+    /// Transformation from the axes of the path to those of a motion's work object.
     fn work_object_from_path(&self, motion: usize) -> Isometry3<f64> {
         let frame = self.program.motions[motion].work_object.known();
         match (&self.path.work_object, frame) {

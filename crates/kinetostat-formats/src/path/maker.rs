@@ -23,7 +23,7 @@ pub(super) struct Maker<'a> {
     pub turns: Option<Vec<Option<UnitQuaternion<f64>>>>,
     /// Alternative to `turns`: motion of the machine's rotary axes.
     pub rotary: Option<(sync::Arc<RotaryAxes>, Vec<Option<AxesOfMotion>>)>,
-    /// From the tip to the holder, in axes of the tool.
+    /// Direction from the tip to the holder, in axes of the tool.
     pub tool_axis: Vector3<f64>,
 }
 
@@ -68,7 +68,7 @@ impl<'a> Maker<'a> {
         Ok(maker)
     }
 
-    /// From the axes of a motion's work object to those of the path.
+    /// Transformation from the axes of a motion's work object to those of the path.
     pub(super) fn frame_in_path(&self, motion: &Motion) -> Isometry3<f64> {
         match (self.in_base, motion.work_object.known()) {
             (true, Some(frame)) => *frame,

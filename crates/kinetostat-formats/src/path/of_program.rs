@@ -1,4 +1,4 @@
-//! From the motions of a program to a path.
+//! Conversion of the motions of a program to a path.
 
 use kinetostat_program::{Move, Path, Warning};
 use nalgebra::{Isometry3, UnitQuaternion};

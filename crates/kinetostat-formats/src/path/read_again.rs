@@ -83,7 +83,7 @@ fn one(
         };
     }
     let rounding = options.last_digit_mm(1.0);
-    // Not a number is off, too.
+    // NaN counts as a mismatch.
     let off = (made.end - piece.commanded_to).norm();
     if off.is_nan() || off > 1e-6 {
         return fail(format!(
@@ -112,7 +112,7 @@ fn one(
     if let Some(circle) = &piece.circle {
         let off =
             [0.25, 0.5, 0.75].map(|part| (made.point(part) - circle.curve.point(part)).norm());
-        // Not a number is off, too.
+        // NaN counts as a mismatch.
         if !off.iter().all(|off| *off <= 1e-6) {
             return fail("it goes round otherwise than was to be written".to_owned());
         }
@@ -175,7 +175,7 @@ fn goes_as_stated(
     [0.25, 0.5, 0.75].into_iter().all(|part| {
         let share = piece.share_from + part * (piece.share_to - piece.share_from);
         let both = made.orientation(part).zip(motion.orientation(share));
-        // Not a number is off, too.
+        // NaN counts as a mismatch.
         both.is_none_or(|(made, own)| input.turned(&made, &own) <= allowed)
     })
 }

@@ -57,7 +57,7 @@ pub(crate) fn angles_as_written(
     let stands = by_angles(made).ok_or_else(lost)?;
     let wanted = angles_of_piece(&path.tool_axis, turn, piece);
     let both = stands.end_deg.iter().zip(&wanted);
-    // Not a number is off, too.
+    // NaN counts as a mismatch.
     let near = both
         .into_iter()
         .all(|(is, wanted)| (is - wanted).abs() <= WRITTEN_DEG);

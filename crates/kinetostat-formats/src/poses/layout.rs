@@ -21,7 +21,7 @@ pub(crate) struct Layout {
     pub position: Option<[usize; 3]>,
     /// Their unit, where the names say it.
     pub unit: Option<LengthUnit>,
-    /// In the order of the convention.
+    /// Cells of the orientation, in the order of the convention.
     pub orientation: Vec<usize>,
     /// Orientation convention; `None` if no orientation is stated.
     pub convention: Option<OrientationText>,
@@ -32,7 +32,7 @@ pub(crate) struct Layout {
     pub tool: Option<usize>,
     pub frame: Option<usize>,
     pub external: Vec<usize>,
-    /// In the order of the joints, with how many degrees or mm one of the unit is.
+    /// Cells of joint values in the order of the joints, with their unit in degrees or mm.
     pub joints: Vec<(usize, f64)>,
     /// Cells that are carried unchanged.
     pub carried: Vec<usize>,

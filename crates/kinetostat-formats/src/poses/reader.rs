@@ -23,7 +23,7 @@ use nalgebra::Vector3;
 
 const MOST_BYTES: usize = 1 << 28;
 
-/// With these bytes a file in Parquet begins.
+/// Magic bytes of a Parquet file.
 const PARQUET: &[u8] = b"PAR1";
 
 const PARQUET_REASON: &str = "the table is in Parquet, which is not read here";

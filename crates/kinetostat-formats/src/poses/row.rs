@@ -13,12 +13,12 @@ use crate::text::source::SourceFile;
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum RowTarget {
     Pose {
-        /// In the unit of the text.
+        /// Numbers in the unit of the text.
         position: [NumberText; 3],
         orientation: Vec<NumberText>,
         convention: OrientationText,
     },
-    /// With how many degrees or mm one of the text is.
+    /// Joint values, with their unit in degrees or mm.
     Joints(Vec<(NumberText, f64)>),
 }
 

@@ -46,7 +46,7 @@ pub(crate) fn read_yaml(file: &SourceFile) -> YamlRows {
     found
 }
 
-/// From a place to the end of its line.
+/// Range from a place to the end of its line.
 fn line_from(file: &SourceFile, at: usize) -> Range<usize> {
     let rest = &file.bytes()[at..];
     let end = rest.iter().position(|byte| *byte == b'\n');

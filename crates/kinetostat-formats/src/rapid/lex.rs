@@ -14,7 +14,7 @@ use crate::text::source::BYTE_ORDER_MARK;
 type Input<'i> = LocatingSlice<&'i [u8]>;
 type Nothing = winnow::error::EmptyError;
 
-/// With this old editors end a text.
+/// End-of-file byte of old editors.
 const END_OF_FILE: u8 = 0x1a;
 
 /// The tokens of a file shorter than 4 GiB.

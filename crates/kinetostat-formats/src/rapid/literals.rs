@@ -11,7 +11,7 @@ use crate::model::site::PoseText;
 use crate::model::target::{Configuration, PoseTarget};
 use crate::text::number::{NumberText, Width};
 
-/// From here on an external axis is not stated: 9E9.
+/// Threshold above which an external axis is not stated: 9E9.
 const UNSTATED: f64 = 8e9;
 
 /// The pose that a robtarget is, or why it is none. `files` have the text of its configuration.

@@ -1,4 +1,4 @@
-//! From a motion instruction to a motion.
+//! Conversion of a motion instruction to a motion.
 
 use std::ops::Range;
 

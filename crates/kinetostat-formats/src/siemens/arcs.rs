@@ -18,7 +18,7 @@ pub(crate) struct Stated {
     pub digit_mm: f64,
 }
 
-/// From where a centre counts.
+/// Reference point of a centre.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum FromStart {
     Yes,

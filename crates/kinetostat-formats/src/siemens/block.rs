@@ -11,7 +11,7 @@ use crate::text::source::beginning;
 pub(crate) struct Block {
     /// The line without its ending.
     pub line: Range<usize>,
-    /// From the first to the last byte of its words.
+    /// Range from the first to the last byte of its words.
     pub span: Range<usize>,
     /// `/` stands before it.
     pub skip: bool,

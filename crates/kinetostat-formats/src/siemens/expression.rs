@@ -12,7 +12,7 @@ use crate::siemens::tokens::{Broken, Kind, Sign, Token};
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Expression {
     Number(f64),
-    /// Between quotes.
+    /// Text between quotes.
     Text(Range<usize>),
     /// A variable or an R parameter, with its indices.
     Variable {

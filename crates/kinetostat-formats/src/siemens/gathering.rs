@@ -1,4 +1,4 @@
-//! From the words of a block to what they say, with what they put in force.
+//! Decodes a block and updates the modal state.
 
 use std::ops::Range;
 

@@ -58,7 +58,7 @@ pub(crate) struct Place<'p> {
     pub file: &'p SourceFile,
     pub written: &'p Written,
     pub least: usize,
-    /// From where the tool was at the start to where it is, and then at the end; in the frame's axes, mm.
+    /// Tool offset from the input at the start, and then at the end; in the frame's axes, mm.
     pub off: [f64; 3],
     /// Axes that were stated since their last word in the program.
     pub stated: [bool; 3],

@@ -247,7 +247,7 @@ pub(crate) struct Coordinate {
     /// The value as written, in units of the program.
     pub written: f64,
     pub mm: f64,
-    /// From where the tool is.
+    /// Incremental value.
     pub step: bool,
     /// `AC(` or the like stands around the number.
     pub wrapped: bool,

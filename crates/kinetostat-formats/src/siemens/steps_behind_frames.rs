@@ -20,7 +20,7 @@ const TURNED: &str = "a step (G91, IC) is the first word of its axis behind a fr
 const ON_ARC: &str = "a step (G91, IC) of an arc is the first word of its axis behind a frame (TRANS, ATRANS), and whether the machine goes the offset of the frame with it is a setting (SD42440 $SC_FRAME_OFFSET_INCR_PROG)";
 
 impl Reader<'_> {
-    /// From which numbers the steps of a motion count: those of the axes' last words.
+    /// Reference values of the steps of a motion: the numbers of the axes' last words.
     ///
     /// # Errors
     /// Why that is not known, and of which axes.

@@ -10,7 +10,7 @@ pub(crate) enum Kind {
     /// A word of letters, digits and underscores.
     Name,
     Number(f64),
-    /// Between quotes.
+    /// Text between quotes.
     Text,
     Sign(Sign),
 }

@@ -39,7 +39,7 @@ pub(crate) struct Variable {
 pub(crate) const MOST_VALUES: usize = 100_000;
 
 impl Variable {
-    /// With zeros; none where it is too large.
+    /// Variable filled with zeros; `None` if it is too large.
     pub(crate) fn new(kind: Type, sizes: Vec<usize>) -> Option<Self> {
         let count = sizes.iter().try_fold(1_usize, |all, size| {
             let all = all.checked_mul(*size)?;

@@ -74,10 +74,10 @@ pub(crate) struct Written {
     pub feed: Option<Feed>,
     pub feed_word: Option<(Range<usize>, Option<Range<usize>>)>,
     pub feed_stated: bool,
-    /// From the axes of its numbers to those of the part.
+    /// Transformation from the axes of its numbers to those of the part.
     pub frame: Isometry3<f64>,
     pub unit_mm: f64,
-    /// In the frame's axes, mm.
+    /// Start in the frame's axes, mm.
     pub start: [Option<f64>; 3],
     pub end: [Option<f64>; 3],
     /// The motion is in machine coordinates.
@@ -105,9 +105,9 @@ impl Written {
 /// Treatment of RND, CHF and CHR.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Corners {
-    /// They are refused: motions end at the corners.
+    /// Corners are refused: motions end at them.
     Refused,
-    /// They are noted beside the motions.
+    /// Corners are noted beside the motions.
     Followed,
 }
 

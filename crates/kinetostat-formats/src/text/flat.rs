@@ -18,7 +18,7 @@ use crate::text::source::SourceFile;
 pub struct FlatText {
     /// The flat program, under the name of the first file.
     pub file: SourceFile,
-    /// For every line of it: the file (an index of those given) and its line, counted from 1.
+    /// Origin of every line: the file (an index of those given) and its line, counted from 1.
     pub origins: Vec<(usize, usize)>,
     /// True if the program was expanded; otherwise the bytes are those of the first file.
     pub changed: bool,

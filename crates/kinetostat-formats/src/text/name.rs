@@ -32,7 +32,7 @@ impl Name {
         }
     }
 
-    /// In capitals.
+    /// Letters in capitals.
     pub(crate) fn letters(&self) -> &[u8] {
         &self.bytes[..usize::from(self.length)]
     }

@@ -11,7 +11,7 @@ pub(crate) struct NumberText {
     pub value: f64,
 }
 
-/// With so many decimals; a zero has no sign.
+/// Prints a number with so many decimals; a zero has no sign.
 pub(crate) fn fixed(value: f64, decimals: usize) -> String {
     let text = format!("{value:.decimals$}");
     let is_zero = !text.bytes().any(|byte| (b'1'..=b'9').contains(&byte));
@@ -21,7 +21,7 @@ pub(crate) fn fixed(value: f64, decimals: usize) -> String {
     }
 }
 
-/// With at most so many decimals, and no zeros at the end.
+/// Prints a number with at most so many decimals, and no trailing zeros.
 pub(crate) fn short(value: f64, decimals: usize) -> String {
     let text = fixed(value, decimals);
     match text.contains('.') {

@@ -40,7 +40,7 @@ impl<'e> End<'e> {
             pose: expression,
             others: Vec::new(),
         };
-        // With further arguments it is that of another tool.
+        // A call with more arguments states the pose of another tool.
         if let Some(given) = expression.given_to("GET_INVERSE_KIN")
             && let [pose, others @ ..] = given.as_slice()
             && others.len() < 2

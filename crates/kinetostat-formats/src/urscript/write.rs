@@ -15,7 +15,7 @@ use crate::urscript::grammar::WORDS;
 use crate::writing::literal::Wanted;
 use crate::writing::syntax::{PieceLiterals, Syntax, names_of, replace_word};
 
-/// With this blend a piece passes its end: 0.1 mm. Where blends overlap the controller leaves motions out.
+/// Blend with which a piece passes its end: 0.1 mm. Where blends overlap the controller leaves motions out.
 const PASSING: &str = "0.0001";
 
 /// URScript.

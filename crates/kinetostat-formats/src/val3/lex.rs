@@ -98,7 +98,7 @@ fn number(rest: &[u8]) -> usize {
     end
 }
 
-/// Up to the mark that closes it on its line.
+/// Reads a text up to its closing mark on the line.
 fn text(rest: &[u8], mark: &[u8]) -> (Kind, usize) {
     let line = rest.iter().take_while(|byte| **byte != b'\n').count();
     let mut at = mark.len();

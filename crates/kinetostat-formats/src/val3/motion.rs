@@ -1,4 +1,4 @@
-//! From a motion instruction to a motion.
+//! Conversion of a motion instruction to a motion.
 
 use std::ops::Range;
 
@@ -35,7 +35,7 @@ const AROUND: Around = Around {
     after: b"\" /></Data>",
 };
 
-/// From here on the speed of a motion is no limit: the controller begins with it.
+/// Threshold above which a speed is no limit: the controller's default.
 const UNLIMITED_MM_PER_S: f64 = 9999.0;
 
 const WRITE_IT: &str =

@@ -169,7 +169,7 @@ impl Parser<'_, '_> {
             }
             if depth >= DEEPEST {
                 self.fault(line, "blocks are nested deeper than 100");
-                // Nothing behind it is read.
+                // The text after it is not read.
                 self.at = self.lines.len();
                 break;
             }

@@ -10,7 +10,7 @@ use crate::writing::piece::Piece;
 /// Positions of the external axes at a piece's end, by their order; unmoved axes are left out.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct AxesOfPiece {
-    /// At its end.
+    /// Positions at the end of the piece.
     pub end: Vec<Option<f64>>,
     /// Halfway between its ends.
     pub halfway: Vec<Option<f64>>,

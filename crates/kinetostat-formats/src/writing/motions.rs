@@ -1,4 +1,4 @@
-//! From pieces of motions to edits of files.
+//! Edits of files from pieces of motions.
 
 use std::collections::BTreeMap;
 

@@ -18,19 +18,19 @@ pub(crate) enum Kind {
     Deep,
     /// Rapid retraction, and chip breaking by a short retraction after each step: BRKCHP.
     Break,
-    /// At feed: BORE, REAM.
+    /// Retraction at feed: BORE, REAM.
     Bore,
-    /// At feed with the spindle turning back: TAP.
+    /// Retraction at feed with the spindle reversed: TAP.
     Tap,
 }
 
 /// Retraction height after a hole, from its place along the axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Retract {
-    /// To where its rapid ends.
+    /// End of the rapid approach.
     Clear,
     To(f64),
-    /// To the height that it came with before the cycle.
+    /// Tool height before the cycle.
     Auto,
 }
 

@@ -105,7 +105,7 @@ struct Run<'f> {
     has_holes: bool,
     /// A RAPID in a cycle waits for the GOTO behind it.
     rapid_waits: bool,
-    /// In force; what is wrong with it was said.
+    /// Active cycle; `Some(None)` if it is faulty, which was reported.
     cycle: Option<Option<Cycle>>,
     /// Tool position, in units of the file; `None` if unknown.
     place: Option<Vector3<f64>>,
@@ -222,7 +222,7 @@ impl Run<'_> {
         match said(self.file, statement, self.dialect) {
             Said::Off => {
                 if self.cycle.take().is_none() {
-                    // Nothing was on.
+                    // No cycle was active.
                     self.copy(statement.lines.clone());
                 }
                 self.take_feed(self.feed.clone(), statement);

@@ -15,7 +15,7 @@ const OWN: [&str; 15] = [
     "Q256", "Q379", "Q395",
 ];
 
-/// Without these a hole lies nobody knows where: set-up clearance, depth, surface.
+/// Parameters without which the position of a hole is unknown: set-up clearance, depth, surface.
 const NEEDED: [&str; 3] = ["Q200", "Q201", "Q203"];
 
 /// The words of a cycle whose name ends before its first parameter: of `DRILLING Q200=+2` the letters take the parameter for their value.
@@ -89,7 +89,7 @@ impl Run<'_> {
             self.assign(at, &words[2..])?;
         }
         match cycle {
-            // They act where they are defined.
+            // DEF-active cycles.
             7..=11 | 13 | 14 | 19 | 20 | 26 | 32 | 39 | 220..=299 | 400..=499
                 if !(240..=246).contains(&cycle) && !(250..=290).contains(&cycle) =>
             {

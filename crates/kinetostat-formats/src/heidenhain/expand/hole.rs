@@ -6,7 +6,7 @@ const MOST: usize = 10_000;
 /// A block of a cycle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Stroke {
-    /// To a coordinate of the tool's axis, in the program's unit, at a feed; none in rapid traverse.
+    /// Motion to a coordinate of the tool axis, in the program's unit, at a feed; `None` in rapid traverse.
     To(f64, Option<f64>),
     /// Step along the tool axis.
     By(f64, Option<f64>),
@@ -219,7 +219,7 @@ impl Hole {
         self.leave(strokes, above);
     }
 
-    /// To the second clearance, where that is higher.
+    /// Retracts to the second clearance, if that is higher.
     fn leave(&self, strokes: &mut Vec<Stroke>, above: f64) {
         let second = self.surface + self.second;
         if second > above {

@@ -28,7 +28,7 @@ pub(crate) enum Frame {
 pub(crate) struct Run<'p> {
     pub options: &'p ReadOptions,
     pub files: &'p [SourceFile],
-    /// In the order of the files.
+    /// Programs in the order of the files.
     pub programs: &'p [Program<'p>],
     pub unit_mm: f64,
     /// The next number, where blocks have one.

@@ -113,7 +113,7 @@ impl Reader<'_> {
                 let shifts: Vec<(usize, f64)> = shifts.into_iter().map(target).collect();
                 let differs = shifts.iter().any(|(axis, to)| now[*axis] != *to);
                 if matches!(state.datum.bend, Bend::Tilt(_)) {
-                    // In which axes it counts there is not followed: it is to be stated again.
+                    // The axes in which it counts there are unknown: it must be stated again.
                     for (axis, to) in shifts {
                         state.tilt.shifted[axis] |= to != 0.0 || now[axis] != 0.0;
                     }

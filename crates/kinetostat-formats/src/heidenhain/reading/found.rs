@@ -22,12 +22,12 @@ use crate::text::finding::Finding;
 pub(crate) struct Way {
     pub block: Block,
     pub shape: Shape,
-    /// In the programmed axes, mm.
+    /// Start in the programmed axes, mm.
     pub start: [Option<f64>; 3],
     pub end: [Option<f64>; 3],
     pub datum: Datum,
     pub unit_mm: f64,
-    /// In force, as programmed; none in rapid traverse or where it is not known.
+    /// Modal feed as programmed; `None` in rapid traverse or if unknown.
     pub feed: Option<f64>,
     /// The plane of its arc, or of its pole; and that of the tool's axis.
     pub plane: Plane,
@@ -51,7 +51,7 @@ pub(crate) struct Way {
 /// The pole at a motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct PoleThere {
-    /// In force.
+    /// Active pole.
     pub at: Option<Pole>,
     /// The block counts from it.
     pub used: bool,

@@ -1,4 +1,4 @@
-//! From the blocks of a file to its motions.
+//! Conversion of the blocks of a file to motions.
 //!
 //! The [`reader`] goes through the blocks in the order in which they run; [`statements`] looks at the word a block begins with:
 //! the unit, the tool and the pole ([`settings`]), cycles and datum shifts ([`cycles`]), path blocks ([`path_block`]), rotary axes ([`turned_axes`]), tilted planes ([`tilted`]) and where

@@ -74,7 +74,7 @@ impl Reader<'_> {
             self.unknown(block, words, span, reason, Carried::IfLeft);
             self.ends_at(end);
         }
-        // Nothing that follows from a call that is refused is told again.
+        // Consequences of a refused call are not reported again.
         let left = self.options.unknown_targets != UnknownTargets::Refused;
         self.state.place = [end[0], end[1], end[2].filter(|_| !left)];
         self.state.direction = None;

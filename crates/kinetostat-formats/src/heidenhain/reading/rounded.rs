@@ -23,12 +23,12 @@ pub(crate) struct Line {
     pub arc: Option<Beside>,
     pub rapid: bool,
     pub unit_mm: f64,
-    /// In force at its end, as programmed.
+    /// Modal feed at the end, as programmed.
     pub feed: Option<f64>,
 }
 
 impl Line {
-    /// In the plane.
+    /// Leg of the corner in the plane.
     pub(crate) fn leg(&self) -> Leg {
         Leg {
             from: self.from.xy(),

@@ -1,4 +1,4 @@
-//! From motions to blocks.
+//! Conversion of motions to blocks.
 //!
 //! [`mod@write`] goes through the motions; those without [`pieces`] are [`kept`], or state what they took over. A [`block`] becomes
 //! a piece with its [`feed`], its [`direction`] or [`angles`] and its [`words`], or an [`arc`] about a [`centre`] with a pole of its own ([`poles`]); what the walk knows stands in [`writer`].

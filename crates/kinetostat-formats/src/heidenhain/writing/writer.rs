@@ -18,7 +18,7 @@ pub(crate) type Reason = (String, &'static str);
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct OwnPole {
     pub plane: Plane,
-    /// In it, in the programmed axes, mm.
+    /// Pole position in the plane, in the programmed axes, mm.
     pub at: Vector2<f64>,
     /// Number of CC blocks that ran before it.
     pub count: usize,

@@ -11,7 +11,7 @@ use crate::model::target::PoseTarget;
 use crate::text::edits::Edits;
 use crate::text::name::Name;
 
-/// With which word a step is written that states its end.
+/// Absolute motion word that replaces that of a step (`LIN` for `LIN_REL`).
 pub(super) fn step_of(program: &RobotProgram, motion: &Motion) -> Option<&'static str> {
     let word = program.files[motion.file].part(&motion.site.keyword);
     let row = motion_row(&Name::of(word)?)?;

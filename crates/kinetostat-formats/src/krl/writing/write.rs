@@ -166,7 +166,7 @@ impl Syntax for KrlSyntax {
     fn restored_speed(&self, program: &RobotProgram, motion: &Motion) -> Option<(usize, Vec<u8>)> {
         let file = program.files.get(motion.file)?;
         let site = motion.site.speed.as_ref()?;
-        // In a WITH it is that of the motion alone.
+        // A speed in WITH applies to the motion alone.
         let is_before = site.span == (motion.span.start..motion.span.start);
         let site = is_before.then_some(site)?;
         let metres_per_s = motion.speed.mm_per_s? / 1000.0;

@@ -12,7 +12,7 @@ use parquet::schema::types::{ColumnPath, Type, TypePtr};
 use crate::poses::parquet::data::{Data, MOST_ROWS, Values, append, of_reader};
 use crate::poses::parquet::kind::{Kind, printed, type_of};
 
-/// Under this key of the metadata Arrow keeps its own schema.
+/// Metadata key of Arrow's own schema.
 const ARROW: &str = "ARROW:schema";
 
 /// A file.

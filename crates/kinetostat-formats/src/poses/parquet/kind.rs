@@ -12,9 +12,9 @@ use crate::poses::parquet::data::Data;
 pub(crate) enum Kind {
     /// Stored number: signed integers, and floats of 32 and 64 bits.
     Number,
-    /// Whole numbers without a sign.
+    /// Unsigned integer.
     Unsigned,
-    /// Whole numbers of which so many digits are behind the point.
+    /// Fixed-point number with so many decimals.
     Decimal(u32),
     /// Numbers of 16 bits with a fraction.
     Half,

@@ -85,7 +85,7 @@ impl Parser<'_, '_> {
         name.map(|name| (name, at))
     }
 
-    /// To behind the next semicolon, or before a keyword where it is missing.
+    /// Skips past the next semicolon, or to a keyword if it is missing.
     pub(super) fn rest_of_statement(&mut self, start: usize) -> Range<usize> {
         loop {
             match self.kind() {

@@ -52,7 +52,7 @@ impl Parser<'_, '_> {
         }))
     }
 
-    /// To behind the closing parenthesis.
+    /// Parses parameters up to and with the closing parenthesis.
     pub(super) fn parameters(&mut self) -> Vec<Parameter> {
         let mut found = Vec::new();
         let (mut changes, mut is_optional) = (false, false);

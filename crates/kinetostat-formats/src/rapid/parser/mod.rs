@@ -1,4 +1,4 @@
-//! From tokens to modules, routines and statements. What is wrong is noted, and the parser goes on.
+//! Parser from tokens to modules, routines and statements. It notes errors and continues.
 
 mod cursor;
 mod declarations;

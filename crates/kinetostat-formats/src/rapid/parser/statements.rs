@@ -41,7 +41,7 @@ impl Parser<'_, '_> {
                 "blocks are nested deeper than 100",
                 "take the inner ones into a routine",
             );
-            // Nothing behind it is read.
+            // The text after it is not read.
             self.at = self.file.tokens.len();
             return false;
         }

@@ -19,7 +19,7 @@ pub(super) struct Drilling {
     pub begin: f64,
     pub surface: f64,
     pub depth: f64,
-    /// At the depth: seconds, or turns where negative.
+    /// Dwell at the depth: seconds, or turns if negative.
     pub dwell: f64,
     /// G9 at the depth.
     pub exact: bool,
@@ -33,7 +33,7 @@ pub(super) struct Deep {
     /// DAM: by how much steps become shorter, or their factor where negative.
     pub shorter: f64,
     pub least: f64,
-    /// Between steps, and at the start after each withdrawal.
+    /// Dwell between steps, and at the start after each withdrawal.
     pub dwell: f64,
     pub dwell_above: f64,
     /// Feed factor of the first step.
@@ -42,7 +42,7 @@ pub(super) struct Deep {
     pub withdraws: bool,
     /// Retraction distance within the hole.
     pub back: f64,
-    /// Before the last depth, where stated.
+    /// Stop distance before the last depth, if stated.
     pub ahead: f64,
 }
 

@@ -1,4 +1,4 @@
-//! From the call of a drilling cycle to its blocks.
+//! Expansion of a drilling cycle call to blocks.
 
 use crate::siemens::block::{Argument, Item, What};
 use crate::siemens::flat::drilling::{Deep, Drilling};

@@ -169,7 +169,7 @@ impl Frames {
         Rc::ptr_eq(&self.0, &other.0) || self.0 == other.0
     }
 
-    /// In their order.
+    /// Statements in their order.
     pub(super) fn statements(&self) -> &[Statement] {
         &self.0
     }

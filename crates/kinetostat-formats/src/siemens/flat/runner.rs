@@ -61,7 +61,7 @@ impl Level {
 #[derive(Default)]
 pub(super) struct Runner<'r> {
     pub files: &'r [SourceFile],
-    /// In the order of the files.
+    /// Units in the order of the files.
     pub units: &'r [Unit],
     pub names: BTreeMap<Vec<u8>, usize>,
     pub levels: Vec<Level>,

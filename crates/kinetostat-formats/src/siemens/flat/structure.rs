@@ -24,7 +24,7 @@ pub(super) struct Unit {
     pub parameters: Vec<Parameter>,
     /// PROC ... SAVE.
     pub saves: bool,
-    /// Nothing is wrong with what says which line runs next.
+    /// The control flow is free of errors.
     pub runs: bool,
 }
 

@@ -1,4 +1,4 @@
-//! From motions to blocks.
+//! Conversion of motions to blocks.
 //!
 //! [`mod@write`] goes through the motions; what changes becomes [`pieces`], with the tool's [`direction`] or the [`angles`] of
 //! rotary axes where the text states them. What

@@ -20,7 +20,7 @@ pub(crate) const SAME: f64 = 1e-9;
 /// State after the last block in which the written program differs from its source.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Held {
-    /// From where the tool was to where it is, in the part's axes, mm.
+    /// Tool offset from the input, in the part's axes, mm.
     pub off: Vector3<f64>,
     /// Codes, feeds and directions that are in force instead.
     pub code: Option<Code>,
