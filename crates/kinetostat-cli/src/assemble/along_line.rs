@@ -61,7 +61,7 @@ struct Point {
     largest_internal_force_n: f64,
     largest_internal_moment_n_m: f64,
     stable: bool,
-    /// How the equilibrium of both together was found, where it was not directly.
+    /// Path by which the common equilibrium was found, unless it was found directly.
     #[serde(skip_serializing_if = "Option::is_none")]
     found_by: Option<FoundBy>,
 }

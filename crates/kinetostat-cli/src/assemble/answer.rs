@@ -1,4 +1,4 @@
-//! What assembly locked in at one place: numbers with units, in every case.
+//! Assembly stress at one place: numbers with units, in every case.
 
 use kinetostat::number::larger;
 use kinetostat::{
@@ -35,13 +35,13 @@ pub(crate) struct Assembly {
     /// Weights, loads on limbs or preloads act also without deviations.
     pub(crate) something_else_acts: bool,
     pub(crate) stable: bool,
-    /// How that equilibrium was found, where it was not directly from the commanded posture.
+    /// Path by which that equilibrium was found, unless directly from the commanded posture.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) found_by: Option<FoundBy>,
     pub(crate) warnings: Vec<Warning>,
 }
 
-/// How many directions the limbs fight in, and which.
+/// Number and list of the directions in which the limbs are over-constrained.
 #[derive(Serialize)]
 pub(crate) struct Directions {
     pub(crate) degree: usize,
@@ -54,7 +54,7 @@ pub(crate) struct StressAnswer {
     limbs: Vec<StressOfLimb>,
 }
 
-/// Of one set of wrenches in equilibrium with itself: shares only, the largest has size 1 N.
+/// Limb's share of one self-equilibrated set of wrenches: the largest has size 1 N.
 #[derive(Serialize)]
 struct StressOfLimb {
     name: String,
@@ -100,7 +100,7 @@ pub(crate) struct SpringAnswer {
     pub(crate) deflection_unit: &'static str,
     pub(crate) deflection: Cases<f64>,
     pub(crate) torque_unit: &'static str,
-    /// What the chain applies to the spring.
+    /// Torque of the chain on the spring.
     pub(crate) torque: Cases<f64>,
 }
 

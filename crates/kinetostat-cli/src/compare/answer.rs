@@ -22,7 +22,7 @@ pub(crate) struct AtPlace {
     pub(crate) b: Figures,
 }
 
-/// Of the unloaded machine as drawn.
+/// Figures of the unloaded machine as drawn.
 #[derive(Serialize)]
 pub(crate) struct Figures {
     pub(crate) position_mm: [f64; 3],

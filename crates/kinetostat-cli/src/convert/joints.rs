@@ -19,7 +19,7 @@ use crate::job::robot_arguments::JointRowsWord;
 use crate::job::setting::Setting;
 use crate::ui::failure::{Answer, Failure};
 
-/// Most digits: the poses are but a step on the way.
+/// Uses all digits: the poses are only an intermediate result.
 pub(crate) fn with_all_digits(template: &mut Template) {
     template.position_decimals = 12;
     template.quaternion_decimals = 15;
@@ -49,7 +49,7 @@ pub(crate) fn as_joints(
     let mut start = JointStart::default();
     start.tolerance_mm = template.tolerance_mm;
     start.base = base;
-    // Those of G-code are.
+    // Rapids in G-code are straight if the template makes them linear.
     let language = read.robot().map(|robot| robot.program.language);
     start.straight_rapids = template.rapids == Rapids::Linear
         && language.is_none_or(|language| language.rapids_are_straight());

@@ -21,13 +21,14 @@ pub(crate) struct CurveAnswer {
     pub(crate) head: AnswerHead,
     pub(crate) question: String,
     pub(crate) tool_held: Holding,
-    /// What grows: displacement, rotation or load.
+    /// Quantity that grows: displacement, rotation or load.
     pub(crate) grows: &'static str,
     /// Coordinates of the chain or of all limbs, in the order of `coordinates` of every point.
     pub(crate) coordinates: Vec<CoordinateName>,
     pub(crate) named_points: Vec<NamedPoint>,
     pub(crate) jumps: Vec<JumpAnswer>,
-    /// Of a chain under a growing load; of a machine the named points say where stability ends.
+    /// Critical loads of a chain under a growing load; for a machine the named points give the end
+    /// of stability.
     pub(crate) critical_loads: Vec<CriticalAnswer>,
     pub(crate) branches: Vec<BranchAnswer>,
     /// True if branches that cross were left out because there were too many.
@@ -43,7 +44,8 @@ pub(crate) struct CurveAnswer {
     pub(crate) subject: &'static str,
     #[serde(skip)]
     pub(crate) units: Units,
-    /// What was requested and what the start's own branch covers of it, as the parameter is shown.
+    /// Requested range and the part of it that the start's own branch covers, as the parameter is
+    /// shown.
     #[serde(skip)]
     pub(crate) requested: (f64, f64),
     #[serde(skip)]
@@ -76,7 +78,7 @@ impl CurveAnswer {
         self
     }
 
-    /// Why this is no answer: the start alone, within every force.
+    /// Returns a failure if the curve is empty: the start alone, within every force.
     pub(crate) fn unanswered(&self) -> Option<Failure> {
         let points: usize = self.branches.iter().map(|b| b.points.len()).sum();
         (points < 2 && !self.force_limited).then(|| {
@@ -180,7 +182,7 @@ pub(crate) struct NamedPoint {
     /// of a chain, of the tool of a machine (x, y, z, rx, ry, rz).
     pub(crate) mode: Vec<f64>,
     pub(crate) mode_in_words: String,
-    /// Whether stability ends here: under a dead load, under prescribed motion.
+    /// True if stability ends here: under a dead load, under prescribed motion.
     #[serde(skip)]
     pub(crate) limits: [bool; 2],
     #[serde(flatten)]
@@ -219,7 +221,7 @@ pub(crate) struct CriticalAnswer {
     /// Without a potential: below this factor nothing goes away, whatever the masses are; null with one, or
     /// if none was met.
     pub(crate) safe_below_factor: Option<f64>,
-    /// What is left open, in words; empty if nothing is.
+    /// Open questions in words; empty if there are none.
     pub(crate) caution: String,
 }
 
@@ -229,12 +231,12 @@ pub(crate) struct BranchAnswer {
     pub(crate) number: usize,
     /// Name of the point from which it was found; null for the start's and those of --all.
     pub(crate) from: Option<String>,
-    /// Why it ends at its first and at its last point: range, angle, points, closed, lost, stalled.
+    /// Reasons for the first and the last end: range, angle, points, closed, lost, stalled.
     pub(crate) ends: [BranchEnd; 2],
     pub(crate) points: Vec<PointAnswer>,
 }
 
-/// What a special point is called.
+/// Name of a special point.
 pub(crate) fn kind_name(kind: SpecialKind) -> &'static str {
     match kind {
         SpecialKind::LoadLimit => "load_limit",
@@ -281,7 +283,7 @@ pub(crate) fn reached(values: impl Iterator<Item = f64>) -> (f64, f64) {
     })
 }
 
-/// What grows, by name.
+/// Name of the growing quantity.
 pub(crate) fn grows(q: &CurveQuery) -> &'static str {
     match (q.by_load(), q.measure) {
         (true, _) => "load",

@@ -139,7 +139,7 @@ fn stability(a: &Deflection) -> String {
     out
 }
 
-/// Whether the platform stays where it is.
+/// States if the platform is held.
 fn platform(a: &Deflection) -> String {
     if a.platform_may_flutter {
         let directions = match a.negative_directions.as_slice() {
@@ -176,8 +176,9 @@ fn platform(a: &Deflection) -> String {
     }
 }
 
-/// Where a share of the way leads: without a potential only the bound is known below which all is well
-/// (see [`kinetostat::equilibrium::CriticalLoad::definite_until`]).
+/// Describes the instability that a limb's share leads to: without a potential only the bound is
+/// known below which the state is stable (see
+/// [`kinetostat::equilibrium::CriticalLoad::definite_until`]).
 fn limb_text(limb: &LimbAnswer) -> String {
     let share = match limb.share_to_buckling {
         Some(mu) if mu.abs() < 1e-6 => "no load bends or buckles it".to_owned(),
@@ -241,7 +242,7 @@ fn links(a: &Deflection) -> String {
     )
 }
 
-/// What the limbs do to each other through the platform without any load on the tool.
+/// Internal forces between the limbs through the platform without any load on the tool.
 fn internal(a: &Deflection) -> String {
     let size = |v: &[f64; 3]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
     let any = a

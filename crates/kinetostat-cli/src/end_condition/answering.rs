@@ -1,4 +1,4 @@
-//! What `curve` and `equilibria` do alike: from the options to the files.
+//! Common steps of `curve` and `equilibria`: from the options to the files.
 
 use kinetostat_analysis::serial_chain::is_serial_chain;
 use kinetostat_machining::Warning;
@@ -11,7 +11,7 @@ use crate::place::query::{AnswerHead, PlaceQuery, place_query};
 use crate::ui::background::{Stage, interruptible};
 use crate::ui::failure::Answer;
 
-/// What queries of `curve` and `equilibria` share.
+/// Common interface of the queries of `curve` and `equilibria`.
 pub(crate) struct CommandQuery<'a> {
     pub(crate) model: &'a str,
     pub(crate) place: &'a PlaceArgs,
@@ -46,7 +46,7 @@ pub(crate) fn answer_query<A: Serialize + Send + 'static>(
     let mut answer = interruptible(move |stage| work(head, stage))?;
     warnings(&mut answer).extend(query.warnings.iter().cloned());
     if is_serial_chain(&query.mechanism) {
-        // Of a machine the answer says it itself, as far as it is moved.
+        // The answer for a machine already states this for its range of motion.
         warnings(&mut answer).extend(query.near_singular().map(|n| n.warning()));
     }
     let shown = show(&query.heading(), &answer)?;

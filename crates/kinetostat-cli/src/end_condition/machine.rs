@@ -75,7 +75,7 @@ fn with_node_force(mechanism: &Mechanism, text: &str) -> Answer<Mechanism> {
 impl Subject for CommandedMachine {
     type Equilibrium = MechanismEquilibrium;
 
-    /// Of all limbs, one limb after the other.
+    /// Coordinates of all limbs, one limb after the other.
     fn coordinates(&self) -> Vec<CoordinateName> {
         let limbs = self.posture.mechanism().limbs().iter();
         let limbs = limbs.zip(self.posture.limbs());

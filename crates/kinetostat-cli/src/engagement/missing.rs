@@ -1,4 +1,4 @@
-//! What neither options nor job file say of a cut, asked for by name.
+//! Missing data of a cut, neither in options nor job file, requested by name.
 
 use crate::engagement::arguments::EngagementArgs;
 use crate::force::arguments::MaterialArgs;

@@ -1,4 +1,4 @@
-//! What is looked at: a program, or a job with its program.
+//! Subject of the command: a program, or a job with its program.
 
 use std::path::{Path, PathBuf};
 

@@ -23,7 +23,7 @@ pub(crate) struct EquilibriaAnswer {
     /// Direction of `stiffness_n_per_mm`; null: the principal one with the smallest stiffness.
     pub(crate) stiffness_along: Option<[f64; 3]>,
     pub(crate) coordinates: Vec<CoordinateName>,
-    /// By rising energy.
+    /// Equilibria by rising energy.
     pub(crate) equilibria: Vec<ShapeAnswer>,
     pub(crate) coverage: Coverage,
     pub(crate) conservative: bool,
@@ -65,7 +65,7 @@ pub(crate) struct ShapeAnswer {
     pub(crate) coordinates: Vec<f64>,
 }
 
-/// How complete the list is.
+/// Completeness of the list.
 #[derive(Serialize)]
 pub(crate) struct Coverage {
     pub(crate) starts: usize,
@@ -83,7 +83,7 @@ pub(crate) struct Coverage {
     /// Equilibria known; more than are listed where there are too many combinations of the limbs' shapes.
     pub(crate) known: usize,
     pub(crate) known_stable: usize,
-    /// Of a machine whose tool is held: every combination of its limbs' shapes is an equilibrium.
+    /// Limbs of a machine whose tool is held: every combination of their shapes is an equilibrium.
     pub(crate) limbs: Vec<LimbCoverage>,
 }
 
@@ -126,7 +126,7 @@ impl EquilibriaAnswer {
         self
     }
 
-    /// Why this is no answer: nothing was found, which does not say that there is nothing.
+    /// Returns a failure if nothing was found, which does not prove that there is no equilibrium.
     pub(crate) fn unanswered(&self) -> Option<Failure> {
         self.equilibria.is_empty().then(|| {
             Failure::unanswered(format!(

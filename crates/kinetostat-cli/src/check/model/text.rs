@@ -146,7 +146,7 @@ fn rounded(value: Value) -> Value {
     }
 }
 
-/// What to draw of a model, as the end of what `check` says.
+/// Suggests drawings of a model, at the end of the output of `check`.
 pub(crate) fn next(source: &str, free: bool) -> String {
     let model = source.strip_prefix("preset ").unwrap_or(source);
     let mut out = format!(
