@@ -209,7 +209,7 @@ fn warnings_of(
         largest_line,
         writing.tolerance_mm,
     );
-    // A small correction is left out only if the tolerance is held without it.
+    // The warning of a small correction applies only if the tolerance is held.
     let nothing_left_out =
         |w: &Warning| tolerance.held == Some(true) || w.code != WarningCode::SmallCorrection;
     warnings.extend(odd.filter(nothing_left_out));

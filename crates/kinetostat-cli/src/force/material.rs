@@ -1,4 +1,4 @@
-//! What is cut: the library and a file of the user's, and the factors by which the cut differs from the test.
+//! Material: the library and a file of the user's, and the factors by which the cut differs from the test.
 
 use std::path::Path;
 
@@ -40,7 +40,7 @@ pub(crate) fn material(materials: &Materials, args: &MaterialArgs) -> Answer<Mat
     Ok(found.clone())
 }
 
-/// How a cut is made.
+/// Type of the cutting process.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Made {
     Milled,
@@ -78,7 +78,7 @@ pub(crate) fn correction(
     }
 }
 
-/// Its law for this cut.
+/// Applies the material law to this cut.
 pub(crate) fn applied(
     material: &Material,
     args: &MaterialArgs,

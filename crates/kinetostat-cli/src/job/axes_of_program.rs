@@ -39,7 +39,7 @@ pub(crate) fn give_axes(
     let mut reading = source.settings.reading.clone();
     reading.rotary_axes = letters;
     let found = read(source.language, source.files.clone(), &reading);
-    // Its faults are reported where it is read.
+    // Faults of the program are reported by its own reader.
     if found.is_ok_and(|program| !program.states_axis_angles()) {
         return Ok(());
     }

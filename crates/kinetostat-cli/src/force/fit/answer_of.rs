@@ -136,7 +136,7 @@ fn fitted(
     })
 }
 
-/// What the mirror image of a cut does to the force across the feed.
+/// Sign of the force across the feed in a mirrored cut.
 fn mirror(mirrored: bool) -> f64 {
     match mirrored {
         true => -1.0,

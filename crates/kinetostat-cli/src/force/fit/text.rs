@@ -122,7 +122,7 @@ fn fits(a: &FitAnswer) -> String {
     ];
     let sizes = a.rows.iter().map(|row| largest_size(row.force_n));
     let size = largest_size(sizes);
-    // What is rounding is nothing.
+    // Residuals at rounding level are shown as zero.
     let of_size = |residual: f64| match residual < 1e-9 * size {
         true => "0".to_owned(),
         false => number(residual, 3),
