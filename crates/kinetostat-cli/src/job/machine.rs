@@ -40,7 +40,7 @@ pub(crate) struct MachineSetup {
     pub(crate) placement: Placement,
     pub(crate) load: ProgramLoad,
     pub(crate) weight: WeightCorrection,
-    /// Mass at the flange by tool numbers; none for an only tool without a number.
+    /// Mass at the flange by tool numbers; `None` for a single tool without a number.
     pub(crate) tool_masses: Vec<(Option<u32>, ToolMass)>,
     /// The cuts that the load is computed from, where the job names a material.
     pub(crate) cut: Option<CutSetup>,

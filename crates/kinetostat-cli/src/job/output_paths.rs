@@ -75,7 +75,7 @@ pub(crate) struct OutputPaths {
     pub(crate) flat: Option<PathBuf>,
     /// Picture of the turn of the tool, where it is chosen.
     pub(crate) turn_plot: Option<PathBuf>,
-    /// Further files of a program of a robot, in their order.
+    /// Additional files of a program of a robot, in their order.
     pub(crate) beside: Vec<PathBuf>,
 }
 
@@ -214,7 +214,7 @@ pub(crate) fn or_its_folder(out: &Path) -> PathBuf {
     }
 }
 
-/// Where a flat program goes that nobody named.
+/// Default path of the flat program.
 pub(crate) fn flat_beside(out: &Path, program: &Path, bytes: &[u8]) -> Answer<PathBuf> {
     match keeps_name(program, bytes) {
         true => in_folder(&or_its_folder(out), program, FLAT),

@@ -14,7 +14,8 @@ use crate::ui::threads::{in_threads, not_started};
 /// one part.
 const MOST: usize = 4;
 
-/// What work on a part tells of itself: nothing, for others go on beside it. It is stopped with them.
+/// Silent watch of the work on a part, for other parts run in parallel. The part is stopped with
+/// them. It is stopped with them.
 struct Beside<'a, 'o> {
     progress: &'a Progress,
     order: &'a PartsInOrder<'o>,
@@ -89,7 +90,7 @@ pub(crate) fn side_by_side<'o>(
     })
 }
 
-/// What all threads share.
+/// State shared by all threads.
 struct SideBySide<'a, 'o, R, W> {
     /// The next part that nobody has.
     next: AtomicUsize,
@@ -132,7 +133,7 @@ where
                     place.taken();
                     return Ok(true);
                 }
-                // What it waited for changed while it did.
+                // The state changed during the wait.
                 (Ok(false), Standing::Next) => {}
                 (Err(failure), Standing::Next) => return Err(failure),
             }

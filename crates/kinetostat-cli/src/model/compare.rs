@@ -23,7 +23,7 @@ struct Comparison {
     kinetostat_version: &'static str,
     a: String,
     b: String,
-    /// The same machine but for constant offsets.
+    /// True if the machines are equal but for constant offsets.
     same: bool,
     /// Joints of A and what they are in B: `b = sign * a + offset`.
     joints: Vec<JointMap>,
