@@ -17,21 +17,22 @@ pub(crate) struct ModesAnswer {
     /// In words.
     pub(crate) damping: String,
     pub(crate) total_mass_kg: f64,
-    /// Whether the equilibrium holds: no unstable mode and no massless instability, or no pair that grows; null where that is
-    /// not judged.
+    /// True if the equilibrium is stable: no unstable mode and no massless instability, or no pair that grows; null if that
+    /// is not judged.
     pub(crate) stable: Option<bool>,
-    /// Where loads have no potential (followers, a moment that does not turn with the tool): what becomes of a small
-    /// disturbance. `modes` are complex pairs then.
+    /// Evolution of a small disturbance where loads have no potential (followers, a moment that does not turn with
+    /// the tool). `modes` are complex pairs then.
     pub(crate) circulatory: Option<Circulatory>,
-    /// Of loads without a potential `vibrating` counts the pairs that do not grow, `unstable` those that do.
+    /// Counts of directions: under loads without a potential `vibrating` counts the pairs that do not grow,
+    /// `unstable` those that do.
     pub(crate) directions: DirectionCounts,
     /// Joints and springs in neutral directions: neither mass nor stiffness.
     pub(crate) neutral: Vec<String>,
-    /// How many modes (or complex pairs) there are; `modes` has the lowest of them.
+    /// Number of modes (or complex pairs); `modes` has the lowest of them.
     pub(crate) mode_count: usize,
     pub(crate) modes: Vec<ModeAnswer>,
     pub(crate) warnings: Vec<Warning>,
-    /// Of all pairs that which grows fastest.
+    /// Pair that grows fastest.
     #[serde(skip)]
     pub(crate) fastest_growing: Option<ComplexAnswer>,
     /// Damping that has no part in complex pairs.

@@ -11,19 +11,19 @@ use crate::ui::numbers::number;
 use crate::vibration::pair::{frequency_hz, growth_per_s};
 use crate::vibration::subject::refused;
 
-/// Most modes of one drawing.
+/// Upper limit of the modes of one drawing.
 const MOST: usize = 6;
 /// Size of a drawn phase, px.
 const WIDTH: usize = 560;
 const HEIGHT: usize = 470;
-/// How far a part may move for its path to be straight, times the natural length.
+/// Largest motion of a part with a straight path, times the natural length.
 const SMALL: f64 = 1e-6;
 
 /// A mode or a complex pair as it is drawn.
 struct Drawn {
     /// Frequency and what becomes of it.
     words: String,
-    /// What moves in the first phase, and in the second.
+    /// Motion of the first phase, and of the second.
     phases: [Mode; 2],
     degrees: [u32; 2],
 }

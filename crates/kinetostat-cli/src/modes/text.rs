@@ -100,7 +100,7 @@ pub(crate) fn answer_text(query: &PlaceQuery, a: &ModesAnswer) -> String {
     out
 }
 
-/// What becomes of a small disturbance under loads without a potential.
+/// Describes the stability under loads without a potential.
 fn of_circulatory(a: &ModesAnswer, found: &Circulatory) -> String {
     let how = a.fastest_growing.as_ref().map_or_else(String::new, |mode| {
         format!(

@@ -27,7 +27,7 @@ pub(crate) fn pdf(paper: &Paper<'_>) -> Answer<Vec<u8>> {
         .map_err(|error| Failure::input(error.to_string()))
 }
 
-/// What was written, with its hashes.
+/// Written files with their hashes.
 pub(crate) fn written(
     targets: &OutputPaths,
     program: &[u8],

@@ -26,7 +26,7 @@ pub(crate) const PLACES: usize = 100;
 /// Parts of the force are varied by this share of them. The mean over a revolution is linear in them.
 const VARIED: f64 = 0.05;
 
-/// What is uncertain, read for a model; the places need it before the run.
+/// Reads the uncertainties for a model; the places need it before the run.
 pub(crate) fn read(
     uncertainty: &Uncertainty,
     model: &Model,

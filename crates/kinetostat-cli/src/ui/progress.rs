@@ -199,7 +199,7 @@ impl Watch for AsOne<'_> {
     }
 }
 
-/// Whether the command is to end: its host says so, or without one Ctrl-C came.
+/// True if the command is to end: its host requests it, or without one Ctrl-C came.
 fn stopped(host: Option<&Host>) -> bool {
     match host {
         Some(host) => host.watch().cancelled(),
