@@ -11,8 +11,8 @@ const LISTED: usize = 5;
 /// Runs of cuts beyond these are not listed.
 const MOST: usize = 10;
 
-/// What both programs do not have alike: `cut_lines` are lines of cuts that both make, of the program verified and of the original;
-/// `source` says where a line of the original came from.
+/// Differences of the programs: `cut_lines` are lines of cuts that both make, of the program verified and of the original; `source`
+/// returns the origin of a line of the original.
 pub(crate) fn compared(
     [own, of_original]: &[Marks<'_>; 2],
     cut_lines: &[[usize; 2]],
@@ -40,7 +40,7 @@ pub(crate) fn compared(
 struct InForce<'m> {
     usual: Value<'static>,
     changes: Vec<(usize, &'m Value<'m>)>,
-    /// Those in force on moves.
+    /// Values in force on moves.
     on_moves: Vec<(usize, &'m Value<'m>)>,
 }
 
@@ -72,7 +72,7 @@ impl<'m> InForce<'m> {
     }
 }
 
-/// Where cuts are made with another value than in the original.
+/// Cuts made with another value than in the original.
 fn elsewhere(
     kind: Kind,
     [own, of_original]: &[InForce<'_>; 2],
@@ -161,7 +161,7 @@ impl CutLines {
         Self(pairs, of)
     }
 
-    /// Behind which cut a mark stands, as a line of the original (zero before all cuts).
+    /// Returns the last cut before a mark, as a line of the original (zero before all cuts).
     fn before(&self, mark: &Mark<'_>) -> usize {
         let line = mark.line + usize::from(mark.is_behind);
         let before = self.0.partition_point(|lines| lines[self.1] < line);
@@ -189,7 +189,7 @@ fn elsewhere_placed(both: [&Marks<'_>; 2], cut_lines: &[[usize; 2]]) -> Vec<Othe
     let last_motion = both[0].move_lines.last().copied().unwrap_or_default();
     let last_cut = |of: usize| cut_lines.iter().map(|lines| lines[of]).max();
     let fault = |mark: &Mark<'_>, of: usize| match mark.kind {
-        // What is said behind the last motion, or the last cut, changes none.
+        // Words after the last motion, or the last cut, change none.
         Kind::Stop if of == 1 || mark.line >= last_motion => None,
         Kind::Unseen if of == 1 => None,
         Kind::Spindle if Some(mark.line) > last_cut(of) => None,

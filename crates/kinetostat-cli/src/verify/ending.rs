@@ -1,4 +1,4 @@
-//! Where the tool is left behind the last cut.
+//! Position of the tool after the last cut.
 
 use kinetostat_program::{Move, MoveKind, Path};
 

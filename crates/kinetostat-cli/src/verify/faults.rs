@@ -1,4 +1,4 @@
-//! What keeps a verified program from being as it should be.
+//! Faults of a verified program.
 
 use kinetostat_machining::FeatureResult;
 

@@ -1,4 +1,4 @@
-//! What a program says beside the places of its moves, in one form for all languages.
+//! Marks of a program, apart from the targets of its moves, in one form for all languages.
 
 use std::fmt;
 
@@ -24,9 +24,9 @@ pub(crate) enum Kind {
     Tool,
     Edge,
     PathMode,
-    /// How often a motion runs.
+    /// Number of executions of a motion.
     Runs,
-    /// How the arm stands.
+    /// Configuration of the arm.
     Configuration,
     /// A block that a switch of the control leaves out.
     Optional,
@@ -34,7 +34,7 @@ pub(crate) enum Kind {
     Unseen,
     /// Statements of robots behind which somebody has to start again.
     Stop,
-    /// Those that say how fast all motions run.
+    /// Overrides of all motions.
     Override,
     /// Statements that name the spindle, by what they call or switch.
     Spindle,
@@ -60,7 +60,7 @@ pub(crate) const NOTHING_ADDED: &str = "no DL and DR";
 /// The frame of a program that names none.
 const NO_FRAME: &str = "no word for a frame";
 
-/// How often motions run.
+/// Value of motions that run once.
 pub(crate) const ONCE: &str = "statements that run once";
 pub(crate) const AGAIN: &str = "statements that run again";
 
@@ -116,7 +116,7 @@ impl Kind {
     }
 }
 
-/// What a mark says.
+/// Value of a mark.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Value<'a> {
     Text(String),
@@ -134,14 +134,14 @@ impl fmt::Display for Value<'_> {
     }
 }
 
-/// How two values are not the same.
+/// Difference of two values.
 pub(crate) struct Apart {
     pub(crate) fault: Option<FaultKind>,
     pub(crate) follows: String,
 }
 
 impl Value<'_> {
-    /// How this is another value than the original has; places in frames with stated origins are compared as places.
+    /// Compares the value with that of the original; places in frames with stated origins are compared as places.
     pub(crate) fn apart(
         &self,
         of_original: &Self,
@@ -180,20 +180,20 @@ fn is_same_text(kind: Kind, [own, of]: [&str; 2], is_stated: &dyn Fn(&str) -> bo
         || match kind {
             Kind::Frame => both(&first) || both(&|word| word == NO_FRAME || is_stated(word)),
             Kind::Edge => both(&|word| matches!(word, "none" | "D1" | NOTHING_ADDED)),
-            // What runs again may be written one round after the other.
+            // Repeated motions may be written out, one round after the other.
             Kind::Runs => own == ONCE || own == AGAIN && of != ONCE,
             Kind::Optional => own != "/",
             _ => false,
         }
 }
 
-/// Whether two names are one: robots and controls do not tell `tMill` from `TMILL`, nor tool 01 from tool 1.
+/// True for equal names: robots and controls treat `tMill` and `TMILL` as equal, and tools 01 and 1.
 fn is_same_name(a: &str, b: &str) -> bool {
     let numbers = [a, b].map(str::parse::<u64>);
     a.eq_ignore_ascii_case(b) || matches!(numbers, [Ok(a), Ok(b)] if a == b)
 }
 
-/// Why two frames are not one.
+/// Describes the difference of two frames.
 fn frames_apart(own: &FrameUse, of_original: &FrameUse) -> Option<String> {
     let (Some(a), Some(b)) = (own.known(), of_original.known()) else {
         let same = is_same_name(&own.name, &of_original.name);
@@ -219,7 +219,7 @@ pub(crate) struct Mark<'a> {
     pub(crate) line: usize,
     pub(crate) kind: Kind,
     pub(crate) value: Value<'a>,
-    /// It acts behind the motion of its line.
+    /// True if it acts after the motion of its line.
     pub(crate) is_behind: bool,
 }
 

@@ -41,7 +41,7 @@ impl<'r> Marks<'r> {
             let words: Vec<BlockWord> = slash.into_iter().chain(words).collect();
             marks.add_block(line, None, &words);
         }
-        // Behind a place that is known a shift is in the path that was read.
+        // A shift after a known position is already in the path that was read.
         let counts = |mark: &Mark<'_>| mark.kind != Kind::Shift || mark.line < first;
         marks.all.retain(counts);
         marks

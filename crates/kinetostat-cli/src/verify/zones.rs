@@ -1,4 +1,4 @@
-//! How near the tool comes to the ends of motions of robots.
+//! Approximation at the ends of motions of robots.
 
 use kinetostat_formats::Zone;
 
@@ -9,14 +9,14 @@ use crate::verify::other_word::{FaultKind, OtherWord};
 /// The radius of RAPID's z0, with which steps are passed, mm.
 const PASSED_MM: f64 = 0.3;
 
-/// What differs between both programs.
+/// Differences between the zones of both programs.
 pub(crate) fn other_zones(original: &RobotRead<'_>, verified: &RobotRead<'_>) -> Vec<OtherWord> {
     let stops = fewer_stops(original, verified);
     let radii = radii(original, verified, stops.is_some());
     radii.into_iter().chain(stops).collect()
 }
 
-/// How far an end may be passed, in its unit; none where that is not known.
+/// Width of a zone, in its unit; none if it is unknown.
 fn width(zone: Zone) -> Option<f64> {
     match zone {
         Zone::Exact => Some(0.0),
