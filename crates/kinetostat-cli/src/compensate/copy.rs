@@ -61,7 +61,7 @@ pub(crate) fn copy(setting: &Setting, existing: Existing) -> Answer<()> {
     screen::print(Stream::Out, &text)
 }
 
-/// Returns the program's text and the reason for which it could not be compensated.
+/// Describes the program, and the fault that prevents a compensation.
 fn of_gcode(setting: &Setting) -> Answer<(String, Option<String>)> {
     let refuse = |error| setting.within(Failure::input(error));
     let program = Program::read(setting.program.clone()).map_err(refuse)?;
@@ -74,7 +74,7 @@ fn of_gcode(setting: &Setting) -> Answer<(String, Option<String>)> {
     Ok((holds, problem.map(|problem| problem.to_string())))
 }
 
-/// Returns the text and the problem of a program of SINUMERIK or Heidenhain.
+/// Describes a program of SINUMERIK or Heidenhain, and its fault.
 fn of_control(setting: &Setting, source: &RobotSource) -> Answer<(String, Option<String>)> {
     if !source.language.is_in_blocks() {
         return Err(Failure::input(

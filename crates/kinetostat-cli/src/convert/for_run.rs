@@ -154,7 +154,7 @@ pub(crate) fn settings_of_made(
     template: &Template,
     (of_robot, axis): (Language, Vector3<f64>),
 ) -> Answer<RobotSettings> {
-    // Unknown calls were refused by the conversion, or are a note here.
+    // Calls were refused, or are notes in the made program.
     let flags = RobotArgs {
         moving_calls: Vec::new(),
         values: Vec::new(),

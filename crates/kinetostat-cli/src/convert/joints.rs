@@ -49,7 +49,7 @@ pub(crate) fn as_joints(
     let mut start = JointStart::default();
     start.tolerance_mm = template.tolerance_mm;
     start.base = base;
-    // Rapids in G-code are straight if the template makes them linear.
+    // Rapids of G-code (no robot language) are straight.
     let language = read.robot().map(|robot| robot.program.language);
     start.straight_rapids = template.rapids == Rapids::Linear
         && language.is_none_or(|language| language.rapids_are_straight());

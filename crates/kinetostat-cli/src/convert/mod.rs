@@ -199,8 +199,7 @@ fn with_arm(
         let frames = &mut source.settings.reading.frames;
         frames.entry("tool".to_owned()).or_insert(tool);
     }
-    // A table that becomes another table states it in the option for both; a job's word for the
-    // source has priority.
+    // The option covers both tables of a conversion; the job's setting for the source has priority.
     let rows = &mut source.settings.joint_rows;
     *rows = rows.or(args.joint_rows.map(BetweenRows::from));
     let model = args.model.as_deref();

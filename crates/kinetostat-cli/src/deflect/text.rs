@@ -139,7 +139,7 @@ fn stability(a: &Deflection) -> String {
     out
 }
 
-/// States if the platform is held.
+/// States if the platform is stable.
 fn platform(a: &Deflection) -> String {
     if a.platform_may_flutter {
         let directions = match a.negative_directions.as_slice() {

@@ -104,7 +104,7 @@ pub(crate) struct PlacementTable {
     pub scale: Option<Spanned<f64>>,
 }
 
-/// Mode of the orientation of the machine.
+/// Treatment of the tool orientation by the machine.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum OrientationWord {
@@ -254,7 +254,7 @@ pub(crate) enum BlockDeleteWord {
     Skip,
 }
 
-/// What becomes of arcs that are corrected.
+/// Treatment of arcs that are corrected.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, clap::ValueEnum)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum ArcsWord {

@@ -4,7 +4,7 @@ use kinetostat_model::schema::Placement as PoseTable;
 use serde::Deserialize;
 use serde_spanned::Spanned;
 
-/// What is to be least.
+/// Objective that is minimised.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, clap::ValueEnum)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum ObjectiveWord {

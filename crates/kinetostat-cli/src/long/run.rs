@@ -216,7 +216,7 @@ impl<'a> LongRun<'a> {
 
     /// The run, from its outputs claimed to its result.
     pub(crate) fn run(self, outputs: &mut RunOutputs) -> Answer<(Run, LongFiles)> {
-        // A program whose tool must be turned is run as a whole.
+        // Programs that turn the tool are run as a whole: this one has positions only.
         let stands = tool_over_part(self.machine, true);
         let stands = stands.map_err(|failure| self.setting.within(failure))?;
         let progress = Progress::new();

@@ -14,8 +14,7 @@ use crate::ui::threads::{in_threads, not_started};
 /// one part.
 const MOST: usize = 4;
 
-/// Silent watch of the work on a part, for other parts run in parallel. The part is stopped with
-/// them. It is stopped with them.
+/// Watch of one part: it reports no progress, since other parts run in parallel. It is stopped with them.
 struct Beside<'a, 'o> {
     progress: &'a Progress,
     order: &'a PartsInOrder<'o>,

@@ -43,7 +43,7 @@ pub(crate) fn answer_text(answer: &PlaceAnswer, space: &Space) -> String {
     out
 }
 
-/// Describes the gain.
+/// Describes the gain of the best placement.
 fn verdict(answer: &PlaceAnswer, best: &Candidate, space: &Space) -> String {
     let own = best.figure.unwrap_or(f64::NAN);
     let what = answer.objective.what();

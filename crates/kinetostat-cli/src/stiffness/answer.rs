@@ -45,7 +45,7 @@ pub(crate) struct Stiffness {
     /// nodes and platforms, and weight.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub(crate) left_out: Vec<String>,
-    /// Figures of the tangent at rest, with the loads left out, without a load on the tool.
+    /// Figures at rest, including the loads of `left_out`: the tangent without a load on the tool.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) at_rest: Option<AtRest>,
     pub(crate) rank: usize,
