@@ -61,12 +61,7 @@ impl Standing {
         turn: AxisTurn,
         turning: Turning<'_>,
     ) -> Result<(), AxisFault> {
-        if std::mem::take(&mut self.by_direction) {
-            // The other axes stand where the direction has brought them.
-            for axis in &mut self.axes {
-                axis.sent = true;
-            }
-        }
+        self.leave_direction();
         let Some(axis) = self.axes.get_mut(place) else {
             return Ok(());
         };
@@ -89,8 +84,19 @@ impl Standing {
         }
     }
 
+    /// A word turns an axis: the others stand where a direction of before has brought them.
+    fn leave_direction(&mut self) {
+        if std::mem::take(&mut self.by_direction) {
+            self.any = true;
+            for axis in &mut self.axes {
+                axis.sent = true;
+            }
+        }
+    }
+
     /// An axis is sent to a place of the machine: where it stands is not known.
     pub(crate) fn send_axis(&mut self, place: usize) {
+        self.leave_direction();
         if let Some(axis) = self.axes.get_mut(place) {
             axis.be_anywhere();
             axis.sent = true;

@@ -38,9 +38,11 @@ pub(crate) fn give_axes(
     }
     let mut reading = source.settings.reading.clone();
     reading.rotary_axes = letters;
-    let found = read(source.language, source.files.clone(), &reading);
-    // Faults of the program are reported by its own reader.
-    if found.is_ok_and(|program| !program.states_axis_angles()) {
+    let as_read = |reading| read(source.language, source.files.clone(), reading);
+    // Faults of the program are reported by its own reader; words refused without the axes need them.
+    if as_read(&reading).is_ok_and(|program| !program.states_axis_angles())
+        && as_read(&source.settings.reading).is_ok()
+    {
         return Ok(());
     }
     let (tool, _) = tool(job, flags)?;

@@ -282,3 +282,25 @@ fn the_pole_itself_is_said_to_be_the_reason() {
         "{text}"
     );
 }
+
+/// The angles that a control computes for a plane (Q120, Q122) are those of the model's axes: as with TURN.
+#[test]
+fn a_tilted_plane_turns_the_axes_of_the_model() {
+    let here = place();
+    let here = here.path();
+    let mut written = Vec::new();
+    for (name, turn) in [
+        ("turn.h", "TURN FMAX"),
+        ("stay.h", "STAY\nL A+Q120 C+Q122 R0 FMAX"),
+    ] {
+        let text = format!(
+            "BEGIN PGM P MM\nL X+60 Y+0 Z+50 R0 FMAX\nPLANE SPATIAL SPA+20 SPB+0 SPC+0 {turn}\nL X+10 Y+5 FMAX\nL Z+60 FMAX\nL Z+50 F600\nL X+30\nL Z+90 FMAX\nEND PGM P MM\n"
+        );
+        std::fs::write(here.join(name), &text).unwrap();
+        let line = format!("compensate --program {name} {MACHINE} --out out-{name} --no-header");
+        run(here, &words(&line)).answered();
+        written.push(read(here, &format!("out-{name}")).replace(turn, ""));
+        assert_ne!(written.last(), Some(&text.replace(turn, "")));
+    }
+    assert_eq!(written[0], written[1]);
+}

@@ -83,6 +83,8 @@ impl Reader<'_, '_> {
                 "let the CAM system write them in the part's axes (TRNTYP/WORLD)",
             ),
             b"LOAD" | b"LOADTL" | b"TOOLNO" | b"TOOL PATH" => self.tool(statement, &word),
+            // To zero, where all other turns are refused, it turns nothing.
+            b"ROTABL" if self.is_at_zero(statement) => {}
             b"UNIT" | b"UNITS"
                 if (self.program.motions.last()).is_some_and(|last| last.file == self.index) =>
             {
@@ -103,6 +105,13 @@ impl Reader<'_, '_> {
                 ),
             },
         }
+    }
+
+    /// Whether all numbers of a statement are zero, and there are some.
+    fn is_at_zero(&self, statement: &Statement) -> bool {
+        let arguments = arguments_of(self.file.bytes(), &statement.arguments);
+        let mut numbers = arguments.iter().filter_map(Argument::number).peekable();
+        numbers.peek().is_some() && numbers.all(|number| number.value == 0.0)
     }
 
     fn compensation(&mut self, statement: &Statement) {

@@ -7,7 +7,7 @@ use nalgebra::{Vector2, Vector3};
 use crate::heidenhain::aside::Aside;
 use crate::heidenhain::datum::{Bend, Datum};
 use crate::heidenhain::plane::Plane;
-use crate::heidenhain::reading::tilted::Tilt;
+use crate::heidenhain::tilt::Tilt;
 use crate::heidenhain::tip_control::TipControl;
 use crate::model::motion::Speed;
 use crate::standing::Standing;

@@ -56,7 +56,7 @@ pub(crate) fn module_of(
     let mut parts = body.iter().map(whole_of);
     let is_program = !body.is_empty();
     if let Some(first) = parts.next() {
-        let last = parts.last().unwrap_or_else(|| first.clone());
+        let last = parts.next_back().unwrap_or_else(|| first.clone());
         parser.routines[0].statements = first.start..last.end;
     }
     parser.routines[0].body = body;
@@ -193,7 +193,7 @@ impl Parser<'_, '_> {
         let begin = self.at;
         let leaves = self.is_one(&self.words.leaves);
         let is_plain = self.is_one(self.words.plain);
-        let tokens = begin..self.to_end_of_statement(begin);
+        let tokens = begin..self.skip_statement(begin);
         if leaves {
             return Some(Statement::Leaves { tokens });
         }
@@ -239,7 +239,7 @@ impl Parser<'_, '_> {
     }
 
     /// To the end of the line, or to a word that ends a block.
-    fn to_end_of_statement(&mut self, start: usize) -> usize {
+    fn skip_statement(&mut self, start: usize) -> usize {
         let mut open = 0_i64;
         while let Some(kind) = self.kind() {
             match kind {

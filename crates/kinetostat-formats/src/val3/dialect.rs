@@ -1,54 +1,22 @@
 //! The parts of VAL3 that a run asks for.
 
-use std::collections::BTreeMap;
 use std::ops::Range;
-
-use nalgebra::Isometry3;
 
 use crate::interpreter::expression::{Argument, Expression, Operator};
 use crate::interpreter::flow::{Counting, Flow, Leave};
 use crate::interpreter::functions::function;
 use crate::interpreter::operation::two;
 use crate::interpreter::reading::Grammar;
-use crate::interpreter::run::{self, Dialect, MotionParts};
-use crate::interpreter::symbols::Symbols;
+use crate::interpreter::run::{Dialect, MotionParts};
 use crate::interpreter::token::{Kind, TokenFile};
 use crate::interpreter::tree::{Choice, DatumNode, Statement};
 use crate::interpreter::value::{Datum, Step, Value};
-use crate::options::ReadOptions;
 use crate::table::Treatment;
 use crate::text::name::Name;
 use crate::val3::expression::{self, PARTS};
 use crate::val3::frames::{numbers_of, own_trsf, single, trsf_of};
+use crate::val3::state::{Run, Val3};
 use crate::val3::table::{CHANGE_THEIRS, is_motion, is_one_of, row};
-
-/// A run of a VAL3 program.
-pub(super) type Run<'r, 'p> = run::Run<'r, 'p, Val3>;
-
-/// What a run keeps beside its data.
-pub(crate) struct Val3 {
-    /// Frames that the caller states.
-    pub stated: BTreeMap<Name, Isometry3<f64>>,
-    /// Motions were commanded, and nothing waited for their ends.
-    pub is_moving: bool,
-}
-
-impl Val3 {
-    /// A run that has not begun.
-    pub(super) fn run<'r, 'p>(
-        files: &'p [TokenFile<'p>],
-        symbols: &'r Symbols<'p>,
-        options: &'r ReadOptions,
-    ) -> Run<'r, 'p> {
-        let stated = options.frames.iter();
-        let stated = stated.filter_map(|(name, frame)| Some((Name::of(name.as_bytes())?, *frame)));
-        let own = Self {
-            stated: stated.collect(),
-            is_moving: false,
-        };
-        Run::new(files, symbols, options, own)
-    }
-}
 
 impl Dialect for Val3 {
     const OWN_COUNTER: bool = false;
@@ -209,7 +177,7 @@ impl Dialect for Val3 {
         let Some(name) = file.name(tokens.start) else {
             return true;
         };
-        let acts = ["resetMotion", "taskCreate"];
+        let acts = ["resetMotion", "taskCreate", "taskCreateSync"];
         let is_refused =
             row(&name).is_some_and(|row| matches!(row.treatment, Treatment::Refused { .. }));
         is_motion(&name) || is_refused || is_one_of(&name, &acts)
@@ -223,7 +191,10 @@ impl Dialect for Val3 {
             for statement in &home.routine.body {
                 statement.each(&mut |statement: &Statement| {
                     if let Statement::Call { tokens } = statement
-                        && file.is_word(tokens.start, "TASKCREATE")
+                        && file
+                            .text(&(tokens.start..tokens.start + 1))
+                            .to_ascii_uppercase()
+                            .starts_with("TASKCREATE")
                     {
                         let names = tokens
                             .clone()

@@ -11,7 +11,7 @@ use crate::interpreter::value::{Datum, Step, Value};
 use crate::model::frame::{Frame, FrameUse};
 use crate::model::orientation::OrientationText;
 use crate::text::name::Name;
-use crate::val3::dialect::Run;
+use crate::val3::state::Run;
 
 /// Most fathers of a frame.
 const DEEPEST: usize = 12;

@@ -9,8 +9,8 @@ use crate::interpreter::token::Kind;
 use crate::model::outside_call::OutsideCall;
 use crate::table::Treatment;
 use crate::text::name::Name;
-use crate::val3::dialect::Run;
 use crate::val3::expression::{arguments_of, expression_of};
+use crate::val3::state::Run;
 use crate::val3::table::{CHANGE_THEIRS, is_motion, is_one_of, row};
 
 impl Run<'_, '_> {
@@ -110,7 +110,7 @@ impl Run<'_, '_> {
                         .to_owned(),
                 );
             }
-            "taskCreate" => self.begin_task(tokens),
+            "taskCreate" | "taskCreateSync" => self.begin_task(tokens),
             _ => {}
         }
         if is_one_of(name, &CHANGE_THEIRS) {

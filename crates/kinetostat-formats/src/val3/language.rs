@@ -76,6 +76,10 @@ impl ProgramLanguage for Val3Language {
         called_by(file)
     }
 
+    fn data_ending(&self) -> Option<&'static str> {
+        Some("dtx")
+    }
+
     /// Data and project of the application, and programs that are called.
     fn files_beside(&self, file: &SourceFile, folder: &[String]) -> Vec<String> {
         let called = called_by(file);

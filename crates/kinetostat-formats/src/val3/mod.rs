@@ -1,6 +1,6 @@
 //! Staubli VAL3: programs (`.pgx`) with the data of their application (`.dtx`), both in XML.
 
-pub(crate) mod dialect;
+mod dialect;
 mod expression;
 mod frames;
 mod instructions;
@@ -9,6 +9,7 @@ mod lex;
 mod motion;
 mod parser;
 pub(crate) mod reader;
+mod state;
 pub(crate) mod table;
 pub(crate) mod write;
 mod xml;

@@ -15,9 +15,9 @@ use crate::model::site::{MotionSite, PoseText, ReplacedText, TargetSite};
 use crate::model::target::{Configuration, PoseTarget, Target};
 use crate::options::UnknownTargets;
 use crate::text::number::{NumberText, Width};
-use crate::val3::dialect::Run;
 use crate::val3::expression::arguments_of;
 use crate::val3::frames::{own_trsf, single};
+use crate::val3::state::Run;
 
 /// A further point like an element of an array.
 const AROUND: Around = Around {

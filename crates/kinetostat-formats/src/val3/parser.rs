@@ -191,18 +191,13 @@ impl Parser<'_, '_> {
             () if is("DO") => self.until(line, depth),
             () if is("RETURN") && behind.is_empty() => Statement::Leaves { tokens: line },
             () if is("CALL") => self.called(line, behind)?,
-            // The name of the task, its priority and its program.
-            () if is("TASKCREATE") => match self
-                .file
-                .find(behind, b',')
-                .and_then(|at| self.file.find(at + 1..end, b','))
-            {
-                Some(_) => Statement::Call { tokens: line },
-                None => {
-                    self.fault(line, "it names no program");
-                    return None;
+            // The name of the task, how often it runs, and its program.
+            () if is("TASKCREATE") || is("TASKCREATESYNC") => {
+                if !behind.clone().any(|at| self.file.is(at + 1, b'(')) {
+                    self.fault(line.clone(), "it names no program");
                 }
-            },
+                Statement::Call { tokens: line }
+            }
             () => self.simple(line)?,
         })
     }

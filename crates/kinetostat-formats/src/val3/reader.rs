@@ -15,8 +15,8 @@ use crate::text::finding::Finding;
 use crate::text::flat::FlatText;
 use crate::text::name::Name;
 use crate::text::source::SourceFile;
-use crate::val3::dialect::Val3;
 use crate::val3::parser::routine_of;
+use crate::val3::state::Val3;
 use crate::val3::xml::content_of;
 
 /// Most bytes of a file.
@@ -64,6 +64,16 @@ pub(crate) fn parse_val3(files: Vec<SourceFile>, options: &ReadOptions) -> Parse
         findings.push(Finding {
             file: 0,
             line: 1,
+            message,
+        });
+    }
+    let is_world = |name: &String| name.eq_ignore_ascii_case("world");
+    if let (Some(first), false) = (run.motions.first(), options.frames.keys().any(is_world)) {
+        let message = "`world` is taken as the base of the model; that of an arm of Staubli may lie where its axes 1 and 2 meet: state `world` under [robot.frames] where it is another frame".to_owned();
+        let (file, line) = (first.file, first.line);
+        findings.push(Finding {
+            file,
+            line,
             message,
         });
     }

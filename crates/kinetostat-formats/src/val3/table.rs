@@ -57,7 +57,7 @@ static SORTED: [StatementRow; count(GROUPS)] = sorted(rows::<{ count(GROUPS) }>(
 const GROUPS: &[Alike] = &[
     alike(Understood, MANUAL, &[
         "=", "begin", "end", "if", "elseIf", "else", "endIf", "while", "endWhile", "for", "endFor", "do", "until", "switch",
-        "case", "default", "break", "endSwitch", "return", "call", "taskCreate", "movec", "movej", "movel", "appro", "compose",
+        "case", "default", "break", "endSwitch", "return", "call", "taskCreate", "taskCreateSync", "movec", "movej", "movel", "appro", "compose",
         "resetMotion", "waitEndMove",
     ]),
     alike(Carried, MANUAL, &[

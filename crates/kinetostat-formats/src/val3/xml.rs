@@ -36,6 +36,9 @@ pub(super) struct Content<'a> {
     pub says_millimetres: bool,
 }
 
+/// Attributes of XML itself.
+const XSI: &str = "http://www.w3.org/2001/XMLSchema-instance";
+
 const SAVE_IT: &str = "save the application again with the editor of the controller";
 
 /// The content of a file; `scalars` are the data without an index, to which those of the file are added.
@@ -214,7 +217,8 @@ impl Content<'_> {
         for inner in node.descendants() {
             match inner.tag_name().name() {
                 "Parameter" | "param" => {
-                    let own = self.declaration(&inner)?;
+                    let mut own = self.declaration(&inner)?;
+                    own.is_alone &= inner.attribute((XSI, "type")) != Some("array");
                     let is_value = inner.attribute("use") == Some("value")
                         || inner.attribute("byVal") == Some("true");
                     parameters.push(Parameter {

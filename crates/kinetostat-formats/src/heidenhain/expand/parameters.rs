@@ -5,7 +5,7 @@ use crate::heidenhain::expand::expression::value_of;
 use crate::heidenhain::expand::run::{Fault, Run};
 use crate::heidenhain::expand::values::Parameters;
 use crate::heidenhain::expand::values::{STATE_VALUE, begins_value, no_value};
-use crate::heidenhain::reading::tilted::is_of_plane;
+use crate::heidenhain::tilt::is_of_plane;
 use crate::heidenhain::words::{Value, Word};
 use crate::text::edits::Edits;
 use crate::text::number::short;

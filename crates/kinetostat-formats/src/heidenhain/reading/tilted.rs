@@ -11,34 +11,11 @@ use nalgebra::{Matrix3, Rotation3, Vector3};
 use crate::heidenhain::datum::Bend;
 use crate::heidenhain::plane::XY;
 use crate::heidenhain::reading::walker::{EXPAND, Reader, TILTED, TILTED_REMEDY};
+use crate::heidenhain::tilt::{Stands, is_of_plane};
 use crate::heidenhain::words::{Value, Word};
 
 /// Entries of rotations and directions that differ by less are one.
 const SAME: f64 = 1e-9;
-
-/// How the rotary axes stand.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub(crate) enum Stands {
-    /// As their words say.
-    #[default]
-    AsWords,
-    /// So that the tool lies along a direction, in the axes of the preset.
-    Along(Vector3<f64>),
-    /// Words turned them from there, and there is no model of them.
-    Unknown,
-}
-
-/// What PLANE has left behind.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub(crate) struct Tilt {
-    /// Across the plane of the last PLANE, in the axes of the preset; none behind a reset.
-    pub across: Option<Vector3<f64>>,
-    pub stands: Stands,
-    /// Axes whose datum a cycle shifted while the plane was tilted, and none since.
-    pub shifted: [bool; 3],
-    /// A cut was refused since the plane or the axes changed.
-    told: bool,
-}
 
 /// The rotation of a plane: angles in space turn about the axes that are not tilted, A first (HEIDENHAIN, TNC 620, user's manual,
 /// conversational programming, "Defining the working plane with the spatial angle": tilting sequence A-B-C); of two vectors
@@ -82,6 +59,13 @@ impl Reader<'_> {
             return self.fault(span, TILTED, TILTED_REMEDY);
         };
         let tilted = (turn - Matrix3::identity()).amax() > SAME;
+        if tilted && (turn * Vector3::z()).xy().norm() < SAME {
+            return self.fault(
+                span,
+                "the plane is turned about Z alone, or over: how far the rotary axes turn for that is the machine's (COORD ROT, TABLE ROT)",
+                "turn the coordinates by cycle 10 (CYCL DEF 10.1 ROT), or give this plane as a program of its own",
+            );
+        }
         let before = self.state.datum.bend;
         let was = match before {
             Bend::Tilt(before) => before,
@@ -218,15 +202,4 @@ impl Reader<'_> {
         }
         true
     }
-}
-
-/// Whether a word turns a rotary axis to its angle of the plane: `A+Q120`, `B+Q121`, `C+Q122`.
-pub(crate) fn is_of_plane(word: &Word, bytes: &[u8]) -> bool {
-    let name = match word.letters.letters() {
-        b"A" => b"Q120",
-        b"B" => b"Q121",
-        b"C" => b"Q122",
-        _ => return false,
-    };
-    matches!(&word.value, Value::Parameter { sign, name: own, .. } if *sign > 0.0 && bytes[own.clone()].eq_ignore_ascii_case(name))
 }

@@ -150,6 +150,25 @@ fn what_is_stated_is_taken() {
     );
 }
 
+/// A table that is turned to zero, in a file that turns nothing else, stands where it stood.
+#[test]
+fn a_table_at_zero_turns_nothing() {
+    let text = "UNITS/MM\nROTABL/ 0.000000,,TABLE,CLW\nGOTO/1,2,3\n";
+    let program = read_with(text.as_bytes(), &ReadOptions::default()).unwrap();
+    assert_eq!(program.motions.len(), 1);
+    for turns in [
+        "ROTABL/0.1,TABLE",
+        "ROTABL/TABLE,CLW",
+        "ROTABL/0,TABLE\nROTABL/5",
+    ] {
+        let found = errors(&format!("UNITS/MM\n{turns}\nGOTO/1,2,3\n"));
+        assert!(
+            found.len() == 1 && found[0].1.contains("it turns the table"),
+            "{found:?}"
+        );
+    }
+}
+
 #[test]
 fn words_stand_once_in_their_table() {
     let mut names: Vec<&str> = APT_STATEMENTS.iter().map(|row| row.name).collect();

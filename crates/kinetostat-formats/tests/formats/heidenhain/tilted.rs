@@ -52,8 +52,8 @@ fn places_of_a_tilted_plane_are_turned_about_the_datum() {
             turned(20.0, -30.0, 40.0),
         ),
         (
-            "SPATIAL SPA+0 SPB+0 SPC+30 STAY\nL A+Q120 C+Q122 R0 FMAX M126",
-            turned(0.0, 0.0, 30.0),
+            "SPATIAL SPA+0 SPB+10 SPC+30 STAY\nL A+Q120 C+Q122 R0 FMAX M126",
+            turned(0.0, 10.0, 30.0),
         ),
         (
             "VECTOR BX1 BY0.5 BZ0 NX0 NY-2 NZ0 STAY\nL C+Q122 A+Q120 FMAX",
@@ -127,6 +127,14 @@ fn a_cut_before_the_axes_stand_across_the_plane_is_refused() {
         (
             format!("{stay}{turn}PLANE RESET STAY\nL A+0 FMAX\n{THERE}"),
             "axis C was sent to a place",
+        ),
+        (
+            format!("{stay}{turn}PLANE RESET STAY\nL A+0 FMAX M91\nM128\n{THERE}"),
+            "where axis A stands is not stated",
+        ),
+        (
+            "PLANE SPATIAL SPA+0 SPB+0 SPC+180 TURN FMAX TABLE ROT".to_owned(),
+            "the plane is turned about Z alone",
         ),
         (
             format!("{stay}L A+Q120 FMAX\n{THERE}"),

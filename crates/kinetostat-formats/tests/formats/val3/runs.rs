@@ -35,6 +35,28 @@ fn a_motion_has_its_point_its_fathers_its_tool_and_its_description() {
         ("tMill", "fPart[1]")
     );
     assert_eq!(cut.tool.known().unwrap().translation.z, 150.0);
+    assert!(
+        program
+            .findings
+            .iter()
+            .any(|finding| finding.message.contains("`world` is taken as the base"))
+    );
+    let mut options = ReadOptions::default();
+    options
+        .frames
+        .insert("world".into(), Isometry3::translation(0.0, 0.0, 375.0));
+    let files = files_with("  movel(pA,tMill,mCut)", &[]);
+    let raised = read_val3(files, &options).unwrap();
+    assert_eq!(
+        raised.motions[0].work_object.known().unwrap().translation.z,
+        405.0
+    );
+    assert!(
+        !raised
+            .findings
+            .iter()
+            .any(|finding| finding.message.contains("`world`"))
+    );
     // Behind a quarter turn about z.
     let father = cut.work_object.known().unwrap();
     assert_close(
