@@ -82,8 +82,7 @@ pub fn run_as_process(words: impl Iterator<Item = OsString>) -> u8 {
     })
 }
 
-/// Silences panics of the Parquet library about broken files: they are caught and reported where the file
-/// is read.
+/// Silences panics of the Parquet library about broken files: they are caught and reported where the file is read.
 fn keep_quiet_about_broken_tables() {
     let usual = std::panic::take_hook();
     std::panic::set_hook(Box::new(move |panic| {

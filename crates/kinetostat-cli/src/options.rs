@@ -1,5 +1,4 @@
-//! Common types of the options of several commands: numbers, vectors, and the exit codes of their
-//! help.
+//! Common types of the options of several commands: numbers, vectors, and the exit codes of their help.
 
 use nalgebra::Vector3;
 

@@ -86,8 +86,7 @@ fn result_text(a: &Assembly) -> String {
         };
     };
     if degree == 0 && a.something_else_acts {
-        // The difference "as built" minus "as drawn" is the weights' share at a slightly different
-        // posture.
+        // The difference "as built" minus "as drawn" is the weights' share at a slightly different posture.
         let shares = a.limbs.iter().map(|l| {
             let unlike = norm(l.force_n.without_load_by_deviations);
             (unlike, norm(l.force_n.without_load))

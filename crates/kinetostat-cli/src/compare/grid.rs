@@ -157,8 +157,7 @@ impl Difference {
         written(&rows)
     }
 
-    /// Draws the ratio of the stiffnesses B to A over the two longest axes of the grid, in the
-    /// middle of the third.
+    /// Draws the ratio of the stiffnesses B to A over the two longest axes of the grid, in the middle of the third.
     pub(crate) fn svg(&self, answer: &Compared) -> String {
         let counts = self.grid.counts;
         let across = (0..3).rev().min_by_key(|k| counts[*k]).unwrap_or(2);

@@ -259,8 +259,7 @@ fn compensate_whole(files: &InputFiles, args: &CompensateArgs) -> Answer<()> {
     report::refuse_doubtful(&run.result, &setting)
 }
 
-/// Adds a hint on the turn of the tool if the arm cannot follow a program of positions that is
-/// written for a robot.
+/// Adds a hint on the turn of the tool if the arm cannot follow a program of positions that is written for a robot.
 fn with_turn_hint(mut failure: Failure, (setting, to): (&Setting, Option<RobotWord>)) -> Failure {
     let helps = failure.plain.contains("turn of the tool") || failure.plain.contains("tool turned");
     if helps && to.is_some() && setting.free_turn == FreeTurnWord::AsStated {

@@ -34,8 +34,7 @@ use crate::program::solve::forces_of;
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::numbers::short;
 
-/// Upper limit of the points of an undivided program: numbers of positions in a TP program have 16
-/// bits.
+/// Upper limit of the points of an undivided program: numbers of positions in a TP program have 16 bits.
 const MOST_POINTS: usize = 1_000_000;
 const MOST_POINTS_OF_LS: usize = 32_766;
 

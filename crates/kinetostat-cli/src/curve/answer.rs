@@ -27,8 +27,7 @@ pub(crate) struct CurveAnswer {
     pub(crate) coordinates: Vec<CoordinateName>,
     pub(crate) named_points: Vec<NamedPoint>,
     pub(crate) jumps: Vec<JumpAnswer>,
-    /// Critical loads of a chain under a growing load; for a machine the named points give the end
-    /// of stability.
+    /// Critical loads of a chain under a growing load; for a machine the named points give the end of stability.
     pub(crate) critical_loads: Vec<CriticalAnswer>,
     pub(crate) branches: Vec<BranchAnswer>,
     /// True if branches that cross were left out because there were too many.
@@ -44,8 +43,7 @@ pub(crate) struct CurveAnswer {
     pub(crate) subject: &'static str,
     #[serde(skip)]
     pub(crate) units: Units,
-    /// Requested range and the part of it that the start's own branch covers, as the parameter is
-    /// shown.
+    /// Requested range and the part of it that the start's own branch covers, as the parameter is shown.
     #[serde(skip)]
     pub(crate) requested: (f64, f64),
     #[serde(skip)]

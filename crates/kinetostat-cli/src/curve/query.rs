@@ -89,8 +89,7 @@ fn ends(option: &str, values: &[f64]) -> Answer<(f64, f64)> {
 
 fn unit(option: &str, values: &[f64]) -> Answer<Vector3<f64>> {
     let v = vector(option, values)?;
-    // The direction is scaled first: squares of very large or very small numbers overflow or
-    // underflow.
+    // The direction is scaled first: squares of very large or very small numbers overflow or underflow.
     let most = largest_size(&v);
     if most == 0.0 {
         return Err(Failure::input(format!(

@@ -32,8 +32,7 @@ pub(crate) struct Deflection {
     pub(crate) rotation_vector_deg: [f64; 3],
     pub(crate) rotation_size_deg: f64,
     pub(crate) actuators: Vec<ActuatorAnswer>,
-    /// Displayed values of the controller, in the order of its axes; empty without a section
-    /// `controller`.
+    /// Displayed values of the controller, in the order of its axes; empty without a section `controller`.
     #[serde(rename = "pendant")]
     pub(crate) on_controller: Vec<JointValue>,
     pub(crate) limbs: Vec<LimbAnswer>,

@@ -176,9 +176,8 @@ fn platform(a: &Deflection) -> String {
     }
 }
 
-/// Describes the instability that a limb's share leads to: without a potential only the bound is
-/// known below which the state is stable (see
-/// [`kinetostat::equilibrium::CriticalLoad::definite_until`]).
+/// Describes a limb's share of the way to instability: without a potential only a bound of stability is known
+/// (see [`kinetostat::equilibrium::CriticalLoad::definite_until`]).
 fn limb_text(limb: &LimbAnswer) -> String {
     let share = match limb.share_to_buckling {
         Some(mu) if mu.abs() < 1e-6 => "no load bends or buckles it".to_owned(),

@@ -221,8 +221,7 @@ fn modes(a: &EquilibriaAnswer) -> String {
     }
 }
 
-/// Estimates the chance of equilibria that were not found. An estimate of zero is never printed:
-/// few starts know little.
+/// Estimates the chance of equilibria that were not found. An estimate of zero is never printed: few starts know little.
 fn chance(c: &Coverage) -> String {
     if c.chance_of_more_at_most >= 1.0 {
         return "too few of the starts ended at the equilibria listed to say how many are missing: others may well exist. Search on with more --starts and --fruitless".to_owned();

@@ -1,5 +1,4 @@
-//! Recovery after an abrupt end (kill -9, a power cut): files left in a directory, and their
-//! treatment by the next run.
+//! Recovery after an abrupt end (kill -9, a power cut): files left in a directory, and their treatment by the next run.
 //!
 //! A run that writes keeps one journal in each directory that it writes to, locked as long as the
 //! run lives; its unfinished files carry the journal's name. Before the first file is put in place

@@ -20,8 +20,7 @@ pub(crate) struct ForceAnswer {
     /// Walls that the cut leaves, with the force at the moment at which they are made.
     pub(crate) walls: Vec<WallAnswer>,
     pub(crate) harmonics: Vec<HarmonicAnswer>,
-    /// Power and torque of the spindle at this speed; none without spindle data or above its top
-    /// speed.
+    /// Power and torque of the spindle at this speed; none without spindle data or above its top speed.
     pub(crate) spindle: Option<SpindleAnswer>,
     /// Assumptions behind the numbers, in sentences.
     pub(crate) assumed: Vec<String>,

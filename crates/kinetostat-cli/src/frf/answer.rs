@@ -20,8 +20,7 @@ pub(crate) struct FrfAnswer {
     /// `modes`, or `direct` where damping couples modes or loads have no potential.
     pub(crate) solution: &'static str,
     pub(crate) quantity: &'static str,
-    /// Natural frequencies of the undamped machine, signed; where loads have no potential those of its complex pairs, in
-    /// either case ascending.
+    /// Undamped natural frequencies, signed; where loads have no potential those of complex pairs; ascending.
     pub(crate) natural_frequencies_hz: Vec<f64>,
     /// Growth of each of these pairs, positive where it grows.
     #[serde(skip_serializing_if = "Option::is_none")]

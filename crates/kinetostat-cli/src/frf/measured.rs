@@ -38,8 +38,7 @@ pub(crate) fn read(files: &InputFiles, path: &Path) -> Answer<Measured> {
     })
 }
 
-/// Warnings about data that a measured file omits, or that belong to another place than the tool's
-/// tip.
+/// Warnings about data that a measured file omits, or that belong to another place than the tool's tip.
 pub(crate) fn warnings(file: &Measured) -> Vec<Warning> {
     let measured = &file.responses;
     let mut all = Vec::new();

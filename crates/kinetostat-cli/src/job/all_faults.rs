@@ -161,8 +161,7 @@ fn read(tree: &Spanned<DeTable<'_>>) -> Result<Job, toml::de::Error> {
     exact(toml::de::Deserializer::from(tree.clone()))
 }
 
-/// True if a place contains a key that was removed with a message of its own: further faults there are
-/// consequences.
+/// True if a place contains a key that was removed with a message of its own: further faults there are consequences.
 fn follows(place: &Range<usize>, taken: &[(String, Range<usize>)]) -> bool {
     taken.iter().any(|(_, span)| holds(place, span))
 }
@@ -196,8 +195,7 @@ fn put_right(
         };
     }
     let missing = Source::missing(error);
-    // A key that was removed above with a message of its own is not missing; under a header it lies beside the table's
-    // place.
+    // A key that was removed with a message of its own is not missing; under a header it lies beside the table's place.
     let was_there = match &missing {
         Some(missing) => taken.iter().any(|(key, place)| {
             let under_header = || {

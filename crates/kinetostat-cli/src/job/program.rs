@@ -104,8 +104,7 @@ impl ReadProgram<'_> {
     }
 }
 
-/// Removes the comment with the line of origin from a flat block that is quoted, if the block is in
-/// a file of the user.
+/// Removes the comment with the line of origin from a flat block that is quoted, if the block is in a file of the user.
 fn without_origin(setting: &Setting, fault: &mut ProgramError) {
     let flat = setting.flat.as_ref();
     let Some((_, line)) = flat.and_then(|flat| flat.source_of(fault.line)) else {

@@ -7,8 +7,7 @@ use crate::job::arguments::ProgramArgs;
 use crate::job::job_file::JobFile;
 use crate::machine::model_warnings::{no_potential, of_model};
 
-/// Warnings about faults of the model, its effects that cannot be assessed, and angles of job file and options in the
-/// wrong unit.
+/// Warnings about faults of the model, effects that are not assessed, and angles in the wrong unit.
 pub(crate) fn of_run(model: &Model, job: Option<&JobFile>, flags: &ProgramArgs) -> Vec<Warning> {
     let mut warnings: Vec<Warning> = of_model(model).collect();
     warnings.extend(no_potential(&model.mechanism));

@@ -55,9 +55,8 @@ pub(crate) fn scale_of_program(value: f64) -> Result<f64, NotAllowed> {
     }
 }
 
-/// Checks the allowed difference of the radii at both ends of an arc: controllers allow 0.001 to 0.1 mm by
-/// default, and are rarely set to more than 1 mm. A centre that is farther off is another arc, and would be cut
-/// as it stands.
+/// Checks the difference of the radii at both ends of an arc: controllers allow 0.001 to 0.1 mm by default, rarely
+/// more than 1 mm. A centre that is farther off is another arc, and would be cut as it stands.
 pub(crate) fn arc_tolerance(value: f64) -> Result<f64, NotAllowed> {
     match (1e-6..=ARC_TOLERANCE_MM).contains(&value) {
         true => Ok(value),

@@ -123,8 +123,7 @@ pub(crate) fn run(args: &LobesArgs, given: &Given) -> Answer<()> {
     files.finish(&shown, &answer)
 }
 
-/// Warns if the teeth pass far above all modes: the spindle speed is a slip, or the model has no modes of spindle and
-/// tool.
+/// Warns of teeth that pass far above all modes: the spindle speed is a slip, or modes of spindle and tool are missing.
 fn beyond_all_modes(
     request: &LobeRequest,
     teeth: usize,

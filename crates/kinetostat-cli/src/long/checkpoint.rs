@@ -82,8 +82,7 @@ impl State {
         })
     }
 
-    /// Stores the result of the first look; a look without a solved place is repeated, for a file has no
-    /// infinite number.
+    /// Stores the result of the first look; a look without a solved place is repeated, for a file has no infinite number.
     pub(crate) fn note(&mut self, whole: &OfWhole) {
         let found = Some(whole.stiffness_n_per_mm);
         self.stiffness_n_per_mm = found.filter(|stiffness| stiffness.is_finite());

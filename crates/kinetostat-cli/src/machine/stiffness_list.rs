@@ -8,8 +8,7 @@ use kinetostat_machining::number::{DIGITS, Rounding, significant};
 use kinetostat_model::Model;
 use nalgebra::DMatrix;
 
-/// Upper limit of the sentences about stiffnesses; longer lists hide the model, which the files
-/// name.
+/// Upper limit of the sentences about stiffnesses; longer lists hide the model, which the files name.
 const MOST: usize = 60;
 
 /// The stiffnesses that a result was computed with, one sentence for each spring or link; what several

@@ -13,8 +13,7 @@ use crate::ui::numbers::{load_triple, short};
 /// Upper limit of the cells of a drawing along an axis; a finer grid is thinned.
 const MOST_CELLS: usize = 400;
 
-/// Content of a drawing: a section of the grid, or a curve along its only axis. Its size is
-/// bounded.
+/// Content of a drawing: a section of the grid, or a curve along its only axis. Its size is bounded.
 #[derive(Clone)]
 pub(crate) struct Picture {
     pub(crate) show: Shown,

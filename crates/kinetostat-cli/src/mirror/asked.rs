@@ -75,8 +75,7 @@ pub(crate) fn flags_of(args: &MirrorArgs, program: &Path) -> ProgramArgs {
     }
 }
 
-/// Measurement settings of this trial, as lengths that its path allows; the registration may be that of the trials
-/// before.
+/// Measurement settings of this trial, in lengths that its path allows; the registration may be that of earlier trials.
 pub(crate) fn settings_of(
     args: &MirrorArgs,
     nominal: &NominalPath<'_>,

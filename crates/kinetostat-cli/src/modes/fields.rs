@@ -23,8 +23,7 @@ pub(crate) struct ModesAnswer {
     /// Evolution of a small disturbance where loads have no potential (followers, a moment that does not turn with
     /// the tool). `modes` are complex pairs then.
     pub(crate) circulatory: Option<Circulatory>,
-    /// Counts of directions: under loads without a potential `vibrating` counts the pairs that do not grow,
-    /// `unstable` those that do.
+    /// Counts; under loads without a potential `vibrating` are pairs that do not grow, `unstable` those that do.
     pub(crate) directions: DirectionCounts,
     /// Joints and springs in neutral directions: neither mass nor stiffness.
     pub(crate) neutral: Vec<String>,

@@ -6,8 +6,7 @@ use std::collections::BTreeMap;
 use kinetostat_formats::fields::{PointQuantity, Polylines};
 use kinetostat_machining::{PointKind, PointResult, Run, thinned};
 
-/// Upper limit of the points of a file: of longer programs the worst of every stretch, as in the
-/// table of points.
+/// Upper limit of the points of a file: of longer programs the worst of every stretch, as in the table of points.
 const MOST: usize = 200_000;
 
 /// A legacy VTK file, program coordinates in mm. A line for each run of cutting moves; rapids are left out.

@@ -19,8 +19,7 @@ pub(crate) struct Stiffness {
     pub(crate) head: AnswerHead,
     /// Commands of the actuators there.
     pub(crate) joints: Vec<JointValue>,
-    /// Displayed values of the controller, in the order of its axes; empty without a section
-    /// `controller`.
+    /// Displayed values of the controller, in the order of its axes; empty without a section `controller`.
     #[serde(rename = "pendant")]
     pub(crate) on_controller: Vec<JointValue>,
     pub(crate) loaded: bool,
@@ -35,8 +34,7 @@ pub(crate) struct Stiffness {
     pub(crate) compliance_m_rad_per_n: Option<[[f64; 6]; 6]>,
     /// Compliance as the terminal shows it: micrometres and microradians per N and N m.
     pub(crate) compliance_um_urad_per_n_n_m: Option<[[f64; 6]; 6]>,
-    /// Compliance with free directions: the motion under a load that pushes along none of them, up
-    /// to motions along them.
+    /// Compliance with free directions: the motion under a load that pushes along none of them, up to motions along them.
     pub(crate) compliance_besides_free_motions_m_rad_per_n: Option<[[f64; 6]; 6]>,
     /// Smallest stiffness against a force: in its softest direction, the tool free to turn; null if no
     /// force moves the tool. As in `map`, `deflect` and along programs.

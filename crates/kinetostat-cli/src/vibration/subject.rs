@@ -102,8 +102,7 @@ pub(crate) fn refused(error: Error) -> Failure {
 /// Largest share by which a response by modes may be off before it is said.
 const COUPLED: f64 = 0.02;
 
-/// Warning about damping that is not in the modes, if a cut is judged by them: on parts without mass, or by the
-/// material.
+/// Warning about damping that is not in the modes, if a cut is judged by them: on parts without mass, or by the material.
 pub(crate) fn lost_coupling(off: f64) -> Option<Warning> {
     (off > COUPLED).then(|| {
         Warning::new(

@@ -25,8 +25,7 @@ pub(crate) struct ReachFinding {
     pub(crate) ends: Option<[[String; 2]; 3]>,
     /// A box around home of which corners, edges and faces were reached, mm.
     pub(crate) box_mm: Option<[[f64; 3]; 2]>,
-    /// Smallest and largest coordinates of the tool's reference point if it moves only while the
-    /// tool turns, mm.
+    /// Smallest and largest coordinates of the tool's reference point if it moves only while the tool turns, mm.
     pub(crate) positions_span_mm: Option<[[f64; 3]; 2]>,
     /// Method by which all this was found.
     pub(crate) how: String,

@@ -8,8 +8,7 @@ use crate::machine::units::unit;
 use crate::place::joints::Named;
 use crate::ui::numbers::{fixed, short, triple};
 
-/// Data for the words of an explanation: the axes, their values in the file, and their joints in
-/// the model.
+/// Data for the words of an explanation: the axes, their values in the file, and their joints in the model.
 pub(crate) struct ExplanationText<'a> {
     pub(crate) names: &'a [Named],
     pub(crate) axes: &'a [Axis],

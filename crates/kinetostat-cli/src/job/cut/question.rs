@@ -160,8 +160,7 @@ fn no_material(j: &JobFile) -> Answer<()> {
     Ok(())
 }
 
-/// Returns the source of the engagement, and its description; `None` if the job has neither stock
-/// nor engagement.
+/// Returns the source of the engagement, and its description; `None` if the job has neither stock nor engagement.
 pub(crate) fn where_it_cuts(
     (files, read): (&InputFiles, &mut FilesOfCut),
     j: &JobFile,

@@ -1,5 +1,4 @@
-//! Settings for reading and writing a robot's program, from options and the table `[robot]` of a
-//! job file.
+//! Settings for reading and writing a robot's program, from options and the table `[robot]` of a job file.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -49,8 +48,7 @@ pub(crate) struct MadeArm {
     pub(crate) start_joints_deg: Option<Vec<f64>>,
 }
 
-/// Settings from options and job file for a program of a language; `usual_axis` is its own, from the tool's tip to its
-/// holder.
+/// Settings for a program of a language; `usual_axis` is its own, from the tool's tip to its holder.
 pub(crate) fn settings(
     job: Option<&JobFile>,
     flags: &RobotArgs,
