@@ -35,7 +35,7 @@ pub(crate) struct Assembly {
     /// Weights, loads on limbs or preloads act also without deviations.
     pub(crate) something_else_acts: bool,
     pub(crate) stable: bool,
-    /// Path by which that equilibrium was found, unless directly from the commanded posture.
+    /// Method by which that equilibrium was found, unless directly from the commanded posture.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) found_by: Option<FoundBy>,
     pub(crate) warnings: Vec<Warning>,
@@ -66,7 +66,7 @@ struct StressOfLimb {
 pub(crate) struct PlatformAnswer {
     pub(crate) name: String,
     pub(crate) carries_the_tool: bool,
-    /// From its nominal place, base axes.
+    /// Shift from its nominal place, base axes.
     pub(crate) shift_mm: Cases<[f64; 3]>,
     pub(crate) rotation_vector_deg: Cases<[f64; 3]>,
 }
@@ -87,7 +87,7 @@ pub(crate) struct LimbAnswer {
 pub(crate) struct JointAnswer {
     pub(crate) name: String,
     pub(crate) unit: &'static str,
-    /// From where the joint stands in the machine as drawn, unloaded.
+    /// Shift of the joint from the machine as drawn, unloaded.
     pub(crate) shift: Cases<f64>,
 }
 
@@ -152,7 +152,7 @@ pub(crate) fn answer(assembly: &AssemblyQuery) -> Answer<Assembly> {
     })
 }
 
-/// Below this a limb is not strained: rounding of machines of some hundred N/mm.
+/// Force below which a limb is not strained: rounding of machines of some hundred N/mm.
 pub(crate) const NOTHING_N: f64 = 1e-6;
 
 /// Force and moment, the moment at a length, N.

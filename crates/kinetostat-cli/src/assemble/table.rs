@@ -100,7 +100,7 @@ pub(crate) fn rows(a: &Assembly) -> Vec<Row> {
     list
 }
 
-/// Every number, full precision.
+/// Table of all numbers, full precision.
 pub(crate) fn csv(a: &Assembly) -> Answer<Vec<u8>> {
     let mut writer = csv::Writer::from_writer(Vec::new());
     let failed = |e: csv::Error| Failure::input(format!("the table cannot be written: {e}"));

@@ -18,7 +18,7 @@ pub(crate) struct ChatterAnswer {
     pub(crate) program: String,
     pub(crate) model: String,
     pub(crate) material: String,
-    /// In words.
+    /// Damping in words.
     pub(crate) damping: String,
     /// Fastest mode that swings at any place; those above count by their flexibility at rest.
     pub(crate) modes_up_to_hz: Option<f64>,
@@ -72,7 +72,7 @@ pub(crate) struct Place {
     pub(crate) vibration: Option<Vibration>,
     /// Places of the program that are like it.
     pub(crate) places: usize,
-    /// From where to where along the path these lie.
+    /// Start of the range along the path.
     pub(crate) from_path_mm: f64,
     pub(crate) to_path_mm: f64,
 }

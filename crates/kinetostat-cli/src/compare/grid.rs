@@ -50,7 +50,7 @@ pub(crate) fn grid(args: &CompareArgs, home_mm: [f64; 3]) -> Answer<Option<Grid>
     Ok((all > 1.0).then_some(grid))
 }
 
-/// Both designs at every place.
+/// Comparison of both designs at every place.
 pub(crate) struct Difference {
     grid: Grid,
     a: Vec<MapPlace>,

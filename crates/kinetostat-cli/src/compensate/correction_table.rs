@@ -39,7 +39,7 @@ struct MapResult<'a> {
     /// The flat program, where the program was run once and written flat.
     #[serde(skip_serializing_if = "Option::is_none")]
     flat: Option<&'a FlatProgram>,
-    /// No correction could be written: the program came back byte for byte.
+    /// True if no correction could be written: the program came back byte for byte.
     unchanged: bool,
     /// True if it is unchanged because it keeps the tolerance uncorrected.
     within_tolerance_before: bool,
@@ -58,7 +58,7 @@ struct MapResult<'a> {
     warnings: Vec<Warning>,
 }
 
-/// More faults than this are not looked for in a table.
+/// Upper limit of the faults of a table.
 const FAULTS_OF_A_TABLE: usize = 1000;
 
 pub(crate) fn from_map(

@@ -112,7 +112,7 @@ const UNUSED_BY_A_TABLE: [&str; 13] = [
 
 /// Options of a copy: how the program is read and written flat.
 const OF_A_COPY: [&str; 23] = [
-    // Said to have no effect there, as for all that is run as a whole.
+    // Options without effect there, as for all that is run as a whole.
     "--part-lines",
     "--no-compensation",
     "--program",

@@ -318,7 +318,7 @@ pub(crate) fn refuse_fast_feeds(
 /// Poses of work object and tools, which not every language declares; mm.
 pub(crate) struct Stated {
     base: Option<Isometry3<f64>>,
-    /// With the numbers that they have in the made program, where they are stated.
+    /// Tools with their numbers in the made program, if stated.
     tools: Vec<(Option<u32>, Option<Isometry3<f64>>)>,
 }
 
@@ -345,7 +345,7 @@ impl Stated {
         }
     }
 
-    /// Under the names that the made program has for them, where it does not say itself what they are.
+    /// Puts the frames in, under their names in the made program, if it does not define them itself.
     pub(crate) fn put_into(
         &self,
         frames: &mut std::collections::BTreeMap<String, Isometry3<f64>>,

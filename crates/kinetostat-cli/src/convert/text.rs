@@ -83,7 +83,7 @@ pub(crate) fn answer(
 
 /// The largest differences.
 fn differences(kept: &Kept) -> String {
-    // Less than that is the arithmetic's.
+    // A smaller difference is rounding.
     let within = |what: &str, value: f64, unit: &str| match value < 1e-12 {
         true => format!("{what} equal"),
         false => format!("{what} within {value:.1e} {unit}"),

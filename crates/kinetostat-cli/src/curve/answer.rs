@@ -51,8 +51,8 @@ pub(crate) struct CurveAnswer {
 }
 
 impl CurveAnswer {
-    /// With warnings where the tool goes further than a machine of this size (m) can, where a growing load that it
-    /// bears folds it over, and where a motion takes more force than any cut has.
+    /// Adds warnings of a tool that goes further than a machine of this size (m) can, of a growing load that it
+    /// bears and that folds it over, and of a motion that takes more force than any cut has.
     pub(crate) fn with_plausibility_warnings(mut self, size: f64) -> Self {
         let Some(own) = self.branches.first() else {
             return self;
@@ -149,8 +149,8 @@ pub(crate) struct PointAnswer {
     pub(crate) slope_per_j: Option<f64>,
     pub(crate) stable_under_dead_load: bool,
     pub(crate) stable_under_prescribed_motion: bool,
-    /// Under the load, which has no potential, nothing goes away, but it may swing with growing
-    /// amplitude; whether it does depends on the masses.
+    /// True if the state does not diverge under loads without a potential, but may swing with
+    /// growing amplitude, depending on the masses.
     pub(crate) may_flutter: bool,
     /// Largest share of the way to buckling while the tool is held where it is, as in `deflect`; null
     /// without inner freedom, and where a passive joint is pushed out of line.
@@ -204,10 +204,10 @@ pub(crate) struct CriticalAnswer {
     /// shape (the tool held where it is) or shape_and_tool (as prescribed).
     #[serde(rename = "judged")]
     pub(crate) stability_of: &'static str,
-    /// From the stresses of the first load step alone; null if they never destabilise.
+    /// Factor from the stresses of the first load step alone; null if they never destabilise.
     pub(crate) linear_factor: Option<f64>,
     pub(crate) linear_mode_in_words: String,
-    /// On the path; null if none was met.
+    /// Factor on the path; null if none was met.
     pub(crate) factor: Option<f64>,
     /// Name as in named points; null where the held shape alone becomes critical.
     pub(crate) kind: Option<&'static str>,
@@ -216,8 +216,8 @@ pub(crate) struct CriticalAnswer {
     pub(crate) followed_to_factor: f64,
     /// All loads have a potential; if not, the factor is that of divergence, flutter is left open.
     pub(crate) conservative: bool,
-    /// Without a potential: below this factor nothing goes away, whatever the masses are; null with one, or
-    /// if none was met.
+    /// Factor below which a state without a potential does not diverge, whatever the masses are; null with
+    /// one, or if none was met.
     pub(crate) safe_below_factor: Option<f64>,
     /// Open questions in words; empty if there are none.
     pub(crate) caution: String,

@@ -10,9 +10,9 @@ use crate::ui::numbers::number;
 #[derive(Clone, Copy, PartialEq)]
 enum Holds {
     Both,
-    /// Only while the motion is prescribed.
+    /// Stable only while the motion is prescribed.
     Motion,
-    /// Only under the load as it grows (the motion along it would be no restraint).
+    /// Stable only under the load as it grows (the motion along it would be no restraint).
     Neither,
 }
 

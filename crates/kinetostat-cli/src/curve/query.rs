@@ -15,7 +15,7 @@ use crate::place::query::FARTHEST;
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::numbers::{number, short, triple};
 
-/// In which quantity a curve is shown.
+/// Quantity in which a curve is shown.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Measure {
     /// Displacement (mm) and force (N) along one line; the force per unit of the parameter's load.

@@ -20,7 +20,7 @@ pub(crate) fn stability_text(a: &CurveAnswer) -> String {
     text
 }
 
-/// States if and at which point stability is lost.
+/// States whether and at which point stability is lost.
 fn going_away(a: &CurveAnswer) -> String {
     let subject = a.subject;
     let place = |p: &PointAnswer| {

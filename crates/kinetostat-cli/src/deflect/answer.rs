@@ -23,10 +23,10 @@ pub(crate) struct Deflection {
     pub(crate) moment_n_m: [f64; 3],
     pub(crate) displacement_mm: [f64; 3],
     pub(crate) displacement_size_mm: f64,
-    /// From where the tool is without a load to where it is under it.
+    /// Displacement of the tool by the load.
     pub(crate) displacement_by_load_mm: [f64; 3],
     pub(crate) displacement_by_load_size_mm: f64,
-    /// From where the tool is commanded to where it is without a load: by own weight, other loads of the model and its deviations.
+    /// Displacement of the unloaded tool from its commanded pose: by own weight, other loads of the model and its deviations.
     pub(crate) displacement_without_load_mm: [f64; 3],
     pub(crate) displacement_without_load_size_mm: f64,
     pub(crate) rotation_vector_deg: [f64; 3],
@@ -36,14 +36,14 @@ pub(crate) struct Deflection {
     #[serde(rename = "pendant")]
     pub(crate) on_controller: Vec<JointValue>,
     pub(crate) limbs: Vec<LimbAnswer>,
-    /// Against a force in the softest direction, the tool free to turn; none if no force moves it.
+    /// Stiffness in the softest direction, the tool free to turn; none if no force moves it.
     pub(crate) smallest_stiffness_n_per_mm: f64,
     pub(crate) free_directions: usize,
     /// Motions by which the tool runs away by itself: `turns about z by arm: q`.
     pub(crate) negative_directions: Vec<String>,
     /// The tool stays where it is, or does not diverge at least (see `platform_may_flutter`).
     pub(crate) platform_stable: bool,
-    /// Under loads without a potential the tool does not diverge, but may swing with growing amplitude.
+    /// True if the tool does not diverge without a potential, but may swing with growing amplitude.
     pub(crate) platform_may_flutter: bool,
     /// Share of the way to instability of the machine with its tool free, 1 at instability: never
     /// less than the largest share of its limbs. At least 1 or none if unstable; after a
@@ -55,7 +55,7 @@ pub(crate) struct Deflection {
     /// The load cannot be reached from rest without a snap.
     #[serde(skip)]
     pub(crate) snapped: bool,
-    /// Every limb keeps its shape while the tool is held.
+    /// True if every limb keeps its shape while the tool is held.
     pub(crate) shapes_stable: bool,
     /// Both.
     pub(crate) stable: bool,
@@ -69,7 +69,7 @@ pub(crate) struct Deflection {
     pub(crate) energy_j: Option<f64>,
     pub(crate) converged: bool,
     pub(crate) iterations: usize,
-    /// Path by which the equilibrium was found, unless directly from the commanded posture.
+    /// Method by which the equilibrium was found, unless directly from the commanded posture.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) found_by: Option<FoundBy>,
     /// Last correction of the iteration by the one before it; none with fewer than two.
@@ -110,7 +110,7 @@ pub(crate) struct LinkAnswer {
     pub(crate) name: String,
     /// Axial force of its most compressed segment; negative compresses.
     pub(crate) axial_force_n: f64,
-    /// Both ends pinned, in its softer plane.
+    /// Euler load with both ends pinned, in its softer plane.
     pub(crate) euler_load_n: f64,
     /// Compression as a share of the Euler load; zero in tension.
     pub(crate) share_of_euler_load: f64,

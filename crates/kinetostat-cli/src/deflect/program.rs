@@ -72,7 +72,7 @@ fn run_along(
     chosen.pdf.clone_from(&args.program.pdf);
     chosen.points.clone_from(&args.program.points);
     chosen.turn_plot = (args.program.turn.turn_plot.clone()).filter(|_| {
-        // Without a turn that is chosen there is nothing to draw.
+        // The plot shows a chosen turn, so it needs one.
         setting.free_turn != FreeTurnWord::AsStated
     });
     chosen.json = args.json.clone().filter(|p| p != Path::new("-"));

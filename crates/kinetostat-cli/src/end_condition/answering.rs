@@ -25,7 +25,7 @@ const SCHEMA: u32 = 3;
 /// The long work: from what the answer begins with to the answer.
 pub(crate) type Work<A> = Box<dyn FnOnce(AnswerHead, &Stage) -> Answer<A> + Send + 'static>;
 
-/// From the query to the files: reads the model, claims what will be written, works, shows.
+/// Answers a query: reads the model, claims the outputs, works, shows.
 pub(crate) fn answer_query<A: Serialize + Send + 'static>(
     command: &CommandQuery<'_>,
     work_of: impl FnOnce(&PlaceQuery) -> Answer<Work<A>>,

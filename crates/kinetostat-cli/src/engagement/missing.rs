@@ -8,7 +8,7 @@ use crate::ui::failure::{Answer, Failure};
 
 pub(super) const NO_STOCK: &str = "no stock: give --block-mm X0 Y0 Z0 X1 Y1 Z1 (two corners, program coordinates), --width-mm with --depth-mm for the same cut everywhere, or --job JOB";
 
-/// Everything that neither options nor job say, at once.
+/// Reports all missing data at once.
 pub(super) fn nothing_missing(job: Option<&JobFile>, args: &EngagementArgs) -> Answer<()> {
     let of_job = |says: fn(&Job) -> bool| job.is_some_and(|j| says(&j.job));
     let mut missing = Vec::new();

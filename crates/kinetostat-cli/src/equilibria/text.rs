@@ -10,7 +10,7 @@ use crate::ui::numbers::{fixed, number};
 use crate::ui::warnings;
 use kinetostat::number::larger;
 
-/// More equilibria than this are only counted on the screen.
+/// Upper limit of the equilibria that are shown; others are counted.
 const MOST_SHOWN: usize = 20;
 
 pub(crate) fn answer_text(heading: &str, a: &EquilibriaAnswer) -> String {

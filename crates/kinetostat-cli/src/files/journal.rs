@@ -246,7 +246,7 @@ impl Journal {
     }
 }
 
-/// Nothing of this process is left that is no output.
+/// Forgets the temporary files: those left are outputs.
 pub(crate) fn done() {
     if let Ok(mut list) = TEMPORARY.lock() {
         list.clear();

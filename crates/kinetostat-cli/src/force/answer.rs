@@ -82,7 +82,7 @@ pub(crate) struct CutAnswer {
     pub(crate) down_feed_per_tooth_mm: f64,
     pub(crate) feed_mm_per_min: Option<f64>,
     pub(crate) rpm: Option<f64>,
-    /// At the widest place in the cut.
+    /// Speed at the widest place in the cut.
     pub(crate) cutting_speed_m_per_min: Option<f64>,
     pub(crate) removed_mm3_per_min: Option<f64>,
     pub(crate) largest_chip_mm: f64,

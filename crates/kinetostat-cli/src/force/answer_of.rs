@@ -1,4 +1,4 @@
-//! From tool, cut and law to the answer.
+//! Evaluation of a cut from tool and law.
 
 use kinetostat_cutting::{
     Applied, CutForce, Material, Milling, Peaks, Revolution, Rotation, Shape, Side, Tool, Wall,

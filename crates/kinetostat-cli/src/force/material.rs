@@ -90,7 +90,7 @@ pub(crate) fn applied(
     let applied = material.for_milling(&correction);
     let mut applied = applied.map_err(|error| refused(&error))?;
     if made == Made::Steadily {
-        // Without a helix the axial part is that of the test.
+        // The axial part without a helix is that of the test.
         applied.law.law = material.clone();
     }
     if args.process_factor.is_none() && made == Made::Steadily {

@@ -15,7 +15,7 @@ pub(crate) struct FrfAnswer {
     pub(crate) force_n: [f64; 3],
     pub(crate) moment_n_m: [f64; 3],
     pub(crate) hold: Option<String>,
-    /// In words.
+    /// Damping in words.
     pub(crate) damping: String,
     /// `modes`, or `direct` where damping couples modes or loads have no potential.
     pub(crate) solution: &'static str,

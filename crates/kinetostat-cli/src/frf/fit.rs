@@ -22,7 +22,7 @@ pub(crate) struct FitAnswer {
     pub(crate) modes: Vec<MeasuredMode>,
     /// Frequencies of poles that are no vibrations in the band.
     pub(crate) left_out_hz: Vec<f64>,
-    /// With one curve shapes cannot be compared.
+    /// True if shapes are compared: one curve does not allow it.
     pub(crate) shapes_compared: bool,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) scaled: Option<ScaledAnswer>,

@@ -20,7 +20,7 @@ use crate::job::source::Source;
 use crate::job::toml_tree::{holds, table_of, take};
 use crate::ui::failure::{Answer, Code, Failure};
 
-/// More faults than this are not looked for.
+/// Upper limit of the faults that are searched.
 const MOST: usize = 100;
 
 /// The query of a run along a program: enough to read everything that its job file says.
@@ -90,7 +90,7 @@ fn all(files: &InputFiles, path: &Path, query: &RunQuery<'_>, first: &Failure) -
             .map(drop)
         },
         &|job| {
-            // Without a model that can be read: tool, placement and load all the same, without masses, for this machine has no weight.
+            // A model that cannot be read leaves tool, placement and load to check, without masses, for this machine has no weight.
             let mut job = job.clone();
             job.job.deviation.clear();
             (job.job.tool.mass_kg, job.job.tool.centre_of_mass_mm) = (None, None);
@@ -152,7 +152,7 @@ fn all(files: &InputFiles, path: &Path, query: &RunQuery<'_>, first: &Failure) -
         add(&mut found, failure);
     }
     add(&mut found, first.clone());
-    // In the order of the file; what has no line there comes last.
+    // Sorted by place in the file; faults without a line come last.
     found.sort_by_key(|f| f.place.as_ref().map_or(usize::MAX, |span| span.start));
     Some(Failure::together(found))
 }

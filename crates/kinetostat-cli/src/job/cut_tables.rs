@@ -81,7 +81,7 @@ pub(crate) struct HeightMapTable {
     pub file: Spanned<String>,
     /// Corner of the first number, at the bottom, mm.
     pub corner_mm: [f64; 3],
-    /// From number to number, mm.
+    /// Distance of the numbers, mm.
     pub spacing_mm: f64,
 }
 
@@ -93,7 +93,7 @@ pub(crate) struct EngagementTable {
     pub width_mm: Option<Spanned<f64>>,
     /// Depth of cut along the axis.
     pub depth_mm: Option<Spanned<f64>>,
-    /// On which side of the feed the part is.
+    /// Side of the feed on which the part is.
     pub part: Option<Side>,
     /// Cuts of lines of the program; air on all others.
     #[serde(default)]
@@ -112,7 +112,7 @@ pub(crate) struct LinesTable {
     pub width_mm: f64,
     /// Depth of cut along the axis.
     pub depth_mm: f64,
-    /// On which side of the feed the part is.
+    /// Side of the feed on which the part is.
     pub part: Option<Side>,
 }
 

@@ -120,7 +120,7 @@ pub(crate) enum OrientationWord {
 pub(crate) struct ToolTable {
     /// Distance of the tip along z of the flange, mm.
     pub length_mm: Option<Spanned<f64>>,
-    /// Or the whole pose of the tip in the flange.
+    /// Alternative: the whole pose of the tip in the flange.
     pub pose: Option<Spanned<PoseTable>>,
     /// Cutting edges, for loads that are computed from the cut.
     pub cutter: Option<Spanned<WrittenTool>>,
@@ -138,7 +138,7 @@ pub(crate) struct NumberedTool {
     pub number: u32,
     /// Distance of the tip along z of the flange, mm.
     pub length_mm: Option<Spanned<f64>>,
-    /// Or the whole pose of the tip in the flange.
+    /// Alternative: the whole pose of the tip in the flange.
     pub pose: Option<Spanned<PoseTable>>,
     /// Cutting edges, for loads that are computed from the cut.
     pub cutter: Option<Spanned<WrittenTool>>,
@@ -160,9 +160,9 @@ pub(crate) struct LoadTable {
     pub moment_n_m: Option<[f64; 3]>,
     /// Axes of both.
     pub axes: Option<Axes>,
-    /// Or a force that turns with the feed.
+    /// Alternative: a force that turns with the feed.
     pub milling: Option<Spanned<MillingTable>>,
-    /// Only below this height of the program, mm.
+    /// Height of the program below which it acts, mm.
     pub below_z_mm: Option<f64>,
     /// Corners up to this angle turn the load gently.
     pub gentle_corner_deg: Option<Spanned<f64>>,
@@ -216,7 +216,7 @@ pub(crate) enum Axes {
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct MillingTable {
-    /// To the right of the feed, N.
+    /// Component to the right of the feed, N.
     pub radial_n: f64,
     /// Along the feed, N.
     pub tangential_n: f64,

@@ -25,7 +25,7 @@ pub(crate) struct RobotTable {
     pub correct: Option<CorrectWord>,
     /// Linear motions at this speed or a higher one position the tool in air.
     pub rapid_from_mm_per_s: Option<Spanned<f64>>,
-    /// From the tool's tip to its holder, in axes of the tool.
+    /// Direction from the tool's tip to its holder, in axes of the tool.
     pub tool_axis: Option<Spanned<Axis>>,
     /// Redundancy resolution about the tool axis where the program states the axis alone; by default the smallest turn.
     pub turn_about_axis: Option<Spanned<TurnTable>>,
@@ -52,9 +52,9 @@ pub(crate) struct RobotTable {
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct TurnTable {
-    /// In axes of the tool's frame.
+    /// Axis of the tool's frame.
     pub tool: Axis,
-    /// In axes of the part.
+    /// Axis of the part.
     pub part: Axis,
 }
 
@@ -75,7 +75,7 @@ impl RobotTable {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum CutterCompensationWord {
-    /// They are refused by line.
+    /// Refused by line.
     Refused,
     /// Their places are those of the tool's centre.
     CentrePath,
@@ -124,7 +124,7 @@ impl From<&ValueWord> for StatedValue {
 pub(crate) enum ExternalAxesWord {
     /// The program is refused.
     Refused,
-    /// They are carried as written.
+    /// Carried as written.
     Carried,
 }
 
@@ -132,8 +132,8 @@ pub(crate) enum ExternalAxesWord {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum UnknownTargetsWord {
-    /// They are refused by line.
+    /// Refused by line.
     Refused,
-    /// They stay as they are written.
+    /// Left as written.
     LeftAsWritten,
 }

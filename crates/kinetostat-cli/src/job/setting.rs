@@ -1,4 +1,4 @@
-//! Everything that decides a run, the machine apart: options go over the job file.
+//! Settings that decide a run, except the machine: options have priority over the job file.
 
 use std::borrow::Cow;
 use std::path::PathBuf;
@@ -38,7 +38,7 @@ use crate::job::uncertain::{Uncertainty, uncertainty};
 use crate::job::values::{NotAllowed, above_zero, chosen, micrometres};
 use crate::ui::failure::{Answer, Failure};
 
-/// Everything that decides a run along a program, the model apart.
+/// Settings that decide a run along a program, except the model.
 pub(crate) struct Setting {
     /// The program that is run: of an expanded one the flat form.
     pub(crate) program: Vec<u8>,
@@ -420,7 +420,7 @@ pub(crate) fn program_path(job: Option<&JobFile>, flags: &ProgramArgs) -> Answer
     }
 }
 
-/// Write options, and if the tolerances of path and chords were stated.
+/// Write options, and whether the tolerances of path and chords were stated.
 fn tolerances(
     job: Option<&JobFile>,
     flags: &ProgramArgs,

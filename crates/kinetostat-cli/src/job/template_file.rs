@@ -102,7 +102,7 @@ impl TemplateFile {
 
 fn template(source: Source<'_>, table: TemplateTable) -> Answer<Template> {
     let mut template = Template::default();
-    // Without a name that of the output counts.
+    // The default name is that of the output.
     template.program_name = table.program_name.unwrap_or_default();
     if let Some(written) = &table.tool_orientation {
         let turn = pose(source, written)?;

@@ -66,7 +66,7 @@ pub(crate) fn arc_tolerance(value: f64) -> Result<f64, NotAllowed> {
     }
 }
 
-/// Above what any controller allows, and below what a wrong centre word makes.
+/// Limit above what any controller allows, and below what a wrong centre word makes.
 const ARC_TOLERANCE_MM: f64 = 2.0;
 
 pub(crate) fn micrometres(value: f64) -> Result<f64, NotAllowed> {

@@ -20,7 +20,7 @@ pub(crate) struct Work<'s> {
 }
 
 impl<'s> Work<'s> {
-    /// From the last state that is whole with its files, or from nothing.
+    /// Continues from the last state that is whole with its files, or from nothing.
     pub(crate) fn go_on(
         kept: &Checkpoint,
         survey: &'s Survey,

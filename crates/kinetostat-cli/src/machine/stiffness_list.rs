@@ -83,8 +83,8 @@ fn diagonal(chain: &Chain, spring: &SpringBlock, matrix: &DMatrix<f64>) -> Strin
     }
 }
 
-/// From 10 000 on by powers in steps of three, so that figures of one list do not change their notation at
-/// 10 million.
+/// Formats figures from 10 000 on with powers in steps of three, so that one list does not change its
+/// notation at 10 million.
 pub(crate) fn shown(value: f64) -> String {
     let digits = |value: f64| significant(value, DIGITS, Rounding::Nearest);
     match value.abs() {

@@ -34,7 +34,7 @@ pub(crate) struct MapAnswer {
     pub(crate) deviations: Vec<String>,
     pub(crate) places: Places,
     pub(crate) figures: Vec<FigureAnswer>,
-    /// Unusual paths by which the equilibria were found.
+    /// Unusual methods by which the equilibria were found.
     #[serde(flatten)]
     pub(crate) solving: Solving,
     pub(crate) warnings: Vec<Warning>,

@@ -13,7 +13,7 @@ pub(crate) struct Orientations {
     requested: Vec<Option<UnitQuaternion<f64>>>,
     /// The first one, at home without any.
     pub(crate) first: UnitQuaternion<f64>,
-    /// At every place the nearest to the first that the machine can have.
+    /// True if the orientation is the nearest to the first that the machine can have.
     pub(crate) follows: bool,
 }
 

@@ -19,7 +19,7 @@ pub(crate) struct Picture {
     pub(crate) show: Shown,
     /// Horizontal and vertical axis.
     pub(crate) axes: [usize; 2],
-    /// Every so many places along them.
+    /// Stride between the places along them.
     pub(crate) strides: [usize; 2],
     /// Numbers of the places along them.
     pub(crate) places: [Vec<usize>; 2],

@@ -28,7 +28,7 @@ pub(crate) fn without_figures(task: &MapTask<'_>, places: &Places) -> Option<Fai
     )))
 }
 
-/// No place has an answer, and places are within reach: the load is the reason.
+/// Failure if places are within reach and none has an answer: the load is the reason.
 fn no_equilibrium(task: &MapTask<'_>, places: &Places) -> Failure {
     let wrench = task.load.unwrap_or_else(Wrench::zero);
     let counts = match places.requested {

@@ -52,7 +52,7 @@ pub(crate) struct MeasurementResult {
     pub(crate) features: Vec<FeatureMeasured>,
 }
 
-/// From the frame of the measurement to that of the program.
+/// Motion from the frame of the measurement to that of the program.
 #[derive(Serialize)]
 pub(crate) struct RegistrationResult {
     pub(crate) rotation_vector_deg: [f64; 3],

@@ -7,7 +7,7 @@ use crate::mirror::answer::MeasurementResult;
 use crate::ui::layout::{columns, item, wrapped};
 use crate::ui::numbers::{number, short, triple};
 
-/// More points than this are counted, not listed.
+/// Upper limit of the points that are listed; others are counted.
 const LISTED: usize = 20;
 
 /// A path that bends by less is straight.

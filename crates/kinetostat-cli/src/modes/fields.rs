@@ -14,7 +14,7 @@ pub(crate) struct ModesAnswer {
     pub(crate) moment_n_m: [f64; 3],
     /// Directions of the tool that are held.
     pub(crate) hold: Option<String>,
-    /// In words.
+    /// Damping in words.
     pub(crate) damping: String,
     pub(crate) total_mass_kg: f64,
     /// True if the equilibrium is stable: no unstable mode and no massless instability, or no pair that grows; null if that
@@ -60,7 +60,7 @@ pub(crate) struct ComplexAnswer {
 
 #[derive(Serialize)]
 pub(crate) struct ModeAnswer {
-    /// From 1, by ascending squared frequency.
+    /// Number from 1, by ascending squared frequency.
     pub(crate) number: usize,
     pub(crate) kind: ModeKind,
     /// Negative where unstable, zero where free; of a complex pair that of its swing, zero where it does not swing.
@@ -74,8 +74,8 @@ pub(crate) struct ModeAnswer {
     /// Motion of the tool's tip, base axes, of the shape normalised by mass.
     pub(crate) tool_translation_per_sqrt_kg: [f64; 3],
     pub(crate) tool_rotation_rad_per_m_sqrt_kg: [f64; 3],
-    /// They add to 1.
+    /// Shares that add to 1.
     pub(crate) kinetic_energy: Vec<EnergyShare>,
-    /// They add to 1, or are 0 where no spring is strained.
+    /// Shares that add to 1, or are 0 where no spring is strained.
     pub(crate) elastic_energy: Vec<EnergyShare>,
 }

@@ -133,7 +133,7 @@ fn phase(
     (index, mode): (usize, &Drawn),
     column: usize,
 ) -> String {
-    // Both phases by the same step.
+    // Both phases are drawn with the same step.
     let most = mode.phases[0].shape.amax();
     let step = SMALL / if most > 0.0 { most } else { 1.0 };
     let from = Placed::solved(posture, &machine.equilibrium.state);

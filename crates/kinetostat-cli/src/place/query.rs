@@ -26,7 +26,7 @@ use crate::ui::numbers::{short, triple};
 /// Upper limit of the tool length, m: a longer one is a wrong unit.
 pub(crate) const FARTHEST: f64 = 1e4;
 
-/// Everything about one place.
+/// Query for one place.
 pub(crate) struct PlaceQuery {
     pub(crate) name: String,
     pub(crate) source: String,

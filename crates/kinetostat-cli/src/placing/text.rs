@@ -224,7 +224,7 @@ pub(crate) fn nowhere_text(nowhere: &Nowhere, space: &Space) -> String {
                 .map_or_else(String::new, |line| format!("line {line}: "));
             format!(": {line}{} ({})", refusal.message, refusal.why.words())
         });
-    // Less than half a millimetre is no way out: something else than the reach is in the way.
+    // A way of less than half a millimetre is no remedy: the reach is not the reason then.
     let is_way = |by: &[f64; 3]| by.iter().any(|mm| mm.abs() >= 0.5);
     let way = match nowhere.move_mm {
         Some(by) if !is_way(&by) => {

@@ -10,7 +10,7 @@ use crate::files::origin;
 use crate::job::output_paths::OutputPaths;
 use crate::ui::failure::{Answer, Failure};
 
-/// Without PDF in this build it is said before the long work begins.
+/// Refuses a PDF that this build cannot write, before the long work begins.
 pub(crate) fn refuse_without_pdf() -> Answer<()> {
     match Paper::makes_pdf() {
         true => Ok(()),

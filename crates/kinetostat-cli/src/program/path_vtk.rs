@@ -79,7 +79,7 @@ impl Compliances {
     }
 
     fn at(&self, point: &PointResult) -> Option<&[[f64; 3]; 3]> {
-        // On a step the load is on its way from one to another.
+        // The load of a step changes from one to another.
         let feed = point.kind == PointKind::Feed;
         let at = (point.move_index, point.share.to_bits());
         feed.then(|| self.0.get(&at)).flatten()

@@ -23,7 +23,7 @@ const CELL: usize = 9;
 /// Selection of listed points, and the controller for their displayed values.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Listing {
-    /// Every point, however large the table becomes.
+    /// True if every point is listed, however large the table becomes.
     pub(crate) all: bool,
     pub(crate) controller: Option<Controller>,
 }

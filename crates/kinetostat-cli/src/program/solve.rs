@@ -85,7 +85,7 @@ pub(crate) fn forces_of(
     }
 }
 
-/// No smaller tolerance can be stated, mm.
+/// Smallest tolerance that can be stated, mm.
 const SMALLEST_MM: f64 = 1e-6;
 
 /// Shares what is asked for in all out among straight pieces, chords of arcs (where there are some) and rounding. Where rounding

@@ -69,7 +69,7 @@ pub(crate) fn parts(
     let Some(name) = of_parts.next() else {
         return Ok(None);
     };
-    // While the load comes and goes less of it acts.
+    // The load that comes and goes acts in part.
     let whole = wrenches_at(task, places);
     let acts = |(place, whole): (&ProgramPlace, &Wrench)| match whole.0.norm_squared() {
         0.0 => 0.0,

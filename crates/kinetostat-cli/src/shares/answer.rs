@@ -12,7 +12,7 @@ use crate::place::query::AnswerHead;
 pub(crate) struct SharesAnswer {
     #[serde(flatten)]
     pub(crate) head: AnswerHead,
-    /// In words.
+    /// Direction in words.
     pub(crate) direction: String,
     /// Unit force (its first three) or moment, base axes, about the tool's tip.
     pub(crate) direction_components: [f64; 6],
@@ -30,7 +30,7 @@ pub(crate) struct SharesAnswer {
     pub(crate) geometric_share: f64,
     /// Sum of all parts by the motion of the tool, less 1.
     pub(crate) rounding: f64,
-    /// They store nothing.
+    /// Joints that store no energy.
     pub(crate) passive_joints: Vec<String>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) stiffening: Option<StiffeningAnswer>,

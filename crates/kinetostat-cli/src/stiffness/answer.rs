@@ -175,10 +175,10 @@ pub(crate) fn answer(
     }
 }
 
-/// From m and rad to micrometres and microradians.
+/// Factor from m and rad to micrometres and microradians.
 pub(crate) const MICRO: f64 = 1e6;
 
-/// From per m and per rad to per mm and per rad, as stiffness is shown.
+/// Factor from per m and per rad to per mm and per rad, as stiffness is shown.
 pub(crate) fn per_column(column: usize) -> f64 {
     if column < 3 { 1e-3 } else { 1.0 }
 }

@@ -35,7 +35,7 @@ pub(crate) struct PlaceResults {
 
 #[derive(Serialize)]
 pub(crate) struct ColumnResult {
-    /// With its unit.
+    /// Name with its unit.
     pub(crate) name: &'static str,
     #[serde(flatten)]
     pub(crate) answer: OutputAnswer,

@@ -48,7 +48,7 @@ impl Failure {
         Self::new(Code::WrongInput, message)
     }
 
-    /// No answer exists or none was found.
+    /// Failure: no answer exists or none was found.
     pub(crate) fn unanswered(message: impl Display) -> Self {
         Self::new(Code::Unanswered, message)
     }

@@ -21,7 +21,7 @@ const PATH_MODES: [&str; 10] = [
 /// Words that are done behind the motion of their block.
 const BEHIND_MOTIONS: [&str; 9] = ["M0", "M1", "M2", "M5", "M9", "M17", "M30", "M60", "M99"];
 
-/// No word of a block that is left out.
+/// Value of a block without a slash.
 const NO_SLASH: &str = "no /";
 
 impl Marks<'_> {

@@ -65,7 +65,7 @@ pub(crate) const ONCE: &str = "statements that run once";
 pub(crate) const AGAIN: &str = "statements that run again";
 
 impl Kind {
-    /// In force without a mark.
+    /// Value in force without a mark.
     pub(crate) fn usual(self) -> Value<'static> {
         Value::Text(
             match self {
@@ -152,7 +152,7 @@ impl Value<'_> {
             (Self::Text(own), Self::Text(of_original)) => {
                 let texts = [own.as_str(), of_original.as_str()];
                 (!is_same_text(kind, texts, is_stated)).then(|| {
-                    // Whoever stops at corners follows the path no worse.
+                    // An exact stop is at least as accurate.
                     match own.starts_with("G61") {
                         true => (None, String::new()),
                         false => (kind.fault(), kind.follows().to_owned()),

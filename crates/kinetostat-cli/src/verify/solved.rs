@@ -100,7 +100,7 @@ pub(crate) fn solved(
 }
 
 impl Both<'_> {
-    /// Both are in G-code, or none is.
+    /// True if both programs are in G-code, or neither is.
     fn in_one_form(&self) -> bool {
         self.read.gcode().is_some() == self.other.gcode().is_some()
     }

@@ -115,7 +115,7 @@ pub(crate) fn lost_coupling(off: f64) -> Option<Warning> {
     })
 }
 
-/// From this ratio of a frequency to the highest natural frequency on a machine hardly responds, and a warning says so.
+/// Ratio of a frequency to the highest natural frequency above which a machine hardly responds, and a warning says so.
 const BEYOND_MODES: f64 = 10.0;
 
 /// Frequency of the fastest mode, Hz, where a frequency lies far beyond it: the frequency is a slip, or the model has no modes of

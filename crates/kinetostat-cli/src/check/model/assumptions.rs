@@ -28,7 +28,7 @@ pub(crate) struct AssumptionsFinding {
     pub(crate) against_force_n_per_mm: Option<[f64; 2]>,
     /// Stiffness against a moment, free to move, N m/rad.
     pub(crate) against_moment_n_m_per_rad: Option<[f64; 2]>,
-    /// Without load on the tool: its shift as a share of the natural length, rotations counted.
+    /// Shift without load on the tool as a share of the natural length, rotations counted.
     pub(crate) share_without_load: f64,
     /// The reference load, base axes, N: that of `--force`, or the worst of 1 kN along the axes.
     pub(crate) reference_force_n: Option<[f64; 3]>,
@@ -279,7 +279,7 @@ impl AssumptionsFinding {
                 number(n, 2)
             )
         });
-        // Less is rounding.
+        // A smaller error is rounding.
         let error = self.linear_error_percent.filter(|e| *e > 1e-9);
         let error = error.unwrap_or(0.0);
         let result = if share <= SMALL {

@@ -1,4 +1,4 @@
-//! Everything that is found of a model, with stable names.
+//! Findings about a model, with stable names.
 
 use kinetostat_machining::number::apart;
 use kinetostat_machining::{Warning, WarningCode};

@@ -12,7 +12,7 @@ use crate::place::joints::{self, JointValue};
 use crate::ui::layout::{item, wrapped};
 use crate::ui::numbers::{fixed, short, triple};
 
-/// More actuators than this are not listed one by one.
+/// Upper limit of the actuators that are listed one by one.
 const MOST: usize = 40;
 
 /// Frames and directions, stable names with units.

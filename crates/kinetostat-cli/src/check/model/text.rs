@@ -127,7 +127,7 @@ fn alike(limbs: &[LimbFinding]) -> Vec<Vec<&LimbFinding>> {
     groups.into_iter().map(|(_, group)| group).collect()
 }
 
-/// Without the limb's name, numbers rounded as they are shown.
+/// Removes the limb's name, and rounds numbers as they are shown.
 fn plain(mut value: Value) -> Value {
     if let Value::Object(map) = &mut value {
         map.remove("name");

@@ -25,7 +25,7 @@ pub(crate) struct PoseComparison {
     pub(crate) model: String,
     pub(crate) model_source: String,
     pub(crate) poses_file: String,
-    /// States if the joints of the file are those of the controller or of the model.
+    /// States whether the joints of the file are those of the controller or of the model.
     pub(crate) joints_are: &'static str,
     pub(crate) tolerance_mm: f64,
     pub(crate) tolerance_deg: f64,

@@ -127,7 +127,7 @@ fn column(head: &str, names: &[Named]) -> Answer<Column> {
     )))
 }
 
-/// Every joint and every coordinate once, one orientation at most.
+/// Requires every joint and every coordinate once, one orientation at most.
 fn complete(columns: &[Column], names: &[Named]) -> Answer<()> {
     let twice = |what: &str| Failure::input(format!("{what} appears in two columns"));
     for (i, (name, ..)) in names.iter().enumerate() {

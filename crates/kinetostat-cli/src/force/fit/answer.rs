@@ -51,7 +51,7 @@ pub(crate) struct FitCut {
     pub(crate) arc_to_deg: f64,
     pub(crate) rpm: Option<f64>,
     pub(crate) cutting_speed_m_per_min: Option<f64>,
-    /// From the mean chip at the smallest feed to the thickest at the largest.
+    /// Range from the mean chip at the smallest feed to the thickest at the largest.
     pub(crate) chip_from_mm: f64,
     pub(crate) chip_to_mm: f64,
 }

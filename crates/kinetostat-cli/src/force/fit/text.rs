@@ -104,7 +104,7 @@ fn rows(a: &FitAnswer) -> String {
     out
 }
 
-/// With its sign, but for nothing.
+/// Formats with the sign, except for zero.
 fn signed(value: f64, decimals: usize) -> String {
     let text = fixed(value, decimals);
     match text.chars().any(|sign| ('1'..='9').contains(&sign)) && value > 0.0 {

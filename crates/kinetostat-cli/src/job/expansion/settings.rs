@@ -137,7 +137,7 @@ fn words(options: &ExpandOptions, folders: &[PathBuf]) -> Vec<String> {
             .map(|(number, value)| format!("{before}{number} = {value}{unit}"));
         each.collect::<Vec<_>>().join(", ")
     };
-    // Without their place: a report may be passed on.
+    // Paths are omitted: a report may be passed on.
     let names: Vec<String> = folders
         .iter()
         .filter_map(|folder| Some(folder.file_name()?.to_string_lossy().into_owned()))

@@ -9,7 +9,7 @@ use crate::job::robot::joint_arm::ArmOfTable;
 use crate::job::robot::read_program::RobotRead;
 use crate::ui::numbers::fixed;
 
-/// Nearer to a singular posture than this, mm or deg, both sides are one.
+/// Distance to a singular posture, mm or deg, within which both sides are one.
 const ON_NEITHER_SIDE: f64 = 0.1;
 
 /// Remedy, with the program that was written, ...

@@ -10,7 +10,7 @@ use crate::job::robot::read_program::RobotRead;
 /// A joint that is farther than this from where it starts is on another turn, deg.
 const HALF_A_TURN: f64 = 180.0;
 
-/// Reports the configuration that was solved, and if the arm comes to it from stated joints.
+/// Reports the configuration that was solved, and whether the arm comes to it from stated joints.
 pub(crate) fn of_first_place(
     read: &RobotRead<'_>,
     arm: Option<&ArmOfTable>,

@@ -15,7 +15,7 @@ pub(crate) struct RobotFrames {
     /// Name of the work object in whose axes the path is, and where it is in the robot's base, m; `None`: the path is in axes of
     /// the base.
     pub(crate) work_object: Option<(String, Option<Pose>)>,
-    /// From the tool's tip to its holder, in axes of the tool.
+    /// Direction from the tool's tip to its holder, in axes of the tool.
     pub(crate) tool_axis: Vector3<f64>,
     /// True if that axis is a default, and the language has no convention for it.
     pub(crate) axis_is_open: bool,

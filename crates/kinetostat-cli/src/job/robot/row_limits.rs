@@ -10,7 +10,7 @@ use crate::ui::numbers::short;
 /// Stretches of rows that are named; further ones are counted.
 const MOST_NAMED: usize = 20;
 
-/// Beyond a limit by less than this is a matter of digits, rad.
+/// Excess over a limit that is a matter of digits, rad.
 const DIGITS: f64 = 1e-6;
 
 /// Rows one behind the other in which a joint is beyond the same limit.

@@ -125,7 +125,7 @@ pub(crate) fn taken(source: &RobotSource, program: &RobotProgram) -> Option<Warn
     })
 }
 
-/// Without blanks, in capitals.
+/// Returns the name without blanks, in capitals.
 fn in_capitals(name: &str) -> String {
     let letters = name.chars().filter(|letter| !letter.is_whitespace());
     letters.collect::<String>().to_uppercase()
