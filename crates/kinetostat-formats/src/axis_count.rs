@@ -1,4 +1,4 @@
-//! How a rotary axis counts: on over whole turns, or from 0 to 360 deg and then from 0 again (a modulo axis).
+//! Counting of a rotary axis: on over whole turns, or from 0 to 360 deg and then from 0 again (a modulo axis).
 //!
 //! A program does not state it. It shows in words that only one of the two takes: DC, ACP and ACN turn a modulo axis (SINUMERIK), an
 //! absolute angle outside 0 to 360 deg one that counts on. Where nothing shows it, both readings are to be right.
@@ -6,7 +6,7 @@
 /// Angles nearer than this are one, deg.
 pub(crate) const SAME_DEG: f64 = 1e-6;
 
-/// How an axis counts.
+/// Counting of an axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(crate) enum AxisCount {
     /// The program does not show it.
@@ -18,7 +18,7 @@ pub(crate) enum AxisCount {
     OneTurn,
 }
 
-/// What the words of a program show of an axis.
+/// Evidence in a program for the counting of an axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(crate) struct CountShown {
     /// DC, ACP or ACN turns it.
@@ -30,7 +30,7 @@ pub(crate) struct CountShown {
 }
 
 impl CountShown {
-    /// How the axis counts by these words.
+    /// Counting that these words imply.
     pub(crate) fn way_of_counting(self) -> AxisCount {
         match (self.one_turn, self.beyond) {
             (true, _) => AxisCount::OneTurn,
@@ -39,7 +39,7 @@ impl CountShown {
         }
     }
 
-    /// Whether a reading that took the axis as open was another one.
+    /// True if a reading with undetermined counting would differ.
     pub(crate) fn asks_again(self) -> bool {
         match self.way_of_counting() {
             AxisCount::OneTurn => true,
@@ -58,7 +58,7 @@ impl CountShown {
     }
 }
 
-/// What two parts of a program show of all axes.
+/// Evidence of two parts of a program, for all axes.
 pub(crate) fn shown_by_both(one: &[CountShown], other: &[CountShown]) -> Vec<CountShown> {
     let all = 0..one.len().max(other.len());
     let at = |shown: &[CountShown], place: usize| shown.get(place).copied().unwrap_or_default();
@@ -71,24 +71,24 @@ pub(crate) fn turns_below(angle: f64) -> f64 {
     ((angle + SAME_DEG) / 360.0).floor() * 360.0
 }
 
-/// Whether an angle is from 0 to 360 deg, and not 360.
+/// True if an angle is at least 0 and less than 360 deg.
 pub(crate) fn is_in_one_turn(angle: f64) -> bool {
     turns_below(angle) == 0.0
 }
 
-/// How the end of a piece is stated on an axis.
+/// Form of the end of a piece on an axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum EndWord {
-    /// By its angle.
+    /// Absolute angle.
     Angle,
-    /// By the shorter way to an angle of one turn (DC).
+    /// Shorter way to an angle of one turn (DC).
     Shorter,
-    /// By the turn to it.
+    /// Incremental turn.
     Step,
 }
 
 impl AxisCount {
-    /// How a piece from an angle to another one is stated, with so many digits behind the point, so that it is right on the axis.
+    /// Form of a piece between two angles, with so many decimals, that is correct for the axis.
     pub(crate) fn word_of_end(self, from: f64, to: f64, decimals: usize) -> EndWord {
         let digit = 0.1_f64.powi(i32::try_from(decimals).unwrap_or(9));
         let [from, to] = [from, to].map(|angle| (angle / digit).round() * digit);

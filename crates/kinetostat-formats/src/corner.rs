@@ -4,7 +4,7 @@ use std::f64::consts::{PI, TAU};
 
 use nalgebra::Vector2;
 
-/// What stands in place of a corner, mm.
+/// Transition in place of a corner, mm.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Cut {
     /// An arc of this radius, tangential to both lines.
@@ -15,10 +15,10 @@ pub(crate) enum Cut {
     Length(f64),
 }
 
-/// What it becomes.
+/// Resulting corner.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Corner {
-    /// Where the first line ends, and where the second one begins, mm.
+    /// End of the first line and start of the second one, mm.
     pub ends: [Vector2<f64>; 2],
     /// 1 where the path turns to the left, -1 to the right.
     pub sense: f64,
@@ -27,7 +27,7 @@ pub(crate) struct Corner {
 /// Ways that turn by less than this, or turn back as nearly, have no corner, rad.
 const LEAST_TURN: f64 = 1e-6;
 
-/// How much longer than its way a side or a rounding may be, mm: rounding of digits.
+/// Tolerated excess of a side or a rounding over the length of its line, mm: rounding of digits.
 const ROUNDING_MM: f64 = 1e-6;
 
 /// The sentence of a corner that is refused.
@@ -83,7 +83,7 @@ impl Corner {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Beside {
     pub centre: Vector2<f64>,
-    /// By how much it turns, anticlockwise, rad.
+    /// Angle of the arc, anticlockwise, rad.
     pub angle: f64,
 }
 
@@ -92,7 +92,7 @@ pub(crate) struct Beside {
 pub(crate) struct Leg {
     pub from: Vector2<f64>,
     pub to: Vector2<f64>,
-    /// None of a straight line.
+    /// Arc; `None` for a straight line.
     pub arc: Option<Beside>,
 }
 
@@ -136,7 +136,7 @@ impl Leg {
         }
     }
 
-    /// How long it is, mm.
+    /// Length, mm.
     fn length(&self) -> f64 {
         match self.arc {
             None => (self.to - self.from).norm(),
@@ -168,7 +168,7 @@ pub(crate) fn rounding(legs: [Leg; 2], radius: f64) -> Result<Corner, String> {
         _ => return Err("it is not between a straight line and an arc".to_owned()),
     };
     let (direction, curved) = line;
-    // Its centre is beside the line by the radius, on the inner side, and as far from the circle.
+    // The centre of the rounding is at the distance of the radius from the line, on the inner side, and from the circle.
     let size = (at - arc.centre).norm();
     let from_centre = match curved.sense() == sense {
         true => size - radius,
@@ -202,7 +202,7 @@ pub(crate) fn rounding(legs: [Leg; 2], radius: f64) -> Result<Corner, String> {
 }
 
 impl Leg {
-    /// What is left of it from a place on it.
+    /// Rest of the leg from a point on it.
     pub(crate) fn rest_from(&self, place: Vector2<f64>) -> Self {
         let arc = self
             .arc

@@ -1,4 +1,4 @@
-//! What can be wrong with a program or a writing, reported so that a person can mend it.
+//! Errors of a program or of writing, reported with a remedy.
 
 use std::ops::Range;
 
@@ -7,7 +7,7 @@ use thiserror::Error;
 use crate::text::flat::FlatText;
 use crate::text::source::SourceFile;
 
-/// What is refused in a program: where, what stands there, why, and what to do.
+/// Refused text of a program: position, text, reason, remedy.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error("{file}, line {line}: `{found}`: {reason}; {remedy}")]
 #[non_exhaustive]
@@ -18,11 +18,11 @@ pub struct ProgramError {
     pub line: usize,
     /// Bytes of the file that are meant, counted from 0.
     pub span: Range<usize>,
-    /// What was found there, shortened and without control characters.
+    /// Text found there, shortened and without control characters.
     pub found: String,
-    /// Why it is refused.
+    /// Reason for the refusal.
     pub reason: String,
-    /// What the user can do about it.
+    /// Remedy for the user.
     pub remedy: String,
 }
 
@@ -63,7 +63,7 @@ impl ProgramError {
         Self::at(file, begin, reason, "give one of them alone, or rename one")
     }
 
-    /// That a file is larger than so many bytes, if it is.
+    /// Error of a file that is larger than so many bytes.
     pub(crate) fn too_large(file: &SourceFile, most_bytes: usize) -> Option<Self> {
         let reason = || format!("the file is larger than {} MiB", most_bytes >> 20);
         (file.bytes().len() > most_bytes).then(|| Self::at(file, 0..0, reason(), "divide it"))
@@ -71,7 +71,7 @@ impl ProgramError {
 }
 
 impl ProgramError {
-    /// Of a place of a flat program, at the line of the files that it is from.
+    /// Error at a place of an expanded program, reported at its line of the source files.
     pub(crate) fn of_flat(
         flat: &FlatText,
         files: &[SourceFile],
@@ -117,7 +117,7 @@ impl ProgramError {
 }
 
 impl ProgramError {
-    /// Of a fault of a flat program: the same at the line of the file that it is from.
+    /// Converts an error of an expanded program to its line of the source files.
     pub(crate) fn at_source(mut self, origins: &[(usize, usize)], files: &[SourceFile]) -> Self {
         self.show_source(origins, files);
         let origin = self.line.checked_sub(1).and_then(|line| origins.get(line));
@@ -139,7 +139,7 @@ impl ProgramError {
     }
 }
 
-/// Most errors that are noted of a program: a file of nothing else must not fill the memory.
+/// Limit of the errors that are noted of a program: a file of errors only must not fill the memory.
 const MOST_ERRORS: usize = 100_000;
 
 /// Adds an error, up to a number that nobody reads.
@@ -183,7 +183,7 @@ pub(crate) fn excerpt(bytes: &[u8]) -> String {
     shown
 }
 
-/// Why no corrected program was written.
+/// Error that prevents a corrected program from being written.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum WriteError {
@@ -194,9 +194,9 @@ pub enum WriteError {
         file: String,
         /// Line of the motion, counted from 1.
         line: usize,
-        /// Why.
+        /// Reason for the error.
         reason: String,
-        /// What the user can do about it.
+        /// Remedy for the user.
         remedy: String,
     },
     /// A piece speaks of a motion that the program does not have.
@@ -223,7 +223,7 @@ pub enum WriteError {
         /// `WriteOptions::max_line_bytes`.
         limit: usize,
     },
-    /// Further poses need names or numbers, and none is free.
+    /// No name or number is free for additional poses.
     #[error(
         "{file}: no name or number is free for a further pose; give fewer pieces, or divide the program"
     )]

@@ -1,8 +1,8 @@
-//! What a file of a program holds, and by which endings it is known.
+//! Forms of program files, and their name endings.
 
 use crate::model::language::Language;
 
-/// What a file of a program holds, as the ending of its name says it.
+/// Form of a program file, as its name ending implies it.
 ///
 /// ```
 /// use kinetostat_formats::{FileForm, Language};
@@ -28,7 +28,7 @@ pub enum FileForm {
 }
 
 impl FileForm {
-    /// That of a program in a language (`None`: G-code), of which the name and the bytes are known.
+    /// Form of a program in a language (`None`: G-code), from its name and its bytes.
     ///
     /// ```
     /// use kinetostat_formats::{FileForm, Language};
@@ -42,7 +42,7 @@ impl FileForm {
         language.map_or(Self::Gcode, form)
     }
 
-    /// How the names of its files end, in small letters, the usual ending first.
+    /// Endings of the form's file names, in small letters, the usual ending first.
     fn endings(self) -> &'static [&'static str] {
         match self {
             Self::Gcode => &["ngc", "nc", "gcode", "tap", "cnc", "iso", "prg"],
@@ -53,7 +53,7 @@ impl FileForm {
         }
     }
 
-    /// How the names of its files usually end.
+    /// Usual ending of the form's file names.
     ///
     /// ```
     /// use kinetostat_formats::{FileForm, Language};
@@ -65,7 +65,7 @@ impl FileForm {
         self.endings().first().copied().unwrap_or_default()
     }
 
-    /// Whether the ending of a name is one of this form, or none that a language is known by.
+    /// True if the ending of a name belongs to this form, or to no known language.
     ///
     /// ```
     /// use kinetostat_formats::{FileForm, Language};
@@ -83,7 +83,7 @@ impl FileForm {
         self.endings().contains(&ending.as_str()) || !is_known
     }
 
-    /// Its name in sentences.
+    /// Name of the form in sentences.
     ///
     /// ```
     /// assert_eq!(kinetostat_formats::FileForm::Parquet.title(), "a table in Parquet");

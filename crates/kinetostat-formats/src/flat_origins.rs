@@ -8,7 +8,7 @@ use crate::text::source::SourceFile;
 const LONGEST: usize = 120;
 
 impl FlatText {
-    /// The same program, in which every block says in a comment the line that it is from, as in `;line 12` or `;drill.spf, line 3`.
+    /// Adds the source line of every block as a comment, as in `;line 12` or `;drill.spf, line 3`.
     /// Lines without a block stay, and so do long ones, those that the next line goes on with, and blocks of Heidenhain that are
     /// a comment or begin and end the program.
     ///
@@ -43,7 +43,7 @@ impl FlatText {
     }
 }
 
-/// Whether a line is a block that a comment may stand behind.
+/// True if a line is a block that a comment may follow.
 fn is_block(language: Language, text: &[u8]) -> bool {
     let text = text.trim_ascii_start();
     language.takes_origin(text) && text.len() <= LONGEST && !text.contains(&b';')

@@ -12,13 +12,13 @@ use crate::text::source::SourceFile;
 /// A line of a program, or a block of several lines: an index of the files, and one of what the file is divided into.
 pub(crate) type Place = (usize, usize);
 
-/// Most lines that run.
+/// Limit of the executed lines.
 pub(crate) const MOST_STEPS: u64 = 20_000_000;
-/// Most lines that run one after another without one that is written.
+/// Limit of consecutive executed lines without output.
 const MOST_SILENT: u64 = 1_000_000;
-/// Most lines that are written.
+/// Limit of the written lines.
 const MOST_LINES: usize = 5_000_000;
-/// Most bytes that are written.
+/// Limit of the written bytes.
 const MOST_BYTES: usize = 1 << 28;
 
 /// The bounds in words.
@@ -28,7 +28,7 @@ const BOUNDS: &str = "it has run more than 20 million blocks, or more than a mil
 #[derive(Default)]
 pub(crate) struct Written {
     pub bytes: Vec<u8>,
-    /// Of each line the file, and the line there, counted from 1.
+    /// File and line (from 1) of each line.
     pub origins: Vec<(usize, usize)>,
     ending: &'static [u8],
     steps: u64,
@@ -36,7 +36,7 @@ pub(crate) struct Written {
     /// Lines that were gone back to, each with the last line from where.
     back_to: BTreeMap<Place, usize>,
     pub faults: FaultsOfRun,
-    /// It reached a bound: what it wrote is not the program.
+    /// A limit was reached: the output is incomplete.
     is_endless: bool,
 }
 
@@ -70,7 +70,7 @@ impl Written {
             .extend((0..lines).map(|line| (index, first + line)));
     }
 
-    /// Whether it is larger than any program.
+    /// True if the output is larger than any program.
     pub(crate) fn is_full(&self) -> bool {
         self.origins.len() > MOST_LINES || self.bytes.len() > MOST_BYTES
     }
@@ -134,7 +134,7 @@ pub(crate) trait Runs {
     /// Why it is refused.
     fn step(&mut self, at: Place) -> Result<(), ProgramError>;
 
-    /// What stands behind a line that is refused.
+    /// Effect of a refused line on the lines after it.
     fn behind(&self, at: Place) -> Behind;
 
     /// Goes behind a line that is refused; where it has written nothing, it is written as it stands.
@@ -171,7 +171,7 @@ pub(crate) trait Runs {
         }
     }
 
-    /// Why a run ends that does not end by itself: at the line that goes back to the beginning of the outermost loop, where one runs.
+    /// Error of a run that does not end: at the line that jumps back to the start of the outermost running loop, if there is one.
     fn endless(&mut self, at: Place) -> ProgramError {
         let mut running = self.running().into_iter();
         let last = running.find_map(|place| self.written().end_of_loop(place));

@@ -1,4 +1,4 @@
-//! Which language a file is written in.
+//! Language of a file.
 
 use crate::model::language::Language;
 
@@ -27,7 +27,7 @@ fn by_ending(ending: &str) -> Option<Language> {
     all.find(|language| language.endings().contains(&ending))
 }
 
-/// Why a file that [`language_of`] does not know is hardly G-code, and what to do; `None` where it may be.
+/// Reason why a file that [`language_of`] does not know is hardly G-code, and the remedy; `None` if it may be G-code.
 ///
 /// ```
 /// use kinetostat_formats::odd_program;

@@ -101,6 +101,7 @@ pub use making::limits::MakeLanguage;
 pub use making::make::{Made, make};
 pub use making::of_robot::{base_of_robot, make_of_flat_robot, make_of_robot};
 pub use making::robot_events::{events_of_robot, spindle_of_blocks};
+pub use making::run_statements::{RunStatement, mode_of, options_of_motion, statements_of_run};
 pub use making::template::{
     PlacesUnknown, Rapids, SpindleStatements, StatedFrame, StatedTool, Template, Zones,
 };

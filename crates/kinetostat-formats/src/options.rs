@@ -1,4 +1,4 @@
-//! What the caller states about reading and writing.
+//! Options of the caller for reading and writing.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -8,17 +8,17 @@ use crate::model::joint_arm::TableArm;
 use crate::model::slash_blocks::SlashBlocks;
 use crate::model::stated_value::StatedValue;
 
-/// What becomes of a motion whose end is not known from the text.
+/// Treatment of a motion with an unknown end.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum UnknownTargets {
-    /// It is refused with its line.
+    /// The motion is refused with its line.
     #[default]
     Refused,
-    /// It stays as it is written: [`crate::Target::Unknown`], with a finding.
+    /// The motion stays as it is written: [`crate::Target::Unknown`], with a finding.
     LeftAsWritten,
 }
 
-/// What becomes of external axes that move from one target to the next.
+/// Treatment of external axes that move from one target to the next.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum ExternalAxes {
     /// The program is refused at the first line where they move: the arm stands elsewhere then.
@@ -29,17 +29,17 @@ pub enum ExternalAxes {
     Carried,
 }
 
-/// What becomes of a path that the controller moves aside by the tool's radius (APT: `CUTCOM`, `TLCOMP`).
+/// Treatment of a path with cutter radius compensation on the controller (APT: `CUTCOM`, `TLCOMP`).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum CutterCompensation {
-    /// It is refused with its line.
+    /// The path is refused with its line.
     #[default]
     Refused,
     /// The places are those of the tool's centre: the controller's radius is zero, or only the wear.
     CentrePath,
 }
 
-/// What lengths of a list of poses are.
+/// Length unit of a list of poses.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum LengthUnit {
     /// mm.
@@ -70,7 +70,7 @@ impl StatedValue {
     }
 }
 
-/// How a program is read.
+/// Options with which a program is read.
 ///
 /// ```
 /// use kinetostat_formats::{ExternalAxes, ReadOptions, UnknownTargets};
@@ -111,7 +111,7 @@ pub struct ReadOptions {
 }
 
 impl ReadOptions {
-    /// The same, and what is not followed stays as it is written: for a look at a program of which nobody is to hear yet.
+    /// Options that leave all that is not followed as written: for an internal first read without a report.
     pub(crate) fn as_written(&self) -> Self {
         Self {
             unknown_targets: UnknownTargets::LeftAsWritten,
@@ -121,7 +121,7 @@ impl ReadOptions {
     }
 }
 
-/// Where a motion that is written as several pieces stops, if it stops at its end.
+/// Exact stops within a motion that is divided into pieces, if it has an exact stop at its end.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum ExactStops {
     /// At its end alone: the pieces before pass their ends (RAPID: the smallest zone `z0`, 0.3 mm; KRL: `C_DIS`, within the
@@ -132,7 +132,7 @@ pub enum ExactStops {
     AtEveryPiece,
 }
 
-/// How a program is written.
+/// Options with which a program is written.
 ///
 /// ```
 /// let mut options = kinetostat_formats::WriteOptions::default();
@@ -142,15 +142,15 @@ pub enum ExactStops {
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct WriteOptions {
-    /// Least decimals of a changed length in mm, 3: half a micrometre along each axis. A number that had more keeps them.
+    /// Minimum decimals of a changed length in mm, 3: half a micrometre along each axis. A number that had more keeps them.
     pub position_decimals: usize,
-    /// Least decimals of a changed part of a quaternion, 7: two tenths of a microradian.
+    /// Minimum decimals of a changed component of a quaternion, 7: two tenths of a microradian.
     pub quaternion_decimals: usize,
-    /// Least decimals of a changed angle in degrees, 5.
+    /// Minimum decimals of a changed angle in degrees, 5.
     pub angle_decimals: usize,
-    /// Where divided motions stop.
+    /// Exact stops of divided motions.
     pub exact_stops: ExactStops,
-    /// Most bytes of a line that changes, without its line ending, where the controller or its loader has such a limit.
+    /// Limit of the bytes of a changed line, without its line ending, if the controller or its loader has one.
     pub max_line_bytes: Option<usize>,
 }
 

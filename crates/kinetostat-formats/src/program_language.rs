@@ -27,7 +27,7 @@ pub(crate) const SPEED_REMEDY_OF_BLOCKS: &str = "write an F above zero (with G95
 ///
 /// Code outside the folder of a language asks for what it needs to know here, and names no language.
 pub trait ProgramLanguage: Sync {
-    /// Its name as options write it, in small letters.
+    /// Name of the language in options, in small letters.
     fn word(&self) -> &'static str;
 
     /// Short name in sentences.
@@ -45,7 +45,7 @@ pub trait ProgramLanguage: Sync {
     /// Each statement with what it is taken for.
     fn statements(&self) -> &'static [StatementRow];
 
-    /// What its writer keeps and changes, in sentences.
+    /// Description of the writer's changes, in sentences.
     fn written(&self) -> &'static str;
 
     /// Reads all that can be read of the files of a program.
@@ -133,12 +133,12 @@ pub trait ProgramLanguage: Sync {
         None
     }
 
-    /// What a line of the header of a corrected program begins with.
+    /// Opening of a header line of a corrected program.
     fn header_opens(&self, _program: &[u8]) -> String {
         format!("{} ", self.comment())
     }
 
-    /// What a line of the header ends with.
+    /// End of a header line.
     fn header_closes(&self) -> &'static str {
         ""
     }

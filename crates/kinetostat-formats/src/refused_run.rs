@@ -7,16 +7,16 @@ use crate::text::edits::Edits;
 use crate::text::flat::FlatText;
 use crate::text::source::SourceFile;
 
-/// What comes behind the remedy of the last line that was run.
+/// Suffix to the remedy of the last executed line.
 const NOT_RUN: &str = " (the lines behind this one were not run: what they do depends on it)";
 
-/// Most faults that one run comes upon: a loop of refused lines must end.
+/// Limit of the faults of one run: a loop of refused lines must end.
 const MOST_FAULTS: usize = 100_000;
 
-/// Why a program is not written flat.
+/// Error of a program that is not expanded.
 pub struct RefusedRun {
     pub faults: Vec<ProgramError>,
-    /// What was written all the same, with refused lines as they stand in their files.
+    /// Output written nevertheless, with refused lines unchanged.
     pub flat: Option<Box<FlatText>>,
 }
 
@@ -26,12 +26,12 @@ impl From<Vec<ProgramError>> for RefusedRun {
     }
 }
 
-/// What of a run stands behind a line that is refused.
+/// Effect of a refused line on the rest of the run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Behind {
-    /// The same as without the line.
+    /// The rest does not depend on the line.
     Same,
-    /// What depends on it.
+    /// The rest depends on it.
     Depends,
     /// Nothing.
     Nothing,

@@ -1,4 +1,4 @@
-//! Where the rotary axes of a machine stand, as far as the words of a program say it, and what it may do there.
+//! Modal state of the rotary axes of a machine, as far as a program states it, and the motions that it allows.
 //!
 //! Takes the words of SINUMERIK (A, B, C with AC, IC, DC, ACP, ACN) and Heidenhain (A, IA, ...) programs, gives angles that count on over
 //! whole turns. The laws are those of G43.4: with tool centre point control a cut needs all angles; without it X, Y and Z are
@@ -8,7 +8,7 @@ use crate::axis_count::CountShown;
 use crate::model::stated_axes::AxesStated;
 use crate::turned_axis::{AxisFault, AxisTurn, StandingAxis, TipWords, Turning, ZERO_DEG};
 
-/// Where the rotary axes stand.
+/// Modal state of the rotary axes.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct Standing {
     axes: Vec<StandingAxis>,
@@ -24,7 +24,7 @@ pub(crate) struct Standing {
 }
 
 impl Standing {
-    /// Of axes that count as it is shown of them.
+    /// State of axes with the shown counting.
     pub(crate) fn of_letters(letters: &[char], shown: &[CountShown]) -> Self {
         let axis = |(place, letter): (usize, &char)| {
             StandingAxis::new(*letter, shown.get(place).copied().unwrap_or_default())
@@ -49,7 +49,7 @@ impl Standing {
         self.halved = None;
     }
 
-    /// What the words so far show of how the axes count.
+    /// Evidence of the words so far for the counting of the axes.
     pub(crate) fn shown_counts(&self) -> Vec<CountShown> {
         self.axes.iter().map(|axis| axis.shown).collect()
     }
@@ -72,7 +72,7 @@ impl Standing {
         Ok(())
     }
 
-    /// How far an absolute word turns an axis straight on and the shorter way, where that is not the same.
+    /// Turn of an axis by an absolute word, direct and by the shorter way, if they differ.
     pub(crate) fn readings_of(&self, place: usize, to: f64) -> Option<[f64; 2]> {
         self.axes.get(place)?.readings_of(to)
     }
@@ -120,14 +120,14 @@ impl Standing {
         self.axes.iter().map(|axis| axis.at).collect()
     }
 
-    /// Whether an axis turns in the block, as far as it is known.
+    /// True if an axis is known to turn in the block.
     pub(crate) fn is_turning(&self) -> bool {
         let both = self.axes.iter().zip(&self.before);
         let mut both = both.filter_map(|(axis, before)| axis.at.zip(*before));
         both.any(|(now, before)| now != before)
     }
 
-    /// Whether the block does not end, in the part, where its places say; `tip` where they are those of the tool's tip.
+    /// True if the block ends at another point of the part than its coordinates state; `tip` if they are those of the tool tip.
     pub(crate) fn loses_place(&self, tip: bool) -> bool {
         let now = self.angles_now();
         match tip {
@@ -138,7 +138,7 @@ impl Standing {
         }
     }
 
-    /// Why a block cannot cut, once for angles that stay.
+    /// Reason why a block cannot cut, reported once while the angles stay.
     pub(crate) fn no_cut(&mut self, tip: bool, words: &TipWords) -> Option<AxisFault> {
         let found = self.why_no_cut(tip, words);
         let reason = found.as_ref().map(|(reason, _)| reason.clone());
@@ -205,7 +205,7 @@ impl Standing {
         ))
     }
 
-    /// What is noted of a motion; nothing where a direction says how the tool stands.
+    /// Rotary axis data of a motion; `None` if a direction defines the orientation.
     pub(crate) fn of_motion(&self, tip: bool) -> Option<AxesStated> {
         if self.axes.is_empty() || self.by_direction {
             return None;

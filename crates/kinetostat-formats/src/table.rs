@@ -1,21 +1,21 @@
-//! What a language's reader does with each of its statements, as data.
+//! Treatment of the statements of a language by its reader, as data.
 //!
 //! One rule for what stops a robot: what may make it leave the programmed path, or skip a motion or a part of one, is refused by line
 //! (`RESUME` of KRL and `ClearPath` of RAPID leave motions before their ends); what holds it on the path, after which it goes on there,
 //! is carried (`BRAKE` and `HALT`, `StopMove` with `StartMove`, `Stop`, `PAUSE` of TP programs): the tool cuts where it would have cut.
 
-/// What is done with a statement.
+/// Treatment of a statement.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Treatment {
-    /// It is followed: motions, frames, declarations, control flow.
+    /// Followed: motions, frames, declarations, control flow.
     Understood,
-    /// It cannot move the tool: it comes back byte for byte.
+    /// Carried unchanged: it cannot move the tool.
     Carried,
-    /// It can move the tool, and how is not known here.
+    /// Refused: it can move the tool in an unknown way.
     Refused {
-        /// Why.
+        /// Reason for the refusal.
         reason: &'static str,
-        /// What the user can do about it.
+        /// Remedy for the user.
         remedy: &'static str,
     },
 }
@@ -30,11 +30,11 @@ pub enum Treatment {
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct StatementRow {
-    /// Its word, as the language's manual writes it.
+    /// Word as in the language's manual.
     pub name: &'static str,
-    /// What is done with it.
+    /// Treatment of the statement.
     pub treatment: Treatment,
-    /// Where its meaning is from.
+    /// Source of the meaning.
     pub source: &'static str,
 }
 
@@ -72,7 +72,7 @@ pub(crate) const fn alike(
     }
 }
 
-/// How many statements groups have together.
+/// Number of statements in all groups.
 pub(crate) const fn count(groups: &[Alike]) -> usize {
     let (mut all, mut group) = (0, 0);
     while group < groups.len() {
@@ -119,7 +119,7 @@ pub(crate) const fn sorted<const N: usize>(mut all: [StatementRow; N]) -> [State
     all
 }
 
-/// Whether a name stands before another one in the order of the alphabet, whatever its case.
+/// True if a name precedes another one alphabetically, ignoring case.
 const fn comes_before(one: &[u8], other: &[u8]) -> bool {
     let mut at = 0;
     while at < one.len() && at < other.len() {

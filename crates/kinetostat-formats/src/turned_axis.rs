@@ -8,12 +8,12 @@ use crate::axis_count::{AxisCount, CountShown, SAME_DEG, is_in_one_turn, turns_b
 /// Angles below this are zero, deg.
 pub(crate) const ZERO_DEG: f64 = 1e-9;
 
-/// How a word turns an axis, deg.
+/// Turn of an axis by a word, deg.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum AxisTurn {
     /// To an angle, straight on.
     To(f64),
-    /// By an angle.
+    /// Incremental angle.
     By(f64),
     /// To an angle of one turn, the shorter way (DC; M126).
     Shorter(f64),
@@ -23,7 +23,7 @@ pub(crate) enum AxisTurn {
     Downwards(f64),
 }
 
-/// What is wrong, and what to do.
+/// Reason and remedy of an axis fault.
 pub(crate) type AxisFault = (String, String);
 
 /// The words with which a language has tool centre point control, and states an angle.
@@ -33,15 +33,15 @@ pub(crate) struct TipWords {
     pub control: &'static str,
     /// `G0 `, `L `: what stands before the word of an axis at zero.
     pub rapid: &'static str,
-    /// What stands behind the letter of an axis at zero.
+    /// Text after the letter of an axis at zero.
     pub zero: &'static str,
     /// The word of a step, deg.
     pub step: fn(char, f64) -> String,
-    /// What turns an axis of 0 to 360 deg to an angle.
+    /// Word that turns an axis of 0 to 360 deg to an angle.
     pub shorter: fn(char, f64) -> String,
 }
 
-/// What else is to be known of a turn.
+/// Context of a turn.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Turning<'w> {
     pub words: &'w TipWords,
@@ -49,7 +49,7 @@ pub(crate) struct Turning<'w> {
     pub rapid: bool,
 }
 
-/// Where one axis stands, deg.
+/// Modal state of one axis, deg.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct StandingAxis {
     pub letter: char,
@@ -58,14 +58,14 @@ pub(crate) struct StandingAxis {
     pub shown: CountShown,
     /// Whole turns that a modulo axis does not show, deg.
     wound: f64,
-    /// It came out of 0 to 360 deg by no absolute word: which angle the control shows, is open.
+    /// An incremental word turned the axis out of 0 to 360 deg: the displayed angle is unknown.
     left: bool,
-    /// It was sent to a place of the machine.
+    /// The axis was moved to a machine position.
     pub sent: bool,
 }
 
 impl StandingAxis {
-    /// Of an axis that counts as it is shown of it.
+    /// State of an axis with the shown counting.
     pub(crate) fn new(letter: char, shown: CountShown) -> Self {
         Self {
             letter,
@@ -74,7 +74,7 @@ impl StandingAxis {
         }
     }
 
-    /// Where it stands is not known.
+    /// Invalidates the position of the axis.
     pub(crate) fn be_anywhere(&mut self) {
         (self.at, self.wound) = (None, 0.0);
         (self.left, self.sent) = (false, false);
@@ -99,7 +99,7 @@ impl StandingAxis {
             }
             (AxisTurn::Shorter(to) | AxisTurn::Upwards(to) | AxisTurn::Downwards(to), Some(at)) => {
                 let up = match (self.of_one_turn(to)? - at).rem_euclid(360.0) {
-                    // It stands there: what the arithmetic leaves is no turn.
+                    // The axis is already there: the residue of rounding is no turn.
                     up if up > 360.0 - SAME_DEG => up - 360.0,
                     up => up,
                 };
@@ -126,7 +126,7 @@ impl StandingAxis {
         Ok(halved)
     }
 
-    /// How far an absolute word turns an axis of 0 to 360 deg straight on (AC) and the shorter way (DC), where that is not the same.
+    /// Turn of an axis of 0 to 360 deg by an absolute word, direct (AC) and by the shorter way (DC), if they differ.
     pub(crate) fn readings_of(&self, to: f64) -> Option<[f64; 2]> {
         let at = self.at.filter(|_| self.count == AxisCount::OneTurn)?;
         let on = to + self.wound - at;

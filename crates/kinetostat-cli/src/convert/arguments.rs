@@ -6,7 +6,7 @@ use clap::{ArgAction, Args};
 
 use crate::job::arguments::ReadingArgs;
 use crate::job::expansion::arguments::ExpandFlags;
-use crate::job::robot_arguments::{AxisWord, JointRowsWord};
+use crate::job::robot_arguments::{AxisWord, JointRowsWord, StatedArgs};
 use crate::job::target_word::TargetWord;
 use crate::options::number;
 
@@ -83,6 +83,8 @@ pub(crate) struct ConvertArgs {
         help_heading = "Robot programs"
     )]
     pub(crate) tool_axis: Option<AxisWord>,
+    #[command(flatten)]
+    pub(crate) stated: StatedArgs,
     #[command(flatten)]
     pub(crate) expansion: ExpandFlags,
 }

@@ -25,7 +25,7 @@ use crate::job::robot::divided::Divided;
 use crate::job::robot::read_once::Reading;
 use crate::job::robot::settings::{MadeArm, RobotSettings, settings};
 use crate::job::robot::source::RobotSource;
-use crate::job::robot_arguments::RobotArgs;
+use crate::job::robot_arguments::{RobotArgs, StatedArgs};
 use crate::job::setting::{Setting, setting};
 use crate::job::target_word::RobotWord;
 use crate::job::template_file::{TemplateAsked, TemplateFile};
@@ -155,8 +155,7 @@ pub(crate) fn settings_of_made(
 ) -> Answer<RobotSettings> {
     // Calls were refused, or are notes in the made program.
     let flags = RobotArgs {
-        moving_calls: Vec::new(),
-        values: Vec::new(),
+        stated: StatedArgs::default(),
         ..flags.robot.clone()
     };
     let mut found = settings(None, &flags, (of_robot, axis))?;

@@ -6,6 +6,7 @@ use clap::Args;
 
 use crate::job::arguments::ReadingArgs;
 use crate::job::expansion::arguments::ExpansionArgs;
+use crate::job::robot_arguments::StatedArgs;
 
 /// A program with subprograms, variables and cycles as plain blocks
 ///
@@ -15,7 +16,7 @@ use crate::job::expansion::arguments::ExpansionArgs;
 #[derive(Debug, Args)]
 #[command(after_long_help = HELP)]
 pub(crate) struct ExpandArgs {
-    /// Program in G-code, of SINUMERIK (.mpf) or Heidenhain (.h), or in APT (.apt, .cls)
+    /// Program in G-code, of SINUMERIK (.mpf) or Heidenhain (.h), in APT (.apt, .cls), KRL (.src) or RAPID (.mod)
     #[arg(value_name = "PROGRAM")]
     pub(crate) program: PathBuf,
     /// File for the flat program; without it, it is printed
@@ -23,6 +24,8 @@ pub(crate) struct ExpandArgs {
     pub(crate) out: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) with: ExpansionArgs,
+    #[command(flatten)]
+    pub(crate) stated: StatedArgs,
     /// Overwrite the output if it exists (never the input)
     #[arg(long)]
     pub(crate) force_overwrite: bool,

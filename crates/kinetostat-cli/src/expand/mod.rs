@@ -44,6 +44,11 @@ pub(crate) fn run(args: &ExpandArgs) -> Answer<()> {
     if let Some(language) = language {
         return of_control(args, language, bytes);
     }
+    if let Some(option) = args.stated.given() {
+        return Err(Failure::input(format!(
+            "{option} is for programs of robots, and '{name}' is read as G-code; leave it out"
+        )));
+    }
     let settings = settings(None, &args.with, &reading(None, &args.reading)?)?;
     let done = flattened(bytes, (&args.program, &name), &settings)?;
     let mut inputs = vec![args.program.clone()];
@@ -81,6 +86,10 @@ fn of_control(args: &ExpandArgs, language: Language, bytes: Vec<u8>) -> Answer<(
     }
     let folders = folders(&args.with)?;
     let name = args.program.file_name().unwrap_or_default();
+    let flags = RobotArgs {
+        stated: args.stated.clone(),
+        ..RobotArgs::default()
+    };
     let mut source = RobotSource {
         language,
         files: vec![SourceFile::new(name.to_string_lossy(), bytes)],
@@ -90,7 +99,7 @@ fn of_control(args: &ExpandArgs, language: Language, bytes: Vec<u8>) -> Answer<(
         before: None,
         system_frames: None,
         reading: Reading::new(),
-        settings: robot_settings(None, &RobotArgs::default(), (language, Vector3::z()))?,
+        settings: robot_settings(None, &flags, (language, Vector3::z()))?,
     };
     let called = with_called_files(&mut source, &args.program, &folders)?;
     source.settings.reading.slash_blocks = slash_blocks(None, &args.reading);

@@ -53,6 +53,26 @@ pub(crate) enum AxisWord {
     MinusZ,
 }
 
+/// Facts that only the controller of a robot's program knows.
+#[derive(Clone, Debug, Default, Args)]
+pub(crate) struct StatedArgs {
+    /// What the program calls by this name, and none of its files holds, moves the tool: NAME=moves (repeat for more). Such a call is
+    /// refused by line; others are taken not to move the tool and not to change speed, tool or frame
+    #[arg(long = "call", value_name = "NAME=moves", action = ArgAction::Append, help_heading = "Robot programs", value_parser = moving_call)]
+    pub(crate) moving_calls: Vec<String>,
+    /// Value of a name that only the controller knows (a signal, an input, a register), as in di1=1 (repeat for more)
+    #[arg(long = "set", value_name = "NAME=VALUE", action = ArgAction::Append, help_heading = "Robot programs", value_parser = stated_value)]
+    pub(crate) values: Vec<(String, StatedValue)>,
+}
+
+impl StatedArgs {
+    /// The first option that was given.
+    pub(crate) fn given(&self) -> Option<&'static str> {
+        let call = (!self.moving_calls.is_empty()).then_some("--call");
+        call.or((!self.values.is_empty()).then_some("--set"))
+    }
+}
+
 /// Options for programs of robots.
 #[derive(Clone, Debug, Default, Args)]
 pub(crate) struct RobotArgs {
@@ -75,13 +95,8 @@ pub(crate) struct RobotArgs {
     /// How the controller moves between the rows of a table of joint values
     #[arg(long, value_enum, value_name = "WAY", help_heading = "Robot programs")]
     pub(crate) joint_rows: Option<JointRowsWord>,
-    /// What the program calls by this name, and none of its files holds, moves the tool: NAME=moves (repeat for more). Such a call is
-    /// refused by line; others are taken not to move the tool and not to change speed, tool or frame
-    #[arg(long = "call", value_name = "NAME=moves", action = ArgAction::Append, help_heading = "Robot programs", value_parser = moving_call)]
-    pub(crate) moving_calls: Vec<String>,
-    /// Value of a name that only the controller knows (a signal, an input, a register), as in di1=1 (repeat for more)
-    #[arg(long = "set", value_name = "NAME=VALUE", action = ArgAction::Append, help_heading = "Robot programs", value_parser = stated_value)]
-    pub(crate) values: Vec<(String, StatedValue)>,
+    #[command(flatten)]
+    pub(crate) stated: StatedArgs,
     /// The program is converted into the language of a robot before it is run.
     #[arg(skip)]
     pub(crate) converted: bool,
@@ -125,10 +140,11 @@ impl RobotArgs {
             ("--rapid-from-mm-per-s", self.rapid_from_mm_per_s.is_some()),
             ("--tool-axis", self.tool_axis.is_some()),
             ("--joint-rows", self.joint_rows.is_some()),
-            ("--call", !self.moving_calls.is_empty()),
-            ("--set", !self.values.is_empty()),
         ];
         let mut given = all.into_iter().filter(|(_, given)| *given);
-        given.next().map(|(name, _)| name)
+        given
+            .next()
+            .map(|(name, _)| name)
+            .or_else(|| self.stated.given())
     }
 }

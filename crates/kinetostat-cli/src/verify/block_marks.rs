@@ -1,6 +1,6 @@
 //! Marks of the words of a block: for G-code, SINUMERIK and Heidenhain.
 
-use kinetostat_formats::{BlockWord, Language};
+use kinetostat_formats::{BlockWord, Language, mode_of};
 
 use crate::job::reading::work_offset;
 use crate::verify::marks::{Kind, Marks, NOTHING_ADDED, Value};
@@ -11,11 +11,6 @@ const IN_PATH: &[&str] = &[
     "0", "1", "2", "3", "5", "5.1", "5.2", "5.3", "7", "8", "17", "18", "19", "20", "21", "70",
     "71", "73", "74", "76", "80", "81", "82", "83", "84", "85", "86", "87", "88", "89", "90",
     "90.1", "91", "91.1", "92.1", "92.2", "92.3", "93", "94", "95", "96", "97", "98", "99",
-];
-
-/// G words of a SINUMERIK for how it follows the path.
-const PATH_MODES: [&str; 10] = [
-    "G60", "G64", "G601", "G602", "G603", "G641", "G642", "G643", "G644", "G645",
 ];
 
 /// Words that are done behind the motion of their block.
@@ -34,11 +29,16 @@ impl Marks<'_> {
         };
         let has_slash = words.first().is_some_and(|word| word.name == "/");
         let slash = if has_slash { "/" } else { NO_SLASH };
-        let is_move = self.move_lines.binary_search(&line).is_ok();
+        let is_move = self.before_line(line, false) < self.before_line(line, true);
         let slash = is_move.then(|| (Kind::Optional, slash.to_owned()));
         for (kind, text) in found.into_iter().chain(slash) {
             let is_behind = BEHIND_MOTIONS.contains(&text.as_str());
-            self.add(line, kind, Value::Text(text), is_behind);
+            let name = match (kind, of) {
+                (Kind::PathMode, Some(language)) => mode_of(language, &text).unwrap_or_default(),
+                _ => String::new(),
+            };
+            let place = [self.before_line(line, is_behind), line];
+            self.add(place, (kind, name), Value::Text(text));
         }
     }
 }
@@ -80,27 +80,23 @@ fn of_gcode(words: &[BlockWord]) -> Vec<(Kind, String)> {
     words.iter().filter_map(mark).collect()
 }
 
-/// `D1`, `M8`, `G642 ADIS=1`, `CYCLE832(0.5,1)`, `G4 F2`.
+/// `D1`, `M8`, `G642`, `ADIS=1`, `CYCLE832(0.5,1)`, `G4 F2`, and other words that are not in the path that was read.
 fn of_siemens(words: &[BlockWord]) -> Vec<(Kind, String)> {
     let waits = words.iter().any(|word| word.text == "G4");
-    let mut path_mode: Vec<&str> = Vec::new();
-    let mut found = Vec::new();
-    for word in words {
-        match word.name.as_str() {
-            "F" | "S" if waits => found.push((Kind::Other, format!("G4 {}", word.text))),
-            "D" => found.push((Kind::Edge, word.text.replace('=', ""))),
-            "M" => found.push((Kind::Other, word.text.clone())),
-            "OVR" | "OVRRAP" => found.push((Kind::Override, word.text.clone())),
-            "ADIS" | "ADISPOS" | "CYCLE832" => path_mode.push(&word.text),
-            _ if PATH_MODES.contains(&word.text.as_str()) => path_mode.push(&word.text),
-            _ => {}
-        }
-    }
-    if !path_mode.is_empty() {
-        path_mode.sort_by(|a, b| b.cmp(a));
-        found.push((Kind::PathMode, path_mode.join(" ")));
-    }
-    found
+    let mark = |word: &BlockWord| {
+        Some(match word.name.as_str() {
+            "F" | "S" if waits => (Kind::Other, format!("G4 {}", word.text)),
+            "D" => (Kind::Edge, word.text.replace('=', "")),
+            "M" => (Kind::Other, word.text.clone()),
+            "OVR" | "OVRRAP" => (Kind::Override, word.text.clone()),
+            _ if mode_of(Language::Siemens, &word.text).is_some() => {
+                (Kind::PathMode, word.text.clone())
+            }
+            _ if word.is_in_path => return None,
+            _ => (Kind::Other, word.text.clone()),
+        })
+    };
+    words.iter().filter_map(mark).collect()
 }
 
 /// Marks of Heidenhain: additions to a tool in `TOOL CALL 1 Z DL+0.1`; words with M and `STOP`; the corner tolerance `CYCL DEF
@@ -117,6 +113,7 @@ fn of_heidenhain(words: &[BlockWord]) -> Vec<(Kind, String)> {
         }
         [_, "DEF9.1", with @ ..] => found.push((Kind::Other, with.join(" "))),
         ["FUNCTION", "DWELL", ..] => found.push((Kind::Other, texts[1..].join(" "))),
+        ["FUNCTION", ..] => found.push((Kind::Other, texts.join(" "))),
         ["TOOL", call, ..] if call.starts_with("CALL") => {
             let is_zero =
                 |text: &str| text.trim_start_matches(|c: char| !c.is_ascii_digit()) == "0";

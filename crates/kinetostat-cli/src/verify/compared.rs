@@ -1,7 +1,8 @@
 //! The marks of two programs beside each other: those in force at each cut, and all others where they stand.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
+use crate::verify::aligned::Aligned;
 use crate::verify::marks::{Apart, IN_FORCE, Kind, Mark, Marks, Value};
 use crate::verify::other_word::{FaultKind, OtherWord};
 
@@ -11,50 +12,73 @@ const LISTED: usize = 5;
 /// Runs of cuts beyond these are not listed.
 const MOST: usize = 10;
 
-/// Differences of the programs: `cut_lines` are lines of cuts that both make, of the program verified and of the original; `source`
-/// returns the origin of a line of the original.
+/// What is asked of the original: of frames whether their origin is stated, of lines where they came from.
+pub(crate) struct Original<'o> {
+    pub(crate) is_stated: &'o dyn Fn(&str) -> bool,
+    pub(crate) source: &'o dyn Fn(usize) -> String,
+}
+
+/// What both programs do not have alike: `cuts` are moves that both make, of the program verified and of the original.
 pub(crate) fn compared(
-    [own, of_original]: &[Marks<'_>; 2],
-    cut_lines: &[[usize; 2]],
-    is_stated: &dyn Fn(&str) -> bool,
-    source: &dyn Fn(usize) -> String,
+    both: &[Marks<'_>; 2],
+    cuts: &[[usize; 2]],
+    original: &Original<'_>,
 ) -> Vec<OtherWord> {
+    let aligned = Aligned::of(both, cuts);
     let mut found = Vec::new();
+    let mut named = Vec::new();
     for kind in IN_FORCE {
-        let both = [own, of_original].map(|marks| InForce::of(marks, kind));
-        let at_cuts = match kind {
-            // Pieces of a motion may state how the arm stands where the whole does not.
-            Kind::Configuration => Vec::new(),
-            _ => elsewhere(kind, &both, cut_lines, is_stated, source),
-        };
-        if at_cuts.is_empty() {
-            found.extend(in_one_alone(kind, &both, is_stated));
+        let marks = both.iter().flat_map(|marks| &marks.all);
+        let names = marks.filter(|mark| mark.kind == kind);
+        let names: BTreeSet<&str> = names.map(|mark| mark.name.as_str()).collect();
+        for name in names {
+            let in_force = both.each_ref().map(|own| InForce::of(own, (kind, name)));
+            let at_cuts = match kind {
+                // Pieces of a motion may state how the arm stands where the whole does not.
+                Kind::Configuration => Vec::new(),
+                // Pieces of a motion pass their ends; the last one ends as the whole.
+                Kind::Zone | Kind::Options => {
+                    elsewhere(kind, (both, &in_force), &aligned.ends, original)
+                }
+                _ => elsewhere(kind, (both, &in_force), cuts, original),
+            };
+            match kind {
+                Kind::PathMode | Kind::Radius if at_cuts.is_empty() => named.push((kind, name)),
+                _ if at_cuts.is_empty() => {
+                    found.extend(in_one_alone(kind, &in_force, original.is_stated));
+                }
+                _ => {}
+            }
+            found.extend(at_cuts);
         }
-        found.extend(at_cuts);
     }
-    found.extend(elsewhere_placed([own, of_original], cut_lines));
+    let is_placed = |mark: &Mark<'_>| {
+        !IN_FORCE.contains(&mark.kind) || named.contains(&(mark.kind, mark.name.as_str()))
+    };
+    found.extend(elsewhere_placed([&both[0], &both[1]], cuts, &is_placed));
+    found.extend(aligned.other_ways);
     found
 }
 
-/// Values of one kind as they come into force, each with its line.
+/// Values of one kind as they come into force, each with the number of moves before it and its line.
 struct InForce<'m> {
     usual: Value<'static>,
-    changes: Vec<(usize, &'m Value<'m>)>,
-    /// Values in force on moves.
-    on_moves: Vec<(usize, &'m Value<'m>)>,
+    changes: Vec<&'m Mark<'m>>,
+    /// Those in force on moves.
+    on_moves: Vec<&'m Mark<'m>>,
 }
 
 impl<'m> InForce<'m> {
-    fn of(marks: &'m Marks<'m>, kind: Kind) -> Self {
-        let own = marks.all.iter().filter(|mark| mark.kind == kind);
-        let changes: Vec<_> = own.map(|mark| (mark.line, &mark.value)).collect();
-        let mut on_moves: Vec<(usize, &Value<'_>)> = Vec::new();
-        for (index, (line, value)) in changes.iter().enumerate() {
-            let next = changes.get(index + 1).map_or(usize::MAX, |next| next.0);
-            let from = marks.move_lines.partition_point(|own| own < line);
-            let is_used = marks.move_lines.get(from).is_some_and(|own| *own < next);
-            if is_used && !on_moves.iter().any(|(_, known)| known == value) {
-                on_moves.push((*line, value));
+    fn of(marks: &'m Marks<'m>, (kind, name): (Kind, &str)) -> Self {
+        let own = marks.all.iter();
+        let own = own.filter(|mark| mark.kind == kind && mark.name == name);
+        let changes: Vec<_> = own.collect();
+        let mut on_moves: Vec<&Mark<'_>> = Vec::new();
+        for (index, mark) in changes.iter().enumerate() {
+            let next = changes.get(index + 1).map_or(usize::MAX, |next| next.at);
+            let is_used = mark.at < next.min(marks.path.moves.len());
+            if is_used && !on_moves.iter().any(|known| known.value == mark.value) {
+                on_moves.push(mark);
             }
         }
         Self {
@@ -64,45 +88,45 @@ impl<'m> InForce<'m> {
         }
     }
 
-    /// The value that is in force behind what a line says.
-    fn on(&self, line: usize) -> &Value<'_> {
-        let behind = self.changes.partition_point(|(at, _)| *at <= line);
-        let last = behind.checked_sub(1).map(|last| self.changes[last].1);
+    /// The value that is in force on a move.
+    fn on(&self, index: usize) -> &Value<'_> {
+        let behind = self.changes.partition_point(|mark| mark.at <= index);
+        let last = behind.checked_sub(1).map(|last| &self.changes[last].value);
         last.unwrap_or(&self.usual)
     }
 }
 
-/// Cuts made with another value than in the original.
+/// Where cuts are made with another value than in the original; `moves` are those of both programs.
 fn elsewhere(
     kind: Kind,
-    [own, of_original]: &[InForce<'_>; 2],
-    cut_lines: &[[usize; 2]],
-    is_stated: &dyn Fn(&str) -> bool,
-    source: &dyn Fn(usize) -> String,
+    (both, [own, of_original]): (&[Marks<'_>; 2], &[InForce<'_>; 2]),
+    moves: &[[usize; 2]],
+    original: &Original<'_>,
 ) -> Vec<OtherWord> {
     /// Lines from the first to the last, and that of the original which the first belongs to.
     type Run<'v> = ([usize; 3], [&'v Value<'v>; 2], Apart);
     let mut runs: Vec<Run<'_>> = Vec::new();
     let mut goes_on = false;
-    for [line, there] in cut_lines {
-        let values = [own.on(*line), of_original.on(*there)];
-        let apart = values[0].apart(values[1], kind, is_stated);
+    for [index, there] in moves {
+        let values = [own.on(*index), of_original.on(*there)];
+        let apart = values[0].apart(values[1], kind, original.is_stated);
         let Some(apart) = apart else {
             goes_on = false;
             continue;
         };
+        let (line, there) = (both[0].line_of(*index), both[1].line_of(*there));
         let is_full = runs.len() == MOST;
         match runs.last_mut().filter(|last| goes_on && last.1 == values) {
-            Some((lines, ..)) => lines[1] = *line,
+            Some((lines, ..)) => lines[1] = line,
             None if is_full => break,
-            None => runs.push(([*line, *line, *there], values, apart)),
+            None => runs.push(([line, line, there], values, apart)),
         }
         goes_on = true;
     }
     let said = runs.into_iter().map(|(lines, values, apart)| {
         let [own, of_original] = values.map(Value::to_string);
         let follows = (apart.fault, apart.follows.as_str());
-        OtherWord::at_cuts(lines, [&own, &of_original], follows, source)
+        OtherWord::at_cuts(lines, [&own, &of_original], follows, original.source)
     });
     said.collect()
 }
@@ -129,18 +153,17 @@ fn in_one_alone(
             let mut others = others.on_moves.iter();
             let is_stated_place = matches!(value, Value::Text(text) if is_stated(text));
             let is_fault = |apart: Apart| apart.fault.is_some() || kind.fault().is_none();
-            is_stated_place
-                || !value.apart(&usual, kind, is_stated).is_some_and(is_fault)
-                || others
-                    .any(|(_, other)| !value.apart(other, kind, is_stated).is_some_and(is_fault))
+            let is_other =
+                |other: &Value<'_>| (value.apart(other, kind, is_stated)).is_some_and(is_fault);
+            is_stated_place || !is_other(&usual) || others.any(|other| !is_other(&other.value))
         };
-        let own = ours.on_moves.iter().filter(|(_, value)| !is_known(value));
-        let said = own.map(|(line, value)| {
+        let own = ours.on_moves.iter().filter(|mark| !is_known(&mark.value));
+        let said = own.map(|mark| {
             let mut lines = [None, None];
-            lines[of] = Some(*line);
-            let text = OtherWord::only_in_one(&value.to_string(), lines);
+            lines[of] = Some(mark.line);
+            let text = OtherWord::only_in_one(&mark.value.to_string(), lines);
             let text = format!("{text}{}", kind.follows());
-            OtherWord::new(value.to_string(), kind.fault(), lines, text)
+            OtherWord::new(mark.value.to_string(), kind.fault(), lines, text)
         });
         said.collect()
     };
@@ -151,78 +174,89 @@ fn in_one_alone(
     found
 }
 
-/// Lines of cuts that both programs make, sorted by those of one of them.
-struct CutLines(Vec<[usize; 2]>, usize);
+/// Cuts that both programs make, by their moves, sorted by those of one of them.
+struct Cuts(Vec<[usize; 2]>, usize);
 
-impl CutLines {
+impl Cuts {
     fn of(pairs: &[[usize; 2]], of: usize) -> Self {
         let mut pairs = pairs.to_vec();
-        pairs.sort_by_key(|lines| lines[of]);
+        pairs.sort_by_key(|moves| moves[of]);
         Self(pairs, of)
     }
 
-    /// Returns the last cut before a mark, as a line of the original (zero before all cuts).
-    fn before(&self, mark: &Mark<'_>) -> usize {
-        let line = mark.line + usize::from(mark.is_behind);
-        let before = self.0.partition_point(|lines| lines[self.1] < line);
-        (before.checked_sub(1)).map_or(0, |last| self.0[last][1])
+    /// The cut behind which a mark stands, as a move of the original counted from 1 (zero before all cuts); and true if it stands among
+    /// the pieces of that cut.
+    fn before(&self, mark: &Mark<'_>) -> (usize, bool) {
+        let next = self.0.partition_point(|moves| moves[self.1] < mark.at);
+        let last = next.checked_sub(1).map(|last| self.0[last][1]);
+        let is_inside =
+            last.is_some_and(|last| self.0.get(next).is_some_and(|next| next[1] == last));
+        (last.map_or(0, |last| last + 1), is_inside)
+    }
+
+    fn last(&self) -> usize {
+        self.0.last().map_or(0, |moves| moves[self.1])
     }
 }
 
+/// A mark, what it says, and the cut behind which it stands.
+type Placed<'m> = (String, &'m Mark<'m>, (usize, bool));
+
 /// Marks for their places that the other program does not have behind the same cut.
-fn elsewhere_placed(both: [&Marks<'_>; 2], cut_lines: &[[usize; 2]]) -> Vec<OtherWord> {
-    let placed = |of: usize| -> Vec<(String, &Mark<'_>, usize)> {
-        let cuts = CutLines::of(cut_lines, of);
-        let all = both[of].all.iter();
-        let own = all.filter(|mark| !IN_FORCE.contains(&mark.kind));
-        own.map(|mark| (mark.value.to_string(), mark, cuts.before(mark)))
+fn elsewhere_placed(
+    both: [&Marks<'_>; 2],
+    cuts: &[[usize; 2]],
+    is_placed: &dyn Fn(&Mark<'_>) -> bool,
+) -> Vec<OtherWord> {
+    let cuts = [0, 1].map(|of| Cuts::of(cuts, of));
+    let placed = |of: usize| -> Vec<Placed<'_>> {
+        let own = both[of].all.iter().filter(|mark| is_placed(mark));
+        own.map(|mark| (mark.value.to_string(), mark, cuts[of].before(mark)))
             .collect()
     };
     let (ours, theirs) = (placed(0), placed(1));
-    let (mut added, mut left_out) = (unmatched(&ours, &theirs), unmatched(&theirs, &ours));
-    let has = |all: &[(String, &Mark<'_>, usize)], text: &str| all.iter().any(|own| own.0 == text);
-    if both[1].has_loops() {
-        added.retain(|(text, of)| of[0].kind == Kind::Stop || !has(&theirs, text));
-        left_out.retain(|(text, _)| !has(&ours, text));
-    }
-    left_out.retain(|(text, _)| !added.iter().any(|(other, _)| other == text));
-    let last_motion = both[0].move_lines.last().copied().unwrap_or_default();
-    let last_cut = |of: usize| cut_lines.iter().map(|lines| lines[of]).max();
-    let fault = |mark: &Mark<'_>, of: usize| match mark.kind {
-        // Words after the last motion, or the last cut, change none.
-        Kind::Stop if of == 1 || mark.line >= last_motion => None,
+    let (added, mut left_out) = (unmatched(&ours, &theirs), unmatched(&theirs, &ours));
+    let has = |all: &[(String, Vec<&Mark<'_>>)], text: &str| all.iter().any(|own| own.0 == text);
+    // They stand on the other side of a cut.
+    let moved: BTreeSet<String> = (added.iter())
+        .filter(|(text, _)| has(&left_out, text))
+        .map(|(text, _)| text.clone())
+        .collect();
+    left_out.retain(|(text, _)| !moved.contains(text));
+    let fault = |text: &str, mark: &Mark<'_>, of: usize| match mark.kind {
+        kind if IN_FORCE.contains(&kind) => None,
+        kind if moved.contains(text) => kind.fault().or(Some(FaultKind::Course)),
+        // What is said behind the last motion, or the last cut, changes none.
+        Kind::Stop if of == 1 || mark.at >= both[0].path.moves.len() => None,
         Kind::Unseen if of == 1 => None,
-        Kind::Spindle if Some(mark.line) > last_cut(of) => None,
+        Kind::Spindle if mark.at > cuts[of].last() => None,
         kind => kind.fault(),
     };
-    let added = added.into_iter().map(|(text, marks)| {
-        let (mark, lines) = (marks[0], lines_of(&marks));
-        let what = match has(&theirs, &text) {
-            true => "stands elsewhere in the original",
-            false => "is not in the original",
+    let said = |of: usize, (text, marks): (String, Vec<&Mark<'_>>)| {
+        let (mark, at) = (marks[0], lines_of(&marks));
+        let fault = fault(&text, mark, of);
+        let mut lines = [None, None];
+        lines[of] = Some(mark.line);
+        let said = match of {
+            1 => format!("{text} at {at} of the original is not in this program there"),
+            _ if moved.contains(&text) => {
+                format!("{text} at {at} stands on the other side of a cut in the original")
+            }
+            _ => format!("{text} at {at} is not in the original"),
         };
-        let fault = fault(mark, 0);
-        let follows = fault.map_or("", |_: FaultKind| mark.kind.follows());
-        let said = format!("{text} at {lines} {what}{follows}");
-        OtherWord::new(text, fault, [Some(mark.line), None], said)
-    });
-    let left_out = left_out.into_iter().map(|(text, marks)| {
-        let said = format!(
-            "{text} at {} of the original is not in this program there",
-            lines_of(&marks)
-        );
-        let lines = [None, Some(marks[0].line)];
-        OtherWord::new(text, fault(marks[0], 1), lines, said)
-    });
-    added.chain(left_out).collect()
+        let follows = fault.filter(|_| of == 0);
+        let follows = follows.map_or("", |_: FaultKind| mark.kind.follows());
+        OtherWord::new(text, fault, lines, format!("{said}{follows}"))
+    };
+    let added = added.into_iter().map(|of| said(0, of));
+    added
+        .chain(left_out.into_iter().map(|of| said(1, of)))
+        .collect()
 }
 
 /// Marks that the others do not have as often behind the same cut, by what they say, in their order.
-fn unmatched<'a>(
-    ours: &[(String, &'a Mark<'a>, usize)],
-    theirs: &[(String, &'a Mark<'a>, usize)],
-) -> Vec<(String, Vec<&'a Mark<'a>>)> {
-    let mut left: BTreeMap<(&str, usize), usize> = BTreeMap::new();
+fn unmatched<'a>(ours: &[Placed<'a>], theirs: &[Placed<'a>]) -> Vec<(String, Vec<&'a Mark<'a>>)> {
+    let mut left: BTreeMap<(&str, (usize, bool)), usize> = BTreeMap::new();
     for (text, _, behind) in theirs {
         *left.entry((text, *behind)).or_default() += 1;
     }

@@ -1,8 +1,10 @@
 //! Marks of a program, apart from the targets of its moves, in one form for all languages.
 
+use std::collections::BTreeMap;
 use std::fmt;
 
-use kinetostat_formats::FrameUse;
+use kinetostat_formats::{FrameUse, Zone};
+use kinetostat_program::Path;
 use nalgebra::Vector3;
 
 use crate::job::robot::frame_distance::distance;
@@ -14,7 +16,7 @@ const SAME_MM: f64 = 1e-3;
 const SAME_RAD: f64 = 5e-6;
 
 /// Kinds of marks. Of those in `IN_FORCE` the last one holds, the others are for the place where they stand.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Kind {
     Frame,
     /// Before the first place is known it says where the machine stands, in a frame that it moves.
@@ -23,8 +25,13 @@ pub(crate) enum Kind {
     Radius,
     Tool,
     Edge,
+    /// Settings of how motions run, each by its name.
     PathMode,
-    /// Number of executions of a motion.
+    /// How near the tool comes to the end of a motion.
+    Zone,
+    /// Options in the statement of a motion.
+    Options,
+    /// How often a motion runs.
     Runs,
     /// Configuration of the arm.
     Configuration,
@@ -41,7 +48,7 @@ pub(crate) enum Kind {
     Other,
 }
 
-pub(crate) const IN_FORCE: [Kind; 10] = [
+pub(crate) const IN_FORCE: [Kind; 12] = [
     Kind::Frame,
     Kind::Shift,
     Kind::Length,
@@ -49,6 +56,8 @@ pub(crate) const IN_FORCE: [Kind; 10] = [
     Kind::Tool,
     Kind::Edge,
     Kind::PathMode,
+    Kind::Zone,
+    Kind::Options,
     Kind::Runs,
     Kind::Configuration,
     Kind::Optional,
@@ -87,7 +96,7 @@ impl Kind {
             Self::Frame | Self::Shift => Some(FaultKind::Frame),
             Self::Length | Self::Radius | Self::Tool | Self::Edge => Some(FaultKind::Tool),
             Self::Spindle => Some(FaultKind::Rotation),
-            Self::PathMode => Some(FaultKind::PathMode),
+            Self::PathMode | Self::Zone | Self::Options => Some(FaultKind::PathMode),
             Self::Runs | Self::Stop | Self::Unseen => Some(FaultKind::Course),
             Self::Override => Some(FaultKind::Feed),
             Self::Configuration | Self::Optional | Self::Other => None,
@@ -103,7 +112,7 @@ impl Kind {
                 ": before the program has said where the tool is, it shifts the frame by what the control knows"
             }
             Self::Length => ": the control moves the tool by what its table has there",
-            Self::PathMode => OTHER_PATH_MODE,
+            Self::PathMode | Self::Zone | Self::Options => OTHER_PATH_MODE,
             Self::Runs => ": these cuts may not be made, or more than once",
             Self::Stop => ": motions behind it may not be made",
             Self::Override => ": it changes how fast all motions run",
@@ -122,6 +131,7 @@ pub(crate) enum Value<'a> {
     Text(String),
     WorkObject(&'a FrameUse),
     Tool(&'a FrameUse),
+    Zone(Zone),
 }
 
 impl fmt::Display for Value<'_> {
@@ -130,6 +140,16 @@ impl fmt::Display for Value<'_> {
             Self::Text(text) => write!(f, "{text}"),
             Self::WorkObject(frame) => write!(f, "work object '{}'", frame.name),
             Self::Tool(frame) => write!(f, "tool '{}'", frame.name),
+            Self::Zone(Zone::Exact) => write!(f, "motions that stop at their ends"),
+            Self::Zone(Zone::Radius(mm)) => {
+                write!(f, "an end that is passed at up to {} mm", short(*mm))
+            }
+            Self::Zone(Zone::Percent(percent)) => {
+                write!(f, "an end that is passed at {} %", short(*percent))
+            }
+            Self::Zone(Zone::Unstated) => {
+                write!(f, "an end that is passed at a distance that is not stated")
+            }
         }
     }
 }
@@ -152,8 +172,8 @@ impl Value<'_> {
             (Self::Text(own), Self::Text(of_original)) => {
                 let texts = [own.as_str(), of_original.as_str()];
                 (!is_same_text(kind, texts, is_stated)).then(|| {
-                    // An exact stop is at least as accurate.
-                    match own.starts_with("G61") {
+                    // Whoever stops at corners follows the path no worse; how the tool turns on a circle is in the path.
+                    match own.starts_with("G61") || own == "CIRPATHMODE\\OBJECTFRAME" {
                         true => (None, String::new()),
                         false => (kind.fault(), kind.follows().to_owned()),
                     }
@@ -167,6 +187,15 @@ impl Value<'_> {
                 None if is_same_name(&own.name, &of_original.name) => return None,
                 None => (None, ": it is at the same place".to_owned()),
             },
+            (Self::Zone(own), Self::Zone(of_original)) => {
+                if own == of_original {
+                    return None;
+                }
+                match [own, of_original].map(|zone| width(*zone)) {
+                    [Some(own), Some(of_original)] if own <= of_original => (None, String::new()),
+                    _ => (kind.fault(), kind.follows().to_owned()),
+                }
+            }
             _ => (kind.fault(), String::new()),
         };
         Some(Apart { fault, follows })
@@ -187,7 +216,16 @@ fn is_same_text(kind: Kind, [own, of]: [&str; 2], is_stated: &dyn Fn(&str) -> bo
         }
 }
 
-/// True for equal names: robots and controls treat `tMill` and `TMILL` as equal, and tools 01 and 1.
+/// How far the end of a motion may be passed, in its unit; none where that is not known.
+fn width(zone: Zone) -> Option<f64> {
+    match zone {
+        Zone::Exact => Some(0.0),
+        Zone::Radius(width) | Zone::Percent(width) => Some(width),
+        Zone::Unstated => None,
+    }
+}
+
+/// Whether two names are one: robots and controls do not tell `tMill` from `TMILL`, nor tool 01 from tool 1.
 fn is_same_name(a: &str, b: &str) -> bool {
     let numbers = [a, b].map(str::parse::<u64>);
     a.eq_ignore_ascii_case(b) || matches!(numbers, [Ok(a), Ok(b)] if a == b)
@@ -213,52 +251,84 @@ fn frames_apart(own: &FrameUse, of_original: &FrameUse) -> Option<String> {
     (!found.is_empty()).then(|| found.join(", and "))
 }
 
-/// A value and its line.
+/// A value and its place.
 #[derive(Clone, Debug)]
 pub(crate) struct Mark<'a> {
     pub(crate) line: usize,
     pub(crate) kind: Kind,
+    /// The name of a setting, of kinds that have several.
+    pub(crate) name: String,
     pub(crate) value: Value<'a>,
-    /// True if it acts after the motion of its line.
-    pub(crate) is_behind: bool,
+    /// How many moves run before it.
+    pub(crate) at: usize,
 }
 
-/// Marks of a program, and lines of its moves, which ascend.
-#[derive(Default)]
+/// How the tool goes along a move.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Way {
+    /// As the joints turn.
+    Joints,
+    Rapid,
+    Feed,
+}
+
+/// Marks of a program in the order of its run, and its moves.
 pub(crate) struct Marks<'a> {
     pub(crate) all: Vec<Mark<'a>>,
-    pub(crate) move_lines: Vec<usize>,
+    pub(crate) path: &'a Path,
+    pub(crate) ways: Vec<Way>,
+    /// For programs that run line by line, the largest line up to each move.
+    pub(crate) lines: Vec<usize>,
     /// The last of each kind in force.
-    last: Vec<(Kind, Value<'a>)>,
+    last: BTreeMap<(Kind, String), Value<'a>>,
 }
 
 impl<'a> Marks<'a> {
-    /// Adds a mark, of those in force where it says another thing than the last one; those of a kind are added in the order of lines.
-    pub(crate) fn add(&mut self, line: usize, kind: Kind, value: Value<'a>, is_behind: bool) {
+    /// No marks of a path yet.
+    pub(crate) fn along(path: &'a Path, way: impl Fn(usize) -> Way) -> Self {
+        let lines = path.moves.iter().scan(0, |last: &mut usize, m| {
+            *last = (*last).max(m.line);
+            Some(*last)
+        });
+        Self {
+            all: Vec::new(),
+            path,
+            ways: (0..path.moves.len()).map(way).collect(),
+            lines: lines.collect(),
+            last: BTreeMap::new(),
+        }
+    }
+
+    /// How many moves run before a line, or up to it (`is_behind`), of a program that runs line by line.
+    pub(crate) fn before_line(&self, line: usize, is_behind: bool) -> usize {
+        self.lines
+            .partition_point(|own| *own < line + usize::from(is_behind))
+    }
+
+    /// Adds a mark, of those in force where it says another thing than the last one; those of a kind are added in the order of the run.
+    pub(crate) fn add(
+        &mut self,
+        [at, line]: [usize; 2],
+        (kind, name): (Kind, String),
+        value: Value<'a>,
+    ) {
         if IN_FORCE.contains(&kind) {
-            match self.last.iter_mut().find(|(of, _)| *of == kind) {
-                Some((_, last)) if *last == value => return,
-                Some((_, last)) => *last = value.clone(),
-                None => self.last.push((kind, value.clone())),
+            let last = self.last.insert((kind, name.clone()), value.clone());
+            if last.is_some_and(|last| last == value) {
+                return;
             }
         }
         self.all.push(Mark {
             line,
             kind,
+            name,
             value,
-            is_behind,
+            at,
         });
     }
 
-    /// Motions run more than once: a program without the loop has the words of its rounds more often.
-    pub(crate) fn has_loops(&self) -> bool {
-        let is = |mark: &Mark<'_>| mark.kind == Kind::Runs && mark.value.is(AGAIN);
-        self.all.iter().any(is)
-    }
-}
-
-impl Value<'_> {
-    pub(crate) fn is(&self, wanted: &str) -> bool {
-        matches!(self, Self::Text(text) if text == wanted)
+    /// The line of a move.
+    pub(crate) fn line_of(&self, index: usize) -> usize {
+        self.path.moves.get(index).map_or(1, |m| m.line)
     }
 }

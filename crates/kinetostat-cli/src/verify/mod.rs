@@ -2,6 +2,7 @@
 //!
 //! It takes both programs and the machine of a job and gives the error along the second, a verdict, and a table of points.
 
+mod aligned;
 mod answer;
 pub(crate) mod arguments;
 mod block_marks;
@@ -17,7 +18,6 @@ mod solved;
 mod text;
 mod tilted;
 mod written;
-mod zones;
 
 use std::path::Path;
 

@@ -53,8 +53,7 @@ pub(crate) fn fitting(
         flags.robot.rapid_from_mm_per_s = None;
         flags.robot.tool_axis = None;
         flags.robot.joint_rows = None;
-        flags.robot.moving_calls.clear();
-        flags.robot.values.clear();
+        flags.robot.stated = Default::default();
         job.iter_mut().for_each(|j| j.job.calls.clear());
         if let Some(table) = job.as_mut().and_then(|j| j.job.robot.as_mut()) {
             let table = table.get_mut();

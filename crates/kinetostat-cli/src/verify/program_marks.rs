@@ -1,11 +1,14 @@
-//! The marks of a program, from what its reader gives: motions, events, words of blocks.
+//! The marks of a program, from what its reader gives: motions, statements of the run, words of blocks.
 
-use kinetostat_formats::{BlockWord, EventKind, Motion, Runs, Target, each_block, events_of_robot};
-use kinetostat_program::{Path, Program};
+use kinetostat_formats::{
+    BlockWord, EventKind, Motion, MotionKind, RobotProgram, Runs, Target, each_block,
+    options_of_motion, statements_of_run,
+};
+use kinetostat_program::{MoveKind, Path, Program};
 
 use crate::job::program::ReadProgram;
 use crate::job::robot::read_program::RobotRead;
-use crate::verify::marks::{AGAIN, Kind, Mark, Marks, ONCE, Value};
+use crate::verify::marks::{AGAIN, Kind, Mark, Marks, ONCE, Value, Way};
 
 /// Statements that say how fast all motions run.
 const OVERRIDES: [&str; 5] = ["VELSET", "SPEEDREFRESH", "$OV_PRO", "$OV_ROB", "OVERRIDE"];
@@ -18,57 +21,64 @@ impl<'r> Marks<'r> {
         match (read.gcode(), read.robot()) {
             (Some((program, path)), _) => Self::of_gcode(program, path),
             (_, Some(robot)) => Self::of_robot(robot),
-            _ => Self::default(),
+            _ => Self::along(read.path(), |_| Way::Feed),
         }
     }
 
-    fn of_gcode(program: &Program, path: &Path) -> Self {
-        let mut marks = Self::default();
-        let first = path.moves.first().map_or(usize::MAX, |first| first.line);
-        marks.move_lines = path.moves.iter().map(|motion| motion.line).collect();
-        marks.move_lines.sort_unstable();
+    fn of_gcode(program: &Program, path: &'r Path) -> Self {
+        let mut marks = Self::along(path, |index| way_of(path, index));
         for line in 1..=program.line_count() {
             let bytes = program.line_bytes(line).unwrap_or_default();
             let is_optional = bytes.trim_ascii_start().starts_with(b"/");
             let slash = is_optional.then(|| BlockWord {
                 name: "/".to_owned(),
                 text: "/".to_owned(),
+                is_in_path: false,
             });
             let words = program.words_on(line).map(|(letter, number)| BlockWord {
                 name: letter.to_string(),
                 text: format!("{letter}{number}"),
+                is_in_path: false,
             });
             let words: Vec<BlockWord> = slash.into_iter().chain(words).collect();
             marks.add_block(line, None, &words);
         }
-        // A shift after a known position is already in the path that was read.
-        let counts = |mark: &Mark<'_>| mark.kind != Kind::Shift || mark.line < first;
+        // Behind a place that is known a shift is in the path that was read.
+        let counts = |mark: &Mark<'_>| mark.kind != Kind::Shift || mark.at == 0;
         marks.all.retain(counts);
         marks
     }
 
     fn of_robot(read: &'r RobotRead<'_>) -> Self {
-        let mut marks = Self::default();
-        let motions = read.program.motions.iter();
-        let motions = motions.filter(|motion| motion.file == read.path.file);
-        let mut motions: Vec<&Motion> = motions.collect();
-        motions.sort_by_key(|motion| motion.line);
-        for motion in motions {
-            marks.move_lines.push(motion.line);
-            marks.add_motion(motion);
+        let (program, path) = (read.program, &read.path.path);
+        let motion_of = |index: usize| program.motions.get(*read.path.motions.get(index)?);
+        let mut marks = Self::along(path, |index| {
+            let is_joint = motion_of(index).is_some_and(|own| own.kind == MotionKind::Joint);
+            if is_joint {
+                Way::Joints
+            } else {
+                way_of(path, index)
+            }
+        });
+        for index in 0..path.moves.len() {
+            if let Some(motion) = motion_of(index) {
+                marks.add_motion(index, (program, motion));
+            }
         }
-        let language = read.program.language;
-        each_block(read.program, |line, words| {
+        let language = program.language;
+        each_block(program, |line, words| {
             marks.add_block(line, Some(language), words);
         });
         if !language.is_in_blocks() {
-            marks.add_statements(read);
+            marks.add_statements(program);
         }
         marks
     }
 
-    fn add_motion(&mut self, motion: &'r Motion) {
-        let mut add = |kind: Kind, value: Value<'r>| self.add(motion.line, kind, value, false);
+    fn add_motion(&mut self, index: usize, (program, motion): (&RobotProgram, &'r Motion)) {
+        let mut add = |kind: Kind, value: Value<'r>| {
+            self.add([index, motion.line], (kind, String::new()), value);
+        };
         let runs = match motion.runs {
             Runs::Once => ONCE,
             Runs::OnCondition => "statements under a condition",
@@ -76,6 +86,12 @@ impl<'r> Marks<'r> {
             Runs::Elsewhere => "statements that nothing leads to",
         };
         add(Kind::Runs, Value::Text(runs.to_owned()));
+        add(Kind::Zone, Value::Zone(motion.zone));
+        let options = match options_of_motion(program, motion) {
+            none if none.is_empty() => "no options".to_owned(),
+            options => options,
+        };
+        add(Kind::Options, Value::Text(options));
         match &motion.target {
             Target::Pose(pose) => {
                 add(Kind::Frame, Value::WorkObject(&motion.work_object));
@@ -91,31 +107,28 @@ impl<'r> Marks<'r> {
     }
 
     /// Statements beside motions, and what motions do beside their way.
-    fn add_statements(&mut self, read: &RobotRead<'_>) {
-        let language = read.program.language;
-        for event in events_of_robot(read.program) {
-            let text = event.text.to_ascii_uppercase();
-            let words = language.code_of(&text).split_whitespace();
-            let text = words.collect::<Vec<_>>().join(" ");
-            // Targets are in the places, and APT has the spindle along the path.
-            let dense = text.replace(' ', "");
-            let is_place =
-                dense.contains("={") || dense.contains(":=[") || dense.starts_with("PR[");
-            let is_compared = match event.kind {
-                EventKind::Comment | EventKind::End => true,
-                EventKind::Spindle => language.spindle_is_in_path(),
-                _ => is_place || text.is_empty(),
-            };
-            if is_compared {
-                continue;
-            }
-            let kind = match event.kind {
+    fn add_statements(&mut self, program: &RobotProgram) {
+        for statement in statements_of_run(program) {
+            let text = statement.text;
+            let kind = match statement.kind {
+                // APT has the spindle along the path.
+                EventKind::Spindle if program.language.spindle_is_in_path() => continue,
                 EventKind::Stop => Kind::Stop,
                 _ if OVERRIDES.iter().any(|word| text.starts_with(word)) => Kind::Override,
+                _ if statement.mode.is_some() => Kind::PathMode,
                 _ if text.contains("SPIND") => Kind::Spindle,
                 _ => Kind::Other,
             };
-            self.add(event.line, kind, Value::Text(text), event.is_of_motion());
+            let name = statement.mode.unwrap_or_default();
+            let place = [statement.motions_before, statement.line];
+            self.add(place, (kind, name), Value::Text(text));
         }
+    }
+}
+
+fn way_of(path: &Path, index: usize) -> Way {
+    match path.moves[index].kind {
+        MoveKind::Rapid => Way::Rapid,
+        _ => Way::Feed,
     }
 }

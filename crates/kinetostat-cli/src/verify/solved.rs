@@ -14,12 +14,11 @@ use crate::ui::failure::{Answer, Failure};
 use crate::ui::progress::Progress;
 use crate::ui::threads::in_threads;
 use crate::verify::answer::source_of;
-use crate::verify::compared::compared;
+use crate::verify::compared::{Original, compared};
 use crate::verify::ending::{ends_in_cut, is_cut};
 use crate::verify::marks::Marks;
 use crate::verify::other_language::words_of_cell;
 use crate::verify::other_word::OtherWord;
-use crate::verify::zones::other_zones;
 
 /// The machine along the second program.
 pub(crate) struct Solved {
@@ -81,12 +80,9 @@ pub(crate) fn solved(
     let uncut = cuts.map(|m| m.line).filter(left_out).collect();
     let mut other_words = both.other_conditions(&mut found, forces.is_some());
     other_words.extend(match both.in_one_form() {
-        true => both.marked(&found.matched.cut_lines, &|word| both.is_stated(word)),
+        true => both.marked(&found.matched.cuts, &|word| both.is_stated(word)),
         false => words_of_cell(machine, verified, (read.path(), &other), template)?,
     });
-    if let (Some(of_original), Some(of_verified)) = (read.robot(), other.robot()) {
-        other_words.extend(other_zones(of_original, of_verified));
-    }
     let shift_mm = found.run.result.summary.max_position_error_before_mm;
     other_words.extend(ends_in_cut(read.path(), other.path(), shift_mm));
     Ok(Solved {
@@ -129,10 +125,11 @@ impl Both<'_> {
         work_offset(frame).is_some_and(|index| offsets[index].is_some())
     }
 
-    /// Marks that differ; `cut_lines` are lines of cuts that both make, of the program verified and of the original.
-    fn marked(&self, cut_lines: &[[usize; 2]], is_stated: &dyn Fn(&str) -> bool) -> Vec<OtherWord> {
+    /// Marks that differ; `cuts` are moves that both make, of the program verified and of the original.
+    fn marked(&self, cuts: &[[usize; 2]], is_stated: &dyn Fn(&str) -> bool) -> Vec<OtherWord> {
         let both = [self.other, self.read].map(Marks::of);
-        compared(&both, cut_lines, is_stated, &|line| self.source(line))
+        let source = &|line| self.source(line);
+        compared(&both, cuts, &Original { is_stated, source })
     }
 
     /// Feeds and spindles that differ along the path.

@@ -13,13 +13,13 @@ use crate::text::source::SourceFile;
 /// `CIRCLE` as it was read, mm.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Circle {
-    /// Its lines.
+    /// Lines of the circle.
     pub lines: Range<usize>,
     pub span: Range<usize>,
     pub centre_mm: Vector3<f64>,
     pub axis: Vector3<f64>,
     pub radius_mm: Option<f64>,
-    /// It has several turns.
+    /// The circle has several turns (TIMES).
     pub times: bool,
     /// Sense about the axis.
     pub sense: f64,
@@ -31,10 +31,10 @@ const RADIUS_TOLERANCE_MM: f64 = 0.01;
 const SAME_MM: f64 = 1e-4;
 
 impl Circle {
-    /// Of a statement, in a unit of so many mm.
+    /// Circle of a statement, in a unit of so many mm.
     ///
     /// # Errors
-    /// Why its arc is not known.
+    /// Reason why its arc is unknown.
     pub(crate) fn of(
         file: &SourceFile,
         statement: &Statement,

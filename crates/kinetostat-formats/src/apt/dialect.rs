@@ -1,4 +1,4 @@
-//! Which system wrote a file, by its first statements.
+//! CAM system of a file, recognised by its first statements.
 
 use crate::apt::lines::Statement;
 use crate::text::source::SourceFile;
@@ -22,7 +22,7 @@ pub(crate) enum Dialect {
 const FIRST: usize = 64;
 
 impl Dialect {
-    /// Of a file.
+    /// Dialect of a file.
     pub(crate) fn of(file: &SourceFile, statements: &[Statement]) -> Self {
         let first = statements.iter().take(FIRST);
         let words: Vec<&[u8]> = first.map(|statement| file.part(&statement.word)).collect();
@@ -52,7 +52,7 @@ impl Dialect {
         }
     }
 
-    /// How an arc turns about the axis that `CIRCLE` states: 1 right-handed, -1 left-handed; none where it is not known.
+    /// Sense of an arc about the axis that `CIRCLE` states: 1 right-handed, -1 left-handed; `None` if unknown.
     ///
     /// SOLIDWORKS CAM: 1605 arcs of 8 public files fit no other sense. NX: its manual, CLSF, `CIRCLE`, says "the axis vector
     /// (assuming a clockwise direction)", and 327 arcs of 3 public files fit no other.
@@ -64,7 +64,7 @@ impl Dialect {
         }
     }
 
-    /// How points in place of arcs are had.
+    /// Remedy: CAM setting that writes points in place of arcs.
     pub(crate) fn points(self) -> &'static str {
         match self {
             Self::Creo => {

@@ -1,4 +1,4 @@
-//! What is known while a file is read, and the arguments of its statements.
+//! State while a file is read, and the arguments of its statements.
 
 use std::ops::Range;
 
@@ -18,7 +18,7 @@ use crate::text::line_words::in_words;
 use crate::text::number::NumberText;
 use crate::text::source::SourceFile;
 
-/// What was found in all files until now.
+/// Results of all files so far.
 pub(crate) struct Found<'o> {
     pub options: &'o ReadOptions,
     pub frames: Frames,

@@ -7,9 +7,9 @@ use crate::text::source::beginning;
 /// A statement.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Statement {
-    /// Its first word, as written.
+    /// First word of the statement, as written.
     pub word: Range<usize>,
-    /// Behind the slash or comma; empty where there are none.
+    /// Text after the slash or comma; may be empty.
     pub arguments: Range<usize>,
     /// From the word to the last argument.
     pub span: Range<usize>,
@@ -107,7 +107,7 @@ fn word_length(line: &[u8]) -> usize {
     }
 }
 
-/// Where what a line says ends, before its comment; and whether it goes on in the next line.
+/// End of a line's content before its comment, and true if the statement continues on the next line.
 fn content(bytes: &[u8], line: Range<usize>) -> (usize, bool) {
     let mut quoted = false;
     for at in line.clone() {

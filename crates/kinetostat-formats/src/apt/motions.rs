@@ -82,7 +82,7 @@ impl Reader<'_, '_> {
         let by = Vector3::from_fn(|i, _| numbers[i].value * self.unit_mm);
         match self.state.place {
             Some(from) => {
-                // It is written as a place where it changes: no number says that now.
+                // A changed GODLTA is written as a position; its text has no absolute numbers yet.
                 let text = pose_text(self.index, numbers, Some(f64::NAN));
                 self.push(
                     statement,

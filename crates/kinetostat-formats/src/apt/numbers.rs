@@ -13,7 +13,7 @@ pub(crate) enum Argument {
 }
 
 impl Argument {
-    /// Its number, if it is one.
+    /// Number of the argument, if it is one.
     pub(crate) fn number(&self) -> Option<&NumberText> {
         match self {
             Self::Number(number) => Some(number),

@@ -1,4 +1,4 @@
-//! Where the numbers of places stand, and in whose axes they are.
+//! Text positions of coordinates, and their axes.
 
 use std::collections::BTreeMap;
 

@@ -11,7 +11,6 @@ use crate::model::program::RobotProgram;
 use crate::options::ReadOptions;
 use crate::text::source::SourceFile;
 
-/// Most bytes of a file.
 const MOST_BYTES: usize = 1 << 28;
 
 /// Reads APT and CLDATA (`.apt`, `.cls`, `.aptsource`), each file for itself, as SOLIDWORKS CAM, Siemens NX, CATIA and others
@@ -43,7 +42,7 @@ pub fn read_apt(
     parse_apt(files, options).without_faults()
 }
 
-/// The same, with the motions that could be read beside what is refused.
+/// Reads APT files; the motions that could be read are returned beside the errors.
 pub(crate) fn parse_apt(files: Vec<SourceFile>, options: &ReadOptions) -> Parsed {
     let frames = options.frames.iter();
     let mut program = Found {

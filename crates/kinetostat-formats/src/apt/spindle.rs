@@ -1,4 +1,4 @@
-//! How the spindle turns, from `SPINDL`: `SPINDL/3500,RPM,CLW`, `SPINDL/RPM,3500,CCLW`, `SPINDL/ON`, `SPINDL/OFF`.
+//! Spindle rotation from `SPINDL`: `SPINDL/3500,RPM,CLW`, `SPINDL/RPM,3500,CCLW`, `SPINDL/ON`, `SPINDL/OFF`.
 
 use kinetostat_program::{SpeedMode, Spindle, SpindleChange, SpindleRotation};
 
@@ -6,8 +6,8 @@ use crate::apt::lines::{Statement, statements_of};
 use crate::apt::numbers::{Argument, arguments_of};
 use crate::text::source::SourceFile;
 
-/// How the spindle turns behind a statement `SPINDL`. A number without a unit counts in rpm, and turns clockwise where no sense is
-/// stated; a surface speed (`SFM`, `SMM`) says no rpm without the tool's diameter.
+/// Spindle state after a statement `SPINDL`. A number without a unit is in rpm, and the sense is clockwise if none is stated; a surface speed (`SFM`,
+/// `SMM`) gives no rpm without the tool's diameter.
 pub(crate) fn spindle_of(file: &SourceFile, statement: &Statement, before: Spindle) -> Spindle {
     let mut spindle = before;
     let mut sense = None;
@@ -42,7 +42,7 @@ pub(crate) fn spindle_of(file: &SourceFile, statement: &Statement, before: Spind
     spindle
 }
 
-/// Where the spindle begins to turn otherwise, in the order of the lines.
+/// Changes of the spindle rotation, in the order of the lines.
 pub(crate) fn spindle_changes(file: &SourceFile) -> Vec<SpindleChange> {
     let mut changes: Vec<SpindleChange> = Vec::new();
     let mut spindle = Spindle::default();

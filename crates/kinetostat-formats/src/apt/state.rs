@@ -1,4 +1,4 @@
-//! What is in force between two motions.
+//! Modal state between two motions.
 
 use std::ops::Range;
 
@@ -11,12 +11,12 @@ use crate::apt::numbers::{Argument, arguments_of};
 use crate::model::motion::Speed;
 use crate::text::source::SourceFile;
 
-/// What is in force.
+/// Modal state.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct State {
-    /// Where the tool is, mm; none where it is not known.
+    /// Tool position, mm; `None` if unknown.
     pub place: Option<Vector3<f64>>,
-    /// Its axis.
+    /// Tool axis.
     pub axis: Vector3<f64>,
     /// The motion that led there.
     pub last: Option<usize>,
@@ -37,7 +37,7 @@ pub(crate) struct State {
 }
 
 impl State {
-    /// Of the beginning of a file.
+    /// State at the start of a file.
     pub(crate) fn new() -> Self {
         Self {
             axis: Vector3::z(),
@@ -97,7 +97,7 @@ pub(crate) fn feed_of(
                 b"IPR" => (per_minute, per_turn) = (None, Some(25.4)),
                 b"PERREV" | b"FPR" => (per_minute, per_turn) = (None, Some(unit_mm)),
                 b"PERMIN" | b"FPM" | b"" => {}
-                // By time, or by the controller.
+                // Inverse-time feed, or set at the controller.
                 _ => per_minute = None,
             },
         }

@@ -1,4 +1,4 @@
-//! What each statement does.
+//! Effect of each statement.
 
 use crate::apt::file_reader::{POINTS, Reader};
 use crate::apt::lines::Statement;
@@ -67,7 +67,7 @@ impl Reader<'_, '_> {
                 match system_of(&values, self.unit_mm) {
                     Some(system) => {
                         self.state.system = Some(system);
-                        // What follows is in other axes.
+                        // The following positions are in other axes.
                         self.state.place = None;
                     }
                     None => self.fault(

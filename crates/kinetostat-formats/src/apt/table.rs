@@ -1,4 +1,4 @@
-//! What is done with each word of APT and CLDATA, as data.
+//! Treatment of each word of APT and CLDATA.
 
 use crate::table::Treatment::{Carried, Refused, Understood};
 use crate::table::{Alike, StatementRow, Treatment, alike, count, rows};
@@ -34,8 +34,7 @@ const HOLES: Treatment = Refused {
     remedy: "let its holes be written as motions: --expand",
 };
 
-/// What is done with each word of APT and CLDATA. A word that is not here is refused with its line; words that begin with
-/// `CSI_` are carried.
+/// Treatment of each word of APT and CLDATA. A word that is not listed is refused with its line; words that begin with `CSI_` are carried.
 pub const APT_STATEMENTS: &[StatementRow] = &rows::<{ count(GROUPS) }>(GROUPS);
 
 #[rustfmt::skip]

@@ -1,4 +1,4 @@
-//! What the writer must know of APT.
+//! Adapter of the writer for APT.
 //!
 //! A piece of a motion is a `GOTO` before it, with a `RAPID` behind where the motion has one: RAPID holds for the next
 //! `GOTO` alone. A divided arc loses its `CIRCLE`. A `GODLTA` whose end or start changes becomes a `GOTO`. A `GOTO` without an
@@ -75,7 +75,7 @@ pub(crate) fn write_apt(
     }
     let mut options = options.clone();
     if units.contains(&25.4) {
-        // As fine in inches.
+        // Equal resolution in inches.
         options.position_decimals += 2;
     }
     write_with(program, &all, &options, &AptSyntax)
@@ -90,16 +90,16 @@ fn refused(program: &RobotProgram, motion: &Motion, reason: &str, remedy: &str) 
     }
 }
 
-/// Whether it is `GODLTA`.
+/// True for `GODLTA`.
 fn is_step(program: &RobotProgram, motion: &Motion) -> bool {
     let word = program.files[motion.file].part(&motion.site.keyword);
     word.eq_ignore_ascii_case(b"GODLTA")
 }
 
-/// Least change of a place that counts, mm.
+/// Threshold of a change of position, mm.
 const SAME_MM: f64 = 1e-6;
 
-/// Least change of an axis that is written, rad.
+/// Threshold of a written change of the axis, rad.
 const SAME_RAD: f64 = 1e-9;
 
 /// The program with the axis in force written into each GOTO that needs one of its own; none where no GOTO does.

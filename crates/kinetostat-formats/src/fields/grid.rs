@@ -3,7 +3,7 @@
 /// An axis of a grid.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FieldAxis {
-    /// Its name, as in `x`.
+    /// Name of the axis, as in `x`.
     pub name: String,
     /// Unit of the coordinates.
     pub unit: String,
@@ -14,11 +14,11 @@ pub struct FieldAxis {
 /// A column of numbers, one for each place.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FieldColumn {
-    /// Its name, letters, digits and `_`.
+    /// Name: letters, digits and `_`.
     pub name: String,
-    /// Its unit.
+    /// Unit of the values.
     pub unit: String,
-    /// What it is.
+    /// Description of the quantity.
     pub description: String,
     /// A number for each place.
     pub values: Vec<f64>,
@@ -27,7 +27,7 @@ pub struct FieldColumn {
 /// Quantities on a grid; the first axis runs fastest.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Fields {
-    /// What it is of.
+    /// Title: the subject of the data.
     pub title: String,
     /// Facts about all of it, name and text.
     pub facts: Vec<(String, String)>,
@@ -37,7 +37,7 @@ pub struct Fields {
     pub columns: Vec<FieldColumn>,
 }
 
-/// Why a file was not made.
+/// Error that prevents a file from being made.
 #[derive(Debug, thiserror::Error)]
 #[error("{0}")]
 pub struct FieldError(pub String);

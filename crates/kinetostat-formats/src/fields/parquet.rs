@@ -16,7 +16,7 @@ use crate::fields::grid::{FieldError, Fields};
 const GROUP: usize = 1 << 20;
 
 impl Fields {
-    /// As a Parquet file. The metadata has `unit.NAME` and `description.NAME` for each column.
+    /// Writes a Parquet file. The metadata has `unit.NAME` and `description.NAME` for each column.
     ///
     /// # Errors
     /// A fault of the writer.

@@ -5,7 +5,7 @@ use crate::fields::vtk::{header, numbers};
 /// A quantity at every point of lines.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PointQuantity {
-    /// Its name with its unit, letters, digits and `_`, as in `force_n`.
+    /// Name with the unit: letters, digits and `_`, as in `force_n`.
     pub name: String,
     /// One number of every point, three of a vector, nine of a tensor row by row.
     pub width: usize,
@@ -16,18 +16,18 @@ pub struct PointQuantity {
 /// Lines in space.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Polylines {
-    /// What it is of.
+    /// Title: the subject of the data.
     pub title: String,
     /// Points, in one unit.
     pub points: Vec<[f64; 3]>,
-    /// Of each line how many of the points are its own, in their order; points of no line stand at the end.
+    /// Number of points of each line, in their order; points without a line are at the end.
     pub lines: Vec<usize>,
-    /// What is known at the points.
+    /// Quantities at the points.
     pub quantities: Vec<PointQuantity>,
 }
 
 impl Polylines {
-    /// As a legacy VTK file, doubles, most significant byte first. Numbers that do not exist are NaN.
+    /// Writes a legacy VTK file, doubles, most significant byte first. Missing numbers are NaN.
     #[must_use]
     pub fn vtk(&self) -> Vec<u8> {
         let mut out = header(&self.title, "POLYDATA");

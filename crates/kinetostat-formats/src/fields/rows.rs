@@ -19,13 +19,13 @@ const GROUP: usize = 1 << 16;
 /// A column of a table.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RowColumn {
-    /// Its name, letters, digits and `_`.
+    /// Name: letters, digits and `_`.
     pub name: String,
-    /// Its unit; `1` of a number without one, empty of texts.
+    /// Unit; `1` for a number without one, empty for texts.
     pub unit: String,
-    /// What it is.
+    /// Description of the column.
     pub description: String,
-    /// It holds texts, not numbers.
+    /// The column contains texts, not numbers.
     pub is_text: bool,
 }
 

@@ -9,7 +9,7 @@ use crate::fields::grid::Fields;
 const TITLE: usize = 255;
 
 impl Fields {
-    /// As a legacy VTK file, doubles, most significant byte first. Coordinates have the unit of their axes.
+    /// Writes a legacy VTK file, doubles, most significant byte first. Coordinates have the unit of their axes.
     #[must_use]
     pub fn vtk(&self) -> Vec<u8> {
         let [x, y, z] = self.axes.each_ref().map(|axis| axis.places.len());

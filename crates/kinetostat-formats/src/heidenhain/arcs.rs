@@ -18,7 +18,7 @@ const RADIUS_MM: f64 = 0.02;
 /// Radii and chords smaller than this are none.
 const SAME_MM: f64 = 1e-4;
 
-/// What to do with a circle that is none.
+/// Remedy of a circle that is geometrically impossible.
 pub(crate) const AGAIN: &str = "let the CAM system write the circle again";
 
 impl Arc {
@@ -29,10 +29,10 @@ impl Arc {
     }
 }
 
-/// How far an arc about a centre turns.
+/// Angle of an arc about a centre.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Turned {
-    /// So far, rad.
+    /// Angle, rad.
     By(f64),
     /// To its end, in the sense 1 anticlockwise, -1 clockwise; words of so fine a last digit state that, mm.
     ToEnd { sense: f64, digit_mm: f64 },
@@ -68,10 +68,10 @@ pub(crate) fn about(
     Ok(Arc { centre, angle })
 }
 
-/// By a radius, negative for more than half a turn.
+/// Arc by a radius, negative for more than half a turn.
 ///
 /// # Errors
-/// Where no such circle goes through both places.
+/// No circle of this radius passes through both points.
 pub(crate) fn by_radius(
     from: &Vector2<f64>,
     to: &Vector2<f64>,

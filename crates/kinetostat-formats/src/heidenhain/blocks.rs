@@ -5,10 +5,10 @@ use std::ops::Range;
 use crate::heidenhain::words::{Word, words_of};
 use crate::text::source::beginning;
 
-/// Why a further line of a cycle is refused.
+/// Reason for the refusal of a continuation line of a cycle.
 pub(crate) const STRAY: &str =
     "the line before goes on here (`~`), and this is no parameter of its cycle";
-/// What to do.
+/// Remedy of a stray continuation line.
 pub(crate) const STRAY_REMEDY: &str = "take the `~` at the end of the line before away";
 
 /// A block.
@@ -16,16 +16,15 @@ pub(crate) const STRAY_REMEDY: &str = "take the `~` at the end of the line befor
 pub(crate) struct Block {
     /// From the beginning of its first line behind its last line end.
     pub lines: Range<usize>,
-    /// Its number.
     pub number: Option<Range<usize>>,
-    /// Behind the number and the sign of blocks that are skipped.
+    /// Text after the block number and the skip sign.
     pub text: Range<usize>,
     /// `/`: skipped where the machine's operator wants it.
     pub skipped: bool,
 }
 
 impl Block {
-    /// Of a cycle: what stands on a further line and is no parameter of it (`Q200=+2`).
+    /// Returns text on a continuation line of a cycle that is no parameter of it (`Q200=+2`).
     pub(crate) fn no_parameter(&self, bytes: &[u8]) -> Option<Range<usize>> {
         let mut at = self.text.start;
         while at < self.text.end {
@@ -41,7 +40,7 @@ impl Block {
         None
     }
 
-    /// Its words; none of a comment.
+    /// Words of the block; a comment has no words.
     pub(crate) fn words(&self, bytes: &[u8]) -> Vec<Word> {
         words_of(bytes, &self.text)
     }

@@ -1,10 +1,10 @@
-//! Where the coordinates of a program are: datum shift, mirror image, rotation and scaling (cycles 7, 8, 10, 11), tilted planes.
+//! Coordinate transformations: datum shift, mirror image, rotation and scaling (cycles 7, 8, 10, 11), tilted planes.
 
 use nalgebra::{Matrix3, Vector3};
 
 use crate::heidenhain::words::Word;
 
-/// What turns, mirrors or scales the coordinates. One of them at a time is followed.
+/// Rotation, mirror image or scaling of the coordinates; only one at a time is followed.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) enum Bend {
     #[default]
@@ -19,7 +19,7 @@ pub(crate) enum Bend {
 }
 
 impl Bend {
-    /// By what a coordinate of an axis counts; none of axes that turn, and of all where lengths are others.
+    /// Scale factor of an axis; `None` for rotations, tilted planes and scaled lengths.
     pub(crate) fn factor(&self, axis: usize) -> Option<f64> {
         match self {
             Self::None => Some(1.0),
@@ -68,7 +68,7 @@ impl Datum {
         match self.bend {
             Bend::None => place,
             Bend::Scale(factor) => place / factor,
-            // Its own inverse, or turned back.
+            // A mirror image is its own inverse; a rotation is inverted.
             Bend::Mirror(_) => self.matrix() * place,
             Bend::Rotation(_) | Bend::Tilt(_) => self.matrix().transpose() * place,
         }
@@ -94,7 +94,7 @@ impl Datum {
         self.matrix().determinant().signum()
     }
 
-    /// Whether a step along one axis is one along the same axis of the preset.
+    /// True if a step along one axis is a step along the same axis of the preset.
     pub(crate) fn keeps_axes(&self) -> bool {
         !matches!(self.bend, Bend::Rotation(_) | Bend::Tilt(_))
     }
@@ -111,7 +111,7 @@ pub(crate) enum Change {
     Refused(&'static str),
 }
 
-/// Whether the holes of a cycle are written flat.
+/// True if the holes of a cycle are expanded.
 pub(crate) fn is_followed(cycle: u32) -> bool {
     matches!(cycle, 1 | 200 | 201 | 203)
 }
@@ -129,10 +129,10 @@ pub(crate) fn axis_of(word: &Word) -> Option<(usize, bool)> {
     }
 }
 
-/// Why a change by a parameter is refused.
+/// Reason for the refusal of a change by a parameter.
 pub(crate) const PARAMETER: &str = "a Q parameter says by how much";
 
-/// What a line `CYCL DEF n.m` changes; its words behind the number.
+/// Change by a line `CYCL DEF n.m`, from the words after the number.
 pub(crate) fn change(cycle: u32, part: u32, words: &[Word], unit_mm: f64) -> Change {
     if part == 0 {
         return Change::Kept;

@@ -1,4 +1,4 @@
-//! How finely the control takes lengths.
+//! Resolution of lengths of the control.
 
 use crate::text::number::short;
 

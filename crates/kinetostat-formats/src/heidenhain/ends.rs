@@ -1,4 +1,4 @@
-//! Where a path block ends, and on which way: by coordinates, by radius and angle, about a pole.
+//! End point of a path block and the way to it: Cartesian, or polar about a pole.
 
 use kinetostat_program::last_digit_mm;
 use nalgebra::Vector2;
@@ -9,7 +9,7 @@ use crate::heidenhain::plane::Plane;
 use crate::heidenhain::state::{Pole, State};
 use crate::heidenhain::words::Word;
 
-/// Where a block ends in the programmed axes, mm, and its way.
+/// End of a block in the programmed axes, mm, and the way to it.
 pub(crate) struct Went {
     pub end: [Option<f64>; 3],
     pub shape: Shape,
@@ -21,27 +21,27 @@ pub(crate) struct Went {
 /// Largest angle of a helix: 15 turns.
 const MOST_DEGREES: f64 = 5400.0;
 
-/// Why a block is refused, and what to do.
+/// Reason and remedy of a refused block.
 pub(crate) type Reason = (String, &'static str);
 
 const STATE_PLACE: &str = "state X, Y and Z once before it, without M91";
 
-/// What the way of a motion is, for the writer.
+/// Form of a motion's path, for the writer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Shape {
-    /// By X, Y and Z.
+    /// Cartesian: X, Y and Z.
     Straight,
-    /// By radius and angle; whether both are stated, so that it ends there wherever it begins.
+    /// Polar: radius and angle; `whole` if both are stated, so that the end does not depend on the start.
     Polar { whole: bool },
     /// About a pole or by a radius.
     Arc,
     /// An arc that begins in the direction of before.
     Tangential,
-    /// It stays as it is written.
+    /// The block stays as it is written.
     Unknown,
 }
 
-/// What a block's end follows from.
+/// Input for the end of a block.
 pub(crate) struct Ends<'s> {
     pub state: &'s mut State,
     pub unit_mm: f64,

@@ -21,13 +21,13 @@ pub(crate) fn label_name(bytes: &[u8], word: &Word) -> Option<String> {
     }
 }
 
-/// What is said of a second label of one name, by the line of the first, and what to do.
+/// Message for a second label of one name, with the line of the first.
 pub(crate) fn label_twice(line: usize) -> String {
     format!("there is a label of this name above, in line {line}")
 }
 pub(crate) const NAME_IT: &str = "name it otherwise";
 
-/// What is said of words behind a label, and what to do.
+/// Reason and remedy of words after a label.
 pub(crate) const NOT_ALONE: (&str, &str) = (
     "more stands behind the label",
     "write it as a block of its own",
@@ -37,7 +37,7 @@ pub(crate) const NOT_ALONE: (&str, &str) = (
 pub(crate) fn labels_of(bytes: &[u8], blocks: &[Block]) -> (Labels, Vec<[usize; 2]>) {
     let (mut labels, mut twice) = (Labels::new(), Vec::new());
     for (index, block) in blocks.iter().enumerate() {
-        // Most blocks begin with another letter.
+        // Quick check: labels begin with L.
         let first = bytes.get(block.text.start).map(u8::to_ascii_uppercase);
         if first != Some(b'L') {
             continue;
@@ -56,7 +56,7 @@ pub(crate) fn labels_of(bytes: &[u8], blocks: &[Block]) -> (Labels, Vec<[usize; 
     (labels, twice)
 }
 
-/// Where a block leads.
+/// Successor of a block.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Step {
     Next,
@@ -68,7 +68,7 @@ pub(crate) enum Step {
     Ends,
 }
 
-/// Why a file has no order of its own: the block, and why.
+/// Error of a file without a control flow of its own: the block and the reason.
 pub(crate) type Fault = (usize, String);
 
 /// Deepest nesting of calls.
@@ -114,7 +114,7 @@ pub(crate) fn order(
     Ok(order)
 }
 
-/// Where a block leads, as far as it says so without a parameter.
+/// Successor of a block, unless it depends on a parameter.
 pub(crate) fn step_of(bytes: &[u8], block: &Block, slash: SlashBlocks) -> Step {
     if block.skipped && slash == SlashBlocks::Skipped {
         return Step::Next;

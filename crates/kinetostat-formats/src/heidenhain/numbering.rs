@@ -33,7 +33,7 @@ pub(crate) fn numbered_again(bytes: &[u8]) -> Option<Vec<u8>> {
     edits.applied_to(bytes)
 }
 
-/// Whether the block that begins a program has a number: then all have.
+/// True if the first block has a number: then all blocks have one.
 pub(crate) fn is_numbered(bytes: &[u8]) -> bool {
     let mut blocks = blocks_of(bytes).into_iter();
     let begins = |words: &[crate::heidenhain::words::Word]| {

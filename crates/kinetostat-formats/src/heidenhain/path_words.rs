@@ -1,4 +1,4 @@
-//! What a path block says: coordinates, feed, radius compensation, miscellaneous functions.
+//! Words of a path block: coordinates, feed, radius compensation, miscellaneous functions.
 
 use crate::heidenhain::datum::axis_of;
 use crate::heidenhain::words::{Value, Word};
@@ -20,7 +20,7 @@ pub(crate) struct RotaryWord {
     pub step: bool,
 }
 
-/// How the feed is stated.
+/// Form of the feed.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) enum FeedWord {
     #[default]
@@ -29,7 +29,7 @@ pub(crate) enum FeedWord {
     Number(usize, f64),
     /// In rapid traverse, in this block alone.
     Max,
-    /// That of the tool call.
+    /// Feed of the tool call.
     Auto,
     /// Per turn or tooth, or by time.
     Other,
@@ -62,23 +62,23 @@ pub(crate) struct PathWords {
     pub places: Vec<usize>,
 }
 
-/// Why a block is not taken apart: the word.
+/// Word for which a block cannot be decoded.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Odd {
     /// A Q parameter says its value.
     Parameter(usize),
-    /// It is not known, or has no value.
+    /// The word is unknown, or has no value.
     Unknown(usize),
-    /// It is there twice.
+    /// The word is stated twice.
     Twice(usize),
 }
 
 impl PathWords {
-    /// Of words behind the first, which says the kind of block.
+    /// Decodes the words after the first, which states the kind of block.
     pub(crate) fn of(words: &[Word]) -> Result<Self, Odd> {
         let mut found = Self::default();
         let is_circle = words.first().is_some_and(|word| word.is("CR"));
-        // Behind some functions stand their own words.
+        // Some functions have words of their own after them.
         let mut owned = false;
         let mut at = 1;
         while at < words.len() {
@@ -195,13 +195,13 @@ impl PathWords {
         Ok(0)
     }
 
-    /// Whether it goes somewhere.
+    /// True if the block states a position.
     pub(crate) fn moves(&self) -> bool {
         !self.places.is_empty()
     }
 }
 
-/// Whether the words behind a function are its own.
+/// True if the words after a function belong to it.
 pub(crate) fn has_words(function: u32) -> bool {
     matches!(function, 103 | 112 | 118 | 120 | 124 | 128 | 138 | 140)
 }

@@ -8,7 +8,7 @@ use nalgebra::{Vector2, Vector3};
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Plane(pub usize);
 
-/// That of the tool's axis Z.
+/// Plane across the tool axis Z.
 pub(crate) const XY: Plane = Plane(2);
 
 impl Default for Plane {
@@ -29,7 +29,7 @@ impl Plane {
         Vector2::new(place[u], place[v])
     }
 
-    /// The same of one whose other coordinate need not be known.
+    /// Projects a position whose third coordinate may be unknown.
     pub(crate) fn known(self, place: [Option<f64>; 3]) -> Option<Vector2<f64>> {
         let [u, v] = self.axes();
         Some(Vector2::new(place[u]?, place[v]?))

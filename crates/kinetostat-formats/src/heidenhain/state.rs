@@ -1,4 +1,4 @@
-//! What is in force between two blocks.
+//! Modal state between two blocks.
 
 use std::collections::BTreeMap;
 
@@ -18,14 +18,14 @@ pub(crate) struct Pole {
     pub plane: Plane,
     /// In it, in the programmed axes, mm.
     pub at: Vector2<f64>,
-    /// It was stated from where the tool was.
+    /// The centre was stated relative to the tool position.
     pub relative: bool,
 }
 
-/// What is in force.
+/// Modal state.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct State {
-    /// Where the tool is in the programmed axes, mm; none where that is not known.
+    /// Tool position in the programmed axes, mm; `None` if unknown.
     pub place: [Option<f64>; 3],
     /// A mirror image or a scaling began or ended, and not all axes were stated since.
     pub unstated: bool,
@@ -38,7 +38,7 @@ pub(crate) struct State {
     pub radius_mm: Option<f64>,
     /// Direction in which the last block ended.
     pub direction: Option<Vector3<f64>>,
-    /// As programmed.
+    /// Feed as programmed.
     pub feed: Option<f64>,
     pub feed_text: String,
     /// F of the last TOOL CALL.
@@ -78,7 +78,7 @@ pub(crate) struct State {
 }
 
 impl State {
-    /// Of the beginning of a file; `standing` are the rotary axes whose words are followed.
+    /// State at the start of a file; `standing` holds the rotary axes whose words are followed.
     pub(crate) fn new(standing: Standing) -> Self {
         Self {
             tool: "TOOL".to_owned(),
@@ -89,7 +89,7 @@ impl State {
         }
     }
 
-    /// Where it is in a plane, as far as words count from there.
+    /// Tool position in a plane, as far as words count from there.
     pub(crate) fn in_plane(&self, plane: Plane) -> Option<Vector2<f64>> {
         plane.known(self.counts_from())
     }
@@ -173,7 +173,7 @@ impl State {
         };
         let per_minute = match self.per_turn {
             false => Some(per_unit),
-            // What M136 counts in where the unit is inches is not followed.
+            // The unit of M136 in inch programs is not modelled.
             true => self
                 .turns_per_minute
                 .filter(|_| self.spindle_on && unit_mm == 1.0),

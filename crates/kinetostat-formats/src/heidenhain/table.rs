@@ -1,4 +1,4 @@
-//! What is done with each statement of Heidenhain's conversational language, as data.
+//! Treatment of each statement of Heidenhain's conversational language.
 
 use crate::table::Treatment::{Carried, Refused, Understood};
 use crate::table::{Alike, StatementRow, Treatment, alike, count, rows};
@@ -37,8 +37,8 @@ const TABLES: Treatment = Refused {
     remedy: "write the places into the program",
 };
 
-/// What is done with each statement of Heidenhain's conversational language. A statement that is not here is refused with its
-/// line. Miscellaneous functions that are not here are the machine builder's: carried, with a remark.
+/// Treatment of each statement of Heidenhain's conversational language. A statement that is not listed is refused with its line. Miscellaneous
+/// functions that are not listed are the machine builder's: carried, with a remark.
 pub const HEIDENHAIN_STATEMENTS: &[StatementRow] = &rows::<{ count(GROUPS) }>(GROUPS);
 
 #[rustfmt::skip]
@@ -76,7 +76,7 @@ pub(crate) fn row(letters: &[u8]) -> Option<&'static StatementRow> {
         .find(|row| row.name.as_bytes() == letters)
 }
 
-/// What a miscellaneous function does to the place of the tool.
+/// Effect of a miscellaneous function on the tool position.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Function {
     /// Nothing, from the beginning of its block on.
@@ -93,13 +93,13 @@ pub(crate) enum Function {
     PerTurn,
     /// Speeds are per minute again.
     PerMinute,
-    /// It moves or displaces the tool otherwise.
+    /// The function moves or displaces the tool in another way.
     Refused(&'static str),
     /// The machine's builder says what it does.
     Unknown,
 }
 
-/// What a miscellaneous function is.
+/// Classifies a miscellaneous function.
 pub(crate) fn function(number: u32) -> Function {
     match number {
         3

@@ -1,6 +1,6 @@
 //! Tool centre point control: M128 and FUNCTION TCPM.
 
-/// How tool centre point control is in force.
+/// Mode of tool centre point control.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(crate) struct TipControl {
     pub on: bool,

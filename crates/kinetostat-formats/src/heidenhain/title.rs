@@ -4,7 +4,7 @@ use crate::error::ProgramError;
 use crate::heidenhain::blocks::Block;
 use crate::text::source::SourceFile;
 
-/// What BEGIN PGM and END PGM state: the name, and MM or INCH; empty where it is missing.
+/// Name and unit (MM or INCH) of BEGIN PGM and END PGM; empty if missing.
 fn stated(file: &SourceFile, block: &Block) -> [String; 2] {
     let mut parts = file.part(&block.text).split(|byte| *byte == b';');
     let text = String::from_utf8_lossy(parts.next().unwrap_or_default()).to_uppercase();
@@ -16,7 +16,7 @@ fn stated(file: &SourceFile, block: &Block) -> [String; 2] {
 /// An END PGM that is that of another program.
 pub(crate) struct OtherEnd {
     pub fault: ProgramError,
-    /// It has another unit, not another name alone.
+    /// The unit differs, not only the name.
     pub has_other_unit: bool,
 }
 

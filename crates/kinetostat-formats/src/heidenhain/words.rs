@@ -5,7 +5,7 @@ use std::ops::Range;
 use crate::text::name::Name;
 use crate::text::number::NumberText;
 
-/// What stands behind the letters of a word.
+/// Value after the letters of a word.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Value {
     None,
@@ -37,7 +37,7 @@ impl Word {
         self.letters.is(capitals)
     }
 
-    /// Its number, if it has one.
+    /// Number of the word, if any.
     pub(crate) fn number(&self) -> Option<&NumberText> {
         match &self.value {
             Value::Number(number) => Some(number),
@@ -49,14 +49,14 @@ impl Word {
         self.number().map(|number| number.value)
     }
 
-    /// Its number where it is whole and small.
+    /// Number of the word if it is a small integer.
     pub(crate) fn whole(&self) -> Option<u32> {
         let value = self.value()?;
         (value.fract() == 0.0 && (0.0..1e6).contains(&value)).then_some(value as u32)
     }
 }
 
-/// What is said of a number with an exponent, and what to do.
+/// Reason and remedy of a number with an exponent.
 pub(crate) const EXPONENT: (&str, &str) = (
     "a number with an exponent, which the control does not read",
     "write the number out: X+100.5",
@@ -185,7 +185,7 @@ fn value(bytes: &[u8], from: usize, end: usize, sign_alone: bool) -> (Value, usi
                 other => char::from(*other),
             })
             .collect();
-        // What is larger is no number of a program.
+        // Larger values are no numbers of a program.
         if let Some(size) = text.parse::<f64>().ok().filter(|size| *size < LARGEST) {
             let value = sign.unwrap_or(1.0) * size;
             let span = start..body + count;

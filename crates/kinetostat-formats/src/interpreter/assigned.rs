@@ -92,7 +92,11 @@ pub(crate) fn symbols_of<'p>(
         for node in &content.data {
             all.add_datum(file, module, node, faults);
         }
-        for routine in &content.routines {
+        // Of a name that is none the fault is noted; the first stands for the statements that stand in no other.
+        let is_named =
+            |(index, own): &(usize, &'p Routine)| *index == 0 || own.name != Name::empty();
+        let routines = content.routines.iter().enumerate().filter(is_named);
+        for (_, routine) in routines {
             all.add_routine(file, module, routine, faults);
         }
         for name in (0..file.tokens.len()).filter_map(|at| file.name(at)) {
@@ -101,7 +105,7 @@ pub(crate) fn symbols_of<'p>(
     }
     let is_program = |index: &usize| {
         let routine = all.routines[*index].routine;
-        // Its own header names it once.
+        // The count includes the routine's own header.
         let is_called = mentions.get(&routine.name).is_some_and(|count| *count > 1);
         routine.kind == RoutineKind::Procedure && !is_called
     };

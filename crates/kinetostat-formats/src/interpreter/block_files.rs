@@ -25,7 +25,7 @@ use crate::writing::motions::write_with;
 use crate::writing::piece::Piece;
 use crate::writing::syntax::Syntax;
 
-/// Most bytes of a file; the memory needed is some twenty times as much.
+/// Limit of the bytes of a file; the memory needed is some twenty times as much.
 const MOST_BYTES: usize = 1 << 26;
 
 /// A language of blocks.
@@ -38,7 +38,7 @@ pub(crate) trait BlockDialect: Dialect {
     fn before() -> Self;
 }
 
-/// What other files ask of a language of blocks; the methods of [`ProgramLanguage`] say what is what.
+/// Properties of a block language that other files need; the methods of [`ProgramLanguage`] document them.
 pub(crate) struct Facts {
     pub word: &'static str,
     pub name: &'static str,

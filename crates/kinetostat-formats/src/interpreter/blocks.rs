@@ -62,7 +62,7 @@ pub(crate) fn module_of(
     parser.routines[0].body = body;
     let is_outer = |index: &usize| parser.routines[*index].kind == RoutineKind::Procedure;
     let outer: Vec<usize> = (1..parser.routines.len()).filter(is_outer).collect();
-    // Where statements call the only routine, its variables are those of the program, too.
+    // If statements call the only routine, its variables are also those of the program.
     let mut programs: BTreeSet<usize> = is_program.then_some(0).into_iter().collect();
     programs.extend(outer.first().filter(|_| outer.len() == 1));
     for (index, routine) in parser.routines.iter_mut().enumerate() {
@@ -267,7 +267,7 @@ impl Parser<'_, '_> {
     fn name(&mut self, at: usize) -> Option<Name> {
         let name = self.file.name(at);
         if name.is_none() {
-            let reason = "a name of at most 32 characters is missing here";
+            let reason = "a name of at most 64 characters is missing here";
             self.fault(
                 at..at + 1,
                 reason,

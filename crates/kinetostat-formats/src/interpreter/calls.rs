@@ -78,7 +78,7 @@ impl<D: Dialect> Run<'_, '_, D> {
         for value in arguments.iter().filter_map(|own| own.value.as_ref()) {
             self.value(value);
         }
-        // Of `object.method(...)` the object is another behind it.
+        // A call `object.method(...)` changes the object.
         if file.is(tokens.start + 1, b'.') {
             let object = D::expression_of(file, tokens.start..tokens.start + 1);
             let reason = self.changed(&object);

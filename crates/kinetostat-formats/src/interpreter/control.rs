@@ -14,7 +14,7 @@ use crate::interpreter::tree::{Choice, LoopKind, Statement};
 use crate::interpreter::value::Datum;
 use crate::text::name::Name;
 
-/// Most statements of a run that are run again: in loops, and in routines that others call.
+/// Limit of repeated statements of a run: in loops, and in routines that others call.
 const MOST_REPEATED: usize = 1_000_000;
 
 impl<D: Dialect> Run<'_, '_, D> {
@@ -209,9 +209,9 @@ impl<D: Dialect> Run<'_, '_, D> {
     fn assign(&mut self, tokens: &Range<usize>, assign: usize) {
         let file = self.file();
         let to = D::expression_of(file, tokens.start..assign);
-        let value = D::expression_of(file, file.value_behind(assign, tokens));
-        let value = self.value(&value);
-        self.log_assignment(tokens, assign);
+        let written = D::expression_of(file, file.value_behind(assign, tokens));
+        let value = self.value(&written);
+        self.log_assignment(tokens, [&to, &written]);
         D::assigned(self, tokens, assign);
         match self.place(&to) {
             Some(place) => {
@@ -384,7 +384,7 @@ impl<D: Dialect> Run<'_, '_, D> {
                 Some(true) => return Flow::Next,
                 Some(false) => {}
                 None => {
-                    // It runs once for certain.
+                    // A loop that tests at its end runs at least once.
                     self.pass_over_loop(block, header, &value);
                     return Flow::Next;
                 }
@@ -414,7 +414,10 @@ impl<D: Dialect> Run<'_, '_, D> {
             if !self.counts_statement() {
                 return self.block(block);
             }
+            let before = self.faults.len();
             match self.block(block) {
+                // What leaves it may be what is refused.
+                Flow::Next | Flow::Continues if self.faults.len() > before => return Flow::Next,
                 Flow::Next | Flow::Continues => {}
                 Flow::Breaks => return Flow::Next,
                 flow => return flow,

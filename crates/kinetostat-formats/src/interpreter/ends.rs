@@ -17,13 +17,13 @@ use crate::options::UnknownTargets;
 use crate::text::name::Name;
 use crate::text::number::{NumberText, Width};
 
-/// How a language states poses: as six numbers or more, of which the first three are the place.
+/// Form of poses in a language: six numbers or more, of which the first three are the position.
 pub(crate) struct PoseForm {
     pub unit_mm: f64,
     pub orientation: OrientationText,
-    /// Of a further declaration.
+    /// Text around a copied declaration.
     pub around: Around,
-    /// What to do where an end is not known.
+    /// Remedy of an unknown end.
     pub remedy: &'static str,
 }
 
@@ -55,7 +55,7 @@ impl PoseForm {
     }
 }
 
-/// Where the numbers of a pose stand.
+/// Positions of the numbers of a pose in the text.
 fn text_of(form: &PoseForm, value: &Datum) -> Option<PoseText> {
     let whole = value.literal?;
     let (file, span) = (whole.file, whole.span());

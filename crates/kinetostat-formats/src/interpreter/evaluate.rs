@@ -115,7 +115,7 @@ pub(crate) fn evaluate(
             }
             let of = match &inner.node {
                 Node::Word(name) => {
-                    // Of an index that is not known nothing is used.
+                    // An element with an unknown index marks no names as used.
                     let none = Datum::list(Vec::new());
                     let element = at.first().and_then(|index| names.element(&none, index));
                     if element.is_some() {

@@ -26,7 +26,7 @@ pub(crate) enum Operator {
     BitAnd,
     BitXor,
     BitOr,
-    /// Of texts.
+    /// Concatenation of texts.
     Join,
     /// A frame in the axes of another (`:` of KRL).
     Behind,
@@ -74,7 +74,7 @@ pub(crate) struct Expression {
 }
 
 impl Expression {
-    /// What the function of a name in capitals is given, where this is its call.
+    /// Arguments of a function with a name in capitals, if the expression is its call.
     pub(crate) fn given_to(&self, name: &str) -> Option<Vec<&Self>> {
         match &self.node {
             Node::Call(own, arguments) if own.is(name) => {

@@ -12,6 +12,7 @@ use crate::interpreter::run::{Dialect, Logged, Root, Run};
 use crate::interpreter::symbols::{Meaning, Scope, Symbols};
 use crate::interpreter::token::TokenFile;
 use crate::interpreter::tree::RoutineKind;
+use crate::model::program::RanStatement;
 use crate::model::site::TargetSite;
 use crate::text::edits::Edits;
 use crate::text::finding::Finding;
@@ -51,9 +52,6 @@ impl<D: Dialect> Run<'_, '_, D> {
 
     /// An instruction that ran.
     pub(crate) fn log_instruction(&mut self, tokens: &Range<usize>) {
-        if self.log.is_none() {
-            return;
-        }
         let mut edits = Edits::default();
         for Argument { value, .. } in D::arguments_of(self.file(), tokens.start + 1..tokens.end) {
             if let Some(value) = value {
@@ -64,13 +62,8 @@ impl<D: Dialect> Run<'_, '_, D> {
     }
 
     /// An assignment that ran; of data of a routine nothing remains but their values.
-    pub(crate) fn log_assignment(&mut self, tokens: &Range<usize>, assign: usize) {
-        if self.log.is_none() {
-            return;
-        }
-        let file = self.file();
-        let to = D::expression_of(file, tokens.start..assign);
-        let place = self.place(&to);
+    pub(crate) fn log_assignment(&mut self, tokens: &Range<usize>, [to, value]: [&Expression; 2]) {
+        let place = self.place(to);
         let stays = match place.map(|place| place.root) {
             Some(Root::Routine(..)) => false,
             Some(_) => true,
@@ -81,15 +74,14 @@ impl<D: Dialect> Run<'_, '_, D> {
             return;
         }
         let mut edits = Edits::default();
-        self.put_place(&to, &mut edits);
-        let value = D::expression_of(file, file.value_behind(assign, tokens));
-        self.put_value(&value, false, &mut edits);
+        self.put_place(to, &mut edits);
+        self.put_value(value, false, &mut edits);
         self.log_with(tokens, edits);
     }
 
     /// A branch or a loop that the controller decides.
     pub(crate) fn log_passed_over(&mut self, whole: &Range<usize>) {
-        if !std::mem::take(&mut self.passed_over) || self.log.is_none() {
+        if !std::mem::take(&mut self.passed_over) {
             return;
         }
         let file = self.file();
@@ -125,9 +117,6 @@ impl<D: Dialect> Run<'_, '_, D> {
 
     /// An instruction without arguments in brackets: what it names must mean the same in `main`.
     pub(crate) fn log_words(&mut self, tokens: &Range<usize>) {
-        if self.log.is_none() {
-            return;
-        }
         let file = self.file();
         let mut names = tokens.clone().filter_map(|at| file.name(at));
         if names.any(|name| self.means_another_in_main(&name)) {
@@ -137,6 +126,9 @@ impl<D: Dialect> Run<'_, '_, D> {
     }
 
     fn cannot_be_flat(&mut self, tokens: &Range<usize>, why: &str) {
+        if self.log.is_none() {
+            return;
+        }
         let reason = format!("the program cannot be written flat: {why}");
         self.fault(tokens, (reason, "read the program without expanding it"));
     }
@@ -144,13 +136,21 @@ impl<D: Dialect> Run<'_, '_, D> {
     fn log_with(&mut self, tokens: &Range<usize>, edits: Edits) {
         let file = self.file();
         let span = file.span(tokens);
-        let text = edits.applied_to_part(file.source.bytes(), &span);
-        if let (Some(log), Some(text)) = (&mut self.log, text) {
-            log.push(Logged {
+        let is_edited = !edits.is_empty() || self.log.is_some();
+        let text = (is_edited.then(|| edits.applied_to_part(file.source.bytes(), &span))).flatten();
+        match (&mut self.log, text) {
+            (None, text) => self.ran_beside.push(RanStatement {
+                file: file.index,
+                span,
+                motions: self.motions.len(),
+                text,
+            }),
+            (Some(log), Some(text)) => log.push(Logged {
                 file: file.index,
                 at: span.start,
                 text,
-            });
+            }),
+            _ => {}
         }
     }
 
@@ -418,7 +418,7 @@ fn left_out(
 #[derive(Default)]
 struct Flat {
     bytes: Vec<u8>,
-    /// Of all lines that have begun.
+    /// Origins of all started lines.
     origins: Vec<(usize, usize)>,
 }
 

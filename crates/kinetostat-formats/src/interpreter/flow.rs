@@ -5,14 +5,14 @@ use std::ops::Range;
 use crate::interpreter::value::Datum;
 use crate::text::name::Name;
 
-/// Where a run goes on behind a statement.
+/// Continuation of a run after a statement.
 pub(crate) enum Flow {
     Next,
-    /// Behind the call of the routine, with the value of a function.
+    /// Return to the caller, with the value of a function.
     Returns(Option<Datum>),
     /// At a label of a block around it.
     To(Name, Range<usize>),
-    /// Behind the innermost loop.
+    /// Leaves the innermost loop.
     Breaks,
     /// To the next pass of the innermost loop.
     Continues,

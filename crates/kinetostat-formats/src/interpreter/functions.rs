@@ -1,6 +1,6 @@
 //! Functions of one number that have one name and one meaning in all languages; angles are in degrees.
 
-/// The same of a language whose angles are in radians.
+/// Function of a language whose angles are in radians.
 pub(crate) fn in_radians(name: &str) -> Option<fn(f64) -> f64> {
     Some(match name {
         "SIN" => f64::sin,

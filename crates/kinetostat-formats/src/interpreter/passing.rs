@@ -21,6 +21,7 @@ impl<D: Dialect> Run<'_, '_, D> {
         condition: &Range<usize>,
         value: &Datum,
     ) {
+        self.counts_passed(blocks);
         let mut all = blocks.iter().copied().flatten();
         if all.any(|statement| self.acts_here(statement, false)) {
             let why = value
@@ -33,6 +34,15 @@ impl<D: Dialect> Run<'_, '_, D> {
         self.lose_assigned(blocks, condition);
     }
 
+    /// Statements that are looked at in loops and calls count as those that run there.
+    fn counts_passed(&mut self, blocks: &[&[Statement]]) {
+        if self.in_loops > 0 || self.calls.len() > 1 {
+            for statement in blocks.iter().copied().flatten() {
+                statement.each(&mut |_| self.repeated_statements += 1);
+            }
+        }
+    }
+
     /// Passes over a loop as [`Run::pass_over`]; its block may leave the loop.
     pub(super) fn pass_over_loop(
         &mut self,
@@ -40,6 +50,7 @@ impl<D: Dialect> Run<'_, '_, D> {
         condition: &Range<usize>,
         value: &Datum,
     ) {
+        self.counts_passed(&[block]);
         match self.only_waits(block) {
             true => self.lose_assigned(&[block], condition),
             false => self.pass_over(&[block], condition, value),

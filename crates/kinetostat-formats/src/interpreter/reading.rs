@@ -9,16 +9,16 @@ use crate::text::name::Name;
 /// Deepest nesting of lists, calls and indices.
 const DEEPEST: usize = 32;
 
-/// Most operators of one strength in a row: the tree is as deep.
+/// Limit of consecutive operators of one precedence: it bounds the depth of the tree.
 const MOST_OPERATORS: usize = 100;
 
-/// How a language writes expressions.
+/// Expression grammar of a language.
 pub(crate) struct Grammar {
     /// Operators between two operands, longer ones before those that they begin with, and how strongly each binds.
     pub operators: &'static [(&'static str, Operator, u8)],
-    /// How strongly NOT binds.
+    /// Precedence of NOT.
     pub not: u8,
-    /// How strongly a sign binds.
+    /// Precedence of a sign.
     pub sign: u8,
     /// Brackets of an index.
     pub index: [u8; 2],
@@ -30,7 +30,7 @@ pub(crate) struct Grammar {
     pub names_arguments: bool,
     /// True where the first element of a list is that of index 1; otherwise of index 0, and members have indices, too.
     pub counts_from_one: bool,
-    /// As it writes what is not true, and what is.
+    /// Literals of false and true, in this order.
     pub truths: [&'static str; 2],
     /// A list behind this word is an aggregate with these members: `p[x,y,z,rx,ry,rz]`.
     pub aggregate: Option<(&'static str, &'static [&'static str])>,

@@ -18,6 +18,7 @@ use crate::interpreter::tree::{Choice, DatumNode, RoutineKind};
 use crate::interpreter::value::{Datum, Step};
 use crate::model::motion::{Motion, Runs};
 use crate::model::outside_call::OutsideCall;
+use crate::model::program::RanStatement;
 use crate::options::ReadOptions;
 use crate::table::{StatementRow, Treatment};
 use crate::text::finding::Finding;
@@ -26,7 +27,7 @@ use crate::text::name::Name;
 /// The reason why something is refused, and the remedy.
 pub(crate) type Reason = (String, &'static str);
 
-/// Most motions of statements that ran before.
+/// Limit of the motions of repeated statements.
 const MOST_REPEATED: usize = 200_000;
 
 /// Deepest nesting of calls and blocks together.
@@ -39,7 +40,7 @@ pub(crate) struct Place {
     pub path: Vec<Step>,
 }
 
-/// Where data are stored.
+/// Storage of a variable.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Root {
     /// An index of [`Symbols::data`], of a module.
@@ -86,7 +87,7 @@ pub(crate) struct Logged {
     pub text: Vec<u8>,
 }
 
-/// What a run asks of a language.
+/// Interface of a run to a language.
 pub(crate) trait Dialect: Sized {
     /// True where a loop counts down by itself if its end is below its begin, and its variable lives in the loop alone.
     const OWN_COUNTER: bool;
@@ -94,10 +95,10 @@ pub(crate) trait Dialect: Sized {
     /// True where a name that no file declares is one of the controller, and gets its value by an assignment.
     const DECLARES_BY_USE: bool;
 
-    /// How it writes expressions.
+    /// Expression grammar of the language.
     const GRAMMAR: &'static Grammar;
 
-    /// What is carried, and changes what deflection depends on: words and what they do.
+    /// Carried words that influence the deflection, with their effects.
     const EFFECTS: &'static [(&'static str, &'static str)] = &[];
 
     /// The expression that tokens are.
@@ -159,7 +160,7 @@ pub(crate) trait Dialect: Sized {
         None
     }
 
-    /// What is said of data of which the controller may hold another value than the file.
+    /// Message on data whose value in the controller may differ from the file.
     fn kept(_run: &Run<'_, '_, Self>, _index: usize) -> Option<String> {
         None
     }
@@ -262,7 +263,7 @@ pub(crate) trait Dialect: Sized {
     /// True where all files of a program are written flat as one; otherwise those that hold no routines stay beside it.
     const JOINS_FILES: bool;
 
-    /// What is said where no routine is the one with which the program begins, and the remedy.
+    /// Message and remedy of a program without a main routine.
     const NO_MAIN: [&'static str; 2];
 
     /// Expressions in the statement of a motion.
@@ -304,7 +305,7 @@ pub(crate) struct Run<'r, 'p, D> {
     /// Data that interrupts change at any time.
     pub(crate) volatile: BTreeSet<usize>,
     pub(crate) calls: Vec<Called>,
-    /// Where the expression stands that is evaluated.
+    /// Scope of the expression that is evaluated.
     pub(crate) scope: Scope,
     /// Declarations that are evaluated, each for the one before.
     pub(crate) open_data: BTreeSet<usize>,
@@ -332,6 +333,8 @@ pub(crate) struct Run<'r, 'p, D> {
     pub(crate) statement: Range<usize>,
     /// The branch or the loop that ran last was passed over.
     pub(crate) passed_over: bool,
+    /// Statements beside the motions that ran, where the program is not to be written flat.
+    pub(crate) ran_beside: Vec<RanStatement>,
     /// Statements that ran, where the program is to be written flat.
     pub(crate) log: Option<Vec<Logged>>,
     /// Results of functions in the statement that runs, by the depth of the call, the file and the token.
@@ -380,6 +383,7 @@ impl<'r, 'p, D: Dialect> Run<'r, 'p, D> {
             in_loops: 0,
             statement: 0..0,
             passed_over: false,
+            ran_beside: Vec::new(),
             log: None,
             results: BTreeMap::new(),
             call_sites: BTreeMap::new(),

@@ -14,7 +14,7 @@ use crate::text::name::Name;
 /// Deepest nesting of declarations that rest on others.
 const DEEPEST: usize = 12;
 
-/// Most elements of an array without a value.
+/// Limit of the elements of an array without a value.
 const MOST_ELEMENTS: usize = 1_000_000;
 
 impl<D: Dialect> Run<'_, '_, D> {
@@ -24,7 +24,7 @@ impl<D: Dialect> Run<'_, '_, D> {
         evaluate(file, expression, self)
     }
 
-    /// Where the data of a name are stored.
+    /// Storage of the data of a name.
     pub(crate) fn root(&self, name: &Name) -> Option<Root> {
         let depth = self.calls.len().checked_sub(1);
         let Some(meaning) = self.symbols.meaning_in(self.scope, name) else {
@@ -351,7 +351,7 @@ impl<D: Dialect> Run<'_, '_, D> {
         while let Node::Field(of, _) | Node::Element(of, _) = &whole.node {
             whole = of;
         }
-        // Of an element that only the controller knows, the whole array.
+        // An unknown index invalidates the whole array.
         let place = self.place(expression).or_else(|| self.place(whole));
         let Some(place) = place.filter(|place| !self.is_constant(place.root)) else {
             if let (Node::Word(name), true) = (&whole.node, D::DECLARES_BY_USE)
@@ -455,7 +455,7 @@ impl<D: Dialect> Names for Run<'_, '_, D> {
         let Node::Element(of, _) = &element.node else {
             return None;
         };
-        // By the numbers of its indices, where they are known.
+        // Key of the element: its indices, if they are known.
         let numbers: Option<Vec<String>> = (at.iter())
             .map(|index| index.as_number().map(|number| number.to_string()))
             .collect();

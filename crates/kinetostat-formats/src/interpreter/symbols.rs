@@ -7,7 +7,7 @@ use crate::interpreter::token::TokenFile;
 use crate::interpreter::tree::{DatumNode, Preset, Routine, Sight};
 use crate::text::name::Name;
 
-/// Where a name stands.
+/// Scope of a name.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Scope {
     /// An index over all modules.
@@ -22,13 +22,13 @@ pub(crate) struct Datum<'p> {
     pub node: &'p DatumNode,
     /// An index of the files.
     pub file: usize,
-    /// Where it is declared.
+    /// Scope of the declaration.
     pub scope: Scope,
     /// First values of elements of an array, by index.
     pub elements: BTreeMap<usize, &'p Preset>,
 }
 
-/// What a name means in a routine.
+/// Meaning of a name in a routine.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Meaning {
     /// An index of [`Symbols::data`].
@@ -37,7 +37,7 @@ pub(crate) enum Meaning {
     Parameter,
 }
 
-/// Where a routine is.
+/// Location of a routine.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Home<'p> {
     /// An index of the files.
@@ -185,7 +185,7 @@ impl<'p> Symbols<'p> {
         self.routines_everywhere.get(name).copied()
     }
 
-    /// What a name means in a routine (an index).
+    /// Meaning of a name in a routine (an index).
     pub(crate) fn meaning(&self, routine: usize, name: &Name) -> Option<Meaning> {
         let local = self.in_routine.get(routine)?.get(name);
         local.copied().or_else(|| {
@@ -194,7 +194,7 @@ impl<'p> Symbols<'p> {
         })
     }
 
-    /// What a name means where it stands.
+    /// Meaning of a name in its scope.
     pub(crate) fn meaning_in(&self, scope: Scope, name: &Name) -> Option<Meaning> {
         match scope {
             Scope::Routine(routine) => self.meaning(routine, name),

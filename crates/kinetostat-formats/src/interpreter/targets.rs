@@ -13,7 +13,7 @@ pub(crate) struct Targets {
     pub declarations: Vec<Declaration>,
     /// Names of the declarations.
     pub names: Vec<Name>,
-    /// By the file and the begin of the literal.
+    /// Known literals by file and first byte.
     pub known: BTreeMap<(usize, usize), usize>,
     /// Names in statements that a motion ends at, by file and begin.
     pub ends: BTreeMap<(usize, usize), Name>,

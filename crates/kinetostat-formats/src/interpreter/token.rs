@@ -42,10 +42,16 @@ impl Token {
         }
     }
 
-    /// Its bytes in the file.
+    /// Byte range in the file.
     pub(crate) fn bytes(&self) -> Range<usize> {
         self.start as usize..self.end as usize
     }
+}
+
+/// Places of the words among tokens.
+pub(crate) fn words_of(tokens: &[Token]) -> Vec<Range<usize>> {
+    let words = tokens.iter().filter(|token| token.kind == Kind::Word);
+    words.map(Token::bytes).collect()
 }
 
 /// A line of a language in which a statement is a line.

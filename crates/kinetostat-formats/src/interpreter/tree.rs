@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use crate::text::name::Name;
 
-/// How a datum may change.
+/// Mutability of a datum.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Change {
     Constant,
@@ -12,7 +12,7 @@ pub(crate) enum Change {
     Variable,
 }
 
-/// Who sees a name.
+/// Visibility of a name.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Sight {
     Everywhere,
@@ -30,9 +30,9 @@ pub(crate) struct DatumNode {
     pub name_at: usize,
     /// The whole statement with its semicolon.
     pub tokens: Range<usize>,
-    /// Of its first value.
+    /// Tokens of the initial value.
     pub initial: Option<Range<usize>>,
-    /// Of the sizes of an array, in its brackets.
+    /// Tokens of the array dimensions, in brackets.
     pub dimensions: Option<Range<usize>>,
     /// True where its statement declares no other name.
     pub is_alone: bool,
@@ -59,12 +59,11 @@ pub(crate) struct Parameter {
     pub is_optional: bool,
 }
 
-/// What kind of routine.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum RoutineKind {
     Procedure,
     Function,
-    /// It runs beside the program or breaks into it.
+    /// Routine that runs in parallel or as an interrupt.
     Trap,
     /// A procedure that is no program of its own: in another one, or with arguments.
     Inner,
@@ -84,7 +83,7 @@ pub(crate) struct Routine {
     pub handlers: Vec<Statement>,
     /// From LOCAL, PROC, FUNC or TRAP to its end.
     pub whole: Range<usize>,
-    /// Of the statements before the handlers.
+    /// Statements before the handlers.
     pub statements: Range<usize>,
 }
 
@@ -104,18 +103,18 @@ pub(crate) struct Module {
     pub routines: Vec<Routine>,
 }
 
-/// How the blocks of a branch run.
+/// Execution rule of the blocks of a branch.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Choice {
-    /// One of them.
+    /// Exactly one block runs.
     OneOfAll,
-    /// One of them or none.
+    /// At most one block runs.
     AtMostOne,
     /// One statement behind `IF condition`, without THEN.
     Compact,
 }
 
-/// How a loop repeats its block.
+/// Repetition rule of a loop.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum LoopKind {
     /// A variable counts (`FOR`).
@@ -139,7 +138,7 @@ pub(crate) enum Statement {
     /// An instruction or the call of a procedure, with its semicolon.
     Call { tokens: Range<usize> },
     Branches {
-        /// Of IF and each ELSEIF; what TEST compares, and the values of each CASE.
+        /// Conditions of IF and each ELSEIF; selector of TEST, and the values of each CASE.
         conditions: Vec<Range<usize>>,
         choice: Choice,
         blocks: Vec<Vec<Statement>>,
@@ -148,7 +147,7 @@ pub(crate) enum Statement {
     },
     Loop {
         kind: LoopKind,
-        /// Of how it counts, or of its condition.
+        /// Tokens of the counter, or of the condition.
         header: Range<usize>,
         block: Vec<Statement>,
         /// From FOR or WHILE to its end.

@@ -11,10 +11,9 @@ use crate::interpreter::storage::behind;
 use crate::interpreter::token::Kind;
 use crate::interpreter::tree::RoutineKind;
 use crate::interpreter::value::{Datum, Step, Value};
+use crate::model::findings::unreached_motions;
 use crate::model::motion::{Runs, mark_repeated};
 use crate::model::site::TargetSite;
-use crate::text::finding::Finding;
-use crate::text::line_words::in_words;
 use crate::text::name::Name;
 
 impl<D: Dialect> Run<'_, '_, D> {
@@ -146,19 +145,8 @@ impl<D: Dialect> Run<'_, '_, D> {
                 }
             });
         }
-        let all = unreached.into_iter().map(|(file, mut lines)| {
-            lines.sort_unstable();
-            lines.dedup();
-            let named = in_words(&lines);
-            Finding {
-                file,
-                line: lines.first().copied().unwrap_or(1),
-                message: format!(
-                    "the run of the program does not come to the motions on {named}: they stay as they are written"
-                ),
-            }
-        });
-        self.findings.extend(all);
+        let all = unreached.into_iter();
+        (self.findings).extend(all.filter_map(|(file, lines)| unreached_motions(file, lines)));
     }
 
     /// Refuses data that decide where the tool goes, that began with the values of the files, and end with others: the next run begins with

@@ -16,9 +16,9 @@ pub(crate) struct Words {
     pub branch: [&'static str; 3],
     /// Before a loop with its condition.
     pub repeat: &'static str,
-    /// Behind each block.
+    /// Word after each block.
     pub end: &'static str,
-    /// Behind a header.
+    /// Byte after a header.
     pub colon: u8,
     /// Before a name that all routines see, and before one of its routine.
     pub scopes: [&'static str; 2],
@@ -31,7 +31,7 @@ pub(crate) struct Words {
 }
 
 impl Words {
-    /// What a statement that leaves its block does.
+    /// Effect of a statement that leaves its block.
     pub(crate) fn leave(&self, file: &TokenFile<'_>, tokens: &Range<usize>) -> Leave {
         let word = file.word(tokens.start);
         let value = tokens.start + 1..tokens.end;

@@ -1,4 +1,4 @@
-//! What stands behind the ends of a motion: how its end is passed, and what is in force for it alone.
+//! Text after the target of a motion: approximation (C_DIS, C_VEL) and settings for this motion alone.
 
 use std::ops::Range;
 
@@ -14,7 +14,7 @@ pub(crate) enum Rounding {
     JointPercent,
     /// With `$APO.CVEL`.
     SpeedPercent,
-    /// Where the tool is turned.
+    /// Point at which the tool is turned.
     Turning,
 }
 
@@ -26,19 +26,18 @@ const ROUNDINGS: [(&str, Rounding); 5] = [
     ("C_SPL", Rounding::Distance),
 ];
 
-/// What stands behind the ends of a motion.
+/// Decoded text after the target of a motion.
 pub(crate) struct Rest {
     /// Place of the words of rounding.
     pub zone: Option<Range<usize>>,
     pub rounding: Option<Rounding>,
     /// A step is in the axes of the tool, not of the base.
     pub in_tool: bool,
-    /// What follows WITH.
+    /// Settings after WITH.
     pub with: Range<usize>,
 }
 
-/// What these tokens behind the ends say; why they say nothing. In whose axes a step (`is_step`) is, stands before or behind
-/// the words of rounding.
+/// Decodes the tokens after the target. The reference axes of a step (`is_step`) are stated before or after the words of approximation.
 pub(crate) fn rest_of(
     file: &TokenFile<'_>,
     tokens: Range<usize>,
@@ -97,7 +96,7 @@ pub(crate) fn rest_of(
     Ok(rest)
 }
 
-/// Whether a step is in the axes of the tool: without a word it is in those of the base.
+/// True if a step is in the axes of the tool; the default is the base.
 fn is_of_tool(file: &TokenFile<'_>, at: usize) -> Result<bool, Reason> {
     let name = file.name(at + 1);
     let is = |word: &str| name.is_some_and(|name| name.is(word));

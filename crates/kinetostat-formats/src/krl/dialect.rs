@@ -23,7 +23,7 @@ use crate::krl::table::{motion_row, only_reads, row};
 use crate::table::Treatment;
 use crate::text::name::Name;
 
-/// Most elements of an array that nothing declares.
+/// Limit of the elements of an undeclared array.
 const MOST_UNDECLARED: usize = 128;
 
 /// Types of positions: they decide where the tool goes.
@@ -140,7 +140,7 @@ impl Dialect for Krl {
         if let Some(name) = file.name(tokens.start)
             && run.root(&name).is_none()
         {
-            // What nothing declares begins to be known here.
+            // An undeclared variable becomes known at its first assignment.
             let unknown = || Datum::of(Value::Members(Default::default()));
             let value = match file.is(tokens.start + 1, b'[') {
                 true => Datum::list((0..MOST_UNDECLARED).map(|_| unknown()).collect()),

@@ -41,15 +41,15 @@ const AROUND: Around = Around {
     after: b"",
 };
 
-/// Where a motion ends, as far as its own text says it.
+/// End of a motion, as far as its own text states it.
 #[derive(Debug, Clone)]
 pub(super) struct End {
     pub target: Target,
     pub site: TargetSite,
-    /// Of X, Y, Z, A, B, C those that it states, where that is not all: the rest is that of before.
+    /// Stated members of X, Y, Z, A, B, C of a partial position; the others keep their previous values.
     pub open: Option<[Option<f64>; 6]>,
     pub external: Vec<Option<f64>>,
-    /// Its B as it is stated.
+    /// B as it is stated.
     pub b: Option<f64>,
 }
 
@@ -135,7 +135,7 @@ impl Run<'_, '_> {
         })
     }
 
-    /// Why the value of an end is no position.
+    /// Reason why the value of an end is no position.
     fn no_position(&self, expression: &Expression, value: &Datum, reason: String) -> Reason {
         let shown = self.file().text(&expression.tokens);
         match &expression.node {
@@ -156,7 +156,7 @@ impl Run<'_, '_> {
         }
     }
 
-    /// Where the numbers of an end stand.
+    /// Text position of the numbers of an end.
     fn site(
         &mut self,
         expression: &Expression,

@@ -29,7 +29,7 @@ fn shown(text: &str, array: &str) -> Option<u32> {
     rest.split(']').next()?.trim().parse().ok()
 }
 
-/// What the text of the fold around a motion says otherwise than its statements.
+/// Contradiction between the text of a motion's fold and its statements.
 pub(crate) fn contradiction(text: &[u8], tool: &FrameUse, base: &FrameUse) -> Option<String> {
     let text = String::from_utf8_lossy(text).to_uppercase();
     for (frame, array, in_force) in [(tool, "TOOL[", "TOOL_DATA["), (base, "BASE[", "BASE_DATA[")] {
@@ -56,7 +56,7 @@ pub(crate) fn text_of<'f>(file: &'f TokenFile<'_>, line: usize) -> &'f [u8] {
     file.source.part(&span)
 }
 
-/// Most lines of a file of which it is said that their folds are not closed.
+/// Limit of the lines of a file that are reported as unpaired folds.
 const MOST_TOLD: usize = 100;
 
 /// Lines (counted from 1) of folds that are not opened or not closed, and what is wrong with each: no controller minds, but the

@@ -64,7 +64,7 @@ impl Run<'_, '_> {
         }
         self.run_calls(tokens);
         match row(&name).map(|row| row.treatment) {
-            // What stands behind it is looked at as if it was not there: one fault is one line.
+            // The instruction is refused once; the statements after it are read as if it did not exist.
             Some(Treatment::Refused { reason, remedy }) => {
                 self.fault(tokens, (reason.to_owned(), remedy));
             }

@@ -1,4 +1,4 @@
-//! What an end keeps of the pose before where it does not state it.
+//! Coordinates of an end that are taken over from the previous pose.
 
 use nalgebra::{UnitQuaternion, Vector3};
 
@@ -27,10 +27,10 @@ pub(crate) fn kept_angles(orientation: &UnitQuaternion<f64>) -> [f64; 3] {
 /// Half a turn backward, with the last bits that a rotation loses, degrees.
 const HALF_TURN_DEG: f64 = 1e-9 - 180.0;
 
-/// Where B is as near to 90 degrees as this, or beyond, angles that are left out may be others than those that were written.
+/// Tolerance of B about 90 degrees: from there on, omitted angles may differ from those that were written.
 const NEAR_BEYOND_DEG: f64 = 1e-6;
 
-/// Whether a B lets the controller say the same orientation with another A and C.
+/// True if the controller may express the same orientation with another A and C at this B.
 pub(crate) fn is_beyond(b: f64) -> bool {
     b.is_nan() || b.abs() > 90.0 - NEAR_BEYOND_DEG
 }

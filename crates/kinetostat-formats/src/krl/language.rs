@@ -219,7 +219,7 @@ impl ProgramLanguage for KrlLanguage {
             ["VEL", "ORI1" | "ORI2", ..] => true,
             ["BAS", what, ..] => DYNAMICS_OF_BAS.contains(what),
             [first, rest @ ..] => {
-                // Behind WITH they hold for a motion.
+                // After WITH they are valid for one motion.
                 let with = rest.iter().position(|word| *word == "WITH");
                 let own = with.map_or(&[][..], |with| &rest[with..]);
                 (DYNAMICS.contains(first) && !rest.is_empty())

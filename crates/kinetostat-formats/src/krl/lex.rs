@@ -46,7 +46,7 @@ pub(crate) fn token_file(index: usize, source: &SourceFile) -> TokenFile<'_> {
     }
 }
 
-/// Where `=` assigns: not `==`, `<=`, `>=`.
+/// Position of the assignment sign `=`: not `==`, `<=`, `>=`.
 pub(crate) fn assignment(file: &TokenFile<'_>, tokens: &Range<usize>) -> Option<usize> {
     let at = file.find(tokens.clone(), b'=')?;
     let other = |at: usize| file.is(at, b'=') || file.is(at, b'<') || file.is(at, b'>');
@@ -54,7 +54,7 @@ pub(crate) fn assignment(file: &TokenFile<'_>, tokens: &Range<usize>) -> Option<
         .then_some(at)
 }
 
-/// Whether a comment is part of a fold: newer inline forms state their parameters in one.
+/// True if a comment is part of a fold: newer inline forms state their parameters in one.
 fn folds(comment: &[u8]) -> bool {
     opens(comment) || closes(comment) || begins(comment, b"PARAMS")
 }
@@ -68,12 +68,12 @@ fn begins(comment: &[u8], word: &[u8]) -> bool {
         .is_some_and(|first| first.eq_ignore_ascii_case(word))
 }
 
-/// Whether a comment opens a fold.
+/// True if a comment opens a fold.
 pub(crate) fn opens(comment: &[u8]) -> bool {
     begins(comment, b"FOLD")
 }
 
-/// Whether a comment closes a fold.
+/// True if a comment closes a fold.
 pub(crate) fn closes(comment: &[u8]) -> bool {
     begins(comment, b"ENDFOLD")
 }
@@ -95,7 +95,7 @@ fn tokens_of(line: &[u8], start: usize, tokens: &mut Vec<Token>) -> Option<Range
     None
 }
 
-/// None for blanks.
+/// Reads a token; `None` for blanks.
 fn token(input: &mut Input<'_>) -> Result<Option<Kind>, Nothing> {
     let first = *input.first().ok_or(winnow::error::EmptyError)?;
     match first {

@@ -16,8 +16,7 @@ use crate::model::orientation::OrientationText;
 use crate::model::tool_load::ToolLoad;
 use crate::text::source::SourceFile;
 
-/// By the numbers of the tools; none of a number that is given different ones, and none at all where `$LOAD` is set otherwise than from
-/// the array.
+/// Loads by tool number; a tool with conflicting loads is left out, and no load is known if `$LOAD` is not set from the array.
 pub(crate) fn tool_loads(files: &[SourceFile]) -> BTreeMap<u32, ToolLoad> {
     let mut found: BTreeMap<u32, Option<ToolLoad>> = BTreeMap::new();
     for (index, source) in files.iter().enumerate() {

@@ -316,7 +316,7 @@ fn are_apart(
     Ok(())
 }
 
-/// Behind the comma before the angle of a circle.
+/// Position after the comma before the angle of a circle.
 fn behind_end(file: &TokenFile<'_>, end: usize) -> usize {
     let has_angle = file.is(end, b',') && file.name(end + 1).is_some_and(|name| name.is("CA"));
     end + usize::from(has_angle)

@@ -26,7 +26,7 @@ pub(crate) struct Member {
     pub text: Option<NumberText>,
 }
 
-/// What a position states.
+/// Members of a position.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct Position {
     /// File and bytes of the literal, where all of it is one.
@@ -118,7 +118,7 @@ impl Position {
         Ok(())
     }
 
-    /// What it says of X, Y, Z, A, B, C.
+    /// Values of X, Y, Z, A, B, C.
     pub(crate) fn coordinates(&self) -> [Option<f64>; 6] {
         let value = |number: &Option<Member>| number.as_ref().map(|number| number.value);
         self.numbers.each_ref().map(value)
@@ -148,7 +148,7 @@ impl Position {
         Some(self.numbers.each_ref().map(text))
     }
 
-    /// Where its numbers stand; none where X, Y and Z are not all there, or only some of A, B, C.
+    /// Text position of its numbers; `None` unless X, Y and Z are all present, and A, B, C all or none.
     pub(crate) fn text(&self) -> Option<PoseText> {
         let (file, whole) = self.whole.clone()?;
         let [Some(x), Some(y), Some(z), a, b, c] = self.texts()? else {

@@ -17,7 +17,7 @@ use crate::text::finding::Finding;
 use crate::text::flat::FlatText;
 use crate::text::source::SourceFile;
 
-/// Most bytes of a file; the memory needed is some forty times as much.
+/// Limit of the bytes of a file; the memory needed is some forty times as much.
 const MOST_BYTES: usize = 1 << 28;
 
 /// Reads KRL programs (`.src`) with their data (`.dat`) together; `$config.dat` for tools, bases and home positions if given.
@@ -85,8 +85,10 @@ pub(crate) fn parse_krl(files: Vec<SourceFile>, options: &ReadOptions) -> Parsed
         external_axes_may_move: options.external_axes != ExternalAxes::Refused,
         moving_calls: &options.moving_calls,
     };
+    let ran = run.ran_beside;
     let mut parsed = Parsed::of_robot(Language::Krl, files, read);
     parsed.program.values = options.values.clone();
+    parsed.program.ran = ran;
     parsed
 }
 
@@ -115,7 +117,7 @@ fn token_files(files: &[SourceFile]) -> Vec<TokenFile<'_>> {
         .collect()
 }
 
-/// What each file holds.
+/// Parses each file.
 fn contents_of(files: &[TokenFile<'_>], faults: &mut Vec<ProgramError>) -> Vec<Content> {
     let mut contents: Vec<Content> = Vec::with_capacity(files.len());
     for file in files {

@@ -1,8 +1,7 @@
-//! What frames are used as.
+//! Roles of frames.
 
 use crate::text::name::Name;
 
-/// What a frame is used as.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Role {
     Tool,

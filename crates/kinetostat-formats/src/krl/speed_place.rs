@@ -1,4 +1,4 @@
-//! Where the speed of a motion stands, and where another one is written: before it, where it stays in force, or in its own WITH.
+//! Text position of a motion's speed, and of a replacement: before it, where it stays in force, or in its own WITH.
 
 use std::ops::Range;
 
@@ -10,7 +10,7 @@ use crate::model::site::SpeedSite;
 /// mm/s in one m/s, in which KRL states speeds.
 const METRE_MM: f64 = 1000.0;
 
-/// Where the speed of a motion stands.
+/// Text position of a motion's speed.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) enum SpeedPlace {
     /// In force from before: another one is stated before the motion.
@@ -27,7 +27,7 @@ pub(crate) enum SpeedPlace {
 }
 
 impl SpeedPlace {
-    /// Of a motion whose end and WITH (without that word) are these tokens.
+    /// Speed position of a motion; `tokens` are its end and its WITH (without that word).
     pub(crate) fn of(
         file: &TokenFile<'_>,
         end: &Range<usize>,
@@ -48,7 +48,7 @@ impl SpeedPlace {
         }
     }
 
-    /// Where another speed is written of a motion that begins there, with what parts a statement from it.
+    /// Site of a new speed for a motion that begins at `start`; `line_end` separates statements.
     pub(crate) fn site(self, start: usize, line_end: &str) -> Option<SpeedSite> {
         let (span, before, after) = match self {
             Self::Before => (start..start, "$VEL.CP=", line_end),

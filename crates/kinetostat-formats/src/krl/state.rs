@@ -1,4 +1,4 @@
-//! What a run of KRL keeps beside its data: what is in force, and the frames that the caller states.
+//! State of a KRL run beside its data: modal state, and the frames that the caller states.
 
 use std::collections::BTreeMap;
 
@@ -27,7 +27,7 @@ pub(crate) struct PointData {
     pub is_external: bool,
 }
 
-/// What motions go by; none of what nothing has set.
+/// Modal state of motions; unset values are `None`.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct InForce {
     pub base: Option<FrameUse>,
@@ -62,23 +62,23 @@ impl InForce {
     }
 }
 
-/// What a run of KRL keeps.
+/// State of a KRL run.
 pub(crate) struct Krl {
     /// Frames that the caller states, by their names without blanks, in capitals.
     pub stated: BTreeMap<String, Isometry3<f64>>,
-    /// How many statements give each name a value.
+    /// Number of assignments to each name.
     pub assigned: BTreeMap<Name, usize>,
     /// Values of elements of the arrays of frames: with which the files begin, and at their first use.
     pub initial: BTreeMap<(Role, u32), Datum>,
     pub used: BTreeMap<(Role, u32), Datum>,
     pub force: InForce,
-    /// What was in force before the spline block that is open.
+    /// Modal state before the open spline block.
     pub spline: Option<InForce>,
-    /// Why the next motion stays one: a statement before it acts somewhere along it.
+    /// Reason why the next motion cannot be divided: a statement before it acts somewhere along it.
     pub along_next: Option<&'static str>,
-    /// Of each motion: true where its end has a B beyond 90 degrees, with which the angles of an orientation are not certain.
+    /// True for each motion whose end has a B beyond 90 degrees, with which the angles of an orientation are ambiguous.
     pub beyond: Vec<bool>,
-    /// By file and line the line that opens the fold around it, once it is asked for.
+    /// Opening line of the surrounding fold, by file and line; computed on demand.
     pub folds: Vec<Option<Vec<Option<usize>>>>,
 }
 

@@ -17,7 +17,7 @@ pub(crate) enum Step {
         step_mm: Vector3<f64>,
         in_tool: bool,
     },
-    /// Of the joints, degrees.
+    /// Step of the joints, degrees.
     Joints([f64; 6]),
 }
 
@@ -27,7 +27,7 @@ impl Step {
         match (self, before) {
             (Self::Along { step_mm, in_tool }, Target::Pose(before)) => {
                 let mut pose = before.clone();
-                // How the arm reaches it is not said.
+                // The arm configuration at the end of a step is not stated.
                 pose.configuration = Configuration::default();
                 pose.position_mm += match in_tool {
                     true => before.orientation * step_mm,

@@ -5,13 +5,13 @@
 use crate::krl::role::Role;
 use crate::text::source::SourceFile;
 
-/// How a file of the data is called.
+/// File name of the controller's data.
 pub const KRL_CONFIG: &str = "$config.dat";
 
 /// Largest file of which they are taken.
 const MOST_BYTES: usize = 1 << 24;
 
-/// What names tools and bases by numbers: the arrays, the data of inline forms, and the arguments of BAS; and the home position.
+/// Names that refer to tools and bases by number: arrays, data of inline forms, arguments of BAS; and the home position.
 const NAMING: [&[u8]; 7] = [
     b"TOOL_DATA",
     b"BASE_DATA",
@@ -22,7 +22,7 @@ const NAMING: [&[u8]; 7] = [
     b"XHOME",
 ];
 
-/// Whether files name tools or bases by numbers, or the home position of the controller, and none of them is a `$config.dat`.
+/// True if files refer to tools or bases by number, or to the controller's home position, and none of them is a `$config.dat`.
 ///
 /// ```
 /// use kinetostat_formats::{SourceFile, krl_needs_config};
@@ -95,7 +95,7 @@ const TYPES: [&[u8]; 8] = [
     b"FRAME", b"POS", b"E3POS", b"E6POS", b"AXIS", b"E3AXIS", b"E6AXIS", b"FDAT",
 ];
 
-/// Whether a line declares a position, or the tool and base of one, with its value.
+/// True if a line declares a position, or the tool and base of one, with its value.
 fn is_declared(line: &[u8]) -> bool {
     let mut parts = line.splitn(2, |byte| *byte == b'=');
     let (Some(head), Some(value)) = (parts.next(), parts.next()) else {
@@ -106,7 +106,7 @@ fn is_declared(line: &[u8]) -> bool {
     !line.starts_with(b";") && words.any(is_of_type) && value.trim_ascii_start().starts_with(b"{")
 }
 
-/// Whether a line gives an element of TOOL_DATA or BASE_DATA a frame in numbers.
+/// True if a line assigns a numeric frame to an element of TOOL_DATA or BASE_DATA.
 fn is_frame(line: &[u8]) -> bool {
     let arrays = [Role::Tool, Role::Base].map(Role::array);
     let Some(array) = arrays.iter().find(|name| begins(line, name.as_bytes())) else {

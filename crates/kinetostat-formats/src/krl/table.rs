@@ -1,4 +1,4 @@
-//! What is done with each statement of KRL, as data.
+//! Treatment of each statement of KRL.
 
 use crate::table::Treatment::{Carried, Refused, Understood};
 use crate::table::{Alike, StatementRow, Treatment, alike, count, line, rows, sorted};
@@ -31,19 +31,53 @@ const ASYNCHRONOUS: Treatment = Refused {
     remedy: "take this statement into a program of its own",
 };
 
+/// Settings of how motions run: path mode, acceleration, orientation, zone.
+pub(crate) const MODES: &[&[&str]] = &[
+    &["$APO"],
+    &["$ACC"],
+    &["$JERK"],
+    &["$GEAR_JERK"],
+    &["$VEL"],
+    &["$ORI_TYPE"],
+    &["$CIRC_TYPE"],
+    &["$CIRC_MODE"],
+    &["$IPO_MODE"],
+    &["$SINGUL_STRATEGY"],
+    &["$EX_AX_IGNORE"],
+    &["$TECH"],
+    &["$ADVANCE"],
+    &["FDAT_ACT"],
+    &["LDAT_ACT"],
+    &["BAS"],
+];
+
+/// Settings and data that are in the places, frames, speeds and zones of the motions.
+pub(crate) const IN_MOTIONS: &[&str] = &[
+    "$BASE",
+    "$TOOL",
+    "BASE_DATA",
+    "TOOL_DATA",
+    "$VEL.CP",
+    "$VEL=",
+    "$APO.CDIS",
+    "BAS(#BASE",
+    "BAS(#TOOL",
+    "BAS(#VEL_CP",
+];
+
 /// How the end of a motion is stated.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Ends {
     Joint,
     Linear,
     Circular,
-    /// By steps from where the tool is, straight or by its joints.
+    /// Relative end from the tool position, linear or in joints.
     Step,
     JointStep,
 }
 
 impl Ends {
-    /// Whether they go on from where the tool is.
+    /// True for relative ends.
     pub(crate) fn are_steps(self) -> bool {
         matches!(self, Self::Step | Self::JointStep)
     }
@@ -56,7 +90,7 @@ pub(crate) struct MotionRow {
     pub ends: Ends,
     /// The word of a straight piece before its end; none where it cannot be divided.
     pub straight: Option<&'static str>,
-    /// What makes the tool pass the end of a piece without a stop.
+    /// Word that approximates the end of a piece, without a stop.
     pub pass: &'static str,
     source: &'static str,
 }
@@ -93,7 +127,7 @@ const READERS: [&str; 22] = [
     "ATAN2",
 ];
 
-/// Whether a call of such a function leaves its arguments as they are.
+/// True if a call of such a function does not change its arguments.
 pub(crate) fn only_reads(called: &Name) -> bool {
     READERS.iter().any(|name| called.is(name))
 }
@@ -140,8 +174,8 @@ pub(crate) fn row(name: &Name) -> Option<&'static StatementRow> {
     found.ok().map(|index| &SORTED[index])
 }
 
-/// What is done with each statement of KRL, in the order of the alphabet. Routines that are in no file and not here are
-/// carried with a finding; any other word that begins a line is refused.
+/// Treatment of each statement of KRL, in alphabetical order. Routines that are neither in a file nor listed are carried with a finding; any other
+/// word that begins a line is refused.
 pub const KRL_STATEMENTS: &[StatementRow] = &SORTED;
 
 const COUNT: usize = count(OTHERS) + MOTIONS.len();

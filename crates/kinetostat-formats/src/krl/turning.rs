@@ -1,4 +1,4 @@
-//! How the tool turns from point to point: `$ORI_TYPE=#VAR`, `$CIRC_TYPE=SCIRC_TYP(LCPDAT1)`, `$SINGUL_STRATEGY=0`, and the data of `LDAT_ACT=LCPDAT1`.
+//! Orientation control of the tool: `$ORI_TYPE=#VAR`, `$CIRC_TYPE=SCIRC_TYP(LCPDAT1)`, `$SINGUL_STRATEGY=0`, and the data of `LDAT_ACT=LCPDAT1`.
 
 use std::ops::Range;
 
@@ -11,14 +11,14 @@ use crate::model::site::TurnsOtherwise;
 use crate::model::site::not_evenly;
 use crate::model::target::PoseTarget;
 
-/// How motions turn that keep the orientation with which they begin.
+/// Motions with constant orientation.
 pub(crate) const KEPT: TurnsOtherwise = TurnsOtherwise {
     reason: "$ORI_TYPE=#CONSTANT keeps the orientation with which it begins",
     remedy: "write $ORI_TYPE=#VAR, with the orientations that the tool has",
     evenly: None,
 };
 
-/// Why the end of such a motion is not the one that is written.
+/// Reason why the end of such a motion differs from the written one.
 pub(crate) fn turned(before: Option<&PoseTarget>, end: Option<&PoseTarget>) -> Option<Reason> {
     let turn_rad = match (before, end?) {
         (Some(before), end) => before.orientation.angle_to(&end.orientation),

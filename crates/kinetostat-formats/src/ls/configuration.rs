@@ -1,4 +1,4 @@
-//! How an arm reaches a pose, as a position says it: `N U T, 0, 0, 0`.
+//! Arm configuration of a position: `N U T, 0, 0, 0`.
 //!
 //! Source: FANUC, R-30iB controller, operator's manual (basic operation), chapter 4 "Program structure".
 
@@ -7,7 +7,7 @@ use std::collections::BTreeSet;
 /// Letters of which a configuration has at most one each: wrist, side, elbow, and whether the arm reaches over its back.
 const PAIRS: [[u8; 2]; 4] = [*b"FN", *b"LR", *b"UD", *b"TB"];
 
-/// Whether a text says how the arm reaches a pose: letters, and the turns of three axes.
+/// True if a text is an arm configuration: letters, and the turns of three axes.
 pub(crate) fn is_configuration(text: &str) -> bool {
     let mut parts = text.split(',');
     let letters = parts.next().unwrap_or_default().bytes();

@@ -13,10 +13,10 @@ use crate::model::motion::{Motion, Runs};
 /// Deepest nesting of calls.
 const DEEPEST: usize = 200;
 
-/// Most statements of a run.
+/// Limit of the statements of a run.
 const MOST_STATEMENTS: usize = 5_000_000;
 
-/// Most motions of statements that ran before.
+/// Limit of the motions of repeated statements.
 const MOST_REPEATED: usize = 200_000;
 
 impl Run<'_, '_> {
@@ -50,6 +50,17 @@ impl Run<'_, '_> {
     fn step(&mut self, at: usize, step: &Step) -> Flow {
         let program = &self.all.programs[self.program()];
         let lead = || program.leads.get(&at).copied().unwrap_or(at + 1);
+        if matches!(
+            step,
+            Step::Assign(_)
+                | Step::Offset(..)
+                | Step::Wait(_)
+                | Step::Run
+                | Step::Abort
+                | Step::Carried
+        ) {
+            self.log(at);
+        }
         match step {
             Step::Motion(text) => return self.motion(at, text),
             Step::Assign(sides) => self.assign(at, sides),
@@ -110,7 +121,7 @@ impl Run<'_, '_> {
         };
         match self.all.programs[self.program()].labels.get(&label) {
             Some(to) => Flow::To(*to),
-            // Of a number that is stated, this is said without a run.
+            // A constant label that does not exist is reported without a run.
             None if label_of(&index.node).is_some() => Flow::Next,
             None => {
                 let reason = format!("there is no label {label} in the program");
@@ -131,6 +142,7 @@ impl Run<'_, '_> {
             },
         };
         let Some(called) = name.as_ref().and_then(|name| self.all.named(name)) else {
+            self.log(at);
             if self.calls.iter().any(|called| !called.counters.is_empty()) {
                 self.find(
                     at,

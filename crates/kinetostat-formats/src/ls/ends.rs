@@ -1,4 +1,4 @@
-//! Where motions end: positions with the frames in force, position registers, frames by number.
+//! Ends of motions: positions with the frames in force, position registers, frames by number.
 
 use crate::interpreter::value::Value;
 use crate::ls::motion::End;
@@ -20,7 +20,7 @@ pub(super) struct EndFound {
     pub external: Vec<Option<f64>>,
 }
 
-/// Why an end is refused, and what to do.
+/// Reason and remedy of a refused end.
 pub(super) type EndReason = (String, &'static str);
 
 const LEAVE: &str = "leave such motions as written (unknown_targets = \"left_as_written\" under [robot] in a job file), or teach a position";
@@ -196,8 +196,7 @@ impl Run<'_, '_> {
     }
 }
 
-/// Why a position that is taught with a frame or tool (`letters`, `own`) is elsewhere where another one may be in force, and
-/// what to do.
+/// Reason and remedy of a position that was taught with a frame or tool (`letters`, `own`) other than the one that may be in force.
 fn taught_otherwise(
     (position, letters, own): (u32, &str, u32),
     word: &str,

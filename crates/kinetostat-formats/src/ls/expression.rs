@@ -11,7 +11,7 @@ use crate::text::name::Name;
 /// Deepest nesting of brackets and signs.
 const DEEPEST: usize = 16;
 
-/// Most operators of one strength in a row: the tree is as deep.
+/// Limit of consecutive operators of one precedence: it bounds the depth of the tree.
 const MOST_OPERATORS: usize = 100;
 
 /// The expression that a part of a file is; its tokens are bytes.

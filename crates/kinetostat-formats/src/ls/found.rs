@@ -1,4 +1,4 @@
-//! What is found of programs so far, and what is wrong with them.
+//! Results and errors of the programs so far.
 
 use crate::error::ProgramError;
 use crate::model::site::Declaration;
@@ -6,7 +6,7 @@ use crate::options::ReadOptions;
 use crate::text::finding::Finding;
 use crate::text::source::SourceFile;
 
-/// What is found of the programs so far.
+/// Results of the programs so far.
 pub(super) struct Reader<'o> {
     pub options: &'o ReadOptions,
     pub faults: Vec<ProgramError>,

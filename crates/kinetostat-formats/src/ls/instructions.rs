@@ -10,7 +10,6 @@ use crate::ls::program::Program;
 use crate::ls::step::{Step, positions_read, step_of};
 use crate::text::source::SourceFile;
 
-/// Most bytes of a file.
 const MOST_BYTES: usize = 1 << 28;
 
 impl Reader<'_> {

@@ -138,7 +138,7 @@ impl ProgramLanguage for LsLanguage {
     fn states_dynamics(&self, words: &[&str]) -> bool {
         match words {
             ["OVERRIDE" | "JOINT_MAX_SPEED" | "LINEAR_MAX_SPEED", ..] => true,
-            // Behind the zone of a motion.
+            // ACC after the zone of a motion.
             ["J" | "L" | "C" | "A", others @ ..] => others.iter().any(|word| {
                 let percent = word.strip_prefix("ACC");
                 percent.is_some_and(|percent| percent.bytes().all(|byte| byte.is_ascii_digit()))

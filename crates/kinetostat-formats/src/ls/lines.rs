@@ -5,7 +5,7 @@ use std::ops::Range;
 use crate::text::number::NumberText;
 use crate::text::source::beginning;
 
-/// What is wrong with a line: where, why, what to do.
+/// Error of a line: position, reason, remedy.
 pub(crate) type Fault = (Range<usize>, &'static str, &'static str);
 
 /// An instruction with its number.
@@ -19,12 +19,12 @@ pub(crate) struct Line {
     pub whole: Range<usize>,
 }
 
-/// Where the parts of a program stand.
+/// Positions of the parts of a program.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Layout {
-    /// Behind `/PROG`.
+    /// Name after `/PROG`.
     pub name: Range<usize>,
-    /// Behind `LINE_COUNT =`.
+    /// Number after `LINE_COUNT =`.
     pub line_count: Option<NumberText>,
     pub lines: Vec<Line>,
     /// From the line behind `/POS` to the next section.
@@ -44,7 +44,7 @@ enum Section {
 }
 
 impl Layout {
-    /// Of the bytes of a file.
+    /// Layout of the bytes of a file.
     pub(crate) fn of(bytes: &[u8]) -> Self {
         let mut layout = Self::default();
         let mut section = Section::Before;
@@ -200,7 +200,7 @@ fn prefix(line: &[u8]) -> Option<(Range<usize>, usize)> {
     (line.get(from + digits) == Some(&b':')).then_some((from..from + digits, from + digits + 1))
 }
 
-/// Where the line behind the one of a byte begins.
+/// Start of the line after that of a byte.
 pub(crate) fn next_line(bytes: &[u8], at: usize) -> usize {
     let end = bytes[at..].iter().position(|byte| *byte == b'\n');
     end.map_or(bytes.len(), |end| at + end + 1)

@@ -13,7 +13,7 @@ use crate::model::site::{MotionSite, OffsetAxes, TurnsOtherwise};
 use crate::model::target::Target;
 
 impl Run<'_, '_> {
-    /// By how much a motion is offset; none where only the controller knows it, or where a register turns the tool.
+    /// Offset of a motion; `None` if only the controller knows it, or if a register turns the tool.
     fn shift_of(&mut self, at: usize, text: &MotionText) -> Option<(OffsetAxes, Vector3<f64>)> {
         let (axes, register) = text.offset.as_ref()?;
         let number = match register {

@@ -17,7 +17,7 @@ pub(crate) enum Way {
     Circular,
 }
 
-/// Where it ends.
+/// Target of the motion.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum End {
     /// A position of the program: its number and where that stands.
@@ -43,7 +43,7 @@ pub(crate) struct MotionText {
     pub speed_by: Option<(Expression, f64)>,
     pub zone: Zone,
     pub zone_span: Option<Range<usize>>,
-    /// Why the end is not where its position says.
+    /// Reason why the end differs from the position.
     pub displaced: Option<&'static str>,
     /// A register offsets it; none for that of the condition in force.
     pub offset: Option<(OffsetAxes, Option<Expression>)>,
@@ -53,7 +53,7 @@ pub(crate) struct MotionText {
     pub turns_otherwise: Option<Reason>,
 }
 
-/// Why a motion is refused, and what to do.
+/// Reason and remedy of a refused motion.
 pub(crate) type Reason = (&'static str, &'static str);
 
 const FORM: Reason = (
@@ -61,7 +61,7 @@ const FORM: Reason = (
     "write it as the controller prints it",
 );
 
-/// How a speed is stated.
+/// Form of a speed.
 enum How {
     Stated,
     /// A register holds it, and how many mm/s one of it is.
@@ -121,7 +121,7 @@ pub(crate) fn motion_of(bytes: &[u8], text: &Range<usize>) -> Result<MotionText,
     Ok(motion)
 }
 
-/// What an option of a motion starts (`TB .10sec,DO[1]=ON`), up to its end.
+/// Action that an option of a motion starts (`TB .10sec,DO[1]=ON`), up to its end.
 pub(crate) fn event_of(bytes: &[u8], text: &Range<usize>) -> Option<Range<usize>> {
     let starts = |word: &Word| {
         let name = &bytes[word.span.clone()];

@@ -28,7 +28,7 @@ pub(crate) fn position_names(source: &SourceFile) -> BTreeMap<u32, String> {
     named.collect()
 }
 
-/// What the end of a motion of a TP program is called: `P[3]: corner`.
+/// Name of the end of a motion of a TP program: `P[3]: corner`.
 pub(crate) fn named_end(
     source: &SourceFile,
     motion: &Motion,

@@ -57,6 +57,9 @@ impl<'p> Run<'_, 'p> {
         let open = self.with_jumps(open);
         let steps = self.open_steps(at, &open);
         let acts = steps.iter().any(|(.., step)| self.acts(step));
+        let own = steps.iter().filter(|(own, ..)| *own == self.program());
+        let passed: BTreeSet<usize> = own.map(|(_, at, _)| *at).chain([at]).collect();
+        passed.into_iter().for_each(|at| self.log(at));
         self.lose(&steps);
         if acts {
             let why = why.unknown_reason();
@@ -205,7 +208,7 @@ impl<'p> Run<'_, 'p> {
         }
     }
 
-    /// What steps that may have run assign is not known behind them.
+    /// Forgets the values that possibly executed steps assign.
     fn lose(&mut self, steps: &[OpenStep<'_>]) {
         for (program, _, step) in steps {
             match step {

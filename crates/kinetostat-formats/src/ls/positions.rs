@@ -13,7 +13,7 @@ use crate::model::site::{Declaration, DeclarationCopy, PoseText};
 use crate::model::target::{Configuration, PoseTarget};
 use crate::text::number::{NumberText, Width};
 
-/// What a position holds.
+/// Content of a position.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Held {
     /// A pose, an index of the declarations.
@@ -29,7 +29,7 @@ pub(crate) enum Held {
 pub(crate) struct Position {
     pub span: Range<usize>,
     pub held: Held,
-    /// Of group 1; none for `F`, the frame in force.
+    /// User frame of group 1; `None` for `F`, the frame in force.
     pub frame: Option<u32>,
     pub tool: Option<u32>,
     /// External axes of group 1 and all of further groups.
@@ -46,7 +46,7 @@ pub(crate) struct Positions {
 const GIVE: &str = "give the program as the controller prints it";
 
 impl Positions {
-    /// Of a section of a file; poses go to `declarations`.
+    /// Parses a section of a file; poses are added to `declarations`.
     pub(crate) fn of(
         bytes: &[u8],
         section: Range<usize>,
@@ -103,7 +103,7 @@ impl Positions {
     }
 }
 
-/// What stands in a position.
+/// Members of a position.
 #[derive(Default)]
 struct Parts {
     group: u32,
@@ -119,7 +119,7 @@ struct Parts {
 /// An external axis, or an axis of a further group.
 struct External {
     value: f64,
-    /// Where it can become another.
+    /// Number that can be replaced.
     number: Option<NumberText>,
 }
 

@@ -88,5 +88,8 @@ pub(crate) fn parse_ls(files: Vec<SourceFile>, options: &ReadOptions) -> Parsed 
         external_axes_may_move: options.external_axes != ExternalAxes::Refused,
         moving_calls: &options.moving_calls,
     };
-    Parsed::of_robot(Language::FanucLs, files, read)
+    let ran = run.ran_beside;
+    let mut parsed = Parsed::of_robot(Language::FanucLs, files, read);
+    parsed.program.ran = ran;
+    parsed
 }

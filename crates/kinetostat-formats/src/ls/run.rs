@@ -12,10 +12,11 @@ use crate::ls::motion::End;
 use crate::ls::positions::{Held, Positions};
 use crate::ls::program::Program;
 use crate::ls::step::Step;
+use crate::model::findings::unreached_motions;
 use crate::model::motion::{Motion, Runs, mark_repeated};
 use crate::model::outside_call::OutsideCall;
+use crate::model::program::RanStatement;
 use crate::model::site::OffsetAxes;
-use crate::text::line_words::in_words;
 use crate::text::name::Name;
 use crate::text::source::SourceFile;
 
@@ -73,11 +74,11 @@ pub(super) fn index_of_axes(axes: OffsetAxes) -> usize {
     }
 }
 
-/// Where a run goes on behind a step.
+/// Continuation of a run after a step.
 pub(super) enum Flow {
     Next,
     To(usize),
-    /// Behind the call of the program.
+    /// Returns to the line after the call.
     Returns,
     /// Nowhere: all programs end.
     Ends,
@@ -97,7 +98,7 @@ pub(super) struct RunningCall {
     pub arguments: Vec<Datum>,
     /// Loops that run, by FOR: the counter and the last value.
     pub counters: BTreeMap<usize, (Name, f64)>,
-    /// By the step that jumps back.
+    /// State at each backward jump, by its step.
     pub passes: BTreeMap<usize, Pass>,
 }
 
@@ -139,6 +140,8 @@ pub(super) struct Run<'o, 'p> {
     /// Motions that ran, by program and step.
     pub ran: Vec<Vec<bool>>,
     pub repeated_motions: usize,
+    /// Statements beside the motions that ran.
+    pub ran_beside: Vec<RanStatement>,
     pub statements: usize,
     /// Conditions whose values are known, so far.
     pub decided: usize,
@@ -173,6 +176,7 @@ impl<'o, 'p> Run<'o, 'p> {
             taken: BTreeSet::new(),
             taught: reader.declarations.len(),
             repeated_motions: 0,
+            ran_beside: Vec::new(),
             statements: 0,
             decided: 0,
             noted: BTreeSet::new(),
@@ -253,14 +257,7 @@ impl<'o, 'p> Run<'o, 'p> {
                     }
                 }
             }
-            lines.dedup();
-            if let Some(first) = lines.first().copied() {
-                let named = in_words(&lines);
-                let message = format!(
-                    "the run of the program does not come to the motions on {named}: they stay as they are written"
-                );
-                self.reader.finding(index, first, message);
-            }
+            (self.reader.findings).extend(unreached_motions(index, lines));
         }
     }
 
@@ -278,6 +275,17 @@ impl<'o, 'p> Run<'o, 'p> {
     pub(super) fn line(&self, at: usize) -> usize {
         let start = self.all.layouts[self.program()].lines[at].whole.start;
         self.file().line_of(start)
+    }
+
+    /// Notes that a statement beside the motions ran, by its step.
+    pub(super) fn log(&mut self, at: usize) {
+        let program = self.program();
+        self.ran_beside.push(RanStatement {
+            file: program,
+            span: self.all.layouts[program].lines[at].text.clone(),
+            motions: self.motions.len(),
+            text: None,
+        });
     }
 
     /// Notes a fault of a step once.

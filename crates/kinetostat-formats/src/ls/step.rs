@@ -34,7 +34,7 @@ pub(crate) struct ForText {
 pub(crate) struct CaseText {
     /// The value that is compared; of the first line alone.
     pub subject: Option<Expression>,
-    /// None of ELSE.
+    /// Value of the case; `None` for ELSE.
     pub value: Option<Expression>,
     pub action: Step,
 }
@@ -87,7 +87,7 @@ const UNKNOWN: Reason = (
     "take it into a program of its own, or ask for it to be carried",
 );
 
-/// What an instruction is.
+/// Decodes an instruction.
 pub(crate) fn step_of(bytes: &[u8], text: &Range<usize>) -> Step {
     let from = bytes[text.clone()]
         .iter()
@@ -157,7 +157,7 @@ fn inner(bytes: &[u8], span: Range<usize>, depth: usize) -> Step {
     }
 }
 
-/// Of a frame or tool whose value is not known.
+/// Reason and remedy of a frame or tool with an unknown value.
 pub(crate) const FRAME_DATA: Reason = (
     "it says which frame a number means while the program runs, and its value is not in the text",
     "give the register all six numbers before (PR[9,1]=0 to PR[9,6]=0, PR[9]=P[2]), state the frame under [robot.frames], or set it on the controller and take this statement into a program of its own",
@@ -179,7 +179,7 @@ const FRAMES_OF_SYSTEM: [&[u8]; 7] = [
     b"TCPFRAME",
 ];
 
-/// Whether an assignment to a system variable sets a frame: `$GROUP[1].$UFRAME=PR[1]`.
+/// True if an assignment to a system variable sets a frame: `$GROUP[1].$UFRAME=PR[1]`.
 fn sets_frame(text: &[u8]) -> bool {
     let set = text.split(|byte| *byte == b'=').next().unwrap_or_default();
     let is_part = |byte: &u8| byte.is_ascii_alphanumeric() || *byte == b'_';
@@ -193,7 +193,7 @@ fn sets_frame(text: &[u8]) -> bool {
 /// Deepest nesting of conditions in one instruction.
 const DEEPEST: usize = 4;
 
-/// What is done on a condition: what stands behind the first comma that no bracket holds.
+/// Conditional action: the text after the first comma outside of brackets.
 fn perhaps(bytes: &[u8], span: &Range<usize>, depth: usize) -> Step {
     let mut open = 0_i32;
     for at in span.clone() {

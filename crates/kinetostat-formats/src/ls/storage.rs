@@ -300,7 +300,7 @@ impl Run<'_, '_> {
         };
     }
 
-    /// Behind what may give any register a value: the counters of loops that run and the frames are taken to stay.
+    /// Forgets all registers after an unknown assignment; counters of running loops and frames are assumed to stay.
     pub(super) fn forget(&mut self) {
         let counters = self
             .calls
@@ -315,14 +315,14 @@ impl Run<'_, '_> {
         self.modal.conditions = [None, None];
     }
 
-    /// Behind what may do anything.
+    /// Forgets the whole state after an unknown action.
     pub(super) fn forget_all(&mut self) {
         self.forget();
         self.here = None;
         self.modal = Modal::UNSET;
     }
 
-    /// What is waited for is changed by others, unless it is so already.
+    /// Forgets the operands of a WAIT: others change them, unless the condition is already true.
     pub(super) fn wait(&mut self, condition: &Expression) {
         if self.value(condition).as_truth() != Some(true) {
             self.lose_all_in(condition);

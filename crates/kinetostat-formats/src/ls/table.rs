@@ -1,4 +1,4 @@
-//! What is done with each statement of FANUC TP programs, and with each option of a motion, as data.
+//! Treatment of each statement of FANUC TP programs, and of each motion option.
 
 use crate::model::site::OffsetAxes;
 use crate::table::Treatment::{Carried, Refused, Understood};
@@ -35,7 +35,7 @@ const FRAME_MENU: Treatment = Refused {
     remedy: "set the frame on the controller and take this statement into a program of its own",
 };
 
-/// What is done with each statement of FANUC TP programs. A statement that is not here is refused with its line.
+/// Treatment of each statement of FANUC TP programs. A statement that is not listed is refused with its line.
 pub const LS_STATEMENTS: &[StatementRow] = &rows::<{ count(GROUPS) }>(GROUPS);
 
 #[rustfmt::skip]
@@ -72,6 +72,20 @@ const GROUPS: &[Alike] = &[
     alike(OWN_WAY, OPTIONS, &["PALLETIZING", "PL", "SPOT"]),
 ];
 
+/// Settings of how motions run.
+pub(crate) const MODES: &[&[&str]] = &[
+    &["JOINT_MAX_SPEED"],
+    &["LINEAR_MAX_SPEED"],
+    &["PAYLOAD"],
+    &["TORQ_LIMIT"],
+    &["COL DETECT"],
+    &["COL GUARD ADJUST"],
+    &["WEAVE"],
+];
+
+/// Settings and data that are in the places and frames of the motions.
+pub(crate) const IN_MOTIONS: &[&str] = &["UFRAME", "UTOOL", "PR["];
+
 /// The row of a statement: the longest name with which its text begins.
 pub(crate) fn row(text: &[u8]) -> Option<&'static StatementRow> {
     let is_part = |byte: &u8| byte.is_ascii_alphanumeric() || *byte == b'_';
@@ -86,7 +100,7 @@ pub(crate) fn row(text: &[u8]) -> Option<&'static StatementRow> {
         .max_by_key(|row| row.name.len())
 }
 
-/// What follows the name of an option of a motion.
+/// Argument after the name of a motion option.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Follows {
     Nothing,
@@ -98,7 +112,7 @@ pub(crate) enum Follows {
     Event,
 }
 
-/// What an option does to a motion.
+/// Effect of an option on a motion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Effect {
     /// The end stays: carried.
@@ -128,7 +142,7 @@ const fn option(name: &'static str, follows: Follows, effect: Effect) -> OptionR
     }
 }
 
-/// Why an end is not known that is offset.
+/// Reason why an offset end is unknown.
 pub(crate) const OFFSET: &str =
     "it is offset by a register, whose value is not in the text, or which turns the tool";
 const ALONE: &str = "take this motion into a program of its own";

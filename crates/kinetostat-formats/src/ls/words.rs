@@ -4,7 +4,6 @@ use std::ops::Range;
 
 use crate::ls::lines::number_of;
 
-/// What a word is.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Kind {
     /// Letters and `_`; digits behind them are a number of their own (`CNT100`).
@@ -75,7 +74,7 @@ fn is_letter(byte: &u8) -> bool {
     byte.is_ascii_alphabetic() || matches!(byte, b'_' | b'$') || *byte >= 0x80
 }
 
-/// Behind the bracket that closes the one at a place.
+/// Position after the closing bracket that matches the one at a place.
 fn bracket_end(bytes: &[u8], at: usize, end: usize) -> usize {
     let mut open = 0_usize;
     for (index, byte) in bytes[at..end].iter().enumerate() {

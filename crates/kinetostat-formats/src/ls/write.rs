@@ -1,4 +1,4 @@
-//! What the writer must know of FANUC TP programs.
+//! Adapter of the writer for FANUC TP programs.
 //!
 //! A piece of a motion is a line before it with a position of its own at the end of `/POS`. Then the lines are numbered
 //! again from the first that is wrong, and `LINE_COUNT` grows by the lines that were added: a controller loads a program
@@ -115,7 +115,7 @@ fn numbered(bytes: &[u8], layout: &Layout, added: f64) -> Option<Vec<u8>> {
 
 /// FANUC TP programs.
 struct LsSyntax {
-    /// Behind the last position, by file.
+    /// Position after the last taught position, by file.
     ends: Vec<usize>,
 }
 

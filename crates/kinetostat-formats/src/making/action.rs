@@ -1,11 +1,11 @@
-//! What a statement beside the moves does that several languages have.
+//! Actions of statements beside the moves that several languages share.
 
 use kinetostat_program::SpindleRotation;
 
 use crate::making::event_kind::EventKind;
 use crate::making::limits::MakeLanguage;
 
-/// Which coolant flows.
+/// Kind of coolant.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Coolant {
@@ -17,7 +17,7 @@ pub enum Coolant {
     Off,
 }
 
-/// What a statement beside the moves does that several languages have.
+/// Action of a statement beside the moves that several languages share.
 ///
 /// ```
 /// use kinetostat_formats::{EventAction, events_of_gcode};
@@ -39,13 +39,13 @@ pub enum EventAction {
     },
     /// Until somebody starts again (`M0`, `STOP`, `HALT`, `PAUSE`).
     Stop,
-    /// The same where a switch of the machine says so (`M1`, `OPSTOP`).
+    /// Stop if a switch of the machine is set (`M1`, `OPSTOP`).
     OptionalStop,
     /// The spindle turns otherwise, or stops.
     Spindle {
-        /// Which way.
+        /// Sense of rotation.
         rotation: SpindleRotation,
-        /// How fast, where it is known.
+        /// Spindle speed, if known.
         rpm: Option<f64>,
     },
     /// Coolant flows, or no more.
@@ -70,7 +70,7 @@ impl EventAction {
         matches!(self, Self::Spindle { rotation, .. } if rotation != SpindleRotation::Stopped)
     }
 
-    /// Whether a language has it.
+    /// True if a language has the action.
     pub(crate) fn is_in(self, language: MakeLanguage) -> bool {
         let of_a_machine = matches!(language, MakeLanguage::Apt | MakeLanguage::Gcode);
         match self {

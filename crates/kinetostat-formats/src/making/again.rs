@@ -1,4 +1,4 @@
-//! What was made, read again by the reader of its language.
+//! Check of a made program by the reader of its language.
 
 use kinetostat_program::{Arc, Curve, Program, ReadOptions as GcodeReading, interpret};
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};

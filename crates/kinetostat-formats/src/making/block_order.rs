@@ -11,24 +11,24 @@ use crate::text::source::SourceFile;
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Running {
     pub line: usize,
-    /// It runs once, on no condition.
+    /// The block runs exactly once, unconditionally.
     pub is_certain: bool,
-    /// What of it runs here.
+    /// Part of the line that runs here.
     pub part: Part,
 }
 
-/// What of a line runs at a place of the run.
+/// Part of a line that runs at a place of the run.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) enum Part {
     /// The rest of it: what stands on it behind the calls that are followed.
     Rest,
     /// A call and no more; what it calls stands behind it.
     Call,
-    /// What stands before the call of a routine (its name in capitals), which stands behind it.
+    /// Text before the call of a routine (its name in capitals); the routine's lines follow.
     Before(String),
 }
 
-/// Of a Heidenhain program, with the labels that it calls.
+/// Running blocks of a Heidenhain program, with the labels that it calls.
 pub(crate) fn running_blocks(source: &SourceFile) -> Vec<Running> {
     let bytes = source.bytes();
     let blocks = blocks_of(bytes);
@@ -56,7 +56,7 @@ pub(crate) fn running_blocks(source: &SourceFile) -> Vec<Running> {
     (0..first).chain(ordered).flat_map(lines).collect()
 }
 
-/// Of a SINUMERIK program, which runs straight on: up to the block that ends it.
+/// Running blocks of a SINUMERIK program with linear control flow: up to the block that ends it.
 pub(crate) fn until_end(source: &SourceFile) -> Vec<Running> {
     let last = last_line(source).unwrap_or(source.line_count());
     let certain = |line: usize| Running {

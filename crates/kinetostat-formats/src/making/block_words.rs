@@ -5,15 +5,19 @@ use crate::model::language::Language;
 use crate::model::program::RobotProgram;
 use crate::siemens::block::{Block, What};
 use crate::siemens::expression::Expression;
+use crate::siemens::table::row;
+use crate::table::Treatment;
 use crate::text::source::SourceFile;
 
 /// A word of a block.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct BlockWord {
-    /// Its letters in capitals: `M`, `S1`, `CYCLE832`; `/` of a block that a switch of the control leaves out.
+    /// Letters of the word in capitals; `/` for a block that a switch of the control skips.
     pub name: String,
     /// All of it in capitals, without blanks, and without zeros that say nothing: `M3`, `ADIS=0.5`, `CYCLE832(0.5,1)`.
     pub text: String,
+    /// It is in the path, the frames, feeds or speeds that are read from the blocks.
+    pub is_in_path: bool,
 }
 
 /// Gives the words of every block with its line; of languages without blocks there are none.
@@ -48,7 +52,11 @@ pub fn each_block(program: &RobotProgram, mut say: impl FnMut(usize, &[BlockWord
                         Some(value) => format!("{name}{value}"),
                         None => capitals(source.part(&word.span)),
                     };
-                    BlockWord { name, text }
+                    BlockWord {
+                        name,
+                        text,
+                        is_in_path: false,
+                    }
                 });
                 let words: Vec<BlockWord> = slash(block.skipped).chain(words).collect();
                 say(source.line_of(block.text.start), &words);
@@ -76,7 +84,18 @@ fn words_of_siemens(source: &SourceFile, line: usize) -> Vec<BlockWord> {
             }
             _ => capitals(source.part(&item.span)),
         };
-        BlockWord { name, text }
+        // Of `S2=1000`, `R1=5`, `G505` the table has no rows.
+        let has_no_row = || name.starts_with(['S', 'R', 'G']) && is_numbered(&name);
+        let is_in_path = row(&name)
+            .or_else(|| row(&text))
+            .map_or_else(has_no_row, |row| {
+                row.treatment == Treatment::Understood || matches!(row.name, "N" | "S")
+            });
+        BlockWord {
+            name,
+            text,
+            is_in_path,
+        }
     });
     slash(block.skip).chain(words).collect()
 }
@@ -85,6 +104,7 @@ fn slash(stands: bool) -> impl Iterator<Item = BlockWord> {
     let word = || BlockWord {
         name: "/".to_owned(),
         text: "/".to_owned(),
+        is_in_path: true,
     };
     stands.then(word).into_iter()
 }
@@ -92,4 +112,9 @@ fn slash(stands: bool) -> impl Iterator<Item = BlockWord> {
 fn capitals(bytes: &[u8]) -> String {
     let text = String::from_utf8_lossy(bytes).to_uppercase();
     text.split_whitespace().collect()
+}
+
+/// True for one letter with digits behind it, if any.
+fn is_numbered(name: &str) -> bool {
+    name.chars().skip(1).all(|c| c.is_ascii_digit())
 }

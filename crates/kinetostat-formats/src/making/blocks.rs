@@ -6,7 +6,7 @@ use crate::model::language::Language;
 pub(crate) struct Blocks {
     language: Language,
     open: usize,
-    /// Behind a jump, or in a routine with one.
+    /// The line follows a jump, or its routine has one.
     is_lost: bool,
 }
 
@@ -20,7 +20,7 @@ impl Blocks {
         }
     }
 
-    /// What stands here runs once, on no condition.
+    /// True if the line runs exactly once, unconditionally.
     pub(crate) fn is_certain(&self) -> bool {
         self.open == 0 && !self.is_lost
     }
@@ -55,7 +55,7 @@ impl Blocks {
             Some(open) => self.open = open,
             None => self.is_lost = true,
         }
-        // What stands behind them runs where nobody left the routine before.
+        // Statements after these only run if the routine was not left before.
         let leaves = [
             "RETURN",
             "EXIT",

@@ -10,7 +10,7 @@ use crate::making::limits::MakeLanguage;
 use crate::making::step::{MadeMotion, Step, Way};
 use crate::making::template::Template;
 
-/// How far a made program, read again, is from its path.
+/// Deviation of a made program, read again, from its path.
 ///
 /// ```
 /// use kinetostat_formats::{MakeLanguage, Template, make};
@@ -148,7 +148,7 @@ fn angle(one: &nalgebra::UnitQuaternion<f64>, other: &nalgebra::UnitQuaternion<f
     2.0 * between.imag().norm().atan2(between.scalar().abs())
 }
 
-/// What the digits explain.
+/// Checks that the deviation is explained by the written digits.
 fn within<'m>(
     kept: &Kept,
     made: impl Iterator<Item = &'m MadeMotion>,

@@ -41,7 +41,7 @@ pub(crate) fn computed_frames(program: &RobotProgram, template: &Template) -> Ve
 fn is_computed(language: Language, used: &FrameUse) -> bool {
     let name = used.name.as_str();
     let Some((_, inside)) = name.split_once(['[', '{', '(']) else {
-        // Where nothing sets $TOOL and $BASE, those of the controller count.
+        // Without an assignment to $TOOL and $BASE, the controller's frames are valid.
         return language.numbers_frames() && !name.starts_with('$');
     };
     let index = inside.trim_end_matches([']', '}', ')']);

@@ -1,4 +1,4 @@
-//! How the arm reaches the poses of a source: kept in the same language, named as lost in another.
+//! Arm configurations of the poses of a source: kept in the same language, reported as lost in another.
 
 use crate::making::fault::MakeFinding;
 use crate::making::limits::MakeLanguage;
@@ -12,7 +12,7 @@ use crate::model::target::Target;
 use crate::path::of_program::RobotPath;
 use crate::text::line_words::in_words;
 
-/// Whether a program is made in the language of its source, of those whose targets state configurations.
+/// True if a program is made in the language of its source and that language's targets state configurations.
 pub(crate) fn is_same(source: Language, made: MakeLanguage) -> bool {
     source.is_of_robot() && made.language() == Some(source)
 }
@@ -48,7 +48,7 @@ pub(crate) fn kept(
     stated.collect()
 }
 
-/// That configurations of the source are not those of the made program, with their lines.
+/// Finding on lost configurations of the source, with their lines.
 pub(crate) fn lost(program: &RobotProgram, why: &str) -> Option<MakeFinding> {
     let states = |motion: &&Motion| {
         let stated = |target: &Target| {
@@ -75,7 +75,7 @@ pub(crate) fn lost(program: &RobotProgram, why: &str) -> Option<MakeFinding> {
     ))
 }
 
-/// Why configurations cannot be kept in another language.
+/// Reason why configurations cannot be kept in another language.
 pub(crate) fn why_lost(language: MakeLanguage, stated: Option<&str>) -> String {
     match language {
         MakeLanguage::Krl | MakeLanguage::Rapid | MakeLanguage::FanucLs => format!(

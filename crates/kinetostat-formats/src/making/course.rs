@@ -26,17 +26,17 @@ pub(crate) fn before(line: usize) -> usize {
     OF_A_LINE * line
 }
 
-/// That of a motion, counted from 0 on its line.
+/// Order key of a motion, counted from 0 on its line.
 pub(crate) fn at(line: usize, motion: usize) -> usize {
     of_motion(line, motion) + 1
 }
 
-/// That of what acts behind all of them.
+/// Order key of events after all motions of a line.
 pub(crate) fn behind(line: usize) -> usize {
     OF_A_LINE * line + OF_A_LINE - 1
 }
 
-/// That of what acts before the motion of a number.
+/// Order key of events before the motion with this key.
 pub(crate) fn before_motion(number: usize) -> usize {
     number - number % OF_A_MOTION
 }
@@ -45,7 +45,7 @@ fn of_motion(line: usize, motion: usize) -> usize {
     OF_A_LINE * line + OF_A_MOTION * motion.min(MOTIONS_OF_A_LINE - 1)
 }
 
-/// Of every one of these lines of motions, how many with the same line stand before it without another between.
+/// Index of each motion on its line: the number of directly preceding motions with the same line.
 pub(crate) fn counted_on_lines(lines: &[usize]) -> Vec<usize> {
     let mut last = None;
     let mut count = 0;
@@ -62,22 +62,22 @@ pub(crate) fn counted_on_lines(lines: &[usize]) -> Vec<usize> {
 /// Events and changes of tools by numbers that ascend in the order in which they run.
 #[derive(Default)]
 pub(crate) struct Course {
-    /// Of every move; none where the lines are the order.
+    /// Order keys of all moves; `None` if the lines are the order.
     pub of_moves: Option<Vec<usize>>,
     pub events: Vec<(usize, SourceEvent)>,
     pub tools: Vec<(usize, u32)>,
-    /// What has no place among the moves.
+    /// Events without a place among the moves.
     pub left_out: Vec<SourceEvent>,
-    /// Of a program that is not in G-code.
+    /// Language of the source, unless it is G-code.
     pub language: Option<Language>,
-    /// Of every move, how the arm reaches its places, where the source says it in the same language.
+    /// Arm configurations of each move, if the source states them in the same language.
     pub configurations: Vec<StatedConfiguration>,
-    /// Of every move, its speeds of turning and of external axes, where the source states them in the same language.
+    /// Speeds of rotation and of external axes of each move, if the source states them in the same language.
     pub other_speeds: Vec<Option<Box<str>>>,
 }
 
 impl Course {
-    /// Where events stood before the program was written flat.
+    /// Sets the places of events to those before the expansion of the program.
     pub(crate) fn show_places(&mut self, place: impl Fn(usize) -> Option<String>) {
         let placed = self.events.iter_mut().map(|(_, event)| event);
         for event in placed.chain(&mut self.left_out) {
@@ -103,7 +103,7 @@ impl Course {
             }
             false => left_out = events.to_vec(),
         }
-        // What acts behind a motion stands behind what acts before it.
+        // Events after a motion follow those before it.
         placed.sort_by_key(|(order, _)| *order);
         let changes = path.tool_changes.iter();
         Self {
@@ -128,7 +128,7 @@ impl Course {
         Some(self.tools.get(after.checked_sub(1)?)?.1)
     }
 
-    /// What is left out, in words.
+    /// Finding on the events that are left out.
     pub(crate) fn finding(&self) -> Option<MakeFinding> {
         let lost = || {
             let matter =

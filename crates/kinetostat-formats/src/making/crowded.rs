@@ -5,7 +5,7 @@ use std::collections::VecDeque;
 use crate::making::fault::MakeFinding;
 use crate::making::step::{MadeMotion, Step, Way};
 
-/// So many motions in a row are looked at: a single short one is planned ahead.
+/// Window of consecutive motions: look-ahead compensates a single short one.
 const IN_A_ROW: usize = 16;
 
 /// The time of a motion that controllers of arms plan without slowing down, s: KUKA interpolates every 4 or 12 ms, FANUC every 8 ms.

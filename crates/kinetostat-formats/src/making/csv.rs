@@ -62,7 +62,7 @@ pub(crate) fn files(
     vec![(format!("{name}.csv"), text.into_bytes())]
 }
 
-/// Whether motions go with several tools; rapids before the first change are of the one that is taken then.
+/// True if motions use several tools; rapids before the first change use the tool that is taken then.
 fn has_several_tools(steps: &[Step]) -> bool {
     let mut tool = None;
     let mut all = BTreeSet::new();

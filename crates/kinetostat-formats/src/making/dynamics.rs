@@ -34,12 +34,12 @@ fn own_speeds(motion: &Motion) -> Option<&str> {
     (others != OTHER_SPEEDS).then_some(others)
 }
 
-/// Whether a made program has them.
+/// True if a made program states them.
 fn has_them(program: &RobotProgram, language: MakeLanguage) -> bool {
     (program.language, language) == (Language::Rapid, MakeLanguage::Rapid)
 }
 
-/// Those of every move of a path, where the made program can state them.
+/// Other speeds of every move of a path, if the made program can state them.
 pub(crate) fn other_speeds(
     program: &RobotProgram,
     robot: &RobotPath,

@@ -1,10 +1,10 @@
-//! What the statements beside the moves are about.
+//! Subjects of the statements beside the moves.
 
-/// What an event is about.
+/// Subject of an event.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 #[non_exhaustive]
 pub enum EventKind {
-    /// Its speed, its start and stop.
+    /// Spindle speed, start and stop.
     Spindle,
     /// Coolant on and off.
     Coolant,

@@ -1,4 +1,4 @@
-//! What a source says beside its moves: spindle, coolant, tools, pauses, comments.
+//! Events of a source beside its moves: spindle, coolant, tools, pauses, comments.
 
 use crate::making::action::EventAction;
 use crate::making::event_kind::EventKind;
@@ -21,23 +21,23 @@ use crate::making::event_kind::EventKind;
 pub struct SourceEvent {
     /// Line of the source, counted from 1, by which it finds its place among the moves.
     pub line: usize,
-    /// What it is about.
+    /// Subject of the event.
     pub kind: EventKind,
     /// The words of the line that are no motion.
     pub text: String,
-    /// Where that stands, for the note: `line 12`, or another file's line.
+    /// Source position for the note: `line 12`, or another file's line.
     pub place: String,
-    /// What it does that other languages have, too, in order.
+    /// Actions that other languages share, in order.
     pub actions: Vec<EventAction>,
-    /// What its other words are about; none where the actions are all of it.
+    /// Subject of the other words; `None` if the actions are complete.
     pub rest: Option<EventKind>,
-    /// It acts behind the motion of its line, not before.
+    /// The event acts after the motion of its line, not before.
     pub(crate) is_behind: bool,
-    /// Which motion of its line that is, counted from 0; none for all of them.
+    /// Index of its motion on the line, counted from 0; `None` for all of them.
     pub(crate) motion: Option<usize>,
-    /// It states the speed of a spindle that stands still: a made program states it where the spindle starts.
+    /// The event sets the speed of a stopped spindle: a made program states it at the spindle's start.
     pub(crate) states_speed: bool,
-    /// It names a tool, whatever else it is about.
+    /// The event names a tool, in addition to its subject.
     pub(crate) is_of_tool: bool,
 }
 
@@ -56,12 +56,6 @@ impl SourceEvent {
             states_speed: false,
             is_of_tool: kind == EventKind::Tool,
         }
-    }
-
-    /// Whether it stands in the statement of a motion, or acts behind one.
-    #[must_use]
-    pub fn is_of_motion(&self) -> bool {
-        self.motion.is_some() || self.is_behind
     }
 
     /// It does nothing: whether and how often it runs is not known.

@@ -1,19 +1,19 @@
-//! What is wrong with a program that is to be made, and what a person should know of one that was.
+//! Errors of making a program, and findings on a made one.
 
 use thiserror::Error;
 
-/// Why no program is made of a path: which line of the source, why, and what to do.
+/// Error that prevents a program from being made of a path: line of the source, reason, remedy.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error("{}{reason}; {remedy}", place(*line))]
 #[non_exhaustive]
 pub struct MakeError {
     /// Line of the source, counted from 1; none where it is not about a line.
     pub line: Option<usize>,
-    /// Why.
+    /// Reason for the error.
     pub reason: String,
-    /// What the user can do about it.
+    /// Remedy for the user.
     pub remedy: String,
-    /// It is about what the template states, not about the program.
+    /// The error is in the template, not in the program.
     pub is_of_template: bool,
 }
 
@@ -46,12 +46,12 @@ impl MakeError {
     }
 }
 
-/// What is otherwise in a made program than in its source, or was taken for granted.
+/// Difference between a made program and its source, or an assumption.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct MakeFinding {
     /// First line of the source that it is about, counted from 1; none where it is about all of it.
     pub line: Option<usize>,
-    /// What.
+    /// Text of the finding.
     pub message: String,
 }
 

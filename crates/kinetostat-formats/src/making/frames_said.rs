@@ -1,4 +1,4 @@
-//! What is said of the frames of a made program.
+//! Findings on the frames of a made program.
 
 use nalgebra::Isometry3;
 
@@ -8,7 +8,7 @@ use crate::making::stated::is_number_zero;
 use crate::making::template::{StatedFrame, StatedTool, Template};
 use crate::model::orientation::OrientationText;
 
-/// Which frames count, and where they have to be set.
+/// Reports the frames in use, and the place where they have to be set.
 pub(crate) fn of_frames(template: &Template, language: MakeLanguage, say: &mut impl FnMut(String)) {
     let base_number = template.base.number.unwrap_or(1);
     let tool = &template.tool.frame;

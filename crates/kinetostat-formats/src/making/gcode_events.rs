@@ -34,7 +34,7 @@ pub fn events_of_gcode(program: &kinetostat_program::Program, path: &Path) -> Ve
     events
 }
 
-/// Whether a word acts behind the motion of its block.
+/// True if a word acts after the motion of its block.
 ///
 /// Controllers disagree about M5 and M9 beside a motion: where one moves they come behind it, since a spindle that stops while
 /// the tool still cuts does harm, a little later does none.
@@ -52,7 +52,7 @@ const FOLLOWED: [u32; 35] = [
     592, 593, 610, 611, 640, 800, 900, 910, 901, 911, 920, 930, 940, 950, 970,
 ];
 
-/// What of a block is no motion.
+/// Words of a block that are no motion.
 fn rest_of(bytes: &[u8], moves: bool) -> Words {
     let text = String::from_utf8_lossy(bytes);
     let mut words = Vec::new();
@@ -109,7 +109,7 @@ fn rest_of(bytes: &[u8], moves: bool) -> Words {
     }
 }
 
-/// What a word does that other languages have, too.
+/// Action of a word that other languages share.
 fn word_of(letter: char, value: f64, kind: EventKind) -> Word {
     match (letter, whole(value)) {
         ('M', Some(number)) => word_of_m(number),
@@ -123,7 +123,7 @@ fn whole(value: f64) -> Option<u32> {
     (value.fract() == 0.0 && (0.0..1e9).contains(&value)).then_some(value as u32)
 }
 
-/// What a word is about; none where it is part of a motion.
+/// Subject of a word; `None` if it is part of a motion.
 fn kind_of(letter: char, value: f64, dwells: bool) -> Option<EventKind> {
     let tenths = (10.0 * value).round();
     match letter {

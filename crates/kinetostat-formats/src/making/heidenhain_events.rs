@@ -40,7 +40,7 @@ pub(crate) fn events_of_heidenhain(source: &SourceFile) -> (Vec<SourceEvent>, Ve
 struct Walk<'w> {
     source: &'w SourceFile,
     turning: Turning,
-    /// As the last TOOL CALL names it.
+    /// Tool name of the last TOOL CALL.
     tool: Option<Vec<u8>>,
     /// RL or RR.
     is_aside: bool,
@@ -87,7 +87,7 @@ impl Walk<'_> {
         words.events(line, force)
     }
 
-    /// What a statement says beside a motion.
+    /// Decodes the words of a statement beside a motion.
     fn statement(&mut self, first: &Written, words: &[Written], whole: String) -> Vec<Said> {
         let one = |kind: EventKind| vec![Said::early(kind, Word::Other, whole.clone())];
         let second = |names: &[&str]| {
@@ -104,7 +104,7 @@ impl Walk<'_> {
             }
             b"TOOL" => one(EventKind::Tool),
             b"CYCL" | b"CYCLE" => match cycle_of(words) {
-                // Where coordinates count from, is in the places.
+                // Coordinate transformations are contained in the positions.
                 Some((7 | 8 | 10 | 11 | 19 | 247, _)) => Vec::new(),
                 Some((9, _)) => vec![Said::early(EventKind::Dwell, Word::Dwell, whole)],
                 Some((13, _)) => {
@@ -133,7 +133,7 @@ impl Walk<'_> {
         if let Some(word) = called {
             let name = self.source.part(&word.span).to_ascii_uppercase();
             if self.tool.replace(name.clone()).as_ref() != Some(&name) {
-                // It stops for another tool.
+                // A tool change stops the spindle.
                 self.turning.turn(SpindleRotation::Stopped);
             }
         }
@@ -167,7 +167,7 @@ impl Walk<'_> {
         while let Some(word) = words.get(at) {
             let mut next = at + 1;
             if let (true, Some(number)) = (word.is("M"), word.whole()) {
-                // Behind some functions stand their own words.
+                // Some functions have words of their own after them.
                 let own = words[next..].iter().take_while(|word| !word.is("M"));
                 next += own.count() * usize::from(has_words(number));
                 let text = self.text(&words[at..next]);
@@ -239,14 +239,14 @@ fn cycle_of(words: &[Written]) -> Option<(u32, u32)> {
         .then_some((tenths as u32 / 10, tenths as u32 % 10))
 }
 
-/// Which part of a dwell a block is.
+/// Number of the line of a dwell cycle.
 fn dwell_part(words: &[Written]) -> Option<u32> {
     let is_cycle = words.first()?.is("CYCL") || words.first()?.is("CYCLE");
     let (cycle, part) = cycle_of(words).filter(|_| is_cycle)?;
     (cycle == 9).then_some(part)
 }
 
-/// How long the tool stands still by `CYCL DEF 9.1 DWELL 2.5` or `FUNCTION DWELL TIME2.5`, s.
+/// Dwell of `CYCL DEF 9.1 DWELL 2.5` or `FUNCTION DWELL TIME2.5`, s.
 fn dwell_seconds(words: &[Written]) -> Option<f64> {
     let is_function = words.first()?.is("FUNCTION") && words.get(1)?.is("DWELL");
     let seconds = match (dwell_part(words), is_function) {
@@ -257,7 +257,7 @@ fn dwell_seconds(words: &[Written]) -> Option<f64> {
     seconds.filter(|seconds| *seconds >= 0.0)
 }
 
-/// Where the comment of a block begins: at the first `;` that stands in no text, or with a `*` at its beginning.
+/// Start of the comment of a block: at the first `;` outside of a text, or at a leading `*`.
 fn comment_at(text: &[u8]) -> Option<usize> {
     if text.first() == Some(&b'*') {
         return Some(0);

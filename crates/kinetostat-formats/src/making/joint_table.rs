@@ -7,10 +7,10 @@ use crate::model::joint_arm::{BetweenRows, TableArm};
 /// Decimals of joint values: a thousandth of a billionth of a degree.
 const DECIMALS: usize = 12;
 
-/// Most halvings of a way on which all joints move in step.
+/// Limit of the halvings of a path on which all joints move in step.
 const MOST_HALVINGS: u32 = 20;
 
-/// Where a table of joint values begins, and in which axes its poses were.
+/// Start of a table of joint values, and axes of its poses.
 ///
 /// ```
 /// let from = kinetostat_formats::JointStart::default();
@@ -23,7 +23,7 @@ pub struct JointStart {
     pub base: Isometry3<f64>,
     /// Joint values next to the first row, as the table has them: they say in which configuration the arm is.
     pub near: Vec<f64>,
-    /// How far the tool may leave straight ways where all joints move in step, mm.
+    /// Tolerated deviation of the tool from straight lines when all joints move in step, mm.
     pub tolerance_mm: f64,
     /// Rapids go straight, too; otherwise all joints move in step from one end of them to the other.
     pub straight_rapids: bool,
@@ -46,11 +46,11 @@ impl Default for JointStart {
 pub struct JointTable {
     /// The table, as text.
     pub bytes: Vec<u8>,
-    /// Of every row its line in the table of poses, counted from 1, and its joint values; rows between two poses are of the second.
+    /// Line in the table of poses (from 1) and joint values of each row; inserted rows have the line of the later pose.
     pub rows: Vec<(usize, Vec<f64>)>,
-    /// How far the poses of the written joint values are from those of the table, mm and rad.
+    /// Deviation of the poses of the written joint values from those of the table, mm and rad.
     pub departure: [f64; 2],
-    /// How far the middle of a rapid is from the straight way where all joints move in step and it is not divided, mm.
+    /// Deviation of the middle of an undivided rapid from the straight line when all joints move in step, mm.
     pub rapid_departure_mm: f64,
 }
 
@@ -61,7 +61,7 @@ pub struct JointTable {
 pub struct JointTableError {
     /// Line of the table of poses, counted from 1.
     pub line: usize,
-    /// Why, and what to do.
+    /// Reason and remedy.
     pub reason: String,
 }
 
@@ -298,7 +298,7 @@ impl Table<'_> {
         self.text.push('\n');
         let off = apart(pose, &self.arm.arm.tool_pose(&written));
         for (most, off) in self.departure.iter_mut().zip(off) {
-            // What is no number is the largest.
+            // NaN counts as the largest.
             if off > *most || off.is_nan() {
                 *most = off;
             }
@@ -307,7 +307,7 @@ impl Table<'_> {
     }
 }
 
-/// How far two poses are apart, mm and rad.
+/// Distance of two poses, mm and rad.
 fn apart(a: &Isometry3<f64>, b: &Isometry3<f64>) -> [f64; 2] {
     let off = a.translation.vector - b.translation.vector;
     [off.norm(), a.rotation.angle_to(&b.rotation)]

@@ -60,7 +60,7 @@ pub(crate) fn files(
 struct Writer<'t> {
     template: &'t Template,
     text: String,
-    /// As written last.
+    /// Speed as written last.
     speed: String,
     zone: String,
     tool: Option<u32>,
@@ -108,7 +108,7 @@ impl Writer<'_> {
         }
     }
 
-    /// What the flange carries; nothing where the mass of no tool is stated.
+    /// Payload of the flange; `None` if no tool has a mass.
     fn load(&self, tool: &StatedTool) -> Option<String> {
         let mut all = self.template.tools.values().chain([&self.template.tool]);
         if all.all(|other| other.mass_kg.is_none()) {
@@ -178,7 +178,7 @@ impl Writer<'_> {
             };
             return self.line(&format!("PTP {end}{zone}"));
         }
-        // Those of the template are of mm/s.
+        // The template states decimals of mm/s.
         let decimals = self.template.speed_decimals.map_or(12, |own| own + 3);
         let speed = format!(
             "$VEL.CP={}",

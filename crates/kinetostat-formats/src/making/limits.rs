@@ -22,7 +22,7 @@ pub enum MakeLanguage {
     Csv,
 }
 
-/// Which arcs a language has.
+/// Arcs that a language supports.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Arcs {
     None,
@@ -32,21 +32,21 @@ pub(crate) enum Arcs {
     AboutZ,
 }
 
-/// What a language takes.
+/// Limits of a language.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Limits {
     pub arcs: Arcs,
-    /// Least way between the places of an arc, mm.
+    /// Minimum chord length of an arc, mm.
     pub least_chord_mm: f64,
-    /// Least sweep of an arc, rad.
+    /// Minimum sweep of an arc, rad.
     pub least_sweep_rad: f64,
-    /// It states how the tool stands.
+    /// The language states the tool orientation.
     pub orientation: bool,
-    /// Most characters of the program's name.
+    /// Limit of the characters of the program's name.
     pub name: usize,
-    /// Most places in a file where the caller states none, and at all; none where a program is one file.
+    /// Default and maximum of the positions in a file; `None` if a program is one file.
     pub points: Option<(usize, usize)>,
-    /// Most decimals of a speed where the caller states none.
+    /// Default limit of the decimals of a speed.
     pub speed_decimals: usize,
 }
 
@@ -69,7 +69,7 @@ impl MakeLanguage {
         Self::Csv,
     ];
 
-    /// Whether the controller of an arm runs it.
+    /// True for the languages of robot controllers.
     pub(crate) fn is_of_an_arm(self) -> bool {
         matches!(self, Self::Krl | Self::Rapid | Self::FanucLs)
     }
@@ -121,7 +121,7 @@ impl MakeLanguage {
         }
     }
 
-    /// What a program that is made in it keeps, in words: the limits that the maker goes by.
+    /// Limits of a program that is made in the language, in words.
     ///
     /// ```
     /// use kinetostat_formats::MakeLanguage;
@@ -164,7 +164,7 @@ impl MakeLanguage {
         all.join("; ")
     }
 
-    /// How the name of its files ends.
+    /// File ending of the language.
     ///
     /// ```
     /// assert_eq!(kinetostat_formats::MakeLanguage::Krl.ending(), "src");
@@ -174,7 +174,7 @@ impl MakeLanguage {
         self.form().ending()
     }
 
-    /// What its files hold.
+    /// Form of the language's files.
     ///
     /// ```
     /// use kinetostat_formats::{FileForm, MakeLanguage};
@@ -220,7 +220,7 @@ impl MakeLanguage {
         all.find(|made| made.language() == language)
     }
 
-    /// Its name in sentences.
+    /// Name of the language in sentences.
     ///
     /// ```
     /// assert_eq!(kinetostat_formats::MakeLanguage::FanucLs.title(), "a TP program");

@@ -15,7 +15,7 @@ use crate::model::orientation::OrientationText;
 /// Characters of a remark.
 const REMARK: usize = 32;
 
-/// What is written of the arm's posture where nothing is stated: a TP program cannot leave it open.
+/// Default configuration of the arm: a TP program must state one.
 pub(crate) const CONFIGURATION: &str = "N U T, 0, 0, 0";
 
 /// The files of a program: the main one first.

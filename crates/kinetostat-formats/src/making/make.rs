@@ -25,14 +25,14 @@ use crate::making::{apt, csv, gcode, krl, ls, rapid, stated};
 pub struct Made {
     /// Names and bytes; the first is the main program.
     pub files: Vec<(String, Vec<u8>)>,
-    /// What is otherwise than in the source, or was taken for granted; those without a line at the end.
+    /// Differences from the source, and assumptions; those without a line at the end.
     pub findings: Vec<MakeFinding>,
-    /// How far it is from the path, measured on what its own reader reads.
+    /// Deviation from the path, measured on the program as its own reader reads it.
     pub kept: Kept,
-    /// Of every motion its line, counted through the files one behind the other, and the line of the source that it came from.
+    /// Line of each motion, counted through all files in order, and the line of its source.
     pub lines: Vec<[usize; 2]>,
-    /// Of every motion the move of the path that it goes along, and from which share of its length to which. A motion to the joint
-    /// values at which the program begins goes along none: it stands where the first of the others begins, `[0.0, 0.0]`.
+    /// Move of the path for each motion, and the fractions of its length at which the motion starts and ends. The motion to the initial joint values
+    /// has none: it takes the start of the first of the others, `[0.0, 0.0]`.
     pub parts: Vec<(usize, [f64; 2])>,
     /// The first motion to a pose states how the arm reaches it: as the template says, or as the source does in the same language.
     pub states_configuration: bool,
@@ -43,7 +43,7 @@ pub struct Made {
 /// Rapids below this are a speed in another unit, mm/s.
 const SLOWEST_RAPID_MM_PER_S: f64 = 1.0;
 
-/// What stands at the head of made programs.
+/// Header text of made programs.
 const MADE_BY: &str = "made by kinetostat convert";
 
 /// A program in another language that goes along a path.
@@ -104,7 +104,7 @@ fn speeds_lost(steps: &[Step], template: &Template, language: MakeLanguage) -> V
     .collect()
 }
 
-/// The same with events, moves and changes of tools in the order of a course.
+/// Makes a program with events, moves and tool changes in the order of a course.
 pub(crate) fn make_along(
     path: &Path,
     course: &Course,

@@ -2,7 +2,7 @@
 //!
 //! The way: [`gcode_events`] and [`robot_events`] find what a source says beside its moves ([`motion_events`]: in their statements;
 //! [`siemens_events`] and [`heidenhain_events`]: the words of blocks, with [`turning`], how the spindle turns, and [`words`], what they do
-//! before a motion and behind it; [`block_words`]: all of them for whoever compares two programs),
+//! before a motion and behind it; [`block_words`] and [`run_statements`]: all of them for whoever compares two programs),
 //! [`course`] says in which order all of it runs ([`robot_course`], [`routines`], [`block_order`]: of robots' programs, [`of_tools`]: their tools, [`configurations`], [`reconfigured`], [`stated_configurations`]: their
 //! postures), [`plan`] makes steps
 //! (where [`tools_told`] finds every tool of the program in the template, and [`tool_edges`] its edges)
@@ -53,6 +53,7 @@ pub(crate) mod robot_course;
 pub(crate) mod robot_events;
 pub(crate) mod robot_faults;
 pub(crate) mod routines;
+pub(crate) mod run_statements;
 pub(crate) mod siemens_events;
 pub(crate) mod siemens_words;
 pub(crate) mod speed_remedy;

@@ -1,4 +1,4 @@
-//! What a robot's program does in the statements of its motions and on their lines: outputs, procedures, triggers.
+//! Actions in and around the motion statements of a robot's program: outputs, procedures, triggers.
 
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -62,20 +62,12 @@ fn events_of_motion(
     (motion, number): (&Motion, usize),
     free: Range<usize>,
 ) -> Vec<SourceEvent> {
-    let found = match language {
-        Language::Rapid => of_rapid(source, motion),
-        Language::FanucLs => {
-            let event = event_of(source.bytes(), &motion.span);
-            let text = event.map(|span| words(source.part(&span)));
-            text.map(|text| (text.trim_end_matches(';').trim_end().to_owned(), true))
-        }
-        _ => None,
-    };
+    let found = done_in_motion(language, source, motion);
     let begin = source.range_of(motion.line).start;
     let number = Some(number);
     let mut events = Vec::new();
     if language.has_several_statements_a_line() && free.start <= begin {
-        // What stands between two motions of a line is behind the first.
+        // Statements between two motions of a line belong after the first.
         let text = words(source.part(&(begin..motion.span.start.max(begin))));
         events.extend(of_line(language, motion.line, &text));
     }
@@ -102,6 +94,23 @@ fn events_of_motion(
         }),
     );
     events
+}
+
+/// Text of an action in the statement of a motion, and true if it is done at the end of the motion.
+pub(crate) fn done_in_motion(
+    language: Language,
+    source: &SourceFile,
+    motion: &Motion,
+) -> Option<(String, bool)> {
+    match language {
+        Language::Rapid => of_rapid(source, motion),
+        Language::FanucLs => {
+            let event = event_of(source.bytes(), &motion.span);
+            let text = event.map(|span| words(source.part(&span)));
+            text.map(|text| (text.trim_end_matches(';').trim_end().to_owned(), true))
+        }
+        _ => None,
+    }
 }
 
 /// What stands behind a motion on its last line, up to where the next one begins.
@@ -140,7 +149,7 @@ fn comments_inside(source: &SourceFile, motion: &Motion) -> Vec<(usize, String)>
 }
 
 /// A line of RAPID up to its comment.
-fn code_of(line: &str) -> &str {
+pub(crate) fn code_of(line: &str) -> &str {
     let mut in_text = false;
     let begins = |(_, letter): &(usize, char)| {
         in_text ^= *letter == '"';
@@ -150,7 +159,7 @@ fn code_of(line: &str) -> &str {
     &line[..at.map_or(line.len(), |(at, _)| at)]
 }
 
-/// What an instruction of RAPID does beside its motion, and whether it does so behind it.
+/// Action of a RAPID motion instruction beside its motion, and true if it acts after the motion.
 fn of_rapid(source: &SourceFile, motion: &Motion) -> Option<(String, bool)> {
     let keyword = words(source.part(&motion.site.keyword));
     let upper = keyword.to_ascii_uppercase();

@@ -69,7 +69,7 @@ pub(crate) fn words_taken(template: &Template) -> Vec<MakeError> {
         .tools
         .iter()
         .map(|(number, tool)| (Some(*number), tool));
-    // Of several tools, the one before the first change where it is stated.
+    // With several tools, the tool before the first change is only included if it is stated.
     let is_told = template.tools.is_empty() || template.tool != StatedTool::default();
     let tools = numbered.chain(is_told.then_some((None, &template.tool)));
     let of_tools = tools.map(|(number, tool)| (name_of_tool(number, tool), &tool.frame));
@@ -106,7 +106,7 @@ pub(crate) fn words_taken(template: &Template) -> Vec<MakeError> {
     faults
 }
 
-/// Whether a name is no one's to declare: words and instructions of RAPID, data that every controller has, and what made modules declare.
+/// True if a name is reserved: words and instructions of RAPID, data that every controller has, and declarations of made modules.
 fn is_taken(name: &str) -> bool {
     let letters = name.as_bytes();
     let known = Name::of(letters);
@@ -123,7 +123,7 @@ fn is_taken(name: &str) -> bool {
     is_reserved(name, MakeLanguage::Rapid) || is_instruction || is_datum || is_own
 }
 
-/// What to do about a name.
+/// Remedy of an invalid name.
 const NAMED_SO: &str =
     "name it so: a program is called as its output, or as program_name in the template says";
 
@@ -140,7 +140,7 @@ const OF_RAPID: &str = "MAIN MODULE PROC TOOL0 WOBJ0 ALIAS AND BACKWARD CASE CON
     OR PERS RAISE READONLY RECORD RETRY RETURN STEP SYSMODULE TASK TEST THEN TO TRAP TRUE TRYNEXT UNDO VAR \
     VIEWONLY WHILE WITH XOR NUM BOOL STRING POSE";
 
-/// Whether a name is a word of the language, or of one of its programs.
+/// True if a name is a word of the language, or of one of its programs.
 fn is_reserved(name: &str, language: MakeLanguage) -> bool {
     if language.limits().points.is_none() {
         return false;
@@ -154,7 +154,7 @@ fn is_reserved(name: &str, language: MakeLanguage) -> bool {
         .any(|word| name.eq_ignore_ascii_case(word))
 }
 
-/// Whether a text is an identifier of at most so many characters.
+/// Checks that a text is an identifier with at most `most` characters.
 pub(crate) fn is_identifier(name: &str, most: usize, what: &str) -> Result<(), MakeError> {
     let shown: String = name.chars().take(80).filter(|c| !c.is_control()).collect();
     let right = |c: char| c.is_ascii_alphanumeric() || c == '_';

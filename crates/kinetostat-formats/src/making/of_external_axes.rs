@@ -4,7 +4,7 @@ use crate::making::fault::MakeFinding;
 use crate::model::motion::Motion;
 use crate::model::program::RobotProgram;
 
-/// Of each axis that does not stand at 0 all along, where it stands first, and whether it moves.
+/// Findings on external axes that are not at 0 throughout: first position, and motion.
 pub(crate) fn external_axes(program: &RobotProgram) -> Vec<MakeFinding> {
     let all = || program.motions.iter().map(|motion| &motion.site.external);
     let count = all().map(Vec::len).max().unwrap_or_default();

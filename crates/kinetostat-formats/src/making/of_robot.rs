@@ -53,8 +53,7 @@ pub fn make_of_robot(
     make_of_flat_robot(program, robot, template, language, |_| None)
 }
 
-/// The same of a program that was written flat; `place` names where a line of it came from (`'hole.mpf', line 12`), for the
-/// notes.
+/// Makes a program of an expanded program; `place` names the original place of a line (`'hole.mpf', line 12`), for the notes.
 ///
 /// # Errors
 /// Those of [`make_of_robot`].
@@ -80,7 +79,7 @@ pub fn make_of_flat_robot(
         if (program.language, language) == (Language::Rapid, MakeLanguage::Rapid) {
             let name = Name::of(frame.name.as_bytes());
             let both = name.and_then(|name| object_frames(&program.files).get(&name).copied());
-            // Where the caller says where it is, that is it.
+            // A pose that the caller states has priority.
             let both = both.filter(|[user, object]| frame.known() == Some(&(user * object)));
             template.base.object_frame = both.map(|[_, object]| object);
         }
@@ -114,12 +113,12 @@ pub fn make_of_flat_robot(
     course.show_places(place);
     course.configurations = configurations::kept(program, robot, language);
     if template.configuration.is_some() {
-        // What the template states holds, and the rest of the source's would not go with it.
+        // The template's configuration has priority, and the source's later ones would not be consistent with it.
         course.configurations.clear();
     }
     course.other_speeds = other_speeds(program, robot, language);
     let mut made = make_along(&robot.path, &course, &template, language)?;
-    // What is named stands before what is taken for granted.
+    // Explicit findings precede assumptions.
     made.findings.splice(0..0, named);
     made.findings
         .sort_by_key(|finding| finding.line.unwrap_or(usize::MAX));
@@ -168,7 +167,7 @@ pub fn make_of_flat_robot(
 /// Orientations nearer to one another are one, rad.
 const SAME_TURN_RAD: f64 = 1e-6;
 
-/// That a template says otherwise how the tool stands than a source that states its axis.
+/// Finding on a template orientation that differs from that of a source which states the tool axis.
 fn orientation_not_used(robot: &RobotPath, template: &Template) -> Option<MakeFinding> {
     let stated = template.tool_orientation.filter(|_| robot.axis_alone)?;
     let same = stated.angle_to(&at_z(robot.path.tool_axis)) < SAME_TURN_RAD;
@@ -198,7 +197,7 @@ fn completed(stated: &mut StatedTool, source: StatedTool) -> Option<MakeFinding>
     ))
 }
 
-/// That an arm stands otherwise at the poses of the source, for base or tool of the template are elsewhere.
+/// Finding on a different arm posture at the poses of the source, since base or tool of the template differ.
 fn moved_frames(robot: &RobotPath, [base, tool]: [&StatedFrame; 2]) -> Option<MakeFinding> {
     let is_other = |stated: &StatedFrame, of_source: Option<&FrameUse>| {
         let own = of_source.and_then(FrameUse::known);
@@ -224,7 +223,7 @@ fn moved_frames(robot: &RobotPath, [base, tool]: [&StatedFrame; 2]) -> Option<Ma
     })
 }
 
-/// What becomes of configurations that the source states.
+/// Finding on configurations that the source states.
 fn lost_configurations(
     program: &RobotProgram,
     template: &Template,
@@ -269,7 +268,7 @@ pub fn base_of_robot(program: &RobotProgram, robot: &RobotPath) -> Option<Stated
 
 /// The work object in whose axes the places of a table are.
 fn unnamed_frame(frame: &FrameUse) -> Option<MakeFinding> {
-    // That of tables and machines without one.
+    // Default name of tables and machines without a work object.
     let is_named = !["part", "PART"].contains(&frame.name.as_str());
     is_named.then(|| {
         MakeFinding::of(
@@ -282,7 +281,7 @@ fn unnamed_frame(frame: &FrameUse) -> Option<MakeFinding> {
     })
 }
 
-/// What becomes of exact stops and zones of the source.
+/// Finding on exact stops and zones of the source.
 fn zones(program: &RobotProgram) -> Option<MakeFinding> {
     let stops = |motion: &&Motion| motion.zone == Zone::Exact;
     let first = program.motions.iter().find(stops)?;

@@ -22,17 +22,17 @@ use crate::text::name::Name;
 /// The tools of a made program.
 #[derive(Default)]
 pub(crate) struct MadeTools {
-    /// That of a program with one, and before the first change.
+    /// Tool of a program with a single one, and before the first change.
     pub tool: StatedTool,
-    /// By the numbers of the source, of a program with several.
+    /// Tools by their numbers in the source, in a program with several.
     pub tools: BTreeMap<u32, StatedTool>,
-    /// What got a number, or another name.
+    /// Findings on tools that got a number or another name.
     pub findings: Vec<MakeFinding>,
-    /// What cannot be written of them, by the line of the first motion.
+    /// Errors of tools, by the line of the first motion.
     pub faults: Vec<MakeError>,
 }
 
-/// Whether a language takes tools by statements of their own, as machines do.
+/// True if a language has tool change statements of its own, like machines.
 fn changes_tools(language: Language) -> bool {
     matches!(
         language,
@@ -152,7 +152,7 @@ fn loads_of_source(program: &RobotProgram, language: MakeLanguage) -> BTreeMap<N
     loads
 }
 
-/// What is said of a tool whose number or name is not that of the source.
+/// Finding on a tool whose number or name differs from the source.
 fn renamed(
     program: &RobotProgram,
     (tool, own): (&FrameUse, Option<u32>),
@@ -216,7 +216,7 @@ fn own_number(program: &RobotProgram, tool: &FrameUse) -> Option<u32> {
     })
 }
 
-/// Where a made program takes another tool: by numbers of the course.
+/// Tool changes of a made program: by order keys of the course.
 pub(crate) fn changes_of_source(
     program: &RobotProgram,
     robot: &RobotPath,

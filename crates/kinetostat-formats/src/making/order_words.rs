@@ -2,13 +2,13 @@
 
 use crate::model::language::Language;
 
-/// Whether a statement only orders its program: nothing of it is lost.
+/// True if a statement only structures its program: nothing of it is lost.
 pub(crate) fn orders_only(language: Language, statement: &str) -> bool {
     let upper = statement.to_ascii_uppercase();
     (language.order_words().iter()).any(|word| begins(&upper, word))
 }
 
-/// Whether a statement begins with a word as a whole; what begins with a sign may go on.
+/// True if a statement begins with a whole word; a word that ends in a sign may be continued.
 fn begins(statement: &str, word: &str) -> bool {
     let is_part = |c: char| c.is_ascii_alphanumeric() || c == '_';
     let is_whole = word.starts_with('$') || !word.ends_with(is_part);

@@ -1,4 +1,4 @@
-//! What a made program has otherwise than its source: curves followed by lines, events that are notes, axes that are left out.
+//! Conversion losses: curves approximated by lines, events reduced to notes, omitted axes.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -12,12 +12,12 @@ use crate::making::pieces::Followed;
 /// Optional stops are named up to so many.
 const MOST_SHOWN: usize = 20;
 
-/// What is otherwise, counted.
+/// Counts of the conversion losses.
 #[derive(Default)]
 pub(crate) struct Otherwise {
-    /// By why: how many arcs are followed by lines, the line of the first, and by how many lines.
+    /// Approximated arcs by reason: their count, the source line of the first, and the number of straight segments.
     followed: BTreeMap<Followed, (usize, usize, usize)>,
-    /// By kind: how many events are notes alone, with the first of them.
+    /// Events reduced to notes, by kind: their count, with the first of them.
     lost: BTreeMap<EventKind, (usize, String)>,
     /// Lines of optional stops that always stop.
     always: Vec<usize>,

@@ -1,4 +1,4 @@
-//! What a source calls and none of its files holds: it is a note.
+//! Calls of a source that none of its files defines: each becomes a note.
 
 use crate::making::fault::MakeFinding;
 use crate::model::outside_call::by_name;

@@ -5,7 +5,7 @@ use kinetostat_program::{Arc, Curve, Move};
 use crate::extreme::larger;
 use crate::making::limits::{Arcs, Limits};
 
-/// What a piece of a move becomes.
+/// Shape of a piece of a move.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Shape {
     Line,
@@ -13,16 +13,16 @@ pub(crate) enum Shape {
     AboutZ { clockwise: bool },
 }
 
-/// Why an arc is followed by lines.
+/// Reason why an arc is approximated by lines.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Followed {
-    /// It climbs.
+    /// Helical arc.
     Helix,
     /// The language has no such arcs.
     Language,
-    /// It is too small for the controller.
+    /// Arc that is too small for the controller.
     Small,
-    /// Its radius grows from start to end by more than the tolerance.
+    /// Spiral: the radius grows from start to end by more than the tolerance.
     Spiral,
 }
 
@@ -34,7 +34,7 @@ pub(crate) struct Pieces {
     pub followed: Option<Followed>,
 }
 
-/// Most pieces of one move.
+/// Limit of the pieces of one move.
 const MOST_PIECES: usize = 1_000_000;
 
 /// Heights below this are those of the arithmetic, mm.

@@ -33,7 +33,7 @@ pub(crate) struct Planned {
 const SAME_PLACE_MM: f64 = 1e-9;
 const SAME_TURN_RAD: f64 = 1e-9;
 
-/// Most motions of a made program.
+/// Limit of the motions of a made program.
 const MOST_MOTIONS: usize = 20_000_000;
 
 /// The steps of a path.
@@ -163,7 +163,7 @@ impl Planner<'_> {
 
     fn event(&mut self, order: usize, event: &SourceEvent) {
         let note = match event.text.contains(COMPENSATED_MARK) {
-            // It is looked for in this very form, and fills the remark of a TP program.
+            // Readers search for exactly this text; it fills the remark of a TP program.
             true => COMPENSATED_MARK.to_owned(),
             false => format!("{}: {}", event.place, plain(&event.text)),
         };
@@ -286,7 +286,7 @@ impl Planner<'_> {
         motion.orientation(share).or(self.template.tool_orientation)
     }
 
-    /// Whether a move whose start is not known ends elsewhere than the motion before it: behind a routine that is not known, say.
+    /// True if a move with an unknown start ends elsewhere than the previous motion, for example after an unknown routine.
     fn comes_from_elsewhere(&self, motion: &Move) -> bool {
         let last = self.steps.iter().rev().find_map(Step::motion);
         let (Knowledge::End, Some(last)) = (motion.known, last) else {

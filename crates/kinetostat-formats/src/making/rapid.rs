@@ -15,7 +15,7 @@ use crate::making::step::{MadeMotion, Step, Way};
 use crate::making::template::Template;
 use crate::model::orientation::OrientationText;
 
-/// Most speeds that get a name; further ones stand in line.
+/// Limit of the named speeds; later ones are written inline.
 const MOST_NAMED_SPEEDS: usize = 200;
 
 /// Zones that controllers know by name, mm.
@@ -46,11 +46,11 @@ pub(crate) fn files(
     let mut files = Vec::with_capacity(ranges.len());
     let several = ranges.len() > 1;
     text += "  PROC main()\n";
-    // What MoveL states of the arm is not checked: on a straight way it keeps its configuration.
+    // The configuration in MoveL is not checked: on a straight line the arm keeps its configuration.
     let first = steps.iter().find_map(Step::motion);
     writer.follow_configuration(first.is_some_and(|first| writer.goes_by(first)), &mut text);
     text += "    ConfL\\Off;\n";
-    // What arcs are computed with; without it the tool turns with the path.
+    // Without this setting, the tool turns with the path on a circle.
     let circles = |motion: &MadeMotion| matches!(motion.way, Way::Circle { .. });
     if steps.iter().filter_map(Step::motion).any(circles) {
         text += "    CirPathMode\\ObjectFrame;\n";
@@ -103,7 +103,7 @@ struct Writer<'t> {
     tool: Option<u32>,
     /// Some motion goes with the tool of the template that has no number in the program.
     uses_tool: bool,
-    /// Whether joint motions go to the configuration that they state (`ConfJ\On`); none where the program has not said it yet.
+    /// True after `ConfJ\On`: joint motions reach their stated configuration; `None` before the first switch.
     follows_configuration: Option<bool>,
 }
 
@@ -116,7 +116,7 @@ impl<'t> Writer<'t> {
             uses_tool: true,
             follows_configuration: None,
         };
-        // What goes to the joint values at the beginning has the tool of the first motion.
+        // The motion to the initial joint values uses the tool of the first motion.
         let first = steps.iter().take_while(|step| step.motion().is_none());
         writer.tool = first.fold(None, |tool, step| match step {
             Step::Tool(number) => Some(*number),
@@ -136,7 +136,7 @@ impl<'t> Writer<'t> {
         writer
     }
 
-    /// What is between the brackets of a speed: of the tip, of turning, of external axes.
+    /// Components of a speeddata: of the TCP, of rotation, of external axes.
     fn speed_data(&self, mm_per_s: f64, others: Option<&str>) -> String {
         let number = short(mm_per_s, self.template.speed_decimals.unwrap_or(9));
         format!("{number},{}", others.unwrap_or(OTHER_SPEEDS))
@@ -263,7 +263,7 @@ impl<'t> Writer<'t> {
         text.push('\n');
     }
 
-    /// Whether a motion is to end in the configuration that it states.
+    /// True if a motion must end in its stated configuration.
     fn goes_by(&self, motion: &MadeMotion) -> bool {
         let of_template = motion.first && self.template.configuration.is_some();
         let of_source = (motion.configuration.as_ref())
@@ -323,7 +323,7 @@ impl<'t> Writer<'t> {
     }
 }
 
-/// Whether a motion goes with the tool of the template that has no number in the program.
+/// True if a motion uses the tool of the template that has no number in the program.
 fn uses_tool(steps: &[Step], template: &Template) -> bool {
     let mut is_own = true;
     steps.iter().any(|step| {

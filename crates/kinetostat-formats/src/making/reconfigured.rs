@@ -23,7 +23,7 @@ pub(crate) fn changes(program: &RobotProgram, robot: &RobotPath) -> BTreeSet<usi
             continue;
         };
         let Target::Pose(pose) = &motion.target else {
-            // How the arm stands at joint values, and at a place that is not known, nothing states.
+            // The configuration at joint values, and at an unknown position, is unknown.
             last = None;
             continue;
         };
@@ -49,7 +49,7 @@ pub(crate) fn changes(program: &RobotProgram, robot: &RobotPath) -> BTreeSet<usi
     found
 }
 
-/// Whether two configurations say the same.
+/// True if two configurations are equivalent.
 fn is_same(language: Language, one: &Configuration, other: &Configuration) -> bool {
     match language {
         // The letters of the arm stand before the numbers of turns.
@@ -65,7 +65,7 @@ fn is_same(language: Language, one: &Configuration, other: &Configuration) -> bo
     }
 }
 
-/// What becomes of them: kept where the made program can state their ends, else lost.
+/// Findings on configurations: kept if the made program can state their ends, else lost.
 pub(crate) fn findings(
     program: &RobotProgram,
     robot: &RobotPath,

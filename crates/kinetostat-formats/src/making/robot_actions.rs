@@ -4,7 +4,7 @@ use crate::making::action::{Coolant, EventAction};
 use crate::making::event_kind::EventKind;
 use crate::model::language::Language;
 
-/// What the only statement of a line does; none where no other language has it.
+/// Action of the only statement of a line; `None` if no other language has it.
 pub(crate) fn action_of(language: Language, text: &str) -> Option<EventAction> {
     let upper = text.to_ascii_uppercase();
     match language {
@@ -33,7 +33,7 @@ pub(crate) fn action_of(language: Language, text: &str) -> Option<EventAction> {
                 .strip_prefix("DELAY(")?
                 .strip_suffix(')')?,
         ),
-        // Of blocks each word for itself.
+        // In block languages each word is an action of its own.
         _ => None,
     }
 }
@@ -69,7 +69,7 @@ fn seconds(text: &str) -> Option<EventAction> {
     (seconds.is_finite() && seconds >= 0.0).then_some(EventAction::Wait { seconds })
 }
 
-/// What a statement is about that does nothing in other languages.
+/// Subject of a statement that has no action in other languages.
 pub(crate) fn kind_of(language: Language, upper: &str) -> EventKind {
     let has = |words: &[&str]| words.iter().any(|word| upper.starts_with(word));
     match () {

@@ -1,4 +1,4 @@
-//! What a robot's program says beside its motions.
+//! Events of a robot's program beside its motions.
 
 use std::ops::Range;
 
@@ -54,7 +54,7 @@ pub fn events_of_robot(program: &RobotProgram) -> Vec<SourceEvent> {
             continue;
         }
         if orders_only(program.language, text) {
-            // What it puts in force is followed; further statements on its line, and what a person wrote there, are kept.
+            // Modal changes are followed; other statements on the line and comments are kept.
             let further = of_line(program.language, line, text);
             let comment = comment_behind(program.language, text).filter(|_| further.is_empty());
             events.extend(further);
@@ -85,8 +85,7 @@ pub fn events_of_robot(program: &RobotProgram) -> Vec<SourceEvent> {
     events
 }
 
-/// Where the spindle of a program in blocks (SINUMERIK, Heidenhain) begins to turn otherwise, for [`kinetostat_program::Path`]; nothing
-/// of other languages.
+/// Spindle changes of a program in blocks (SINUMERIK, Heidenhain), for [`kinetostat_program::Path`]; empty for other languages.
 #[must_use]
 pub fn spindle_of_blocks(program: &RobotProgram) -> Vec<SpindleChange> {
     let file = program.motions.first().map_or(0, |motion| motion.file);
@@ -99,7 +98,7 @@ pub fn spindle_of_blocks(program: &RobotProgram) -> Vec<SpindleChange> {
     }
 }
 
-/// Whether `SPINDL` says no more than which way the spindle turns and how fast.
+/// True if `SPINDL` states only the sense and the speed of the spindle.
 fn is_turn_alone(statement: &str) -> bool {
     let code = statement.split("$$").next().unwrap_or_default();
     let mut words = code.split(['/', ',']).map(str::trim).skip(1);

@@ -13,7 +13,7 @@ use crate::text::source::SourceFile;
 
 /// Deepest nesting of calls that is followed.
 const DEEPEST: usize = 100;
-/// Most routines that are tried as the one that the program begins with.
+/// Limit of the routines that are tried as the main routine.
 const MOST_TRIED: usize = 64;
 
 /// A routine: its name in capitals and the lines between head and end.

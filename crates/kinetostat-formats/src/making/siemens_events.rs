@@ -111,7 +111,7 @@ impl Walk<'_> {
         words.events(line, force)
     }
 
-    /// Whether a word is one of a letter and one of these numbers; of any number where none are stated.
+    /// True if a word has this letter and one of these numbers; an empty list accepts any number.
     fn is(&self, item: &Item, letter: &[u8], numbers: &[f64]) -> bool {
         let own = self.source.part(&item.name).eq_ignore_ascii_case(letter);
         own && match &item.what {
@@ -123,7 +123,7 @@ impl Walk<'_> {
         }
     }
 
-    /// What a word says; none where it is part of a motion, or only orders the program.
+    /// Decodes a word; `None` if it is part of a motion, or only structures the program.
     fn item(&mut self, item: &Item, tokens: &[Token], purpose: &mut Purpose) -> Option<Said> {
         let name = String::from_utf8_lossy(self.source.part(&item.name)).to_ascii_uppercase();
         let text = String::from_utf8_lossy(self.source.part(&item.span));

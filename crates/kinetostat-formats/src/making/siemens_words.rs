@@ -1,4 +1,4 @@
-//! What the words of a SINUMERIK block do that are no motion.
+//! Effects of the words of a SINUMERIK block that are no motion.
 //!
 //! Source: Siemens, SINUMERIK 840D sl / 828D, Programming Manual Fundamentals: M0, M1, M2, M17 and M30 act behind the motion of
 //! their block; `M1=3` and `S1=500` are those of spindle 1; G4 takes seconds (F) or turns of the spindle (S).
@@ -13,7 +13,7 @@ use crate::siemens::table::row;
 use crate::siemens::values::whole;
 use crate::table::Treatment;
 
-/// What a block is, for its words.
+/// Context of a block's words.
 pub(crate) struct Purpose {
     pub moves: bool,
     pub dwells: bool,
@@ -27,7 +27,7 @@ pub(crate) struct Purpose {
 /// The spindle that words without another's number are of.
 pub(crate) struct Master {
     pub turning: Turning,
-    /// Its number; none where that is not known.
+    /// Spindle number; `None` if unknown.
     pub number: Option<u32>,
 }
 
@@ -155,12 +155,12 @@ pub(crate) fn late(kind: EventKind, word: Word, text: String) -> Said {
     }
 }
 
-/// Whether a word is all in places, feeds and directions.
+/// True if a word is fully represented in positions, feeds and directions.
 pub(crate) fn is_followed(name: &str) -> bool {
     row(name).is_some_and(|row| row.treatment == Treatment::Understood)
 }
 
-/// What a word is about that is carried.
+/// Subject of a carried word.
 pub(crate) fn kind_of_name(name: &str) -> EventKind {
     match name {
         "SPOS" | "SPOSA" | "SPCON" | "SPCOF" | "SETMS" | "WAITS" | "LIMS" => EventKind::Spindle,

@@ -1,4 +1,4 @@
-//! Whether a template can be written: numbers in their ranges, an orientation where one is needed.
+//! Checks of a template: ranges of numbers, required orientation.
 
 use nalgebra::Isometry3;
 
@@ -102,7 +102,7 @@ pub(crate) fn faults(template: &Template, language: MakeLanguage) -> Vec<MakeErr
     faults
 }
 
-/// Whether a statement is written so by another controller alone.
+/// True if only another controller writes a statement in this form.
 fn is_foreign(line: &str, language: MakeLanguage) -> bool {
     let line = line.to_ascii_uppercase().replace(' ', "");
     let sets = |values: [&str; 2]| values.iter().any(|value| line.ends_with(value));
@@ -140,7 +140,7 @@ pub(crate) fn of_tool(tool: &StatedTool, language: MakeLanguage) -> Vec<MakeErro
     faults
 }
 
-/// Whether a tool can have a mass, kg.
+/// True if a mass is plausible for a tool, kg.
 pub(crate) fn is_mass(mass_kg: f64) -> bool {
     (1e-3..=5000.0).contains(&mass_kg)
 }
@@ -196,17 +196,17 @@ pub(crate) fn of_frame(frame: &StatedFrame, what: &str, language: MakeLanguage) 
     faults
 }
 
-/// Whether frame 0 belongs to the controller and cannot be defined by the user: wobj0 and tool0, UF 0 and UT 0. KRL writes poses.
+/// True if frame 0 belongs to the controller and cannot be defined by the user: wobj0 and tool0, UF 0 and UT 0. KRL writes poses.
 pub(crate) fn has_own_zero(language: MakeLanguage) -> bool {
     matches!(language, MakeLanguage::Rapid | MakeLanguage::FanucLs)
 }
 
-/// Whether a frame has the number 0, and no name beside it.
+/// True if a frame has the number 0, and no name.
 pub(crate) fn is_number_zero(frame: &StatedFrame) -> bool {
     frame.number == Some(0) && frame.name.is_none()
 }
 
-/// Whether a pose is that of the world, or of the flange.
+/// True if a pose is the identity: that of the world, or of the flange.
 pub(crate) fn is_identity(pose: &Isometry3<f64>) -> bool {
     pose.translation.vector.norm() < SAME_MM && pose.rotation.angle() < SAME_RAD
 }

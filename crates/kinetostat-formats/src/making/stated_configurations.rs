@@ -1,4 +1,4 @@
-//! What targets state of the arm's configuration, and where RAPID goes by it.
+//! Arm configurations stated by targets, and the range in which RAPID monitors them.
 
 use std::collections::BTreeMap;
 
@@ -22,12 +22,12 @@ pub(crate) fn text_of(language: Language, configuration: &Configuration) -> Opti
     })
 }
 
-/// Where `ConfJ` of RAPID switches what joint motions do with configurations.
+/// Switches of `ConfJ` in a RAPID program, by their place.
 #[derive(Default)]
 pub(crate) struct Switches {
     /// Lines with motions behind `ConfJ\Off`.
     off: BTreeMap<usize, bool>,
-    /// Where the order of the lines is not known, and it stands somewhere.
+    /// The order of the lines is unknown, and a switch exists.
     somewhere: bool,
 }
 

@@ -12,7 +12,7 @@ const OF_BLOCKS: [&str; 17] = [
     "DEFAULT", "ENDTEST", "GOTO", "RETURN", "EXIT", "ERROR",
 ];
 
-/// What the statements of a line are; nothing of those that only order the program.
+/// Events of the statements of a line, without those that only structure the program.
 pub(crate) fn of_line(language: Language, line: usize, text: &str) -> Vec<SourceEvent> {
     let all = statements(language, text).into_iter();
     let matter = all.filter(|text| !text.is_empty() && !orders_only(language, text));

@@ -1,4 +1,4 @@
-//! What a made program does, one step after another.
+//! Steps of a made program.
 
 use nalgebra::{UnitQuaternion, Vector3};
 
@@ -21,11 +21,11 @@ pub(crate) enum Way {
     },
 }
 
-/// How the arm reaches the places of a move, as the language writes it.
+/// Arm configurations at the positions of a move, as the language writes them.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct StatedConfiguration {
     pub end: Option<String>,
-    /// Of the place on a circle.
+    /// Configuration at the auxiliary point.
     pub via: Option<String>,
     /// The controller goes by that of a joint motion (RAPID: unless `ConfJ\Off`).
     pub is_followed: bool,
@@ -51,19 +51,19 @@ pub(crate) struct MadeMotion {
     pub rapid: bool,
     /// The first of the program: from wherever the arm is.
     pub first: bool,
-    /// It stops at its end.
+    /// The motion ends with an exact stop.
     pub exact: bool,
-    /// How the arm reaches its places, where the source says it.
+    /// Arm configurations of the motion, if the source states them.
     pub configuration: Option<Box<StatedConfiguration>>,
 }
 
 impl MadeMotion {
-    /// How the arm reaches its end.
+    /// Arm configuration at the end.
     pub(crate) fn end_configuration(&self) -> Option<&str> {
         self.configuration.as_ref()?.end.as_deref()
     }
 
-    /// How it reaches the place on a circle.
+    /// Arm configuration at the auxiliary point.
     pub(crate) fn via_configuration(&self) -> Option<&str> {
         let stated = self.configuration.as_ref()?;
         stated.via.as_deref().or(stated.end.as_deref())
@@ -83,7 +83,7 @@ impl MadeMotion {
 pub(crate) enum Step {
     /// Text of the source.
     Note(String),
-    /// What the language has.
+    /// Action that the language has.
     Action(EventAction),
     /// A statement of the template in the language of the program.
     Statement(String),

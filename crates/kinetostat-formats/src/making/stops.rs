@@ -1,4 +1,4 @@
-//! Where the tool stops exactly.
+//! Exact stops of the tool.
 
 use crate::making::event_kind::EventKind;
 use crate::making::step::{Step, Way};

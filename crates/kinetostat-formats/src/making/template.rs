@@ -1,4 +1,4 @@
-//! What the caller states of the cell that a made program is for.
+//! Data of the target cell of a made program, as the caller states them.
 
 use std::collections::BTreeMap;
 
@@ -20,13 +20,13 @@ use crate::making::numbers::short;
 /// ```
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct StatedFrame {
-    /// Its number (`BASE_DATA[3]`, `UF : 3`); 1 where nothing is stated.
+    /// Frame number (`BASE_DATA[3]`, `UF : 3`); default 1.
     pub number: Option<u32>,
-    /// Its name (RAPID).
+    /// Frame name (RAPID).
     pub name: Option<String>,
     /// A base in the axes of the robot's base, a tool in those of the flange; mm.
     pub pose: Option<Isometry3<f64>>,
-    /// Of the pose of a base, the object frame in axes of the user frame (RAPID), mm; where none is stated all of it is the user frame.
+    /// Object frame in axes of the user frame (RAPID), mm, as part of the pose of a base; by default the pose is all user frame.
     pub object_frame: Option<Isometry3<f64>>,
 }
 
@@ -39,13 +39,13 @@ pub struct StatedFrame {
 pub struct StatedTool {
     /// Number, name and tip.
     pub frame: StatedFrame,
-    /// Its mass in kg; 1 is written where nothing is stated.
+    /// Mass in kg; default 1.
     pub mass_kg: Option<f64>,
-    /// Its centre of mass in axes of the flange, mm.
+    /// Centre of mass in axes of the flange, mm.
     pub centre_of_mass_mm: Option<Vector3<f64>>,
     /// Turns the axes of the flange into those of its moments of inertia.
     pub axes_of_moment: Option<UnitQuaternion<f64>>,
-    /// Its moments of inertia about those axes through its centre of mass, kg m^2.
+    /// Moments of inertia about those axes through the centre of mass, kg m^2.
     pub inertia_kg_m2: Option<Vector3<f64>>,
 }
 
@@ -93,7 +93,7 @@ impl SpindleStatements {
 /// The place of the speed in a statement of the spindle.
 const RPM: &str = "{rpm}";
 
-/// What rapids become.
+/// Output form of rapids.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Rapids {
     /// Straight motions at the rapid speed: the way is that of the source. Joint motions of a robot that take the arm to another
@@ -104,7 +104,7 @@ pub enum Rapids {
     Joint,
 }
 
-/// What becomes of moves to places of the machine (G28, G53) and to joint values, which have no place in the part.
+/// Treatment of moves to machine positions (G28, G53) and to joint values, which have no position in the part.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum PlacesUnknown {
     /// They are refused by line between moves; before the first and behind the last place that is known they are left out.
@@ -114,7 +114,7 @@ pub enum PlacesUnknown {
     LeftOut,
 }
 
-/// How near the tool comes to the ends of motions that others follow.
+/// Approximation distances at the ends of motions that others follow.
 ///
 /// ```
 /// let zones = kinetostat_formats::Zones::default();
@@ -123,13 +123,13 @@ pub enum PlacesUnknown {
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Zones {
-    /// Of rapids, mm; 0 stops at each end. KRL: `$APO.CDIS`; RAPID: the path zone.
+    /// Distance for rapids, mm; 0 is an exact stop. KRL: `$APO.CDIS`; RAPID: the path zone.
     pub rapids_mm: f64,
-    /// Of motions at feed, mm.
+    /// Distance for motions at feed, mm.
     pub feeds_mm: f64,
-    /// Of rapids where the controller takes percent (FANUC: `CNT50`, KRL: `$APO.CPTP` of joint motions); 0 stops at each end.
+    /// Percentage for rapids on controllers that use one (FANUC: `CNT50`, KRL: `$APO.CPTP` of joint motions); 0 is an exact stop.
     pub rapids_percent: f64,
-    /// Of motions at feed where the controller takes percent.
+    /// Percentage for motions at feed.
     pub feeds_percent: f64,
 }
 
@@ -144,7 +144,7 @@ impl Default for Zones {
     }
 }
 
-/// What a made program is for: names, frames, speeds, zones, digits.
+/// Settings of a made program: names, frames, speeds, zones, digits.
 ///
 /// ```
 /// use kinetostat_formats::{Rapids, Template};
@@ -167,11 +167,11 @@ pub struct Template {
     pub tool: StatedTool,
     /// Tools by the numbers of the source, of a program with several.
     pub tools: BTreeMap<u32, StatedTool>,
-    /// How the spindle is started and stopped.
+    /// Statements that start and stop the spindle.
     pub spindle: SpindleStatements,
     /// Turns the part's axes into the tool's, for moves that state no orientation.
     pub tool_orientation: Option<UnitQuaternion<f64>>,
-    /// What rapids become.
+    /// Output form of rapids.
     pub rapids: Rapids,
     /// Speed of straight rapids, mm/s.
     pub rapid_speed_mm_per_s: f64,
@@ -183,11 +183,11 @@ pub struct Template {
     pub acceleration_m_per_s2: Option<f64>,
     /// Rounding of corners.
     pub zones: Zones,
-    /// How the arm reaches the first pose (KRL: `S 2, T 35`; FANUC: `N U T, 0, 0, 0`; RAPID: `[0,-1,0,0]`).
+    /// Arm configuration at the first pose (KRL: `S 2, T 35`; FANUC: `N U T, 0, 0, 0`; RAPID: `[0,-1,0,0]`).
     pub configuration: Option<String>,
-    /// Where the program begins, in joints, degrees.
+    /// Initial joint values, degrees.
     pub start_joints_deg: Option<Vec<f64>>,
-    /// What becomes of moves without a place in the part.
+    /// Treatment of moves without a position in the part.
     pub places_unknown: PlacesUnknown,
     /// Decimals of lengths in mm.
     pub position_decimals: usize,
@@ -195,11 +195,11 @@ pub struct Template {
     pub angle_decimals: usize,
     /// Decimals of parts of quaternions and directions.
     pub quaternion_decimals: usize,
-    /// Most decimals of speeds, of mm/s (or mm/min, where the language has that); that of the language where nothing is stated.
+    /// Limit of the decimals of speeds in mm/s (or mm/min, if the language uses it); default: that of the language.
     pub speed_decimals: Option<usize>,
-    /// Most places in a file; that of the language where nothing is stated.
+    /// Limit of the positions in a file; default: that of the language.
     pub most_points: Option<usize>,
-    /// How far lines may leave the curves that the other side has not, mm.
+    /// Chord error of lines that replace unsupported curves, mm.
     pub tolerance_mm: f64,
 }
 

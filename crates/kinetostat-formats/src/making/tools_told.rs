@@ -1,4 +1,4 @@
-//! Whether a template tells every tool that a program takes, and each by a name or a number of its own.
+//! Checks that a template states each tool of a program, with unique names or numbers.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -11,14 +11,14 @@ use crate::making::limits::MakeLanguage;
 use crate::making::names::name_of_tool;
 use crate::making::template::{StatedTool, Template};
 
-/// What is wrong with the tools of a program and a template, and what is taken for granted of them.
+/// Errors and assumptions on the tools of a program and a template.
 #[derive(Debug, Default)]
 pub(crate) struct Told {
     pub faults: Vec<MakeError>,
     pub findings: Vec<MakeFinding>,
 }
 
-/// Of a program for the controller of an arm, which needs to know where the tips are.
+/// Tool usage of a program for a robot controller, which must know the TCPs.
 pub(crate) fn told(
     path: &Path,
     course: &Course,
@@ -55,11 +55,11 @@ pub(crate) fn told(
 /// The tools of the moves that are written.
 #[derive(Default)]
 struct Used {
-    /// By their numbers, with the line from which each is used first.
+    /// Numbered tools, with the line of their first use.
     numbered: BTreeMap<u32, usize>,
     /// Line of the first move before the program takes any.
     first_unnamed: Option<usize>,
-    /// One of those cuts.
+    /// A tool without a number cuts.
     cuts_unnamed: bool,
 }
 

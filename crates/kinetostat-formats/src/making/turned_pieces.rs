@@ -11,20 +11,20 @@ use crate::making::fault::MakeFinding;
 use crate::making::limits::MakeLanguage;
 use crate::making::pieces::{Pieces, Shape};
 
-/// So near the tool stands to how it stands in the source, everywhere along a straight move.
+/// Tolerated deviation of the tool orientation from the source along a straight move.
 const SAME_DEG: f64 = 0.01;
 
 /// Two laws with the same ends differ by less than this share of the square of the angle between them, both in rad; ends nearer than that
 /// leave nothing to divide. The largest is that of a swivel by `t` and a turn about the axis by `t`: `t^2 / 8` half way.
 const LEAST_TURN_RAD: f64 = 0.01;
 
-/// Most motions of one move.
+/// Limit of the motions of one move.
 const MOST: usize = 1000;
 
 /// Shares of a motion at which both laws are compared: the middle, where they are farthest apart, and others for those that are not alike.
 const SHARES: [f64; 7] = [0.125, 0.25, 0.375, 0.5, 0.625, 0.75, 0.875];
 
-/// What was divided, and what could not be.
+/// Divided motions, and those that could not be divided.
 #[derive(Debug, Default)]
 pub(crate) struct Turned {
     divided: usize,
@@ -121,7 +121,7 @@ fn divided(ends: &[f64], count: usize) -> Vec<f64> {
     parts.collect()
 }
 
-/// How far the tool of a made motion is turned from that of the source between its ends, rad; of its axis where that alone is written.
+/// Deviation of a made motion's orientation from the source between its ends, rad; of the axis, if that alone is written.
 fn apart(
     turn: &ToolTurn,
     [from, to]: [f64; 2],
@@ -143,7 +143,7 @@ fn apart(
     each.fold(0.0, larger)
 }
 
-/// How the controller of a language turns the tool from one end of a motion to the other.
+/// Orientation interpolation of a language's controller between the ends of a motion.
 fn law(
     [start, end]: [UnitQuaternion<f64>; 2],
     language: MakeLanguage,

@@ -1,20 +1,20 @@
-//! How the spindle of a program turns, as far as its blocks say.
+//! Spindle rotation of a program, as far as its blocks state it.
 
 use kinetostat_program::{SpeedMode, Spindle, SpindleChange, SpindleRotation};
 
-/// What is known of the spindle.
+/// Known state of the spindle.
 #[derive(Default)]
 pub(crate) struct Turning {
     spindle: Spindle,
     /// A switch of the machine, or another master spindle, leaves it open which way it turns.
     is_open: bool,
     changes: Vec<SpindleChange>,
-    /// It was open somewhere: then nothing is said of where it turns otherwise.
+    /// The state was unknown somewhere: then no changes are reported.
     was_open: bool,
 }
 
 impl Turning {
-    /// None where it is not known whether and which way it turns.
+    /// Spindle state; `None` if rotation or sense are unknown.
     pub(crate) fn now(&self) -> Option<Spindle> {
         (!self.is_open).then_some(self.spindle)
     }
@@ -29,7 +29,7 @@ impl Turning {
         }
     }
 
-    /// Where it begins to turn otherwise, as far as that is known throughout.
+    /// Changes of the rotation, if it is known throughout.
     pub(crate) fn changes(self) -> Vec<SpindleChange> {
         match self.was_open {
             true => Vec::new(),
@@ -47,7 +47,7 @@ impl Turning {
         self.spindle.speed = speed;
     }
 
-    /// What was a speed counts otherwise from here on.
+    /// Sets the mode of the spindle speed; a speed of another mode becomes unknown.
     pub(crate) fn count(&mut self, mode: SpeedMode) {
         if self.spindle.mode != mode {
             self.spindle.mode = mode;

@@ -6,21 +6,21 @@ use crate::making::action::{Coolant, EventAction};
 use crate::making::event_kind::EventKind;
 use crate::making::events::SourceEvent;
 
-/// What a word does that is known.
+/// Known effect of a word.
 #[derive(Clone, Copy, PartialEq)]
 pub(crate) enum Word {
     Action(EventAction),
-    /// It turns the spindle, or says how fast.
+    /// Start, stop or speed of the spindle.
     Spindle,
     SpindleStop,
     /// The time for which the tool stands still, or what goes with it.
     Dwell,
-    /// Which tool comes next: it is not taken yet.
+    /// Preselection of the next tool, without a change.
     NextTool,
     Other,
 }
 
-/// What an M function does that other languages have, too.
+/// Action of an M function that other languages share.
 pub(crate) fn word_of_m(number: u32) -> Word {
     let action = match number {
         0 | 60 => EventAction::Stop,
@@ -35,7 +35,7 @@ pub(crate) fn word_of_m(number: u32) -> Word {
     Word::Action(action)
 }
 
-/// What an M function is about.
+/// Subject of an M function.
 pub(crate) fn kind_of_m(number: u32) -> EventKind {
     match number {
         0 | 1 | 60 => EventKind::Stop,
@@ -53,7 +53,7 @@ pub(crate) struct Said {
     /// The action that it is by itself.
     pub word: Word,
     pub text: String,
-    /// It acts behind the motion of its block.
+    /// The word acts after the motion of its block.
     pub is_late: bool,
 }
 
@@ -73,22 +73,22 @@ impl Said {
 pub(crate) struct Words {
     /// All of them.
     pub text: String,
-    /// Those of a kind of their own, in order.
+    /// Words of a subject of their own, in order.
     pub said: Vec<Said>,
     /// The machine's switch says whether it runs.
     pub is_optional: bool,
 }
 
-/// What is in force on the line of a block, behind its own words.
+/// Modal state on the line of a block, after its own words.
 #[derive(Clone, Copy)]
 pub(crate) struct InForce {
-    /// How long the tool stands still there, where it does, s.
+    /// Dwell of the block, s, if any.
     pub dwell_s: Option<f64>,
-    /// None where a switch of the machine, or the number of a spindle, leaves it open.
+    /// Spindle state; `None` if a switch of the machine or a spindle number leaves it undetermined.
     pub spindle: Option<Spindle>,
 }
 
-/// What some words of a block do.
+/// Combined effect of words of a block.
 #[derive(Default)]
 struct Done {
     actions: Vec<EventAction>,

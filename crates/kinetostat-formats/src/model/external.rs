@@ -14,13 +14,13 @@ use crate::text::source::SourceFile;
 pub(crate) struct AxisWay {
     /// Counted from 0.
     pub axis: usize,
-    /// None where the text does not say it.
+    /// Start of the axis; `None` if the text does not state it.
     pub start: Option<f64>,
     pub end: f64,
 }
 
 impl AxisWay {
-    /// Where the axis is at a share of the way.
+    /// Position of the axis at a fraction of the path.
     pub(crate) fn at(&self, start: f64, share: f64) -> f64 {
         start + share * (self.end - start)
     }

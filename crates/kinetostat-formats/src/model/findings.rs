@@ -1,4 +1,4 @@
-//! What a person should know of motions that were taken.
+//! Findings on the motions that were read.
 
 use std::collections::BTreeSet;
 
@@ -8,6 +8,7 @@ use crate::model::motion::{Motion, MotionKind};
 use crate::model::outside_call::{OutsideCall, by_name};
 use crate::model::target::Target;
 use crate::text::finding::Finding;
+use crate::text::line_words::in_words;
 
 /// Motions that stay as they are written because their ends are not known, each reason once.
 pub(crate) fn left_as_written(motions: &[Motion]) -> Vec<Finding> {
@@ -56,7 +57,7 @@ pub(crate) fn unknown_frames(motions: &[Motion]) -> Vec<Finding> {
     findings
 }
 
-/// What is called and none of the files holds: each name once, with its lines and what is assumed of it.
+/// Findings on calls that no file defines: each name once, with its lines and the assumption.
 pub(crate) fn outside_calls(language: Language, calls: &[OutsideCall]) -> Vec<Finding> {
     let all = by_name(calls).into_iter().map(|of| Finding {
         file: of.file,
@@ -64,4 +65,20 @@ pub(crate) fn outside_calls(language: Language, calls: &[OutsideCall]) -> Vec<Fi
         message: of.message(language, None),
     });
     all.collect()
+}
+
+/// Motions of a file to which its run does not come, by their lines; none where there are none.
+pub(crate) fn unreached_motions(file: usize, mut lines: Vec<usize>) -> Option<Finding> {
+    lines.sort_unstable();
+    lines.dedup();
+    let line = lines.first().copied()?;
+    let message = format!(
+        "the run of the program does not come to the motions on {}: they stay as they are written",
+        in_words(&lines)
+    );
+    Some(Finding {
+        file,
+        line,
+        message,
+    })
 }

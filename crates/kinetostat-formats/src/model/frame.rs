@@ -2,14 +2,14 @@
 
 use nalgebra::Isometry3;
 
-/// Where a tool or a work object is.
+/// Pose of a tool or a work object.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Frame {
     /// A tool in the flange's axes, a work object in the axes of the base (or the world, where the controller says so); mm.
     Known(Isometry3<f64>),
     /// Neither the text nor the caller says it.
     Unknown {
-        /// Why, in words.
+        /// Reason in words.
         reason: String,
     },
 }
@@ -25,9 +25,9 @@ pub enum Frame {
 /// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct FrameUse {
-    /// Its name or number in the program.
+    /// Name or number in the program.
     pub name: String,
-    /// Where it is.
+    /// Pose of the frame.
     pub frame: Frame,
 }
 
@@ -43,7 +43,7 @@ impl FrameUse {
         }
     }
 
-    /// Where it is, if known.
+    /// Pose of the frame, if known.
     #[must_use]
     pub fn known(&self) -> Option<&Isometry3<f64>> {
         match &self.frame {

@@ -5,12 +5,12 @@ use std::sync::Arc;
 
 use nalgebra::Isometry3;
 
-/// Which pose of the tool joint values give, and back: a model of the arm says it.
+/// Kinematic model of an arm: tool pose of joint values, and the inverse.
 ///
 /// Joint values are in degrees, or mm of linear joints, in the order of the joints; poses are those of the tool in axes of the robot's
 /// base, mm.
 pub trait JointArm: Debug + Send + Sync {
-    /// How many joints it has.
+    /// Number of joints.
     fn joint_count(&self) -> usize;
 
     /// The pose of the tool at as many joint values.
@@ -20,7 +20,7 @@ pub trait JointArm: Debug + Send + Sync {
     fn joints_near(&self, tool: &Isometry3<f64>, near: &[f64]) -> Option<Vec<f64>>;
 }
 
-/// How the controller moves from one row of a table of joint values to the next.
+/// Interpolation by the controller from one row of a table of joint values to the next.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum BetweenRows {
     /// All joints in step: rows must stand so near to each other that the tool goes all but straight.
@@ -69,12 +69,12 @@ pub enum BetweenRows {
 pub struct TableArm {
     /// The arm.
     pub arm: Arc<dyn JointArm>,
-    /// How it moves between rows.
+    /// Interpolation between rows.
     pub between: BetweenRows,
 }
 
 impl PartialEq for TableArm {
-    /// The same arm, not one that is built alike.
+    /// Identity of the arm: models of equal build are different.
     fn eq(&self, other: &Self) -> bool {
         Arc::ptr_eq(&self.arm, &other.arm) && self.between == other.between
     }

@@ -25,19 +25,19 @@ pub enum MotionKind {
     Arc {
         /// In the axes of the work object, mm.
         centre_mm: Vector3<f64>,
-        /// Of length 1.
+        /// Unit vector.
         axis: Vector3<f64>,
-        /// By which the tool goes around the axis, right-handed, rad; a whole turn where the start is the end.
+        /// Angle about the axis, right-handed, rad; a full turn if the start equals the end.
         angle_rad: f64,
     },
 }
 
-/// How near the tool comes to the end before the next motion begins.
+/// Approximation zone: distance to the end before the next motion begins.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Zone {
-    /// It stops there (`fine`, `FINE`).
+    /// Exact stop (`fine`, `FINE`).
     Exact,
-    /// It may leave the path within this radius, mm.
+    /// Radius within which the tool may leave the path, mm.
     Radius(f64),
     /// Percent of what the controller allows (`CNT50`).
     Percent(f64),
@@ -45,7 +45,7 @@ pub enum Zone {
     Unstated,
 }
 
-/// How often a motion runs.
+/// Execution count of a motion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Runs {
     /// Once in every run of the program.
@@ -61,9 +61,9 @@ pub enum Runs {
 /// The speed of a motion.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Speed {
-    /// Of the tool centre point in mm/s, if the text says it.
+    /// Speed of the tool centre point in mm/s, if the text states it.
     pub mm_per_s: Option<f64>,
-    /// As written.
+    /// Speed as written.
     pub text: String,
 }
 
@@ -81,17 +81,17 @@ pub struct Motion {
     pub span: Range<usize>,
     /// On which way.
     pub kind: MotionKind,
-    /// Where it ends.
+    /// End of the motion.
     pub target: Target,
-    /// How fast.
+    /// Speed of the motion.
     pub speed: Speed,
-    /// How near.
+    /// Approximation zone at the end.
     pub zone: Zone,
     /// With which tool.
     pub tool: FrameUse,
     /// In the axes of which work object.
     pub work_object: FrameUse,
-    /// How often.
+    /// Execution count.
     pub runs: Runs,
     /// The motion (an index of [`crate::RobotProgram::motions`]) at whose end this one begins, at every run; none where
     /// that is not known from the text.
@@ -100,7 +100,7 @@ pub struct Motion {
 }
 
 impl Motion {
-    /// Whether the text says its whole way: its end, and the place on its circle.
+    /// True if the text states the whole path: the end, and the auxiliary point of a circle.
     pub(crate) fn has_known_way(&self) -> bool {
         let via = match &self.kind {
             MotionKind::Circular { via } => via.pose().is_some(),

@@ -2,7 +2,7 @@
 
 use nalgebra::{Quaternion, Rotation3, Unit, UnitQuaternion, Vector3};
 
-/// What the numbers of an orientation mean.
+/// Convention of the numbers of an orientation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum OrientationText {
     /// w, x, y, z (RAPID).
@@ -132,7 +132,7 @@ fn angles(rotation: &UnitQuaternion<f64>, near: &[f64; 3]) -> [f64; 3] {
     let m: Rotation3<f64> = rotation.to_rotation_matrix();
     let cos_b = m[(0, 0)].hypot(m[(1, 0)]);
     let b = (-m[(2, 0)]).atan2(cos_b);
-    // Where Z and the last X fall together only A - C or A + C counts: A stays.
+    // Gimbal lock: only A - C or A + C is defined, and A keeps its value.
     let (a, c) = match cos_b < 1e-7 {
         true => {
             let a = near[0].to_radians();

@@ -15,7 +15,7 @@ pub(crate) struct OutsideCall {
     /// An index of the files.
     pub file: usize,
     pub line: usize,
-    /// As it is shown; none where the run computes it.
+    /// Displayed name; `None` if the run computes it.
     pub name: Option<String>,
 }
 
@@ -55,7 +55,7 @@ impl CallsOfOne<'_> {
         self.lines.first().copied().unwrap_or(1)
     }
 
-    /// What is said of them; `becomes` is what becomes of them in what is written, if they are not carried.
+    /// Message on the calls; `becomes` names their replacement in the output, if they are not carried.
     pub(crate) fn message(&self, language: Language, becomes: Option<&str>) -> String {
         let all = match self.lines.len() {
             1 => String::new(),
@@ -82,7 +82,7 @@ pub(crate) struct StatedToMove {
     pub findings: Vec<Finding>,
 }
 
-/// What the caller states of calls: each of them that moves the tool is refused with its line.
+/// Checks calls against the caller's list of those that move the tool; each of them is refused with its line.
 pub(crate) fn stated_to_move(
     files: &[SourceFile],
     calls: &[OutsideCall],

@@ -23,12 +23,12 @@ pub struct Parsed {
     pub faults: Vec<ProgramError>,
 }
 
-/// What a reader of a robot's language found in its files.
+/// Result of a robot language's reader.
 pub(crate) struct Read<'o> {
     pub motions: Vec<Motion>,
     pub declarations: Vec<Declaration>,
     pub findings: Vec<Finding>,
-    /// What it calls and none of its files holds.
+    /// Calls that no file defines.
     pub outside_calls: Vec<OutsideCall>,
     pub faults: Vec<ProgramError>,
     /// Otherwise a motion of one is a fault.
@@ -38,12 +38,12 @@ pub(crate) struct Read<'o> {
 }
 
 impl Parsed {
-    /// Of files of which nothing can be read.
+    /// Result of files that cannot be read at all.
     pub(crate) fn refused(language: Language, faults: Vec<ProgramError>) -> Self {
         Self::of(language, Vec::new(), Vec::new(), Vec::new(), faults)
     }
 
-    /// Of what was found in files, with findings and faults in the order of files and lines.
+    /// Sorted result of files, with findings and faults in the order of files and lines.
     pub(crate) fn of(
         language: Language,
         files: Vec<SourceFile>,
@@ -61,14 +61,14 @@ impl Parsed {
             declarations: Vec::new(),
             values: BTreeMap::new(),
             outside_calls: Vec::new(),
+            ran: Vec::new(),
             slash_blocks: SlashBlocks::default(),
             rotary: StatedAxes::default(),
         };
         Self { program, faults }
     }
 
-    /// Of what a reader of a robot's language found: with the findings that all languages share, and with findings and
-    /// faults in the order of files and lines.
+    /// Result of a robot language's reader: adds the findings that all languages share, and sorts findings and faults by files and lines.
     pub(crate) fn of_robot(language: Language, files: Vec<SourceFile>, read: Read<'_>) -> Self {
         let Read {
             motions,

@@ -1,6 +1,7 @@
 //! A program of any language.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::ops::Range;
 
 use crate::model::language::Language;
 use crate::model::motion::Motion;
@@ -11,13 +12,25 @@ use crate::model::stated_value::StatedValue;
 use crate::text::finding::Finding;
 use crate::text::source::SourceFile;
 
+/// A statement beside the motions that ran.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct RanStatement {
+    /// An index of the files.
+    pub file: usize,
+    pub span: Range<usize>,
+    /// How many motions ran before it.
+    pub motions: usize,
+    /// With values in place of names that its routine alone knows; none where it has no such names.
+    pub text: Option<Vec<u8>>,
+}
+
 /// A program as it was read: its files byte for byte, and what moves in them.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct RobotProgram {
-    /// What it is written in.
+    /// Language of the program.
     pub language: Language,
-    /// Its files in the order given.
+    /// Files of the program in the order given.
     pub files: Vec<SourceFile>,
     /// Each motion statement once, in the order in which they first run; those that nothing calls at the end.
     pub motions: Vec<Motion>,
@@ -26,16 +39,18 @@ pub struct RobotProgram {
     pub(crate) declarations: Vec<Declaration>,
     /// Values that the caller stated for what only the controller knows.
     pub(crate) values: BTreeMap<String, StatedValue>,
-    /// What it calls and none of its files holds.
+    /// Calls that no file defines.
     pub(crate) outside_calls: Vec<OutsideCall>,
+    /// Statements beside the motions in the order in which they ran, of languages that are run.
+    pub(crate) ran: Vec<RanStatement>,
     /// What it says of the rotary axes of a machine.
     pub(crate) rotary: StatedAxes,
-    /// How blocks behind a slash were read.
+    /// Setting with which blocks with a slash were read.
     pub(crate) slash_blocks: crate::model::slash_blocks::SlashBlocks,
 }
 
 impl RobotProgram {
-    /// Whether angles of rotary axes say anywhere how the tool stands ([`crate::ReadOptions::rotary_axes`]).
+    /// True if angles of rotary axes define the tool orientation anywhere ([`crate::ReadOptions::rotary_axes`]).
     ///
     /// ```
     /// use kinetostat_formats::{ReadOptions, SourceFile, read_heidenhain};

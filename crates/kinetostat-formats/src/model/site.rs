@@ -1,4 +1,4 @@
-//! Where in the text a motion can be corrected: what readers fill in and the writer takes.
+//! Positions in the text at which a motion can be corrected: readers fill them in and the writer uses them.
 //!
 //! One idea for all languages: numbers in place; a declaration, edited or copied under a free name; the literal arguments
 //! of an offset; further statements before the one that is there.
@@ -19,15 +19,15 @@ pub(crate) struct PoseText {
     pub whole: Range<usize>,
     /// X, Y, Z.
     pub position: [NumberText; 3],
-    /// How many mm one of them is.
+    /// Length unit in mm.
     pub unit_mm: f64,
-    /// As many as the convention has, in the order of the convention.
+    /// Numbers of the orientation, in number and order of the convention.
     pub orientation: Vec<NumberText>,
-    /// What they mean.
+    /// Convention of the orientation.
     pub convention: OrientationText,
-    /// Of the external axes where they can become others, in the order of [`MotionSite::external`].
+    /// Replaceable numbers of the external axes, in the order of [`MotionSite::external`].
     pub external: Vec<Option<NumberText>>,
-    /// Whether its numbers may become longer.
+    /// Width policy of the numbers.
     pub width: Width,
 }
 
@@ -38,7 +38,7 @@ pub(crate) struct PartialText {
     pub file: usize,
     /// The whole literal, with configuration and external axes.
     pub whole: Range<usize>,
-    /// Where the statement has it: the literal itself, or the name with which it is declared.
+    /// Position in the statement: the literal itself, or the name with which it is declared.
     pub place: Range<usize>,
     /// X, Y, Z, A, B, C.
     pub numbers: [Option<NumberText>; 6],
@@ -68,22 +68,22 @@ impl JointsText {
 pub(crate) struct Declaration {
     /// The whole statement with what ends it.
     pub statement: Range<usize>,
-    /// Its name, without an index.
+    /// Name without an index.
     pub name: Range<usize>,
-    /// Its numbers.
+    /// Numbers of the pose.
     pub text: PoseText,
-    /// What they say.
+    /// Value of the pose.
     pub pose: PoseTarget,
-    /// What else than the pose depends on it (offsets, assignments): its value must stay.
+    /// Other users than the pose depend on it (offsets, assignments): its value must stay.
     pub keeps_value: bool,
-    /// How a further one is declared.
+    /// Form of a copied declaration.
     pub copy: DeclarationCopy,
 }
 
-/// How a further declaration is made from one that is there.
+/// Form in which a declaration is copied.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum DeclarationCopy {
-    /// Its statement, with another name and other numbers.
+    /// Copy of the statement, with another name and other numbers.
     Statement,
     /// Texts around its name and its pose: of an element of an array.
     #[allow(dead_code, reason = "read by the languages that have arrays")]
@@ -97,9 +97,9 @@ pub(crate) enum DeclarationCopy {
 /// In whose axes the arguments of an offset are.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum OffsetAxes {
-    /// Those of the work object (`Offs`).
+    /// Axes of the work object (`Offs`).
     WorkObject,
-    /// Those of the tool at the pose that is offset (`RelTool`, KRL's geometric sum).
+    /// Axes of the tool at the pose that is offset (`RelTool`, KRL's geometric sum).
     Tool,
 }
 
@@ -107,7 +107,7 @@ pub(crate) enum OffsetAxes {
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct PartText {
     pub span: Range<usize>,
-    /// Its numbers; empty where it is a name or computed.
+    /// Numbers of the part; empty if it is a name or computed.
     pub numbers: Vec<NumberText>,
 }
 
@@ -116,13 +116,13 @@ pub(crate) struct PartText {
 pub(crate) struct ReplacedText {
     /// The expression.
     pub span: Range<usize>,
-    /// What it is worth.
+    /// Value of the expression.
     pub pose: PoseTarget,
-    /// Its place and its orientation, where the statement has both apart.
+    /// Position and orientation as separate parts, if the statement separates them.
     pub parts: Option<[PartText; 2]>,
 }
 
-/// Where the text of a target is.
+/// Position of a target in the text.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum TargetSite {
     /// A literal in the statement.
@@ -153,39 +153,38 @@ pub(crate) enum TargetSite {
     Fixed(&'static str),
 }
 
-/// Where the speed stands, and what is written around another one: `[`, the number, `,500,5000,1000]`.
+/// Position of the speed in the text, and the text around a replacement: `[`, the number, `,500,5000,1000]`.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct SpeedSite {
     pub span: Range<usize>,
     pub before: String,
     pub after: String,
-    /// How many mm/s one of the number is.
+    /// Unit of the number in mm/s.
     pub unit_mm_per_s: f64,
 }
 
-/// Where the parts of a motion statement stand.
+/// Positions of the parts of a motion statement.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct MotionSite {
     /// The word that says on which way.
     pub keyword: Range<usize>,
-    /// Where the end stands, in the file of the statement.
+    /// Position of the end, in the file of the statement.
     pub target_span: Range<usize>,
     pub target: TargetSite,
     /// Span and text of the pose on a circle.
     pub via: Option<(Range<usize>, TargetSite)>,
-    /// None where another speed cannot be written.
+    /// Position of the speed; `None` if it cannot be replaced.
     pub speed: Option<SpeedSite>,
     /// Speeds of turning, deg/s, and of external axes, mm/s and deg/s, as in `500,5000,1000` (RAPID); none where they are not known.
     pub other_speeds: Option<String>,
-    /// Where the zone stands.
     pub zone: Option<Range<usize>>,
     /// External axes at the end as the text states them, of poses and of joint values.
     pub external: Vec<Option<f64>>,
     /// Other statements may move external axes before the next motion.
     pub external_moved_behind: bool,
-    /// Why it cannot become several statements.
+    /// Reason why the motion cannot be divided.
     pub indivisible: Option<&'static str>,
-    /// Why the tool does not turn evenly from its start to its end: it is refused where it turns.
+    /// Reason for an uneven rotation of the tool along the motion: it is refused if the tool turns.
     pub turns_otherwise: Option<TurnsOtherwise>,
 }
 
@@ -208,12 +207,10 @@ impl MotionSite {
     }
 }
 
-/// Why a tool does not turn evenly from the start of a motion to its end.
+/// Uneven rotation of the tool between the ends of a motion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct TurnsOtherwise {
-    /// Why.
     pub reason: &'static str,
-    /// What to do.
     pub remedy: &'static str,
     /// The statement before the motion with which it does, where it may be written.
     pub evenly: Option<&'static str>,
@@ -222,7 +219,7 @@ pub(crate) struct TurnsOtherwise {
 /// Turns below this are none, rad.
 pub(crate) const TURN_RAD: f64 = 1e-5;
 
-/// That the tool turns by an angle on a way on which it does not turn evenly; `turns` says what turns it. None where it does not turn.
+/// Message on an uneven rotation by an angle; `turns` names its cause. `None` if the tool does not turn.
 pub(crate) fn not_evenly(turns: &str, turn_rad: f64, otherwise: TurnsOtherwise) -> Option<String> {
     // NaN is no small turn.
     let is_none = turn_rad < TURN_RAD;

@@ -1,4 +1,4 @@
-//! What the configuration of a target says of the arm's shoulder, elbow and wrist.
+//! Shoulder, elbow and wrist branches of a target's configuration.
 
 use crate::model::language::Language;
 use crate::model::target::Configuration;
@@ -38,7 +38,7 @@ pub struct StatedArm {
 }
 
 impl StatedArm {
-    /// What a configuration says.
+    /// Decodes a configuration.
     #[must_use]
     pub fn of(language: Language, configuration: &Configuration) -> Self {
         language.stated_arm(configuration)

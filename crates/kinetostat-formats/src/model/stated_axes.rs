@@ -1,18 +1,18 @@
-//! What a program says of the rotary axes of a machine, motion by motion.
+//! Rotary axis positions that a program states, motion by motion.
 
 use std::collections::{BTreeMap, BTreeSet};
 
-/// How a program says at a motion where the rotary axes stand.
+/// Statement of the rotary axis positions at a motion.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum AxesStated {
-    /// By their words, up to here: where they stand at its start and at its end, deg, in the order of the letters. Places are those of
-    /// the tool's tip in the part.
+    /// Angles by their words up to this block: positions at the start and the end, deg, in the order of the letters. Coordinates are those of the
+    /// tool tip in the part.
     Angles { start: Vec<f64>, end: Vec<f64> },
     /// Not at all, or places are not those of the tip.
     Open,
 }
 
-/// What a program says of rotary axes.
+/// Rotary axis data of a program.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct StatedAxes {
     /// Letters of the axes whose words are followed.
@@ -25,7 +25,7 @@ pub(crate) struct StatedAxes {
 }
 
 impl StatedAxes {
-    /// Whether angles say anywhere how the tool stands.
+    /// True if angles define the tool orientation anywhere.
     pub(crate) fn has_angles(&self) -> bool {
         let mut all = self.motions.iter();
         all.any(|(_, stated)| matches!(stated, AxesStated::Angles { .. }))

@@ -1,13 +1,13 @@
-//! Where a motion ends.
+//! Targets of motions.
 
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 
-/// How the arm reaches a pose, as written.
+/// Arm configuration of a pose, as written.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Configuration {
     /// The text: `[0,-1,-1,0]`, `S 2,T 35`, `N U T, 0, 0, 0`; empty where nothing is stated.
     pub text: String,
-    /// Its numbers in their order.
+    /// Numbers of the configuration in their order.
     pub numbers: Vec<f64>,
 }
 
@@ -18,7 +18,7 @@ pub struct PoseTarget {
     pub position_mm: Vector3<f64>,
     /// Turns the work object's axes into the tool's.
     pub orientation: UnitQuaternion<f64>,
-    /// How the arm reaches it.
+    /// Arm configuration.
     pub configuration: Configuration,
     /// External axes as written, mm or degrees; none where an axis is not stated (RAPID's 9E9).
     pub external: Vec<Option<f64>>,
@@ -45,7 +45,7 @@ impl PoseTarget {
     }
 }
 
-/// Where a motion ends.
+/// Target of a motion.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Target {
     /// A pose of the tool.
@@ -57,7 +57,7 @@ pub enum Target {
     },
     /// Not known from the text: only with [`crate::UnknownTargets::LeftAsWritten`].
     Unknown {
-        /// Why, in words.
+        /// Reason in words.
         reason: String,
     },
 }

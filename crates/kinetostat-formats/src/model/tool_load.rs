@@ -1,4 +1,4 @@
-//! What a tool weighs, as programs state it.
+//! Payload of a tool, as programs state it.
 
 use nalgebra::{UnitQuaternion, Vector3};
 

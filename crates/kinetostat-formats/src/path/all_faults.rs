@@ -10,7 +10,7 @@ use crate::path::fault::PathError;
 use crate::path::motion_faults::faults_of_motions;
 use crate::text::source::SourceFile;
 
-/// What keeps a program from being corrected.
+/// Error that keeps a program from being corrected.
 ///
 /// ```
 /// use kinetostat_formats::{Language, ReadOptions, SourceFile, all_faults};
@@ -41,7 +41,7 @@ impl ProgramFault {
         }
     }
 
-    /// Why.
+    /// Reason for the refusal.
     #[must_use]
     pub fn reason(&self) -> &str {
         match self {

@@ -1,4 +1,4 @@
-//! How the rotary axes of a machine turn where a program states their angles, or the direction of the tool's axis alone.
+//! Motion of the rotary axes of a machine whose program states their angles, or the tool axis alone.
 //!
 //! Where the axes stand at the end of a motion follows from the direction, and from where they stood before. How they get there is the
 //! controller's law: SINUMERIK takes the tool's axis on a great circle (ORIVECT, the basic setting of G group 51; a machine whose MD21104
@@ -15,26 +15,27 @@ use crate::model::stated_axes::AxesStated;
 use crate::path::axis_turns::{OVER, axis_of};
 use crate::path::fault::PathError;
 
-/// What the rotary axes do in one motion.
+/// Motion of the rotary axes in one motion of the program.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct AxesOfMotion {
     pub start_deg: Vec<f64>,
     pub end_deg: Vec<f64>,
-    /// None where they turn evenly.
+    /// Great circle of the tool axis; `None` if the rotary axes turn evenly.
     pub great_circle: Option<GreatCircle>,
-    /// What the program says of them.
+    /// Source of the axis positions in the program.
     pub stated: StatedBy,
 }
 
-/// Whether the tool's axis goes on a great circle in a motion.
+/// True if the tool axis moves on a great circle in a motion.
 pub(crate) fn on_great_circle(program: &RobotProgram, index: usize) -> bool {
     program.language.goes_on_great_circles() && !program.rotary.even.contains(&index)
 }
 
-/// What the rotary axes do in every motion; they stay where a motion states no axis. Nothing is known of them where a program that states
-/// their angles does not say them.
+/// Positions of the rotary axes in every motion; they stay if a motion states no axis. They are unknown where a program that states angles omits
+/// them.
 ///
-/// Of the angles that point the tool along the axis, those nearest to the ones before, within the limits of the axes; at first, to zero.
+/// Among the angles that point the tool along the axis, those nearest to the previous ones within the axis limits apply; at first,
+/// those nearest to zero.
 pub(crate) fn axes_of_motions(
     program: &RobotProgram,
     rotary: &RotaryAxes,
@@ -177,7 +178,7 @@ fn fault_at(program: &RobotProgram, motion: &Motion, reason: String, remedy: &st
     }
 }
 
-/// What the axes do between stated angles, and why it is not the great circle where it has to be.
+/// Interpolation of the axes between stated angles, and the reason why it is not the required great circle.
 fn by_angles(
     rotary: &RotaryAxes,
     [start, end]: [&Vec<f64>; 2],

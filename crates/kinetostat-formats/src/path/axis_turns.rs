@@ -1,4 +1,4 @@
-//! How the tool stands where a program states the direction of its axis alone.
+//! Orientation of a tool whose program states the direction of its axis alone.
 //!
 //! APT (`GOTO/x,y,z,i,j,k`), SINUMERIK (`A3 B3 C3`), Heidenhain (`TX TY TZ`) and lists of poses with `i, j, k` say where the axis
 //! points, and not how the tool is turned about it. For a round tool that does not matter in the cut; for the arm that holds it
@@ -13,7 +13,7 @@ use crate::model::program::RobotProgram;
 use crate::model::site::TargetSite;
 use crate::path::fault::PathError;
 
-/// How the tool is turned about its axis where a program states the axis alone.
+/// Rule for the rotation of the tool about its axis, for programs that state the axis alone.
 ///
 /// Between two poses the tool's axis goes on the great circle, evenly with the way, as with `ORIVECT` of SINUMERIK; and the tool turns
 /// evenly about it.
@@ -36,7 +36,7 @@ use crate::path::fault::PathError;
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum TurnAboutAxis {
-    /// As little as possible: from pose to pose it turns by the least rotation that brings its axis over. It begins as the least
+    /// Minimal rotation: from pose to pose the tool turns by the least rotation that brings its axis over. It begins as the least
     /// rotation from z of the work object leaves it, where its x (y if its axis is x) lies along x of the work object; so it does again
     /// behind a rapid to the opposite axis.
     #[default]
@@ -59,7 +59,7 @@ const ALONG_AXIS: f64 = 0.02;
 /// Axes that are as opposite as this have no shortest way from one to the other.
 const OPPOSITE: f64 = 1e-6;
 
-/// Whether the pose of a motion states the direction of the tool's axis, and not the turn about it.
+/// True if the pose of a motion states the direction of the tool axis, but not the rotation about it.
 pub(crate) fn is_by_axis(program: &RobotProgram, motion: &Motion) -> bool {
     let by_language = !program.language.states_turn();
     let by_text = matches!(&motion.site.target, TargetSite::Literal(text) if text.convention == OrientationText::Axis);
@@ -111,7 +111,7 @@ fn standing(
     Some(UnitQuaternion::from_rotation_matrix(&rotation))
 }
 
-/// Where the tool's axis points along z of the part.
+/// Initial orientation with the tool axis along z of the part.
 pub(crate) fn at_z(tool_axis: Vector3<f64>) -> UnitQuaternion<f64> {
     let z = (Vector3::z(), Vector3::x());
     let by_x = standing((tool_axis, Vector3::x()), z);
@@ -119,7 +119,7 @@ pub(crate) fn at_z(tool_axis: Vector3<f64>) -> UnitQuaternion<f64> {
     made.unwrap_or_default()
 }
 
-/// Where the tool's axis points at the first pose.
+/// Initial orientation with the tool axis as at the first pose.
 fn begun(tool_axis: Vector3<f64>, axis: Vector3<f64>) -> UnitQuaternion<f64> {
     let half = UnitQuaternion::from_axis_angle(&Vector3::x_axis(), std::f64::consts::PI);
     least(&Vector3::z(), &axis).unwrap_or(half) * at_z(tool_axis)
@@ -175,7 +175,7 @@ pub(crate) fn axis_turns(
                     reason: reason.to_owned(),
                     remedy: remedy.to_owned(),
                 });
-                // What follows is not wrong for that.
+                // Later poses are checked independently of this fault.
                 last = Some(frame * begun(tool_axis, axis));
             }
         }

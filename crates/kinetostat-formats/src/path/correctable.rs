@@ -59,13 +59,13 @@ use crate::writing::piece::Piece;
 pub struct Correctable<'a> {
     /// The program as read.
     pub program: &'a RobotProgram,
-    /// What [`path_of`] makes of it.
+    /// Path of the program from [`path_of`].
     pub path: &'a RobotPath,
-    /// How it was read.
+    /// Options with which the program was read.
     pub reading: &'a ReadOptions,
-    /// How the path was made.
+    /// Options with which the path was made.
     pub making: &'a PathOptions,
-    /// How it is written; decimals of [`kinetostat_program::WriteOptions`] count where there are more (4 where these state none).
+    /// Options of the writer; decimals of [`kinetostat_program::WriteOptions`] are used if there are more (4 if these state none).
     pub writing: &'a WriteOptions,
 }
 
@@ -205,7 +205,7 @@ impl Correctable<'_> {
         self.path.motions.iter().map(of).collect()
     }
 
-    /// What was written, read again: the ends of all pieces.
+    /// Reads the written program again: the ends of all pieces.
     fn written_moves(
         &self,
         plan: &Plan<'_>,
@@ -218,7 +218,7 @@ impl Correctable<'_> {
         let mut angles = Vec::new();
         for ((index, planned), changed) in plan.moves().iter().enumerate().zip(changed) {
             let count = planned.pieces.len();
-            // Where rotary axes turn the tool, the angles of the program say how it stands: written directions have fewer digits.
+            // The orientation follows from the angles of rotary axes: written directions have fewer digits.
             let stands = |motion: &Move| {
                 let turn = motion.tool_turn.as_ref();
                 turn.is_none_or(|turn| turn.rotary.is_none())

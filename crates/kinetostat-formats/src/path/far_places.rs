@@ -5,7 +5,7 @@ use crate::model::motion::{Motion, MotionKind};
 /// Coordinates beyond this are no machine's, as in G-code, mm.
 const FARTHEST_MM: f64 = 1e6;
 
-/// Why a motion leads nowhere, and what to do; none where it is near enough.
+/// Reason and remedy of a motion to an implausibly distant point; `None` if it is near enough.
 pub(crate) fn too_far(motion: &Motion) -> Option<(String, &'static str)> {
     let value = farthest_mm(motion).filter(|value| value.is_nan() || value.abs() > FARTHEST_MM)?;
     Some((

@@ -1,4 +1,4 @@
-//! Why a program that was read has no path of its own, and why a written one is none.
+//! Errors of the path of a program that was read, and of a corrected one.
 
 use kinetostat_program::WriteError as PathWriteError;
 use thiserror::Error;
@@ -6,7 +6,7 @@ use thiserror::Error;
 use crate::model::motion::Motion;
 use crate::model::program::RobotProgram;
 
-/// Why no path can be made of a program that was read.
+/// Error that prevents a path from being made of a program that was read.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error("{file}, line {line}: {reason}; {remedy}")]
 #[non_exhaustive]
@@ -15,9 +15,9 @@ pub struct PathError {
     pub file: String,
     /// Line of the motion, counted from 1.
     pub line: usize,
-    /// Why.
+    /// Reason for the error.
     pub reason: String,
-    /// What the user can do about it.
+    /// Remedy for the user.
     pub remedy: String,
 }
 

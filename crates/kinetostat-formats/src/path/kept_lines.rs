@@ -146,7 +146,7 @@ fn is_part(byte: u8) -> bool {
     byte.is_ascii_alphanumeric() || matches!(byte, b'_' | b'$') || byte >= 0x80
 }
 
-/// Whether a line is another one in which points have their new names: in its comment all, of the names of their data any.
+/// True if a line only differs by renamed points: in its comment all of them, of the data names any.
 fn only_names_changed(line: &[u8], written: &[u8], names: &[Renamed<'_>]) -> bool {
     let (mut old_runs, mut new_runs) = (runs(line), runs(written));
     let mut in_comment = false;
@@ -169,7 +169,7 @@ fn only_names_changed(line: &[u8], written: &[u8], names: &[Renamed<'_>]) -> boo
     }
 }
 
-/// Whether two words are the data of a point and of the one that it has become: `FP1` and `FP1_2`.
+/// True if two words are the data of a point and of its renamed copy: `FP1` and `FP1_2`.
 fn is_data_of(old: &[u8], new: &[u8], names: &[Renamed<'_>]) -> bool {
     let (Some((a, old)), Some((b, new))) = (old.split_first(), new.split_first()) else {
         return false;

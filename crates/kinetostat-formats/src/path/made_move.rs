@@ -89,7 +89,7 @@ impl Maker<'_> {
         Some(arc.map_or(Curve::Line, Curve::Arc))
     }
 
-    /// How the tool turns in a motion; none where nothing says how it stands.
+    /// Rotation of the tool in a motion; `None` if its orientation is unknown.
     fn turn_of_tool(
         &self,
         index: usize,
@@ -125,7 +125,7 @@ impl Maker<'_> {
         }
     }
 
-    /// Whether the text of a target, or the rule for the turn about its axis, says how the tool stands.
+    /// True if the text of a target, or the rule for the turn about its axis, defines the orientation.
     fn states_orientation(&self, motion: &Motion) -> bool {
         // Languages of machines state at most the axis.
         let by_axis = !self.program.language.states_turn();
@@ -152,7 +152,7 @@ impl Maker<'_> {
     }
 }
 
-/// Of the two quaternions of one rotation, the one on the side of another.
+/// Selects the sign of a quaternion so that it lies in the hemisphere of another.
 fn nearest(rotation: UnitQuaternion<f64>, to: &UnitQuaternion<f64>) -> UnitQuaternion<f64> {
     match rotation.coords.dot(&to.coords) < 0.0 {
         true => UnitQuaternion::new_unchecked(-rotation.into_inner()),

@@ -1,4 +1,4 @@
-//! How the motions of a program stand in the axes of its path.
+//! Motions of a program in the axes of its path.
 
 use std::sync;
 
@@ -19,17 +19,17 @@ pub(super) struct Maker<'a> {
     pub options: &'a PathOptions,
     /// Poses in the axes of the robot's base.
     pub in_base: bool,
-    /// How the tool stands at the end of every motion, in axes of the path, where the program states its axis alone and that leans.
+    /// Orientation at the end of every motion, in axes of the path, if the program states a leaning tool axis alone.
     pub turns: Option<Vec<Option<UnitQuaternion<f64>>>>,
-    /// What the rotary axes of the machine do, instead.
+    /// Alternative to `turns`: motion of the machine's rotary axes.
     pub rotary: Option<(sync::Arc<RotaryAxes>, Vec<Option<AxesOfMotion>>)>,
     /// From the tip to the holder, in axes of the tool.
     pub tool_axis: Vector3<f64>,
 }
 
 impl<'a> Maker<'a> {
-    /// Of a program with one work object, or in the axes of the robot's base; with the first motion whose tool leans where the program
-    /// states its axis alone, or its rotary axes' angles.
+    /// Maker for a program with one work object, or in the axes of the robot's base; `leaning` is the first motion whose tool leans, if the program
+    /// states the tool axis alone, or angles of rotary axes.
     pub(super) fn of(
         program: &'a RobotProgram,
         options: &'a PathOptions,
@@ -80,7 +80,7 @@ impl<'a> Maker<'a> {
         Some(self.frame_in_path(motion) * target.pose()?.isometry())
     }
 
-    /// Where a motion ends, and how the tool stands there; none where that, or its way there, is not known.
+    /// Pose at the end of a motion; `None` if the end or the path to it is unknown.
     pub(super) fn end_in_path(&self, index: usize) -> Option<Isometry3<f64>> {
         let motion = &self.program.motions[index];
         if !motion.has_known_way() {
@@ -93,7 +93,7 @@ impl<'a> Maker<'a> {
         Some(end)
     }
 
-    /// Whether a motion positions the tool in air.
+    /// True if a motion positions the tool in air.
     pub(super) fn is_rapid(&self, motion: &Motion) -> bool {
         let fast = |limit: f64| {
             let fastest = motion.speed.text.eq_ignore_ascii_case("vmax");

@@ -16,7 +16,7 @@ pub(crate) fn motions_to_poses(program: &RobotProgram) -> Vec<&Motion> {
         .collect()
 }
 
-/// Whether all motions have the work object of the first one.
+/// True if all motions have the work object of the first one.
 pub(crate) fn has_one_work_object(poses: &[&Motion]) -> bool {
     let Some(first) = poses.first() else {
         return true;

@@ -42,7 +42,7 @@ pub struct RobotPath {
 }
 
 impl RobotPath {
-    /// How far the tool is turned from one orientation to another, as far as the text of the program says it, rad.
+    /// Angle between two orientations, as far as the program's text defines them, rad.
     pub(crate) fn turned(&self, to: &UnitQuaternion<f64>, from: &UnitQuaternion<f64>) -> f64 {
         let axis = self.path.tool_axis;
         match self.axis_alone || self.by_axes {
@@ -140,7 +140,7 @@ fn path_of_maker(maker: &Maker<'_>) -> Path {
     let mut last: Option<Isometry3<f64>> = None;
     for (index, motion) in maker.program.motions.iter().enumerate() {
         let before = index.checked_sub(1).map(|i| &maker.program.motions[i]);
-        // Behind a change of tools the new tip is somewhere else.
+        // After a tool change the TCP is at another point.
         let follows = motion.follows.is_some()
             && motion.follows == index.checked_sub(1)
             && before.is_some_and(|before| same_frame(&before.tool, &motion.tool));

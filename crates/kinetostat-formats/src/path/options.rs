@@ -1,4 +1,4 @@
-//! What the caller states of the path of a robot's program.
+//! Options for the path of a robot's program.
 
 use std::sync::Arc;
 
@@ -7,7 +7,7 @@ use nalgebra::Vector3;
 
 use crate::path::axis_turns::TurnAboutAxis;
 
-/// How the path of a robot's program is made.
+/// Options with which the path of a robot's program is made.
 ///
 /// ```
 /// let mut options = kinetostat_formats::PathOptions::default();
@@ -24,7 +24,7 @@ pub struct PathOptions {
     /// Unit vector from the tool's tip to its holder, in axes of the tool's frame: -z where the frame's z points out of the
     /// spindle, as is usual at ABB and FANUC; -x at KUKA.
     pub tool_axis: Vector3<f64>,
-    /// How the tool is turned about its axis where the program states the axis alone.
+    /// Rule for the rotation of the tool about its axis, if the program states the axis alone.
     pub turn_about_axis: TurnAboutAxis,
     /// Rotary axes of the machine, in axes of the program's work object: where a program states their angles
     /// ([`crate::ReadOptions::rotary_axes`]) they stand there, and where it states the tool's axis alone they point the tool along it,

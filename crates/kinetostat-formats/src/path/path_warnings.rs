@@ -1,4 +1,4 @@
-//! What a person should know of a path that was made.
+//! Warnings on a path that was made.
 
 use std::f64::consts::PI;
 
@@ -13,7 +13,7 @@ use crate::path::axis_angles::on_great_circle;
 use crate::path::axis_turns::{ALONG_Z, TurnAboutAxis, axis_of};
 use crate::path::options::PathOptions;
 
-/// So many places say whether a program is small, ...
+/// Number of positions that suffice to judge whether a program is small, ...
 const SEVERAL: usize = 8;
 
 /// ... as one of 3 m in metres is where its lengths are taken for millimetres.
@@ -104,7 +104,7 @@ fn by_half_a_turn(moves: &[Move]) -> Option<Warning> {
     })
 }
 
-/// Where rotary axes turn the tool, their angles say the side.
+/// True for a rotation of about 180 deg, whose sense is ambiguous; angles of rotary axes define it.
 fn is_half_a_turn(turn: &ToolTurn) -> bool {
     let half = |angle: f64| angle > PI - NEAR_HALF_A_TURN;
     match (&turn.rotary, &turn.swivelling) {
@@ -113,7 +113,7 @@ fn is_half_a_turn(turn: &ToolTurn) -> bool {
         (None, Some(axis)) => {
             let [from, to] = [turn.start * axis, turn.end * axis];
             let swung = UnitQuaternion::rotation_between(&from, &to);
-            // None between opposite directions; else what is left is the turn about the axis.
+            // `None`: opposite directions; otherwise the rest is the rotation about the axis.
             swung.is_none_or(|swung| {
                 half(swung.angle()) || half((swung * turn.start).angle_to(&turn.end))
             })
@@ -164,7 +164,7 @@ fn odd_speed(program: &RobotProgram, moves: &[Move]) -> Option<Warning> {
     })
 }
 
-/// By which rule the tool is turned about its axis, at the first motion where that matters; and where the axis itself is not stated.
+/// Warnings on the rule for the rotation about the tool axis, at the first motion that it affects, and on an unstated axis.
 pub(crate) fn by_rule(
     program: &RobotProgram,
     leaning: &Motion,
@@ -230,7 +230,7 @@ pub(crate) fn turns_alone(moves: &[Move]) -> Option<Warning> {
     })
 }
 
-/// How many more a finding is of, in brackets.
+/// Number of further findings, in brackets.
 fn and_more(count: usize, what: &str) -> String {
     match count {
         0 => String::new(),

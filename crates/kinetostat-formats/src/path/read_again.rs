@@ -1,4 +1,4 @@
-//! What a written program satisfies, read off its bytes.
+//! Checks of a written program, from its bytes.
 
 use kinetostat_program::{
     Corrected, Knowledge, Move, Piece, Verification, WriteError, WriteOptions, irregular,
@@ -146,7 +146,7 @@ fn one(
     speed((program, input), again, (index, piece), found).map_or(Ok(()), fail)
 }
 
-/// How the tool stands at the end of a piece whose angles were corrected.
+/// Orientation at the end of a piece with corrected angles.
 fn turned_to(motion: &Move, written: &Corrected, index: usize) -> Option<UnitQuaternion<f64>> {
     let angles = written
         .rotary_deg
@@ -156,7 +156,7 @@ fn turned_to(motion: &Move, written: &Corrected, index: usize) -> Option<UnitQua
     Some(rotary.axes.tool(angles))
 }
 
-/// Whether the tool's axis goes between the ends of a piece as it does in the input, but for what it is turned at them.
+/// True if the tool axis moves between the ends of a piece as in the input, apart from the correction at the ends.
 fn goes_as_stated(
     (input, made): (&RobotPath, &Move),
     written: &Corrected,
@@ -198,7 +198,7 @@ fn speed(
     let Some(is) = is else {
         return Some("its speed is not known".to_owned());
     };
-    // Of very short pieces the rounding decides.
+    // Rounding dominates in very short pieces.
     if piece.corner_step || part_mm < SHORT_MM || written_mm == 0.0 {
         return None;
     }
@@ -206,11 +206,11 @@ fn speed(
     if piece.feed_limited && is <= wanted * 1e6 {
         return None;
     }
-    // What is no number is refused below.
+    // NaN is refused below.
     if error > found.largest_speed_error {
         found.largest_speed_error = error;
     }
-    // Where a speed stands for many motions it is that of the input: how far off the part is cut is in the result.
+    // A modal speed is that of the input: its deviation along the part is in the result.
     let own = program.motions[input.motions[piece.move_index]]
         .site
         .speed
@@ -222,5 +222,5 @@ fn speed(
 /// Pieces shorter than this have no speed that could be compared: digits of their ends decide, mm.
 const SHORT_MM: f64 = 0.5;
 
-/// How far the speed along the part may be off, relative.
+/// Tolerated relative deviation of the speed along the part.
 const SPEED: f64 = 2e-3;

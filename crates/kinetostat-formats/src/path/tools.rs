@@ -64,7 +64,7 @@ pub(crate) fn tools_of(poses: &[&Motion]) -> Vec<FrameUse> {
     tools
 }
 
-/// Where another tool is taken, by lines that ascend.
+/// Tool changes, in ascending order of lines.
 pub(crate) fn changes(poses: &[&Motion], tools: &[FrameUse]) -> Vec<ToolChange> {
     let mut changes: Vec<ToolChange> = Vec::new();
     let numbers = tool_numbers(tools);

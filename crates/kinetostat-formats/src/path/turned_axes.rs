@@ -16,7 +16,7 @@ const SAME_AXIS: f64 = 1e-9;
 /// Angles as written may be off by so much, deg: Heidenhain programs have four digits.
 const WRITTEN_DEG: f64 = 1e-4;
 
-/// What the rotary axes do in a motion that states their angles.
+/// Rotary motion of a move that states the angles.
 pub(crate) fn by_angles(motion: &Move) -> Option<&RotaryTurn> {
     let rotary = motion.tool_turn.as_ref()?.rotary.as_ref()?;
     (rotary.stated == StatedBy::Angles).then_some(rotary)
@@ -71,7 +71,7 @@ pub(crate) fn angles_as_written(
     }
 }
 
-/// Behind a cut whose angles are corrected a rapid brings the axes back, before anything that does not count with them.
+/// Refuses the loss of corrected angles: after such a cut, a rapid must restore the axes before a motion that does not account for them.
 pub(crate) fn refuse_lost_turn(path: &Path, plan: &Plan<'_>) -> Result<(), PathWriteError> {
     let mut turned = false;
     for (motion, planned) in path.moves.iter().zip(plan.moves()) {

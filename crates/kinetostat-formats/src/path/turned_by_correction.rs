@@ -61,7 +61,7 @@ pub(crate) fn refuse_lost_orientation(
     })
 }
 
-/// Why the orientation of a motion would be lost between its ends.
+/// Reason why the orientation of a motion would be lost between its ends.
 fn lost(
     motion: &Motion,
     start: Option<UnitQuaternion<f64>>,
@@ -76,7 +76,7 @@ fn lost(
     for to in planned.pieces.iter().map(|piece| piece.orientation) {
         for begin in [from, start].into_iter().flatten() {
             let angle = to.map_or(0.0, |to| begin.angle_to(&to));
-            // What is no number is no small turn.
+            // NaN counts as a large turn.
             turn = if angle <= turn { turn } else { angle };
         }
         from = to;
@@ -85,14 +85,14 @@ fn lost(
     Some((motion.line, reason, otherwise.remedy))
 }
 
-/// Whether a circle is written as circles.
+/// True if a circle is written as circles.
 fn stays_circle(motion: &Motion, planned: &PlannedMove) -> bool {
     let is_circle = matches!(motion.kind, MotionKind::Circular { .. });
     let via = |of: &PlannedMove| of.pieces.last().is_some_and(|last| last.via_mm.is_some());
     is_circle && (planned.pieces.len() == 1 || via(planned))
 }
 
-/// Whether a piece ends otherwise turned than its motion.
+/// True if a piece ends in another orientation than its motion.
 fn ends_turned(own: Option<UnitQuaternion<f64>>, planned: &PlannedMove) -> bool {
     let turned = planned.pieces.iter().filter_map(|piece| piece.orientation);
     let Some(own) = own else {
@@ -101,8 +101,8 @@ fn ends_turned(own: Option<UnitQuaternion<f64>>, planned: &PlannedMove) -> bool 
     turned.map(|to| to.angle_to(&own)).any(|by| by > SAME_RAD)
 }
 
-/// What else would turn otherwise behind the statement that a circle needs: circles of which not all is known, and those of routines that
-/// are in none of the files.
+/// Other circles whose orientation the statement required by a circle would change: circles with unknown points, and those of routines that are in
+/// none of the files.
 fn turns_others(program: &RobotProgram) -> Option<String> {
     let turns = "the correction turns the tool on this circle, which needs CirPathMode\\ObjectFrame; behind it";
     let is_known = |motion: &&Motion| {
@@ -121,7 +121,7 @@ fn turns_others(program: &RobotProgram) -> Option<String> {
             other.line
         ));
     }
-    // What has a name is taken not to move the tool.
+    // Named outside calls are assumed not to move the tool.
     let mut computed = (program.outside_calls.iter()).filter(|call| call.name.is_none());
     let call = computed.next()?;
     Some(format!(

@@ -1,8 +1,8 @@
-//! Whether a list of poses is a table or YAML.
+//! Format of a list of poses: table or YAML.
 
 use crate::text::source::{SourceFile, beginning};
 
-/// How a list of poses is written.
+/// Format of a list of poses.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Carrier {
     /// Lines of cells below a line of names.
@@ -11,7 +11,7 @@ pub(crate) enum Carrier {
     Yaml,
 }
 impl Carrier {
-    /// By the ending of the name; where that says nothing, by the first line that is neither empty nor a comment.
+    /// Format by the file ending; if that is unknown, by the first line that is neither empty nor a comment.
     pub(crate) fn of(file: &SourceFile) -> Self {
         let ending = file.name().rsplit_once('.').map(|(_, ending)| ending);
         match ending.map(str::to_ascii_lowercase).as_deref() {

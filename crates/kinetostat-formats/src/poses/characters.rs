@@ -5,7 +5,7 @@ use saphyr_parser::Input;
 /// A text that is read.
 pub(crate) struct Characters<'b> {
     rest: &'b [u8],
-    /// How many characters the parser has asked for.
+    /// Number of characters that the parser has requested.
     asked: usize,
 }
 
@@ -26,7 +26,7 @@ impl<'b> Characters<'b> {
     }
 }
 
-/// What is not ASCII is never a number or a name that counts.
+/// Replaces a non-ASCII byte; such bytes never belong to a number or a known name.
 fn character(byte: u8) -> char {
     match byte {
         0..=0x7f => char::from(byte),
@@ -34,7 +34,7 @@ fn character(byte: u8) -> char {
     }
 }
 
-/// Whether a line goes on.
+/// True if a byte does not end a line.
 fn is_in_line(byte: &u8) -> bool {
     !matches!(byte, b'\0' | b'\n' | b'\r')
 }

@@ -1,9 +1,9 @@
-//! What a name of a column or a key means.
+//! Meaning of the names of columns and keys.
 
 use crate::model::orientation::OrientationText;
 use crate::options::LengthUnit;
 
-/// What a column holds.
+/// Content of a column.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Column {
     /// A coordinate: 0, 1, 2 for x, y, z; the unit where the name says it.
@@ -12,9 +12,9 @@ pub(crate) enum Column {
     Orientation(OrientationText, usize),
     /// A speed, and how many mm/s one of it is.
     Speed(f64),
-    /// Whether the pose is reached in air: 0 or 1.
+    /// Rapid: 0 or 1, the pose is reached in air.
     Rapid,
-    /// Which poses are cut one after the other: where it changes, the next pose is reached in air.
+    /// Raster number: where it changes, the next pose is reached in air.
     Raster,
     /// Name of the tool.
     Tool,
@@ -28,7 +28,7 @@ pub(crate) enum Column {
     Carried,
 }
 
-/// Why a name is refused, and what to do.
+/// Reason and remedy of a refused name.
 pub(crate) type Refusal = (&'static str, &'static str);
 
 const NO_UNIT: Refusal = (
@@ -63,10 +63,10 @@ const WAY: Refusal = (
 /// Millimetres a minute.
 const PER_MINUTE: f64 = 1.0 / 60.0;
 
-/// What a name means: capitals and small letters are the same.
+/// Meaning of a name; case is ignored.
 ///
 /// # Errors
-/// Where it can move the tool, and how is not known.
+/// The name may move the tool in an unknown way.
 pub(crate) fn column_of(name: &str) -> Result<Column, Refusal> {
     use OrientationText::{Abc, Axis, Quaternion, Wpr};
     let name = name.to_ascii_lowercase();

@@ -19,7 +19,7 @@ pub(crate) fn with_points(file: &SourceFile) -> Option<SourceFile> {
         let is_comma = std::mem::replace(&mut text[mark], b'.') == b',';
         match (number_of(&text, &(0..text.len())), is_comma) {
             (Some(_), true) => commas.push(cell.start + mark),
-            // Whether that point stands before thousandths or behind thousands is not known.
+            // The decimal point could precede thousandths or group thousands.
             (Some(_), false) => return None,
             (None, _) => {}
         }

@@ -21,7 +21,7 @@ pub(crate) fn base() -> FrameUse {
     }
 }
 
-/// Where a row of joint values leads, and where they stand.
+/// Target of a row of joint values, and their positions in the text.
 pub(crate) fn joint_target(
     options: &ReadOptions,
     whole: Range<usize>,
@@ -53,7 +53,7 @@ fn joints_of(numbers: &[(NumberText, f64)]) -> Vec<f64> {
     numbers.map(|(number, unit)| number.value * unit).collect()
 }
 
-/// How far the tool may leave the straight way between rows, mm, ...
+/// Tolerated deviation of the tool from the straight line between rows, mm, ...
 const MOST_MM: f64 = 0.1;
 
 /// ... and turn otherwise than evenly, deg.
@@ -65,7 +65,7 @@ const NOTHING_MM: f64 = 1e-4;
 /// A row, what is wrong with it, and what to do.
 type RowFault = (usize, String, &'static str);
 
-/// What is to be said of the ways between rows, and at which row.
+/// Finding on the paths between rows, with its row.
 pub(crate) fn between_rows(
     table: &TableArm,
     rows: &[Row],
@@ -97,7 +97,7 @@ pub(crate) fn between_rows(
             (&before, table.between, row.rapid)
         {
             let (off_mm, off_deg) = departure(table, [from, &joints], [start, &tool]);
-            // What is no number is too far, too.
+            // NaN counts as too far.
             let near = off_mm <= MOST_MM && off_deg <= MOST_DEG;
             if !near {
                 return Err((
@@ -128,7 +128,7 @@ pub(crate) fn between_rows(
 /// Largest joint value, deg or mm.
 const FARTHEST: f64 = 1e6;
 
-/// How far the tool leaves the straight way between two rows, mm, and how it turns otherwise than evenly, deg.
+/// Deviation of the tool from the straight line between two rows, mm, and of its rotation from an even one, deg.
 fn departure(
     table: &TableArm,
     [from, to]: [&[f64]; 2],

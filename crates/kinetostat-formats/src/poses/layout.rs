@@ -1,4 +1,4 @@
-//! What the names of a row mean together.
+//! Meaning of the names of a row as a whole.
 
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -14,7 +14,7 @@ pub(crate) struct Named {
     pub span: Range<usize>,
 }
 
-/// Which cell of a row says what.
+/// Cells of a row by their meaning.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct Layout {
     /// X, Y, Z; none in a table of joint values.
@@ -23,7 +23,7 @@ pub(crate) struct Layout {
     pub unit: Option<LengthUnit>,
     /// In the order of the convention.
     pub orientation: Vec<usize>,
-    /// What they mean; none where no orientation is stated.
+    /// Orientation convention; `None` if no orientation is stated.
     pub convention: Option<OrientationText>,
     /// And how many mm/s one of its unit is.
     pub speed: Option<(usize, f64)>,
@@ -34,7 +34,7 @@ pub(crate) struct Layout {
     pub external: Vec<usize>,
     /// In the order of the joints, with how many degrees or mm one of the unit is.
     pub joints: Vec<(usize, f64)>,
-    /// What is carried as it is.
+    /// Cells that are carried unchanged.
     pub carried: Vec<usize>,
 }
 
@@ -45,10 +45,10 @@ fn fault(named: &Named, (reason, remedy): Refusal) -> NameFault {
     (named.span.clone(), reason.to_owned(), remedy.to_owned())
 }
 
-/// What names mean together; `whole` is what is shown where one is missing.
+/// Layout of a row by its names; `whole` is the span that a missing name is reported at.
 ///
 /// # Errors
-/// All that is wrong with them.
+/// All faults of the names.
 pub(crate) fn layout_of(names: &[Named], whole: &Range<usize>) -> Result<Layout, Vec<NameFault>> {
     let mut faults = Vec::new();
     let mut columns = columns_of(names, &mut faults);

@@ -21,7 +21,6 @@ use crate::text::number::{Width, values_of};
 use crate::text::source::SourceFile;
 use nalgebra::Vector3;
 
-/// Most bytes of a file.
 const MOST_BYTES: usize = 1 << 28;
 
 /// With these bytes a file in Parquet begins.
@@ -66,7 +65,7 @@ pub fn read_poses(
     parse_poses(files, options).without_faults()
 }
 
-/// The same, with the motions of the rows that could be read beside what is refused.
+/// Reads a list of poses; the motions of readable rows are returned beside the errors.
 pub(crate) fn parse_poses(files: Vec<SourceFile>, options: &ReadOptions) -> Parsed {
     let mut reader = Reader {
         options,
@@ -111,7 +110,7 @@ struct Reader<'o> {
     motions: Vec<Motion>,
 }
 
-/// What a list says of its unit.
+/// Unit as a list states it.
 struct Said {
     named: Option<LengthUnit>,
     is_ros: bool,
@@ -145,7 +144,7 @@ impl Reader<'_> {
             self.finding(index, file, at, message);
         }
         self.external(file, &rows);
-        // Of the rows beside those that are refused, all that is said of each alone.
+        // With refused rows, the other rows are only checked one by one.
         let unit = match refused {
             true => said.named.or(self.options.length_unit),
             false => self.unit(index, file, &rows, &said),

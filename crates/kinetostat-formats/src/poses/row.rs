@@ -9,7 +9,7 @@ use crate::poses::layout::Layout;
 use crate::text::number::NumberText;
 use crate::text::source::SourceFile;
 
-/// Where a row leads.
+/// Target of a row.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum RowTarget {
     Pose {
@@ -28,18 +28,18 @@ pub(crate) struct Row {
     /// All of it, as it is written a second time for a pose before it.
     pub span: Range<usize>,
     pub target: RowTarget,
-    /// It is reached in air, by a joint motion.
+    /// The pose is reached in air, by a joint motion.
     pub rapid: bool,
-    /// Where the speed stands, what it says in mm/s, and whether another one can be written there.
+    /// Position of the speed in the text, its value in mm/s, and true if it can be replaced there.
     pub speed: Option<(Range<usize>, f64, bool)>,
     pub tool: String,
     pub frame: String,
     pub external: Vec<Option<NumberText>>,
-    /// Why none can be written before it.
+    /// Reason why no pose can be inserted before the row.
     pub indivisible: Option<&'static str>,
 }
 
-/// What a file says beside its rows.
+/// Content of a file: its rows and their faults.
 #[derive(Debug, Default)]
 pub(crate) struct Rows {
     pub rows: Vec<Row>,
@@ -66,14 +66,14 @@ impl Rows {
 pub(crate) const TOOL: &str = "tool";
 pub(crate) const PART: &str = "part";
 
-/// What a row is read with besides its cells.
+/// Context for the cells of a row.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct RowContext<'c> {
     pub layout: &'c Layout,
     pub span: Range<usize>,
     /// The first one of its raster.
     pub first: bool,
-    /// Its frame where it states none itself.
+    /// Frame of rows that state none.
     pub frame: &'c str,
     pub indivisible: Option<&'static str>,
 }
@@ -150,7 +150,7 @@ pub(crate) fn row_of(
     })
 }
 
-/// What is shown of a cell: an empty one shows its row.
+/// Span that is reported for a cell: an empty cell reports its row.
 fn shown(file: &SourceFile, cell: &Range<usize>, row: &Range<usize>) -> Range<usize> {
     match file.part(cell).is_empty() {
         true => row.clone(),

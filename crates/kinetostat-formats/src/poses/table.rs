@@ -1,9 +1,9 @@
-//! What is done with each name of a column or a key, as data.
+//! Treatment of the names of columns and keys.
 
 use crate::table::Treatment::{Carried, Refused, Understood};
 use crate::table::{StatementRow, Treatment, line};
 
-/// What a table needs.
+/// Remedy of a table without names.
 pub(crate) const TABLE_HELP: &str =
     "write a line of names first, with units: x_mm,y_mm,z_mm,qw,qx,qy,qz,speed_mm_per_s";
 
@@ -26,7 +26,7 @@ const MOVES: Treatment = Refused {
     remedy: "let the places be those of the tool; write rapid (1 or 0) for the way",
 };
 
-/// What is done with each name of a column (CSV) or a key (YAML) of a list of poses. Other names are carried as they are.
+/// Treatment of each name of a column (CSV) or a key (YAML) of a list of poses. Other names are carried unchanged.
 #[rustfmt::skip]
 pub const POSES_STATEMENTS: &[StatementRow] = &[
     line("x_mm, y_mm, z_mm", Understood, TABLE),

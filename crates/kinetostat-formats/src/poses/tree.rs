@@ -10,13 +10,12 @@ use saphyr_parser::{Event, Parser};
 use crate::poses::characters::Characters;
 use crate::text::source::beginning;
 
-/// What a node is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Kind {
     Scalar,
     Map,
     List,
-    /// What an anchor stands for.
+    /// Alias of an anchor.
     Alias,
 }
 
@@ -26,7 +25,7 @@ struct Flat {
     kind: Kind,
     start: u32,
     end: u32,
-    /// Behind all that it holds.
+    /// Index after the node's last descendant.
     behind: u32,
 }
 
@@ -54,7 +53,7 @@ impl<'t> Node<'t> {
         node.start as usize..node.end as usize
     }
 
-    /// What it holds: the items of a list, keys and values of a map in turn.
+    /// Children of the node: the items of a list, keys and values of a map in turn.
     pub(crate) fn held(self) -> Nodes<'t> {
         Nodes {
             tree: self.tree,
@@ -70,7 +69,7 @@ impl<'t> Node<'t> {
         std::iter::from_fn(move || Some((held.next()?, held.next()?))).take_while(move |_| is_map)
     }
 
-    /// Whether it is the same node.
+    /// True if both are the same node.
     pub(crate) fn is_node(self, other: Self) -> bool {
         self.at == other.at
     }
@@ -97,7 +96,7 @@ impl<'t> Iterator for Nodes<'t> {
     }
 }
 
-/// Why a text is no tree: the place and what to do.
+/// Error of a text that is no tree: position, reason, remedy.
 pub(crate) type TreeFault = (usize, String, &'static str);
 
 /// Lists in lists in lists: poses are at a depth of six.
@@ -186,7 +185,7 @@ impl Tree {
         node.end as usize
     }
 
-    /// Where a value is that is not written: behind the colon of its key, which belongs to the map, or at a place.
+    /// Position of an empty value: after the colon of its key, which belongs to the map, or at a place.
     fn without_value(&self, place: usize, bytes: &[u8]) -> (usize, usize) {
         let key = self.nodes.last().map_or(place, |key| key.end as usize);
         let rest = bytes.get(key..).unwrap_or_default();
@@ -198,7 +197,7 @@ impl Tree {
         (at, at)
     }
 
-    /// What a list or map holds reaches to a place.
+    /// Extends a list or map to a place.
     fn reach(&mut self, open: Option<&usize>, end: usize) {
         if let Some(own) = open {
             let own = &mut self.nodes[*own];

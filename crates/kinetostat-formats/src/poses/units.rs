@@ -1,9 +1,9 @@
-//! What the numbers of places are: mm or m.
+//! Length unit of positions: mm or m.
 
 use crate::options::LengthUnit;
 use crate::poses::row::{Row, RowTarget};
 
-/// How many mm one is.
+/// Length of the unit in mm.
 pub(crate) fn mm_of(unit: LengthUnit) -> f64 {
     match unit {
         LengthUnit::Millimetre => 1.0,
@@ -20,7 +20,7 @@ const NEAR_MM: f64 = 2.0;
 /// Extents of a path of ROS messages that are taken for metres where no unit is stated, m.
 const EXTENTS_M: std::ops::RangeInclusive<f64> = 0.02..=5.0;
 
-/// What places of a list reach.
+/// Extent of the positions of a list.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct Reach {
     /// Largest absolute coordinate.
@@ -56,7 +56,7 @@ impl Reach {
             }
         }
         for (least, most) in least.iter().zip(most) {
-            // Of no places it is not a number above zero.
+            // Without positions the difference is not above zero.
             if most - least > reach.extent {
                 reach.extent = most - least;
             }
@@ -64,7 +64,7 @@ impl Reach {
         reach
     }
 
-    /// What is implausible of a stated unit, in words.
+    /// Reason why a stated unit is implausible.
     pub(crate) fn doubt(&self, unit: LengthUnit) -> Option<String> {
         match unit {
             LengthUnit::Metre if self.farthest > FAR_M => Some(format!(
@@ -79,7 +79,7 @@ impl Reach {
         }
     }
 
-    /// Whether places of ROS messages, which are in metres by definition, can be nothing else: by their size.
+    /// True if positions of ROS messages, which are in metres by definition, have the size of metres.
     pub(crate) fn looks_like_metres(&self) -> bool {
         EXTENTS_M.contains(&self.extent) && self.farthest <= FAR_M
     }

@@ -1,4 +1,4 @@
-//! What the writer must know of lists of poses.
+//! Adapter of the writer for lists of poses.
 //!
 //! A pose before another one is a copy of its row with other numbers. Lengths go back into the unit of the text.
 
@@ -33,7 +33,7 @@ pub(crate) fn write_poses(
     }
     let mut options = options.clone();
     if units.contains(&1000.0) {
-        // As fine in metres.
+        // Equal resolution in metres.
         options.position_decimals += 3;
     }
     let mut written = write_with(program, &all, &options, &PosesSyntax)?;
@@ -45,7 +45,7 @@ pub(crate) fn write_poses(
     Ok(written)
 }
 
-/// How many mm one of the text is: what was read against what is written, at a place that is not zero.
+/// Length of the text's unit in mm: value read over value written, at a non-zero coordinate.
 fn unit_mm(program: &RobotProgram, file: usize) -> f64 {
     let ratios = program
         .motions
@@ -105,7 +105,7 @@ fn numbers(site: &TargetSite) -> Option<Vec<&Range<usize>>> {
     Some(numbers.into_iter().map(|number| &number.span).collect())
 }
 
-/// Where a span of a row stands in a copy of the row whose numbers are others.
+/// Position of a span of a row in a copy of the row with other numbers.
 fn moved(
     row: &[u8],
     copy: &[u8],

@@ -10,13 +10,13 @@ use crate::poses::row::{PART, RowContext, Rows, row_of};
 use crate::poses::tree::{Kind, Node, Tree};
 use crate::text::source::SourceFile;
 
-/// What a file in YAML says.
+/// Content of a YAML file.
 #[derive(Debug, Default)]
 pub(crate) struct YamlRows {
     pub rows: Rows,
-    /// Where names say it.
+    /// Unit, if names state it.
     pub unit: Option<LengthUnit>,
-    /// It has the headers of ROS messages, whose lengths are metres by definition.
+    /// The file has headers of ROS messages, whose lengths are metres by definition.
     pub is_ros: bool,
     /// The names of the last item, and what they mean: those of the next one are mostly the same.
     last: (Vec<Named>, Layout),
@@ -76,7 +76,7 @@ fn pose_of<'t>(file: &SourceFile, item: Node<'t>) -> Option<Node<'t>> {
     })
 }
 
-/// Whether items are places without names, in a list that holds poses.
+/// True if an item is a position without names, in a list of poses.
 fn is_list_of_numbers(file: &SourceFile, item: Node<'_>, key: &str) -> bool {
     let is_number = |part: Node<'_>| number_of(file.bytes(), &part.span()).is_some();
     item.kind() == Kind::List
@@ -249,7 +249,7 @@ impl YamlRows {
                 ),
                 ("pose" | "header", Kind::Map) => {}
                 (_, Kind::Scalar) => cells.push((Named { name, span: at }, span)),
-                // What is no number moves nothing, unless its name says so.
+                // A value that is no number moves nothing, unless its name implies it.
                 _ => {
                     if let Err((reason, remedy)) = column_of(&name) {
                         self.rows.fault(file, &at, reason, remedy);
@@ -344,7 +344,7 @@ fn dash_of(file: &SourceFile, item: Node<'_>) -> Option<usize> {
     (first && whole(file, item)).then_some(dash)
 }
 
-/// Whether no text in a node goes over several lines.
+/// True if no text in a node spans several lines.
 fn whole(file: &SourceFile, node: Node<'_>) -> bool {
     match node.kind() {
         Kind::Scalar => !file.part(&node.span()).contains(&b'\n'),

@@ -9,14 +9,14 @@ use crate::text::name::Name;
 
 /// The arguments of one instruction.
 pub(crate) struct Arguments {
-    /// Those without a backslash.
+    /// Arguments without a backslash.
     pub ordered: Vec<Expression>,
-    /// Those with one.
+    /// Optional arguments, with a backslash.
     pub options: Vec<(Name, Option<Expression>)>,
 }
 
 impl Arguments {
-    /// Of the tokens behind an instruction's name.
+    /// Arguments in the tokens after an instruction's name.
     pub(crate) fn of(file: &TokenFile<'_>, tokens: Range<usize>) -> Self {
         let mut all = Self {
             ordered: Vec::with_capacity(6),

@@ -61,7 +61,7 @@ impl Run<'_, '_> {
             Value::List(list) => Some(list),
             _ => None,
         };
-        // Most motions have the tool of the one before.
+        // Cache: a motion usually has the tool of the motion before.
         if let (Some(key), Some(list)) = (&key, list)
             && let Some((known, frame)) = self.own.frames.get(key)
             && Rc::ptr_eq(known, list)

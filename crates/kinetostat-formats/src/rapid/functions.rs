@@ -40,7 +40,7 @@ const LEAVE: [&str; 135] = [
 /// Instructions that are carried and change the numbers that they are given.
 pub(super) const CHANGE_THEIRS: [&str; 4] = ["Add", "Clear", "Decr", "Incr"];
 
-/// Whether a function that is in none of the files is known to leave its arguments as they are.
+/// True if a function that is in none of the files is known not to change its arguments.
 pub(super) fn leaves_arguments(name: &Name) -> bool {
     let found = LEAVE.binary_search_by(|known| known.as_bytes().cmp(name.letters()));
     found.is_ok()

@@ -154,7 +154,7 @@ impl ProgramLanguage for RapidLanguage {
             "%%%",
             "VERSION",
             "LANGUAGE",
-            // How the tool turns is followed.
+            // The rotation mode on circles is modelled.
             "CIRPATHMODE",
             "SINGAREA",
         ]

@@ -21,7 +21,7 @@ const END_OF_FILE: u8 = 0x1a;
 pub(crate) fn tokens_of(bytes: &[u8]) -> Vec<Token> {
     let mut tokens = Vec::with_capacity(bytes.len() / 3);
     let mut input = LocatingSlice::new(bytes);
-    // What editors put at the beginning of UTF-8.
+    // Byte order mark that editors write before UTF-8.
     let _: Result<_, Nothing> = opt(BYTE_ORDER_MARK).parse_next(&mut input);
     // `token` takes at least one byte and matches every byte, so the loop ends with the file.
     while let Ok((kind, span)) = token.with_span().parse_next(&mut input) {
@@ -39,7 +39,7 @@ fn header(input: &mut Input<'_>) -> Result<(), Nothing> {
         .parse_next(input)
 }
 
-/// None for what is skipped.
+/// Reads a token; `None` for blanks and comments.
 fn token(input: &mut Input<'_>) -> Result<Option<Kind>, Nothing> {
     let first = *input.first().ok_or(winnow::error::EmptyError)?;
     match first {

@@ -1,4 +1,4 @@
-//! What declarations say beside the frames that motions use: the loads of tools, the two frames of work objects.
+//! Declarations other than frames of motions: loads of tools, the two frames of work objects.
 
 use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
@@ -27,7 +27,7 @@ pub(crate) fn object_frames(files: &[SourceFile]) -> BTreeMap<Name, [Isometry3<f
     literals(files, "WOBJDATA", frames_of)
 }
 
-/// What literals of a type declare, by their names; nothing of a name that is declared with different ones.
+/// Literals of a type by their names; a name that is declared with different ones is left out.
 fn literals<T: PartialEq>(
     files: &[SourceFile],
     type_name: &str,

@@ -15,7 +15,7 @@ use crate::rapid::state::Rapid;
 use crate::text::flat::FlatText;
 use crate::text::source::SourceFile;
 
-/// Most bytes of a file; the memory needed is some twenty times as much.
+/// Limit of the bytes of a file; the memory needed is some twenty times as much.
 const MOST_BYTES: usize = 1 << 26;
 
 /// Reads RAPID modules (`.mod`, `.modx`, `.prg`, `.sys`) together: those that run together, with the data they use.
@@ -75,7 +75,10 @@ pub(crate) fn parse_rapid(files: Vec<SourceFile>, options: &ReadOptions) -> Pars
         external_axes_may_move: options.external_axes != ExternalAxes::Refused,
         moving_calls: &options.moving_calls,
     };
-    Parsed::of_robot(Language::Rapid, files, read)
+    let ran = run.ran_beside;
+    let mut parsed = Parsed::of_robot(Language::Rapid, files, read);
+    parsed.program.ran = ran;
+    parsed
 }
 
 /// Runs a program once and writes it flat: the statements of its run, one after the other, in place of those of `main`.

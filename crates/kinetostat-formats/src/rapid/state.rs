@@ -1,4 +1,4 @@
-//! What a run of RAPID keeps beside its data: modal state, and the frames that it has used.
+//! State of a RAPID run beside its data: modal state, and cached frames.
 
 use std::collections::BTreeMap;
 use std::rc::Rc;

@@ -1,4 +1,4 @@
-//! What is done with each statement of RAPID, as data.
+//! Treatment of each statement of RAPID.
 
 use crate::table::Treatment::{Carried, Refused, Understood};
 use crate::table::{Alike, StatementRow, Treatment, alike, count, line, rows, sorted};
@@ -35,11 +35,26 @@ const MOVED_FRAME: Treatment = Refused {
     reason: "the work object moves with the conveyor",
     remedy: "a moving work piece is not corrected: take this statement into a program of its own",
 };
-/// Of an instruction that moves external axes while the arm stands still.
+/// Treatment of an instruction that moves external axes while the arm does not move.
 pub(crate) const EXTERNAL: Treatment = Refused {
     reason: "it moves external axes alone",
     remedy: "take it into a program of its own, or read with external axes carried",
 };
+
+/// Settings of how motions run: path mode, acceleration, configurations, orientation.
+pub(crate) const MODES: &[&[&str]] = &[
+    &["SINGAREA"],
+    &["CIRPATHMODE"],
+    &["CONFL"],
+    &["CONFJ"],
+    &["ACCSET"],
+    &["PATHACCLIM"],
+    &["WORLDACCLIM"],
+    &["PATHRESOL"],
+    &["TUNESERVO", "TUNERESET"],
+    &["GRIPLOAD"],
+    &["MECHUNITLOAD"],
+];
 
 /// How the end of a motion is stated.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -150,8 +165,7 @@ pub(crate) fn row(name: &Name) -> Option<&'static StatementRow> {
     found.ok().map(|index| &SORTED[index])
 }
 
-/// What is done with each statement of RAPID, in the order of the alphabet. Procedures that are in no file and not here
-/// are carried with a finding.
+/// Treatment of each statement of RAPID, in alphabetical order. Procedures that are neither in a file nor listed are carried with a finding.
 pub const RAPID_STATEMENTS: &[StatementRow] = &SORTED;
 
 const COUNT: usize = count(OTHERS) + MOTIONS.len();

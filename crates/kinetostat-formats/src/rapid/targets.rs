@@ -58,8 +58,7 @@ impl Run<'_, '_> {
         Ok(Found { pose, site })
     }
 
-    /// Where the numbers of an end stand. Where the statement has them by other names or computes them, another end is written in place of
-    /// the expression.
+    /// Text position of the numbers of an end. If the statement refers to them by other names or computes them, a new end replaces the expression.
     fn site(
         &mut self,
         expression: &Expression,

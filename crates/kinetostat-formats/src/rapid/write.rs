@@ -1,8 +1,9 @@
-//! What the writer must know of RAPID.
+//! Adapter of the writer for RAPID.
 
 use std::collections::BTreeSet;
 use std::ops::Range;
 
+use crate::interpreter::token::words_of;
 use crate::model::motion::{Motion, Zone};
 use crate::model::program::RobotProgram;
 use crate::model::site::ReplacedText;
@@ -27,7 +28,7 @@ fn row_of(program: &RobotProgram, motion: &Motion) -> Option<&'static MotionRow>
 
 impl Syntax for RapidSyntax {
     fn names(&self, program: &RobotProgram) -> BTreeSet<Vec<u8>> {
-        names_of(program, tokens_of)
+        names_of(program, |bytes| words_of(&tokens_of(bytes)))
     }
 
     fn writes_circles(&self) -> bool {

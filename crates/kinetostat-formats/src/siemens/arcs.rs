@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use kinetostat_program::{NearlyClosed, angle_about};
 use nalgebra::Vector3;
 
-/// What a block states of its arc, in the frame's axes, mm and degrees.
+/// Words of an arc in a block, in the frame's axes, mm and degrees.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct Stated {
     /// Centre along each axis, from the start or, where so said, of the frame.
@@ -36,12 +36,12 @@ pub(crate) struct Arc {
 
 /// Farthest that radii at start and end differ, mm (machine data 21000).
 const RADIUS_TOLERANCE_MM: f64 = 0.01;
-/// The same, relative to the radius (machine data 21010).
+/// Tolerance of the end point relative to the radius (machine data 21010).
 const RADIUS_SHARE: f64 = 1e-3;
 /// Radii, steps and chords smaller than this are none.
 const SAME_MM: f64 = 1e-6;
 
-/// Why there is no arc, and what to do.
+/// Reason and remedy of an arc that cannot be computed.
 pub(crate) type Reason = (String, &'static str);
 
 /// A reason against which the CAM system alone helps.

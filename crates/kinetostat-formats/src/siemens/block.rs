@@ -15,11 +15,9 @@ pub(crate) struct Block {
     pub span: Range<usize>,
     /// `/` stands before it.
     pub skip: bool,
-    /// Its number.
     pub number: Option<u64>,
-    /// Its label.
     pub label: Option<Range<usize>>,
-    /// Where the words begin, behind number and label.
+    /// First byte of the words, after block number and label.
     pub words_at: usize,
     pub items: Vec<Item>,
 }
@@ -27,14 +25,13 @@ pub(crate) struct Block {
 /// One word of a block.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Item {
-    /// Its bytes.
     pub span: Range<usize>,
-    /// Its name or address.
+    /// Name or address.
     pub name: Range<usize>,
     pub what: What,
 }
 
-/// What a word says.
+/// Content of a word.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum What {
     /// A name alone.
@@ -43,7 +40,7 @@ pub(crate) enum What {
     Call(Vec<Argument>),
     /// An address or a variable with its value: `X10`, `X=AC(5)`, `R1=2`.
     Value {
-        /// Of `A[1]=`.
+        /// Indices of an array element: `A[1]=`.
         indices: Vec<Expression>,
         how: How,
         value: Expression,
@@ -58,10 +55,10 @@ pub(crate) enum What {
     Statement,
 }
 
-/// How a coordinate counts.
+/// Dimension of a coordinate: absolute, incremental or modal.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum How {
-    /// As G90 or G91 says.
+    /// Follows G90 or G91.
     Modal,
     /// `AC()`.
     Absolute,
@@ -103,10 +100,10 @@ impl Block {
         }
     }
 
-    /// Of a line of a file, and its tokens.
+    /// Decodes a line of a file, and returns its tokens.
     ///
     /// # Errors
-    /// What cannot be read in it.
+    /// The part of the line that cannot be read.
     pub(crate) fn of(bytes: &[u8], line: Range<usize>) -> Result<(Self, Vec<Token>), Broken> {
         let mark = match line.start {
             0 => beginning(&bytes[line.clone()]),
@@ -194,7 +191,7 @@ impl Block {
                 .iter()
                 .any(|word| text.eq_ignore_ascii_case(word.as_bytes()));
             if is_statement {
-                // What follows on the line belongs to it.
+                // The rest of the line belongs to the word.
                 let end = cursor.tokens.last().map_or(name.end, |last| last.span.end);
                 self.items.push(Item {
                     span: start..end,
@@ -221,7 +218,7 @@ fn leading_blanks(line: &[u8]) -> usize {
         .count()
 }
 
-/// What stands behind a name.
+/// Decodes the text after a name.
 fn what(cursor: &mut Cursor<'_>, name: &Range<usize>) -> Result<What, Broken> {
     let mut indices = Vec::new();
     let is_number = |token: &Token| matches!(token.kind, Kind::Number(_));

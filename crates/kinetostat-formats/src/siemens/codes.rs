@@ -1,4 +1,4 @@
-//! What puts modes in force: G codes and words like them.
+//! Modal codes: G codes and words like them.
 
 use crate::options::CutterCompensation;
 use crate::siemens::block::{Item, What};
@@ -138,7 +138,7 @@ impl Reader<'_> {
         }
     }
 
-    /// What the table says of a word.
+    /// Treats a word as the table of statements states it.
     pub(crate) fn by_table(&mut self, name: &str, item: &Item) {
         let span = &item.span;
         match row(name).map(|row| row.treatment) {

@@ -31,7 +31,7 @@ pub(crate) enum Expression {
 /// The level of comparisons: they bind least.
 const COMPARES: u8 = 0;
 
-/// Most parts of an expression: the stack is not deeper than these.
+/// Limit of the parts of an expression; it bounds the depth of the stack.
 const MOST_PARTS: usize = 200;
 
 /// Tokens of a block that are taken one after the other.
@@ -79,7 +79,7 @@ impl<'t> Cursor<'t> {
         self.bytes.get(span.clone()).unwrap_or_default()
     }
 
-    /// Whether the next token is a name, in capitals.
+    /// True if the next token is this name (in capitals).
     pub(crate) fn is_next(&self, name: &str) -> bool {
         self.peek().is_some_and(|token| {
             token.kind == Kind::Name && self.text(&token.span).eq_ignore_ascii_case(name.as_bytes())

@@ -5,10 +5,9 @@ use std::ops::Range;
 use crate::error::{ProgramError, note};
 use crate::text::source::SourceFile;
 
-/// Most bytes of a file.
 const MOST_BYTES: usize = 1 << 28;
 
-/// Why a file is not read at all, if so.
+/// Checks that a file can be read at all; otherwise notes the error and returns false.
 pub(crate) fn whole_file(file: &SourceFile, faults: &mut Vec<ProgramError>) -> bool {
     let mut refuse = |span: Range<usize>, reason: &str, remedy: &str| {
         note(faults, || ProgramError::at(file, span, reason, remedy));

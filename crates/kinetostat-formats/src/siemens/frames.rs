@@ -18,7 +18,7 @@ pub(crate) enum Change {
 }
 
 impl Change {
-    /// Of a word in capitals.
+    /// Frame statement of a word in capitals.
     pub(crate) fn of(word: &str) -> Option<Self> {
         Some(match word {
             "TRANS" => Self::Shift,

@@ -255,7 +255,7 @@ impl Reader<'_> {
                 }
             }
             "H" => {}
-            // Which spindle cuts is not known with numbers.
+            // The number of the spindle that cuts is unknown.
             _ if numbered && first == b'S' => {
                 self.not_below_zero(item, value, "S");
                 self.state.spindle.state(None);

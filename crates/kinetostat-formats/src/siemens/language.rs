@@ -86,7 +86,7 @@ impl ProgramLanguage for SiemensLanguage {
         "a SINUMERIK program"
     }
 
-    /// Its programs are known by what stands in them where they have the endings of G-code.
+    /// SINUMERIK programs with the file endings of G-code are recognised by their content.
     fn written_endings(&self) -> &'static [&'static str] {
         &["mpf", "spf", "ngc", "nc", "tap", "cnc", "iso"]
     }
@@ -136,7 +136,7 @@ impl ProgramLanguage for SiemensLanguage {
     }
 }
 
-/// Whether a program that may as well be G-code has lines that only a SINUMERIK reads; in capitals.
+/// True if a program has lines that only a SINUMERIK reads (in capitals); otherwise it may be G-code.
 fn is_siemens(beginning: &[u8]) -> bool {
     beginning.split(|byte| *byte == b'\n').any(|line| {
         let line = line.trim_ascii();

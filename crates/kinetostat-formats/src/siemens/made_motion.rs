@@ -16,7 +16,7 @@ use crate::siemens::walker::{Reader, Written};
 use crate::siemens::words::{Purpose, Words};
 use crate::text::number::{NumberText, Width};
 
-/// What a motion is, where its end is known.
+/// Kind of a motion whose end is known.
 pub(crate) struct Known {
     pub kind: MotionKind,
     pub end: Vector3<f64>,
@@ -155,7 +155,7 @@ impl Reader<'_> {
         (kind, Target::Pose(pose), site)
     }
 
-    /// What the writer must know of a block beside its motion.
+    /// Collects the data of a block that the writer needs beside its motion.
     fn as_written(
         &self,
         block: &Block,
@@ -231,7 +231,7 @@ impl Reader<'_> {
 /// Places nearer than this are one, mm.
 const SAME_MM: f64 = 1e-9;
 
-/// Where words of places go that are not there: behind those that are, or behind the code.
+/// Insertion point of missing axis words: after the axis words of the block, or after its code.
 pub(crate) fn behind_axes(block: &Block, words: &Words) -> usize {
     let last = |words: &mut dyn Iterator<Item = &Range<usize>>| words.map(|word| word.end).max();
     let mut axes = words.axes.iter().flatten().map(|word| &word.word);
@@ -241,7 +241,7 @@ pub(crate) fn behind_axes(block: &Block, words: &Words) -> usize {
         .unwrap_or(block.words_at)
 }
 
-/// Where the parts of a motion stand in its block.
+/// Positions of the parts of a motion in its block.
 fn site_of(
     (block, words): (&Block, &Words),
     anchor: usize,

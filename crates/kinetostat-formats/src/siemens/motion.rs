@@ -1,4 +1,4 @@
-//! What a block does: motions, frames, tools.
+//! Effects of a block: motions, frames, tools.
 
 use nalgebra::Vector3;
 

@@ -15,7 +15,7 @@ pub(crate) const LETTERS: [char; 3] = ['X', 'Y', 'Z'];
 /// Names of the point on a CIP.
 pub(crate) const VIA: [&str; 3] = ["I1", "J1", "K1"];
 
-/// Least decimals of places in a unit of so many mm: inches as fine as mm.
+/// Minimum decimals of positions in a unit of so many mm: as fine in inches as in mm.
 pub(crate) fn digits_of(options: &WriteOptions, unit_mm: f64) -> usize {
     match unit_mm == 1.0 {
         true => options.position_decimals,
@@ -35,7 +35,7 @@ pub(crate) struct AxisText {
 }
 
 impl AxisText {
-    /// Of a printed number; a zero has no sign.
+    /// Axis text of a printed number; a zero has no sign.
     pub(crate) fn plain(text: String) -> Self {
         let value: f64 = text.parse().unwrap_or_default();
         let text = match value == 0.0 {
@@ -79,7 +79,7 @@ impl Place<'_> {
         let half_mm = 0.5 * 0.1_f64.powi(least as i32) * unit;
         let Some(word) = &self.written.axes[axis] else {
             let is = old + self.off[axis];
-            // Where nothing was displaced the place is the program's, to the last bit.
+            // An undisplaced position keeps the program's value to the last bit.
             if (wanted_mm - is).abs() > half_mm {
                 let number = AxisText::plain(format!("{:.least$}", wanted_mm / unit));
                 added.push_str(&match self.written.steps {

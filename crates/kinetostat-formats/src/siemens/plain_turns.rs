@@ -7,7 +7,7 @@ use crate::siemens::state::Coordinate;
 use crate::siemens::walker::{PlainTurn, Reader};
 use crate::text::finding::Finding;
 
-/// Further lines are named up to so many.
+/// Limit of the other lines that a finding names.
 const MOST_NAMED: usize = 20;
 
 impl Reader<'_> {
@@ -27,7 +27,7 @@ impl Reader<'_> {
     }
 }
 
-/// What is said of the words of a file, at the first.
+/// Finding on the plain turns of a file, at the first of them.
 pub(crate) fn finding_of(file: usize, turns: &[PlainTurn]) -> Option<Finding> {
     let (first, others) = turns.split_first()?;
     let PlainTurn { letter, to, .. } = first;

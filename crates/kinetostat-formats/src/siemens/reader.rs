@@ -39,7 +39,7 @@ pub fn read_siemens(
     parse_siemens(files, options).without_faults()
 }
 
-/// The same, with the motions that could be read beside what is refused.
+/// Reads a program; the motions that could be read are returned beside the errors.
 pub(crate) fn parse_siemens(files: Vec<SourceFile>, options: &ReadOptions) -> Parsed {
     let Scan {
         motions,

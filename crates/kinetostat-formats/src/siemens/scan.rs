@@ -27,9 +27,9 @@ pub(crate) fn scan(files: &[SourceFile], options: &ReadOptions) -> Scan {
     scan_with(files, options, Corners::Refused)
 }
 
-/// The same, with corners that are refused or followed.
+/// Scans a program with corners that are refused or followed.
 ///
-/// How rotary axes count may show behind the words to which it matters: those programs are read twice.
+/// Words may show the way of counting of a rotary axis after the words that depend on it: such programs are read twice.
 pub(crate) fn scan_with(files: &[SourceFile], options: &ReadOptions, corners: Corners) -> Scan {
     let first = scan_once(files, options, corners, &[]);
     match first.shown.iter().any(|shown| shown.asks_again()) {
@@ -44,7 +44,7 @@ pub(crate) fn scan_with(files: &[SourceFile], options: &ReadOptions, corners: Co
     }
 }
 
-/// The same, with what is shown of how rotary axes count.
+/// Scans once with the known ways of counting of the rotary axes.
 fn scan_once(
     files: &[SourceFile],
     options: &ReadOptions,
@@ -93,7 +93,7 @@ fn scan_once(
     out
 }
 
-/// Whether M6 stands anywhere: tools change at T where it does not.
+/// True if the program has an M6: without it, T changes the tool.
 pub(crate) fn has_change(bytes: &[u8]) -> bool {
     bytes.windows(3).enumerate().any(|(at, part)| {
         let is_m6 = matches!(part, [b'M' | b'm', b'6', _]) && !part[2].is_ascii_digit();
@@ -144,7 +144,7 @@ impl Reader<'_> {
         let faults = self.out.faults.len();
         let words = self.words(block);
         if self.out.faults.len() > faults {
-            // What the block does is not known: its places are taken as stated.
+            // The effect of the block is unknown: its positions are taken as stated.
             self.state.lost = true;
             self.turn_axes(&words);
             for (axis, word) in words.axes.iter().enumerate() {
@@ -168,7 +168,7 @@ impl Reader<'_> {
         }
     }
 
-    /// Whether a block changes neither places nor what follows.
+    /// True if a block changes neither positions nor modal state.
     fn is_harmless(&self, block: &Block) -> bool {
         block.items.iter().all(|item| {
             let name = self.name(&item.name);

@@ -1,4 +1,4 @@
-//! What is in force between two blocks.
+//! Modal state between two blocks.
 
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -10,7 +10,7 @@ use crate::standing::Standing;
 /// Shift of a frame that is none, mm.
 pub(crate) const NO_SHIFT_MM: f64 = 1e-9;
 
-/// How the tool goes to the next place.
+/// Motion code: type of interpolation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(crate) enum Code {
     /// G0.
@@ -27,7 +27,7 @@ pub(crate) enum Code {
 }
 
 impl Code {
-    /// As a block states it.
+    /// Code as a block states it.
     pub(crate) fn word(self) -> &'static str {
         match self {
             Self::Rapid => "G0",
@@ -38,7 +38,7 @@ impl Code {
         }
     }
 
-    /// Of a word in capitals.
+    /// Motion code of a word in capitals.
     pub(crate) fn of(word: &str) -> Option<Self> {
         Some(match word {
             "G0" => Self::Rapid,
@@ -50,13 +50,13 @@ impl Code {
         })
     }
 
-    /// Whether it is none of straight ones.
+    /// True for circular interpolation.
     pub(crate) fn is_arc(self) -> bool {
         !matches!(self, Self::Rapid | Self::Line)
     }
 }
 
-/// What F says.
+/// Type of feed: meaning of F.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(crate) enum FeedMode {
     /// G94.
@@ -66,7 +66,7 @@ pub(crate) enum FeedMode {
     PerTurn,
 }
 
-/// How the master spindle turns, as far as the program says it.
+/// Rotation of the master spindle as far as the program states it.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct Turning {
     /// S, rpm; none where it is not known.
@@ -104,7 +104,7 @@ pub(crate) struct Feed {
     pub text: String,
 }
 
-/// What angles A2, B2, C2 mean.
+/// Meaning of the angles A2, B2, C2.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Angles {
     /// ORIEULER.
@@ -116,7 +116,7 @@ pub(crate) enum Angles {
 /// An axis beside X, Y and Z.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct OtherAxis {
-    /// Where the program says it stands.
+    /// Position of the axis as programmed.
     pub at: Option<f64>,
     /// A place of the machine was stated behind that.
     pub elsewhere: bool,
@@ -129,7 +129,7 @@ pub(crate) struct Counted {
     pub turn: UnitQuaternion<f64>,
 }
 
-/// What is in force.
+/// Modal state.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct State {
     pub code: Code,
@@ -163,7 +163,7 @@ pub(crate) struct State {
     /// ORIAXES; or ORIVECT: the tool's axis goes on a great circle. Where neither is stated, ORIMKS turns the axes evenly, and ORIVECT
     /// is the basic setting.
     pub even_axes: Option<bool>,
-    /// It was remarked that neither is stated.
+    /// The missing ORIAXES or ORIVECT was reported.
     pub law_remarked: bool,
     /// Blocks behind a slash were remarked.
     pub slash_remarked: bool,
@@ -171,7 +171,7 @@ pub(crate) struct State {
     pub standing: Standing,
     /// Direction of the tool in the part's axes, where it was stated.
     pub direction: Option<Vector3<f64>>,
-    /// Where the tool is, in the frame's axes, mm.
+    /// Tool position in the frame's axes, mm.
     pub place: [Option<f64>; 3],
     /// Numbers of the axes' last words, from which steps count.
     pub counted: [Option<Counted>; 3],
@@ -189,7 +189,7 @@ pub(crate) struct State {
 }
 
 impl State {
-    /// Of the beginning of a program; `standing` are the rotary axes whose words are followed.
+    /// State at the start of a program; `standing` holds the rotary axes whose words are followed.
     pub(crate) fn new(standing: Standing) -> Self {
         Self {
             normal: 2,
@@ -202,7 +202,7 @@ impl State {
         }
     }
 
-    /// Where the tool is, in the frame's axes; none where an axis is not known.
+    /// Tool position in the frame's axes; `None` if an axis is unknown.
     pub(crate) fn known_place(&self) -> Option<Vector3<f64>> {
         let [x, y, z] = self.place;
         Some(Vector3::new(x?, y?, z?))
@@ -251,7 +251,7 @@ pub(crate) struct Coordinate {
     pub step: bool,
     /// `AC(` or the like stands around the number.
     pub wrapped: bool,
-    /// It is a number, and no expression.
+    /// The value is a number, not an expression.
     pub literal: bool,
     /// `=` stands before it.
     pub set: bool,

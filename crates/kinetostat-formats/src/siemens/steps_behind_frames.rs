@@ -15,7 +15,7 @@ use crate::text::line_words::in_words;
 /// Turn of a frame that is none, rad.
 const NO_TURN: f64 = 1e-9;
 
-/// Why the end of a step is not known.
+/// Reason why the end of a step is unknown.
 const TURNED: &str = "a step (G91, IC) is the first word of its axis behind a frame that is turned otherwise (ROT, AROT), and from where the machine counts it is not documented";
 const ON_ARC: &str = "a step (G91, IC) of an arc is the first word of its axis behind a frame (TRANS, ATRANS), and whether the machine goes the offset of the frame with it is a setting (SD42440 $SC_FRAME_OFFSET_INCR_PROG)";
 
@@ -74,7 +74,7 @@ impl Reader<'_> {
     }
 }
 
-/// What is said of the lines of a file, at the first.
+/// Finding on the steps in these lines of a file, at the first of them.
 pub(crate) fn finding_of_steps(file: usize, lines: &[usize]) -> Option<Finding> {
     let mut lines = lines.to_vec();
     lines.sort_unstable();

@@ -1,4 +1,4 @@
-//! What is done with each word of the SINUMERIK 840D, as data.
+//! Treatment of each word of the SINUMERIK 840D.
 
 use crate::table::Treatment::{Carried, Refused, Understood};
 use crate::table::{Alike, StatementRow, Treatment, alike, count, rows};
@@ -76,8 +76,7 @@ const INVERSE: Treatment = Refused {
     remedy: "let the CAM system write feeds in mm/min (G94)",
 };
 
-/// What is done with each word of a SINUMERIK program. A word that is not here is refused with its line; M, H and S words and
-/// variables are carried.
+/// Treatment of each word of a SINUMERIK program. A word that is not listed is refused with its line; M, H and S words and variables are carried.
 pub const SIEMENS_STATEMENTS: &[StatementRow] = &rows::<{ count(GROUPS) }>(GROUPS);
 
 #[rustfmt::skip]
@@ -174,6 +173,20 @@ const GROUPS: &[Alike] = &[
     alike(BESIDE, FUNDAMENTALS, &["POS", "POSA", "POSP"]),
     alike(BESIDE, WORK, &["MEAS", "MEAW"]),
     alike(OTHER, WORK, &["G291"]),
+];
+
+/// Words of how motions run, in groups of which one is in force: path mode, acceleration, orientation, corners.
+#[rustfmt::skip]
+pub(crate) const MODES: &[&[&str]] = &[
+    &["G9"], &["G60", "G64", "G641", "G642", "G643", "G644", "G645"], &["G601", "G602", "G603"],
+    &["ADIS"], &["ADISPOS"], &["CYCLE832"], &["CTOL"], &["OTOL"], &["ATOL"], &["FFWON", "FFWOF"],
+    &["SOFT", "BRISK", "DRIVE"], &["SOFTA"], &["BRISKA"], &["DRIVEA"], &["ACC"],
+    &["DYNNORM", "DYNPOS", "DYNROUGH", "DYNSEMIFIN", "DYNFINISH", "DYNPREC"],
+    &["COMPON", "COMPOF", "COMPCURV", "COMPCAD", "COMPSURF"], &["UPATH", "SPATH"],
+    &["ORIAXES", "ORIVECT", "ORIPLANE"], &["ORIWKS", "ORIMKS"], &["ORIEULER", "ORIRPY"],
+    &["ORISON", "ORISOF"], &["OSOF", "OSC", "OSD", "OST", "OSS", "OSSE"],
+    &["G450", "G451"], &["CFC", "CFTCP", "CFIN"], &["NORM", "KONT"], &["CUT2D", "CUT2DF"],
+    &["CDOF", "CDOF2", "CDON"], &["RTLION", "RTLIOF"], &["FGROUP"], &["FGREF"], &["FNORM"],
 ];
 
 /// The row of a word, in capitals. Frames of G505 to G599 have one row.

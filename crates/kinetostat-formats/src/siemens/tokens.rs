@@ -5,7 +5,6 @@
 
 use std::ops::Range;
 
-/// What a token is.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Kind {
     /// A word of letters, digits and underscores.
@@ -37,13 +36,13 @@ pub(crate) struct Token {
 }
 
 impl Token {
-    /// Whether it is this one byte.
+    /// True if the token is this single byte.
     pub(crate) fn is(&self, byte: u8) -> bool {
         self.kind == Kind::Sign(Sign::Byte(byte))
     }
 }
 
-/// Why a block cannot be read, and where.
+/// Syntax error of a block, with its position.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Broken {
     pub span: Range<usize>,
@@ -136,7 +135,7 @@ fn name(bytes: &[u8], at: usize, end: usize, tokens: &mut Vec<Token>) -> usize {
     at + whole
 }
 
-/// Whether `=` or an index follows.
+/// True if `=` or an index follows.
 fn is_set(behind: &[u8]) -> bool {
     let behind = behind.trim_ascii_start();
     match behind {

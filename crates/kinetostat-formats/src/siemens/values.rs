@@ -7,7 +7,7 @@ use crate::interpreter::expression::Operator;
 use crate::interpreter::functions::function;
 use crate::siemens::expression::Expression;
 
-/// What an expression is worth.
+/// Value of an expression.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Value {
     /// REAL, INT and BOOL.
@@ -15,7 +15,7 @@ pub(crate) enum Value {
     Text(Vec<u8>),
 }
 
-/// What a variable holds.
+/// Type of a variable.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Type {
     Real,
@@ -29,13 +29,13 @@ pub(crate) enum Type {
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Variable {
     pub kind: Type,
-    /// None for one value.
+    /// Dimensions of an array; empty for a single value.
     pub sizes: Vec<usize>,
     /// Empty for one that was declared with a value that is not known.
     pub values: Vec<Value>,
 }
 
-/// Most values of all variables: an array of a program has some hundreds.
+/// Limit of the values of all variables: the arrays of a program have some hundreds.
 pub(crate) const MOST_VALUES: usize = 100_000;
 
 impl Variable {
@@ -99,11 +99,11 @@ impl Variable {
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(crate) struct Variables {
     pub parameters: BTreeMap<u32, f64>,
-    /// By name in capitals.
+    /// Local variables by name in capitals.
     pub own: BTreeMap<Vec<u8>, Variable>,
 }
 
-/// Why an expression has no value.
+/// Reason why an expression has no value.
 pub(crate) type Why = String;
 
 fn shown(name: &[u8]) -> String {
@@ -120,7 +120,7 @@ pub(crate) fn parameter(name: &[u8]) -> Option<u32> {
     }
 }
 
-/// The same by its name, or by its index: `R[12]`.
+/// Number of an R parameter from its name or its index: `R[12]`.
 fn stated_parameter(name: &[u8], indices: &[f64]) -> Option<u32> {
     match (parameter(name), indices) {
         (Some(number), []) => Some(number),
@@ -133,10 +133,10 @@ fn stated_parameter(name: &[u8], indices: &[f64]) -> Option<u32> {
 const LONGEST_TEXT: usize = 1000;
 
 impl Variables {
-    /// What an expression is worth.
+    /// Evaluates an expression.
     ///
     /// # Errors
-    /// Why it is worth nothing that is known here.
+    /// Reason why its value is unknown.
     pub(crate) fn value(&self, bytes: &[u8], expression: &Expression) -> Result<Value, Why> {
         let text = |span: &Range<usize>| bytes.get(span.clone()).unwrap_or_default();
         Ok(match expression {
@@ -236,7 +236,7 @@ impl Variables {
         Ok(())
     }
 
-    /// Whether a name is that of a variable or an R parameter.
+    /// True if a name is that of a variable or an R parameter.
     pub(crate) fn knows(&self, name: &[u8]) -> bool {
         parameter(name).is_some()
             || name.eq_ignore_ascii_case(b"R")

@@ -1,4 +1,4 @@
-//! What the walk over a program knows and has found, and how it says what is wrong.
+//! State of the walk over a program, its results, and its error reports.
 
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -19,17 +19,17 @@ use crate::siemens::values::Variables;
 use crate::text::finding::Finding;
 use crate::text::source::SourceFile;
 
-/// What a program's files hold.
+/// Result of the scan of a program's files.
 #[derive(Debug, Default)]
 pub(crate) struct Scan {
     pub motions: Vec<Motion>,
-    /// Of each motion.
+    /// Source positions of each motion.
     pub written: Vec<Written>,
     pub findings: Vec<Finding>,
     pub faults: Vec<ProgramError>,
-    /// What motions say of rotary axes.
+    /// Rotary axis positions stated by motions.
     pub rotary: StatedAxes,
-    /// What the words show of how these axes count.
+    /// Evidence in the words for the way in which these axes count.
     pub shown: Vec<CountShown>,
     /// Words of rotary axes in cuts that a setting of the machine takes otherwise.
     pub plain_turns: Vec<PlainTurn>,
@@ -45,16 +45,16 @@ pub(crate) struct PlainTurn {
     pub line: usize,
     pub letter: char,
     pub to: f64,
-    /// By which angle it turns straight on, and the shorter way, deg.
+    /// Turn in both readings, direct and by the shortest way, deg.
     pub readings: [f64; 2],
 }
 
-/// How a motion is written, for the writer.
+/// Source positions of a motion, for the writer.
 #[derive(Debug, Clone)]
 pub(crate) struct Written {
     /// The line without its ending.
     pub line: Range<usize>,
-    /// Where its words begin.
+    /// First byte of its words.
     pub words_at: usize,
     /// X, Y, Z of its end; of the point on a CIP.
     pub axes: [Option<Coordinate>; 3],
@@ -64,7 +64,7 @@ pub(crate) struct Written {
     /// Words that an end elsewhere makes void.
     pub arc_words: Vec<Range<usize>>,
     pub direction_words: Vec<Range<usize>>,
-    /// What acts at its end.
+    /// Words that act at the end of the block.
     pub at_end: Vec<Range<usize>>,
     pub code: Code,
     pub code_word: Option<Range<usize>>,
@@ -80,13 +80,13 @@ pub(crate) struct Written {
     /// In the frame's axes, mm.
     pub start: [Option<f64>; 3],
     pub end: [Option<f64>; 3],
-    /// It goes to a place of the machine.
+    /// The motion is in machine coordinates.
     pub machine: bool,
     /// G91 is in force.
     pub steps: bool,
     /// Axis across the plane: 2 for G17.
     pub normal: usize,
-    /// What its corner to the next motion becomes, where corners are followed.
+    /// Corner to the next motion, if corners are followed.
     pub corner: Option<(Range<usize>, Cut)>,
 }
 
@@ -102,7 +102,7 @@ impl Written {
     }
 }
 
-/// What becomes of RND, CHF and CHR.
+/// Treatment of RND, CHF and CHR.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Corners {
     /// They are refused: motions end at the corners.

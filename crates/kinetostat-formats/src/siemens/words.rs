@@ -1,4 +1,4 @@
-//! What the words of a block say, before it is known what the block does.
+//! Words of a block, decoded before the block's effect is known.
 
 use std::ops::Range;
 
@@ -11,7 +11,7 @@ use crate::siemens::block::{How, Item, What};
 use crate::siemens::frames::Change;
 use crate::siemens::state::Coordinate;
 
-/// What coordinates of a block are for.
+/// Use of the coordinates of a block.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(crate) enum Purpose {
     /// A motion in the frame in force.
@@ -53,7 +53,7 @@ pub(crate) struct Words {
     pub code: Option<Range<usize>>,
     /// F, and its number where it is one.
     pub feed: Option<(Range<usize>, Option<Range<usize>>)>,
-    /// What acts at the end: G9, M0, M1, M2, M17, M30, RET.
+    /// Words that act at the end of the block: G9, M0, M1, M2, M17, M30, RET.
     pub at_end: Vec<Range<usize>>,
     /// G9.
     pub exact: bool,
@@ -62,24 +62,24 @@ pub(crate) struct Words {
 }
 
 impl Words {
-    /// Whether a place along X, Y or Z is stated.
+    /// True if a position along X, Y or Z is stated.
     pub(crate) fn has_axes(&self) -> bool {
         self.axes.iter().any(Option::is_some)
     }
 
-    /// Whether an angle of a rotary axis is stated.
+    /// True if an angle of a rotary axis is stated.
     pub(crate) fn has_rotary(&self) -> bool {
         !self.rotary.is_empty()
     }
 
-    /// Whether an arc is stated.
+    /// True if an arc is stated.
     pub(crate) fn has_arc(&self) -> bool {
         self.centre.iter().chain(&self.via).any(Option::is_some)
             || self.radius.is_some()
             || self.opening.is_some()
     }
 
-    /// Whether a direction of the tool is stated.
+    /// True if a tool direction is stated.
     pub(crate) fn has_direction(&self) -> bool {
         self.direction
             .iter()
@@ -104,7 +104,7 @@ impl Words {
         centre.chain(others.map(|(word, _)| word.clone())).collect()
     }
 
-    /// What is stated of an arc in a plane, in a unit of so many mm.
+    /// Words of an arc in a plane, in a unit of so many mm.
     pub(crate) fn stated_arc(&self, unit_mm: f64) -> Stated {
         let centre = [0, 1, 2].map(|axis| {
             self.centre[axis].as_ref().map(|c| {
@@ -137,7 +137,7 @@ impl Words {
     }
 }
 
-/// Which coordinate a name is, in capitals: the group and the axis.
+/// Group and axis of a coordinate name in capitals.
 pub(crate) fn coordinate(name: &str) -> Option<(Group, usize)> {
     let (letters, group) = match name.as_bytes() {
         [letter @ b'X'..=b'Z'] => (*letter - b'X', Group::Axis),
@@ -150,7 +150,7 @@ pub(crate) fn coordinate(name: &str) -> Option<(Group, usize)> {
     Some((group, usize::from(letters)))
 }
 
-/// What a coordinate is of.
+/// Group of a coordinate.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Group {
     Axis,

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-/// What is to be replaced in one text. An empty range inserts.
+/// Replacements in one text. An empty range inserts.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Edits(Vec<(Range<usize>, Vec<u8>)>);
 
@@ -10,6 +10,11 @@ impl Edits {
     /// Puts `bytes` in place of a range. Ranges must not overlap; insertions at one place keep their order.
     pub(crate) fn replace(&mut self, span: Range<usize>, bytes: impl Into<Vec<u8>>) {
         self.0.push((span, bytes.into()));
+    }
+
+    /// True if nothing is to be replaced.
+    pub(crate) fn is_empty(&self) -> bool {
+        self.0.is_empty()
     }
 
     /// Adds those of another.
@@ -32,7 +37,7 @@ impl Edits {
         Some(output)
     }
 
-    /// Those of a part of the text, in places of that part: for a copy of a statement.
+    /// Edits of a part of the text, relative to that part: for a copy of a statement.
     pub(crate) fn applied_to_part(self, text: &[u8], part: &Range<usize>) -> Option<Vec<u8>> {
         let moved = |(span, bytes): (Range<usize>, Vec<u8>)| {
             let start = span.start.checked_sub(part.start)?;

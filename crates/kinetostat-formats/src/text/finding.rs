@@ -1,4 +1,4 @@
-//! What a person should know of a program.
+//! Findings on a program.
 
 /// Something that a person should know of a program that was taken.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -7,6 +7,6 @@ pub struct Finding {
     pub file: usize,
     /// Line of the file, counted from 1.
     pub line: usize,
-    /// What.
+    /// Text of the finding.
     pub message: String,
 }

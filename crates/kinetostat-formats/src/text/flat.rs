@@ -20,9 +20,9 @@ pub struct FlatText {
     pub file: SourceFile,
     /// For every line of it: the file (an index of those given) and its line, counted from 1.
     pub origins: Vec<(usize, usize)>,
-    /// Whether anything was to be flattened; without, the bytes are those of the first file.
+    /// True if the program was expanded; otherwise the bytes are those of the first file.
     pub changed: bool,
-    /// What was taken where the source is not certain, by file and line of the program as given.
+    /// Assumptions on uncertain source text, by file and line of the program as given.
     pub findings: Vec<Finding>,
 }
 

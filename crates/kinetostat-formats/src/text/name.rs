@@ -1,9 +1,9 @@
-//! Identifiers: letters of any case are the same, 32 at most.
+//! Identifiers: letters of any case are the same, 64 at most; a language may have a limit of its own.
 
 use std::fmt;
 
 /// Most characters of an identifier.
-pub(crate) const LONGEST: usize = 32;
+pub(crate) const LONGEST: usize = 64;
 
 /// An identifier as RAPID compares it.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -13,7 +13,7 @@ pub(crate) struct Name {
 }
 
 impl Name {
-    /// Of the bytes of a word; none where it is too long to be an identifier.
+    /// Name from the bytes of a word; `None` if it is too long for an identifier.
     pub(crate) fn of(word: &[u8]) -> Option<Self> {
         let mut bytes = [0; LONGEST];
         bytes.get_mut(..word.len())?.copy_from_slice(word);
@@ -37,7 +37,7 @@ impl Name {
         &self.bytes[..usize::from(self.length)]
     }
 
-    /// Whether it is a word given in capitals.
+    /// True if the name is this word in capitals.
     pub(crate) fn is(&self, capitals: &str) -> bool {
         self.letters() == capitals.as_bytes()
     }

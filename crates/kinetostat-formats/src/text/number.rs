@@ -5,9 +5,9 @@ use std::ops::Range;
 /// A number as it stands in a file.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct NumberText {
-    /// Its bytes; with the blanks before it where the file has columns of fixed width.
+    /// Byte range of the number; with the preceding blanks if the file has columns of fixed width.
     pub span: Range<usize>,
-    /// What it says.
+    /// Value of the number.
     pub value: f64,
 }
 
@@ -30,12 +30,12 @@ pub(crate) fn short(value: f64, decimals: usize) -> String {
     }
 }
 
-/// Whether a number may become longer.
+/// Width policy of a number.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Width {
-    /// As many bytes as needed.
+    /// Width as needed.
     Free,
-    /// As wide as it was where it fits: columns stay.
+    /// Original width if the number fits: columns stay aligned.
     Kept,
 }
 
@@ -53,7 +53,7 @@ fn decimals(text: &[u8]) -> usize {
     }
 }
 
-/// Most digits behind the point that are ever printed: a double has no more in mm.
+/// Limit of the printed decimals: a double has no more in mm.
 const MOST_DECIMALS: usize = 12;
 
 /// The value as the text would print it: with as many decimals as it had, but at least so many; with its plus sign and

@@ -2,14 +2,14 @@
 
 use std::ops::Range;
 
-/// What some editors write before the first letter of a text.
+/// Byte order mark that some editors write before the text.
 pub(crate) const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
 
-/// What is said of the first block behind the end of a program.
+/// Finding on the first block after the end of a program.
 pub(crate) const BEHIND_END: &str =
     "what stands from here on does not run: it stays as it is written";
 
-/// Where the text of a file begins.
+/// Start of the text of a file.
 pub(crate) fn beginning(bytes: &[u8]) -> usize {
     match bytes.starts_with(BYTE_ORDER_MARK) {
         true => BYTE_ORDER_MARK.len(),
@@ -49,7 +49,7 @@ impl SourceFile {
         }
     }
 
-    /// Its name.
+    /// Name of the file.
     #[must_use]
     pub fn name(&self) -> &str {
         &self.name
@@ -83,7 +83,7 @@ impl SourceFile {
         Some(text.strip_suffix(b"\r").unwrap_or(text))
     }
 
-    /// Where a line, counted from 1, begins; the end of the file behind the last one.
+    /// Start of a line, counted from 1; the end of the file after the last one.
     pub(crate) fn start_of(&self, line: usize) -> usize {
         let start = self.line_starts.get(line.saturating_sub(1));
         start.map_or(self.bytes.len(), |start| *start)
@@ -100,7 +100,7 @@ impl SourceFile {
         self.bytes.get(span.clone()).unwrap_or_default()
     }
 
-    /// What ends the first line: new lines are ended alike.
+    /// Line ending of the first line; inserted lines use it, too.
     pub(crate) fn line_ending(&self) -> &'static [u8] {
         let first = self.bytes.iter().position(|byte| *byte == b'\n');
         match first.is_some_and(|at| at > 0 && self.bytes[at - 1] == b'\r') {

@@ -63,7 +63,7 @@ pub(super) fn computed(name: &Name, given: &[Datum]) -> Option<Datum> {
         }
         _ => return None,
     };
-    // What is no number is not known.
+    // NaN and infinite values are unknown.
     let is_number = found.as_number().is_none_or(f64::is_finite);
     is_number.then_some(found)
 }

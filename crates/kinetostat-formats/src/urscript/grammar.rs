@@ -1,4 +1,4 @@
-//! How URScript writes statements and expressions.
+//! Grammar of URScript statements and expressions.
 
 use crate::interpreter::declared::Around;
 use crate::interpreter::ends::PoseForm;
@@ -64,7 +64,7 @@ pub(super) const GRAMMAR: Grammar = Grammar {
     separates_comparisons: false,
 };
 
-/// How it writes poses.
+/// Form of poses.
 pub(super) const FORM: PoseForm = PoseForm {
     unit_mm: 1e3,
     orientation: OrientationText::RotationVector,

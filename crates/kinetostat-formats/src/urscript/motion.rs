@@ -17,14 +17,14 @@ use crate::urscript::table::{MotionRow, motion_row};
 /// A run of a URScript program.
 pub(super) type Run<'r, 'p> = run::Run<'r, 'p, UrScript>;
 
-/// What is in force.
+/// Modal state.
 pub(crate) struct UrScript {
     pub tool: FrameUse,
     /// Tools that the program has in numbers.
     pub tools: Vec<Frame>,
 }
 
-/// What the end of a motion is written with.
+/// Expressions of the end of a motion.
 pub(super) struct End<'e> {
     /// `pose_trans(frame, pose)`: a feature of the pendant, or a frame of the program.
     pub frame: Option<&'e Expression>,

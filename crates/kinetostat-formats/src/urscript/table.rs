@@ -1,4 +1,4 @@
-//! What is done with each word of URScript, as data.
+//! Treatment of each word of URScript, as data.
 
 use crate::table::Treatment::{Carried, Refused, Understood};
 use crate::table::{Alike, StatementRow, Treatment, alike, count, rows, sorted};
@@ -22,7 +22,7 @@ const MOVED_FRAME: Treatment = Refused {
 /// The parameters of a motion.
 pub(super) struct MotionRow {
     pub name: &'static str,
-    /// How many of the parameters are ends.
+    /// Number of parameters that are ends.
     pub ends: usize,
     /// Names in capitals, in their order.
     pub parameters: &'static [&'static str],
@@ -43,7 +43,7 @@ pub(super) fn motion_row(word: &[u8]) -> Option<&'static MotionRow> {
         .find(|row| row.name.as_bytes().eq_ignore_ascii_case(word))
 }
 
-/// What is carried, and changes what deflection depends on.
+/// Carried words that influence the deflection.
 pub(super) const EFFECTS: &[(&str, &str)] = &[
     ("set_payload", LOAD),
     ("set_payload_mass", LOAD),
@@ -63,8 +63,7 @@ pub(super) fn row(word: &[u8]) -> Option<&'static StatementRow> {
     })
 }
 
-/// What is done with each word of URScript, in the order of the alphabet. Functions that are in no file and not here are carried with a
-/// finding.
+/// Treatment of each word of URScript, in alphabetical order. Functions that are neither in a file nor listed are carried with a finding.
 pub const URSCRIPT_STATEMENTS: &[StatementRow] = &SORTED;
 
 static SORTED: [StatementRow; count(OTHERS)] = sorted(rows(OTHERS));

@@ -1,8 +1,9 @@
-//! What the writer must know of URScript.
+//! Adapter of the writer for URScript.
 
 use std::collections::BTreeSet;
 
 use crate::interpreter::lexing::tokens_of;
+use crate::interpreter::token::words_of;
 use crate::model::motion::{Motion, Zone};
 use crate::model::program::RobotProgram;
 use crate::model::site::ReplacedText;
@@ -27,7 +28,7 @@ fn straight(source: &SourceFile, motion: &Motion, edits: &mut Edits) {
     let keyword = &site.keyword;
     replace_word(source.part(keyword), "movep", keyword, edits);
     edits.replace(via.clone(), "");
-    // Behind the end: acceleration, speed, blend, mode.
+    // Arguments after the end: acceleration, speed, blend, mode.
     let mut at = site.target_span.end;
     let rest = source.part(&(at..motion.span.end - 1));
     for (index, part) in rest.split(|byte| *byte == b',').enumerate() {
@@ -41,7 +42,7 @@ fn straight(source: &SourceFile, motion: &Motion, edits: &mut Edits) {
 
 impl Syntax for UrScriptSyntax {
     fn names(&self, program: &RobotProgram) -> BTreeSet<Vec<u8>> {
-        names_of(program, |bytes| tokens_of(&WORDS.marks, bytes))
+        names_of(program, |bytes| words_of(&tokens_of(&WORDS.marks, bytes)))
     }
 
     fn writes_circles(&self) -> bool {

@@ -43,7 +43,7 @@ pub(super) const PARTS: [[&str; 6]; 2] = [
     ["J1", "J2", "J3", "J4", "J5", "J6"],
 ];
 
-/// Most elements of an array.
+/// Limit of the elements of an array.
 const MOST_ELEMENTS: usize = 100_000;
 
 /// The expression that tokens are; tokens of a datum in XML are its value.

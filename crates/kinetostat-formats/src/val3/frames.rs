@@ -13,7 +13,7 @@ use crate::model::orientation::OrientationText;
 use crate::text::name::Name;
 use crate::val3::state::Run;
 
-/// Most fathers of a frame.
+/// Limit of the ancestors of a frame.
 const DEEPEST: usize = 12;
 
 /// The six numbers of a transformation.

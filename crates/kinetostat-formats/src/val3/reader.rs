@@ -19,7 +19,6 @@ use crate::val3::parser::routine_of;
 use crate::val3::state::Val3;
 use crate::val3::xml::content_of;
 
-/// Most bytes of a file.
 const MOST_BYTES: usize = 1 << 26;
 
 /// Files of an application: their tokens, and what each declares.

@@ -1,4 +1,4 @@
-//! What is done with each statement of VAL3, as data.
+//! Treatment of each statement of VAL3, as data.
 
 use crate::table::Treatment::{Carried, Refused, Understood};
 use crate::table::{Alike, StatementRow, Treatment, alike, count, rows, sorted};
@@ -47,8 +47,8 @@ pub(super) fn is_one_of(name: &Name, all: &[&str]) -> bool {
     (all.iter()).any(|own| own.as_bytes().eq_ignore_ascii_case(name.letters()))
 }
 
-/// What is done with each statement of VAL3, in the order of the alphabet. Programs of libraries and functions that are in no file and
-/// not here are carried with a finding.
+/// Treatment of each statement of VAL3, in alphabetical order. Library programs and functions that are neither in a file nor listed are carried with
+/// a finding.
 pub const VAL3_STATEMENTS: &[StatementRow] = &SORTED;
 
 static SORTED: [StatementRow; count(GROUPS)] = sorted(rows::<{ count(GROUPS) }>(GROUPS));

@@ -1,4 +1,4 @@
-//! What the writer must know of VAL3: a point that has no numbers of its own is moved by `appro`.
+//! Adapter of the writer for VAL3: a point without numbers of its own is moved by `appro`.
 
 use std::collections::BTreeSet;
 

@@ -23,7 +23,7 @@ pub(super) struct Draft {
     pub data: Vec<DatumNode>,
     /// Tokens of the program with its declarations.
     pub whole: Range<usize>,
-    /// Of its text.
+    /// Tokens of the program text.
     pub code: Range<usize>,
 }
 

@@ -8,13 +8,13 @@ use crate::model::site::{Declaration, DeclarationCopy};
 use crate::text::edits::Edits;
 use crate::writing::syntax::{Renamed, Syntax};
 
-/// Which pose each use of each declaration wants, as the bytes of its literal.
+/// Required poses of declarations, for each use, as the bytes of their literals.
 #[derive(Debug, Default)]
 pub(crate) struct Demands(BTreeMap<usize, Vec<Demand>>);
 
 #[derive(Debug)]
 struct Demand {
-    /// Of the name in a statement.
+    /// Position of the name in a statement.
     file: usize,
     name: Range<usize>,
     literal: Vec<u8>,
@@ -135,7 +135,7 @@ fn further(
         }
     }
     text.extend_from_slice(file.line_ending());
-    // What stands at the place goes on as far from the left as it stood.
+    // The text at the insertion point keeps its indentation.
     text.extend_from_slice(file.indentation_before(at));
     Some(text)
 }

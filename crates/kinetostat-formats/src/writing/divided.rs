@@ -74,7 +74,7 @@ impl Writer<'_> {
         };
         self.write_end(motion, &motion.site.target, Some(wanted))?;
         (self.syntax).moved(self.program, motion, &mut self.edits[motion.file]);
-        // Where a speed stays in force, each piece states its own, and the speed of before is restored behind them.
+        // A modal speed is stated by each piece, and the earlier speed is restored after the last one.
         let restored = match pieces.iter().any(|piece| piece.speed_factor != 1.0) {
             true => self.syntax.restored_speed(self.program, motion),
             false => None,

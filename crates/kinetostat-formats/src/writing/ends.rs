@@ -13,7 +13,7 @@ use crate::writing::refusals::{NO_END, NO_JOINTS, NO_NAME, Reason};
 use crate::writing::syntax::Syntax;
 use crate::writing::target_texts::text_of;
 
-/// What is written so far.
+/// Output written so far.
 pub(super) struct Writer<'a> {
     pub program: &'a RobotProgram,
     pub options: &'a WriteOptions,
@@ -123,7 +123,7 @@ impl Writer<'_> {
                 let literal = self.syntax.replaced(file, text, &wanted, self.options);
                 edits.replace(text.span.clone(), literal.ok_or(NO_END)?);
             }
-            // What KRL leaves open is stated before.
+            // Coordinates that KRL takes over are stated beforehand.
             (TargetSite::Partial(_), Some(_)) => return Err(NO_END),
             (TargetSite::Fixed(reason), Some(_)) => return Err((reason, NO_END.1)),
         }

@@ -7,7 +7,7 @@ use crate::model::program::RobotProgram;
 use crate::model::site::PoseText;
 use crate::writing::piece::Piece;
 
-/// Where the external axes are that a piece takes along, by their order; those that it leaves where they are, are left out.
+/// Positions of the external axes at a piece's end, by their order; unmoved axes are left out.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct AxesOfPiece {
     /// At its end.
@@ -78,7 +78,7 @@ pub(crate) fn shared_axes(
     Ok(axes)
 }
 
-/// How much of the way lies behind each piece; none where that is not known.
+/// Fraction of the path covered at the end of each piece; `None` if unknown.
 fn shares_of(program: &RobotProgram, motion: &Motion, pieces: &[&Piece]) -> Option<Vec<f64>> {
     let stated: Option<Vec<f64>> = pieces.iter().map(|piece| piece.share).collect();
     if let Some(stated) = stated {

@@ -8,7 +8,7 @@ use crate::text::number::Width;
 use crate::text::source::SourceFile;
 use crate::writing::literal::{Wanted, put};
 
-/// Least decimals of a changed joint value in degrees or mm: 2e-8 rad are 0.05 micrometres at the end of a long arm.
+/// Minimum decimals of a changed joint value in degrees or mm: 2e-8 rad are 0.05 micrometres at the end of a long arm.
 const DECIMALS: f64 = 6.0;
 
 /// Puts the joint values of a pose in place of those of a row; `own` is the orientation at its end. None where the arm does not get
@@ -23,7 +23,7 @@ pub(crate) fn put_joints(
     let pose = Isometry3::from_parts(wanted.position_mm.into(), rotation);
     let joints = text.arm.arm.joints_near(&pose, &text.joints())?;
     for ((number, unit), joint) in text.numbers.iter().zip(joints) {
-        // As fine in radians and in metres.
+        // Equal resolution in radians and in metres.
         let more = unit.log10().ceil();
         let decimals = (DECIMALS + more) as usize;
         put(file, number, joint / unit, decimals, Width::Free, edits);

@@ -1,4 +1,4 @@
-//! What the caller wants a motion to become.
+//! Pieces that replace a motion, as the caller requests them.
 
 use nalgebra::{UnitQuaternion, Vector3};
 
@@ -15,25 +15,25 @@ use nalgebra::{UnitQuaternion, Vector3};
 pub struct Piece {
     /// An index of [`crate::RobotProgram::motions`].
     pub motion: usize,
-    /// Where it ends: mm, in the axes of the motion's work object.
+    /// End position: mm, in the axes of the motion's work object.
     pub position_mm: Vector3<f64>,
-    /// How the tool stands there, in the same axes; none for that of the motion's end.
+    /// Tool orientation at the end, in the same axes; `None` keeps that of the motion's end.
     pub orientation: Option<UnitQuaternion<f64>>,
-    /// Where a piece of a circular motion that is a circle itself passes between its start and its end, mm; without it the piece
-    /// is straight. Of several pieces RAPID, KRL, FANUC TP and SINUMERIK programs have circles.
+    /// Auxiliary point of a circular piece between its start and its end, mm; without it the piece is straight. Several circular pieces of a motion
+    /// are supported in RAPID, KRL, FANUC TP and SINUMERIK programs.
     pub via_mm: Option<Vector3<f64>>,
-    /// Where rotary axes of a machine stand there, deg, in the order of [`crate::ReadOptions::rotary_axes`], where the program states
-    /// their angles (SINUMERIK, Heidenhain); none for those of the motion's end.
+    /// Positions of the rotary axes of a machine at the end, deg, in the order of [`crate::ReadOptions::rotary_axes`], if the program states their
+    /// angles (SINUMERIK, Heidenhain); `None` keeps those of the motion's end.
     pub rotary_deg: Option<Vec<f64>>,
     /// A place of the axis of the arc on which a piece of an arc goes there, mm: in the sense of that arc, about an axis of the same
     /// direction, by less than a turn, with an even rise. Of Heidenhain programs; without it the piece is straight.
     pub centre_mm: Option<Vector3<f64>>,
-    /// How the tool stands there; none for what the motion states there.
+    /// Tool orientation at the auxiliary point; `None` keeps that of the motion.
     pub via_orientation: Option<UnitQuaternion<f64>>,
-    /// How much of the way of its motion lies behind it at its end, from 0 to 1: external axes that move with the motion are shared
-    /// out by it, evenly. None: by the lengths of the straight lines from piece to piece.
+    /// Fraction of the motion's path covered at the end of the piece, from 0 to 1: external axes that move with the motion are interpolated by it.
+    /// `None`: by the lengths of the straight lines from piece to piece.
     pub share: Option<f64>,
-    /// By what the written speed is multiplied.
+    /// Factor on the written speed.
     pub speed_factor: f64,
 }
 

@@ -1,8 +1,8 @@
-//! Why a motion does not take its pieces, and what pieces must be.
+//! Reasons why a motion cannot be replaced by its pieces, and requirements on pieces.
 
 use crate::writing::piece::Piece;
 
-/// Why a motion cannot be written, and what to do.
+/// Reason and remedy of a motion that cannot be written.
 pub(crate) type Reason = (&'static str, &'static str);
 
 pub(super) const NO_END: Reason = (
@@ -42,7 +42,7 @@ pub(super) const SAME_RAD: f64 = 1e-7;
 /// Farther than any robot reaches, mm.
 pub(crate) const FARTHEST_MM: f64 = 1e6;
 
-/// Whether pieces are numbers.
+/// Checks that the numbers of pieces are finite and within range.
 pub(crate) fn check_pieces(pieces: &[&Piece]) -> Result<(), Reason> {
     let finite = |piece: &&Piece| {
         let via = piece.via_mm.unwrap_or_default();

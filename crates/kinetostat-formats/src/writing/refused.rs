@@ -8,10 +8,10 @@ use crate::model::program::RobotProgram;
 use crate::text::line_words::in_words;
 use crate::writing::refusals::Reason;
 
-/// Most reasons that are named beside the first one.
+/// Limit of the reasons that are named beside the first one.
 const MOST_OTHERS: usize = 8;
 
-/// What one reason keeps from being written.
+/// Motions that are refused for one reason.
 struct OfOne {
     reason: Reason,
     /// File and lines of the motions.

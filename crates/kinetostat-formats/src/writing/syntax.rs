@@ -1,15 +1,13 @@
-//! What the writer must know of a language.
+//! Interface of the writer to a language.
 
 use std::collections::BTreeSet;
 use std::ops::Range;
 
-use crate::interpreter::token::{Kind, Token};
 use crate::model::motion::Motion;
 use crate::model::program::RobotProgram;
 use crate::model::site::{Declaration, ReplacedText};
 use crate::options::WriteOptions;
 use crate::text::edits::Edits;
-use crate::text::name::LONGEST;
 use crate::text::source::SourceFile;
 use crate::writing::literal::Wanted;
 
@@ -17,11 +15,11 @@ use crate::writing::literal::Wanted;
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct PieceLiterals {
     pub end: Vec<u8>,
-    /// Where the place on the circle of the motion stands, and what is written there; none for a straight piece.
+    /// Position of the auxiliary point in the text, and its replacement; `None` for a straight piece.
     pub via: Option<(Range<usize>, Vec<u8>)>,
 }
 
-/// What the writer asks of a language.
+/// Interface of the writer to a language.
 pub(crate) trait Syntax {
     /// All names of the program, as the language compares them; none where the language declares nothing.
     fn names(&self, _program: &RobotProgram) -> BTreeSet<Vec<u8>> {
@@ -38,12 +36,12 @@ pub(crate) trait Syntax {
         numbered_name(near, number, taken)
     }
 
-    /// Whether the pieces of a motion to a declared end get declared ends of their own: the statement has no literals.
+    /// True if the pieces of a motion to a declared end get declared ends of their own: the statement has no literals.
     fn declares_pieces(&self) -> bool {
         false
     }
 
-    /// Where a further declaration like one that is there is inserted, in that one's file.
+    /// Insertion point of a copy of a declaration, in the same file.
     fn copies_at(&self, _program: &RobotProgram, declaration: &Declaration) -> usize {
         // Before it: what stands behind it on its line may be a comment on it.
         declaration.statement.start
@@ -52,7 +50,7 @@ pub(crate) trait Syntax {
     /// Changes in a motion statement whose end gets another pose, besides its numbers.
     fn moved(&self, _program: &RobotProgram, _motion: &Motion, _edits: &mut Edits) {}
 
-    /// Whether the pieces of a circular motion may be circles, too.
+    /// True if the pieces of a circular motion may be circular, too.
     fn writes_circles(&self) -> bool {
         false
     }
@@ -88,7 +86,7 @@ pub(crate) trait Syntax {
     /// Makes a circular motion a straight one to the same end.
     fn straighten(&self, _program: &RobotProgram, _motion: &Motion, _edits: &mut Edits) {}
 
-    /// Where a written speed stays in force for the motions behind: where to restore the speed of before, and how.
+    /// Position and text that restore a modal speed for the following motions.
     fn restored_speed(
         &self,
         _program: &RobotProgram,
@@ -108,35 +106,35 @@ pub(crate) struct Renamed {
     pub home: usize,
     /// The file of the use.
     pub file: usize,
-    /// Where the name stands there.
+    /// Position of the name in that file.
     pub place: Range<usize>,
     /// The further name.
     pub name: Vec<u8>,
 }
 
-/// All names of a program in capitals, by the tokens of its files.
+/// All names of a program in capitals, by the places of the words of its files.
 pub(crate) fn names_of(
     program: &RobotProgram,
-    tokens_of: impl Fn(&[u8]) -> Vec<Token>,
+    words_of: impl Fn(&[u8]) -> Vec<Range<usize>>,
 ) -> BTreeSet<Vec<u8>> {
     let mut names = BTreeSet::new();
     for file in &program.files {
-        for token in tokens_of(file.bytes()) {
-            if token.kind == Kind::Word {
-                names.insert(file.part(&token.bytes()).to_ascii_uppercase());
-            }
-        }
+        let words = words_of(file.bytes()).into_iter();
+        names.extend(words.map(|word| file.part(&word).to_ascii_uppercase()));
     }
     names
 }
 
-/// A free name with the number at its end, of as many letters as identifiers have.
+/// Most letters of a further name: as many as RAPID takes.
+const LONGEST: usize = 32;
+
+/// A free name with the number at its end.
 fn numbered_name(
     near: &[u8],
     number: &mut usize,
     taken: &mut BTreeSet<Vec<u8>>,
 ) -> Option<Vec<u8>> {
-    // One of so many is free.
+    // The loop tries more names than are taken.
     for _ in 0..=taken.len() {
         let end = format!("_{number}");
         *number += 1;

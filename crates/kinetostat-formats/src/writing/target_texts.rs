@@ -1,4 +1,4 @@
-//! Where the texts of targets stand.
+//! Text positions of targets.
 
 use std::ops::Range;
 
@@ -20,7 +20,7 @@ pub(super) fn text_of<'s>(program: &'s RobotProgram, site: &'s TargetSite) -> Op
     }
 }
 
-/// Where a target stands that has a literal.
+/// Position of a target's text; empty for partial, joint and fixed targets.
 pub(super) fn span_of(site: &TargetSite) -> Range<usize> {
     match site {
         TargetSite::Literal(text) => text.whole.clone(),

@@ -18,6 +18,8 @@ const MOST: usize = 100;
 
 /// A move of the other program with what of the original it goes along.
 pub(crate) struct Cut<'a> {
+    /// Of the other program and of the original, by their indices.
+    pub(crate) moves: [usize; 2],
     own: &'a Move,
     original: &'a Move,
     own_mm: f64,
@@ -71,14 +73,6 @@ pub(crate) fn conditions(
     found
 }
 
-/// Lines of the cuts that both make: of the other program, and of the original.
-pub(crate) fn cut_lines(cuts: &[Cut<'_>]) -> Vec<[usize; 2]> {
-    let lines = cuts.iter().map(|cut| [cut.own.line, cut.original.line]);
-    let mut lines: Vec<[usize; 2]> = lines.collect();
-    lines.dedup();
-    lines
-}
-
 /// The moves of the other program that cut what the original cuts.
 pub(crate) fn cuts<'a>(original: &'a Path, other: &'a Path, pieces: &[Followed]) -> Vec<Cut<'a>> {
     let cuts = |own: &&Followed| own.piece.corrected && own.piece.turn.is_none();
@@ -105,6 +99,7 @@ pub(crate) fn cuts<'a>(original: &'a Path, other: &'a Path, pieces: &[Followed])
                 .max_by(|a, b| length(a).total_cmp(&length(b)))
                 .unwrap_or(&parts[0]);
             Cut {
+                moves: [parts[0].other_end.0, longest.piece.move_index],
                 own,
                 original: &original.moves[longest.piece.move_index],
                 own_mm: parts.iter().map(own_length).sum(),

@@ -21,9 +21,9 @@ pub struct Matched {
     /// Cuts of both with another feed or another speed of the spindle.
     #[serde(default)]
     pub conditions: Vec<OtherCondition>,
-    /// Lines of cuts that both make: of the program, and of the original.
+    /// Moves of cuts that both make: of the program, and of the original, by their indices.
     #[serde(skip)]
-    pub cut_lines: Vec<[usize; 2]>,
+    pub cuts: Vec<[usize; 2]>,
     /// Largest difference of the tool's orientation from that of the original, if both state any.
     #[serde(default)]
     pub turned: Option<Turned>,

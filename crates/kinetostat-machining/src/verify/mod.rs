@@ -42,7 +42,7 @@ use crate::run::preparation::Preparation;
 use crate::run::sites::of_written::sites_of_written;
 use crate::run::way_out::with_way_out;
 use crate::task::{RunError, Task};
-use crate::verify::conditions::{conditions, cut_lines, cuts};
+use crate::verify::conditions::{conditions, cuts};
 use crate::verify::exact::exact;
 use crate::verify::follow::follow;
 use crate::verify::pieces::as_written;
@@ -99,7 +99,7 @@ fn verified(
     let most_feed_factor = task.writing.max_feed_factor;
     let both = cuts(task.path(), other, &pieces);
     matched.conditions = conditions(task.path(), other, &both, most_feed_factor);
-    matched.cut_lines = cut_lines(&both);
+    matched.cuts = both.iter().map(|cut| cut.moves).collect();
     matched.turned = turned_most(task.path(), other, &pieces);
     let backward_mm = task.writing.backward_step_mm;
     let written = as_written(task.path(), (other, bytes), pieces, backward_mm);
@@ -133,20 +133,22 @@ fn guide(
     field: &dyn CorrectionField,
     watch: &dyn Watch,
 ) -> Result<Corrected, RunError> {
-    let mut writing = task.writing.clone();
-    writing.arcs = Arcs::Lines;
-    writing.header = None;
+    let mut own = task.writing.clone();
+    own.header = None;
     // The correspondence is to be no coarser than what is verified by it.
-    writing.tolerance_mm = smaller(writing.tolerance_mm, GUIDE_MM);
-    writing.chord_tolerance_mm = smaller(writing.chord_tolerance_mm, GUIDE_MM);
+    let mut fine = own.clone();
+    fine.tolerance_mm = smaller(fine.tolerance_mm, GUIDE_MM);
+    fine.chord_tolerance_mm = smaller(fine.chord_tolerance_mm, GUIDE_MM);
+    let mut in_lines = fine.clone();
+    in_lines.arcs = Arcs::Lines;
     watch.stage("corrections", 0);
-    let in_lines = task.program.write(field, &writing, &Unwatched);
-    // In some languages the tool turns on a circle as it could not in straight motions, and the other way round.
-    writing.arcs = task.writing.arcs;
-    match in_lines {
-        Err(WriteError::Motion { .. }) if writing.arcs != Arcs::Lines => {
-            Ok(task.program.write(field, &writing, &Unwatched)?)
+    // In some languages the tool turns on a circle as it could not in straight motions, and the other way round. Runs of a statement
+    // that is shared have one correction within the tolerance of the program, and not within a finer one.
+    for writing in [&in_lines, &fine] {
+        match task.program.write(field, writing, &Unwatched) {
+            Err(WriteError::Motion { .. }) => {}
+            done => return Ok(done?),
         }
-        in_lines => Ok(in_lines?),
     }
+    Ok(task.program.write(field, &own, &Unwatched)?)
 }

@@ -154,7 +154,7 @@ fn moving_calls(
     flags: &RobotArgs,
     language: Language,
 ) -> Answer<BTreeSet<String>> {
-    let mut found: BTreeSet<String> = flags.moving_calls.iter().cloned().collect();
+    let mut found: BTreeSet<String> = flags.stated.moving_calls.iter().cloned().collect();
     found.extend((job.iter()).flat_map(|j| j.job.calls.keys().map(|name| name.get_ref().clone())));
     match found.first() {
         Some(name) if !language.is_of_robot() => Err(Failure::input(format!(
@@ -173,7 +173,7 @@ fn stated_values(
     let of_job = job.iter().flat_map(|j| &j.job.values);
     let of_job = of_job.map(|(name, value)| (name.get_ref().clone(), StatedValue::from(value)));
     let mut found: BTreeMap<String, StatedValue> = of_job.collect();
-    for (name, value) in &flags.values {
+    for (name, value) in &flags.stated.values {
         found.retain(|own, _| !own.eq_ignore_ascii_case(name));
         found.insert(name.clone(), value.clone());
     }

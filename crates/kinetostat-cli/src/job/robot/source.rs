@@ -13,6 +13,7 @@ use crate::files::origin;
 use crate::job::arguments::{ProgramArgs, ReadingArgs};
 use crate::job::format::BlockDeleteWord;
 use crate::job::job_file::JobFile;
+use crate::job::output_paths::beside_program;
 use crate::job::robot::config_frames::SystemFrames;
 use crate::job::robot::divided::Divided;
 use crate::job::robot::parquet;
@@ -142,8 +143,14 @@ pub(crate) fn robot_source(
         take(beside)?;
     }
     if let Some((j, table)) = table {
+        let of_job = j.job.program.as_ref();
+        let of_job = of_job.map(|program| j.base().join(program.get_ref()));
         for written in &table.get_ref().files {
-            take(j.base().join(written.get_ref()))?;
+            let file = j.base().join(written.get_ref());
+            // A program that was written from that of the job has the files that were written with it.
+            let own = of_job.as_ref().filter(|of_job| *of_job != path);
+            let own = own.map(|of_job| beside_program(path, of_job, &file));
+            take(own.filter(|own| own.is_file()).unwrap_or(file))?;
         }
     }
     Ok(Some((source, read)))

@@ -1,4 +1,4 @@
-//! What a CYCLE says: `CYCLE/DRILL,DEPTH,10,MMPM,150,CLEAR,3`, `CYCLE/DRILL,RAPTO,3,FEDTO,-10,RTRCTO,AUTO,MMPM,250`.
+//! Decoding of CYCLE: `CYCLE/DRILL,DEPTH,10,MMPM,150,CLEAR,3`, `CYCLE/DRILL,RAPTO,3,FEDTO,-10,RTRCTO,AUTO,MMPM,250`.
 //!
 //! Depth, feed and clearance are numbers in this order where no word names them [ISO 4343, CYCLE; the postprocessors of Autodesk
 //! and the CLSF of Siemens NX name them]. Lengths count from the place of a GOTO along the tool's axis.
@@ -9,14 +9,14 @@ use crate::apt::numbers::{Argument, arguments_of};
 use crate::extreme::larger;
 use crate::text::source::SourceFile;
 
-/// How the tool comes out of a hole, and what it does at the bottom.
+/// Retraction from a hole, and the action at its bottom.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Kind {
-    /// By rapid: DRILL, FACE, CSINK.
+    /// Rapid retraction: DRILL, FACE, CSINK.
     Drill,
-    /// By rapid behind each step: DEEP, DEEP2 of SolidWorks CAM.
+    /// Rapid retraction after each step: DEEP, DEEP2 of SolidWorks CAM.
     Deep,
-    /// By rapid, and behind each step a little: BRKCHP.
+    /// Rapid retraction, and chip breaking by a short retraction after each step: BRKCHP.
     Break,
     /// At feed: BORE, REAM.
     Bore,
@@ -24,7 +24,7 @@ pub(crate) enum Kind {
     Tap,
 }
 
-/// Where the tool goes behind a hole, from its place along the axis.
+/// Retraction height after a hole, from its place along the axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Retract {
     /// To where its rapid ends.
@@ -42,7 +42,7 @@ pub(crate) struct Cycle {
     pub depth: f64,
     /// The text of its FEDRAT; none where that in force counts.
     pub feed: Option<String>,
-    /// Where the rapid to the hole ends, above its place.
+    /// End of the rapid approach above the place of the hole.
     pub rapid_to: f64,
     /// The least height between holes.
     pub clear: f64,
@@ -54,12 +54,12 @@ pub(crate) struct Cycle {
     pub first_step: Option<f64>,
 }
 
-/// Why a cycle is not followed, and what to do.
+/// Reason and remedy of a cycle that is not followed.
 pub(crate) type Wrong = (String, &'static str);
 
 const POINTS: &str = "let the CAM system write its motions as points (GOTO)";
 
-/// What a CYCLE statement does.
+/// Effect of a CYCLE statement.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Said {
     Off,
@@ -89,7 +89,7 @@ struct Words {
     unit_is_last: bool,
 }
 
-/// What a CYCLE statement of a file says.
+/// Decodes a CYCLE statement of a file.
 pub(crate) fn said(file: &SourceFile, statement: &Statement, dialect: Dialect) -> Said {
     let arguments = arguments_of(file.bytes(), &statement.arguments);
     let text = |argument: &Argument| match argument {
@@ -181,7 +181,7 @@ impl Words {
                 "state one of DRILL, FACE, DEEP, BRKCHP, BORE, REAM, TAP; others are not followed",
             );
         };
-        // What the PP table of CATIA's machine says.
+        // The PP table of CATIA's machine defines the order of the numbers.
         if dialect == Dialect::Catia && self.bare.len() > 1 {
             return wrong(
                 "which of its numbers are depth, feed and clearance, a table of CATIA says",

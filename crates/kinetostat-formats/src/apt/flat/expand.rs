@@ -107,9 +107,9 @@ struct Run<'f> {
     rapid_waits: bool,
     /// In force; what is wrong with it was said.
     cycle: Option<Option<Cycle>>,
-    /// Where the tool is, in units of the file; none where it is not known.
+    /// Tool position, in units of the file; `None` if unknown.
     place: Option<Vector3<f64>>,
-    /// Where it was before the cycle.
+    /// Tool position before the cycle.
     began: Option<Vector3<f64>>,
     axis: Vector3<f64>,
     /// The last GOTO stated it.

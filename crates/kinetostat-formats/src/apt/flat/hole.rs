@@ -6,10 +6,10 @@ use nalgebra::Vector3;
 use crate::apt::flat::cycle::{Cycle, Kind, Retract, Wrong};
 use crate::extreme::{larger, smaller};
 
-/// Most steps of one hole.
+/// Limit of the steps of one hole.
 const MOST_STEPS: usize = 10_000;
 
-/// How far above the last step the next one begins, and how far BRKCHP draws back, mm: no word says it.
+/// Approach distance above the last step, and retraction of BRKCHP, mm; no word states it.
 const BACK_MM: f64 = 1.0;
 
 /// Heights nearer than this are one, in units of the file.
@@ -40,7 +40,7 @@ impl Hole {
         self.at + self.axis * height
     }
 
-    /// Its motions from a place, where that is known; `began` is where the tool was before the cycle.
+    /// Motions of a hole at a place, if that is known; `began` is the tool position before the cycle.
     pub(crate) fn parts(
         &self,
         cycle: &Cycle,

@@ -83,7 +83,7 @@ pub(crate) fn led_aside(
     }
 }
 
-/// What is remarked of a contour: a control with a tool table takes its radius from there.
+/// Finding on a contour with radius compensation: a control with a tool table takes the radius from there.
 fn by_radius(flat: &FlatText, way: &Way, radius_mm: f64) -> Finding {
     let line = flat.file.line_of(way.block.text.start);
     let (file, line) = flat.origins.get(line - 1).copied().unwrap_or((0, line));
@@ -97,7 +97,7 @@ fn by_radius(flat: &FlatText, way: &Way, radius_mm: f64) -> Finding {
     }
 }
 
-/// What becomes of the blocks.
+/// Edits of the blocks.
 #[derive(Default)]
 struct Text {
     edits: Edits,
@@ -240,7 +240,7 @@ fn leaves(file: &SourceFile, way: &Way, text: &mut Text) -> Result<(), &'static 
     Ok(())
 }
 
-/// Whether a piece is written as an arc: its digits must say it.
+/// True if a piece is written as an arc: its digits must be able to express it.
 fn is_arc(piece: &Piece, way: &Way) -> bool {
     piece.arc.is_some_and(|(centre, angle)| {
         angle.abs() * (way.working.flat(&piece.to) - centre).norm() > LEAST_ARC_MM

@@ -22,7 +22,7 @@ pub(super) struct Piece {
     pub arc: Option<(Vector2<f64>, f64)>,
 }
 
-/// Why there is no way: the block among those of the contour, why, what to do.
+/// Error in a contour: the index of its block, the reason, the remedy.
 pub(super) type Why = (usize, String, String);
 
 /// Ways shorter than this have no direction, mm.
@@ -157,7 +157,7 @@ pub(super) fn centre_line(
     }
 }
 
-/// What to do with a contour that is not followed.
+/// Remedy of a contour that is not followed.
 pub(super) const AGAIN: &str = "let the CAM system write the way of the tool's centre with R0";
 
 /// Lines of G-code before the contour.

@@ -21,7 +21,7 @@ use crate::text::edits::Edits;
 use crate::text::flat::FlatText;
 use crate::text::source::SourceFile;
 
-/// What a line is to end at, and the feed that it has to state.
+/// End of a line and the feed that it has to state.
 #[derive(Default)]
 struct Wanted {
     end: Option<(Vector2<f64>, f64)>,

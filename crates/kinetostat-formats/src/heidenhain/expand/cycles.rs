@@ -79,7 +79,7 @@ impl Run<'_> {
             .windows(2)
             .any(|pair| pair[0].is("Q") && begins_value(&pair[1], file.bytes()));
         if matches!(cycle, 200 | 201 | 203) {
-            // What a cycle before said, says nothing of this one.
+            // Parameters of an earlier cycle are not valid for this one.
             for name in OWN {
                 self.parameters.remove(name);
             }
@@ -124,7 +124,7 @@ impl Run<'_> {
         Ok(())
     }
 
-    /// Whether the cycle that is called stays a cycle.
+    /// True if the called cycle stays a cycle.
     pub(crate) fn is_left(&self, at: (usize, usize)) -> Result<bool, Fault> {
         match self.cycle {
             _ if self.cycle_refused => Ok(false),

@@ -7,7 +7,7 @@ use crate::interpreter::functions::function;
 /// Deepest nesting of brackets and functions.
 const DEEPEST: usize = 64;
 
-/// Why an expression has no value.
+/// Reason why an expression has no value.
 pub(crate) type Fault = String;
 
 /// The value of an expression.

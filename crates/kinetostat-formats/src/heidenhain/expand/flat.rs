@@ -43,10 +43,10 @@ pub fn expand_heidenhain(
     expand_within(files, options, MOST_STEPS)
 }
 
-/// The same by so many blocks at most.
+/// Expands a program with a limit of the executed blocks.
 ///
 /// # Errors
-/// As there.
+/// The same errors as without the limit.
 pub fn expand_within(
     files: Vec<SourceFile>,
     options: &ReadOptions,
@@ -55,7 +55,7 @@ pub fn expand_within(
     run_within(&files, options, most_steps).map_err(|refused| refused.faults)
 }
 
-/// The same; of a program that is refused what was written all the same.
+/// Expands a program; a refused program is returned with the part that was written.
 pub(crate) fn run_or_refused(
     files: &[SourceFile],
     options: &ReadOptions,

@@ -1,6 +1,6 @@
 //! A drilling cycle as it was defined (200, 201, 203 and the pecking of cycle 1), and the blocks that it runs.
 
-/// Most strokes of a hole.
+/// Limit of the strokes of a hole.
 const MOST: usize = 10_000;
 
 /// A block of a cycle.
@@ -8,7 +8,7 @@ const MOST: usize = 10_000;
 pub(crate) enum Stroke {
     /// To a coordinate of the tool's axis, in the program's unit, at a feed; none in rapid traverse.
     To(f64, Option<f64>),
-    /// By a step along the tool's axis.
+    /// Step along the tool axis.
     By(f64, Option<f64>),
     /// Dwell, s.
     Dwell(f64),
@@ -50,7 +50,7 @@ pub(crate) struct Hole {
 }
 
 impl Hole {
-    /// Of cycle 1, by the numbers of its lines.
+    /// Hole of cycle 1, from the numbers of its lines.
     pub(crate) fn pecked(lines: &[Option<f64>; 6], unit_mm: f64) -> Self {
         let own = |line: usize| lines[line].unwrap_or(0.0);
         Self {
@@ -65,7 +65,7 @@ impl Hole {
         }
     }
 
-    /// Of cycles 200, 201 and 203, by the values of their parameters.
+    /// Hole of cycles 200, 201 and 203, from their parameters.
     pub(crate) fn drilled(
         cycle: u32,
         value: impl Fn(&str) -> f64,
@@ -95,10 +95,10 @@ impl Hole {
         }
     }
 
-    /// Its strokes.
+    /// Strokes of the hole.
     ///
     /// # Errors
-    /// Why there are none.
+    /// The parameters give no valid strokes.
     pub(crate) fn strokes(&self) -> Result<Vec<Stroke>, String> {
         let numbers = [
             self.clearance,
@@ -230,7 +230,7 @@ impl Hole {
     /// The tool stands at the clearance above the surface before, and there again behind.
     fn pecking(&self, strokes: &mut Vec<Stroke>) -> Result<(), String> {
         let total = -self.depth;
-        // How far above the last depth the control goes over from rapid traverse to feed.
+        // Advance stop distance: change from rapid traverse to feed above the last depth.
         let early = match total * self.unit_mm < 30.0 {
             true => 0.6 / self.unit_mm,
             false => (total / 50.0).min(7.0 / self.unit_mm),

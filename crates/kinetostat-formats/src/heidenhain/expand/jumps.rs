@@ -1,4 +1,4 @@
-//! Where the run goes on: labels, repeats, other programs, jumps.
+//! Control flow: labels, repeats, other programs, jumps.
 
 use crate::error::ProgramError;
 use crate::heidenhain::expand::expression::value_of;

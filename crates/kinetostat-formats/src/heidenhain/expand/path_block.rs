@@ -46,7 +46,7 @@ impl Run<'_> {
 
     /// Any other block: its values, its calls of a cycle, the feed behind a hole.
     pub(crate) fn path(&mut self, at: (usize, usize), words: &[Word]) -> Result<Next, Fault> {
-        // Most blocks are written as they are.
+        // Blocks without parameters and functions are written unchanged.
         let plain = |word: &Word| {
             !matches!(word.value, Value::Parameter { .. })
                 && !matches!(
@@ -105,7 +105,7 @@ impl Run<'_> {
                 "write the block as the control shows it",
             )
         })?;
-        // What is left of `L FMAX M99` does nothing.
+        // The rest of `L FMAX M99` has no effect.
         let rest = words_of(&text, &(0..text.len()));
         let idle = |word: &Word| {
             ["L", "FMAX", "F", "R", "MAX"]

@@ -50,13 +50,13 @@ impl<'f> Program<'f> {
         }
     }
 
-    /// Its name, as CALL PGM says it.
+    /// True if CALL PGM calls the program by this name.
     pub(crate) fn is_named(&self, name: &str) -> bool {
         let own = stem(self.file.name());
         own.eq_ignore_ascii_case(&stem(name))
     }
 
-    /// What is said of labels that are stated a second time.
+    /// Errors of labels that are defined twice.
     pub(crate) fn equal_labels(&self) -> impl Iterator<Item = ProgramError> + '_ {
         let fault = |[first, index]: &[usize; 2]| {
             let text = self.blocks[*index].text.clone();
@@ -66,7 +66,7 @@ impl<'f> Program<'f> {
         self.twice.iter().map(fault)
     }
 
-    /// Whether anything is to be flattened.
+    /// True if the program needs to be expanded.
     pub(crate) fn needs(&self, slash: SlashBlocks) -> bool {
         let bytes = self.file.bytes();
         let Some(begin) = self.begin else {
@@ -126,7 +126,7 @@ pub(crate) fn called(file: &SourceFile) -> Vec<String> {
     names
 }
 
-/// What CALL PGM calls; the word is PGM.
+/// Name of the program that CALL PGM calls; `program` is the word PGM.
 pub(crate) fn called_name(bytes: &[u8], block: &Block, program: &Word) -> String {
     let from = program.span.start + b"PGM".len();
     let text = &bytes[from.min(block.text.end)..block.text.end];

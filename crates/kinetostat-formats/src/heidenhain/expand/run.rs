@@ -1,4 +1,4 @@
-//! What the run of a program knows: where it is, what it has written, what is in force.
+//! State of a run: position, written text, modal state.
 
 use crate::error::ProgramError;
 use crate::flat_run::{Place, Written};
@@ -10,7 +10,7 @@ use crate::text::source::SourceFile;
 /// Deepest nesting of calls and repeats.
 pub(crate) const DEEPEST: usize = 20;
 
-/// What is running.
+/// Running program or repeat.
 pub(crate) enum Frame {
     /// A subprogram: the block that called it.
     Sub { caller: usize },
@@ -56,14 +56,14 @@ pub(crate) struct Run<'p> {
     pub cycle_refused: bool,
 }
 
-/// Where the run goes on.
+/// Continuation of the run.
 pub(crate) enum Next {
     Block,
     At(usize, usize),
     End,
 }
 
-/// Why the run ends.
+/// Error that ends the run.
 pub(crate) type Fault = ProgramError;
 
 impl Run<'_> {

@@ -64,7 +64,7 @@ impl Runs for Run<'_> {
         Ok(())
     }
 
-    /// The same as without it, unless it says what runs or what a parameter is.
+    /// Effect of a refused block on the blocks after it: none, unless it may change the control flow or a parameter.
     fn behind(&self, at: Place) -> Behind {
         let program = &self.programs[at.0];
         let Some(block) = program.blocks.get(at.1) else {
@@ -122,7 +122,7 @@ impl Run<'_> {
         self.at = Some((0, begin));
     }
 
-    /// Behind the last block of a file.
+    /// Handles the end of a file after its last block.
     fn file_ends(&mut self, last: Place) -> Result<(), Fault> {
         let (reason, remedy) = match self.frames.last() {
             None => {
@@ -209,7 +209,7 @@ impl Run<'_> {
             b"FN" => return self.function(at, &words),
             b"Q" | b"QL" | b"QR" => self.assign(at, &words)?,
             b"QS" => {}
-            // Its parameters are what it finds.
+            // The Q parameters of the block are results of the probing.
             b"TCH" => self.write(file.part(&block.text), at),
             b"CYCL" | b"CYCLE" if block.no_parameter(file.bytes()).is_some() => {
                 return Err(self.fault(at, STRAY, STRAY_REMEDY));
@@ -240,7 +240,7 @@ impl Run<'_> {
                 ));
             }
             Some(_) => {
-                // What only the machine knows has no value behind it.
+                // A value that only the machine knows is unknown after the read.
                 let mut reads = false;
                 for pair in words[1..].windows(2) {
                     if begins_value(&pair[1], bytes) && pair[0].whole().is_some() {

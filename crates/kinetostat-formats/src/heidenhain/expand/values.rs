@@ -21,14 +21,14 @@ pub(crate) trait Parameters {
 pub(crate) struct Values {
     shared: BTreeMap<String, f64>,
     local: BTreeMap<String, f64>,
-    /// Of parameters that only the machine knows, as the caller states them.
+    /// Values of machine parameters, as the caller states them.
     stated: BTreeMap<String, f64>,
 }
 
 /// QL parameters of one program.
 pub(crate) struct Local(BTreeMap<String, f64>);
 
-/// Whether a parameter is that of one program alone.
+/// True if a parameter is local to one program.
 fn is_local(name: &str) -> bool {
     name.starts_with("QL")
 }
@@ -73,7 +73,7 @@ impl Values {
         }
     }
 
-    /// What is said of the values that the caller states, beside the bytes of the program.
+    /// Findings on the values that the caller states, checked against the bytes of the program.
     pub(crate) fn findings(&self, bytes: &[u8]) -> Vec<Finding> {
         let text = String::from_utf8_lossy(bytes).to_ascii_uppercase();
         let names = |name: &str| {
@@ -124,7 +124,7 @@ impl Parameters for Values {
     }
 }
 
-/// Why a parameter has no value. The control knows no value of it either.
+/// Reason why a parameter has no value; the control has none either.
 pub(crate) fn no_value(name: &str) -> String {
     match is_local(name) {
         true => format!(
@@ -134,11 +134,11 @@ pub(crate) fn no_value(name: &str) -> String {
     }
 }
 
-/// What to do.
+/// Remedy of a parameter without a value.
 pub(crate) const STATE_VALUE: &str =
     "state it before (FN 0: Q1 = +5), or give the value that it has on the machine (--set Q1=5)";
 
-/// Whether a word is the sign before a value.
+/// True if a word is the `=` before a value.
 pub(crate) fn begins_value(word: &Word, bytes: &[u8]) -> bool {
     bytes.get(word.span.start) == Some(&b'=')
 }

@@ -101,7 +101,7 @@ impl Reader<'_> {
         });
     }
 
-    /// What a corner that waits for its second line becomes; none where no line came.
+    /// Resolves a pending corner at its second line; `None` if no line follows.
     pub(crate) fn settle_corner(&mut self, behind: Option<&Line>) {
         let Some(pending) = self.corner.take() else {
             return;

@@ -1,4 +1,4 @@
-//! What a program says: its motions, how each is programmed, what is wrong.
+//! Content of a program: its motions, their programming, its errors.
 
 use std::collections::BTreeMap;
 
@@ -41,7 +41,7 @@ pub(crate) struct Way {
     pub pole: PoleThere,
     /// A block up to here stated the direction of the tool.
     pub directed: bool,
-    /// What it says of rotary axes whose words are followed, and whether they go the shorter way (M126).
+    /// Rotary axis positions that it states, with shortest-path traverse (M126).
     pub axes: Option<AxesStated>,
     pub shorter: bool,
     /// The motion at whose end the pole was set from where the tool was.
@@ -55,25 +55,25 @@ pub(crate) struct PoleThere {
     pub at: Option<Pole>,
     /// The block counts from it.
     pub used: bool,
-    /// How many CC blocks ran before, in all and up to the last that needs no pole from before.
+    /// Number of executed CC blocks, in all and up to the last that does not depend on an earlier pole.
     pub count: usize,
     pub whole: usize,
 }
 
-/// What a program says.
+/// Content of a program.
 #[derive(Default)]
 pub(crate) struct Found {
     pub faults: Vec<ProgramError>,
     pub findings: Vec<Finding>,
     pub motions: Vec<Motion>,
-    /// Of each motion.
+    /// Source positions of each motion.
     pub ways: Vec<Way>,
-    /// What motions say of rotary axes whose words are followed.
+    /// Rotary axis positions that the motions state.
     pub axes: BTreeMap<usize, AxesStated>,
-    /// What the words show of how these axes count.
+    /// Evidence in the words for the way in which these axes count.
     pub shown: Vec<CountShown>,
     /// Rounded corners, in the order in which they run.
     pub corners: Vec<Result<Rounded, Unrounded>>,
-    /// Behind the first of them, LP blocks that count on a radius or an angle of before: where they end, mm, and the unit, mm.
+    /// LP blocks after the first that continue an earlier radius or angle: their ends, mm, and the unit, mm.
     pub polar: Vec<(Block, Vector2<f64>, f64)>,
 }

@@ -18,10 +18,10 @@ use crate::options::UnknownTargets;
 
 const LEAVE: &str = "leave such motions as written (unknown_targets = \"left_as_written\" under [robot] in a job file), or let the CAM system write L blocks";
 
-/// Why the end of a motion behind a mirror image or a scaling is not known.
+/// Reason why the end of a motion after a mirror image or a scaling is unknown.
 pub(crate) const UNSTATED: &str = "an axis was not stated since the coordinates were mirrored or scaled, and where it stands in them is not known";
 
-/// Whether a motion to an end that is not known may stay whatever the options say.
+/// Permission to carry a motion with an unknown end: always, or only if the options allow it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Carried {
     Yes,
@@ -39,7 +39,7 @@ fn normal_of(words: &[Word]) -> Option<Vector3<f64>> {
 }
 
 impl Reader<'_> {
-    /// What is known of the end of the last motion, which stays as it is written.
+    /// Stores the known coordinates of the end of the last motion, which stays as it is written.
     pub(crate) fn ends_at(&mut self, end: [Option<f64>; 3]) {
         let last = self.found.ways.last_mut();
         if let Some(way) = last.filter(|way| way.shape == Shape::Unknown) {

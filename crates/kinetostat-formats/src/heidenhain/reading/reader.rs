@@ -21,7 +21,6 @@ use crate::standing::Standing;
 use crate::text::finding::Finding;
 use crate::text::source::{BEHIND_END, SourceFile};
 
-/// Most bytes of a file.
 const MOST_BYTES: usize = 1 << 28;
 
 /// Reads Heidenhain conversational programs (`.h`), each file for itself.
@@ -53,7 +52,7 @@ pub fn read_heidenhain(
     parse_heidenhain(files, options).without_faults()
 }
 
-/// The same, with the motions that could be read beside what is refused.
+/// Reads a program; the motions that could be read are returned beside the errors.
 pub(crate) fn parse_heidenhain(files: Vec<SourceFile>, options: &ReadOptions) -> Parsed {
     let found = interpret(&files, options);
     let (motions, findings) = (found.motions, found.findings);
@@ -84,7 +83,7 @@ pub(crate) fn interpret(files: &[SourceFile], options: &ReadOptions) -> Found {
     }
 }
 
-/// The same, with what is shown of how rotary axes count.
+/// Reads once with the known ways of counting of the rotary axes.
 fn interpret_once(files: &[SourceFile], options: &ReadOptions, shown: &[CountShown]) -> Found {
     let mut found = Found::default();
     let frames = options.frames.iter();

@@ -7,7 +7,7 @@ use nalgebra::{Vector2, Vector3};
 use crate::corner::{Beside, Corner, Cut, Leg};
 use crate::heidenhain::blocks::Block;
 
-/// Whether a program may hold rounded corners or chamfers.
+/// True if a program may have rounded corners or chamfers.
 pub(crate) fn has_corners(bytes: &[u8]) -> bool {
     bytes
         .windows(3)
@@ -38,7 +38,7 @@ impl Line {
     }
 }
 
-/// What to do where a corner is not followed.
+/// Remedy of a corner that is not followed.
 pub(crate) const AS_ARC: &str =
     "let the CAM system write the corner as an arc (CR or C) between its lines";
 pub(crate) const AS_LINE: &str =
@@ -50,10 +50,10 @@ pub(crate) struct Pending {
     pub line: Option<Line>,
     pub block: Block,
     pub span: Range<usize>,
-    /// What it makes of the corner, in mm; or why that is not known.
+    /// Cut of the corner, in mm, or the reason why it is unknown.
     pub cut: Result<Cut, String>,
     pub feed: Option<f64>,
-    /// What to do where it is not followed.
+    /// Remedy if the corner is not followed.
     pub remedy: &'static str,
 }
 
@@ -63,12 +63,12 @@ pub(crate) struct Rounded {
     /// The blocks of the line before, of the corner, and of the line behind.
     pub blocks: [Block; 3],
     pub corner: Corner,
-    /// As programmed, in mm.
+    /// Cut as programmed, in mm.
     pub cut: Cut,
     /// F of the block itself, and the feed that is in force again behind it.
     pub feed: Option<f64>,
     pub feed_behind: Option<f64>,
-    /// Where the line behind is programmed to end, mm.
+    /// Programmed end of the second line, mm.
     pub to: Vector2<f64>,
     pub unit_mm: f64,
 }

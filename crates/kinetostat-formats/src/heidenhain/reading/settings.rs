@@ -1,4 +1,4 @@
-//! What blocks state for those behind them: the unit, the tool, the pole.
+//! Modal settings: the unit, the tool, the pole.
 
 use std::ops::Range;
 

@@ -47,7 +47,7 @@ impl Reader<'_> {
         self.statement(block, &words, &span)
     }
 
-    /// By the word that it begins with.
+    /// Dispatches a block by its first word.
     fn statement(&mut self, block: &Block, words: &[Word], span: &Range<usize>) -> bool {
         let first = &words[0];
         let sets = |word: &Word| word.is("Q") && matches!(word.whole(), Some(120..=122));

@@ -178,7 +178,7 @@ impl Reader<'_> {
         }
     }
 
-    /// Whether places are not those of the tool's tip in the part, for the plane; a cut is refused there, once.
+    /// True if, due to the plane, positions are not those of the tool tip in the part; a cut is refused there, once.
     pub(crate) fn no_place_by_plane(&mut self, span: &Range<usize>, rapid: bool) -> bool {
         let across = self.state.datum.direction(&self.state.plane.across());
         let aligned = match self.state.tilt.stands {

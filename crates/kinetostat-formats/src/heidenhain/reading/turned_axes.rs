@@ -148,7 +148,7 @@ impl Reader<'_> {
         }
     }
 
-    /// Whether the places of a block are not those of the tool's tip in the part; a cut is refused there.
+    /// True if the positions of a block are not those of the tool tip in the part; a cut is refused there.
     pub(crate) fn no_place_by_axes(&mut self, span: &Range<usize>, rapid: bool) -> bool {
         let tip = self.state.tip.on;
         if !rapid {

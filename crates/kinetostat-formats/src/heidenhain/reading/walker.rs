@@ -1,4 +1,4 @@
-//! What the walk over a program knows, and how it says what is wrong.
+//! State of the walk over a program, and its error reports.
 
 use std::collections::BTreeSet;
 use std::ops::Range;
@@ -32,7 +32,7 @@ pub(crate) struct Reader<'r> {
     pub remarked: BTreeSet<String>,
 }
 
-/// What is to be done with what runs more than once or by parameters.
+/// Remedy of repeated or parametric blocks.
 pub(crate) const EXPAND: &str = "write the program flat first (--expand)";
 
 pub(crate) const TILTED: &str = "it tilts the plane in which the places are";

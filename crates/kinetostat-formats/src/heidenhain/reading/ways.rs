@@ -1,4 +1,4 @@
-//! Where a path block goes: to a place, back along the tool, to a place of the machine.
+//! Kinds of path blocks: to a position, back along the tool, to a machine position.
 
 use std::ops::Range;
 
@@ -20,7 +20,7 @@ use crate::model::site::{PoseText, TargetSite};
 use crate::model::target::{Configuration, PoseTarget, Target};
 use crate::text::number::{NumberText, Width};
 
-/// What the functions of a block do.
+/// Effects of the functions of a block.
 #[derive(Debug, Default)]
 pub(crate) struct Acts {
     pub ends: bool,
@@ -30,7 +30,7 @@ pub(crate) struct Acts {
 }
 
 impl Reader<'_> {
-    /// Where a block goes.
+    /// Decodes the movement of a block.
     pub(crate) fn moved(
         &mut self,
         block: &Block,

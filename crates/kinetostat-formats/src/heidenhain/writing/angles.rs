@@ -13,7 +13,7 @@ use crate::model::stated_axes::AxesStated;
 use crate::text::edits::Edits;
 use crate::writing::piece::Piece;
 
-/// Most digits behind the point of an angle: the control takes no more.
+/// Limit of the decimals of an angle on the control.
 const MOST_DECIMALS: usize = 4;
 
 /// Angles nearer than this are one, deg.
@@ -36,7 +36,7 @@ impl Writer<'_> {
         0.5 * 0.1_f64.powi(self.angle_decimals() as i32) * (1.0 + 1e-6)
     }
 
-    /// Whether rotary axes stand where the program has them, as far as angles are written.
+    /// True if the rotary axes are at the program's angles within the written digits.
     pub(crate) fn angles_stand(&self) -> bool {
         let half = self.half_deg();
         self.turned_deg.iter().all(|turned| turned.abs() <= half)
@@ -53,14 +53,14 @@ impl Writer<'_> {
         self.angles_now = both.map(|(start, turned)| start + turned).collect();
     }
 
-    /// It ends: by how much they stand otherwise than in the program, deg.
+    /// Ends a motion: stores the deviation of the rotary axes from the program, deg.
     pub(crate) fn end_angles(&mut self, way: &Way) {
         let Some([_, end]) = angles_of(way) else {
             return;
         };
         let both = self.angles_now.iter().zip(end);
         let turned = both.map(|(now, end)| now - end);
-        // What the arithmetic leaves is none.
+        // A residue of rounding is zero.
         let clean = |turned: f64| match turned.abs() < SAME_DEG {
             true => 0.0,
             false => turned,

@@ -11,14 +11,14 @@ const NEIGHBOURS: i32 = 2;
 /// Decimals of angles in degrees: the control takes no more.
 pub(crate) const ANGLE_DECIMALS: usize = 4;
 
-/// How far rounding may move the arc between its ends, in last digits.
+/// Tolerated displacement of the arc between its ends by rounding, in last digits.
 const MOVED_DIGITS: f64 = 1.5;
 
 /// An arc to be printed, in the plane of the programmed axes, mm.
 pub(crate) struct ToPrint {
-    /// Where it begins as written.
+    /// Start of the arc as written.
     pub from: Vector2<f64>,
-    /// Where it is to end; of a circle, as printed.
+    /// Required end of the arc; for a circle as printed.
     pub to: Vector2<f64>,
     pub centre: Vector2<f64>,
     /// 1 anticlockwise, -1 clockwise.
@@ -30,9 +30,9 @@ pub(crate) struct ToPrint {
 /// A helix as it is printed.
 pub(crate) struct Turned {
     pub centre: Vector2<f64>,
-    /// By how much it turns, with the sign of its sense, as printed.
+    /// Signed angle of the turn, as printed.
     pub degrees: f64,
-    /// Where that ends.
+    /// End of the arc with this angle.
     pub end: Vector2<f64>,
 }
 
@@ -56,7 +56,7 @@ impl ToPrint {
         })
     }
 
-    /// How far an arc from the start by an angle about a centre is from the wanted circle, between its ends.
+    /// Deviation between its ends of an arc, from the start by an angle about a centre, from the wanted circle.
     fn moved_mm(&self, centre: &Vector2<f64>, angle: f64, last_radius: f64) -> f64 {
         let arm = self.from - centre;
         let first_radius = arm.norm();
@@ -66,7 +66,7 @@ impl ToPrint {
             let place = centre + Rotation2::new(angle * part) * arm * size;
             ((place - self.centre).norm() - radius).abs()
         };
-        // What is no number stays.
+        // NaN stays.
         [0.25, 0.5, 0.75]
             .map(off)
             .into_iter()

@@ -1,4 +1,4 @@
-//! How the tool stands at the end of a written block (TX, TY, TZ), and the surface normal there (NX, NY, NZ).
+//! Tool direction at the end of a written block (TX, TY, TZ), and the surface normal there (NX, NY, NZ).
 
 use nalgebra::Vector3;
 
@@ -13,7 +13,7 @@ use crate::writing::piece::Piece;
 const TOOL: [&str; 3] = ["TX", "TY", "TZ"];
 const NORMAL: [&str; 3] = ["NX", "NY", "NZ"];
 
-/// Least angle between directions that counts, rad.
+/// Threshold of the angle between directions, rad.
 const SAME_RAD: f64 = 1e-9;
 
 /// Directions as written are the same below this, rad: their last digit.
@@ -37,14 +37,14 @@ fn words_of(words: &[Word], names: [&str; 3]) -> Option<[usize; 3]> {
 }
 
 impl Writer<'_> {
-    /// How the tool is to stand at the end of a piece, and how it stands there in the program; in the preset's axes.
+    /// Wanted and programmed tool direction at the end of a piece; in the preset's axes.
     fn tool_axes(motion: &Motion, piece: &Piece) -> Option<[Vector3<f64>; 2]> {
         let own = motion.target.pose()?.orientation * Vector3::z();
         let wanted = piece.orientation.map(|turn| turn * Vector3::z());
         Some([wanted.unwrap_or(own), own])
     }
 
-    /// Whether the direction of a piece can be written.
+    /// Checks that the direction of a piece can be written.
     pub(crate) fn can_stand(motion: &Motion, piece: &Piece, way: &Way) -> Result<(), Reason> {
         let turned = Self::tool_axes(motion, piece).map_or(0.0, |[wanted, own]| wanted.angle(&own));
         match turned > SAME_RAD && !way.directed {
@@ -57,7 +57,7 @@ impl Writer<'_> {
         }
     }
 
-    /// Whether the tool stands at the end of a block that states no direction as it is to stand there.
+    /// True if the tool already has the wanted direction at the end of a block that states none.
     pub(crate) fn stands_already(&self, motion: &Motion, piece: &Piece) -> bool {
         Self::tool_axes(motion, piece)
             .is_none_or(|[wanted, own]| wanted.angle(&self.axis.unwrap_or(own)) <= SAME_WRITTEN)

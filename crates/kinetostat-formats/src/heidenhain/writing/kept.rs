@@ -96,7 +96,7 @@ impl Writer<'_> {
         self.pieces(motion, way, &piece, &[])
     }
 
-    /// Whether the pole in force was set from where the tool was, and that is elsewhere now.
+    /// True if the pole in force was set from a tool position that is corrected now.
     fn pole_is_off(&self, way: &Way) -> bool {
         way.pole_from
             .is_some_and(|from| self.off_at.get(from) == Some(&true))
@@ -111,7 +111,7 @@ impl Writer<'_> {
         stated: &Stated,
     ) -> Result<(), Reason> {
         let off = way.datum.step(&self.off);
-        // Its height alone need not be known for that.
+        // Only the offset in the plane changes an arc; the height may be unknown.
         let begins_off = way.plane.flat(&off).amax() > NOT_WORTH * self.half_mm(way);
         let is_arc = words
             .first()

@@ -69,7 +69,7 @@ impl Writer<'_> {
                     "write the block as the control shows it",
                 )
             })?;
-            // What stands before the block, number and blanks, stands before its pieces.
+            // Number and blanks before the block are repeated before its pieces.
             inserted.extend_from_slice(file.part(&(way.block.lines.start..motion.span.start)));
             inserted.extend(text);
             inserted.extend_from_slice(file.line_ending());
@@ -137,7 +137,7 @@ impl Writer<'_> {
     }
 }
 
-/// Whether the writer can say a piece.
+/// Checks that the writer can express a piece.
 fn can_be_written(piece: &Piece, way: &Way) -> Result<(), Reason> {
     let near = piece
         .position_mm

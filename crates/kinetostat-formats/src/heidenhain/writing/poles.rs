@@ -11,7 +11,7 @@ use crate::model::motion::Motion;
 /// Poles nearer than this are one, mm.
 const SAME_POLE_MM: f64 = 1e-9;
 
-/// Most decimals of a pole that is stated again.
+/// Limit of the decimals of a pole that is stated again.
 const MOST_DIGITS: usize = 7;
 
 impl Writer<'_> {
@@ -35,7 +35,7 @@ impl Writer<'_> {
             at,
             count: way.pole.count,
         });
-        // Behind CC there is no last polar radius.
+        // After CC no last polar radius exists.
         self.polar_broken = true;
         true
     }

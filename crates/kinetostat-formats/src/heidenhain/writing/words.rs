@@ -31,7 +31,7 @@ pub(crate) fn write_functions(words: &[Word], part: Part, edits: &mut Edits) {
     }
 }
 
-/// Which piece of a motion.
+/// Position of a piece within its motion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Part {
     Only,
@@ -64,7 +64,7 @@ pub(crate) fn functions_of(words: &[Word]) -> Vec<(When, u32)> {
     numbers.map(|number| (when(number), number)).collect()
 }
 
-/// What a block states of its end and its feed.
+/// Words of the end and the feed of a block.
 pub(crate) struct Stated {
     pub word: [Option<usize>; 3],
     pub absolute: [bool; 3],
@@ -112,7 +112,7 @@ pub(crate) fn take_out(words: &[Word], at: usize, edits: &mut Edits) {
     edits.replace(span, gap);
 }
 
-/// Where words go that stand before the functions of a block.
+/// Insertion point of words before the functions of a block.
 pub(crate) fn before_functions(words: &[Word]) -> usize {
     let first = words.iter().position(|word| word.is("M"));
     let behind = first.unwrap_or(words.len()).saturating_sub(1);

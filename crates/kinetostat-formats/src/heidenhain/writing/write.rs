@@ -101,7 +101,7 @@ pub(crate) fn write_heidenhain(
     Ok(written)
 }
 
-/// Whether a file writes signs before positive coordinates: the first coordinate says it.
+/// True if a file writes signs before positive coordinates: its first coordinate shows it.
 fn has_signs(file: &SourceFile) -> bool {
     let bytes = file.bytes();
     let letters = bytes

@@ -1,4 +1,4 @@
-//! What the writer knows on its way through the motions.
+//! State of the writer on its way through the motions.
 
 use nalgebra::{Vector2, Vector3};
 
@@ -11,7 +11,7 @@ use crate::model::program::RobotProgram;
 use crate::options::WriteOptions;
 use crate::text::edits::Edits;
 
-/// Why a motion cannot be written, and what to do.
+/// Reason and remedy of a motion that cannot be written.
 pub(crate) type Reason = (String, &'static str);
 
 /// A pole of the writer's own.
@@ -20,42 +20,42 @@ pub(crate) struct OwnPole {
     pub plane: Plane,
     /// In it, in the programmed axes, mm.
     pub at: Vector2<f64>,
-    /// How many CC blocks of the program ran before it.
+    /// Number of CC blocks that ran before it.
     pub count: usize,
 }
 
 /// The walk over the motions.
 pub(crate) struct Writer<'w> {
     pub program: &'w RobotProgram,
-    /// What the program shows of how rotary axes count.
+    /// Evidence in the program for the way in which rotary axes count.
     pub shown: Vec<CountShown>,
     pub options: &'w WriteOptions,
     pub edits: Vec<Edits>,
-    /// Whether positive numbers have their sign, by file.
+    /// True by file if positive numbers have a sign.
     pub signs: Vec<bool>,
-    /// Whether blocks were added, by file.
+    /// True by file if blocks were added.
     pub added: Vec<bool>,
-    /// Where the written blocks leave the tool, from where the input does; in the preset's axes, mm.
+    /// Tool offset of the written blocks from the input; in the preset's axes, mm.
     pub off: Vector3<f64>,
     /// The feed that the written blocks leave behind, where it is another one.
     pub feed: Option<f64>,
     /// A pole of the writer's own that is in force, or would be behind CC blocks that need one from before.
     pub pole: Option<OwnPole>,
-    /// How the tool stands, where it stands otherwise than in the program; in the preset's axes.
+    /// Tool direction if it differs from the program; in the preset's axes.
     pub axis: Option<Vector3<f64>>,
-    /// By how much rotary axes stand otherwise than in the program, and where they stand within a motion, deg.
+    /// Deviation of the rotary axes from the program, and their positions within a motion, deg.
     pub turned_deg: Vec<f64>,
     pub angles_now: Vec<f64>,
     /// A polar block was written by X and Y: those behind it have no last radius.
     pub polar_broken: bool,
-    /// Whether the written blocks are elsewhere at the end of each motion.
+    /// True for each motion whose end is displaced in the written blocks.
     pub off_at: Vec<bool>,
-    /// Whether each motion is another one.
+    /// True for each motion that is changed.
     pub changed: Vec<bool>,
     pub file: usize,
 }
 
-/// Least difference of places that counts, mm.
+/// Threshold of a difference of position, mm.
 pub(crate) const SAME_MM: f64 = 1e-9;
 
 pub(crate) const ABOUT_CENTRE: &str =
@@ -68,7 +68,7 @@ impl Writer<'_> {
     }
 
     pub(crate) fn decimals(&self, way: &Way) -> usize {
-        // As fine in inches.
+        // Equal resolution in inches.
         let more = match way.unit_mm == 1.0 {
             true => 0,
             false => 2,

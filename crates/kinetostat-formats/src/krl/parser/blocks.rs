@@ -235,7 +235,7 @@ fn finished(block: Block, end: &Range<usize>) -> Statement {
             now,
         } => {
             blocks.push(now);
-            // What stands between SWITCH and the first CASE never runs.
+            // Statements between SWITCH and the first CASE never run.
             if is_switch {
                 blocks.remove(0);
             }
@@ -249,7 +249,7 @@ fn finished(block: Block, end: &Range<usize>) -> Statement {
                 whole: whole(&header),
             }
         }
-        // Its statements stand among those around it.
+        // Statements of the block belong to the surrounding ones.
         Block::Spline { header, .. } => Statement::Call { tokens: header },
         Block::Loop {
             header,

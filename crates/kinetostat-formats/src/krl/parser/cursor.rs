@@ -1,4 +1,4 @@
-//! What the parser of a file knows at a line.
+//! State of the parser of a file at a line.
 
 use std::ops::Range;
 
@@ -22,7 +22,7 @@ pub(super) enum Block {
     Branches {
         header: Range<usize>,
         is_switch: bool,
-        /// Of IF; what SWITCH compares, and the values of each CASE.
+        /// Condition of IF; selector of SWITCH, and the values of each CASE.
         conditions: Vec<Range<usize>>,
         is_complete: bool,
         blocks: Vec<Vec<Statement>>,

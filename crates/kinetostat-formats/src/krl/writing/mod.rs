@@ -1,5 +1,4 @@
-//! What is written in KRL: statements of pieces, ends that state what they kept of before, and what FOLDs show of points that have
-//! become others.
+//! Writing of KRL: statements of pieces, ends that state what they took over from the previous pose, and FOLDs that show renamed points.
 
 mod renamed;
 mod stated;

@@ -1,4 +1,4 @@
-//! What else speaks of a point that has become another: the FOLD around its motion, and the data of the point.
+//! Renaming of a point in other places: the FOLD around its motion, and the data of the point.
 //!
 //! Source: inline forms as the pendant of KSS 5.x and 8.x writes them. A point `XP1` is shown as `P1`, and `FP1` is its data.
 
@@ -101,7 +101,7 @@ fn point_data(file: &TokenFile<'_>) -> PointData {
         let mut tokens = line.tokens.clone();
         let of_type = tokens.find(|at| !is_word(*at, b"DECL") && !is_word(*at, b"GLOBAL"));
         let of_type = of_type.filter(|at| is_word(*at, b"FDAT"));
-        // One of several names of a statement is not copied.
+        // A statement with several names is not copied.
         let alone = file.find(line.tokens.clone(), b',').is_none();
         if let Some(name) = of_type
             .map(|at| at + 1)
@@ -140,7 +140,7 @@ fn words<'f>(file: &'f TokenFile<'_>, line: usize) -> impl Iterator<Item = Range
     })
 }
 
-/// Where the comment of a line shows a point.
+/// Positions in the comment of a line that show a point.
 fn shown_at<'f>(
     file: &'f TokenFile<'_>,
     line: usize,
@@ -150,7 +150,7 @@ fn shown_at<'f>(
     words(file, line).filter(move |word| bytes[word.clone()].eq_ignore_ascii_case(old))
 }
 
-/// Where a statement names the data of a point (`FDAT_ACT=FP1`, `$TOOL=STOOL2(FP1)`): what stands behind the F.
+/// Positions at which a statement names the data of a point (`FDAT_ACT=FP1`, `$TOOL=STOOL2(FP1)`): the name after the F.
 fn data_at<'f>(
     file: &'f TokenFile<'_>,
     line: usize,

@@ -105,7 +105,7 @@ impl<'a> Stating<'a> {
         self.of_motion.get(&motion).map_or(&[], Vec::as_slice)
     }
 
-    /// Whether a piece turns the tool out of the orientation that its motion ends with.
+    /// True if a piece turns the tool away from the end orientation of its motion.
     fn turns(&self, motion: usize) -> bool {
         let end = self.program.motions.get(motion);
         let end = end.and_then(|motion| motion.target.pose());
@@ -142,7 +142,7 @@ impl<'a> Stating<'a> {
         {
             self.state(index, &Open { text, pose }, own, turned);
         }
-        // How the tool stands on the way is said by the ends.
+        // Orientation on a circle follows from the ends, not from the auxiliary point.
         if let (MotionKind::Circular { via }, Some((_, site))) = (&motion.kind, &motion.site.via)
             && let Some(pose) = via.pose()
             && let Some(text) = open_text(self.program, motion, site)
@@ -198,7 +198,7 @@ impl<'a> Stating<'a> {
         let edits = &mut self.edits[motion.file];
         match open.text.place == open.text.whole && open.text.file == motion.file {
             true => edits.append(own_edits),
-            // What is declared elsewhere is written in the statement: others may keep something else.
+            // A position that is declared elsewhere is written into the statement: other motions may take over different values from it.
             false => {
                 let literal = own_edits.applied_to_part(home.bytes(), &open.text.whole);
                 edits.replace(open.text.place.clone(), literal.unwrap_or_default());
@@ -207,7 +207,7 @@ impl<'a> Stating<'a> {
         self.first.get_or_insert(motion);
     }
 
-    /// Where the motion before a motion ends when it is corrected, mm.
+    /// Corrected end of the previous motion, mm.
     fn place_before(&self, motion: &Motion) -> Option<Vector3<f64>> {
         let from = motion.follows?;
         let corrected = self.of(from).last().map(|piece| piece.position_mm);
@@ -216,7 +216,7 @@ impl<'a> Stating<'a> {
     }
 }
 
-/// What is written of an end that leaves something open; none where it states all, or stands elsewhere.
+/// Text of a partial end; `None` if it is complete, or not in the statement.
 fn open_text(program: &RobotProgram, motion: &Motion, site: &TargetSite) -> Option<PartialText> {
     let of = |text: &PoseText, place: &Range<usize>| {
         let [x, y, z] = text.position.clone();

@@ -44,11 +44,11 @@ pub(super) fn state_step(
     edits.replace(span, format!("{{{}}}", members.join(",")));
 }
 
-/// Where it is said, behind the end of a step, in whose axes it is: with the blanks before it.
+/// Position of the word that selects the axes of a step, after its end, with the blanks before it.
 fn axes_word(behind: &[u8]) -> Option<Range<usize>> {
     let sign = behind.iter().position(|byte| *byte == b'#')?;
     let before = behind[..sign].trim_ascii_end();
-    // Behind WITH stand values of settings.
+    // The text after WITH holds settings.
     let settings = before
         .windows("WITH".len())
         .any(|word| word.eq_ignore_ascii_case(b"WITH"));

@@ -1,4 +1,4 @@
-//! What the writer must know of KRL.
+//! Adapter of the writer for KRL.
 
 use std::collections::BTreeSet;
 
@@ -22,7 +22,7 @@ use crate::writing::motions::write_with;
 use crate::writing::piece::Piece;
 use crate::writing::syntax::{PieceLiterals, Renamed, Syntax, replace_word};
 
-/// Most characters of a name.
+/// Limit of the characters of a name.
 const LONGEST: usize = 24;
 
 /// KRL.
@@ -69,7 +69,7 @@ impl Syntax for KrlSyntax {
         number: &mut usize,
         taken: &mut BTreeSet<Vec<u8>>,
     ) -> Option<Vec<u8>> {
-        // Of so many names one is free.
+        // The loop tries more names than are taken.
         for _ in 0..=2 * taken.len() + 2 {
             let end = format!("_{number}");
             *number += 1;

@@ -8,7 +8,7 @@ use parquet::data_type::{
 use parquet::errors::ParquetError;
 use parquet::file::writer::SerializedColumnWriter;
 
-/// Most rows of a file.
+/// Limit of the rows of a file.
 pub(crate) const MOST_ROWS: usize = 10_000_000;
 
 /// Values of a column: those that are there, and for each row which of them is its own.

@@ -1,4 +1,4 @@
-//! What the values of a column mean: numbers of all types, and what is none.
+//! Value types of a column: numbers of all types, and other values.
 //!
 //! Source: Apache Parquet format 2, logical types.
 
@@ -7,10 +7,10 @@ use parquet::schema::types::ColumnDescriptor;
 
 use crate::poses::parquet::data::Data;
 
-/// What the values of a column mean.
+/// Value type of a column.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Kind {
-    /// As they are stored: signed whole numbers, and those of 32 and 64 bits with a fraction.
+    /// Stored number: signed integers, and floats of 32 and 64 bits.
     Number,
     /// Whole numbers without a sign.
     Unsigned,

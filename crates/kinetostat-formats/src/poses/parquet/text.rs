@@ -11,7 +11,7 @@ use crate::poses::parquet::kind::{Kind, printed, quoted};
 /// Comments of the text are metadata under this key.
 const KEY: &str = "kinetostat";
 
-/// Most bytes of the text.
+/// Limit of the bytes of the text.
 const MOST_BYTES: usize = 1 << 28;
 
 /// The table of a file in Parquet as CSV, for [`crate::read_poses`]: numbers and texts of all flat columns, and in a last
@@ -61,7 +61,7 @@ fn refuse_other_types(columns: &Columns) -> Result<(), String> {
         name: name.clone(),
         span: 0..0,
     });
-    // What is wrong with the names is reported where the table is read.
+    // Faults of the names are reported where the table is read.
     let Ok(layout) = layout_of(&named.collect::<Vec<_>>(), &(0..0)) else {
         return Ok(());
     };
@@ -147,11 +147,11 @@ pub fn parquet_of_table(original: &[u8], table: &[u8]) -> Result<ParquetFile, St
 
 /// A table that was made of a file.
 struct TableRows<'t> {
-    /// Its comments.
+    /// Comments of the table.
     header: Vec<String>,
-    /// Its cells, without the line of names.
+    /// Cells of the table, without the line of names.
     cells: Vec<Vec<&'t [u8]>>,
-    /// Of which rows of the file they are.
+    /// Rows of the file from which the rows of the table come.
     sources: Vec<usize>,
 }
 

@@ -15,7 +15,7 @@ const KEYWORDS: [&str; 36] = [
     "TRYNEXT", "UNDO", "VAR", "WHILE",
 ];
 
-/// Where it reads, and what is wrong so far.
+/// Position of the parser, and the errors so far.
 pub(super) struct Parser<'f, 'a> {
     pub(super) file: &'f TokenFile<'a>,
     pub(super) at: usize,
@@ -74,7 +74,7 @@ impl Parser<'_, '_> {
             return None;
         }
         self.at += 1;
-        let name = Name::of(self.file.word(at));
+        let name = Name::of(self.file.word(at)).filter(|name| name.letters().len() <= 32);
         if name.is_none() {
             self.fault(
                 at..at + 1,

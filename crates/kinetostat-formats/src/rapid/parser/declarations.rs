@@ -6,7 +6,7 @@ use crate::rapid::parser::cursor::Parser;
 use crate::text::name::Name;
 
 impl Parser<'_, '_> {
-    /// None where no declaration begins; nothing inside where it is wrong, which is noted.
+    /// Parses a declaration: `None` if none begins here, `Some(None)` if it is faulty, which is noted.
     pub(super) fn datum(&mut self, start: usize, sight: Sight) -> Option<Option<DatumNode>> {
         self.takes("TASK");
         let words = [

@@ -263,7 +263,7 @@ impl Parser<'_, '_> {
             );
             return None;
         }
-        // Behind the name, its components and its index; `\WObj:=` is of a call.
+        // The assignment follows the name, its components and its index; `\WObj:=` belongs to a call.
         let assign = tokens.clone().find(|at| {
             let kind = self.file.tokens[*at].kind;
             matches!(kind, Kind::Assign | Kind::Symbol(b'\\' | b','))

@@ -54,7 +54,7 @@ pub(super) fn written_out(
     }
     let mut faults = Vec::new();
     let mut made = BTreeMap::new();
-    // Where the line before begins behind its own corner, mm.
+    // Start of the line after its own corner, mm.
     let mut begins: Option<(usize, Vector2<f64>)> = None;
     let with_corners: BTreeMap<usize, usize> = (found.written.iter().enumerate())
         .filter_map(|(index, written)| Some((written.corner.as_ref()?.0.start, index)))
@@ -153,7 +153,7 @@ fn edits_of(
 ) -> (Edits, BTreeMap<usize, usize>) {
     let mut edits = Edits::default();
     let mut added = BTreeMap::new();
-    // Where lines end, in the plane; those behind a corner at their own end.
+    // End of each line in the plane; a line after a corner has its own end.
     let mut ends: BTreeMap<usize, [Option<f64>; 3]> = BTreeMap::new();
     for (index, found) in made {
         for (at, place) in [(*index, Some(found.corner.ends[0])), (index + 1, None)] {

@@ -13,9 +13,9 @@ use crate::text::line_words::in_words;
 /// A cycle with its numbers, along the axis across the plane.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Drilling {
-    /// Where it withdraws to.
+    /// Retraction plane.
     pub retract: f64,
-    /// Where feed begins: above the surface by the safety distance.
+    /// Start of the feed: the reference plane plus the safety clearance.
     pub begin: f64,
     pub surface: f64,
     pub depth: f64,
@@ -26,7 +26,7 @@ pub(super) struct Drilling {
     pub deep: Option<Deep>,
 }
 
-/// Of CYCLE83.
+/// Parameters of CYCLE83.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Deep {
     pub first: f64,
@@ -36,17 +36,17 @@ pub(super) struct Deep {
     /// Between steps, and at the start after each withdrawal.
     pub dwell: f64,
     pub dwell_above: f64,
-    /// Of the feed of the first step.
+    /// Feed factor of the first step.
     pub feed_share: f64,
     /// VARI: 1 withdraws out of the hole.
     pub withdraws: bool,
-    /// By how much it withdraws within the hole.
+    /// Retraction distance within the hole.
     pub back: f64,
     /// Before the last depth, where stated.
     pub ahead: f64,
 }
 
-/// Most steps of a hole.
+/// Limit of the steps of a hole.
 const MOST_STEPS: usize = 1000;
 
 /// Lengths that differ by less are equal: the last bits of a sum divide no step.

@@ -1,4 +1,4 @@
-//! Whether a program needs to be run, and its run.
+//! Decides if a program needs to be expanded, and expands it.
 
 use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
@@ -51,12 +51,12 @@ pub fn expand_siemens(files: &[SourceFile]) -> Result<FlatText, Vec<ProgramError
     run_within(files, (MOST_STEPS, SlashBlocks::Refused)).map_err(|refused| refused.faults)
 }
 
-/// The same by so many lines at most.
+/// Expands a program with a limit of the executed lines.
 pub fn expand_within(files: &[SourceFile], most_steps: u64) -> Result<FlatText, Vec<ProgramError>> {
     run_within(files, (most_steps, SlashBlocks::Refused)).map_err(|refused| refused.faults)
 }
 
-/// The same; of a program that is refused what was written all the same.
+/// Expands a program; a refused program is returned with the part that was written.
 pub(crate) fn run_or_refused(
     files: &[SourceFile],
     options: &ReadOptions,
@@ -94,7 +94,7 @@ fn run_within(
     if !needs(file, &names) {
         note_calls(file, &mut faults);
         let mut flat = FlatText::unchanged(file, main);
-        // What follows the last line end is a line, too.
+        // The text after the last line end is a line, too.
         flat.origins = (1..=file.line_count()).map(|line| (main, line)).collect();
         return with_corners(flat, faults, |flat| written_out(flat, files));
     }
@@ -120,7 +120,7 @@ fn begin_of(file: &SourceFile) -> Range<usize> {
     lines.find(says).unwrap_or(0..0)
 }
 
-/// Whether the control flow of a program is not straight on.
+/// True if the control flow of a program is not linear.
 fn needs(file: &SourceFile, names: &BTreeMap<Vec<u8>, usize>) -> bool {
     (1..=file.line_count()).any(|line| {
         let Ok((block, _)) = Block::of(file.bytes(), file.range_of(line)) else {

@@ -122,11 +122,11 @@ const BACK: &str = "CYCLE83 breaks chips (VARI=0): its way back in the hole is w
 /// Steps that stay as long as the first one.
 const EVEN: &str = "CYCLE83 without DAM: all steps are taken as long as the first, which is not certain here (the manual was not at hand). Compare the depths with those of the control, or state DAM and _MDEP";
 
-/// By how much CYCLE83 withdraws within a hole where _VRT states nothing, mm.
+/// Retraction of CYCLE83 within a hole where _VRT is not stated, mm.
 const BACK_MM: f64 = 1.0;
 
-/// How far from where it has drilled to it goes on, in units of the program: where _DIS1 states nothing, 0.6 mm down to 30 mm, then a
-/// fiftieth of the depth, at most 7 mm.
+/// Stop distance before the drilled depth, in units of the program: where _DIS1 is not stated, 0.6 mm down to 30 mm, then a fiftieth of the depth, at
+/// most 7 mm.
 fn ahead_of(deep: &Deep, drilled: f64, unit_mm: f64) -> f64 {
     let drilled_mm = drilled * unit_mm;
     match drilled_mm <= 30.0 {

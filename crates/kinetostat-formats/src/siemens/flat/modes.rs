@@ -2,14 +2,14 @@
 
 use std::rc::Rc;
 
-/// What a code comes back to where the program stated none of its group before.
+/// Code that a modal group returns to if the program stated none of it before.
 #[derive(Clone, Copy)]
 enum Unstated {
     /// The code that programs are read with from their beginning.
     Basic(&'static str),
     /// The machine alone knows it.
     Unknown,
-    /// It moves nothing.
+    /// The code moves no axis.
     Free,
 }
 
@@ -131,7 +131,7 @@ const INSTEAD: [&[u8]; 4] = [b"TRANS", b"ROT", b"SCALE", b"MIRROR"];
 /// Words that add to the frame in force.
 const FURTHER: [&[u8]; 4] = [b"ATRANS", b"AROT", b"ASCALE", b"AMIRROR"];
 
-/// Whether a word in capitals states a programmable frame.
+/// True if a word in capitals states a programmable frame.
 pub(super) fn is_frame(word: &[u8]) -> bool {
     INSTEAD.contains(&word) || FURTHER.contains(&word)
 }
@@ -164,7 +164,7 @@ impl Frames {
         Rc::make_mut(&mut self.0).push(statement);
     }
 
-    /// Whether two are the same statements.
+    /// True if both hold the same statements.
     pub(super) fn is(&self, other: &Self) -> bool {
         Rc::ptr_eq(&self.0, &other.0) || self.0 == other.0
     }

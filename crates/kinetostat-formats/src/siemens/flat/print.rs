@@ -38,7 +38,7 @@ impl Runner<'_> {
         }
         let acts = |item: &Item| self.is_assignment(&item.name, &item.what);
         if line.block.skip && self.slash_blocks == SlashBlocks::Refused {
-            // What stays in the flat program is for the reader to say.
+            // Blocks that stay in the flat program are judged by the reader.
             let runs = items.iter().any(acts) || self.call(items)?.is_some();
             if runs || !matches!(self.end(items)?, End::No) {
                 return Err(self.fault(&line.block.span, SLASHED.0, SLASHED.1));

@@ -14,7 +14,7 @@ use crate::siemens::flat::statements::{Control, Jump, Way};
 use crate::siemens::values::Value;
 use crate::text::source::SourceFile;
 
-/// Most sections that are repeated within one another.
+/// Limit of the nesting of repeated sections.
 const MOST_SECTIONS: usize = 32;
 
 impl Runs for Runner<'_> {

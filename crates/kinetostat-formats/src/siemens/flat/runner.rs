@@ -14,19 +14,19 @@ use crate::siemens::flat::structure::Unit;
 use crate::siemens::values::{Value, Variable, Variables, whole};
 use crate::text::source::SourceFile;
 
-/// Most programs that call one another (840D sl: 18 levels).
+/// Limit of nested program calls (840D sl: 18 levels).
 pub(super) const MOST_LEVELS: usize = 18;
-/// Why the run ends.
+/// Error that ends the run.
 pub(super) type Fault = ProgramError;
 
 /// A section that is run again.
 #[derive(Debug, Clone)]
 pub(super) struct Section {
     pub from: usize,
-    /// Behind its last line.
+    /// Position after the last line.
     pub end: usize,
     pub left: u32,
-    /// Where the program goes on.
+    /// Line at which the calling program continues.
     pub behind: usize,
 }
 
@@ -41,7 +41,7 @@ pub(super) struct Level {
     /// Variables of the program that called it, and what is given back to them.
     pub caller: BTreeMap<Vec<u8>, Variable>,
     pub back: Vec<(Vec<u8>, Vec<u8>, Vec<f64>)>,
-    /// Further runs of it, and how.
+    /// Remaining repetitions.
     pub again: u32,
     /// Codes and frame in force at its call.
     pub modes: Modes,
@@ -117,8 +117,7 @@ impl<'r> Runner<'r> {
         ProgramError::at(self.file(), span.clone(), reason, remedy)
     }
 
-    /// How often a subprogram or a section runs, P: SINUMERIK 840D sl, Programming Manual, Fundamentals, "Subprogram repetitions
-    /// (P)": 1 to 9999.
+    /// Number of runs of a subprogram or a section, P: SINUMERIK 840D sl, Programming Manual, Fundamentals, "Subprogram repetitions (P)": 1 to 9999.
     pub(super) fn runs(&self, span: &Range<usize>, value: &Expression) -> Result<u32, Fault> {
         let count = self.number(value)?;
         let runs = whole(count).filter(|runs| (1..=9999).contains(runs));
@@ -200,7 +199,7 @@ impl<'r> Runner<'r> {
         self.set(name, indices, value)
     }
 
-    /// Whether programs may call another one.
+    /// Checks that the call depth allows another call.
     pub(super) fn may_call(&self) -> Result<(), Fault> {
         match self.levels.len() >= MOST_LEVELS {
             true => Err(self.fault(
@@ -212,7 +211,7 @@ impl<'r> Runner<'r> {
         }
     }
 
-    /// Whether a value is given to a variable by a word.
+    /// True if a word assigns a value to a variable.
     pub(super) fn is_assignment(&self, name: &Range<usize>, what: &What) -> bool {
         let text = self.file().part(name);
         let indexed = matches!(what, What::Value { indices, .. } if !indices.is_empty());

@@ -1,4 +1,4 @@
-//! What a line does besides its words (jumps, loops, sections that run again), from its tokens.
+//! Control flow of a line (jumps, loops, repeated sections), from its tokens.
 
 use std::ops::Range;
 
@@ -17,22 +17,22 @@ pub(super) struct Jump {
     pub number: Option<u64>,
 }
 
-/// Where the destination of a jump is looked for.
+/// Search direction of a jump.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Way {
     Forward,
     Back,
     Both,
-    /// As both, and no fault where there is none.
+    /// Both directions, without an error if the destination does not exist (GOTOC).
     IfThere,
 }
 
-/// What a line does besides its words. Lines of others are indices of the unit.
+/// Control flow of a line. Other lines are given as indices of the unit.
 #[derive(Debug, Clone)]
 pub(super) enum Control {
     None,
     Define,
-    /// It only marks a place: PROC, EXTERN, LOOP, ENDIF.
+    /// Marker without an action: PROC, EXTERN, LOOP, ENDIF.
     Mark,
     /// IF, WHILE, UNTIL: goes to a line where the condition does not hold.
     Unless {

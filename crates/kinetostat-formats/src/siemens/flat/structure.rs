@@ -37,7 +37,7 @@ pub(super) struct Line {
     pub tokens: Vec<Token>,
 }
 
-/// Whether a line that cannot be read may say what runs, or what a variable is.
+/// True if a line that cannot be read may change the control flow or a variable.
 fn controls(text: &[u8]) -> bool {
     let text = text.split(|byte| *byte == b';').next().unwrap_or_default();
     if text.contains(&b'=') {
@@ -51,7 +51,7 @@ fn controls(text: &[u8]) -> bool {
 }
 
 impl Unit {
-    /// Of a file; what is wrong with it is noted.
+    /// Parses a file and notes its errors.
     pub(super) fn of(file: &SourceFile, faults: &mut Vec<ProgramError>) -> Self {
         let mut unit = Self {
             runs: true,
@@ -76,7 +76,7 @@ impl Unit {
                     note(faults, || {
                         ProgramError::at(file, broken.span, broken.reason, broken.remedy)
                     });
-                    // It is written as it stands.
+                    // The line is written unchanged.
                     let block = Block::unread(file.range_of(number));
                     (block, Vec::new(), Control::None)
                 }

@@ -10,7 +10,7 @@ pub(super) const REASON: &str =
 pub(super) const REMEDY: &str =
     "give its file together with the program (--subprograms FOLDER), or take the call out";
 
-/// Whether a word that begins a block can only be a call.
+/// True if a word that begins a block can only be a call.
 pub(super) fn is_call(file: &SourceFile, item: &Item) -> bool {
     let name = String::from_utf8_lossy(file.part(&item.name)).to_ascii_uppercase();
     matches!(item.what, What::Name | What::Call(_))

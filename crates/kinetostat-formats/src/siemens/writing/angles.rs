@@ -28,8 +28,7 @@ struct AngleText {
     reached_deg: f64,
 }
 
-/// How the end of a turn is stated that goes one way round, so that rounding cannot make a whole turn of it, or of a whole turn none;
-/// its angle says it otherwise.
+/// Form of the end of a turn in a given sense (ACP, ACN), chosen so that rounding makes neither a full turn of it, nor nothing of a full turn.
 fn end_of_way_round(turn: f64) -> EndWord {
     match turn {
         // Both are right: the shorter way, and the step.
@@ -54,7 +53,7 @@ impl Writer<'_> {
         }
     }
 
-    /// How an absolute word turns an axis from where it stands to an angle.
+    /// Turn of an axis by an absolute word, from its position to an angle.
     fn end_word(&self, axis: usize, from: f64, to: f64) -> EndWord {
         let shown = self.shown.get(axis).copied().unwrap_or_default();
         let (count, digits) = (shown.way_of_counting(), self.options.angle_decimals);
@@ -118,13 +117,13 @@ impl Writer<'_> {
             return Some((format!("{letter}=IC({text})"), from + by));
         }
         let one_turn = match to - turns_below(to) {
-            // What the arithmetic leaves.
+            // Rounding residue of the arithmetic.
             least if least < 0.0 => 0.0,
             one_turn => one_turn,
         };
         let text = format!("{one_turn:.digits$}");
         let value: f64 = text.parse().unwrap_or(one_turn);
-        // Of one turn: 360 is 0.
+        // Modulo axis: 360 is 0.
         let text = match value >= 360.0 {
             true => "0".to_owned(),
             false => text,
@@ -162,7 +161,7 @@ impl Writer<'_> {
             false => text.trim().parse().unwrap_or(value),
         };
         AngleText {
-            // Of one turn: 360 is 0.
+            // Modulo axis: 360 is 0.
             text: match how == How::Rotary && value >= 360.0 {
                 true => "0".to_owned(),
                 false => text,
@@ -272,7 +271,7 @@ impl Writer<'_> {
         }
     }
 
-    /// What the arithmetic leaves of the program's own angle is none.
+    /// Stores the correction of an axis; a residue of rounding is stored as zero.
     fn hold(&mut self, axis: usize, turned: f64) {
         self.held.turned_deg[axis] = match turned.abs() < SAME_DEG {
             true => 0.0,
@@ -280,7 +279,7 @@ impl Writer<'_> {
         };
     }
 
-    /// Whether the axes stand where the program has them, as far as angles are written.
+    /// True if the axes are at the program's angles within the written digits.
     pub(crate) fn angles_stand(&self) -> bool {
         let half = half_deg(self.options.angle_decimals);
         self.held

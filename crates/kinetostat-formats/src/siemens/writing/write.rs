@@ -20,7 +20,7 @@ use crate::writing::line_length::check_lines;
 use crate::writing::piece::Piece;
 use crate::writing::refusals::check_pieces;
 
-/// Most bytes of a block.
+/// Limit of the bytes of a block.
 const LONGEST_BLOCK: usize = 512;
 
 /// The files of a program with pieces in place of its motions.

@@ -1,4 +1,4 @@
-//! What the writer knows at a motion, and the codes and feeds that it states.
+//! State of the writer at a motion, and the codes and feeds that it states.
 
 use nalgebra::{Point3, Vector3};
 
@@ -11,13 +11,13 @@ use crate::text::edits::Edits;
 use crate::text::number::short;
 use crate::text::source::SourceFile;
 
-/// Why a motion cannot be written, and what to do.
+/// Reason and remedy of a motion that cannot be written.
 pub(crate) type Reason = (&'static str, &'static str);
 
-/// Least change of a place or a direction that counts, mm and rad.
+/// Threshold of a change of position or direction, mm and rad.
 pub(crate) const SAME: f64 = 1e-9;
 
-/// What the written program holds otherwise than the one that was read, behind the last block.
+/// State after the last block in which the written program differs from its source.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Held {
     /// From where the tool was to where it is, in the part's axes, mm.
@@ -26,7 +26,7 @@ pub(crate) struct Held {
     pub code: Option<Code>,
     pub feed: Option<f64>,
     pub direction: Option<Vector3<f64>>,
-    /// By how much rotary axes stand otherwise, deg.
+    /// Deviation of the rotary axes, deg.
     pub turned_deg: Vec<f64>,
     /// Axes that were stated since their last word in the program: a step behind a frame does not count from that word.
     pub stated: [bool; 3],
@@ -37,7 +37,7 @@ pub(crate) struct Writer<'w> {
     /// Letters of the rotary axes whose words are followed, and where they stand at the start and the end of the motion, deg.
     pub letters: &'w [char],
     pub angles: Option<[&'w [f64]; 2]>,
-    /// What the program shows of how they count.
+    /// Evidence in the program for the way in which rotary axes count.
     pub shown: &'w [CountShown],
     pub file: &'w SourceFile,
     pub motion: &'w Motion,
@@ -57,7 +57,7 @@ impl Writer<'_> {
         (self.written.frame.inverse() * Point3::from(place)).coords
     }
 
-    /// Behind which words that are missing go.
+    /// Insertion point of missing words.
     pub(crate) fn anchor(&self) -> usize {
         let written = self.written;
         let axes = written.axes.iter().flatten().map(|word| word.word.end);

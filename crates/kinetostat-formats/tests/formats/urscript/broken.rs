@@ -58,8 +58,8 @@ fn statements_that_move_the_tool_otherwise_are_refused_by_line() {
         ("movel", "no statement is written so"),
         ("movel(p[0.1,0,0,0,0,0]) a", "no statement is written so"),
         (
-            "a_name_that_is_far_too_long_for_this_reader = 1",
-            "at most 32 characters",
+            "a_name_that_is_far_too_long_for_this_reader_and_for_everybody_else = 1",
+            "at most 64 characters",
         ),
         (
             "movel(p[0.1,0,0,0,0,0]) # over 7/2\nmovel(p[7/0,0,0,0,0,0])",

@@ -1,0 +1,224 @@
+//! Statements beside the motions in the order of the run, for comparing two programs.
+
+use std::ops::Range;
+
+use crate::making::event_kind::EventKind;
+use crate::making::events::SourceEvent;
+use crate::making::motion_events::{code_of, done_in_motion};
+use crate::making::robot_actions::kind_of;
+use crate::making::robot_events::events_of_robot;
+use crate::model::language::Language;
+use crate::model::motion::Motion;
+use crate::model::program::RobotProgram;
+use crate::{krl, ls, rapid, siemens};
+
+/// A statement that runs beside the motions of a program.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct RunStatement {
+    /// Line of its file, counted from 1.
+    pub line: usize,
+    /// What it is about.
+    pub kind: EventKind,
+    /// Its text in capitals, without its comment and the sign of its end.
+    pub text: String,
+    /// How many motions of the program run before it.
+    pub motions_before: usize,
+    /// The setting that it changes, of how motions behind it run (`$ACC.CP`, `SINGAREA`); none of one that changes none.
+    pub mode: Option<String>,
+}
+
+/// The statements of a program beside its motions, in the order in which they run; without comments, and without settings that are in
+/// the places, frames, tools, speeds and zones of the motions. Words of blocks are given by [`crate::each_block`].
+///
+/// ```
+/// use kinetostat_formats::{ReadOptions, SourceFile, read_krl, statements_of_run};
+///
+/// let text = "DEF A()\n$BASE={X 0,Y 0,Z 0,A 0,B 0,C 0}\n$TOOL={X 0,Y 0,Z 9,A 0,B 0,C 0}\n$VEL.CP=0.1\n$ACC.CP = 2.0 ; soft\n\
+///     LIN {X 0,Y 0,Z 5,A 0,B 0,C 0}\nCUT()\nEND\nDEF CUT()\nSPINDLE_ON()\nLIN {X 9,Y 0,Z 5,A 0,B 0,C 0}\nEND\n";
+/// let program = read_krl(vec![SourceFile::new("a.src", text)], &ReadOptions::default()).unwrap();
+/// let said = statements_of_run(&program);
+/// assert_eq!((said[0].text.as_str(), said[0].mode.as_deref()), ("$ACC.CP=2.0", Some("$ACC.CP")));
+/// assert_eq!((said[1].text.as_str(), said[1].line, said[1].motions_before), ("SPINDLE_ON()", 10, 1));
+/// ```
+#[must_use]
+pub fn statements_of_run(program: &RobotProgram) -> Vec<RunStatement> {
+    let statement = |line: usize, text: &str, motions_before: usize| {
+        let text = plain(program.language, text);
+        let kind = kind_of(program.language, &text);
+        let is_said = matches!(kind, EventKind::Comment | EventKind::End) || text.is_empty();
+        (!is_said && !is_in_motions(program.language, &text)).then(|| RunStatement {
+            line,
+            kind,
+            mode: mode_of(program.language, &text),
+            text,
+            motions_before,
+        })
+    };
+    let main = program.motions.first().map_or(0, |motion| motion.file);
+    let mut found: Vec<RunStatement> = match program.language {
+        Language::Apt => {
+            let lines: Vec<usize> = program.motions.iter().map(|motion| motion.line).collect();
+            let of_event = |event: &SourceEvent| {
+                let before = lines.partition_point(|line| *line < event.line);
+                statement(event.line, &event.text, before)
+            };
+            (events_of_robot(program).iter())
+                .filter_map(of_event)
+                .collect()
+        }
+        _ => {
+            let of_ran = program.ran.iter().filter_map(|ran| {
+                let file = program.files.get(ran.file)?;
+                let bytes = ran.text.as_deref().unwrap_or_else(|| file.part(&ran.span));
+                let text = String::from_utf8_lossy(bytes);
+                let mut found = statement(file.line_of(ran.span.start), &text, ran.motions)?;
+                if ran.file != main {
+                    found.text = format!("{} ('{}')", found.text, file.name());
+                }
+                Some(found)
+            });
+            of_ran.collect()
+        }
+    };
+    for (index, motion) in program.motions.iter().enumerate() {
+        let file = program.files.get(motion.file);
+        let done = file.and_then(|file| done_in_motion(program.language, file, motion));
+        let done = done.and_then(|(text, is_behind)| {
+            statement(motion.line, &text, index + usize::from(is_behind))
+        });
+        found.extend(done);
+    }
+    found.sort_by_key(|statement| statement.motions_before);
+    found
+}
+
+/// The options in the statement of a motion of an arm, in capitals: what is neither its way nor its end, speed, zone, tool and work
+/// object. Of other languages there are none.
+#[must_use]
+pub fn options_of_motion(program: &RobotProgram, motion: &Motion) -> String {
+    let arms = [Language::Krl, Language::Rapid, Language::FanucLs];
+    let Some(file) = program
+        .files
+        .get(motion.file)
+        .filter(|_| arms.contains(&program.language))
+    else {
+        return String::new();
+    };
+    let site = &motion.site;
+    let mut parts: Vec<Range<usize>> = [&site.keyword, &site.target_span]
+        .into_iter()
+        .chain(site.via.as_ref().map(|(span, _)| span))
+        .chain(site.speed.as_ref().map(|speed| &speed.span))
+        .chain(&site.zone)
+        .cloned()
+        .collect();
+    parts.sort_by_key(|span| span.start);
+    let mut rest = Vec::new();
+    let mut at = site.keyword.start;
+    for span in parts {
+        rest.extend_from_slice(file.part(&(at..span.start.max(at))));
+        at = at.max(span.end);
+    }
+    rest.extend_from_slice(file.part(&(at..motion.span.end.max(at))));
+    let mut text = plain(program.language, &String::from_utf8_lossy(&rest)).replace(' ', "");
+    let done = done_in_motion(program.language, file, motion);
+    let done = done.map(|(done, _)| plain(program.language, &done).replace(' ', ""));
+    let frames = match program.language {
+        Language::Rapid => vec![
+            format!("\\WOBJ:={}", motion.work_object.name),
+            motion.tool.name.clone(),
+        ],
+        _ => Vec::new(),
+    };
+    let passes = krl::table::MOTIONS.iter().map(|row| row.pass.to_owned());
+    let passes = passes.filter(|_| program.language == Language::Krl);
+    for part in done.into_iter().chain(frames).chain(passes) {
+        text = text.replace(&part.to_ascii_uppercase(), "");
+    }
+    // Separators of arguments say nothing by themselves.
+    text.trim_matches(',').replace(",,", "")
+}
+
+/// A statement in capitals without its comment, with a blank between words alone.
+fn plain(language: Language, text: &str) -> String {
+    let sign = match language {
+        Language::Krl => ";",
+        Language::Apt => "$$",
+        _ => "",
+    };
+    let code = |line: &str| match (language, sign) {
+        (Language::Rapid, _) => code_of(line).trim().to_owned(),
+        (_, "") => line.trim().to_owned(),
+        _ => line
+            .split(sign)
+            .next()
+            .unwrap_or_default()
+            .trim()
+            .to_owned(),
+    };
+    let lines: Vec<String> = text.lines().map(code).collect();
+    let joined = lines.join(" ").to_ascii_uppercase();
+    let joined = joined.trim().trim_end_matches(';');
+    let words: Vec<&str> = joined.split_whitespace().collect();
+    let is_sign = |c: char| "=,()[]{}:".contains(c);
+    let mut plain = String::new();
+    for word in words {
+        let joins = plain.ends_with(is_sign) || word.starts_with(is_sign);
+        if !plain.is_empty() && !joins {
+            plain.push(' ');
+        }
+        plain.push_str(word);
+    }
+    plain
+}
+
+fn is_in_motions(language: Language, text: &str) -> bool {
+    let (settings, declares): (&[&str], &[&str]) = match language {
+        Language::Krl => (krl::table::IN_MOTIONS, &["={"]),
+        Language::Rapid => (&[], &[":=["]),
+        Language::FanucLs => (ls::table::IN_MOTIONS, &[]),
+        _ => (&[], &[]),
+    };
+    let is_mode = || mode_of(language, text).is_some();
+    let is_letter = |c: char| c.is_ascii_alphanumeric();
+    let is_set = |word: &str| {
+        let behind = text.strip_prefix(word);
+        behind.is_some_and(|rest| !(word.ends_with(is_letter) && rest.starts_with(is_letter)))
+    };
+    settings.iter().any(|word| is_set(word))
+        || declares.iter().any(|sign| text.contains(sign)) && !is_mode()
+}
+
+/// The setting that a statement or a word of a block changes, of how motions behind it run; none of one that changes none.
+///
+/// ```
+/// use kinetostat_formats::{Language, mode_of};
+///
+/// assert_eq!(mode_of(Language::Siemens, "G642").as_deref(), Some("G60"));
+/// assert_eq!(mode_of(Language::Krl, "$OUT[1]=TRUE"), None);
+/// ```
+#[must_use]
+pub fn mode_of(language: Language, text: &str) -> Option<String> {
+    let modes: &[&[&str]] = match language {
+        Language::Krl => krl::table::MODES,
+        Language::Rapid => rapid::table::MODES,
+        Language::FanucLs => ls::table::MODES,
+        Language::Siemens => siemens::table::MODES,
+        _ => &[],
+    };
+    let is_part = |c: char| c.is_ascii_alphanumeric() || c == '_';
+    let is = |word: &str| {
+        let behind = text.strip_prefix(word);
+        behind.is_some_and(|behind| !behind.starts_with(is_part))
+    };
+    let group = modes
+        .iter()
+        .find(|group| group.iter().any(|word| is(word)))?;
+    let own = text.split(['=', ',', '\\', ' ', ')']).next();
+    Some(match (language, group) {
+        // Members of a setting are settings of their own.
+        (Language::Krl, _) => own.unwrap_or_default().to_owned(),
+        (_, group) => group[0].to_owned(),
+    })
+}
