@@ -27,11 +27,11 @@ pub(crate) enum Kind {
     Edge,
     /// Settings of how motions run, each by its name.
     PathMode,
-    /// How near the tool comes to the end of a motion.
+    /// Approximation at the end of a motion.
     Zone,
     /// Options in the statement of a motion.
     Options,
-    /// How often a motion runs.
+    /// Number of executions of a motion.
     Runs,
     /// Configuration of the arm.
     Configuration,
@@ -172,7 +172,7 @@ impl Value<'_> {
             (Self::Text(own), Self::Text(of_original)) => {
                 let texts = [own.as_str(), of_original.as_str()];
                 (!is_same_text(kind, texts, is_stated)).then(|| {
-                    // Whoever stops at corners follows the path no worse; how the tool turns on a circle is in the path.
+                    // An exact stop is at least as accurate; the orientation on a circle is in the path.
                     match own.starts_with("G61") || own == "CIRPATHMODE\\OBJECTFRAME" {
                         true => (None, String::new()),
                         false => (kind.fault(), kind.follows().to_owned()),
@@ -216,7 +216,7 @@ fn is_same_text(kind: Kind, [own, of]: [&str; 2], is_stated: &dyn Fn(&str) -> bo
         }
 }
 
-/// How far the end of a motion may be passed, in its unit; none where that is not known.
+/// Width of a zone, in its unit; none if it is unknown.
 fn width(zone: Zone) -> Option<f64> {
     match zone {
         Zone::Exact => Some(0.0),
@@ -225,7 +225,7 @@ fn width(zone: Zone) -> Option<f64> {
     }
 }
 
-/// Whether two names are one: robots and controls do not tell `tMill` from `TMILL`, nor tool 01 from tool 1.
+/// True for equal names: robots and controls treat `tMill` and `TMILL` as equal, and tools 01 and 1.
 fn is_same_name(a: &str, b: &str) -> bool {
     let numbers = [a, b].map(str::parse::<u64>);
     a.eq_ignore_ascii_case(b) || matches!(numbers, [Ok(a), Ok(b)] if a == b)
@@ -259,14 +259,14 @@ pub(crate) struct Mark<'a> {
     /// The name of a setting, of kinds that have several.
     pub(crate) name: String,
     pub(crate) value: Value<'a>,
-    /// How many moves run before it.
+    /// Number of moves before it.
     pub(crate) at: usize,
 }
 
-/// How the tool goes along a move.
+/// Interpolation of a move.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Way {
-    /// As the joints turn.
+    /// Joint interpolation.
     Joints,
     Rapid,
     Feed,
@@ -299,7 +299,7 @@ impl<'a> Marks<'a> {
         }
     }
 
-    /// How many moves run before a line, or up to it (`is_behind`), of a program that runs line by line.
+    /// Number of moves before a line, or up to it (`is_behind`), of a program that runs line by line.
     pub(crate) fn before_line(&self, line: usize, is_behind: bool) -> usize {
         self.lines
             .partition_point(|own| *own < line + usize::from(is_behind))
