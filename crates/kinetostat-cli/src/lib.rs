@@ -64,7 +64,7 @@ use crate::ui::given::Given;
 use crate::ui::host::{self, Host};
 use crate::ui::{progress, screen};
 
-/// What the command does as a process of its own.
+/// Entry point of the command as a process of its own.
 ///
 /// Words come from the process, and so do exit code, printed text and Ctrl-C.
 #[must_use]
@@ -72,8 +72,8 @@ pub fn main() -> ExitCode {
     ExitCode::from(run_as_process(std::env::args_os()))
 }
 
-/// The same for words that another program was started with, the first of them its name: it prints to the standard streams,
-/// catches Ctrl-C and gives the exit code.
+/// Entry point with given words, the first of them the program's name: it prints to the standard streams, catches Ctrl-C
+/// and returns the exit code.
 #[must_use]
 pub fn run_as_process(words: impl Iterator<Item = OsString>) -> u8 {
     answer(words, || {
@@ -82,7 +82,7 @@ pub fn run_as_process(words: impl Iterator<Item = OsString>) -> u8 {
     })
 }
 
-/// What the library of Parquet asserts of a broken file is caught where the file is read, and said there.
+/// Silences panics of the Parquet library about broken files: they are caught and reported where the file is read.
 fn keep_quiet_about_broken_tables() {
     let usual = std::panic::take_hook();
     std::panic::set_hook(Box::new(move |panic| {
@@ -93,15 +93,15 @@ fn keep_quiet_about_broken_tables() {
     }));
 }
 
-/// What a command that ran inside another program leaves.
+/// Result of a command that ran inside another program.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Outcome {
     /// 0 answered, 1 wrong input, 2 no answer, 3 tolerance missed, 130 stopped: as the exit code of the process would be.
     pub code: u8,
-    /// What it would have printed to the standard output.
+    /// Standard output.
     pub out: Vec<u8>,
-    /// What it would have printed to the standard error, without colours.
+    /// Standard error, without colours.
     pub err: Vec<u8>,
 }
 

@@ -1,4 +1,4 @@
-//! What options of several commands share: numbers, vectors, and the exit codes of their help.
+//! Common types of the options of several commands: numbers, vectors, and the exit codes of their help.
 
 use nalgebra::Vector3;
 
@@ -12,7 +12,7 @@ Exit codes:
   3    compensated and written, but the tolerance is missed; the line is said
   130  stopped with Ctrl-C; nothing was written";
 
-/// What is wrong with the number of an option.
+/// Fault of an option's number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub(crate) enum NumberFault {
     #[error("a finite number is needed")]

@@ -21,7 +21,7 @@ use crate::ui::layout::{columns, wrapped};
 use crate::ui::numbers::{fixed, short, triple};
 use crate::ui::warnings;
 
-/// More points are a typing error.
+/// Upper limit of the points: more are a typing error.
 const MOST_POINTS: usize = 100_000;
 
 /// The answer, stable names with units.
@@ -47,21 +47,21 @@ pub(crate) struct AlongLine {
 /// Displacements of the tool's tip from its target, base axes.
 #[derive(Serialize)]
 struct Point {
-    /// From the start of the line.
+    /// Distance from the start of the line.
     distance_mm: f64,
     position_mm: [f64; 3],
     load_alone_mm: [f64; 3],
     deviations_alone_mm: [f64; 3],
-    /// To first order [R 6.15-6.20].
+    /// First-order result [R 6.15-6.20].
     deviations_alone_linear_mm: [f64; 3],
     together_mm: [f64; 3],
     sum_mm: [f64; 3],
     rotation_vector_together_deg: [f64; 3],
-    /// On the limbs' ends, deviations alone.
+    /// Force on the limbs' ends, deviations alone.
     largest_internal_force_n: f64,
     largest_internal_moment_n_m: f64,
     stable: bool,
-    /// How the equilibrium of both together was found, where it was not directly.
+    /// Method by which the common equilibrium was found, unless it was found directly.
     #[serde(skip_serializing_if = "Option::is_none")]
     found_by: Option<FoundBy>,
 }

@@ -1,4 +1,4 @@
-//! What assembly locked in at one place: numbers with units, in every case.
+//! Assembly stress at one place: numbers with units, in every case.
 
 use kinetostat::number::larger;
 use kinetostat::{
@@ -35,13 +35,13 @@ pub(crate) struct Assembly {
     /// Weights, loads on limbs or preloads act also without deviations.
     pub(crate) something_else_acts: bool,
     pub(crate) stable: bool,
-    /// How that equilibrium was found, where it was not directly from the commanded posture.
+    /// Method by which that equilibrium was found, unless directly from the commanded posture.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) found_by: Option<FoundBy>,
     pub(crate) warnings: Vec<Warning>,
 }
 
-/// How many directions the limbs fight in, and which.
+/// Number and list of the directions in which the limbs are over-constrained.
 #[derive(Serialize)]
 pub(crate) struct Directions {
     pub(crate) degree: usize,
@@ -54,7 +54,7 @@ pub(crate) struct StressAnswer {
     limbs: Vec<StressOfLimb>,
 }
 
-/// Of one set of wrenches in equilibrium with itself: shares only, the largest has size 1 N.
+/// Limb's share of one self-equilibrated set of wrenches: the largest has size 1 N.
 #[derive(Serialize)]
 struct StressOfLimb {
     name: String,
@@ -66,7 +66,7 @@ struct StressOfLimb {
 pub(crate) struct PlatformAnswer {
     pub(crate) name: String,
     pub(crate) carries_the_tool: bool,
-    /// From its nominal place, base axes.
+    /// Shift from its nominal place, base axes.
     pub(crate) shift_mm: Cases<[f64; 3]>,
     pub(crate) rotation_vector_deg: Cases<[f64; 3]>,
 }
@@ -87,7 +87,7 @@ pub(crate) struct LimbAnswer {
 pub(crate) struct JointAnswer {
     pub(crate) name: String,
     pub(crate) unit: &'static str,
-    /// From where the joint stands in the machine as drawn, unloaded.
+    /// Shift of the joint from the machine as drawn, unloaded.
     pub(crate) shift: Cases<f64>,
 }
 
@@ -100,7 +100,7 @@ pub(crate) struct SpringAnswer {
     pub(crate) deflection_unit: &'static str,
     pub(crate) deflection: Cases<f64>,
     pub(crate) torque_unit: &'static str,
-    /// What the chain applies to the spring.
+    /// Torque of the chain on the spring.
     pub(crate) torque: Cases<f64>,
 }
 
@@ -152,7 +152,7 @@ pub(crate) fn answer(assembly: &AssemblyQuery) -> Answer<Assembly> {
     })
 }
 
-/// Below this a limb is not strained: rounding of machines of some hundred N/mm.
+/// Force below which a limb is not strained: rounding of machines of some hundred N/mm.
 pub(crate) const NOTHING_N: f64 = 1e-6;
 
 /// Force and moment, the moment at a length, N.

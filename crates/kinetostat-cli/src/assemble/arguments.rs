@@ -36,7 +36,7 @@ pub(crate) struct AssembleArgs {
     /// Along a straight line instead of at one place, mm, base axes
     #[arg(long, num_args = 6, value_names = ["X0", "Y0", "Z0", "X1", "Y1", "Z1"], allow_negative_numbers = true, help_heading = "Along a line", value_parser = number, conflicts_with_all = ["at", "rotation", "joints", "controller", "pendant"])]
     pub(crate) along: Option<Vec<f64>>,
-    // Beside a place clap does not ask for the line, which is refused with it: these are refused themselves.
+    // Clap does not require the line beside a place, so these options are refused here.
     /// Points of the line [default: 41]
     #[arg(long, value_name = "N", help_heading = "Along a line", allow_negative_numbers = true, value_parser = whole, requires = "along", conflicts_with_all = ["at", "joints", "controller", "pendant"])]
     pub(crate) points: Option<usize>,

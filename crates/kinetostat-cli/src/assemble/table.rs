@@ -16,7 +16,7 @@ pub(crate) struct Row {
     pub(crate) name: String,
     pub(crate) unit: &'static str,
     pub(crate) cases: Cases<f64>,
-    /// What the list is sorted by.
+    /// Sort key of the list.
     pub(crate) weight: f64,
 }
 
@@ -100,7 +100,7 @@ pub(crate) fn rows(a: &Assembly) -> Vec<Row> {
     list
 }
 
-/// Every number, full precision.
+/// Table of all numbers, full precision.
 pub(crate) fn csv(a: &Assembly) -> Answer<Vec<u8>> {
     let mut writer = csv::Writer::from_writer(Vec::new());
     let failed = |e: csv::Error| Failure::input(format!("the table cannot be written: {e}"));
@@ -143,7 +143,7 @@ pub(crate) fn decimals(unit: &str) -> i32 {
     }
 }
 
-/// What sorts a list: the share of the deviations, then the whole.
+/// Sort key of a list: the share of the deviations, then the whole.
 fn weight(x: &Cases<f64>) -> f64 {
     let under = x.under_load_by_deviations.unwrap_or(0.0).abs();
     let whole = x.all().into_iter().flatten();

@@ -1,4 +1,4 @@
-//! What assembly locked in, in words and as a table.
+//! Assembly stress in words and as a table.
 
 use crate::assemble::answer::Assembly;
 use crate::assemble::query::AssemblyQuery;
@@ -51,7 +51,7 @@ pub(crate) fn answer_text(assembly: &AssemblyQuery, a: &Assembly, all: bool) -> 
     out
 }
 
-/// What happened, in one or two sentences.
+/// Result in one or two sentences.
 fn result_text(a: &Assembly) -> String {
     let Some(tool) = a.platforms.last() else {
         return String::new();
@@ -86,7 +86,7 @@ fn result_text(a: &Assembly) -> String {
         };
     };
     if degree == 0 && a.something_else_acts {
-        // As built less as drawn: the weights' share, in a machine that stands a little elsewhere.
+        // The difference "as built" minus "as drawn" is the weights' share at a slightly different posture.
         let shares = a.limbs.iter().map(|l| {
             let unlike = norm(l.force_n.without_load_by_deviations);
             (unlike, norm(l.force_n.without_load))
@@ -155,7 +155,7 @@ fn group(
     all: bool,
 ) -> String {
     let of_group: Vec<&Row> = list.iter().filter(|r| r.what.starts_with(what)).collect();
-    // What is rounding beside the largest, or shows no digit, is zero.
+    // Values at rounding level beside the largest, or without a visible digit, are zero.
     let most = |unit: &str| {
         let same = of_group.iter().filter(|r| r.unit == unit);
         largest_size(same.flat_map(|r| r.cases.all()).flatten())

@@ -18,14 +18,14 @@ pub(crate) struct ChatterAnswer {
     pub(crate) program: String,
     pub(crate) model: String,
     pub(crate) material: String,
-    /// In words.
+    /// Damping in words.
     pub(crate) damping: String,
     /// Fastest mode that swings at any place; those above count by their flexibility at rest.
     pub(crate) modes_up_to_hz: Option<f64>,
     /// Places of the program at which the tool cuts.
     pub(crate) places_in_cut: usize,
     pub(crate) places_judged: usize,
-    /// Whether a judged place chatters.
+    /// True if a judged place chatters.
     pub(crate) chatters: bool,
     /// The place with the least limit by its depth.
     pub(crate) nearest: Option<Place>,
@@ -39,7 +39,7 @@ pub(crate) struct ChatterAnswer {
 #[derive(Clone, Serialize)]
 pub(crate) struct Place {
     pub(crate) line: usize,
-    /// Of a program that was expanded: where the line comes from.
+    /// File and line of origin, if the program was expanded.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) source: Option<String>,
     pub(crate) path_mm: f64,
@@ -64,15 +64,15 @@ pub(crate) struct Place {
     pub(crate) first_hz: Option<f64>,
     /// Fastest mode that swings in the calculation.
     pub(crate) modes_up_to_hz: Option<f64>,
-    /// By how much the force may be more or less than the law of the material says.
+    /// Spread of the force about the material law.
     pub(crate) force_spread_percent: f64,
     /// Stable, and not so with a force larger by the spread.
     pub(crate) within_spread: bool,
-    /// How the teeth shake the tool; null where it chatters or is not judged.
+    /// Vibration forced by the teeth; null where it chatters or is not judged.
     pub(crate) vibration: Option<Vibration>,
     /// Places of the program that are like it.
     pub(crate) places: usize,
-    /// From where to where along the path these lie.
+    /// Start of the range along the path.
     pub(crate) from_path_mm: f64,
     pub(crate) to_path_mm: f64,
 }

@@ -11,10 +11,10 @@ use crate::ui::numbers::number;
 use crate::ui::warnings;
 use crate::vibration::stability::instability;
 
-/// Most stretches that are shown to a person; JSON has all.
+/// Upper limit of the stretches shown to a person; JSON has all.
 const SHOWN: usize = 20;
 
-/// What the last column of the stretches says.
+/// Legend of the last column of the stretches.
 const SPEEDS: &str = "Other speeds are tried from half to one and a half times that of the program in steps of 5 %, with the depths and feeds per tooth of the program (F is the feed with that speed). The nearest whose neighbours are stable, too, is stated; where there is none, the one with the largest limit, which is narrow: 5 % away the cut chatters.";
 
 pub(crate) fn answer_text(a: &ChatterAnswer, found: &ChatterResult) -> String {

@@ -41,7 +41,7 @@ use crate::ui::numbers::{short, triple};
 use crate::ui::{json, warnings};
 use crate::vibration::damping::words;
 
-/// What a job says, stable names with units.
+/// Content of a job, stable names with units.
 #[derive(Serialize)]
 struct JobFindings {
     schema: u32,
@@ -53,7 +53,7 @@ struct JobFindings {
     tool: String,
     placement: String,
     load: String,
-    /// How the machine is damped, where chatter is judged along the program.
+    /// Damping of the machine, if chatter is judged along the program.
     #[serde(skip_serializing_if = "Option::is_none")]
     chatter: Option<String>,
     program: ProgramFinding,
@@ -61,7 +61,7 @@ struct JobFindings {
     ends: Vec<EndFinding>,
     outputs: Vec<OutputFinding>,
     warnings: Vec<Warning>,
-    /// Why a compensation would refuse the question.
+    /// Reason for which a compensation would refuse the job.
     #[serde(skip)]
     refused: Option<Failure>,
 }
@@ -69,7 +69,7 @@ struct JobFindings {
 #[derive(Serialize)]
 struct ProgramFinding {
     name: String,
-    /// Where its lines are, of a program that was run once and written flat.
+    /// Origin of the lines, if the program was run once and written flat.
     #[serde(skip_serializing_if = "Option::is_none")]
     flat: Option<FlatProgram>,
     lines: usize,
@@ -87,12 +87,12 @@ struct ProgramFinding {
 
 #[derive(Serialize)]
 struct EndFinding {
-    /// As in `smallest x`.
+    /// Name of the end, e.g. `smallest x`.
     end: String,
     line: usize,
     position_mm: [f64; 3],
     reached: bool,
-    /// Why it is not.
+    /// Reason if it is not reachable.
     problem: Option<String>,
 }
 
@@ -244,7 +244,7 @@ fn ends(mechanism: &Mechanism, placement: &Placement, motion: &ToolPath) -> Vec<
             let Some((motion, position)) = end else {
                 continue;
             };
-            // As a compensation commands it: within the limits of the actuators, too.
+            // The posture is the one of a compensation: within the limits of the actuators, too.
             let posture = mechanism.posture(
                 &placement
                     .on(motion, 1.0)
@@ -263,7 +263,7 @@ fn ends(mechanism: &Mechanism, placement: &Placement, motion: &ToolPath) -> Vec<
     found
 }
 
-/// Where a compensation writes its programs, with the endings of their language.
+/// Names the programs that a compensation writes, with the file extensions of their language.
 fn named_outputs(files: &InputFiles, job: &JobFile, setting: &mut Setting) -> Answer<()> {
     let Some(word) = job.to() else {
         return refuse_other_endings(setting);
@@ -278,7 +278,7 @@ fn named_outputs(files: &InputFiles, job: &JobFile, setting: &mut Setting) -> An
     )
 }
 
-/// What a compensation would refuse of its outputs, files that exist apart: these are reported in the list.
+/// Checks the outputs as a compensation does, except that existing files are reported in the list.
 fn outputs_can_be(setting: &Setting) -> Answer<()> {
     let mut others: Vec<(&'static str, &Path)> = Vec::new();
     for (what, path) in setting.targets.named() {

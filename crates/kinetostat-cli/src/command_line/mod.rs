@@ -169,7 +169,7 @@ mod tests {
                 words.push(name.clone());
                 words.extend(std::iter::repeat_n(written.to_owned(), *count));
                 let words = plain_numbers(words.into_iter().map(OsString::from));
-                // What else the command needs is missing here; no number may be the reason.
+                // Other required arguments are missing in this trial, so only a faulty number is an error here.
                 if let Err(error) = Cli::try_parse_from(words) {
                     use clap::error::ErrorKind as Kind;
                     assert!(

@@ -22,12 +22,12 @@ pub(crate) struct AtPlace {
     pub(crate) b: Figures,
 }
 
-/// Of the unloaded machine as drawn.
+/// Figures of the unloaded machine as drawn.
 #[derive(Serialize)]
 pub(crate) struct Figures {
     pub(crate) position_mm: [f64; 3],
     pub(crate) smallest_stiffness_n_per_mm: f64,
-    /// Against a force along x, y, z, by the motion along it; null where nothing holds or nothing yields.
+    /// Stiffness against a force along x, y, z, by the motion along it; null if nothing holds or yields.
     pub(crate) stiffness_n_per_mm: [Option<f64>; 3],
     /// Shares of the deflection under a force along x, the largest first.
     pub(crate) shares_x: Vec<Share>,

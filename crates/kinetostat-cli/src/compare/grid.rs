@@ -50,7 +50,7 @@ pub(crate) fn grid(args: &CompareArgs, home_mm: [f64; 3]) -> Answer<Option<Grid>
     Ok((all > 1.0).then_some(grid))
 }
 
-/// Both designs at every place.
+/// Comparison of both designs at every place.
 pub(crate) struct Difference {
     grid: Grid,
     a: Vec<MapPlace>,
@@ -157,7 +157,7 @@ impl Difference {
         written(&rows)
     }
 
-    /// How much stiffer B is, over the two longest axes of the grid, in the middle of the third.
+    /// Draws the ratio of the stiffnesses B to A over the two longest axes of the grid, in the middle of the third.
     pub(crate) fn svg(&self, answer: &Compared) -> String {
         let counts = self.grid.counts;
         let across = (0..3).rev().min_by_key(|k| counts[*k]).unwrap_or(2);

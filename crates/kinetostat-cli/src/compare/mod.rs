@@ -23,7 +23,7 @@ use crate::machine::model_warnings::of_model;
 use crate::options::vector;
 use crate::ui::failure::{Answer, Failure};
 
-/// One of the two.
+/// Design that is compared with another one.
 pub(crate) struct Design {
     pub(crate) model: Model,
     pub(crate) mechanism: Mechanism,

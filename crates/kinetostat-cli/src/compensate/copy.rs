@@ -61,7 +61,7 @@ pub(crate) fn copy(setting: &Setting, existing: Existing) -> Answer<()> {
     screen::print(Stream::Out, &text)
 }
 
-/// What the program holds, and why it could not be compensated.
+/// Describes the program, and the fault that prevents a compensation.
 fn of_gcode(setting: &Setting) -> Answer<(String, Option<String>)> {
     let refuse = |error| setting.within(Failure::input(error));
     let program = Program::read(setting.program.clone()).map_err(refuse)?;
@@ -74,7 +74,7 @@ fn of_gcode(setting: &Setting) -> Answer<(String, Option<String>)> {
     Ok((holds, problem.map(|problem| problem.to_string())))
 }
 
-/// The same of a program of SINUMERIK or Heidenhain, whose flat form says something.
+/// Describes a program of SINUMERIK or Heidenhain, and its fault.
 fn of_control(setting: &Setting, source: &RobotSource) -> Answer<(String, Option<String>)> {
     if !source.language.is_in_blocks() {
         return Err(Failure::input(

@@ -39,11 +39,11 @@ struct MapResult<'a> {
     /// The flat program, where the program was run once and written flat.
     #[serde(skip_serializing_if = "Option::is_none")]
     flat: Option<&'a FlatProgram>,
-    /// No correction could be written: the program came back byte for byte.
+    /// True if no correction could be written: the program came back byte for byte.
     unchanged: bool,
-    /// It came back so because it keeps the tolerance as it is.
+    /// True if it is unchanged because it keeps the tolerance uncorrected.
     within_tolerance_before: bool,
-    /// How the written program stands to its tolerance, as for a model.
+    /// Tolerance check of the written program, as for a model.
     tolerance: ToleranceResult,
     /// Places of the written program at which the table was evaluated again.
     places_checked: usize,
@@ -51,14 +51,14 @@ struct MapResult<'a> {
     max_position_error_before_mm: f64,
     /// Largest distance there between where the program goes and where the table wants it.
     max_position_error_after_mm: f64,
-    /// What that may be at most.
+    /// Largest position error that is allowed.
     max_position_error_allowed_mm: f64,
     largest_distance_mm: f64,
     largest_speed_error_percent: f64,
     warnings: Vec<Warning>,
 }
 
-/// More faults than this are not looked for in a table.
+/// Upper limit of the faults of a table.
 const FAULTS_OF_A_TABLE: usize = 1000;
 
 pub(crate) fn from_map(
@@ -174,7 +174,7 @@ pub(crate) fn from_map(
 /// The table of corrections; of a faulty one all faults.
 fn read_table(files: &InputFiles, map: &Path) -> Answer<CorrectionMap> {
     let bytes = files.bytes("map", map)?;
-    // What is no text is refused by the reader, with its line.
+    // Bytes that are no text are refused by the reader, with its line.
     let text = std::str::from_utf8(&bytes).ok();
     let points = text.and_then(|text| match with_decimal_points(text) {
         Cow::Owned(text) => Some(text.into_bytes()),
@@ -209,7 +209,7 @@ fn warnings_of(
         largest_line,
         writing.tolerance_mm,
     );
-    // What was left out was to be corrected all the same.
+    // The warning of a small correction applies only if the tolerance is held.
     let nothing_left_out =
         |w: &Warning| tolerance.held == Some(true) || w.code != WarningCode::SmallCorrection;
     warnings.extend(odd.filter(nothing_left_out));

@@ -34,7 +34,7 @@ pub(crate) fn compensate(
     let Some(files) = &first else {
         return Ok(false);
     };
-    // What is wrong, or another language, is said of the whole.
+    // Faults and other languages are reported by the run as a whole.
     let Ok(mut setting) = setting(files, job, flags, writing) else {
         return Ok(false);
     };

@@ -112,7 +112,7 @@ const UNUSED_BY_A_TABLE: [&str; 13] = [
 
 /// Options of a copy: how the program is read and written flat.
 const OF_A_COPY: [&str; 23] = [
-    // Said to have no effect there, as for all that is run as a whole.
+    // Options without effect there, as for all that is run as a whole.
     "--part-lines",
     "--no-compensation",
     "--program",
@@ -259,7 +259,7 @@ fn compensate_whole(files: &InputFiles, args: &CompensateArgs) -> Answer<()> {
     report::refuse_doubtful(&run.result, &setting)
 }
 
-/// Where a program of positions is written for a robot and the arm cannot follow it, the turn of the tool may help.
+/// Adds a hint on the turn of the tool if the arm cannot follow a program of positions that is written for a robot.
 fn with_turn_hint(mut failure: Failure, (setting, to): (&Setting, Option<RobotWord>)) -> Failure {
     let helps = failure.plain.contains("turn of the tool") || failure.plain.contains("tool turned");
     if helps && to.is_some() && setting.free_turn == FreeTurnWord::AsStated {
@@ -296,7 +296,7 @@ fn refuse_turn_without_words(setting: &Setting) -> Answer<()> {
     }
 }
 
-/// Whether the language of the program states how the tool is turned about its own axis.
+/// True if the language of the program states the turn of the tool about its own axis.
 fn states_turn(setting: &Setting) -> bool {
     let language = setting.robot.as_ref().map(|robot| robot.language);
     language.is_some_and(|language| language.states_turn())

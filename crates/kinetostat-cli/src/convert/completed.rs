@@ -9,7 +9,7 @@ use crate::job::machine::MachineSetup;
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::numbers::short;
 
-/// From the tip of the tool to its holder, axes of the tool: its z lies along the spindle, and up in the part is the holder.
+/// Direction from the tip to the holder, axes of the tool: its z lies along the spindle, and up in the part is the holder.
 pub(crate) fn up(template: &Template) -> Vector3<f64> {
     let turned = template.tool_orientation.unwrap_or_default() * Vector3::z();
     match turned.z >= 0.0 {

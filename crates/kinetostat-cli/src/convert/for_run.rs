@@ -34,7 +34,7 @@ use crate::program::solve::forces_of;
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::numbers::short;
 
-/// Most places of a program that stays one file: numbers of positions in a TP program have 16 bits.
+/// Upper limit of the points of an undivided program: numbers of positions in a TP program have 16 bits.
 const MOST_POINTS: usize = 1_000_000;
 const MOST_POINTS_OF_LS: usize = 32_766;
 
@@ -43,7 +43,7 @@ pub(crate) struct Converted {
     pub(crate) setting: Setting,
     /// The turn of the tool, where it was chosen.
     pub(crate) turn: Option<FreeTurn>,
-    /// What is otherwise than in the source, or was taken for granted.
+    /// Differences from the source, and assumptions.
     pub(crate) findings: Vec<Warning>,
 }
 
@@ -153,7 +153,7 @@ pub(crate) fn settings_of_made(
     template: &Template,
     (of_robot, axis): (Language, Vector3<f64>),
 ) -> Answer<RobotSettings> {
-    // What is called was refused, or is a note here.
+    // Calls were refused, or are notes in the made program.
     let flags = RobotArgs {
         stated: StatedArgs::default(),
         ..flags.robot.clone()
@@ -231,7 +231,7 @@ pub(crate) fn refuse_unconvertible(
 /// The made program in one file.
 struct Whole {
     file: SourceFile,
-    /// Its files, where there are several.
+    /// Files of the program, if there are several.
     divided: Option<Divided>,
 }
 
@@ -314,10 +314,10 @@ pub(crate) fn refuse_fast_feeds(
     }
 }
 
-/// Where work object and tools are, which not every language declares; mm.
+/// Poses of work object and tools, which not every language declares; mm.
 pub(crate) struct Stated {
     base: Option<Isometry3<f64>>,
-    /// With the numbers that they have in the made program, where they are stated.
+    /// Tools with their numbers in the made program, if stated.
     tools: Vec<(Option<u32>, Option<Isometry3<f64>>)>,
 }
 
@@ -344,7 +344,7 @@ impl Stated {
         }
     }
 
-    /// Under the names that the made program has for them, where it does not say itself what they are.
+    /// Puts the frames in, under their names in the made program, if it does not define them itself.
     pub(crate) fn put_into(
         &self,
         frames: &mut std::collections::BTreeMap<String, Isometry3<f64>>,
@@ -425,7 +425,7 @@ fn of_source(setting: &Setting, mut warning: Warning) -> Warning {
     warning.of_file(file.to_owned())
 }
 
-/// What the conversion says, with lines of the source.
+/// Warnings of the conversion, with lines of the source.
 fn findings(setting: &Setting, made: &Made) -> Vec<Warning> {
     let at_line = |line: usize, text: &str| {
         of_source(setting, Warning::at_line(WarningCode::Program, line, text))
@@ -439,7 +439,7 @@ fn findings(setting: &Setting, made: &Made) -> Vec<Warning> {
     said.chain(expanded).collect()
 }
 
-/// Where the lines of the made program came from: each from that of the motion on it or behind it.
+/// Maps lines of the made program to the source: each from that of the motion on it or after it.
 fn flat(
     setting: &Setting,
     (made, divided): (&Made, Option<&Divided>),
@@ -459,7 +459,7 @@ fn flat(
         from = usize::max(from, end);
     }
     let number = |line: usize| u32::try_from(line).unwrap_or(u32::MAX);
-    // Of a program that was expanded before, the lines of its files.
+    // A program that was expanded before keeps the lines of its files.
     let before = setting.flat.as_ref();
     let mut files = before.map_or_else(|| vec![setting.program_name.clone()], |b| b.files.clone());
     let mut sources = Vec::with_capacity(count);

@@ -1,4 +1,4 @@
-//! Where tool and part are for the free turn of a program that is converted.
+//! Poses of tool and part for the redundancy resolution of a program that is converted.
 
 use kinetostat::Pose;
 use kinetostat_formats::{StatedFrame, Template, base_of_robot};

@@ -19,13 +19,13 @@ use crate::job::robot_arguments::JointRowsWord;
 use crate::job::setting::Setting;
 use crate::ui::failure::{Answer, Failure};
 
-/// Most digits: the poses are but a step on the way.
+/// Uses all digits: the poses are only an intermediate result.
 pub(crate) fn with_all_digits(template: &mut Template) {
     template.position_decimals = 12;
     template.quaternion_decimals = 15;
 }
 
-/// Whose joint values are written, and how the controller goes from row to row.
+/// Model of the joint values, and the interpolation of the controller from row to row.
 pub(crate) struct Asked<'m> {
     pub(crate) model: &'m Model,
     pub(crate) rows: Option<JointRowsWord>,
@@ -49,7 +49,7 @@ pub(crate) fn as_joints(
     let mut start = JointStart::default();
     start.tolerance_mm = template.tolerance_mm;
     start.base = base;
-    // Those of G-code are.
+    // Rapids of G-code (no robot language) are straight.
     let language = read.robot().map(|robot| robot.program.language);
     start.straight_rapids = template.rapids == Rapids::Linear
         && language.is_none_or(|language| language.rapids_are_straight());
@@ -145,7 +145,7 @@ fn first_joints(
     commands.map_err(|_| Failure::input("the model has other joints than six"))
 }
 
-/// From the part into the base, mm, and the tool in the flange, m: of the template, else of the program.
+/// Poses of part in base, mm, and tool in flange, m: of the template, else of the program.
 fn frames(template: &Template, read: &ReadProgram<'_>) -> Answer<(Isometry3<f64>, Pose)> {
     let robot = read.robot().map(|robot| &robot.path);
     let several = robot.is_some_and(|path| path.tools.len() > 1) || template.tools.len() > 1;

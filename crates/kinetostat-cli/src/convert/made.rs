@@ -50,7 +50,7 @@ pub(crate) fn made(
     make(path, &events, &template.template, language).map_err(refused)
 }
 
-/// That the made program does not start the spindle, where its source does.
+/// Warns that the made program does not start the spindle, although its source does.
 pub(crate) fn spindle_text(made: &Made) -> Option<String> {
     let note = made.spindle_not_started.as_ref()?;
     Some(format!(

@@ -89,7 +89,7 @@ pub(crate) fn run(args: &ConvertArgs) -> Answer<()> {
     if let Some(machine) = &machine {
         setting.turned_by(machine.rotary.clone());
     }
-    // Of the source.
+    // The flat program is that of the source.
     let flat_program = Written {
         what: FLAT_PROGRAM,
         form: setting.form(),
@@ -199,14 +199,14 @@ fn with_arm(
         let frames = &mut source.settings.reading.frames;
         frames.entry("tool".to_owned()).or_insert(tool);
     }
-    // Of a table that becomes another one the option says both; a job that says how the first one is read goes before it.
+    // The option covers both tables of a conversion; the job's setting for the source has priority.
     let rows = &mut source.settings.joint_rows;
     *rows = rows.or(args.joint_rows.map(BetweenRows::from));
     let model = args.model.as_deref();
     give_arm(Some(source), files, (job, model), &flags(args))
 }
 
-/// What of a run is asked for here.
+/// Options of a run that a conversion needs.
 fn flags(args: &ConvertArgs) -> ProgramArgs {
     let mut expansion = args.expansion.clone();
     // The notes of the made program say the lines.

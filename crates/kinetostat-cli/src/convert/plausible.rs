@@ -43,7 +43,7 @@ pub(super) fn refuse_implausible(
     };
     let mut tools: Vec<Pose> = (tools(template, &[]).map(|(_, pose)| in_metres(pose))).collect();
     if tools.is_empty() {
-        // Without a tool its axis is z of the flange, which points away from the arm (ISO 9787).
+        // The default tool axis is z of the flange, which points away from the arm (ISO 9787).
         tools.push(Pose::translation(0.0, 0.0, 1.0));
     }
     over_part(turn, &tools).map_err(of_template)

@@ -1,4 +1,4 @@
-//! Where the programs of a run go that is written in another language.
+//! Output paths of a run that is written in another language.
 
 use std::path::{Path, PathBuf};
 
@@ -59,7 +59,7 @@ pub(crate) fn in_language(
     Ok(())
 }
 
-/// What a converted program is called beside its compensated form.
+/// Path of the converted program beside its compensated form.
 fn as_converted(out: &Path, language: MakeLanguage) -> PathBuf {
     let ending = out.extension().map(|ending| ending.to_string_lossy());
     let ending = ending.unwrap_or_else(|| language.ending().into());

@@ -1,4 +1,4 @@
-//! What is said of a program that was made.
+//! Text output about a program that was made.
 
 use std::path::Path;
 
@@ -57,7 +57,7 @@ pub(crate) fn answer(
         });
     }
     let named = |line: usize| made.findings.iter().any(|f| f.line == Some(line));
-    // What is said of corrections is not for here.
+    // Warnings about corrections do not apply here.
     let warnings = read.path().warnings.iter().filter(|warning| {
         let of_systems = warning.text.contains("work coordinate system");
         !named(warning.line)
@@ -83,7 +83,7 @@ pub(crate) fn answer(
 
 /// The largest differences.
 fn differences(kept: &Kept) -> String {
-    // Less than that is the arithmetic's.
+    // A smaller difference is rounding.
     let within = |what: &str, value: f64, unit: &str| match value < 1e-12 {
         true => format!("{what} equal"),
         false => format!("{what} within {value:.1e} {unit}"),

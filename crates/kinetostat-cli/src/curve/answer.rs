@@ -21,13 +21,13 @@ pub(crate) struct CurveAnswer {
     pub(crate) head: AnswerHead,
     pub(crate) question: String,
     pub(crate) tool_held: Holding,
-    /// What grows: displacement, rotation or load.
+    /// Quantity that grows: displacement, rotation or load.
     pub(crate) grows: &'static str,
     /// Coordinates of the chain or of all limbs, in the order of `coordinates` of every point.
     pub(crate) coordinates: Vec<CoordinateName>,
     pub(crate) named_points: Vec<NamedPoint>,
     pub(crate) jumps: Vec<JumpAnswer>,
-    /// Of a chain under a growing load; of a machine the named points say where stability ends.
+    /// Critical loads of a chain under a growing load; for a machine the named points give the end of stability.
     pub(crate) critical_loads: Vec<CriticalAnswer>,
     pub(crate) branches: Vec<BranchAnswer>,
     /// True if branches that cross were left out because there were too many.
@@ -43,7 +43,7 @@ pub(crate) struct CurveAnswer {
     pub(crate) subject: &'static str,
     #[serde(skip)]
     pub(crate) units: Units,
-    /// What was requested and what the start's own branch covers of it, as the parameter is shown.
+    /// Requested range and the part of it that the start's own branch covers, as the parameter is shown.
     #[serde(skip)]
     pub(crate) requested: (f64, f64),
     #[serde(skip)]
@@ -51,8 +51,8 @@ pub(crate) struct CurveAnswer {
 }
 
 impl CurveAnswer {
-    /// With warnings where the tool goes further than a machine of this size (m) can, where a growing load that it
-    /// bears folds it over, and where a motion takes more force than any cut has.
+    /// Adds warnings of a tool that goes further than a machine of this size (m) can, of a growing load that it
+    /// bears and that folds it over, and of a motion that takes more force than any cut has.
     pub(crate) fn with_plausibility_warnings(mut self, size: f64) -> Self {
         let Some(own) = self.branches.first() else {
             return self;
@@ -76,7 +76,7 @@ impl CurveAnswer {
         self
     }
 
-    /// Why this is no answer: the start alone, within every force.
+    /// Returns a failure if the curve is empty: the start alone, within every force.
     pub(crate) fn unanswered(&self) -> Option<Failure> {
         let points: usize = self.branches.iter().map(|b| b.points.len()).sum();
         (points < 2 && !self.force_limited).then(|| {
@@ -149,8 +149,8 @@ pub(crate) struct PointAnswer {
     pub(crate) slope_per_j: Option<f64>,
     pub(crate) stable_under_dead_load: bool,
     pub(crate) stable_under_prescribed_motion: bool,
-    /// Under the load, which has no potential, nothing goes away, but it may swing with growing
-    /// amplitude; whether it does depends on the masses.
+    /// True if the state does not diverge under loads without a potential, but may swing with
+    /// growing amplitude, depending on the masses.
     pub(crate) may_flutter: bool,
     /// Largest share of the way to buckling while the tool is held where it is, as in `deflect`; null
     /// without inner freedom, and where a passive joint is pushed out of line.
@@ -180,7 +180,7 @@ pub(crate) struct NamedPoint {
     /// of a chain, of the tool of a machine (x, y, z, rx, ry, rz).
     pub(crate) mode: Vec<f64>,
     pub(crate) mode_in_words: String,
-    /// Whether stability ends here: under a dead load, under prescribed motion.
+    /// True if stability ends here: under a dead load, under prescribed motion.
     #[serde(skip)]
     pub(crate) limits: [bool; 2],
     #[serde(flatten)]
@@ -204,10 +204,10 @@ pub(crate) struct CriticalAnswer {
     /// shape (the tool held where it is) or shape_and_tool (as prescribed).
     #[serde(rename = "judged")]
     pub(crate) stability_of: &'static str,
-    /// From the stresses of the first load step alone; null if they never destabilise.
+    /// Factor from the stresses of the first load step alone; null if they never destabilise.
     pub(crate) linear_factor: Option<f64>,
     pub(crate) linear_mode_in_words: String,
-    /// On the path; null if none was met.
+    /// Factor on the path; null if none was met.
     pub(crate) factor: Option<f64>,
     /// Name as in named points; null where the held shape alone becomes critical.
     pub(crate) kind: Option<&'static str>,
@@ -216,10 +216,10 @@ pub(crate) struct CriticalAnswer {
     pub(crate) followed_to_factor: f64,
     /// All loads have a potential; if not, the factor is that of divergence, flutter is left open.
     pub(crate) conservative: bool,
-    /// Without a potential: below this factor nothing goes away, whatever the masses are; null with one, or
-    /// if none was met.
+    /// Factor below which a state without a potential does not diverge, whatever the masses are; null with
+    /// one, or if none was met.
     pub(crate) safe_below_factor: Option<f64>,
-    /// What is left open, in words; empty if nothing is.
+    /// Open questions in words; empty if there are none.
     pub(crate) caution: String,
 }
 
@@ -229,12 +229,12 @@ pub(crate) struct BranchAnswer {
     pub(crate) number: usize,
     /// Name of the point from which it was found; null for the start's and those of --all.
     pub(crate) from: Option<String>,
-    /// Why it ends at its first and at its last point: range, angle, points, closed, lost, stalled.
+    /// Reasons for the first and the last end: range, angle, points, closed, lost, stalled.
     pub(crate) ends: [BranchEnd; 2],
     pub(crate) points: Vec<PointAnswer>,
 }
 
-/// What a special point is called.
+/// Name of a special point.
 pub(crate) fn kind_name(kind: SpecialKind) -> &'static str {
     match kind {
         SpecialKind::LoadLimit => "load_limit",
@@ -281,7 +281,7 @@ pub(crate) fn reached(values: impl Iterator<Item = f64>) -> (f64, f64) {
     })
 }
 
-/// What grows, by name.
+/// Name of the growing quantity.
 pub(crate) fn grows(q: &CurveQuery) -> &'static str {
     match (q.by_load(), q.measure) {
         (true, _) => "load",

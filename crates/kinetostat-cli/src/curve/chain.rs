@@ -107,7 +107,7 @@ fn shapes_at(
     })
 }
 
-/// Why there is no equilibrium at the start.
+/// Explains why there is no equilibrium at the start.
 fn not_there(q: &CurveQuery, there: &ChainProblem<'_>, error: kinetostat::Error) -> Failure {
     let loaded = !there.loads.is_empty() || there.end.wrench.0.amax() > 0.0;
     if q.by_load() || loaded || !matches!(error, kinetostat::Error::NotConverged { .. }) {

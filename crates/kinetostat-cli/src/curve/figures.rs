@@ -10,7 +10,7 @@ pub(crate) fn value(x: f64, size: f64) -> String {
     number(x, 7)
 }
 
-/// For sentences.
+/// Formats a number for sentences.
 pub(crate) fn short(x: f64) -> String {
     if x.abs() < 1e-12 {
         return "0".into();

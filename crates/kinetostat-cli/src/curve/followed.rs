@@ -1,4 +1,4 @@
-//! What was followed of a chain or a machine, before it is shown.
+//! Traced curves of a chain or a machine, before they are shown.
 
 use kinetostat::{
     CurveSettings,
@@ -21,7 +21,7 @@ pub(crate) struct Followed<E: CurveEquilibrium> {
     pub(crate) more_branches: bool,
     pub(crate) jumps: Vec<Jump<E>>,
     pub(crate) critical: Vec<CriticalAnswer>,
-    /// Of the way to the curves.
+    /// Warnings from the path to the curves.
     pub(crate) warnings: Vec<Warning>,
 }
 
@@ -115,7 +115,7 @@ impl<E: CurveEquilibrium> Followed<E> {
         })
     }
 
-    /// Why branches end before the requested end, and which were not followed.
+    /// Warnings for branches that end before the requested end, and for those that were not traced.
     pub(crate) fn what_is_missing(&self, q: &CurveQuery) -> Vec<Warning> {
         let early = self.branches.iter().enumerate().flat_map(|(k, branch)| {
             let ends = branch.ends.into_iter().filter(|end| end.may_go_on());

@@ -6,13 +6,13 @@ use kinetostat_report::{Plot, PlotLine, PlotMark};
 use crate::curve::answer::{CurveAnswer, NamedPoint, PointAnswer, kind_description};
 use crate::ui::numbers::number;
 
-/// How far a part of a branch holds.
+/// Stability of a part of a branch.
 #[derive(Clone, Copy, PartialEq)]
 enum Holds {
     Both,
-    /// Only while the motion is prescribed.
+    /// Stable only while the motion is prescribed.
     Motion,
-    /// Only under the load as it grows (the motion along it would be no restraint).
+    /// Stable only under the load as it grows (the motion along it would be no restraint).
     Neither,
 }
 
@@ -114,7 +114,7 @@ fn parts(points: &[PointAnswer], specials: &[&NamedPoint], by_load: bool) -> Vec
     lines
 }
 
-/// Whether a point lies in the box of two others, with some room: a limit point lies a little
+/// True if a point lies in the box of two others, with some room: a limit point lies a little
 /// outside.
 fn inside(p: (f64, f64), a: (f64, f64), b: (f64, f64)) -> bool {
     let room = |a: f64, b: f64| 0.3 * (a - b).abs() + 1e-9 * (a.abs() + b.abs());

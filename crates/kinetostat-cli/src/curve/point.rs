@@ -5,8 +5,8 @@ use kinetostat::continuation::{CurveEquilibrium, CurvePoint, CurveStability};
 use crate::curve::answer::PointAnswer;
 use crate::curve::query::{CurveQuery, Measure};
 
-/// In the units of the query. `more`: what the displacement along the growing load has more than its conjugate, m or rad;
-/// `coordinates`: in their units.
+/// Converts a point to the units of the query. `more`: what the displacement along the growing load has more than its
+/// conjugate, m or rad; `coordinates`: in their units.
 pub(crate) fn point_answer<E: CurveEquilibrium>(
     p: &CurvePoint<E>,
     q: &CurveQuery,

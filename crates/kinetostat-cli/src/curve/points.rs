@@ -127,7 +127,7 @@ impl<S: Subject> Names<'_, S> {
         let mode_in_words = self.view.subject.motion_description(&s.mode);
         if let Some(added) = self.list.last_mut() {
             added.branches = s.branches.iter().map(|b| b + 1).collect();
-            // Without the sign of zeros.
+            // The sign of zeros is removed.
             added.mode = s.mode.iter().map(|x| x + 0.0).collect();
             added.mode_in_words = mode_in_words;
             added.limits = s.ends_stability();
@@ -152,7 +152,7 @@ impl<S: Subject> Names<'_, S> {
         }
     }
 
-    /// Both ends of a branch, but for those that are the curve's start, which has a name already.
+    /// Names both ends of a branch, except the curve's start, which has a name already.
     fn ends(&mut self, k: usize) {
         let branch = &self.view.curves.branches[k];
         let start = branch.points.get(branch.start).filter(|_| k == 0);

@@ -15,7 +15,7 @@ use crate::place::query::FARTHEST;
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::numbers::{number, short, triple};
 
-/// In which quantity a curve is shown.
+/// Quantity in which a curve is shown.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Measure {
     /// Displacement (mm) and force (N) along one line; the force per unit of the parameter's load.
@@ -32,9 +32,9 @@ pub(crate) struct CurveQuery {
     pub(crate) parameter: Parameter,
     pub(crate) driven: Option<Driven>,
     pub(crate) measure: Measure,
-    /// Of the parameter: m, rad or a factor.
+    /// Range of the parameter: m, rad or a factor.
     pub(crate) range: (f64, f64),
-    /// Of the force along the displacement, N or N m.
+    /// Limits of the force along the displacement, N or N m.
     pub(crate) force_limits: Option<(f64, f64)>,
     pub(crate) branches: usize,
     pub(crate) points: usize,
@@ -89,7 +89,7 @@ fn ends(option: &str, values: &[f64]) -> Answer<(f64, f64)> {
 
 fn unit(option: &str, values: &[f64]) -> Answer<Vector3<f64>> {
     let v = vector(option, values)?;
-    // Its size does not matter, and the squares of very large or very small numbers are no numbers.
+    // The direction is scaled first: squares of very large or very small numbers overflow or underflow.
     let most = largest_size(&v);
     if most == 0.0 {
         return Err(Failure::input(format!(

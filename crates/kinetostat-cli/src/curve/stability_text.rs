@@ -1,4 +1,4 @@
-//! What a curve says in one paragraph: where it goes away, and how far it was followed.
+//! Summary of a curve in one paragraph: the end of stability, and the range that was traced.
 
 use kinetostat::continuation::BranchEnd;
 use kinetostat_machining::number::counted;
@@ -20,7 +20,7 @@ pub(crate) fn stability_text(a: &CurveAnswer) -> String {
     text
 }
 
-/// Whether and where it goes away.
+/// States whether and at which point stability is lost.
 fn going_away(a: &CurveAnswer) -> String {
     let subject = a.subject;
     let place = |p: &PointAnswer| {
@@ -42,7 +42,7 @@ fn going_away(a: &CurveAnswer) -> String {
         let k = usize::from(a.grows == "load");
         (p.shown[k] - start.shown[k]).abs()
     };
-    // What ends stability first on the start's own branch: a named point, or somewhere between two
+    // The first end of stability on the start's own branch is a named point, or lies between two
     // points of the curve.
     let end = |k: usize| {
         let named = a
@@ -101,12 +101,12 @@ fn going_away(a: &CurveAnswer) -> String {
     text
 }
 
-/// How far rounding may move the ends of a curve.
+/// Rounding margin at the ends of a curve.
 fn slack(a: &CurveAnswer) -> f64 {
     1e-6 * (a.requested.1 - a.requested.0)
 }
 
-/// Whether the start's own branch covers what was requested.
+/// True if the start's own branch covers the request.
 fn covers_the_request(a: &CurveAnswer) -> bool {
     let (low, high) = a.reached;
     low <= a.requested.0 + slack(a) && high >= a.requested.1 - slack(a)
@@ -124,7 +124,7 @@ pub(crate) fn reach(a: &CurveAnswer) -> String {
     } else {
         a.units.displacement_unit.to_owned()
     };
-    // What is locked stays at its place but for rounding.
+    // A locked coordinate is constant but for rounding.
     let clean = |x: f64| if x.abs() < slack.min(1e-3) { 0.0 } else { x };
     let (low, high) = (short(clean(low)), short(clean(high)));
     let own = a.branches.first();

@@ -10,7 +10,7 @@ use crate::ui::numbers::number;
 use crate::ui::warnings;
 use kinetostat::number::{larger, largest_size};
 
-/// More ends of branches than this are only counted.
+/// Upper limit of the ends of branches that are listed; others are counted.
 const MOST_ENDS: usize = 6;
 
 pub(crate) fn answer_text(heading: &str, a: &CurveAnswer) -> String {

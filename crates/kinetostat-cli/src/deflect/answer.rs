@@ -23,39 +23,39 @@ pub(crate) struct Deflection {
     pub(crate) moment_n_m: [f64; 3],
     pub(crate) displacement_mm: [f64; 3],
     pub(crate) displacement_size_mm: f64,
-    /// From where the tool is without a load to where it is under it.
+    /// Displacement of the tool by the load.
     pub(crate) displacement_by_load_mm: [f64; 3],
     pub(crate) displacement_by_load_size_mm: f64,
-    /// From where the tool is commanded to where it is without a load: by own weight, other loads of the model and its deviations.
+    /// Displacement of the unloaded tool from its commanded pose: by own weight, other loads of the model and its deviations.
     pub(crate) displacement_without_load_mm: [f64; 3],
     pub(crate) displacement_without_load_size_mm: f64,
     pub(crate) rotation_vector_deg: [f64; 3],
     pub(crate) rotation_size_deg: f64,
     pub(crate) actuators: Vec<ActuatorAnswer>,
-    /// What the controller shows, in the order of its axes; empty without a section `controller`.
+    /// Displayed values of the controller, in the order of its axes; empty without a section `controller`.
     #[serde(rename = "pendant")]
     pub(crate) on_controller: Vec<JointValue>,
     pub(crate) limbs: Vec<LimbAnswer>,
-    /// Against a force in the softest direction, the tool free to turn; none if no force moves it.
+    /// Stiffness in the softest direction, the tool free to turn; none if no force moves it.
     pub(crate) smallest_stiffness_n_per_mm: f64,
     pub(crate) free_directions: usize,
     /// Motions by which the tool runs away by itself: `turns about z by arm: q`.
     pub(crate) negative_directions: Vec<String>,
     /// The tool stays where it is, or does not diverge at least (see `platform_may_flutter`).
     pub(crate) platform_stable: bool,
-    /// Under loads without a potential the tool does not diverge, but may swing with growing amplitude.
+    /// True if the tool does not diverge without a potential, but may swing with growing amplitude.
     pub(crate) platform_may_flutter: bool,
-    /// How near the load brings the machine with its tool free to instability, 1 is there: never less
-    /// than the largest share of its limbs. At least 1 or none where it is not stable; behind a snap
-    /// the share of the equilibrium reported here.
+    /// Share of the way to instability of the machine with its tool free, 1 at instability: never
+    /// less than the largest share of its limbs. At least 1 or none if unstable; after a
+    /// snap-through the share of the equilibrium reported here.
     pub(crate) share_to_instability_of_free_machine: Option<f64>,
-    /// The same where the limbs do not tell it.
+    /// Share of the free machine, if it exceeds those of its limbs.
     #[serde(skip)]
     pub(crate) free_beyond_limbs: Option<f64>,
     /// The load cannot be reached from rest without a snap.
     #[serde(skip)]
     pub(crate) snapped: bool,
-    /// Every limb keeps its shape while the tool is held.
+    /// True if every limb keeps its shape while the tool is held.
     pub(crate) shapes_stable: bool,
     /// Both.
     pub(crate) stable: bool,
@@ -64,17 +64,17 @@ pub(crate) struct Deflection {
     /// All loads have a potential; if not, see the reasons.
     pub(crate) conservative: bool,
     pub(crate) not_conservative_because: Vec<String>,
-    /// Of springs, weights and loads on limbs, without the load on the tool; none without a
-    /// potential. Its zero is arbitrary.
+    /// Potential energy of springs, weights and loads on limbs, without the load on the tool; none
+    /// without a potential. Its zero is arbitrary.
     pub(crate) energy_j: Option<f64>,
     pub(crate) converged: bool,
     pub(crate) iterations: usize,
-    /// How the equilibrium was found, where it was not directly from the commanded posture.
+    /// Method by which the equilibrium was found, unless directly from the commanded posture.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) found_by: Option<FoundBy>,
     /// Last correction of the iteration by the one before it; none with fewer than two.
     pub(crate) rate_observed: Option<f64>,
-    /// How far the loops are from closing; rotations at the machine's length.
+    /// Closure error of the loops; rotations at the machine's length.
     pub(crate) closure_mm: f64,
     /// The nearest singular posture, where one is near.
     pub(crate) near_singularity: Option<NearSingular>,
@@ -98,19 +98,19 @@ pub(crate) struct LimbAnswer {
     pub(crate) force_without_load_n: [f64; 3],
     pub(crate) moment_without_load_n_m: [f64; 3],
     pub(crate) stable: bool,
-    /// None without inner freedom; also where a passive motion is pushed out of line (then unstable).
+    /// Absent without inner freedom, or if a passive motion is pushed out of line (then unstable).
     pub(crate) share_to_buckling: Option<f64>,
     pub(crate) neutral_passive_joints: Vec<String>,
     pub(crate) links: Vec<LinkAnswer>,
 }
 
-/// How a link is loaded along its axis.
+/// Axial load of a link.
 #[derive(Serialize)]
 pub(crate) struct LinkAnswer {
     pub(crate) name: String,
-    /// Of its most compressed segment; negative compresses.
+    /// Axial force of its most compressed segment; negative compresses.
     pub(crate) axial_force_n: f64,
-    /// Both ends pinned, in its softer plane.
+    /// Euler load with both ends pinned, in its softer plane.
     pub(crate) euler_load_n: f64,
     /// Compression as a share of the Euler load; zero in tension.
     pub(crate) share_of_euler_load: f64,
@@ -214,7 +214,7 @@ pub(crate) fn answer(
     }
 }
 
-/// Why statements about energy do not hold.
+/// Reasons for which statements about energy do not hold.
 fn not_conservative(e: &MechanismEquilibrium) -> Vec<String> {
     let limbs = e.limbs.iter().filter(|l| !l.conservative);
     let mut reasons: Vec<String> = limbs

@@ -15,7 +15,7 @@ use crate::ui::failure::{Answer, Failure};
 use crate::ui::given::Given;
 use crate::ui::json;
 
-/// Why nothing is reported of a place where the machine's own loads find no equilibrium.
+/// Explains a place without result: the machine's own loads find no equilibrium there.
 fn without_load(error: kinetostat::Error) -> Failure {
     match &error {
         kinetostat::Error::NotConverged {

@@ -33,7 +33,7 @@ pub(crate) fn along_program(args: &DeflectArgs, is_job: bool) -> Answer<()> {
     let job = is_job
         .then(|| JobFile::read(&files, Path::new(&args.subject)))
         .transpose()?;
-    // Of a long program the first lines say what it is.
+    // The first lines of a long program identify it.
     let path = program_path(job.as_ref(), &args.program)?;
     if let Some(first) = with_first_lines(&files, &path, &args.program)
         && run_along(args, (&first, job.as_ref()), (is_job, true))?
@@ -56,7 +56,7 @@ fn run_along(
     };
     // The program is analysed as it is, also where the job has it written in another language.
     let mut setting = match setting(files, job, &args.program, &flags) {
-        // What is wrong, or another language, is said of the whole.
+        // Faults and other languages are reported by the run as a whole.
         Err(_) if in_parts => return Ok(false),
         found => found?,
     };
@@ -72,7 +72,7 @@ fn run_along(
     chosen.pdf.clone_from(&args.program.pdf);
     chosen.points.clone_from(&args.program.points);
     chosen.turn_plot = (args.program.turn.turn_plot.clone()).filter(|_| {
-        // Without a turn that is chosen there is nothing to draw.
+        // The plot shows a chosen turn, so it needs one.
         setting.free_turn != FreeTurnWord::AsStated
     });
     chosen.json = args.json.clone().filter(|p| p != Path::new("-"));

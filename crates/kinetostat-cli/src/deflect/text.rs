@@ -11,7 +11,7 @@ use crate::ui::numbers::{fixed, number, triple};
 use crate::ui::warnings;
 use kinetostat::number::largest_size;
 
-/// From this rate of the last corrections on, an iteration is slow.
+/// Rate of the last corrections above which an iteration is slow.
 const SLOW: f64 = 0.2;
 
 /// Displacements up to this are none, mm.
@@ -65,7 +65,7 @@ fn vectors(a: &Deflection) -> String {
     let row = |name: &str, v: [f64; 3], decimals: usize, unit: &str| {
         let mut cells = vec![format!("{name}, {unit}")];
         let most = largest_size(v);
-        // With fixed places a small load, or what it does, would be shown as nothing.
+        // Fixed decimals would show a small load, or its effect, as zero.
         let small = most > 0.0 && most < 10.0_f64.powf(1.0 - decimals as f64);
         cells.extend(v.iter().map(|x| match small {
             true => number(*x, 4),
@@ -139,7 +139,7 @@ fn stability(a: &Deflection) -> String {
     out
 }
 
-/// Whether the platform stays where it is.
+/// States whether the platform is stable.
 fn platform(a: &Deflection) -> String {
     if a.platform_may_flutter {
         let directions = match a.negative_directions.as_slice() {
@@ -176,7 +176,7 @@ fn platform(a: &Deflection) -> String {
     }
 }
 
-/// Where a share of the way leads: without a potential only the bound is known below which all is well
+/// Describes a limb's share of the way to instability: without a potential only a bound of stability is known
 /// (see [`kinetostat::equilibrium::CriticalLoad::definite_until`]).
 fn limb_text(limb: &LimbAnswer) -> String {
     let share = match limb.share_to_buckling {
@@ -241,7 +241,7 @@ fn links(a: &Deflection) -> String {
     )
 }
 
-/// What the limbs do to each other through the platform without any load on the tool.
+/// Internal forces between the limbs through the platform without any load on the tool.
 fn internal(a: &Deflection) -> String {
     let size = |v: &[f64; 3]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
     let any = a

@@ -89,7 +89,7 @@ pub(crate) fn run(args: &DemoArgs) -> Answer<()> {
     let made = directory(&args.out)?;
     let result = in_directory(args);
     if result.is_err() && made {
-        // Only if it is still empty.
+        // The folder is removed only if it is empty.
         let _ = std::fs::remove_dir(&args.out);
     }
     result

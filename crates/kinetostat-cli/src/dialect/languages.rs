@@ -2,7 +2,7 @@
 
 use kinetostat_formats::{Language as Format, MakeLanguage, StatementRow};
 
-/// Where the table of a language is.
+/// Source of a language's table of statements.
 #[derive(Clone, Copy)]
 pub(crate) enum Words {
     /// Codes of G-code, with when they act.
@@ -13,13 +13,13 @@ pub(crate) enum Words {
 
 /// A language of programs.
 pub(crate) struct Language {
-    /// As options write it.
+    /// Name in options.
     pub(crate) name: &'static str,
     pub(crate) title: &'static str,
     pub(crate) endings: &'static [&'static str],
-    /// What is written, in words.
+    /// Description of the output.
     pub(crate) written: &'static str,
-    /// As what programs of other languages are converted to it, if they are.
+    /// Target language of conversions to it, if there are any.
     pub(crate) made: Option<MakeLanguage>,
     pub(crate) words: Words,
 }

@@ -18,7 +18,7 @@ pub(crate) struct Row {
     pub(crate) reason: &'static str,
     #[serde(skip_serializing_if = "str::is_empty")]
     pub(crate) remedy: &'static str,
-    /// Where it is written when its block is divided: `first` or `last` piece.
+    /// Piece that carries it when its block is divided: `first` or `last` piece.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) piece: Option<&'static str>,
     #[serde(skip_serializing_if = "str::is_empty")]
@@ -143,7 +143,7 @@ fn codes() -> Vec<Row> {
     all
 }
 
-/// Where a code is written when its block is divided.
+/// Returns the piece that carries a code when its block is divided.
 fn piece_of(moment: &Moment) -> Option<&'static str> {
     match moment.placed {
         Placed::First => Some("first"),

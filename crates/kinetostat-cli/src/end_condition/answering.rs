@@ -1,4 +1,4 @@
-//! What `curve` and `equilibria` do alike: from the options to the files.
+//! Common steps of `curve` and `equilibria`: from the options to the files.
 
 use kinetostat_analysis::serial_chain::is_serial_chain;
 use kinetostat_machining::Warning;
@@ -11,7 +11,7 @@ use crate::place::query::{AnswerHead, PlaceQuery, place_query};
 use crate::ui::background::{Stage, interruptible};
 use crate::ui::failure::Answer;
 
-/// What queries of `curve` and `equilibria` share.
+/// Common interface of the queries of `curve` and `equilibria`.
 pub(crate) struct CommandQuery<'a> {
     pub(crate) model: &'a str,
     pub(crate) place: &'a PlaceArgs,
@@ -25,7 +25,7 @@ const SCHEMA: u32 = 3;
 /// The long work: from what the answer begins with to the answer.
 pub(crate) type Work<A> = Box<dyn FnOnce(AnswerHead, &Stage) -> Answer<A> + Send + 'static>;
 
-/// From the query to the files: reads the model, claims what will be written, works, shows.
+/// Answers a query: reads the model, claims the outputs, works, shows.
 pub(crate) fn answer_query<A: Serialize + Send + 'static>(
     command: &CommandQuery<'_>,
     work_of: impl FnOnce(&PlaceQuery) -> Answer<Work<A>>,
@@ -46,7 +46,7 @@ pub(crate) fn answer_query<A: Serialize + Send + 'static>(
     let mut answer = interruptible(move |stage| work(head, stage))?;
     warnings(&mut answer).extend(query.warnings.iter().cloned());
     if is_serial_chain(&query.mechanism) {
-        // Of a machine the answer says it itself, as far as it is moved.
+        // The answer for a machine already states this for its range of motion.
         warnings(&mut answer).extend(query.near_singular().map(|n| n.warning()));
     }
     let shown = show(&query.heading(), &answer)?;

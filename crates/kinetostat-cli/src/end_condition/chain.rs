@@ -16,7 +16,7 @@ pub(crate) fn serial_chain(query: &PlaceQuery) -> Answer<SerialChain> {
     Ok(SerialChain::of(&query.posture()?, query.target)?)
 }
 
-/// Where the end of a chain can go.
+/// Possible motions of the end of a chain.
 pub(crate) fn moves_of(chain: &SerialChain) -> Moves {
     Moves {
         subject: "chain",

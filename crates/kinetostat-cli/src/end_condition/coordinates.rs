@@ -5,7 +5,7 @@ use serde::Serialize;
 
 use crate::machine::units::unit_of;
 
-/// What every coordinate of a chain is, for people and for tables.
+/// Names of all coordinates of a chain, for people and for tables.
 pub(crate) fn coordinates_of(chain: &Chain, commands: &[f64]) -> Vec<CoordinateName> {
     let list = chain.coordinates().iter().enumerate();
     list.map(|(i, c)| {

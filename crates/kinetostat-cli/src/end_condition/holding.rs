@@ -12,7 +12,7 @@ use crate::ui::numbers::{short, triple};
 
 pub(crate) const DIRECTIONS: [&str; 6] = ["x", "y", "z", "rx", "ry", "rz"];
 
-/// How the tool is held.
+/// End condition of the tool.
 #[derive(Clone, Debug, Serialize)]
 pub(crate) struct Holding {
     /// Directions in which it is held.
@@ -30,7 +30,7 @@ pub(crate) struct Holding {
     pub(crate) subject: &'static str,
 }
 
-/// What is driven, base axes.
+/// Prescribed motion, base axes.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Driven {
     pub(crate) axis: Vector3<f64>,
@@ -97,7 +97,7 @@ pub(crate) fn list(option: &str, text: &str, driven: Option<usize>) -> Answer<[b
     Ok(set)
 }
 
-/// How the tool is held at `place`, with the constant wrench where it is free.
+/// Returns the end condition of the tool at `place`, with the constant wrench if it is free.
 pub(crate) fn holding(
     moves: &Moves,
     args: &EndArgs,
@@ -201,7 +201,7 @@ fn motion_list(set: &[bool; 6], otherwise: &str) -> String {
 }
 
 impl Holding {
-    /// That a wrench on the tool acts only where the tool is free.
+    /// Refuses a wrench on a held tool: it acts only on a free one.
     pub(crate) fn accepts(&self, what: &str, wrench: &Wrench) -> Answer<()> {
         let local = turn_matrix(&self.end.axes).transpose() * wrench.0;
         let most = local.amax();
@@ -216,7 +216,7 @@ impl Holding {
         }
     }
 
-    /// What holds the tool, in words.
+    /// Describes the end condition in words.
     pub(crate) fn description(&self) -> String {
         let mut text = match (self.held.as_slice(), self.free.as_slice()) {
             ([], []) => format!("The end of this {} cannot move at all", self.subject),

@@ -1,4 +1,4 @@
-//! What acts on the tool and on nodes all the time.
+//! Constant loads on the tool and on nodes.
 
 use kinetostat::Wrench;
 use kinetostat_analysis::serial_chain::SerialChain;
@@ -44,7 +44,7 @@ pub(crate) fn with_loads(mut chain: SerialChain, args: &EndArgs) -> Answer<Seria
     Ok(chain)
 }
 
-/// What acts all the time, in words; nothing if nothing does.
+/// Describes the constant loads; empty if there are none.
 pub(crate) fn constant_loads_text(args: &EndArgs) -> String {
     let mut parts = Vec::new();
     if let Some(f) = &args.constant_force {

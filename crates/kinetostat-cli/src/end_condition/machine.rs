@@ -21,7 +21,7 @@ pub(crate) struct CommandedMachine {
 }
 
 impl CommandedMachine {
-    /// With the forces on nodes of its limbs that act all the time.
+    /// Builds the machine with the constant forces on nodes of its limbs.
     pub(crate) fn of(query: &PlaceQuery, args: &EndArgs) -> Answer<Self> {
         let mut posture = query.posture()?;
         let directions = MovableDirections::of(&posture)?;
@@ -75,7 +75,7 @@ fn with_node_force(mechanism: &Mechanism, text: &str) -> Answer<Mechanism> {
 impl Subject for CommandedMachine {
     type Equilibrium = MechanismEquilibrium;
 
-    /// Of all limbs, one limb after the other.
+    /// Coordinates of all limbs, one limb after the other.
     fn coordinates(&self) -> Vec<CoordinateName> {
         let limbs = self.posture.mechanism().limbs().iter();
         let limbs = limbs.zip(self.posture.limbs());
@@ -101,7 +101,7 @@ impl Subject for CommandedMachine {
             .collect()
     }
 
-    /// Every limb from its start to its end and back, one after the other, m.
+    /// Outline of every limb from its start to its end and back, one after the other, m.
     fn outline(&self, e: &MechanismEquilibrium) -> Vec<Vector3<f64>> {
         let limbs = self.posture.mechanism().limbs().iter();
         let limbs = limbs.zip(self.posture.limbs()).zip(&e.limbs);

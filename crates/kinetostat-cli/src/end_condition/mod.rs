@@ -1,4 +1,4 @@
-//! What holds the end of a chain or a machine, and what acts on it: what `curve` and `equilibria` share.
+//! End condition and loads of a chain or a machine: the common part of `curve` and `equilibria`.
 //!
 //! It takes their options and a place and gives the chain or the machine with its end condition, the names of its
 //! coordinates, and the steps from the options to the files ([`answering`]).

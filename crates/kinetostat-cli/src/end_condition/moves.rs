@@ -8,7 +8,7 @@ use kinetostat_analysis::movable::MovableDirections;
 pub(crate) struct Moves {
     /// `chain` or `machine`.
     pub(crate) subject: &'static str,
-    /// Where the tool is commanded to be.
+    /// Commanded pose of the tool.
     pub(crate) place: Pose,
     pub(crate) directions: MovableDirections,
 }

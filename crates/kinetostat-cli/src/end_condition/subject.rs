@@ -1,4 +1,4 @@
-//! What the answers of `curve` and `equilibria` ask of a chain or of a machine.
+//! Interface to a chain or a machine for the answers of `curve` and `equilibria`.
 
 use kinetostat::{MotionKind, continuation::CurveEquilibrium};
 use nalgebra::Vector3;
@@ -11,7 +11,7 @@ use crate::ui::numbers::fixed;
 pub(crate) trait Subject {
     type Equilibrium: CurveEquilibrium;
 
-    /// What every coordinate is, for people and for tables.
+    /// Names of all coordinates, for people and for tables.
     fn coordinates(&self) -> Vec<CoordinateName>;
     /// Values of all coordinates in their units; of a drive the joint's whole position, command included.
     fn values(&self, e: &Self::Equilibrium) -> Vec<f64>;

@@ -3,13 +3,13 @@
 use kinetostat_machining::{CuttingResult, FileRead, FlatProgram, Warning};
 use serde::Serialize;
 
-/// What a program cuts.
+/// Engagement along a program.
 #[derive(Serialize)]
 pub(crate) struct EngagementAnswer {
     pub(crate) schema: u32,
     pub(crate) kinetostat_version: &'static str,
     pub(crate) program: String,
-    /// Where its lines are, of a program that was run once and written flat.
+    /// Origin of the lines, if the program was run once and written flat.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) flat: Option<FlatProgram>,
     pub(crate) material: String,
@@ -17,10 +17,10 @@ pub(crate) struct EngagementAnswer {
     pub(crate) tools: Vec<ToolAnswer>,
     /// Length of all feed moves from known places.
     pub(crate) feed_length_mm: f64,
-    /// None where the engagement comes from no stock.
+    /// Absent if the engagement comes from no stock.
     pub(crate) stock: Option<StockAnswer>,
     pub(crate) cutting: CuttingResult,
-    /// What the numbers rest on, in sentences.
+    /// Assumptions behind the numbers, in sentences.
     pub(crate) assumed: Vec<String>,
     pub(crate) warnings: Vec<Warning>,
 }
@@ -35,7 +35,7 @@ pub(crate) struct ToolAnswer {
     pub(crate) helix_deg: f64,
 }
 
-/// What became of the stock.
+/// Stock after the cut.
 #[derive(Serialize)]
 pub(crate) struct StockAnswer {
     pub(crate) volume_mm3: f64,

@@ -31,7 +31,7 @@ pub(crate) fn answer_of(
     );
     let mut warned: Vec<Warning> = warnings(Some(forces));
     warned.extend(read.with(marked_as_compensated));
-    // Every tool has its own cutter here, and nothing is corrected.
+    // Corrections do not apply here: every tool has its own cutter.
     let of_corrections = |w: &Warning| w.message.contains("corrections are made for one tool");
     warned.extend(
         of_program(path, None)

@@ -1,4 +1,4 @@
-//! Every station of the cut as a table.
+//! Table of all stations of the cut.
 
 use kinetostat_machining::{CutPlace, FlatProgram, ForceAlongPath, PointKind, cut_places};
 use kinetostat_program::Path;

@@ -111,7 +111,7 @@ pub(super) fn cut(
     })
 }
 
-/// Whether an option says something of the cut; a job alone is read as `compensate` reads it.
+/// True if an option describes the cut; a job alone is read as `compensate` reads it.
 fn options_given(args: &EngagementArgs) -> bool {
     args.material.material.is_some()
         || args.tool.given()

@@ -8,13 +8,13 @@ use kinetostat_report::{Cell, PlotLine, PlotMark, Section};
 use crate::engagement::answer::EngagementAnswer;
 use crate::ui::numbers::{number, short};
 
-/// Most cells along an axis.
+/// Upper limit of the cells along an axis.
 const MOST_CELLS: f64 = 400.0;
 /// Heights that differ by less are the same, mm.
 const SAME_MM: f64 = 1e-3;
 /// Room around the stock, as a share of its longer side.
 const AROUND: f64 = 0.06;
-/// Most lines that are named.
+/// Upper limit of the lines that are named.
 const MOST_MARKS: usize = 4;
 /// Named places are at least so far from each other, as a share of the map's longer side.
 const APART: f64 = 0.1;
@@ -66,13 +66,13 @@ pub(crate) fn map(a: &EngagementAnswer, whole: &Stock, left: &Stock, path: &Path
     }
 }
 
-/// What is left at a place that is not cut.
+/// Stock height at an uncut place; none where it is cut.
 fn kept(whole: &Stock, left: &Stock, (x, y): (f64, f64)) -> Option<f64> {
     let (before, after) = (whole.top_mm(x, y)?, left.top_mm(x, y)?);
     (before - after <= SAME_MM).then_some(after)
 }
 
-/// Least and greatest height of what is not cut.
+/// Smallest and largest height of the uncut surface.
 fn heights(whole: &Stock, left: &Stock, x: &[f64], y: &[f64]) -> Option<(f64, f64)> {
     let places = y.iter().flat_map(|y| x.iter().map(move |x| (*x, *y)));
     places

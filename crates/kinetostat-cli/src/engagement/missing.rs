@@ -1,4 +1,4 @@
-//! What neither options nor job file say of a cut, asked for by name.
+//! Missing data of a cut, neither in options nor job file, requested by name.
 
 use crate::engagement::arguments::EngagementArgs;
 use crate::force::arguments::MaterialArgs;
@@ -8,7 +8,7 @@ use crate::ui::failure::{Answer, Failure};
 
 pub(super) const NO_STOCK: &str = "no stock: give --block-mm X0 Y0 Z0 X1 Y1 Z1 (two corners, program coordinates), --width-mm with --depth-mm for the same cut everywhere, or --job JOB";
 
-/// Everything that neither options nor job say, at once.
+/// Reports all missing data at once.
 pub(super) fn nothing_missing(job: Option<&JobFile>, args: &EngagementArgs) -> Answer<()> {
     let of_job = |says: fn(&Job) -> bool| job.is_some_and(|j| says(&j.job));
     let mut missing = Vec::new();

@@ -85,7 +85,7 @@ pub(super) fn own_cutters(
     }])
 }
 
-/// Where the tools are in the material, if options say it.
+/// Returns the engagement of the tools, if options state it.
 pub(super) fn own_engagement(
     args: &StockArgs,
     tools: (&Tool, &Tool),
@@ -133,7 +133,7 @@ fn block(
     Ok((EngagementSource::Stock(Box::new(stock)), words))
 }
 
-/// The same cut on all feed moves.
+/// Applies one constant cut to all feed moves.
 fn everywhere(
     (width, depth): (f64, f64),
     part: Option<PartWord>,

@@ -1,4 +1,4 @@
-//! What is looked at: a program, or a job with its program.
+//! Subject of the command: a program, or a job with its program.
 
 use std::path::{Path, PathBuf};
 
@@ -8,7 +8,7 @@ use crate::ui::failure::{Answer, Failure};
 /// Job file and program, as far as they are named.
 pub(super) struct Subject<'a> {
     pub(super) job: Option<&'a Path>,
-    /// In place of the job's.
+    /// Program in place of the job's.
     pub(super) program: Option<PathBuf>,
 }
 

@@ -23,7 +23,7 @@ pub(crate) struct EquilibriaAnswer {
     /// Direction of `stiffness_n_per_mm`; null: the principal one with the smallest stiffness.
     pub(crate) stiffness_along: Option<[f64; 3]>,
     pub(crate) coordinates: Vec<CoordinateName>,
-    /// By rising energy.
+    /// Equilibria by rising energy.
     pub(crate) equilibria: Vec<ShapeAnswer>,
     pub(crate) coverage: Coverage,
     pub(crate) conservative: bool,
@@ -39,18 +39,18 @@ pub(crate) struct ShapeAnswer {
     pub(crate) number: usize,
     /// Springs and loads, up to a constant; of the springs alone where a load has no potential.
     pub(crate) energy_j: f64,
-    /// Under the conditions as prescribed.
+    /// Stable under the conditions as prescribed.
     pub(crate) stable: bool,
-    /// Under loads without a potential it does not go away, but it may swing with growing amplitude;
-    /// whether it does depends on the masses.
+    /// True if it does not diverge under loads without a potential, but may swing with growing
+    /// amplitude, depending on the masses.
     pub(crate) may_flutter: bool,
-    /// With the tool held.
+    /// Stable with the tool held.
     pub(crate) shape_stable: bool,
     /// mu; null without inner freedom, and where a passive joint is pushed out of line.
     pub(crate) share_to_buckling: Option<f64>,
     /// Motion of the coordinates in which it would buckle.
     pub(crate) mode_in_words: String,
-    /// At a limit or bifurcation point, or one of a family that moves for nothing.
+    /// True at a limit or bifurcation point, or in a family with zero stiffness.
     pub(crate) singular: bool,
     pub(crate) found_by_spread_starts: usize,
     /// Along the requested direction; without one the smallest principal stiffness, rotations at the
@@ -65,7 +65,7 @@ pub(crate) struct ShapeAnswer {
     pub(crate) coordinates: Vec<f64>,
 }
 
-/// How complete the list is.
+/// Completeness of the list.
 #[derive(Serialize)]
 pub(crate) struct Coverage {
     pub(crate) starts: usize,
@@ -78,12 +78,12 @@ pub(crate) struct Coverage {
     pub(crate) chance_of_more_at_most: f64,
     #[serde(rename = "settled")]
     pub(crate) exhausted: bool,
-    /// There certainly are more: the energy has a minimum, and none of those found is one.
+    /// True if more certainly exist: the energy has a minimum, and none of those found is one.
     pub(crate) incomplete: bool,
     /// Equilibria known; more than are listed where there are too many combinations of the limbs' shapes.
     pub(crate) known: usize,
     pub(crate) known_stable: usize,
-    /// Of a machine whose tool is held: every combination of its limbs' shapes is an equilibrium.
+    /// Limbs of a machine whose tool is held: every combination of their shapes is an equilibrium.
     pub(crate) limbs: Vec<LimbCoverage>,
 }
 
@@ -104,9 +104,9 @@ pub(crate) struct LimbCoverage {
 const NO_ENERGY: f64 = 1e-20;
 
 impl EquilibriaAnswer {
-    /// With warnings where even the equilibrium nearest to the commanded place is so far from it that a load folds a
-    /// machine of this size (m) over, or that its springs are stretched; and where to hold the tool takes more force in
-    /// every equilibrium than any cut has.
+    /// Adds warnings if even the nearest equilibrium is so far from the commanded place that a load folds a machine of
+    /// this size (m) over, or that its springs are stretched; and if holding the tool takes more force in every
+    /// equilibrium than any cut has.
     pub(crate) fn with_plausibility_warnings(mut self, size: f64) -> Self {
         let commanded = Vector3::from(self.head.place.position_mm);
         let away = |e: &ShapeAnswer| 1e-3 * (Vector3::from(e.position_mm) - commanded).norm();
@@ -126,7 +126,7 @@ impl EquilibriaAnswer {
         self
     }
 
-    /// Why this is no answer: nothing was found, which does not say that there is nothing.
+    /// Returns a failure if nothing was found, which does not prove that there is no equilibrium.
     pub(crate) fn unanswered(&self) -> Option<Failure> {
         self.equilibria.is_empty().then(|| {
             Failure::unanswered(format!(

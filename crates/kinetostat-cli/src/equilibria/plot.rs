@@ -71,7 +71,7 @@ pub(crate) fn plot(a: &EquilibriaAnswer) -> Plot {
             });
         }
     }
-    // Both ends, if all shapes share them.
+    // Ends shared by all shapes.
     for (name, end) in [
         ("base", outlines.first().and_then(|o| o.first())),
         ("tool", outlines.first().and_then(|o| o.last())),

@@ -10,7 +10,7 @@ use crate::ui::numbers::{fixed, number};
 use crate::ui::warnings;
 use kinetostat::number::larger;
 
-/// More equilibria than this are only counted on the screen.
+/// Upper limit of the equilibria that are shown; others are counted.
 const MOST_SHOWN: usize = 20;
 
 pub(crate) fn answer_text(heading: &str, a: &EquilibriaAnswer) -> String {
@@ -78,7 +78,7 @@ fn found(a: &EquilibriaAnswer) -> String {
     text
 }
 
-/// What may be why, by what holds the tool and by what acts on it.
+/// Possible causes, by end condition and loads.
 fn none_found(holding: &Holding) -> String {
     let subject = holding.subject;
     let mut text = "No equilibrium was found. This does not say that there is none.".to_owned();
@@ -221,7 +221,7 @@ fn modes(a: &EquilibriaAnswer) -> String {
     }
 }
 
-/// What the starts say of equilibria that were not found. An estimate of zero is never printed: few starts know little.
+/// Estimates the chance of equilibria that were not found. An estimate of zero is never printed: few starts know little.
 fn chance(c: &Coverage) -> String {
     if c.chance_of_more_at_most >= 1.0 {
         return "too few of the starts ended at the equilibria listed to say how many are missing: others may well exist. Search on with more --starts and --fruitless".to_owned();

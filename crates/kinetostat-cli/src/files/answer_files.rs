@@ -33,7 +33,7 @@ pub(crate) struct Shown {
     pub(crate) text: String,
     pub(crate) csv: Vec<u8>,
     pub(crate) svg: String,
-    /// Why the question has no answer, if it has none: said when everything is written.
+    /// Failure if the question has no answer: reported after everything is written.
     pub(crate) failure: Option<Failure>,
 }
 
@@ -69,7 +69,7 @@ impl ClaimedFiles {
         self.outputs.claim(what, target)
     }
 
-    /// What is written there.
+    /// Writes the contents of a claimed file.
     pub(crate) fn fill(&mut self, claimed: usize, bytes: &[u8]) -> Answer<()> {
         self.outputs.fill(claimed, bytes)
     }

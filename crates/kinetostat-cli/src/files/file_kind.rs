@@ -59,7 +59,7 @@ impl FileKind {
         }
     }
 
-    /// What to do where this kind was given for another one.
+    /// Remedy if this kind was given for another one.
     fn advice(self, needed: Self, path: &Path, named: Option<&str>) -> String {
         let path = path.display();
         match (self, needed) {

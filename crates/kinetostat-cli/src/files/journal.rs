@@ -1,5 +1,4 @@
-//! What an end without warning (kill -9, a power cut) leaves in a directory, and what the next run
-//! does about it.
+//! Recovery after an abrupt end (kill -9, a power cut): files left in a directory, and their treatment by the next run.
 //!
 //! A run that writes keeps one journal in each directory that it writes to, locked as long as the
 //! run lives; its unfinished files carry the journal's name. Before the first file is put in place
@@ -72,7 +71,7 @@ impl Contents {
         self.fnv1a = fnv1a(self.fnv1a, bytes);
     }
 
-    /// Whether a file holds just these bytes.
+    /// True if a file has exactly these bytes.
     pub(crate) fn are_in(self, path: &Path) -> bool {
         let same_length =
             fs::symlink_metadata(path).is_ok_and(|m| m.is_file() && m.len() == self.bytes);
@@ -94,7 +93,7 @@ impl Contents {
 /// An output that is about to be put in place.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(crate) struct Entry {
-    /// Its name if it lies beside the journal, else its whole path.
+    /// File name if it is in the journal's directory, else the whole path.
     #[serde(with = "any_path")]
     pub(crate) path: PathBuf,
     pub(crate) contents: Contents,
@@ -143,12 +142,12 @@ impl Entry {
         }
     }
 
-    /// Whether it is this file, with just these contents.
+    /// True if it is this file, with exactly these contents.
     pub(crate) fn is_in_place(&self, target: &Path) -> bool {
         same_place(&self.path, target) && self.contents.are_in(target)
     }
 
-    /// The same as seen from a directory.
+    /// Returns the entry as seen from a directory.
     pub(crate) fn seen_from(&self, directory: &Path) -> Self {
         let whole = |path: &Path| fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
         let parent = whole(&parent_of(&self.path));
@@ -215,7 +214,7 @@ impl Journal {
         let path = self.next(PART);
         let mut options = File::options();
         options.read(true).write(true).create_new(true);
-        // As any file that a program makes: the umask decides on its mode.
+        // The mode is left to the umask, as for any file of a program.
         let file = options.open(&path)?;
         remember(&path);
         Ok(NamedTempFile::from_parts(
@@ -247,14 +246,14 @@ impl Journal {
     }
 }
 
-/// Nothing of this process is left that is no output.
+/// Forgets the temporary files: those left are outputs.
 pub(crate) fn done() {
     if let Ok(mut list) = TEMPORARY.lock() {
         list.clear();
     }
 }
 
-/// Whether an open file still has its name.
+/// True if an open file still has its name.
 fn still_there(file: &NamedTempFile) -> bool {
     #[cfg(unix)]
     {
@@ -306,7 +305,7 @@ pub(crate) fn tidy(directory: &Path) -> Vec<String> {
         let journal = match File::open(&path) {
             Ok(file) => match file.try_lock() {
                 Ok(()) => Some(file),
-                // It lives, or the disk has no locks and nobody knows.
+                // The owner is alive, or the disk has no locks.
                 Err(_) => continue,
             },
             Err(error) if error.kind() == std::io::ErrorKind::NotFound => None,
@@ -329,7 +328,7 @@ pub(crate) fn tidy(directory: &Path) -> Vec<String> {
     notes
 }
 
-/// What is said where some files of a dead run are in place and others are not.
+/// Message if a dead run has put only some of its files in place.
 fn apart(directory: &Path, journal: File) -> Option<String> {
     let mut text = String::new();
     journal.take(MOST_BYTES).read_to_string(&mut text).ok()?;
@@ -401,7 +400,7 @@ mod tests {
         assert_eq!(count(), 4);
         assert!(tidy(here.path()).is_empty());
         assert_eq!(count(), 4);
-        // Its files lie there without anyone who holds the lock, as after kill -9.
+        // The files remain without a lock, as after kill -9.
         let (_, part) = part.keep().unwrap();
         let kept = kept.keep().unwrap();
         let (file, journal) = living.file.keep().unwrap();

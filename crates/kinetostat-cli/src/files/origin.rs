@@ -1,4 +1,4 @@
-//! Where a result comes from: files with their hashes, and the day.
+//! Origin of a result: files with their hashes, and the day.
 
 use std::path::Path;
 use std::time::{Duration, SystemTime, UNIX_EPOCH};
@@ -12,7 +12,7 @@ pub(crate) fn file(what: &str, path: &Path, bytes: &[u8]) -> FileRead {
     hashed(what, path, sha256(bytes))
 }
 
-/// The same of a file whose hash is known.
+/// Returns the record of a file whose hash is known.
 pub(crate) fn hashed(what: &str, path: &Path, sha256: String) -> FileRead {
     let name = path.file_name().map_or_else(
         || path.display().to_string(),

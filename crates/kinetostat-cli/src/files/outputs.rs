@@ -17,7 +17,7 @@ use crate::ui::safe_text::safe;
 use crate::ui::system_error::description;
 use crate::ui::{layout, screen};
 
-/// What to do about an output that exists.
+/// Policy for an output that exists.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Existing {
     /// Leave it and say so.
@@ -29,7 +29,7 @@ pub(crate) enum Existing {
 }
 
 impl Existing {
-    /// What an option `--force-overwrite` says.
+    /// Policy by the option `--force-overwrite`.
     pub(crate) fn forced(force_overwrite: bool) -> Self {
         match force_overwrite {
             true => Self::Replace,
@@ -45,9 +45,9 @@ struct Claimed {
     file: NamedTempFile,
     contents: Contents,
     identical: bool,
-    /// Which of the journals lies in its directory.
+    /// Index of the journal of its directory.
     journal: usize,
-    /// What to do about one that is there.
+    /// Policy if the target exists.
     existing: Existing,
 }
 
@@ -69,8 +69,8 @@ fn refused(what: &str, target: &Path, reason: &str) -> Failure {
     ))
 }
 
-/// Whether a target can be an output beside others that were named before: it is no input and no other output,
-/// its directory is there, and it is no link. Whether a file that exists may be replaced is another question.
+/// Refuses a target that is an input, another output or a link, or whose directory is missing. The policy for
+/// existing files is checked elsewhere.
 pub(crate) fn may_be_written(
     what: &str,
     target: &Path,
@@ -150,7 +150,7 @@ pub(crate) struct Outputs {
     claimed: Vec<Claimed>,
     /// One in each directory that is written to; they end after the files above.
     journals: Vec<Journal>,
-    /// What an earlier run of the same question was putting in place when it ended.
+    /// Outputs that an earlier run of the same question was putting in place when it ended.
     own: Vec<Entry>,
     /// Folders that were made for outputs.
     made: Vec<MadeFolder>,
@@ -183,7 +183,7 @@ impl Outputs {
         Self { own, ..self }
     }
 
-    /// What is about to be put in place.
+    /// Entries that are about to be put in place.
     pub(crate) fn entries(&self) -> Vec<Entry> {
         let all = self.claimed.iter();
         all.map(|c| Entry::new(&c.target, c.contents)).collect()
@@ -194,7 +194,7 @@ impl Outputs {
         self.claim_as(what, target, self.existing)
     }
 
-    /// The same of a file that goes on from run to run: it is replaced.
+    /// Claims a file that continues from run to run: it is replaced.
     pub(crate) fn claim_to_go_on(&mut self, what: &'static str, target: &Path) -> Answer<usize> {
         self.claim_as(what, target, Existing::Replace)
     }
@@ -344,7 +344,7 @@ impl Outputs {
         for journal in journals {
             let directory = journal.directory.clone();
             drop(journal);
-            // What an earlier run left apart may be whole now.
+            // Outputs that an earlier run left incomplete may be complete now.
             drop(journal::tidy(&directory));
         }
         journal::done();

@@ -5,7 +5,7 @@ use std::path::{Component, Path, PathBuf};
 
 use crate::files::file_names::file_name;
 
-/// Whether two files hold the same, if both can be read.
+/// True if two files have equal bytes; none if one cannot be read.
 pub(crate) fn same_bytes(one: &Path, other: &Path) -> Option<bool> {
     Some(fs::read(one).ok()? == fs::read(other).ok()?)
 }
@@ -37,7 +37,7 @@ pub(crate) fn named_with_own_folder(path: &Path) -> String {
     folder + &file_name(path)
 }
 
-/// The same file under two names: links of either kind included.
+/// True if both paths lead to one file, hard and symbolic links included.
 pub(crate) fn same_file(one: &Path, other: &Path) -> bool {
     #[cfg(unix)]
     {
@@ -49,7 +49,7 @@ pub(crate) fn same_file(one: &Path, other: &Path) -> bool {
     same_place(one, other)
 }
 
-/// The same name in the same directory, whether or not there is a file.
+/// True for one name in one directory, even if there is no file.
 pub(crate) fn same_place(one: &Path, other: &Path) -> bool {
     let place = |path: &Path| {
         let parent = fs::canonicalize(parent_of(path)).ok()?;
@@ -61,7 +61,7 @@ pub(crate) fn same_place(one: &Path, other: &Path) -> bool {
     }
 }
 
-/// Why a job file may not write to a place.
+/// Reason for which a job file may not write to a path.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub(crate) enum Outside {
     #[error(

@@ -13,16 +13,16 @@ pub(crate) struct ForceAnswer {
     pub(crate) material: MaterialAnswer,
     pub(crate) tool: ToolAnswer,
     pub(crate) cut: CutAnswer,
-    /// What the axes are, in words.
+    /// Definition of the axes in words.
     pub(crate) axes: String,
     pub(crate) mean: MeanAnswer,
     pub(crate) peak: PeakAnswer,
     /// Walls that the cut leaves, with the force at the moment at which they are made.
     pub(crate) walls: Vec<WallAnswer>,
     pub(crate) harmonics: Vec<HarmonicAnswer>,
-    /// What the spindle gives at this speed; none where it was not asked or does not turn so fast.
+    /// Power and torque of the spindle at this speed; none without spindle data or above its top speed.
     pub(crate) spindle: Option<SpindleAnswer>,
-    /// What the numbers rest on, in sentences.
+    /// Assumptions behind the numbers, in sentences.
     pub(crate) assumed: Vec<String>,
     pub(crate) warnings: Vec<Warning>,
     /// Mean force of the flat end along the tool, N.
@@ -82,7 +82,7 @@ pub(crate) struct CutAnswer {
     pub(crate) down_feed_per_tooth_mm: f64,
     pub(crate) feed_mm_per_min: Option<f64>,
     pub(crate) rpm: Option<f64>,
-    /// At the widest place in the cut.
+    /// Speed at the widest place in the cut.
     pub(crate) cutting_speed_m_per_min: Option<f64>,
     pub(crate) removed_mm3_per_min: Option<f64>,
     pub(crate) largest_chip_mm: f64,
@@ -92,7 +92,7 @@ pub(crate) struct CutAnswer {
 #[derive(Serialize)]
 pub(crate) struct MeanAnswer {
     pub(crate) force_n: [f64; 3],
-    /// The same with the spread of the material taken off, and added.
+    /// Force minus and plus the spread of the material.
     pub(crate) force_low_n: [f64; 3],
     pub(crate) force_high_n: [f64; 3],
     pub(crate) across_tool_n: f64,
@@ -100,7 +100,7 @@ pub(crate) struct MeanAnswer {
     pub(crate) moment_n_mm: [f64; 3],
     pub(crate) torque_n_mm: f64,
     pub(crate) power_w: Option<f64>,
-    /// The same force as a job file takes it: radial to the right of the feed, tangential along it.
+    /// Force in the form of a job file: radial to the right of the feed, tangential along it.
     pub(crate) job_load: JobLoad,
 }
 
@@ -134,7 +134,7 @@ pub(crate) struct WallAnswer {
     pub(crate) wall: &'static str,
     /// Mean over the depth of the force at the moment at which the wall is made there.
     pub(crate) force_n: [f64; 3],
-    /// Its part away from the wall: positive leaves material, negative takes too much.
+    /// Component away from the wall: positive leaves material, negative takes too much.
     pub(crate) away_from_wall_n: f64,
     pub(crate) heights: Vec<AtHeight>,
 }
@@ -156,7 +156,7 @@ pub(crate) struct HarmonicAnswer {
 pub(crate) struct SpindleAnswer {
     pub(crate) torque_n_mm: f64,
     pub(crate) power_w: f64,
-    /// Of what it gives: the mean of the cut, and its largest.
+    /// Share of the available torque: the mean of the cut, and its largest.
     pub(crate) share_of_torque: f64,
     pub(crate) share_of_torque_at_peak: f64,
 }

@@ -1,4 +1,4 @@
-//! From tool, cut and law to the answer.
+//! Evaluation of a cut from tool and law.
 
 use kinetostat_cutting::{
     Applied, CutForce, Material, Milling, Peaks, Revolution, Rotation, Shape, Side, Tool, Wall,
@@ -93,7 +93,7 @@ pub(crate) fn answer_of(
     Ok(answer)
 }
 
-/// Where the part is, as the JSON says it.
+/// Side of the part as a word of the JSON.
 pub(crate) fn part_word(part: Part) -> &'static str {
     match part {
         Part::Side(Side::Left) => "left",
@@ -102,7 +102,7 @@ pub(crate) fn part_word(part: Part) -> &'static str {
     }
 }
 
-/// How the teeth go through the material, as the JSON says it.
+/// Milling mode as a word of the JSON.
 pub(crate) fn milling_word(way: Way) -> &'static str {
     match way {
         Way::Climb => "climb",

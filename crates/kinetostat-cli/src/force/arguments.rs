@@ -155,7 +155,7 @@ pub(crate) struct ToolArgs {
 }
 
 impl ToolArgs {
-    /// Whether any of them is given.
+    /// True if any of them is given.
     pub(crate) fn given(&self) -> bool {
         let numbers = [
             self.diameter_mm,

@@ -1,4 +1,4 @@
-//! What the numbers rest on, in sentences.
+//! Assumptions behind the numbers, in sentences.
 
 use kinetostat_cutting::{Material, Shape};
 

@@ -12,7 +12,7 @@ use crate::ui::failure::{Answer, Failure};
 /// Diameters of the tool: no cut is deeper.
 const DEEPEST: f64 = 50.0;
 
-/// Where the part is.
+/// Side of the part.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Part {
     Side(Side),
@@ -20,7 +20,7 @@ pub(crate) enum Part {
     Slot,
 }
 
-/// How the teeth go through the material.
+/// Milling mode.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Way {
     Climb,
@@ -73,7 +73,7 @@ pub(crate) struct Straight {
     widest_mm: f64,
 }
 
-/// Which part of the tool is in the material, by width, depth and side.
+/// Returns the engagement of the tool by width, depth and side.
 pub(crate) fn straight(tool: &Tool, args: &CutArgs) -> Answer<Straight> {
     let given = |option: &str, value: Option<f64>, what: &str| -> Answer<f64> {
         let value = value
@@ -164,7 +164,7 @@ pub(crate) fn cut_of(tool: &Tool, args: &CutArgs, spindle: &SpindleArgs) -> Answ
     })
 }
 
-/// Where the part is, by place or by the way of the teeth.
+/// Returns the side of the part, from the side itself or from the milling mode.
 fn side(args: &CutArgs, rotation: Rotation) -> Answer<(Part, Way)> {
     let climb_at = match rotation {
         Rotation::Clockwise => Side::Right,
@@ -219,7 +219,7 @@ fn feed(tool: &Tool, args: &CutArgs, rpm: Option<f64>) -> Answer<Feed> {
     Feed::ramp(per_tooth, down).map_err(|error| refused(&error))
 }
 
-/// What the spindle gives; none where nothing is said of it.
+/// Torque curve of the spindle; none without its data.
 pub(crate) fn curve(args: &SpindleArgs) -> Answer<Option<SpindleCurve>> {
     let (Some(power), Some(base), Some(most)) = (
         args.spindle_power_w,

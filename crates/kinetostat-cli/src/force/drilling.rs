@@ -31,7 +31,7 @@ struct DrillAnswer {
     chisel_factor: f64,
     feed_per_turn_mm: f64,
     rpm: Option<f64>,
-    /// At the corner of the lips.
+    /// Speed at the corner of the lips.
     cutting_speed_m_per_min: Option<f64>,
     chip_mm: f64,
     /// Along the axis towards the spindle, on the drill.

@@ -1,4 +1,4 @@
-//! What somebody who cuts like this should know.
+//! Warnings about a cut.
 
 use kinetostat_cutting::{Material, SpindleFinding};
 use kinetostat_machining::{Warning, WarningCode, deeper_than_edges};

@@ -1,4 +1,4 @@
-//! What is cut: the library and a file of the user's, and the factors by which the cut differs from the test.
+//! Material: the library and a file of the user's, and the factors by which the cut differs from the test.
 
 use std::path::Path;
 
@@ -40,7 +40,7 @@ pub(crate) fn material(materials: &Materials, args: &MaterialArgs) -> Answer<Mat
     Ok(found.clone())
 }
 
-/// How a cut is made.
+/// Type of the cutting process.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Made {
     Milled,
@@ -78,7 +78,7 @@ pub(crate) fn correction(
     }
 }
 
-/// Its law for this cut.
+/// Applies the material law to this cut.
 pub(crate) fn applied(
     material: &Material,
     args: &MaterialArgs,
@@ -90,7 +90,7 @@ pub(crate) fn applied(
     let applied = material.for_milling(&correction);
     let mut applied = applied.map_err(|error| refused(&error))?;
     if made == Made::Steadily {
-        // Without a helix the axial part is that of the test.
+        // The axial part without a helix is that of the test.
         applied.law.law = material.clone();
     }
     if args.process_factor.is_none() && made == Made::Steadily {

@@ -1,4 +1,4 @@
-//! What the library refuses, said with the option that it stands in.
+//! Errors of the library, reported with the option at fault.
 
 use kinetostat_cutting::CutError;
 

@@ -9,7 +9,7 @@ use crate::force::trust::trust;
 use crate::ui::layout::{columns, item, named, wrapped};
 use crate::ui::numbers::{given, number, triple};
 
-/// What is asked, in one sentence.
+/// Describes the cut in one sentence.
 pub(crate) fn question(material: &str, tool: &CutTool, cut: &Cut) -> String {
     let way = way_text(cut.way);
     let tool = match (tool.number, tool.name.as_str()) {
@@ -201,7 +201,7 @@ fn torques(a: &ForceAnswer) -> String {
     out
 }
 
-/// Which force does what.
+/// Explains the use of each force.
 fn meaning(a: &ForceAnswer) -> String {
     let load = &a.mean.job_load;
     let size = largest_size(a.mean.force_n);
@@ -252,7 +252,7 @@ fn wall_text(wall: &WallAnswer, a: &ForceAnswer) -> String {
     )
 }
 
-/// How the force away from the wall changes from the tip upward.
+/// Describes the force away from the wall from the tip upward.
 fn along_the_wall(wall: &WallAnswer, away: impl Fn([f64; 3]) -> f64, size: f64) -> String {
     let forces: Vec<f64> = wall.heights.iter().map(|at| away(at.force_n)).collect();
     let last = wall.heights.last().map_or(0.0, |at| at.above_tip_mm);

@@ -1,4 +1,4 @@
-//! How far to trust a force: law, source, band, factors, and what is assumed.
+//! Reliability of a force: law, source, band, factors, and assumptions.
 
 use kinetostat_machining::Warning;
 
@@ -7,7 +7,7 @@ use crate::ui::layout::item;
 use crate::ui::numbers::number;
 use crate::ui::warnings;
 
-/// Of a milling cut.
+/// Reliability of a milling force.
 pub(crate) fn trust(a: &ForceAnswer) -> String {
     let across = a.mean.across_tool_n;
     let spread = 0.01 * a.material.spread_percent;

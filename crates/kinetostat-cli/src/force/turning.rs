@@ -30,7 +30,7 @@ struct TurningAnswer {
     chip_width_mm: f64,
     /// Along the speed of the part at the edge, on the tool.
     cutting_n: f64,
-    /// Against the feed.
+    /// Force against the feed.
     feed_n: f64,
     /// Away from the part, across the feed.
     passive_n: f64,

@@ -15,12 +15,12 @@ pub(crate) struct FrfAnswer {
     pub(crate) force_n: [f64; 3],
     pub(crate) moment_n_m: [f64; 3],
     pub(crate) hold: Option<String>,
-    /// In words.
+    /// Damping in words.
     pub(crate) damping: String,
     /// `modes`, or `direct` where damping couples modes or loads have no potential.
     pub(crate) solution: &'static str,
     pub(crate) quantity: &'static str,
-    /// Of the undamped machine, signed; where loads have no potential those of its complex pairs, in either case ascending.
+    /// Undamped natural frequencies, signed; where loads have no potential those of complex pairs; ascending.
     pub(crate) natural_frequencies_hz: Vec<f64>,
     /// Growth of each of these pairs, positive where it grows.
     #[serde(skip_serializing_if = "Option::is_none")]

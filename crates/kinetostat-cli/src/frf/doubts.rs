@@ -1,4 +1,4 @@
-//! What of a response is allowed and says little of a machine.
+//! Doubtful responses: allowed, but with little meaning for a machine.
 
 use kinetostat::number::larger;
 use kinetostat_analysis::vibration::VibratingMachine;
@@ -9,7 +9,7 @@ use crate::frf::arguments::FrfArgs;
 use crate::ui::numbers::number;
 use crate::vibration::subject;
 
-/// Of the damping and of the frequencies.
+/// Checks the damping and the frequencies.
 pub(crate) fn of(
     args: &FrfArgs,
     (machine, damping): (&VibratingMachine, &Damping),

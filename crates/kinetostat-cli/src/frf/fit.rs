@@ -17,16 +17,16 @@ use crate::vibration::subject;
 pub(crate) struct FitAnswer {
     /// Curves that were fitted: those by the force of the first.
     pub(crate) curves: Vec<String>,
-    /// What the fit leaves of each, as a share.
+    /// Misfit of each, as a share.
     pub(crate) misfit: Vec<f64>,
     pub(crate) modes: Vec<MeasuredMode>,
     /// Frequencies of poles that are no vibrations in the band.
     pub(crate) left_out_hz: Vec<f64>,
-    /// With one curve shapes cannot be compared.
+    /// True if shapes are compared: one curve does not allow it.
     pub(crate) shapes_compared: bool,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) scaled: Option<ScaledAnswer>,
-    /// What amplitudes and signs say against the measurement.
+    /// Objections to the measurement from amplitudes and signs.
     #[serde(skip)]
     pub(crate) doubts: Vec<String>,
 }
@@ -42,8 +42,8 @@ pub(crate) struct MeasuredMode {
     pub(crate) model_damping_ratio: Option<f64>,
     /// Modal assurance criterion of both shapes along the measured directions.
     pub(crate) modal_assurance: Option<f64>,
-    /// How many times as large as the model's the measured response of the mode is: 1 where masses and units are right,
-    /// negative where a sign is wrong. Null where the force is at another place.
+    /// Ratio of the measured response of the mode to the model's: 1 where masses and units are right, negative where a
+    /// sign is wrong. Null where the force is at another place.
     pub(crate) amplitude_by_model: Option<f64>,
 }
 
@@ -121,7 +121,7 @@ pub(crate) fn answer(
     })
 }
 
-/// What is said of measured curves that are not fitted.
+/// Message about measured curves that are not fitted.
 fn by_other_forces(measured: &MeasuredModes) -> Option<String> {
     let (own, others) = (&measured.curves, &measured.others);
     let (first, other) = (own.first()?, others.first()?);
@@ -135,7 +135,7 @@ fn by_other_forces(measured: &MeasuredModes) -> Option<String> {
 /// Measured amplitudes beyond this factor of the model's are no matter of masses.
 const APART: f64 = 3.0;
 
-/// What the middle one of the modes' amplitudes says, beside modes of the model that they resemble.
+/// Objection from the median amplitude ratio of the modes that resemble modes of the model.
 fn odd_amplitude(modes: &[MeasuredMode], signs_are_right: bool) -> Option<String> {
     let alike = |mode: &&MeasuredMode| mode.modal_assurance.is_none_or(|mac| mac > 0.5);
     let mut own: Vec<f64> = (modes.iter().filter(alike))

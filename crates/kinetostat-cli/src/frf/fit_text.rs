@@ -7,7 +7,7 @@ use crate::frf::scaling::ScaledAnswer;
 use crate::ui::layout::{columns, wrapped};
 use crate::ui::numbers::number;
 
-/// Below this two shapes are hardly the same mode.
+/// Modal assurance below which two shapes are hardly the same mode.
 const ALIKE: f64 = 0.8;
 /// A fit that leaves more of a curve does not follow it.
 const LEFT: f64 = 0.1;

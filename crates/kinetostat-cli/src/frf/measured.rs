@@ -11,7 +11,7 @@ use crate::files::csv_text::with_decimal_points;
 use crate::files::input_files::InputFiles;
 use crate::ui::failure::{Answer, Failure};
 
-/// What was measured, and what stands beside it in the file.
+/// Measured responses, and the rest of the file.
 #[derive(Default)]
 pub(crate) struct Measured {
     pub(crate) responses: Vec<MeasuredResponse>,
@@ -19,7 +19,7 @@ pub(crate) struct Measured {
     pub(crate) turning: Vec<String>,
 }
 
-/// Of a universal file, or of a table with columns as `xx_re_um_per_n`.
+/// Reads a universal file, or a table with columns as `xx_re_um_per_n`.
 pub(crate) fn read(files: &InputFiles, path: &Path) -> Answer<Measured> {
     let text = files.text("measured responses", path)?;
     let mut written = text.lines().map(str::trim).filter(|line| !line.is_empty());
@@ -38,7 +38,7 @@ pub(crate) fn read(files: &InputFiles, path: &Path) -> Answer<Measured> {
     })
 }
 
-/// What a measured file does not say, or says of another place than the tool's tip.
+/// Warnings about data that a measured file omits, or that belong to another place than the tool's tip.
 pub(crate) fn warnings(file: &Measured) -> Vec<Warning> {
     let measured = &file.responses;
     let mut all = Vec::new();
@@ -78,7 +78,7 @@ pub(crate) fn warnings(file: &Measured) -> Vec<Warning> {
     all
 }
 
-/// What is wrong with a measurement.
+/// Converts an error of a measurement.
 pub(crate) fn of_measurement(error: ChatterError) -> Failure {
     Failure::input(format!("measured responses: {error}"))
 }

@@ -1,9 +1,9 @@
-//! What is asked for: frequencies, and whether the options go together.
+//! Frequencies of the request, and checks of the combination of options.
 
 use crate::frf::arguments::FrfArgs;
 use crate::ui::failure::{Answer, Failure};
 
-/// Most frequencies of a response.
+/// Upper limit of the frequencies of a response.
 const MOST: f64 = 200_000.0;
 
 /// Refuses options that say nothing together.

@@ -191,7 +191,7 @@ fn machine_of(
     Ok(subject::machine(query, &posture, held)?)
 }
 
-/// Why scaling has no answer.
+/// Reason for which scaling has no answer.
 struct Lost(Failure);
 
 impl From<Failure> for Lost {

@@ -153,12 +153,12 @@ fn drawable(entries: &[(usize, usize)], receptance: &[Receptance]) -> Vec<(usize
     shown.collect()
 }
 
-/// Whether the tool moves along any of the axes that would be drawn.
+/// True if the tool moves along any of the axes that would be drawn.
 pub(crate) fn moves(entries: &[(usize, usize)], receptance: &[Receptance]) -> bool {
     !drawable(entries, receptance).is_empty()
 }
 
-/// What was asked for and is not drawn, in words.
+/// Lists the requested entries that are not drawn.
 pub(crate) fn not_drawn(entries: &[(usize, usize)], receptance: &[Receptance]) -> Option<String> {
     let shown = drawable(entries, receptance);
     let left = entries.iter().filter(|entry| !shown.contains(entry));

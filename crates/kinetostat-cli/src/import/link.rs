@@ -1,4 +1,4 @@
-//! What both imports of links do alike: remarks, the table of the model file, and the answer.
+//! Common part of both imports of links: remarks, the table of the model file, and the answer.
 
 use std::path::{Path, PathBuf};
 
@@ -44,7 +44,7 @@ struct LinkSummary<'a> {
     notices: &'a [String],
 }
 
-/// What is reported of a link besides its matrix.
+/// Remarks on a link besides its matrix.
 #[derive(Default)]
 pub(crate) struct Remarks {
     pub(crate) rows: Vec<[String; 2]>,

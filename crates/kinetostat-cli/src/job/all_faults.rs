@@ -20,7 +20,7 @@ use crate::job::source::Source;
 use crate::job::toml_tree::{holds, table_of, take};
 use crate::ui::failure::{Answer, Code, Failure};
 
-/// More faults than this are not looked for.
+/// Upper limit of the faults that are searched.
 const MOST: usize = 100;
 
 /// The query of a run along a program: enough to read everything that its job file says.
@@ -51,7 +51,7 @@ fn all(files: &InputFiles, path: &Path, query: &RunQuery<'_>, first: &Failure) -
     let mut tree = DeTable::parse(&text).ok()?;
     let mut found = Vec::new();
     let mut taken = Vec::new();
-    // What has the wrong form: unknown keys, words for numbers, NaN.
+    // Faults of form: unknown keys, words for numbers, NaN.
     for span in source.not_finite(&tree) {
         add(&mut found, source.not_finite_number(span.clone()));
         take(tree.get_mut(), span, &mut taken);
@@ -70,7 +70,7 @@ fn all(files: &InputFiles, path: &Path, query: &RunQuery<'_>, first: &Failure) -
             break;
         }
     }
-    // What has no meaning: each part of the question as far as it can be read.
+    // Faults of meaning: each part of the question as far as it can be read.
     if let Ok(job) = read(&tree)
         && let Err(failure) = Job::version(source, &job)
     {
@@ -90,7 +90,7 @@ fn all(files: &InputFiles, path: &Path, query: &RunQuery<'_>, first: &Failure) -
             .map(drop)
         },
         &|job| {
-            // Without a model that can be read: tool, placement and load all the same, without masses, for this machine has no weight.
+            // A model that cannot be read leaves tool, placement and load to check, without masses, for this machine has no weight.
             let mut job = job.clone();
             job.job.deviation.clear();
             (job.job.tool.mass_kg, job.job.tool.centre_of_mass_mm) = (None, None);
@@ -152,7 +152,7 @@ fn all(files: &InputFiles, path: &Path, query: &RunQuery<'_>, first: &Failure) -
         add(&mut found, failure);
     }
     add(&mut found, first.clone());
-    // In the order of the file; what has no line there comes last.
+    // Sorted by place in the file; faults without a line come last.
     found.sort_by_key(|f| f.place.as_ref().map_or(usize::MAX, |span| span.start));
     Some(Failure::together(found))
 }
@@ -161,8 +161,7 @@ fn read(tree: &Spanned<DeTable<'_>>) -> Result<Job, toml::de::Error> {
     exact(toml::de::Deserializer::from(tree.clone()))
 }
 
-/// Whether a place holds something that was taken out with a message of its own: what is missing there,
-/// or left over, follows from that.
+/// True if a place contains a key that was removed with a message of its own: further faults there are consequences.
 fn follows(place: &Range<usize>, taken: &[(String, Range<usize>)]) -> bool {
     taken.iter().any(|(_, span)| holds(place, span))
 }
@@ -187,7 +186,7 @@ fn put_right(
     (taken, put): (&mut Places, &mut Places),
 ) -> bool {
     let span = error.span().unwrap_or(0..0);
-    // What was put in and was not accepted is no number: its table goes as a whole.
+    // A placeholder that was not accepted is no number: its whole table is removed.
     let behind_the_text = source.text.len() + 1;
     if let Some(own) = span.start.checked_sub(behind_the_text) {
         return match put.get(own).cloned() {
@@ -196,7 +195,7 @@ fn put_right(
         };
     }
     let missing = Source::missing(error);
-    // What was taken out above with a message of its own is not missing; under a header it lies beside the table's place.
+    // A key that was removed with a message of its own is not missing; under a header it lies beside the table's place.
     let was_there = match &missing {
         Some(missing) => taken.iter().any(|(key, place)| {
             let under_header = || {

@@ -173,7 +173,7 @@ pub(crate) struct ReadingArgs {
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct WritingFlags<'a> {
     pub(crate) tolerance_um: Option<f64>,
-    /// This tolerance is that of all: straight pieces, chords of arcs and rounding.
+    /// True if the tolerance is the total: straight pieces, chords of arcs and rounding.
     pub(crate) of_all: bool,
     pub(crate) arcs: Option<ArcsWord>,
     pub(crate) min_block_mm: Option<f64>,

@@ -39,7 +39,7 @@ pub(crate) fn give_axes(
     let mut reading = source.settings.reading.clone();
     reading.rotary_axes = letters;
     let as_read = |reading| read(source.language, source.files.clone(), reading);
-    // Its faults are reported where it is read; words that are refused without the axes need them.
+    // Faults of the program are reported by its own reader; words refused without the axes need them.
     if as_read(&reading).is_ok_and(|program| !program.states_axis_angles())
         && as_read(&source.settings.reading).is_ok()
     {

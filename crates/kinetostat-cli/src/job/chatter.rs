@@ -1,4 +1,4 @@
-//! How finely chatter along a program is judged: `[chatter]` of a job, options of `chatter`.
+//! Resolution of the chatter analysis along a program: `[chatter]` of a job, options of `chatter`.
 
 use kinetostat_chatter::Swinging;
 use kinetostat_dynamics::Damping;
@@ -10,20 +10,20 @@ use crate::ui::failure::Answer;
 /// Modes up to this frequency vibrate whether they count or not, Hz.
 const AT_LEAST_HZ: f64 = 300.0;
 
-/// How finely chatter is judged.
+/// Resolution of the chatter analysis.
 #[derive(Clone, Debug)]
 pub(crate) struct ChatterSetting {
-    /// Of the job; without it that of the model.
+    /// Damping of the job; without it that of the model.
     pub(crate) damping: Option<Damping>,
-    /// Which modes swing; the others count by their flexibility at rest.
+    /// Modes that are kept dynamic; the others enter as residual flexibility.
     pub(crate) swinging: Swinging,
     /// Places farther apart are judged by themselves, mm.
     pub(crate) every_mm: f64,
-    /// Most places that are judged.
+    /// Upper limit of the places that are judged.
     pub(crate) most_places: usize,
 }
 
-/// The same as options, which go over the job.
+/// Settings as options, with priority over the job.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct ChatterFlags {
     pub(crate) modes_up_to_hz: Option<f64>,
@@ -32,14 +32,14 @@ pub(crate) struct ChatterFlags {
 }
 
 impl ChatterSetting {
-    /// Of a job that has its chatter judged.
+    /// Settings of a job that requests the chatter analysis.
     pub(crate) fn of_job(job: Option<&JobFile>) -> Answer<Option<Self>> {
         let asks = job.is_some_and(|j| j.job.chatter.is_some());
         asks.then(|| Self::of(job, ChatterFlags::default()))
             .transpose()
     }
 
-    /// Of a job and options.
+    /// Settings of a job and options.
     pub(crate) fn of(job: Option<&JobFile>, flags: ChatterFlags) -> Answer<Self> {
         let table = job.and_then(|j| Some(j.job.chatter.as_ref()?.get_ref()));
         let ratio = chosen(

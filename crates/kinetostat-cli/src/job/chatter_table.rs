@@ -1,4 +1,4 @@
-//! What a job says of chatter.
+//! Table of a job about chatter.
 
 use serde::Deserialize;
 use serde_spanned::Spanned;
@@ -13,6 +13,6 @@ pub(crate) struct ChatterTable {
     pub modes_up_to_hz: Option<Spanned<f64>>,
     /// Places farther apart are judged by themselves, mm.
     pub every_mm: Option<Spanned<f64>>,
-    /// Most places that are judged.
+    /// Upper limit of the places that are judged.
     pub most_places: Option<Spanned<usize>>,
 }

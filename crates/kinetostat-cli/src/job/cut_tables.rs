@@ -7,7 +7,7 @@ use serde_spanned::Spanned;
 
 use crate::job::units_word::UnitsWord;
 
-/// What is cut: `[material]`.
+/// Workpiece material: `[material]`.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct MaterialTable {
@@ -21,12 +21,12 @@ pub(crate) struct MaterialTable {
     pub cutting_speed_m_per_min: Option<f64>,
     /// Rake angle of the edge.
     pub rake_deg: Option<f64>,
-    /// What the edge is made of.
+    /// Material of the edge.
     #[serde(default)]
     pub cutting_material: CuttingMaterial,
     /// 1 for a sharp edge, 1.3 to 1.5 for a worn one.
     pub wear_factor: Option<f64>,
-    /// How the cut is cooled.
+    /// Cooling of the cut.
     #[serde(default)]
     pub coolant: Coolant,
 }
@@ -39,7 +39,7 @@ pub(crate) struct CuttersTable {
     pub file: Spanned<String>,
     /// A `tool.tbl` of LinuxCNC, which gives diameters that the table leaves out.
     pub tool_tbl: Option<Spanned<String>>,
-    /// Its unit; mm without it.
+    /// Length unit of the table; mm without it.
     pub tool_tbl_unit: Option<UnitsWord>,
 }
 
@@ -79,13 +79,13 @@ pub(crate) struct CylinderTable {
 pub(crate) struct HeightMapTable {
     /// CSV of heights, mm: a row along x, rows along y.
     pub file: Spanned<String>,
-    /// Where the first number stands, and the bottom, mm.
+    /// Corner of the first number, at the bottom, mm.
     pub corner_mm: [f64; 3],
-    /// From number to number, mm.
+    /// Distance of the numbers, mm.
     pub spacing_mm: f64,
 }
 
-/// The same engagement everywhere, or by lines: `[engagement]`.
+/// Engagement, constant or by lines: `[engagement]`.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct EngagementTable {
@@ -93,7 +93,7 @@ pub(crate) struct EngagementTable {
     pub width_mm: Option<Spanned<f64>>,
     /// Depth of cut along the axis.
     pub depth_mm: Option<Spanned<f64>>,
-    /// On which side of the feed the part is.
+    /// Side of the feed on which the part is.
     pub part: Option<Side>,
     /// Cuts of lines of the program; air on all others.
     #[serde(default)]
@@ -112,7 +112,7 @@ pub(crate) struct LinesTable {
     pub width_mm: f64,
     /// Depth of cut along the axis.
     pub depth_mm: f64,
-    /// On which side of the feed the part is.
+    /// Side of the feed on which the part is.
     pub part: Option<Side>,
 }
 
@@ -130,7 +130,7 @@ pub(crate) struct SpindleTable {
     pub base_rpm: Option<Spanned<f64>>,
     /// Largest speed.
     pub most_rpm: Option<Spanned<f64>>,
-    /// Which force of the revolution bends the machine.
+    /// Force of the revolution that bends the machine.
     pub force: Option<ForceChoice>,
 }
 
@@ -140,7 +140,7 @@ pub(crate) struct SpindleTable {
 pub(crate) struct MeasuredTable {
     /// CSV with a column `time_s` or `along_mm`.
     pub file: Spanned<String>,
-    /// What the logged force acts on.
+    /// Body that the logged force acts on.
     pub acts_on: ActsOn,
     /// Axes of the log.
     #[serde(default)]
@@ -149,20 +149,20 @@ pub(crate) struct MeasuredTable {
     pub shift_s: Option<Spanned<f64>>,
     /// Window of the mean, of a log over time; a revolution of the spindle without it.
     pub smooth_s: Option<Spanned<f64>>,
-    /// The same of a log along the path.
+    /// Smoothing length of a log along the path.
     pub smooth_mm: Option<Spanned<f64>>,
     /// Speed of rapids.
     pub rapid_mm_per_min: Option<Spanned<f64>>,
-    /// What the P of dwells (G4) counts.
+    /// Unit of the P of dwells (G4).
     pub dwell_unit: Option<Spanned<DwellUnit>>,
     /// Stretches in which the tool is in air, of a log over time.
     pub air_s: Option<Spanned<Vec<[f64; 2]>>>,
-    /// The same of a log along the path.
+    /// Air cuts of a log along the path.
     pub air_mm: Option<Spanned<Vec<[f64; 2]>>>,
-    /// How drift is drawn through them.
+    /// Interpolation of the drift between them.
     #[serde(default)]
     pub drift: DriftModel,
-    /// What is done with outliers.
+    /// Treatment of outliers.
     #[serde(default)]
     pub outliers: OutlierTreatment,
 }

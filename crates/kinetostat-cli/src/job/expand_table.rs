@@ -7,7 +7,7 @@ use serde_spanned::Spanned;
 
 use crate::job::dialect_word::DialectWord;
 
-/// That the program is expanded, and how.
+/// Expansion of the program: `[expand]`.
 #[derive(Clone, Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct ExpandTable {
@@ -20,7 +20,7 @@ pub(crate) struct ExpandTable {
     pub parameters: Option<NumberedTable>,
     /// Controller that the program is written for.
     pub dialect: Option<DialectWord>,
-    /// Whether flat blocks say the line that they came from.
+    /// True if flat blocks have a comment with the line that they came from.
     pub comments: Option<bool>,
 }
 

@@ -7,10 +7,10 @@ use serde_spanned::Spanned;
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct FeatureTable {
-    /// Its name.
+    /// Feature name.
     pub name: Spanned<String>,
     /// First and last line of the program.
     pub lines: Spanned<[usize; 2]>,
-    /// How far the tool may be off there, micrometres; without it, as far as in the whole program.
+    /// Tolerance of the tool's position there, micrometres; by default that of the whole program.
     pub tolerance_um: Option<Spanned<f64>>,
 }

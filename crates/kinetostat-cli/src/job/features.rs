@@ -6,7 +6,7 @@ use crate::job::job_file::JobFile;
 use crate::job::values::{chosen, micrometres};
 use crate::ui::failure::Answer;
 
-/// More features than this are no list that anybody reads.
+/// Upper limit of the features: nobody reads a longer list.
 const MOST: usize = 1000;
 
 /// The features of a job; each name once, lines in their order.

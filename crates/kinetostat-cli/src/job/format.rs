@@ -47,22 +47,22 @@ pub(crate) struct Job {
     pub tools: Vec<Spanned<NumberedTool>>,
     #[serde(default)]
     pub load: LoadTable,
-    /// What is cut: the load is computed from the cut.
+    /// Material of the workpiece: the load is computed from the cut.
     pub material: Option<Spanned<MaterialTable>>,
     /// Tables of the cutters.
     pub cutters: Option<Spanned<CuttersTable>>,
     /// The stock before the program.
     pub stock: Option<Spanned<StockTable>>,
-    /// Where the tool is in the material, without a stock.
+    /// Engagement of the tool, without a stock.
     pub engagement: Option<Spanned<EngagementTable>>,
     pub spindle: Option<Spanned<SpindleTable>>,
     /// Forces that were measured along the program.
     pub measured: Option<Spanned<MeasuredTable>>,
     #[serde(default)]
     pub reading: ReadingTable,
-    /// What a program of a robot does not say itself.
+    /// Data that a program of a robot does not state itself.
     pub robot: Option<Spanned<RobotTable>>,
-    /// What a program of a robot calls by these names and none of its files holds.
+    /// Effect of called routines that are in none of the files.
     #[serde(default)]
     pub calls: BTreeMap<Spanned<String>, CallWord>,
     /// Values of names that only the controller knows.
@@ -70,14 +70,14 @@ pub(crate) struct Job {
     pub values: BTreeMap<Spanned<String>, ValueWord>,
     /// The program is run once and written flat.
     pub expand: Option<Spanned<ExpandTable>>,
-    /// What is uncertain about machine and load.
+    /// Uncertain numbers of machine and load.
     pub uncertain: Option<Spanned<UncertainTable>>,
     /// Chatter is judged along the program.
     pub chatter: Option<Spanned<ChatterTable>>,
     /// Lines of the program with names and tolerances of their own.
     #[serde(default)]
     pub features: Vec<Spanned<FeatureTable>>,
-    /// Where the part may lie, for `kinetostat place`.
+    /// Range of the part's placement, for `kinetostat place`.
     pub place: Option<Spanned<PlaceTable>>,
     #[serde(default)]
     pub tolerances: TolerancesTable,
@@ -88,23 +88,23 @@ pub(crate) struct Job {
     pub limits: BTreeMap<Spanned<String>, Spanned<f64>>,
 }
 
-/// Where the program lies in the machine.
+/// Placement of the program in the machine.
 #[derive(Clone, Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct PlacementTable {
-    /// Where the program's zero point lies, base axes, mm.
+    /// Position of the program's zero point, base axes, mm.
     pub part_origin_mm: Option<Spanned<[f64; 3]>>,
     /// Orientation of the program's axes in the base.
     pub part_orientation: Option<Spanned<PoseTable>>,
     /// Orientation of the tool in the base; without it, the one that the tool has at home.
     pub tool_orientation: Option<Spanned<PoseTable>>,
-    /// Whether that orientation is held, or only kept near to; without it, held by machines that can.
+    /// Mode of that orientation: held, or only approximated; without it, held by machines that can.
     pub orientation: Option<OrientationWord>,
     /// Length in the machine per length in the program.
     pub scale: Option<Spanned<f64>>,
 }
 
-/// What the machine does with its orientation.
+/// Treatment of the tool orientation by the machine.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum OrientationWord {
@@ -120,13 +120,13 @@ pub(crate) enum OrientationWord {
 pub(crate) struct ToolTable {
     /// Distance of the tip along z of the flange, mm.
     pub length_mm: Option<Spanned<f64>>,
-    /// Or the whole pose of the tip in the flange.
+    /// Alternative: the whole pose of the tip in the flange.
     pub pose: Option<Spanned<PoseTable>>,
-    /// Its edges, for loads that are computed from the cut.
+    /// Cutting edges, for loads that are computed from the cut.
     pub cutter: Option<Spanned<WrittenTool>>,
     /// Mass that the flange carries, kg: spindle and tool.
     pub mass_kg: Option<Spanned<f64>>,
-    /// Its centre in the frame of the flange, mm; halfway to the tip if not given.
+    /// Centre of mass in the frame of the flange, mm; halfway to the tip if not given.
     pub centre_of_mass_mm: Option<Spanned<[f64; 3]>>,
 }
 
@@ -138,31 +138,31 @@ pub(crate) struct NumberedTool {
     pub number: u32,
     /// Distance of the tip along z of the flange, mm.
     pub length_mm: Option<Spanned<f64>>,
-    /// Or the whole pose of the tip in the flange.
+    /// Alternative: the whole pose of the tip in the flange.
     pub pose: Option<Spanned<PoseTable>>,
-    /// Its edges, for loads that are computed from the cut.
+    /// Cutting edges, for loads that are computed from the cut.
     pub cutter: Option<Spanned<WrittenTool>>,
     /// Mass that the flange carries with it, kg: spindle and tool; without this, that of `[tool]`.
     pub mass_kg: Option<Spanned<f64>>,
-    /// Its centre in the frame of the flange, mm; halfway to the tip if not given.
+    /// Centre of mass in the frame of the flange, mm; halfway to the tip if not given.
     pub centre_of_mass_mm: Option<Spanned<[f64; 3]>>,
-    /// What acts on it; without this, the job's `[load]`.
+    /// Load on this tool; without it, the job's `[load]`.
     pub load: Option<LoadTable>,
 }
 
-/// What acts on the tool.
+/// Load on the tool.
 #[derive(Clone, Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct LoadTable {
-    /// The same force everywhere, N.
+    /// Constant force, N.
     pub force_n: Option<[f64; 3]>,
-    /// The same moment about the tip everywhere, N m.
+    /// Constant moment about the tip, N m.
     pub moment_n_m: Option<[f64; 3]>,
     /// Axes of both.
     pub axes: Option<Axes>,
-    /// Or a force that turns with the feed.
+    /// Alternative: a force that turns with the feed.
     pub milling: Option<Spanned<MillingTable>>,
-    /// Only below this height of the program, mm.
+    /// Height of the program below which it acts, mm.
     pub below_z_mm: Option<f64>,
     /// Corners up to this angle turn the load gently.
     pub gentle_corner_deg: Option<Spanned<f64>>,
@@ -170,7 +170,7 @@ pub(crate) struct LoadTable {
     pub turning_length_mm: Option<Spanned<f64>>,
     /// Largest change of the correction outside sharp corners, mm per mm of path.
     pub largest_step_mm_per_mm: Option<Spanned<f64>>,
-    /// What it is on the steps written at sharp corners, of this tool.
+    /// Load on the steps written at sharp corners, of this tool.
     pub at_corners: Option<CornerWord>,
     /// Share of the displacement by the machine's own weight that counts as an error; of the machine, not of a tool.
     pub weight: Option<Spanned<WeightWord>>,
@@ -216,7 +216,7 @@ pub(crate) enum Axes {
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct MillingTable {
-    /// To the right of the feed, N.
+    /// Component to the right of the feed, N.
     pub radial_n: f64,
     /// Along the feed, N.
     pub tangential_n: f64,
@@ -224,7 +224,7 @@ pub(crate) struct MillingTable {
     pub axial_n: f64,
 }
 
-/// How the program is read.
+/// Settings for reading the program.
 #[derive(Clone, Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct ReadingTable {
@@ -236,7 +236,7 @@ pub(crate) struct ReadingTable {
     /// X, Y and Z are places of the tool's tip in the part all along, however rotary axes stand.
     pub tool_centre_point: Option<bool>,
     pub start_position_mm: Option<[f64; 3]>,
-    /// Where the tool's point is in the part when the machine stands at its zero.
+    /// Tool point in the part at the machine's zero.
     pub machine_zero_mm: Option<[f64; 3]>,
     /// Reference points, machine coordinates.
     pub g28_mm: Option<[f64; 3]>,
@@ -254,7 +254,7 @@ pub(crate) enum BlockDeleteWord {
     Skip,
 }
 
-/// What becomes of arcs that are corrected.
+/// Treatment of arcs that are corrected.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, clap::ValueEnum)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum ArcsWord {
@@ -264,7 +264,7 @@ pub(crate) enum ArcsWord {
     Lines,
 }
 
-/// How exactly the program is written.
+/// Tolerances of the written program.
 #[derive(Clone, Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct TolerancesTable {
@@ -278,7 +278,7 @@ pub(crate) struct TolerancesTable {
     pub backward_step_um: Option<Spanned<f64>>,
 }
 
-/// What is written.
+/// Outputs.
 #[derive(Clone, Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct OutputTable {

@@ -13,20 +13,20 @@ use crate::ui::failure::{Answer, Failure};
 use crate::ui::layout::item;
 use crate::ui::numbers::number;
 
-/// How much stiffness counts where it is asked for, beside limits, singular postures and evenness with 1 each.
+/// Weight of the stiffness if requested; limits, singular postures and evenness have 1 each.
 const STIFFNESS_WEIGHT: f64 = 2.0;
 
 /// The path with the tool turned about its axis.
 pub(crate) struct FreeTurn {
     pub(crate) path: ToolPath,
-    /// What was chosen, in words.
+    /// Choice in words.
     pub(crate) description: String,
     /// The turn over the path, among those that the arm can take.
     pub(crate) choice: TurnChoice,
 }
 
 impl FreeTurn {
-    /// What was chosen, for the answer.
+    /// Text of the choice, for the answer.
     pub(crate) fn said(&self) -> String {
         format!(
             "\nTurn of the tool about its axis\n{}",
@@ -34,7 +34,7 @@ impl FreeTurn {
         )
     }
 
-    /// What was chosen, among the inputs of a run.
+    /// Appends the choice to the inputs of a run.
     pub(crate) fn put_into(&self, inputs: &mut RunInputs) {
         inputs.placement.push_str("; ");
         inputs.placement.push_str(&self.description);
@@ -93,7 +93,7 @@ pub(crate) fn chosen(
     })
 }
 
-/// Where the tip yields most, of turns that were chosen to be stiff.
+/// Largest compliance of the tip, for turns that were chosen to be stiff.
 fn softest(choice: &TurnChoice) -> String {
     let stations = choice.stations.iter();
     let most = stations.max_by(|a, b| a.compliance_m_per_n.total_cmp(&b.compliance_m_per_n));

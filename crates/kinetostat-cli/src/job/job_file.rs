@@ -19,7 +19,7 @@ pub(crate) struct JobFile {
     pub(crate) job: Job,
     /// Keys that were left out because they are wrong, where the rest is looked at.
     pub(crate) left_out: Vec<String>,
-    /// Its faults are looked for: its program is not run once and written flat for them.
+    /// True while faults are collected: the program is not run once and written flat then.
     pub(crate) is_searched: bool,
 }
 
@@ -61,7 +61,7 @@ impl JobFile {
             .collect()
     }
 
-    /// Whether a key is missing because it was left out.
+    /// True if a key is missing because it was left out.
     pub(crate) fn lacks(&self, key: &str) -> bool {
         self.left_out.iter().any(|left_out| left_out == key)
     }

@@ -91,7 +91,7 @@ fn of_option(text: &str) -> Answer<(Limit, f64)> {
     Ok((limit, value))
 }
 
-/// What is said of a shortest tool that is longer than the longest.
+/// Message if the shortest tool is longer than the longest.
 fn no_tool(limits: &Limits) -> Option<String> {
     let Limits {
         shortest_tool_mm: shortest,

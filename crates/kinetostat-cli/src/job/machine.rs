@@ -40,7 +40,7 @@ pub(crate) struct MachineSetup {
     pub(crate) placement: Placement,
     pub(crate) load: ProgramLoad,
     pub(crate) weight: WeightCorrection,
-    /// What the flange carries, by the tools' numbers; of the only tool without one.
+    /// Mass at the flange by tool numbers; `None` for a single tool without a number.
     pub(crate) tool_masses: Vec<(Option<u32>, ToolMass)>,
     /// The cuts that the load is computed from, where the job names a material.
     pub(crate) cut: Option<CutSetup>,
@@ -55,9 +55,9 @@ pub(crate) struct MachineSetup {
     pub(crate) bounds: Bounds,
     /// Tolerance of a program that states none, mm, and where it comes from.
     pub(crate) usual_tolerance: (f64, String),
-    /// Of the model's text and deviations.
+    /// Hash of the model's text and deviations.
     pub(crate) fingerprint: u64,
-    /// Its flange's z axis points away from it.
+    /// True if the flange's z axis points away from it.
     pub(crate) is_arm: bool,
     /// Masses that a template states and the job does not, where weights act.
     pub(crate) not_carried: Option<Warning>,
@@ -66,10 +66,10 @@ pub(crate) struct MachineSetup {
 /// A model as it was read.
 struct ReadModel {
     model: Model,
-    /// None of a preset.
+    /// Absent for a preset.
     path: Option<PathBuf>,
     file: FileRead,
-    /// Its file, or the name of a preset.
+    /// File, or the name of a preset.
     source: String,
 }
 

@@ -1,11 +1,11 @@
-//! Which model a run takes.
+//! Selection of the model of a run.
 
 use std::path::PathBuf;
 
 use crate::job::job_file::JobFile;
 use crate::ui::failure::{Answer, Failure};
 
-/// Its name, and the folder from which it counts where it is a path: of the command line, or of the job file.
+/// Model name, and the base folder of a relative path: of the command line, or of the job file.
 pub(crate) fn model_named(
     job: Option<&JobFile>,
     flag_model: Option<&str>,

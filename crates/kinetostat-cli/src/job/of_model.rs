@@ -1,4 +1,4 @@
-//! What the first reading of a program takes from the model, before the machine of the run is known.
+//! Model data for the first reading of a program, before the machine of the run is known.
 
 use crate::files::input_files::InputFiles;
 use crate::job::arguments::ProgramArgs;

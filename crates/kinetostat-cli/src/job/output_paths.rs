@@ -1,4 +1,4 @@
-//! Where the outputs of a run go, from options and the job file.
+//! Output paths of a run, from options and the job file.
 
 use std::path::{Path, PathBuf};
 
@@ -13,26 +13,26 @@ use crate::job::job_file::JobFile;
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::language::LanguageWord;
 
-/// What the compensated program is called among outputs.
+/// Output name of the compensated program.
 pub(crate) const COMPENSATED_PROGRAM: &str = "compensated program";
 
-/// What the report to be signed is called among outputs.
+/// Output name of the report to be signed.
 pub(crate) const PDF: &str = "report as PDF";
 
-/// What the path for ParaView is called among outputs.
+/// Output name of the path for ParaView.
 pub(crate) const PATH_VTK: &str = "path as VTK";
 
-/// What the flat program is called among outputs.
+/// Output name of the flat program.
 pub(crate) const FLAT_PROGRAM: &str = "flat program";
 
-/// What the picture of the turn is called among outputs.
+/// Output name of the picture of the turn.
 pub(crate) const TURN_PLOT: &str = "picture of the turn";
 
-/// What further files of a program are called among outputs.
+/// Output name of further files of a program.
 pub(crate) const BESIDE: &str = "file of the compensated program";
 
-/// Where a further file of a program goes: beside the program. It has the name of that where it had its name before; otherwise it
-/// keeps its own in another folder, and has it behind that of the program in the same one.
+/// Path of a further file: beside the program. A file with the program's name gets its new name; another one keeps its name in
+/// another folder, and is appended to the program's name in the same one.
 pub(crate) fn beside_program(out: &Path, program: &Path, file: &Path) -> PathBuf {
     let is_called_otherwise = file.file_stem() != program.file_stem();
     let own = file.file_name().filter(|_| is_called_otherwise);
@@ -51,7 +51,7 @@ pub(crate) fn beside_program(out: &Path, program: &Path, file: &Path) -> PathBuf
     out.with_file_name(name)
 }
 
-/// Whether a program is written flat on its way.
+/// Form in which the program is written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Form {
     AsItStands,
@@ -71,16 +71,16 @@ pub(crate) struct OutputPaths {
     pub(crate) points: Option<PathBuf>,
     /// Path with errors, for ParaView.
     pub(crate) vtk: Option<PathBuf>,
-    /// Of a program that is written flat.
+    /// Path of the flat program.
     pub(crate) flat: Option<PathBuf>,
     /// Picture of the turn of the tool, where it is chosen.
     pub(crate) turn_plot: Option<PathBuf>,
-    /// Further files of a program of a robot, in their order.
+    /// Additional files of a program of a robot, in their order.
     pub(crate) beside: Vec<PathBuf>,
 }
 
 impl OutputPaths {
-    /// Those that are requested, with what they are.
+    /// Requested outputs with their names.
     pub(crate) fn named(&self) -> impl Iterator<Item = (&'static str, &Path)> {
         [
             (COMPENSATED_PROGRAM, &self.program),
@@ -214,7 +214,7 @@ pub(crate) fn or_its_folder(out: &Path) -> PathBuf {
     }
 }
 
-/// Where a flat program goes that nobody named.
+/// Default path of the flat program.
 pub(crate) fn flat_beside(out: &Path, program: &Path, bytes: &[u8]) -> Answer<PathBuf> {
     match keeps_name(program, bytes) {
         true => in_folder(&or_its_folder(out), program, FLAT),

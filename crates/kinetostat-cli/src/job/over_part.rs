@@ -1,4 +1,4 @@
-//! How the tool of an arm stands over the part.
+//! Orientation of an arm's tool over the part.
 
 use kinetostat::Pose;
 use kinetostat_machining::{Warning, WarningCode, beyond_tool_length};
@@ -15,8 +15,8 @@ const LEVEL: f64 = 0.05;
 /// Share up to which it may lie above its tip where a tool lies on its side: 20 degrees.
 const LYING: f64 = 0.34;
 
-/// How the tools of a program of positions stand in the part, by the place of their flanges: refused below the tip, warned of where
-/// they lie on their side, as those of horizontal spindles do.
+/// Checks the tool axes of a program of positions in the part, by the position of the flange: refuses flanges below the tip, warns
+/// of horizontal tools, as those of horizontal spindles.
 pub(crate) fn over_part(turn: UnitQuaternion<f64>, tools: &[Pose]) -> Answer<Option<Warning>> {
     let mut lies = None;
     for tool in tools {
@@ -39,7 +39,7 @@ pub(crate) fn over_part(turn: UnitQuaternion<f64>, tools: &[Pose]) -> Answer<Opt
 /// Arms of fewer drives cannot turn their tool: it stands as it is drawn.
 const TURNS_TOOL: usize = 5;
 
-/// How the tool of an arm stands over the part of a program of positions.
+/// Checks the tool axis of an arm over the part, for a program of positions.
 pub(crate) fn tool_over_part(
     machine: &MachineSetup,
     is_of_positions: bool,

@@ -4,7 +4,7 @@ use kinetostat_model::schema::Placement as PoseTable;
 use serde::Deserialize;
 use serde_spanned::Spanned;
 
-/// What is to be least.
+/// Objective that is minimised.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, clap::ValueEnum)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum ObjectiveWord {
@@ -20,21 +20,21 @@ pub(crate) enum ObjectiveWord {
     Buckling,
 }
 
-/// Where the part may lie: smallest and largest values, mm and degrees.
+/// Range of the part's placement: smallest and largest values, mm and degrees.
 #[derive(Clone, Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct PlaceTable {
-    /// What is to be least.
+    /// Objective to be minimised.
     pub objective: Option<ObjectiveWord>,
-    /// Where the program's zero point may lie, base axes.
+    /// Range of the program's zero point, base axes.
     pub x_mm: Option<Spanned<[f64; 2]>>,
     pub y_mm: Option<Spanned<[f64; 2]>>,
     pub z_mm: Option<Spanned<[f64; 2]>>,
-    /// How the part may be turned, about axes of the base through the program's zero.
+    /// Range of the part's turns, about axes of the base through the program's zero.
     pub turn_x_deg: Option<Spanned<[f64; 2]>>,
     pub turn_y_deg: Option<Spanned<[f64; 2]>>,
     pub turn_z_deg: Option<Spanned<[f64; 2]>>,
-    /// How the tool may be turned about its own axis.
+    /// Range of the tool's turn about its own axis.
     pub turn_tool_deg: Option<Spanned<[f64; 2]>>,
     /// A box around the part, program axes: smallest and largest coordinates.
     pub part_box_mm: Option<Spanned<[[f64; 3]; 2]>>,
@@ -51,7 +51,7 @@ pub(crate) struct PlaceTable {
 #[serde(deny_unknown_fields)]
 pub(crate) struct FixtureTable {
     pub name: String,
-    /// Where the program's zero point lies, base axes, mm.
+    /// Position of the program's zero point, base axes, mm.
     pub part_origin_mm: [f64; 3],
     /// Orientation of the program's axes in the base.
     pub part_orientation: Option<Spanned<PoseTable>>,

@@ -1,4 +1,4 @@
-//! Where the program lies in the machine, and how the tool is oriented.
+//! Placement of the program in the machine, and orientation of the tool.
 
 use kinetostat::{Mechanism, Pose};
 use kinetostat_machining::Placement;
@@ -71,7 +71,7 @@ pub(crate) fn placement(
     })
 }
 
-/// Where the program's zero lies, mm.
+/// Position of the program's zero, mm.
 fn origin_mm(
     job: Option<&JobFile>,
     flags: &ProgramArgs,

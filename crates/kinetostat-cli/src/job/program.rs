@@ -24,7 +24,7 @@ pub(crate) enum ReadProgram<'s> {
 #[derive(Clone, Copy)]
 pub(crate) struct PartRead<'s> {
     pub(crate) part: &'s Part,
-    /// As it is written.
+    /// Program as it is written.
     pub(crate) program: &'s dyn MachineProgram,
     pub(crate) setting: &'s Setting,
 }
@@ -37,7 +37,7 @@ pub(crate) struct GcodeRead<'s> {
 }
 
 impl ReadProgram<'_> {
-    /// Where the tool goes.
+    /// Path of the tool.
     pub(crate) fn path(&self) -> &ToolPath {
         match self {
             Self::Gcode(read) => &read.path,
@@ -81,7 +81,7 @@ impl ReadProgram<'_> {
         }
     }
 
-    /// What of the tool's pose is corrected.
+    /// Corrected directions of the tool's pose.
     pub(crate) fn corrected(&self) -> Directions {
         match self {
             Self::Gcode(read) => read.setting.correct.directions(),
@@ -90,7 +90,7 @@ impl ReadProgram<'_> {
         }
     }
 
-    /// What `work` makes of the program as a run takes it.
+    /// Applies `work` to the program in the form of a run.
     pub(crate) fn with<R>(&self, work: impl FnOnce(&dyn MachineProgram) -> R) -> R {
         match self {
             Self::Gcode(read) => work(&Gcode {
@@ -104,7 +104,7 @@ impl ReadProgram<'_> {
     }
 }
 
-/// What was found in a flat block stands in a file of the user but for the comment with its line.
+/// Removes the comment with the line of origin from a flat block that is quoted, if the block is in a file of the user.
 fn without_origin(setting: &Setting, fault: &mut ProgramError) {
     let flat = setting.flat.as_ref();
     let Some((_, line)) = flat.and_then(|flat| flat.source_of(fault.line)) else {
@@ -117,7 +117,7 @@ fn without_origin(setting: &Setting, fault: &mut ProgramError) {
     }
 }
 
-/// What is stated of the machine and of its tools, and is used by no block.
+/// Warns of stated data of the machine and of its tools that no block uses.
 fn without_effect(program: &Program, path: &ToolPath, reading: &ReadOptions) -> Vec<Warning> {
     let mut found = Vec::new();
     let [g28, g30] = reading.reference_points_mm;

@@ -1,4 +1,4 @@
-//! How the program is read: units, work offsets, arcs, optional blocks.
+//! Reading of the program: units, work offsets, arcs, optional blocks.
 
 use kinetostat_program::{BlockDelete, OtherAxes, ReadOptions, ToolCentrePoint, Units};
 use nalgebra::Vector3;
@@ -123,7 +123,7 @@ const WORK_OFFSETS: [&str; 9] = [
     "G54", "G55", "G56", "G57", "G58", "G59", "G59.1", "G59.2", "G59.3",
 ];
 
-/// Which of the frames of G-code has this name.
+/// Index of the frame of G-code with this name.
 pub(crate) fn work_offset(name: &str) -> Option<usize> {
     WORK_OFFSETS
         .iter()

@@ -9,7 +9,7 @@ use serde::Deserialize;
 
 use crate::options::number;
 
-/// What of the tool's pose is corrected.
+/// Corrected directions of the tool's pose.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, ValueEnum)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum CorrectWord {
@@ -20,7 +20,7 @@ pub(crate) enum CorrectWord {
     Pose,
 }
 
-/// How the controller moves between the rows of a table of joint values.
+/// Interpolation of the controller between the rows of a table of joint values.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, ValueEnum)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum JointRowsWord {

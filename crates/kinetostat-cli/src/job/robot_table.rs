@@ -11,29 +11,29 @@ use crate::job::robot_arguments::{CorrectWord, JointRowsWord};
 use crate::job::target_word::RobotWord;
 use crate::job::turn_arguments::FreeTurnWord;
 
-/// What a program of a robot does not say itself.
+/// Data that a program of a robot does not state itself.
 #[derive(Clone, Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct RobotTable {
     /// Tools (in the flange) and work objects (in the robot's base) by their names in the program.
     #[serde(default)]
     pub frames: BTreeMap<Spanned<String>, Spanned<PoseTable>>,
-    /// Further files of the program: modules, data.
+    /// Additional files of the program: modules, data.
     #[serde(default)]
     pub files: Vec<Spanned<String>>,
-    /// What of the tool's pose is corrected.
+    /// Corrected directions of the tool's pose.
     pub correct: Option<CorrectWord>,
     /// Linear motions at this speed or a higher one position the tool in air.
     pub rapid_from_mm_per_s: Option<Spanned<f64>>,
-    /// From the tool's tip to its holder, in axes of the tool.
+    /// Direction from the tool's tip to its holder, in axes of the tool.
     pub tool_axis: Option<Spanned<Axis>>,
-    /// How the tool is turned about its axis where the program states the axis alone; without it as little as possible.
+    /// Redundancy resolution about the tool axis where the program states the axis alone; by default the smallest turn.
     pub turn_about_axis: Option<Spanned<TurnTable>>,
-    /// Whether external axes may move.
+    /// Policy for moving external axes.
     pub external_axes: Option<ExternalAxesWord>,
-    /// What becomes of motions to ends that are not known from the text.
+    /// Policy for motions to ends that are not known from the text.
     pub unknown_targets: Option<UnknownTargetsWord>,
-    /// What becomes of paths that the controller moves aside by the tool's radius.
+    /// Policy for paths that the controller offsets by the tool's radius.
     pub cutter_compensation: Option<CutterCompensationWord>,
     /// The turn of a round tool about its own axis.
     #[serde(default)]
@@ -42,9 +42,9 @@ pub(crate) struct RobotTable {
     pub to: Option<Spanned<RobotWord>>,
     /// Template of the cell for that.
     pub template: Option<Spanned<String>>,
-    /// What lengths are in a list of poses that does not state it.
+    /// Length unit of a list of poses that does not state it.
     pub length_unit: Option<Spanned<LengthUnitWord>>,
-    /// How the controller moves between the rows of a table of joint values.
+    /// Interpolation of the controller between the rows of a table of joint values.
     pub joint_rows: Option<Spanned<JointRowsWord>>,
 }
 
@@ -52,15 +52,15 @@ pub(crate) struct RobotTable {
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct TurnTable {
-    /// In axes of the tool's frame.
+    /// Axis of the tool's frame.
     pub tool: Axis,
-    /// In axes of the part.
+    /// Axis of the part.
     pub part: Axis,
 }
 
 impl RobotTable {
-    /// Whether it says nothing that only programs of robots have: what is corrected, the turn about the tool, and another language
-    /// to write are for programs in G-code as well.
+    /// True if the table has no keys for programs of robots only: corrected directions, turn about the tool and output language
+    /// apply to G-code as well.
     pub(crate) fn is_of_any_program(&self) -> bool {
         let lists = self.frames.is_empty() && self.files.is_empty();
         let axes = self.tool_axis.is_none() && self.external_axes.is_none();
@@ -75,13 +75,13 @@ impl RobotTable {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum CutterCompensationWord {
-    /// They are refused by line.
+    /// Refused by line.
     Refused,
     /// Their places are those of the tool's centre.
     CentrePath,
 }
 
-/// What lengths are.
+/// Length unit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum LengthUnitWord {
@@ -91,11 +91,11 @@ pub(crate) enum LengthUnitWord {
     M,
 }
 
-/// What a call does that none of the files holds.
+/// Effect of a call to a routine that is in none of the files.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum CallWord {
-    /// It moves the tool: it is refused by line.
+    /// The call moves the tool: it is refused by line.
     Moves,
 }
 
@@ -124,7 +124,7 @@ impl From<&ValueWord> for StatedValue {
 pub(crate) enum ExternalAxesWord {
     /// The program is refused.
     Refused,
-    /// They are carried as written.
+    /// Carried as written.
     Carried,
 }
 
@@ -132,8 +132,8 @@ pub(crate) enum ExternalAxesWord {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum UnknownTargetsWord {
-    /// They are refused by line.
+    /// Refused by line.
     Refused,
-    /// They stay as they are written.
+    /// Left as written.
     LeftAsWritten,
 }

@@ -36,7 +36,7 @@ pub(crate) fn rotary(model: &Model, placement: &Placement) -> Option<Arc<RotaryA
     }))
 }
 
-/// By how much a head is turned to see which joint turns it, rad.
+/// Angle of a head in the test for the joint that turns it, rad.
 const TURN: f64 = 0.01;
 
 /// Joints that turn as much as the head are its joint, rad.

@@ -1,4 +1,4 @@
-//! What is to be said of a run whatever its result: of its model and of its job file.
+//! Warnings about a run whatever its result: about its model and its job file.
 
 use kinetostat_machining::{Warning, WarningCode};
 use kinetostat_model::{Model, odd_angles};
@@ -7,7 +7,7 @@ use crate::job::arguments::ProgramArgs;
 use crate::job::job_file::JobFile;
 use crate::machine::model_warnings::{no_potential, of_model};
 
-/// What looks wrong in the model, what cannot be assessed of it, and angles of job file and options in the wrong unit.
+/// Warnings about faults of the model, effects that are not assessed, and angles in the wrong unit.
 pub(crate) fn of_run(model: &Model, job: Option<&JobFile>, flags: &ProgramArgs) -> Vec<Warning> {
     let mut warnings: Vec<Warning> = of_model(model).collect();
     warnings.extend(no_potential(&model.mechanism));

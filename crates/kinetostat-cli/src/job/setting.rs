@@ -1,4 +1,4 @@
-//! Everything that decides a run, the machine apart: options go over the job file.
+//! Settings that decide a run, except the machine: options have priority over the job file.
 
 use std::borrow::Cow;
 use std::path::PathBuf;
@@ -38,7 +38,7 @@ use crate::job::uncertain::{Uncertainty, uncertainty};
 use crate::job::values::{NotAllowed, above_zero, chosen, micrometres};
 use crate::ui::failure::{Answer, Failure};
 
-/// Everything that decides a run along a program, the model apart.
+/// Settings that decide a run along a program, except the model.
 pub(crate) struct Setting {
     /// The program that is run: of an expanded one the flat form.
     pub(crate) program: Vec<u8>,
@@ -46,9 +46,9 @@ pub(crate) struct Setting {
     pub(crate) program_path: PathBuf,
     /// A program of a robot; none in G-code.
     pub(crate) robot: Option<RobotSource>,
-    /// Where the lines came from, of a program that was expanded.
+    /// Origin of the lines, for an expanded program.
     pub(crate) flat: Option<FlatProgram>,
-    /// What was found while it was expanded, by lines of the flat program.
+    /// Warnings of the expansion, by lines of the flat program.
     pub(crate) expansion_warnings: Vec<Warning>,
     /// Lines of the program's file as the user has it; none where it has no lines, or of which only the first were read.
     pub(crate) lines_of_file: Option<usize>,
@@ -56,20 +56,20 @@ pub(crate) struct Setting {
     pub(crate) program_files: Vec<FileRead>,
     pub(crate) job_file: Option<FileRead>,
     pub(crate) reading: ReadOptions,
-    /// What of the tool's pose is corrected in a program in G-code.
+    /// Corrected directions of the tool's pose in a program in G-code.
     pub(crate) correct: CorrectWord,
-    /// The same of a program that is made in another language: it states how its tool stands where its source does not.
+    /// Corrected directions of the converted program: it states the tool's orientation where its source does not.
     pub(crate) correct_converted: CorrectWord,
     pub(crate) writing: WriteOptions,
     pub(crate) max_blocks_per_second: Option<f64>,
-    /// What refuses a program.
+    /// Limits beyond which a program is refused.
     pub(crate) limits: Limits,
-    /// Whether the tolerances of path and chords were stated.
+    /// True if the tolerances of path and chords were stated.
     pub(crate) stated: [bool; 2],
-    /// What is asked for in all, mm: of straight pieces, chords of arcs and rounding.
+    /// Total requested tolerance, mm: of straight pieces, chords of arcs and rounding.
     pub(crate) asked_mm: Option<f64>,
     pub(crate) targets: OutputPaths,
-    /// What becomes of the turn of a round tool.
+    /// Redundancy resolution for a round tool.
     pub(crate) free_turn: FreeTurnWord,
     /// Forces of the cut that were found along the program before it was converted.
     pub(crate) forces: Option<ForceAlongPath>,
@@ -77,14 +77,14 @@ pub(crate) struct Setting {
     pub(crate) features: Vec<Feature>,
     /// Chatter is judged along the program.
     pub(crate) chatter: Option<ChatterSetting>,
-    /// What is uncertain about machine and load, where it is said.
+    /// Uncertain numbers of machine and load, if stated.
     pub(crate) uncertain: Option<Uncertainty>,
     /// Files that were read: never overwritten.
     pub(crate) inputs: Vec<PathBuf>,
 }
 
 impl Setting {
-    /// What of the tool's pose is corrected counts for the program that is made of this one.
+    /// Moves the corrected directions to the program that is made of this one.
     fn correct_what_is_made(&mut self) {
         self.correct_converted = std::mem::take(&mut self.correct);
         if let Some(robot) = &mut self.robot {
@@ -117,7 +117,7 @@ impl Setting {
         0.5 * 3.0_f64.sqrt() * digits.fold(self.writing.last_digit_mm(1.0), larger)
     }
 
-    /// What the program's file holds.
+    /// Format of the program's file.
     pub(crate) fn form(&self) -> FileForm {
         match &self.robot {
             Some(RobotSource {
@@ -188,7 +188,7 @@ impl Setting {
         Ok(Some(RobotFrames::of(&read)))
     }
 
-    /// Where the flat program goes, if it goes anywhere.
+    /// Sets the path of the flat program, if there is one.
     pub(crate) fn write_flat_to(&mut self, target: Option<PathBuf>) {
         if let Some(flat) = &mut self.flat {
             flat.name = target.as_deref().map(named_with_own_folder);
@@ -200,7 +200,7 @@ impl Setting {
 /// A program that was written, as its files.
 pub(crate) struct WrittenFiles<'b> {
     pub(crate) program: Cow<'b, [u8]>,
-    /// Further files, in their order.
+    /// Additional files, in their order.
     pub(crate) beside: Vec<Cow<'b, [u8]>>,
     /// Columns of a table that have another type than before.
     pub(crate) widened: Vec<String>,
@@ -258,7 +258,7 @@ pub(crate) fn setting(
     }
     let named = (path.as_path(), program_name.as_str(), program.as_slice());
     let robot = robot_source(files, job, flags, named)?;
-    // Where faults of a job are looked for, what its program holds is none of them.
+    // A search for faults of the job leaves out those of its program.
     let expand = expand.filter(|_| !job.is_some_and(|j| j.is_searched));
     let (mut robot_flat, mut notes_of_run) = (None, Vec::new());
     let robot = robot.map(|(mut source, read)| -> Answer<RobotSource> {
@@ -379,7 +379,7 @@ fn program_of(source: &RobotSource) -> Vec<u8> {
     first.map_or_else(Vec::new, |file| file.bytes().to_vec())
 }
 
-/// What becomes of the turn of a round tool about its own axis.
+/// Redundancy resolution for a round tool about its own axis.
 fn free_turn(job: Option<&JobFile>, flags: &ProgramArgs) -> Answer<FreeTurnWord> {
     let table = job.and_then(|j| j.job.robot.as_ref());
     let in_job = table.map_or(FreeTurnWord::AsStated, |table| table.get_ref().free_turn);
@@ -420,7 +420,7 @@ pub(crate) fn program_path(job: Option<&JobFile>, flags: &ProgramArgs) -> Answer
     }
 }
 
-/// How the program is written, and whether the tolerances of path and chords were stated.
+/// Write options, and whether the tolerances of path and chords were stated.
 fn tolerances(
     job: Option<&JobFile>,
     flags: &ProgramArgs,

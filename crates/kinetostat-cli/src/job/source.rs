@@ -1,4 +1,4 @@
-//! What is wrong in a job file, shown with its line, like the messages about model files.
+//! Faults of a job file, shown with their line, like the messages about model files.
 
 use std::ops::Range;
 
@@ -13,7 +13,7 @@ use crate::ui::failure::Failure;
 use crate::ui::safe_text::safe;
 use crate::ui::spelling::nearest;
 
-/// What is said of a mistake in a job file that is not of the usual kinds.
+/// Default remedy for a fault in a job file.
 const HELP: &str = "correct this value; `kinetostat help compensate` shows a whole job file";
 
 /// A text with its name, for messages.
@@ -77,7 +77,7 @@ impl Source<'_> {
         found
     }
 
-    /// What is said of such a number.
+    /// Fault of a number that is not finite.
     pub(crate) fn not_finite_number(&self, span: Range<usize>) -> Failure {
         self.error(
             span,
@@ -163,7 +163,7 @@ impl Source<'_> {
     }
 }
 
-/// How a list of the wrong length is written, if that is what the message says.
+/// Remedy for a list of the wrong length, if the message reports one.
 fn help_on_length(message: &str) -> Option<String> {
     let (needed, rest) = message.split_once(" values are needed, ")?;
     let given = rest.strip_suffix(" are given")?;
@@ -179,7 +179,7 @@ fn help_on_length(message: &str) -> Option<String> {
     })
 }
 
-/// What can stand for a word that is not known; orientations have keys of their own.
+/// Lists the known words in place of an unknown one; orientations have keys of their own.
 fn words_known(found: &str, known: &[String]) -> String {
     let known = known.join(", ");
     match CONVENTIONS.contains(&found) {

@@ -36,7 +36,7 @@ impl TargetWord {
         }
     }
 
-    /// Its name in sentences.
+    /// Name in sentences.
     pub(crate) fn title(self) -> &'static str {
         match self {
             Self::Joints => "a table of joint values",
@@ -66,7 +66,7 @@ impl RobotWord {
         }
     }
 
-    /// As programs in it are read.
+    /// Language for reading its programs.
     pub(crate) fn of_robot(self) -> Language {
         match self {
             Self::Krl => Language::Krl,

@@ -22,14 +22,14 @@ use crate::ui::failure::Answer;
 /// A template with the name of its file.
 pub(crate) struct TemplateFile {
     pub(crate) template: Template,
-    /// None where there is no file.
+    /// Absent without a file.
     pub(crate) name: Option<String>,
 }
 
-/// What is said of a mistake that is not of the usual kinds.
+/// Default remedy for a fault in a template.
 const HELP: &str = "correct this value; `kinetostat help convert` shows a whole template";
 
-/// What options say of a template.
+/// Options of a template.
 pub(crate) struct TemplateAsked<'a> {
     pub(crate) file: Option<&'a Path>,
     pub(crate) out: &'a Path,
@@ -38,7 +38,7 @@ pub(crate) struct TemplateAsked<'a> {
 }
 
 impl TemplateFile {
-    /// Of the options and the file that they name.
+    /// Reads the options and the file that they name.
     pub(crate) fn read(files: &InputFiles, args: &TemplateAsked<'_>) -> Answer<Self> {
         let mut file = match args.file {
             Some(path) => Self::of_file(files, path)?,
@@ -102,7 +102,7 @@ impl TemplateFile {
 
 fn template(source: Source<'_>, table: TemplateTable) -> Answer<Template> {
     let mut template = Template::default();
-    // Without a name that of the output counts.
+    // The default name is that of the output.
     template.program_name = table.program_name.unwrap_or_default();
     if let Some(written) = &table.tool_orientation {
         let turn = pose(source, written)?;

@@ -57,7 +57,7 @@ pub(crate) struct ToolTable {
     pub centre_of_mass_mm: Option<[f64; 3]>,
 }
 
-/// One of several tools.
+/// Tool among several.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct NumberedToolTable {
@@ -91,7 +91,7 @@ pub(crate) struct ZonesTable {
     pub feeds_percent: Option<f64>,
 }
 
-/// What rapids become.
+/// Conversion of rapids.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum RapidsWord {
@@ -101,7 +101,7 @@ pub(crate) enum RapidsWord {
     Joint,
 }
 
-/// What becomes of moves to places of the machine.
+/// Policy for moves to places of the machine.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum PlacesWord {

@@ -17,7 +17,7 @@ pub(crate) struct ToolMass {
     pub(crate) centre_mm: Vector3<f64>,
 }
 
-/// What spindle and tool weigh, kg.
+/// Allowed mass of spindle and tool, kg.
 pub(crate) const MASSES_KG: RangeInclusive<f64> = 1e-3..=5000.0;
 
 /// Mass that a job states of a tool, with its centre halfway to the tip where none is stated.

@@ -5,16 +5,16 @@ use std::path::PathBuf;
 use clap::Args;
 use serde::Deserialize;
 
-/// What becomes of the turn of a round tool about its own axis.
+/// Redundancy resolution for a round tool about its own axis.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum FreeTurnWord {
-    /// It stays as the job has it.
+    /// The turn is that of the job.
     #[default]
     AsStated,
-    /// It is chosen along the whole path.
+    /// The turn is chosen along the whole path.
     Choose,
-    /// It is chosen so that the arm is stiff, too.
+    /// The turn is chosen for stiffness, too.
     Stiff,
 }
 

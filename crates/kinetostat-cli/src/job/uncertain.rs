@@ -1,4 +1,4 @@
-//! What is uncertain about the machine and the load of a run: `[uncertain]`, `--uncertain`.
+//! Uncertainties of the machine and the load of a run: `[uncertain]`, `--uncertain`.
 
 use std::path::PathBuf;
 
@@ -30,7 +30,7 @@ pub(crate) struct UncertainFlags {
     pub(crate) machines: Option<usize>,
 }
 
-/// What is uncertain, as it was read.
+/// Uncertainties as they were read.
 pub(crate) struct Uncertainty {
     pub(crate) name: String,
     pub(crate) text: String,
@@ -40,7 +40,7 @@ pub(crate) struct Uncertainty {
     pub(crate) seed: u64,
 }
 
-/// What is uncertain, where the job or an option says it.
+/// Uncertainties, if the job or an option has them.
 pub(crate) fn uncertainty(
     files: &InputFiles,
     job: Option<&JobFile>,

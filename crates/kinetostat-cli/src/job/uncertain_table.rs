@@ -1,9 +1,9 @@
-//! What a job says is uncertain.
+//! Table of a job about uncertainties.
 
 use serde::Deserialize;
 use serde_spanned::Spanned;
 
-/// What is uncertain: `[uncertain]`.
+/// Table of uncertainties: `[uncertain]`.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct UncertainTable {
@@ -11,6 +11,6 @@ pub(crate) struct UncertainTable {
     pub file: Spanned<String>,
     /// Machines that are drawn.
     pub machines: Option<Spanned<usize>>,
-    /// Of the draws.
+    /// Seed of the draws.
     pub seed: Option<u32>,
 }

@@ -5,7 +5,7 @@ use serde_spanned::Spanned;
 use crate::job::job_file::JobFile;
 use crate::ui::failure::{Answer, Failure};
 
-/// Which values are allowed, where one is not.
+/// Allowed values, for a value that is not allowed.
 pub(crate) struct NotAllowed(pub(crate) &'static str);
 
 /// The value of an option, or else of the job file, if it is allowed; a refusal shows where it was
@@ -55,8 +55,8 @@ pub(crate) fn scale_of_program(value: f64) -> Result<f64, NotAllowed> {
     }
 }
 
-/// How far the radii at both ends of an arc may differ: controllers allow 0.001 to 0.1 mm as they come, and are
-/// rarely set to more than 1 mm. A centre that is farther off is another arc, and would be cut as it stands.
+/// Checks the difference of the radii at both ends of an arc: controllers allow 0.001 to 0.1 mm by default, rarely
+/// more than 1 mm. A centre that is farther off is another arc, and would be cut as it stands.
 pub(crate) fn arc_tolerance(value: f64) -> Result<f64, NotAllowed> {
     match (1e-6..=ARC_TOLERANCE_MM).contains(&value) {
         true => Ok(value),
@@ -66,7 +66,7 @@ pub(crate) fn arc_tolerance(value: f64) -> Result<f64, NotAllowed> {
     }
 }
 
-/// Above what any controller allows, and below what a wrong centre word makes.
+/// Limit above what any controller allows, and below what a wrong centre word makes.
 const ARC_TOLERANCE_MM: f64 = 2.0;
 
 pub(crate) fn micrometres(value: f64) -> Result<f64, NotAllowed> {

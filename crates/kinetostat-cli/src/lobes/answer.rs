@@ -12,11 +12,11 @@ pub(crate) struct LobesAnswer {
     pub(crate) head: AnswerHead,
     pub(crate) force_n: [f64; 3],
     pub(crate) moment_n_m: [f64; 3],
-    /// In words.
+    /// Damping in words.
     pub(crate) damping: String,
     /// Base axes, across the tool axis.
     pub(crate) feed_direction: [f64; 3],
-    /// From the tip towards the spindle, base axes.
+    /// Direction from the tip towards the spindle, base axes.
     pub(crate) tool_axis: [f64; 3],
     pub(crate) teeth: usize,
     /// Width of cut by diameter.
@@ -24,7 +24,7 @@ pub(crate) struct LobesAnswer {
     pub(crate) milled: &'static str,
     /// Tangential, radial, axial.
     pub(crate) coefficients_n_per_mm2: Vec<f64>,
-    /// Whose they are, and the thickness of the chip at which its law was taken as a straight line; null where they were stated.
+    /// Material, and the chip thickness at which its law was linearised; null if coefficients were stated.
     pub(crate) material: Option<String>,
     pub(crate) chip_mm: Option<f64>,
     /// Modes that vibrate; those above count by their flexibility at rest. At some speeds it may be fewer.

@@ -17,7 +17,7 @@ const PLAUSIBLE: std::ops::RangeInclusive<f64> = 5.0..=20_000.0;
 /// The linear law of force of the cut.
 pub(crate) struct CutCoefficients {
     pub(crate) law: Coefficients,
-    /// Of a material: its name and the thickness of the chip at which its law was taken as a straight line, mm.
+    /// Name of the material and the chip thickness at which its law was linearised, mm.
     pub(crate) of_material: Option<(String, f64)>,
     pub(crate) warnings: Vec<Warning>,
 }

@@ -95,7 +95,7 @@ pub(crate) fn run(args: &LobesArgs, given: &Given) -> Answer<()> {
         milled: if args.up { "up" } else { "down" },
         coefficients_n_per_mm2: match args.coefficients_n_per_mm2.is_empty() {
             true => coefficients.n_per_mm2(),
-            // As they were stated, without rounding.
+            // Coefficients of options are shown without rounding.
             false => args.coefficients_n_per_mm2.clone(),
         },
         material: coefficients
@@ -123,7 +123,7 @@ pub(crate) fn run(args: &LobesArgs, given: &Given) -> Answer<()> {
     files.finish(&shown, &answer)
 }
 
-/// Where the teeth pass far beyond all modes: the spindle speed is a slip, or the model has no modes of spindle and tool.
+/// Warns of teeth that pass far above all modes: the spindle speed is a slip, or modes of spindle and tool are missing.
 fn beyond_all_modes(
     request: &LobeRequest,
     teeth: usize,

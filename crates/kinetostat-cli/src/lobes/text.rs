@@ -9,7 +9,7 @@ use crate::ui::numbers::{number, short, triple};
 use crate::ui::warnings;
 use crate::vibration::stability::instability;
 
-/// Most speeds that are shown to a person; JSON, table and drawing have all.
+/// Upper limit of the speeds shown to a person; JSON, table and drawing have all.
 const SHOWN: usize = 25;
 
 pub(crate) fn answer_text(query: &PlaceQuery, a: &LobesAnswer) -> String {

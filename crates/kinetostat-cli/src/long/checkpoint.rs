@@ -1,4 +1,4 @@
-//! What is kept of a run that takes long: enough to go on, never half of anything.
+//! Checkpoints of a run that takes long: enough to continue, never incomplete data.
 //!
 //! A folder beside the outputs holds a manifest (of what the run is), a state (what is done, with a check number), the state
 //! before that, and the outputs as far as they are. A state is written beside the old one and renamed; outputs are synced before,
@@ -21,7 +21,7 @@ use crate::long::difference::difference;
 use crate::ui::failure::{Answer, Code, Failure};
 use crate::ui::system_error::description;
 
-/// What a run is, field by field with its value in words: another value is another run.
+/// Identity of a run, field by field with its value in words: another value is another run.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub(crate) struct Manifest(pub(crate) Vec<(String, String)>);
 
@@ -58,7 +58,7 @@ impl Manifest {
     }
 }
 
-/// How far a run is.
+/// Progress of a run.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(crate) struct State {
     /// Parts that are done.
@@ -82,7 +82,7 @@ impl State {
         })
     }
 
-    /// What the first look found; where no place was solved it looks again, for a file has no infinite number.
+    /// Stores the result of the first look; a look without a solved place is repeated, for a file has no infinite number.
     pub(crate) fn note(&mut self, whole: &OfWhole) {
         let found = Some(whole.stiffness_n_per_mm);
         self.stiffness_n_per_mm = found.filter(|stiffness| stiffness.is_finite());
@@ -96,10 +96,10 @@ pub(crate) struct Checkpoint {
     lock: Option<fs::File>,
 }
 
-/// How a failure begins of which the rest of the run may be kept.
+/// Start of messages about a checkpoint that cannot be saved.
 const NOT_KEPT: &str = "what is done so far cannot be kept";
 
-/// What is done of a run cannot be kept.
+/// Failure to save a checkpoint.
 pub(crate) fn not_kept(path: &Path, error: &std::io::Error) -> Failure {
     Failure::input(format!(
         "{NOT_KEPT} in '{}': {}",
@@ -112,7 +112,7 @@ const MANIFEST: &str = "manifest.json";
 const STATE: &str = "state.json";
 const STATE_BEFORE: &str = "state-before.json";
 
-/// Which files were about to be put in place, with their contents.
+/// File that lists the outputs about to be put in place, with their contents.
 const PLACING: &str = "placing.json";
 
 impl Checkpoint {
@@ -152,7 +152,7 @@ impl Checkpoint {
         }
     }
 
-    /// Whether anything was done that would be lost.
+    /// True if there is work that would be lost.
     fn has_work(&self) -> bool {
         self.states().any(|state| state.parts > 0 || state.as_it_is)
     }
@@ -169,7 +169,7 @@ impl Checkpoint {
 
     /// Makes the folder and locks it.
     fn take(&mut self) -> Answer<()> {
-        // Its own lock of before would keep it out, too.
+        // An earlier lock of this run would block it, too.
         self.lock = None;
         fs::create_dir_all(&self.folder).map_err(|error| self.refused(&error))?;
         let lock = hold(&self.folder).map_err(|error| self.refused(&error))?;
@@ -183,7 +183,7 @@ impl Checkpoint {
         Ok(())
     }
 
-    /// What is said where outputs cannot be put in place.
+    /// Adds the advice for outputs that cannot be put in place.
     pub(crate) fn with_advice(&self, mut failure: Failure) -> Failure {
         failure.plain.push_str(&format!(
             "; all that was computed is kept in '{}', and the same command goes on from there",
@@ -329,7 +329,7 @@ mod tests {
         fs::write(kept.path(STATE), &bytes[..bytes.len() / 2]).unwrap();
         assert_eq!(kept.states().next().unwrap().parts, 1);
         assert!(!kept.open(&manifest("b"), true).unwrap());
-        // Of a run that had done nothing yet, nothing is lost.
+        // A run without finished parts loses nothing.
         assert!(!kept.open(&manifest("a"), false).unwrap());
         kept.remove();
         assert_eq!(fs::read_dir(here.path()).unwrap().count(), 0);

@@ -1,4 +1,4 @@
-//! What of a setting differs between two runs, from its values in words.
+//! Differences of a setting between two runs, from its values in words.
 
 /// A longer value is not said.
 const LONGEST: usize = 80;

@@ -32,7 +32,7 @@ impl Partial {
         })
     }
 
-    /// One of which these contents are whole; `None` where they are not there.
+    /// Opens a file that begins with these contents, and cuts off the rest; `None` if it does not.
     pub(crate) fn reopen(path: PathBuf, contents: Contents) -> Option<Self> {
         let mut file = OpenOptions::new().read(true).write(true).open(&path).ok()?;
         let mut found = Contents::default();
@@ -59,7 +59,7 @@ impl Partial {
         })
     }
 
-    /// What it holds so far.
+    /// Contents so far.
     pub(crate) fn contents(&self) -> Contents {
         self.contents
     }
@@ -77,7 +77,7 @@ impl Partial {
         done.map_err(|error| not_kept(&self.path, &error))
     }
 
-    /// Its bytes from the beginning.
+    /// Reader of the bytes from the beginning.
     pub(crate) fn reader(&self) -> Answer<BufReader<File>> {
         let file = File::open(&self.path);
         Ok(BufReader::new(
@@ -85,7 +85,7 @@ impl Partial {
         ))
     }
 
-    /// The same, watched.
+    /// Reader that compares the bytes with those written.
     pub(crate) fn watched(&self) -> Answer<Watched> {
         Ok(Watched {
             from: self.reader()?,

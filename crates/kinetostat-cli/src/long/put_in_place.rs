@@ -18,7 +18,7 @@ use crate::program::points_parquet;
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::progress::still_wanted;
 
-/// Where what is done is kept: beside the first output.
+/// Checkpoint of a run: beside the first output.
 pub(crate) fn checkpoint(targets: &OutputPaths) -> Checkpoint {
     let targets = [
         &targets.program,

@@ -34,7 +34,7 @@ use crate::program::solve::{failure_of, too_many_blocks, with_task};
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::progress::Progress;
 
-/// How often what is done is kept.
+/// Interval between checkpoints.
 const EVERY: Duration = Duration::from_secs(5);
 
 /// A long program with all that is said about it.
@@ -43,15 +43,15 @@ pub(crate) struct LongRun<'a> {
     pub(crate) machine: &'a MachineSetup,
     pub(crate) model: &'a Model,
     pub(crate) setting: &'a Setting,
-    /// What only the whole program tells.
+    /// Survey of the whole program.
     pub(crate) survey: &'a Survey,
     pub(crate) flags: &'a ProgramArgs,
-    /// Where the outputs go.
+    /// Paths of the outputs.
     pub(crate) targets: &'a OutputPaths,
 }
 
-/// What only the whole of a program tells; its hash takes the place of that of its first lines. `None` where it cannot be read,
-/// or moves nothing: all that is wrong with it is said of the whole.
+/// Surveys the whole program; its hash replaces that of its first lines. `None` where it cannot be read, or moves nothing: all
+/// that is wrong with it is said of the whole.
 pub(crate) fn survey(
     setting: &mut Setting,
     aim: Aim,
@@ -101,7 +101,7 @@ impl<'a> LongRun<'a> {
         part.map_err(|error| unread(self.setting, error))
     }
 
-    /// What the run is: whatever its bytes depend on.
+    /// Identity of the run: all that its bytes depend on.
     fn manifest(&self) -> Manifest {
         let s = self.setting;
         let hashes = |files: &[FileRead]| {
@@ -216,7 +216,7 @@ impl<'a> LongRun<'a> {
 
     /// The run, from its outputs claimed to its result.
     pub(crate) fn run(self, outputs: &mut RunOutputs) -> Answer<(Run, LongFiles)> {
-        // What turns the tool is run as a whole.
+        // Programs that turn the tool are run as a whole: this one has positions only.
         let stands = tool_over_part(self.machine, true);
         let stands = stands.map_err(|failure| self.setting.within(failure))?;
         let progress = Progress::new();
@@ -229,7 +229,7 @@ impl<'a> LongRun<'a> {
         };
         let done = self.work(&mut work, &kept, outputs, &progress);
         if done.is_err() && work.state.parts > 0 && work.is_whole {
-            // What can be kept is kept; why it ended is said.
+            // Saves a checkpoint and returns the original error.
             let _ = work.keep(&kept);
         }
         if let Err(failure) = done {

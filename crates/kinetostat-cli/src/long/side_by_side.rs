@@ -14,7 +14,7 @@ use crate::ui::threads::{in_threads, not_started};
 /// one part.
 const MOST: usize = 4;
 
-/// What work on a part tells of itself: nothing, for others go on beside it. It is stopped with them.
+/// Watch of one part: it reports no progress, since other parts run in parallel. It is stopped with them.
 struct Beside<'a, 'o> {
     progress: &'a Progress,
     order: &'a PartsInOrder<'o>,
@@ -89,7 +89,7 @@ pub(crate) fn side_by_side<'o>(
     })
 }
 
-/// What all threads share.
+/// State shared by all threads.
 struct SideBySide<'a, 'o, R, W> {
     /// The next part that nobody has.
     next: AtomicUsize,
@@ -132,7 +132,7 @@ where
                     place.taken();
                     return Ok(true);
                 }
-                // What it waited for changed while it did.
+                // The state changed during the wait.
                 (Ok(false), Standing::Next) => {}
                 (Err(failure), Standing::Next) => return Err(failure),
             }

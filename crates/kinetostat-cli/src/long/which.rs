@@ -1,4 +1,4 @@
-//! Which programs are run in parts.
+//! Selection of the programs that are run in parts.
 
 use std::fs::File;
 use std::io::{BufRead, BufReader};
@@ -18,7 +18,7 @@ use crate::ui::{layout, screen};
 /// Programs of more bytes are long: a whole one takes some hundred megabytes of memory beyond that.
 const LONG_BYTES: u64 = 1 << 20;
 
-/// Most bytes of the first lines.
+/// Upper limit of the bytes of the first lines.
 const FIRST_BYTES: usize = 1 << 20;
 
 /// Lines of a long program by which its language and settings are recognised.
@@ -28,7 +28,7 @@ const FIRST_LINES: usize = 400;
 /// done is kept at the end of a part. It follows from the model alone, so that bytes do not depend on how fast a computer is.
 const OWN_OF_SEVERAL: usize = 2_000;
 
-/// How long parts are: `--part-lines` is for tests, and has a program of any length run in parts.
+/// Length of parts: `--part-lines` is for tests, and has a program of any length run in parts.
 pub(crate) fn part_length(flags: &ProgramArgs, model: &Model) -> PartLength {
     let usual = PartLength::default();
     let several = model.mechanism.platforms().len() > 2;
@@ -82,7 +82,7 @@ pub(crate) fn with_first_lines(
     Some(files)
 }
 
-/// Why a program of which no machine is known yet is run as a whole, however long it is; nothing where it may be run in parts.
+/// Reasons against a run in parts before the machine is known; empty if there are none.
 pub(crate) fn whole_by_setting(setting: &Setting) -> Vec<&'static str> {
     let cases = [
         (
@@ -97,7 +97,7 @@ pub(crate) fn whole_by_setting(setting: &Setting) -> Vec<&'static str> {
     holding(&cases)
 }
 
-/// Why a program is run as a whole, however long it is; nothing where it can be run in parts.
+/// Reasons against a run in parts; empty if there are none.
 pub(crate) fn only_as_a_whole(
     setting: &Setting,
     machine: &MachineSetup,

@@ -1,4 +1,4 @@
-//! What is done of a long run: the result as far as it goes, and its files.
+//! Progress of a long run: the result so far, and its files.
 
 use kinetostat_machining::{FeatureResult, OfWhole, Run, Task, add_to_features};
 use kinetostat_program::{Survey, WrittenSoFar};
@@ -8,19 +8,19 @@ use crate::long::checkpoint::{Checkpoint, State};
 use crate::long::partial::Partial;
 use crate::ui::failure::Answer;
 
-/// What is done of a run.
+/// Finished work of a run.
 pub(crate) struct Work<'s> {
     pub(crate) state: State,
     /// Result and files are those of the same parts: not while a part is being taken into them, which a full disk may end.
     pub(crate) is_whole: bool,
-    /// What is written of the parts that were done when it began.
+    /// Files of the parts that were done at the start.
     pub(crate) so_far: WrittenSoFar<'s>,
     pub(crate) program: Partial,
     pub(crate) points: Partial,
 }
 
 impl<'s> Work<'s> {
-    /// From the last state that is whole with its files, or from nothing.
+    /// Continues from the last state that is whole with its files, or from nothing.
     pub(crate) fn go_on(
         kept: &Checkpoint,
         survey: &'s Survey,

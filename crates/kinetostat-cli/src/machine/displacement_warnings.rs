@@ -31,7 +31,7 @@ pub(crate) fn stretches(far: f64, size: f64) -> Option<Warning> {
 /// A motion that is prescribed may take more force than a cut has: only so many times as much is warned of.
 const REACTION: f64 = 10.0;
 
-/// To hold or to push the tool takes this force, N, which no machine bears.
+/// Warns of a force, N, for holding or pushing the tool that no machine bears.
 pub(crate) fn large_reaction(force: f64) -> Vec<Warning> {
     match force <= REACTION * Limits::default().force_n {
         true => Vec::new(),

@@ -1,4 +1,4 @@
-//! How near a load brings a machine to instability, in words: `check` and `deflect` say it alike.
+//! Nearness of a load to instability, in words: shared by `check` and `deflect`.
 
 use kinetostat_analysis::instability::{InstabilityShares, LimbShare, LinkShare, NOTICEABLE};
 use kinetostat_machining::number as formatter;
@@ -9,7 +9,7 @@ use kinetostat::number::larger;
 /// Shares below are nothing.
 const NOTHING: f64 = 1e-9;
 
-/// What goes how far, and the result. `under_load`: on the tool.
+/// Describes the shares of the way to instability, and the result. `under_load`: on the tool.
 pub(crate) fn description(shares: &InstabilityShares<'_>, under_load: bool) -> String {
     let state = shares.state();
     let limb_leads_to = match shares.limb_is_conservative() {
@@ -42,7 +42,7 @@ pub(crate) fn description(shares: &InstabilityShares<'_>, under_load: bool) -> S
             formatter::share(share)
         ));
     }
-    // Where it is lost, nothing is on the way.
+    // An unstable state has no way to instability left.
     if let Some(share) = shares.free_beyond_limbs().filter(|_| state.stable()) {
         let (nearest, to) = match (share > most, state.conservative) {
             (true, true) => (", which is nearest to instability,", String::new()),
@@ -74,7 +74,7 @@ pub(crate) fn description(shares: &InstabilityShares<'_>, under_load: bool) -> S
     text
 }
 
-/// What a share is the share of the way to.
+/// End of the way that a share measures.
 pub(crate) fn leads_to(conservative: bool) -> &'static str {
     match conservative {
         true => "instability",

@@ -1,4 +1,4 @@
-//! What several commands say of a machine, and of one equilibrium of it, in the same words.
+//! Common descriptions of a machine, and of one equilibrium of it, for several commands.
 //!
 //! It takes models, mechanisms and equilibria and gives sentences, warnings and parts of answers. It computes
 //! nothing: that is for `kinetostat` and `kinetostat-analysis`.

@@ -1,4 +1,4 @@
-//! What looks wrong in a model, what cannot be assessed of it, and its deviations.
+//! Warnings about a model: faults, effects that cannot be assessed, and deviations.
 
 use kinetostat::Mechanism;
 use kinetostat_machining::{Warning, WarningCode};
@@ -21,7 +21,7 @@ pub(crate) fn with_model_warning(failure: Failure, model: &Model) -> Failure {
     }
 }
 
-/// What looks wrong in a model, for the list of a run.
+/// Warnings about a model, for the list of a run.
 pub(crate) fn of_model(model: &Model) -> impl Iterator<Item = Warning> + '_ {
     model.warnings.iter().map(|problem| Warning {
         line: problem.line,
@@ -36,8 +36,8 @@ pub(crate) fn of_model(model: &Model) -> impl Iterator<Item = Warning> + '_ {
     })
 }
 
-/// What is assessed, and what is not, under loads on limbs that have no potential: for answers that do not say it of
-/// every place.
+/// Reports the limits of the assessment under loads on limbs without a potential: for answers that do not state it
+/// at every place.
 pub(crate) fn no_potential(mechanism: &Mechanism) -> Option<Warning> {
     let limbs = mechanism.limbs().iter().enumerate();
     let names: Vec<String> = limbs

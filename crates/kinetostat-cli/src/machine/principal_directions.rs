@@ -11,7 +11,7 @@ use crate::ui::numbers::{fixed, number, triple};
 #[derive(Serialize)]
 pub(crate) struct Principal {
     pub(crate) kind: DirectionKind,
-    /// None where it is rigid (infinite).
+    /// Absent if it is rigid (infinite).
     pub(crate) stiffness_n_per_mm: Option<f64>,
     pub(crate) translation_share: [f64; 3],
     pub(crate) rotation_deg_per_mm: [f64; 3],
@@ -27,10 +27,10 @@ pub(crate) struct Principal {
 pub(crate) struct Participation {
     pub(crate) name: String,
     pub(crate) role: Role,
-    /// Its motion per mm of the direction's longest part.
+    /// Motion per mm of the direction's longest part.
     pub(crate) motion_per_mm: f64,
     pub(crate) unit: &'static str,
-    /// Of all squares, rotations at the machine's natural length: 0 to 1.
+    /// Share of all squares, rotations at the machine's natural length: 0 to 1.
     pub(crate) share: f64,
 }
 

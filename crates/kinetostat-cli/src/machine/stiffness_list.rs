@@ -8,7 +8,7 @@ use kinetostat_machining::number::{DIGITS, Rounding, significant};
 use kinetostat_model::Model;
 use nalgebra::DMatrix;
 
-/// Most sentences about stiffnesses; longer lists hide the model, which the files name.
+/// Upper limit of the sentences about stiffnesses; longer lists hide the model, which the files name.
 const MOST: usize = 60;
 
 /// The stiffnesses that a result was computed with, one sentence for each spring or link; what several
@@ -83,8 +83,8 @@ fn diagonal(chain: &Chain, spring: &SpringBlock, matrix: &DMatrix<f64>) -> Strin
     }
 }
 
-/// From 10 000 on by powers in steps of three, so that figures of one list do not change their notation at
-/// 10 million.
+/// Formats figures from 10 000 on with powers in steps of three, so that one list does not change its
+/// notation at 10 million.
 pub(crate) fn shown(value: f64) -> String {
     let digits = |value: f64| significant(value, DIGITS, Rounding::Nearest);
     match value.abs() {

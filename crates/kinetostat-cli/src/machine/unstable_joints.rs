@@ -1,4 +1,4 @@
-//! Which joint runs away, and which load pushes it: for `check` and `deflect`.
+//! Unstable joints, and the loads that push them: for `check` and `deflect`.
 
 use kinetostat::{
     Mechanism, MechanismEquilibrium, MotionKind, Posture, machine::NegativeNetStiffness,
@@ -13,10 +13,10 @@ use crate::ui::numbers::number;
 pub(crate) struct UnstableJoint {
     pub(crate) limb: String,
     pub(crate) joint: String,
-    /// Of all stiffnesses here: `N/m` or `N m/rad`.
+    /// Unit of all stiffnesses here: `N/m` or `N m/rad`.
     pub(crate) unit: &'static str,
     pub(crate) spring_stiffness: f64,
-    /// Of all loads on the limb together; negative, and more than the spring's.
+    /// Stiffness by all loads on the limb together; negative, and larger than the spring's.
     pub(crate) stiffness_by_loads: f64,
     /// The loads with a negative share, the worst first.
     pub(crate) loads: Vec<DestabilisingLoad>,

@@ -19,9 +19,9 @@ pub(crate) struct MapAnswer {
     pub(crate) model: String,
     pub(crate) model_source: String,
     pub(crate) tool: String,
-    /// Of the tool, everywhere, base axes.
+    /// Orientation of the tool, everywhere, base axes.
     pub(crate) rotation_vector_deg: [f64; 3],
-    /// Where the orientation follows: how far the tool turns from that one at most.
+    /// Largest turn of the tool from that one, if the orientation follows.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) max_tool_turn_deg: Option<f64>,
     pub(crate) grid: GridAnswer,
@@ -34,7 +34,7 @@ pub(crate) struct MapAnswer {
     pub(crate) deviations: Vec<String>,
     pub(crate) places: Places,
     pub(crate) figures: Vec<FigureAnswer>,
-    /// How the equilibria were found, where it was not the usual way.
+    /// Unusual methods by which the equilibria were found.
     #[serde(flatten)]
     pub(crate) solving: Solving,
     pub(crate) warnings: Vec<Warning>,
@@ -62,7 +62,7 @@ impl From<Grid> for GridAnswer {
     }
 }
 
-/// How many places have which answer.
+/// Number of places by answer.
 #[derive(Clone, Copy, Debug, Default, Serialize)]
 pub(crate) struct Places {
     #[serde(rename = "asked")]
@@ -176,7 +176,7 @@ impl Quantity {
     }
 }
 
-/// What is gathered of a figure.
+/// Statistics of a figure.
 #[derive(Clone, Copy, Debug, Default)]
 struct Gathered {
     least: Option<Extreme>,
@@ -220,7 +220,7 @@ impl Gathered {
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Figures {
     pub(crate) places: Places,
-    /// How far the tool turns where the orientation follows.
+    /// Largest turn of the tool if the orientation follows.
     pub(crate) largest_turn_deg: f64,
     pub(crate) solving: Solving,
     /// Places where the displacement is no deflection any more.
@@ -230,7 +230,7 @@ pub(crate) struct Figures {
 }
 
 impl Figures {
-    /// Of some places of a machine of this size, m.
+    /// Gathers the figures of places of a machine of this size, m.
     pub(crate) fn of(places: &[MapPlace], size: f64, further: usize) -> Self {
         let mut own = Self {
             further: vec![Gathered::default(); further],
@@ -268,7 +268,7 @@ impl Figures {
         }
     }
 
-    /// What `deflect` warns of at a place, once for the whole grid, of a machine of this size, m.
+    /// Warnings of `deflect` at a place, once for the whole grid, of a machine of this size, m.
     pub(crate) fn warnings(&self, size: f64) -> Vec<Warning> {
         let all = self.places.requested;
         let at = |n: usize| match (n, all) {

@@ -113,9 +113,9 @@ pub(crate) enum Quantity {
     Y,
     /// Stiffness against a force along z
     Z,
-    /// How far the tool goes under the load
+    /// Displacement of the tool under the load
     Displacement,
-    /// How far it turns under the load
+    /// Rotation of the tool under the load
     Rotation,
 }
 

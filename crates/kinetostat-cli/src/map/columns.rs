@@ -1,4 +1,4 @@
-//! Further variables of a map: which are asked for, and the names of their columns.
+//! Additional variables of a map: the requested ones, and the names of their columns.
 
 use kinetostat::MotionKind;
 use kinetostat_machining::{MapPlace, VARIABLES, Variable, Worse};
@@ -9,7 +9,7 @@ use crate::ui::failure::{Answer, Failure};
 /// A column of a further variable, SI.
 #[derive(Clone, Debug)]
 pub(crate) struct Column {
-    /// Its number among the values of a place.
+    /// Index among the values of a place.
     pub(crate) at: usize,
     pub(crate) name: String,
     pub(crate) unit: &'static str,
@@ -30,7 +30,7 @@ impl Column {
     }
 }
 
-/// What is drawn: one of the usual figures, or a column.
+/// Drawn quantity: one of the usual figures, or a column.
 #[derive(Clone, Debug)]
 pub(crate) enum Shown {
     Usual(Quantity),

@@ -36,7 +36,7 @@ impl Files {
         })
     }
 
-    /// Whether fields are gathered.
+    /// True if fields are gathered.
     pub(crate) fn want_fields(&self) -> bool {
         self.vtk.is_some() || self.netcdf.is_some() || self.parquet.is_some()
     }

@@ -124,7 +124,7 @@ fn with_tool(args: &MapArgs, model: &Model) -> Answer<Mechanism> {
     Ok((model.mechanism).with_tool(&straight_tool(1e-3 * length)))
 }
 
-/// What a load does is shown of a load.
+/// Refuses effects of a load without a load.
 fn shown_with_a_load(args: &MapArgs, loads: &[Wrench]) -> Answer<()> {
     if loads.is_empty() && matches!(&*args.show, "displacement" | "rotation") {
         return Err(Failure::input(
@@ -134,7 +134,7 @@ fn shown_with_a_load(args: &MapArgs, loads: &[Wrench]) -> Answer<()> {
     Ok(())
 }
 
-/// What is about vibrations is asked of a machine with masses.
+/// Refuses vibration variables for a machine without masses.
 fn masses(variables: &[Variable], mechanism: &Mechanism, file: &str) -> Answer<()> {
     match variables.iter().find(|v| v.needs_mass()) {
         Some(own) => check_masses(mechanism).map_err(|e| {
@@ -145,7 +145,7 @@ fn masses(variables: &[Variable], mechanism: &Mechanism, file: &str) -> Answer<(
     }
 }
 
-/// What an earlier run has kept of the same map.
+/// Opens the store of an earlier run of this map.
 fn store(
     args: &MapArgs,
     manifest: &Manifest,
@@ -169,7 +169,7 @@ fn gathering(
     Gathering::new(title, facts, &task.grid, task.load.is_some(), further)
 }
 
-/// What looks wrong in the model, the loads and the figures.
+/// Warnings about the model, the loads and the figures.
 fn warnings(
     model: &Model,
     loads: &[Wrench],

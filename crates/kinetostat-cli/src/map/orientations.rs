@@ -7,18 +7,18 @@ use crate::map::arguments::MapArgs;
 use crate::place::orientation;
 use crate::ui::failure::{Answer, Failure};
 
-/// How the tool is turned at every place.
+/// Orientations of the tool at every place.
 pub(crate) struct Orientations {
-    /// As asked for; none: it follows.
+    /// Requested orientations; none: it follows.
     requested: Vec<Option<UnitQuaternion<f64>>>,
     /// The first one, at home without any.
     pub(crate) first: UnitQuaternion<f64>,
-    /// At every place the nearest to the first that the machine can have.
+    /// True if the orientation is the nearest to the first that the machine can have.
     pub(crate) follows: bool,
 }
 
 impl Orientations {
-    /// What the options say; without them, as at home.
+    /// Orientations by the options; without them, that at home.
     pub(crate) fn asked(args: &MapArgs, mechanism: &Mechanism) -> Answer<Self> {
         let requested: Vec<Option<UnitQuaternion<f64>>> = (args.rotation.iter())
             .map(|text| orientation::option_or_follows("--rotation", text))
@@ -37,12 +37,12 @@ impl Orientations {
         })
     }
 
-    /// Whether the options say any.
+    /// True if the options state any.
     pub(crate) fn are_stated(&self) -> bool {
         !self.requested.is_empty()
     }
 
-    /// How many cases there are of each orientation with each load.
+    /// Number of cases of each orientation with each load.
     pub(crate) fn cases(&self, loads: &[Wrench]) -> Answer<usize> {
         let cases = self.requested.len().max(1) * loads.len().max(1);
         if cases > 1 && self.follows {

@@ -1,4 +1,4 @@
-//! What lies over the cells of a map: lines of equal value, the best and the worst place, the machine.
+//! Overlays of a map: lines of equal value, the best and the worst place, the machine.
 
 use contour::ContourBuilder;
 use kinetostat::PostureRequest;
@@ -45,7 +45,7 @@ pub(crate) fn isolines(picture: &Picture) -> Vec<PlotLine> {
         .iter()
         .map(|x| if x.is_nan() { NOTHING } else { *x })
         .collect();
-    // Its points lie half a cell beside the places.
+    // The grid of the contours is shifted by half a cell from the places.
     let builder = ContourBuilder::new(nx, ny, true);
     let Ok(lines) = builder.lines(&filled, &levels) else {
         return Vec::new();

@@ -10,16 +10,16 @@ use crate::map::query::AXES;
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::numbers::{load_triple, short};
 
-/// Most cells of a drawing along an axis; a finer grid is thinned.
+/// Upper limit of the cells of a drawing along an axis; a finer grid is thinned.
 const MOST_CELLS: usize = 400;
 
-/// What is drawn: a section of the grid, or a curve along its only axis. Its size is bounded.
+/// Content of a drawing: a section of the grid, or a curve along its only axis. Its size is bounded.
 #[derive(Clone)]
 pub(crate) struct Picture {
     pub(crate) show: Shown,
     /// Horizontal and vertical axis.
     pub(crate) axes: [usize; 2],
-    /// Every so many places along them.
+    /// Stride between the places along them.
     pub(crate) strides: [usize; 2],
     /// Numbers of the places along them.
     pub(crate) places: [Vec<usize>; 2],

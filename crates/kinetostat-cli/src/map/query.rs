@@ -8,7 +8,7 @@ use crate::map::arguments::MapArgs;
 use crate::options::vector;
 use crate::ui::failure::{Answer, Failure};
 
-/// More places are a typing error: their table would fill a disk.
+/// Upper limit of the places: more are a typing error, and their table would fill a disk.
 const MOST_PLACES: usize = 100_000_000;
 
 /// Places along an axis unless said otherwise.

@@ -13,7 +13,7 @@ use crate::map::text::{self, Columns};
 use crate::ui::failure::Answer;
 use crate::ui::progress::Progress;
 
-/// What becomes of the places as they are solved.
+/// Receivers of the places as they are solved.
 pub(crate) struct Sinks<'a> {
     pub(crate) outputs: &'a mut Outputs,
     pub(crate) csv: Option<usize>,
@@ -22,7 +22,7 @@ pub(crate) struct Sinks<'a> {
     pub(crate) further: Vec<Column>,
 }
 
-/// What is made of a block of places, on any thread.
+/// Results of a block of places, on any thread.
 struct Block {
     figures: Figures,
     lines: Option<String>,

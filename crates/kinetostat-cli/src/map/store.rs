@@ -33,13 +33,13 @@ const FOUND: [FoundBy; 6] = [
 
 /// Bytes of the check number behind a block.
 const CHECK: usize = 8;
-/// How often what is solved is put on the disk, whatever happens to the computer.
+/// Interval at which results are saved to the disk.
 const EVERY: Duration = Duration::from_secs(5);
 
 /// Word of a manifest with nothing but numbers in it.
 pub(crate) const OF_CASES: &str = "orientations_and_loads";
 
-/// What a map is of, each word of it by its name.
+/// Identity of a map, each word of it by its name.
 pub(crate) type Manifest = BTreeMap<String, String>;
 
 /// The rows of a directory.

@@ -13,7 +13,7 @@ use crate::ui::layout::{columns, wrapped};
 use crate::ui::numbers::{load_triple, number, short, triple};
 use crate::ui::warnings;
 
-/// Which columns a table has besides stiffness.
+/// Columns of a table besides stiffness.
 #[derive(Clone, Copy)]
 pub(crate) struct Columns {
     pub(crate) loaded: bool,

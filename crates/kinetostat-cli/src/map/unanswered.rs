@@ -1,4 +1,4 @@
-//! Why a map has nothing to show.
+//! Reasons for a map without figures.
 
 use kinetostat::Wrench;
 use kinetostat_machining::MapTask;
@@ -8,7 +8,7 @@ use crate::place::orientation;
 use crate::ui::failure::Failure;
 use crate::ui::numbers::load_triple;
 
-/// Why there is nothing to show, if no place has figures.
+/// Failure if no place has figures.
 pub(crate) fn without_figures(task: &MapTask<'_>, places: &Places) -> Option<Failure> {
     if places.with_figures() > 0 {
         return None;
@@ -28,7 +28,7 @@ pub(crate) fn without_figures(task: &MapTask<'_>, places: &Places) -> Option<Fai
     )))
 }
 
-/// No place has an answer, and places are within reach: the load is the reason.
+/// Failure if places are within reach and none has an answer: the load is the reason.
 fn no_equilibrium(task: &MapTask<'_>, places: &Places) -> Failure {
     let wrench = task.load.unwrap_or_else(Wrench::zero);
     let counts = match places.requested {

@@ -26,9 +26,9 @@ pub(crate) struct MirrorAnswer {
     pub(crate) floor_mm: Option<f64>,
     pub(crate) left_in_trials_mm: Vec<f64>,
     pub(crate) convergence: Option<Convergence>,
-    /// Whether it was seen that the last correction was in the program that was measured.
+    /// True if it was seen that the last correction was in the program that was measured.
     pub(crate) shows_correction: Option<bool>,
-    /// Whether the program was said to have been run (`--was-run`).
+    /// True if the program was said to have been run (`--was-run`).
     pub(crate) was_run: bool,
     pub(crate) largest_correction_mm: f64,
     pub(crate) accounting: Accounting,
@@ -39,7 +39,7 @@ pub(crate) struct MeasurementResult {
     pub(crate) file: String,
     pub(crate) registration: Option<RegistrationResult>,
     pub(crate) figures: DeviationFigures,
-    /// How many times as large as the repeatability stated the scatter of a point is, where that is more than twice.
+    /// Ratio of a point's scatter to the stated repeatability, if it is more than two.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) scatter_of_repeatability: Option<f64>,
     pub(crate) outliers: Vec<Outlier>,
@@ -52,13 +52,13 @@ pub(crate) struct MeasurementResult {
     pub(crate) features: Vec<FeatureMeasured>,
 }
 
-/// From the frame of the measurement to that of the program.
+/// Motion from the frame of the measurement to that of the program.
 #[derive(Serialize)]
 pub(crate) struct RegistrationResult {
     pub(crate) rotation_vector_deg: [f64; 3],
     pub(crate) shift_mm: [f64; 3],
     pub(crate) scale: f64,
-    /// What told the motion from others.
+    /// Evidence that distinguished the motion from others.
     pub(crate) told_by: ToldBy,
     /// Motions that the points do not determine, in words.
     pub(crate) free: Vec<String>,
@@ -88,8 +88,8 @@ impl From<&Registration> for RegistrationResult {
 /// scatter is taken from it comes out twice as large by chance once in some hundred times.
 const TIMES: f64 = 2.0;
 
-/// How many times as large as stated the scatter is, where it is known that it is too large. A program that follows its correction
-/// within a tolerance kinks by about that: these kinks are no scatter of the measurement.
+/// Ratio of the scatter to the stated repeatability, if it is known to be too large. The kinks of a program that follows its
+/// correction within a tolerance are of about that size: they are no scatter of the measurement.
 fn scatter_of_repeatability(found: &Measurement, stated: Option<Repeatability>) -> Option<f64> {
     let times = match stated {
         Some(Repeatability::OfPoints(sigma_mm)) => found.figures.scatter_mm / sigma_mm,

@@ -9,7 +9,7 @@ use crate::job::arguments::ReadingArgs;
 use crate::job::robot_arguments::RobotArgs;
 use crate::options::{number, small};
 
-/// How points find their places on the path.
+/// Assignment of points to places on the path.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum AlignWord {
     /// The nearest place, where only one pass of the tool comes by

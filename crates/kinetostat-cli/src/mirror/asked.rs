@@ -1,4 +1,4 @@
-//! What a trial is asked with: the program, its settings and the state of the trials before.
+//! Input of a trial: the program, its settings and the state of the trials before.
 
 use std::path::Path;
 
@@ -55,7 +55,7 @@ pub(crate) fn names_model(job: Option<&JobFile>) -> bool {
     job.is_some_and(|job| job.job.model.is_some())
 }
 
-/// Of the program with everything that says where it goes: positions may stand in a second file.
+/// Hash of the program with all files that determine its path: positions may be in a second file.
 pub(crate) fn hash_of(setting: &Setting) -> String {
     let Some(robot) = &setting.robot else {
         return sha256(&setting.program);
@@ -75,7 +75,7 @@ pub(crate) fn flags_of(args: &MirrorArgs, program: &Path) -> ProgramArgs {
     }
 }
 
-/// How this trial is measured, as lengths that its path allows; the registration may be that of the trials before.
+/// Measurement settings of this trial, in lengths that its path allows; the registration may be that of earlier trials.
 pub(crate) fn settings_of(
     args: &MirrorArgs,
     nominal: &NominalPath<'_>,

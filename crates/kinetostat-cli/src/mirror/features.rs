@@ -1,4 +1,4 @@
-//! What a measurement says of the features of a job.
+//! Measured deviations at the features of a job.
 
 use kinetostat_machining::Feature;
 use kinetostat_machining::number::largest_length;
@@ -15,9 +15,9 @@ pub(crate) struct FeatureMeasured {
     pub(crate) lines: [usize; 2],
     #[serde(flatten)]
     pub(crate) found: OnLines,
-    /// What its job allows, mm; none where it states no tolerance.
+    /// Tolerance of the feature, mm; none if the job states none.
     pub(crate) allowed_mm: Option<f64>,
-    /// Whether the smoothed deviation keeps it; none without points, a tolerance, or on a part of it without points.
+    /// True if the smoothed deviation keeps it; none without points, a tolerance, or on a part of it without points.
     pub(crate) held: Option<bool>,
 }
 
@@ -30,7 +30,7 @@ pub(crate) fn of_features(
     let one = |feature: &Feature| {
         let found = on_lines(nominal, measured, feature.lines, smoothing_mm);
         let held = found.smoothed_largest_mm.zip(feature.tolerance_mm);
-        // What was not seen may be worse than what was: it keeps nothing, but it may be missed already.
+        // Unmeasured points may be worse: a partly measured feature is never kept, but can be missed.
         let held = held.map(|(most, allowed)| most <= allowed);
         FeatureMeasured {
             name: feature.name.clone(),
@@ -44,7 +44,7 @@ pub(crate) fn of_features(
 }
 
 impl FeatureMeasured {
-    /// What is to be said of it, an item of a list.
+    /// Describes the result, as an item of a list.
     pub(crate) fn text(&self) -> String {
         let [first, last] = self.lines;
         let name = format!("{} (lines {first} to {last})", self.name);

@@ -1,4 +1,4 @@
-//! What was measured of a trial, compared with the path.
+//! Measurement of a trial, compared with the path.
 
 use std::path::PathBuf;
 
@@ -69,7 +69,7 @@ pub(crate) fn measurements(
     args.measured.iter().map(one).collect()
 }
 
-/// As given, or from the measurements of this trial where there are several.
+/// Repeatability as given, or from several measurements of this trial.
 pub(crate) fn repeatability(
     args: &MirrorArgs,
     measured: &[(MeasuredFile, Measurement)],

@@ -7,13 +7,13 @@ use crate::mirror::answer::MeasurementResult;
 use crate::ui::layout::{columns, item, wrapped};
 use crate::ui::numbers::{number, short, triple};
 
-/// More points than this are counted, not listed.
+/// Upper limit of the points that are listed; others are counted.
 const LISTED: usize = 20;
 
 /// A path that bends by less is straight.
 const STRAIGHT_MM: f64 = 1e-6;
 
-/// What was measured in one file.
+/// Describes the measurement of one file.
 pub(crate) fn measurement(m: &MeasurementResult) -> String {
     let f = &m.figures;
     let mut out = wrapped(&format!("{}: {} points count", m.file, f.points), 0);
@@ -119,7 +119,7 @@ pub(crate) fn measurement(m: &MeasurementResult) -> String {
     out
 }
 
-/// What is said of points in another frame.
+/// Message about points in another frame.
 fn told_by(what: ToldBy) -> Option<&'static str> {
     let said = match what {
         ToldBy::Frame => return None,
@@ -133,7 +133,7 @@ fn told_by(what: ToldBy) -> Option<&'static str> {
     Some(said)
 }
 
-/// What is said of rows that do not count in something, with the first of them.
+/// Message about rows that are excluded from something, with the first of them.
 fn rows_text(rows: &[usize], what: &str) -> String {
     if rows.is_empty() {
         return String::new();

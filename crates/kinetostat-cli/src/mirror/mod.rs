@@ -159,7 +159,7 @@ fn machine_of_job(
 struct Claimed {
     outputs: Outputs,
     program: usize,
-    /// Further files of the program.
+    /// Indices of the program's additional files.
     beside: Vec<usize>,
     json: Option<usize>,
     plot: Option<usize>,

@@ -46,7 +46,7 @@ pub(crate) fn read_state(files: &InputFiles, path: &Path) -> Answer<MirrorState>
     }
 }
 
-/// Of all lines but that of the digest, whatever ends them: tools that copy a text change that.
+/// Digest of all lines but its own, whatever ends them: tools that copy a text change that.
 fn digest_of(text: &str) -> String {
     let content = text.lines().filter(|line| !line.starts_with(DIGEST));
     let content: Vec<&str> = content.collect();

@@ -23,7 +23,7 @@ pub(crate) fn answer_text(a: &MirrorAnswer) -> String {
         ),
         0,
     );
-    // Where nothing is mirrored, nothing is mirrored twice.
+    // A correction in a run without mirroring cannot be applied twice.
     if a.shows_correction == Some(false) && matches!(a.outcome, Outcome::GoOn | Outcome::Risen) {
         out.push_str(&item(match a.was_run {
             false => "IT CANNOT BE TOLD whether the last correction was in the program that was measured: what it changes is within what the points scatter by, or other places were measured; if the program before it was run, the same is mirrored twice",

@@ -23,7 +23,7 @@ struct Comparison {
     kinetostat_version: &'static str,
     a: String,
     b: String,
-    /// The same machine but for constant offsets.
+    /// True if the machines are equal but for constant offsets.
     same: bool,
     /// Joints of A and what they are in B: `b = sign * a + offset`.
     joints: Vec<JointMap>,
@@ -37,7 +37,7 @@ struct Comparison {
     postures: usize,
     /// Joints of A where the stiffnesses are compared; empty where a model is rigid or free.
     stiffness_at: Vec<JointValue>,
-    /// Against a force, the tool free to turn, softest first.
+    /// Stiffness against a force, the tool free to turn, softest first.
     stiffness_a_n_per_mm: Option<[f64; 3]>,
     stiffness_b_n_per_mm: Option<[f64; 3]>,
 }

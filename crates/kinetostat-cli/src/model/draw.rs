@@ -240,7 +240,7 @@ fn small_motion(
     let small = Twist(twist.0 * STEP);
     let there = moved(posture.target(), &small);
     if mechanism.platforms().len() > 2 {
-        // With platforms in between: held at both places, the rest follows.
+        // Mechanisms with platforms in between are held at both places; the rest follows.
         let from = posture.wrench_at(posture.target())?;
         let to = posture.wrench_at(&there)?;
         return Ok((

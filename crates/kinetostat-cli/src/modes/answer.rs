@@ -1,4 +1,4 @@
-//! What `modes` answers: real modes, or complex pairs where loads have no potential.
+//! Answer of `modes`: real modes, or complex pairs where loads have no potential.
 
 use kinetostat::Posture;
 use kinetostat::nalgebra::Complex;
@@ -105,7 +105,7 @@ fn of_modes(
     .collect()
 }
 
-/// What loads without a potential make of the modes.
+/// Converts the complex modes under loads without a potential.
 fn circulatory(found: &ComplexModes) -> Circulatory {
     let values = found.modes.iter().map(|pair| pair.eigenvalue);
     Circulatory {

@@ -14,24 +14,24 @@ pub(crate) struct ModesAnswer {
     pub(crate) moment_n_m: [f64; 3],
     /// Directions of the tool that are held.
     pub(crate) hold: Option<String>,
-    /// In words.
+    /// Damping in words.
     pub(crate) damping: String,
     pub(crate) total_mass_kg: f64,
-    /// Whether the equilibrium holds: no unstable mode and no massless instability, or no pair that grows; null where that is
-    /// not judged.
+    /// True if the equilibrium is stable: no unstable mode and no massless instability, or no pair that grows; null if that
+    /// is not judged.
     pub(crate) stable: Option<bool>,
-    /// Where loads have no potential (followers, a moment that does not turn with the tool): what becomes of a small
-    /// disturbance. `modes` are complex pairs then.
+    /// Evolution of a small disturbance where loads have no potential (followers, a moment that does not turn with
+    /// the tool). `modes` are complex pairs then.
     pub(crate) circulatory: Option<Circulatory>,
-    /// Of loads without a potential `vibrating` counts the pairs that do not grow, `unstable` those that do.
+    /// Counts; under loads without a potential `vibrating` are pairs that do not grow, `unstable` those that do.
     pub(crate) directions: DirectionCounts,
     /// Joints and springs in neutral directions: neither mass nor stiffness.
     pub(crate) neutral: Vec<String>,
-    /// How many modes (or complex pairs) there are; `modes` has the lowest of them.
+    /// Number of modes (or complex pairs); `modes` has the lowest of them.
     pub(crate) mode_count: usize,
     pub(crate) modes: Vec<ModeAnswer>,
     pub(crate) warnings: Vec<Warning>,
-    /// Of all pairs that which grows fastest.
+    /// Pair that grows fastest.
     #[serde(skip)]
     pub(crate) fastest_growing: Option<ComplexAnswer>,
     /// Damping that has no part in complex pairs.
@@ -60,7 +60,7 @@ pub(crate) struct ComplexAnswer {
 
 #[derive(Serialize)]
 pub(crate) struct ModeAnswer {
-    /// From 1, by ascending squared frequency.
+    /// Number from 1, by ascending squared frequency.
     pub(crate) number: usize,
     pub(crate) kind: ModeKind,
     /// Negative where unstable, zero where free; of a complex pair that of its swing, zero where it does not swing.
@@ -74,8 +74,8 @@ pub(crate) struct ModeAnswer {
     /// Motion of the tool's tip, base axes, of the shape normalised by mass.
     pub(crate) tool_translation_per_sqrt_kg: [f64; 3],
     pub(crate) tool_rotation_rad_per_m_sqrt_kg: [f64; 3],
-    /// They add to 1.
+    /// Shares that add to 1.
     pub(crate) kinetic_energy: Vec<EnergyShare>,
-    /// They add to 1, or are 0 where no spring is strained.
+    /// Shares that add to 1, or are 0 where no spring is strained.
     pub(crate) elastic_energy: Vec<EnergyShare>,
 }

@@ -11,19 +11,19 @@ use crate::ui::numbers::number;
 use crate::vibration::pair::{frequency_hz, growth_per_s};
 use crate::vibration::subject::refused;
 
-/// Most modes of one drawing.
+/// Upper limit of the modes of one drawing.
 const MOST: usize = 6;
 /// Size of a drawn phase, px.
 const WIDTH: usize = 560;
 const HEIGHT: usize = 470;
-/// How far a part may move for its path to be straight, times the natural length.
+/// Largest motion of a part with a straight path, times the natural length.
 const SMALL: f64 = 1e-6;
 
 /// A mode or a complex pair as it is drawn.
 struct Drawn {
     /// Frequency and what becomes of it.
     words: String,
-    /// What moves in the first phase, and in the second.
+    /// Motion of the first phase, and of the second.
     phases: [Mode; 2],
     degrees: [u32; 2],
 }
@@ -133,7 +133,7 @@ fn phase(
     (index, mode): (usize, &Drawn),
     column: usize,
 ) -> String {
-    // Both phases by the same step.
+    // Both phases are drawn with the same step.
     let most = mode.phases[0].shape.amax();
     let step = SMALL / if most > 0.0 { most } else { 1.0 };
     let from = Placed::solved(posture, &machine.equilibrium.state);

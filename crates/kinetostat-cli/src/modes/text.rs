@@ -100,7 +100,7 @@ pub(crate) fn answer_text(query: &PlaceQuery, a: &ModesAnswer) -> String {
     out
 }
 
-/// What becomes of a small disturbance under loads without a potential.
+/// Describes the stability under loads without a potential.
 fn of_circulatory(a: &ModesAnswer, found: &Circulatory) -> String {
     let how = a.fastest_growing.as_ref().map_or_else(String::new, |mode| {
         format!(
@@ -128,7 +128,7 @@ fn of_circulatory(a: &ModesAnswer, found: &Circulatory) -> String {
     }
 }
 
-/// Below this share of the largest part (of a turn: metres for a radian) a number is rounding.
+/// Share of the largest part (of a turn: metres for a radian) below which a number is rounding.
 const NOTHING: f64 = 1e-9;
 
 fn largest_of(parts: [f64; 3]) -> f64 {

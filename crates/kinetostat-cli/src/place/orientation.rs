@@ -32,7 +32,7 @@ pub(crate) fn option_or_follows(flag: &str, text: &str) -> Answer<Option<UnitQua
     }
 }
 
-/// What a machine does whose targets are positions only: how far its tool turns, or turns at most.
+/// Warning about a machine whose targets are positions only: the turn of its tool, or the largest turn.
 pub(crate) fn follows(turned_deg: f64, requested: bool, at_most: bool) -> Warning {
     let by = if at_most { "by up to" } else { "by" };
     let why = match requested {

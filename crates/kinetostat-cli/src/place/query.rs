@@ -23,10 +23,10 @@ use crate::ui::failure::{Answer, Failure};
 use crate::ui::layout::wrapped;
 use crate::ui::numbers::{short, triple};
 
-/// As far as a tool is looked for, m: farther is a wrong unit.
+/// Upper limit of the tool length, m: a longer one is a wrong unit.
 pub(crate) const FARTHEST: f64 = 1e4;
 
-/// Everything about one place.
+/// Query for one place.
 pub(crate) struct PlaceQuery {
     pub(crate) name: String,
     pub(crate) source: String,
@@ -44,7 +44,7 @@ pub(crate) struct PlaceQuery {
     /// Commands, m or rad, where the place is given by them.
     pub(crate) joints: Option<Vec<f64>>,
     pub(crate) controller: Option<Controller>,
-    /// How the model says that vibrations are damped.
+    /// Damping of vibrations by the model.
     pub(crate) damping: Damping,
     /// The line that says so.
     pub(crate) damping_line: Option<usize>,
@@ -69,7 +69,7 @@ pub(crate) fn place_query(
     place_query_of(&read, path, model, place, tool_length_mm, force, moment)
 }
 
-/// The same for a model that was read already; `named` is how the command line names it.
+/// Builds the query for a model that was read already; `named` is its name in the command line.
 pub(crate) fn place_query_of(
     read: &Model,
     path: Option<PathBuf>,
@@ -216,12 +216,12 @@ impl PlaceQuery {
         near_singular(&self.standing().ok()?)
     }
 
-    /// What the controller shows there; nothing where no controller is declared.
+    /// Displayed values of the controller; empty without a section `controller`.
     pub(crate) fn in_controller_coordinates(&self, posture: &Posture) -> Vec<JointValue> {
         joints::in_controller_coordinates(self.controller.as_ref(), &posture.commands())
     }
 
-    /// What the answer begins with, in a version of its form.
+    /// Common head of the answers, in a version of their schema.
     pub(crate) fn head(&self, schema: u32) -> AnswerHead {
         let turn = self.target.rotation.scaled_axis();
         AnswerHead {
@@ -272,7 +272,7 @@ impl PlaceQuery {
     }
 }
 
-/// What the answer to a query begins with.
+/// Common head of the answers to a query.
 #[derive(Serialize)]
 pub(crate) struct AnswerHead {
     schema: u32,
@@ -288,7 +288,7 @@ pub(crate) struct AnswerHead {
 pub(crate) struct PlaceAnswer {
     pub(crate) position_mm: [f64; 3],
     pub(crate) rotation_vector_deg: [f64; 3],
-    /// Where the orientation follows: how far the tool has turned from the one it is kept near to.
+    /// Turn of the tool from the orientation it is kept near to, if the orientation follows.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) tool_turn_deg: Option<f64>,
     pub(crate) axes: &'static str,

@@ -59,7 +59,7 @@ fn nearest_used(said: String) -> Warning {
 /// Share of the natural length by which a requested pose may differ from what the machine can take.
 const ROUNDED: f64 = 1e-6;
 
-/// How far the nearest pose is looked for where a place cannot be reached, in natural lengths.
+/// Radius of the search for the nearest pose if a place cannot be reached, in natural lengths.
 const AROUND: f64 = 0.1;
 
 /// The place, or the nearest one that the machine can take where only the digits of the place keep it

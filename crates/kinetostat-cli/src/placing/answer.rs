@@ -1,4 +1,4 @@
-//! What `place` answers.
+//! Answer of `place`.
 
 use kinetostat_machining::{FileRead, RunResult, Warning};
 use kinetostat_placing::{Objective, Placed};
@@ -31,7 +31,7 @@ pub(crate) struct AtBest {
     pub(crate) largest_share_of_rating: Option<f64>,
     pub(crate) largest_share_to_buckling: Option<f64>,
     pub(crate) stable: bool,
-    /// How far the joint that is nearest to one of its limits is inside it.
+    /// Smallest distance of a joint to one of its limits.
     pub(crate) nearest_limit_mm_or_deg: Option<f64>,
     pub(crate) configuration: Option<String>,
 }

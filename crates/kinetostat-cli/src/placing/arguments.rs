@@ -16,7 +16,7 @@ use crate::options::{EXIT_CODES, number, whole};
 /// placements, how much room there is around the best one, and what was found at the ends of ranges.
 #[derive(Debug, Args)]
 #[command(after_help = EXIT_CODES, after_long_help = HELP)]
-// What other commands along a program take is refused here in words, and not offered.
+// Options of other commands along a program are hidden, and refused in words.
 #[command(mut_arg("report", |arg| arg.hide(true)))]
 #[command(mut_arg("pdf", |arg| arg.hide(true)))]
 #[command(mut_arg("language", |arg| arg.hide(true)))]

@@ -1,4 +1,4 @@
-//! What is asked: ranges, fixtures, obstacles and what is to be least, from the job file and from options.
+//! Input of `place`: ranges, fixtures, obstacles and objective, from the job file and from options.
 
 use kinetostat_machining::Placement;
 use kinetostat_placing::{Fixture, Objective, Obstacle, PartBox, Question, Range, Space, Variable};
@@ -11,7 +11,7 @@ use crate::place::query::FARTHEST;
 use crate::placing::arguments::PlacingArgs;
 use crate::ui::failure::{Answer, Failure};
 
-/// Most turns that are allowed either way, degrees.
+/// Largest turn allowed either way, degrees.
 const MOST_DEG: f64 = 360.0;
 
 fn written(table: &PlaceTable, variable: Variable) -> Option<&Spanned<[f64; 2]>> {
@@ -61,7 +61,7 @@ fn fault(variable: Variable, [from, to]: [f64; 2]) -> Option<String> {
     }
 }
 
-/// Where the part may lie.
+/// Search space of the part's placement.
 pub(crate) fn space(
     job: Option<&JobFile>,
     args: &PlacingArgs,
@@ -122,7 +122,7 @@ fn fixtures(job: Option<&JobFile>, table: Option<&PlaceTable>) -> Answer<Vec<Fix
     table.fixtures.iter().map(one).collect()
 }
 
-/// What is to be least, and what is kept clear of.
+/// Objective and obstacles.
 pub(crate) fn question(job: Option<&JobFile>, args: &PlacingArgs) -> Answer<Question> {
     let table = job.and_then(|j| j.job.place.as_ref());
     let Some((job, table)) = job.zip(table.map(Spanned::get_ref)) else {

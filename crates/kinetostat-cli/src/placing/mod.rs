@@ -39,7 +39,7 @@ use crate::ui::threads::in_threads;
 /// Figures below this, mm or deg or shares, are none.
 const NOTHING: f64 = 1e-9;
 
-/// Most placements that may fill the ranges.
+/// Upper limit of the placements that may fill the ranges.
 const MOST_SAMPLES: usize = 1_000_000;
 
 pub(crate) fn run(args: &PlacingArgs, given: &Given) -> Answer<()> {
@@ -155,7 +155,7 @@ pub(crate) fn run(args: &PlacingArgs, given: &Given) -> Answer<()> {
     json::print_answer(&text, &answer, to_screen)
 }
 
-/// Where the program can be run nowhere, there is no answer.
+/// Refuses a result without a feasible placement.
 fn refuse_nowhere(placed: &Placed, space: &Space) -> Answer<()> {
     match &placed.nowhere {
         Some(nowhere) => Err(Failure::unanswered(text::nowhere_text(nowhere, space))),

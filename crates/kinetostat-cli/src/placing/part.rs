@@ -1,4 +1,4 @@
-//! Whether the box around the part is that of the part that the program cuts.
+//! Check that the box around the part is that of the part that the program cuts.
 
 use kinetostat::number::larger;
 use kinetostat_machining::number::largest_length;
@@ -14,7 +14,7 @@ const BESIDE: (f64, f64) = (50.0, 0.1);
 /// Places of a move that are looked at.
 const SHARES: [f64; 3] = [0.0, 0.5, 1.0];
 
-/// What is said where the program cuts far outside the box.
+/// Warning if the program cuts far outside the box.
 pub(crate) fn beside_the_part(part: &PartBox, path: &Path) -> Option<Warning> {
     let outside = |point: &Vector3<f64>| {
         let beyond = |k: usize| larger(part.from_mm[k] - point[k], point[k] - part.to_mm[k]);

@@ -1,4 +1,4 @@
-//! What `place` says to a person.
+//! Text output of `place`.
 
 use kinetostat_machining::number::{counted, largest};
 use kinetostat_placing::{Candidate, Nowhere, Sensitivity, Space, Why};
@@ -43,7 +43,7 @@ pub(crate) fn answer_text(answer: &PlaceAnswer, space: &Space) -> String {
     out
 }
 
-/// What is gained.
+/// Describes the gain of the best placement.
 fn verdict(answer: &PlaceAnswer, best: &Candidate, space: &Space) -> String {
     let own = best.figure.unwrap_or(f64::NAN);
     let what = answer.objective.what();
@@ -82,7 +82,7 @@ fn verdict(answer: &PlaceAnswer, best: &Candidate, space: &Space) -> String {
     sentence
 }
 
-/// What is to be written in the job file.
+/// Placement as text for the job file.
 fn as_job(best: &Candidate, space: &Space) -> String {
     let mut out = String::from("  [placement]\n");
     if let Some(fixture) = &best.fixture {
@@ -144,7 +144,7 @@ fn list(answer: &PlaceAnswer, space: &Space) -> String {
     format!("Best placements\n{}\n", columns(&rows, 2))
 }
 
-/// How much room there is around the best one.
+/// Describes the feasible range around the best placement.
 fn room(answer: &PlaceAnswer) -> String {
     let sensitivity = &answer.placed.sensitivity;
     if sensitivity.is_empty() {
@@ -197,7 +197,7 @@ fn findings(answer: &PlaceAnswer) -> String {
     format!("Findings\n{listed}\n")
 }
 
-/// Why no placement can be taken.
+/// Explains why no placement is feasible.
 pub(crate) fn nowhere_text(nowhere: &Nowhere, space: &Space) -> String {
     let nearest = &nowhere.nearest;
     let refusal = nearest.refusal.as_ref();
@@ -224,7 +224,7 @@ pub(crate) fn nowhere_text(nowhere: &Nowhere, space: &Space) -> String {
                 .map_or_else(String::new, |line| format!("line {line}: "));
             format!(": {line}{} ({})", refusal.message, refusal.why.words())
         });
-    // Less than half a millimetre is no way out: something else than the reach is in the way.
+    // A way of less than half a millimetre is no remedy: the reach is not the reason then.
     let is_way = |by: &[f64; 3]| by.iter().any(|mm| mm.abs() >= 0.5);
     let way = match nowhere.move_mm {
         Some(by) if !is_way(&by) => {

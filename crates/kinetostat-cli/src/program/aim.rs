@@ -1,6 +1,6 @@
-//! What a run along a program is for.
+//! Purpose of a run along a program.
 
-/// What a run writes.
+/// Kind of output of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Aim {
     Analyse,

@@ -21,7 +21,7 @@ use crate::vibration::subject;
 /// Stretches of which a warning tells.
 const TOLD: usize = 5;
 
-/// What a judgement needs beside the task.
+/// Input of the chatter analysis besides the task.
 pub(crate) struct Judging<'a> {
     pub(crate) cut: &'a CutQuestion,
     pub(crate) damping: Damping,
@@ -31,7 +31,7 @@ pub(crate) struct Judging<'a> {
 }
 
 impl<'a> Judging<'a> {
-    /// Of a run, where its job asks for it.
+    /// Input of a run whose job requests the analysis.
     pub(crate) fn of_run(
         with: (&'a MachineSetup, &Model),
         setting: &'a Setting,
@@ -128,7 +128,7 @@ fn chattering(result: &ChatterResult) -> Vec<Warning> {
     told.collect()
 }
 
-/// What the answer does not say.
+/// Warnings about the limits of the answer.
 pub(crate) fn limits(found: &ProgramChatter, setting: &ChatterSetting) -> Vec<Warning> {
     let mut all = Vec::new();
     let mut say = |text: String| all.push(Warning::new(WarningCode::ChatterNotJudged, text));
@@ -170,10 +170,10 @@ pub(crate) fn limits(found: &ProgramChatter, setting: &ChatterSetting) -> Vec<Wa
     all
 }
 
-/// Why there is no answer, with the line of the program.
+/// Converts an error to a failure, with the line of the program.
 pub(crate) fn refused(error: ProgramChatterError, setting: &Setting) -> Failure {
     match error {
-        // That is so on all lines.
+        // This fault does not depend on the line.
         ProgramChatterError::Machine {
             error: error @ Error::NoMass(_),
             ..

@@ -1,4 +1,4 @@
-//! How a run stands to the features of its job.
+//! Results of a run at the features of its job.
 
 use kinetostat_machining::{
     FeatureResult, PointResult, Run, RunResult, Warning, WarningCode, feature_results,

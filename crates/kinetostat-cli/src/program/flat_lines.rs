@@ -32,7 +32,7 @@ fn add(value: &mut Value, flat: &FlatProgram) {
 }
 
 fn add_here(object: &mut Map<String, Value>, flat: &FlatProgram) {
-    // What names a file speaks of a line of that.
+    // An object with a file already refers to a line of that file.
     if object.get("file").is_some_and(|file| !file.is_null()) {
         return;
     }
@@ -47,7 +47,7 @@ fn add_here(object: &mut Map<String, Value>, flat: &FlatProgram) {
 /// Lines listed under a text.
 const MOST_LISTED: usize = 20;
 
-/// What stands under a text for a person: where the lines that it names came from.
+/// List below a text for people: the origin of the lines that it names.
 pub(crate) fn listed_under(text: &str, flat: Option<&FlatProgram>) -> String {
     let Some(flat) = flat else {
         return String::new();

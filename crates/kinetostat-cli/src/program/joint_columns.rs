@@ -4,7 +4,7 @@ use kinetostat_machining::{Elbow, PointResult, RunInputs, Shoulder, Wrist};
 
 use crate::ui::csv_cell::{decimals, digits};
 
-/// Which of these columns a machine has.
+/// Columns of joint values for a machine.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct JointColumns {
     /// Some joint that slides has limits, some joint that turns has.
@@ -60,7 +60,7 @@ impl JointColumns {
         names
     }
 
-    /// As many cells as there are names; those of which nothing is known are empty.
+    /// Cells of a row, one for each name; unknown ones are empty.
     pub(crate) fn cells(self, run_inputs: &RunInputs, point: &PointResult) -> Vec<String> {
         let actuator = |index: usize| run_inputs.actuators.get(index);
         let name = |index: usize| actuator(index).map_or_else(String::new, |a| one_word(&a.name));

@@ -1,4 +1,4 @@
-//! What a run along a program writes: claimed before the work begins, filled after it.
+//! Outputs of a run along a program: claimed before the work begins, filled after it.
 
 use std::path::PathBuf;
 
@@ -37,7 +37,7 @@ pub(crate) struct RunOutputs {
     pub(crate) vtk: Option<usize>,
     pub(crate) flat: Option<usize>,
     pub(crate) turn_plot: Option<usize>,
-    /// Further files of the program.
+    /// Indices of the program's additional files.
     pub(crate) beside: Vec<usize>,
     pub(crate) listing: Listing,
     /// Written files of a long program, for the paper.
@@ -102,7 +102,7 @@ impl RunOutputs {
         })
     }
 
-    /// How points are listed: in a Parquet file every one.
+    /// Sets the listing of points: in a Parquet file every one.
     pub(crate) fn list(&mut self, all: bool, model: &Model) {
         self.listing = Listing {
             all: all || self.points_as_parquet,
@@ -110,7 +110,7 @@ impl RunOutputs {
         };
     }
 
-    /// What a person should know about the files.
+    /// Notes for a person about the files.
     pub(crate) fn note(&self, run: &Run) -> String {
         let of_points = self
             .points

@@ -10,7 +10,7 @@ use crate::files::origin;
 use crate::job::output_paths::OutputPaths;
 use crate::ui::failure::{Answer, Failure};
 
-/// Without PDF in this build it is said before the long work begins.
+/// Refuses a PDF that this build cannot write, before the long work begins.
 pub(crate) fn refuse_without_pdf() -> Answer<()> {
     match Paper::makes_pdf() {
         true => Ok(()),
@@ -27,7 +27,7 @@ pub(crate) fn pdf(paper: &Paper<'_>) -> Answer<Vec<u8>> {
         .map_err(|error| Failure::input(error.to_string()))
 }
 
-/// What was written, with its hashes.
+/// Written files with their hashes.
 pub(crate) fn written(
     targets: &OutputPaths,
     program: &[u8],

@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use kinetostat_formats::fields::{PointQuantity, Polylines};
 use kinetostat_machining::{PointKind, PointResult, Run, thinned};
 
-/// Most points of a file: of longer programs the worst of every stretch, as in the table of points.
+/// Upper limit of the points of a file: of longer programs the worst of every stretch, as in the table of points.
 const MOST: usize = 200_000;
 
 /// A legacy VTK file, program coordinates in mm. A line for each run of cutting moves; rapids are left out.
@@ -79,7 +79,7 @@ impl Compliances {
     }
 
     fn at(&self, point: &PointResult) -> Option<&[[f64; 3]; 3]> {
-        // On a step the load is on its way from one to another.
+        // The load of a step changes from one to another.
         let feed = point.kind == PointKind::Feed;
         let at = (point.move_index, point.share.to_bits());
         feed.then(|| self.0.get(&at)).flatten()

@@ -1,4 +1,4 @@
-//! What columns of the table of points are: their units and meanings, by their names.
+//! Columns of the table of points: their units and meanings, by their names.
 
 use kinetostat_formats::fields::RowColumn;
 

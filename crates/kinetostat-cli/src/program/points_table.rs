@@ -20,22 +20,22 @@ const MOST_BYTES: usize = 7_000_000;
 /// Bytes of a cell with its comma, at most on the average.
 const CELL: usize = 9;
 
-/// Which points are listed, and what the controller shows of them.
+/// Selection of listed points, and the controller for their displayed values.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Listing {
-    /// Every point, however large the table becomes.
+    /// True if every point is listed, however large the table becomes.
     pub(crate) all: bool,
     pub(crate) controller: Option<Controller>,
 }
 
-/// Which points are listed: all of them, or of a long program those that `thinned` keeps.
+/// Indices of the listed points if not all are: of a long program those that `thinned` keeps.
 fn listed(run_inputs: &RunInputs, points: &[PointResult], listing: &Listing) -> Option<Vec<usize>> {
     let columns = header(run_inputs, points, listing).len();
     let most = MOST_BYTES / (CELL * columns);
     (!listing.all && points.len() > most).then(|| thinned(points, &[], most))
 }
 
-/// What is to be said about a table that does not list every point.
+/// Note on a table that does not list every point.
 pub(crate) fn note(
     run_inputs: &RunInputs,
     points: &[PointResult],
@@ -116,12 +116,12 @@ pub(crate) fn header(
     ] {
         header.extend(["x", "y", "z"].map(|axis| format!("{name}{axis}{unit}")));
     }
-    // Of the program, program axes from tool axes.
+    // Orientation of the program: from tool axes to program axes.
     if run_inputs.states_orientation {
         header.extend(["w", "x", "y", "z"].map(|part| format!("orientation_{part}")));
     }
     header.push("residual_rotation_deg".into());
-    // Of a machine whose orientation follows: how far the tool is turned from the one that was requested.
+    // Turn of the tool from the requested orientation, if the orientation follows.
     if points.iter().any(|p| p.tool_turn_deg.is_some()) {
         header.push("tool_turn_deg".into());
     }

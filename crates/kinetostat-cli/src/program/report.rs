@@ -1,4 +1,4 @@
-//! How a run ends: its text and JSON on the screen, and whether its tolerance is held.
+//! End of a run: its text and JSON on the screen, and the check of its tolerance.
 
 use kinetostat_machining::{RunResult, ToleranceResult};
 
@@ -32,7 +32,7 @@ pub(crate) fn refuse_doubtful(result: &RunResult, setting: &Setting) -> Answer<(
     }
 }
 
-/// Where the text for people goes, and the JSON on the standard output if it is wanted there.
+/// Prints the text for people, and the JSON on the standard output if requested.
 pub(crate) fn print_run(text: &str, result: Option<&RunResult>) -> Answer<()> {
     match result {
         Some(result) => {

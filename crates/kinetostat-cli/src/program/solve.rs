@@ -85,7 +85,7 @@ pub(crate) fn forces_of(
     }
 }
 
-/// No smaller tolerance can be stated, mm.
+/// Smallest tolerance that can be stated, mm.
 const SMALLEST_MM: f64 = 1e-6;
 
 /// Shares what is asked for in all out among straight pieces, chords of arcs (where there are some) and rounding. Where rounding
@@ -101,7 +101,7 @@ fn share_out(writing: &mut WriteOptions, (asked_mm, rounding_mm): (f64, f64), pa
     writing.tolerance_mm = larger(left_mm, SMALLEST_MM);
 }
 
-/// What `work` makes of the task of a run over a program that was read.
+/// Applies `work` to the task of a run over a program that was read.
 pub(crate) fn with_task<R>(
     aim: Aim,
     machine: &MachineSetup,
@@ -129,7 +129,7 @@ pub(crate) fn with_task<R>(
     run_inputs.tolerance_from = "as stated".to_owned();
     if aim == Aim::Compensate {
         let (usual_mm, from) = &machine.usual_tolerance;
-        // Of the machine, where the program may be scaled.
+        // The tolerance is a length of the machine; the program may be scaled.
         let usual_mm = usual_mm / machine.placement.scale;
         let [path_stated, chord_stated] = setting.stated;
         if !path_stated {
@@ -324,7 +324,7 @@ pub(crate) fn too_many_blocks(setting: &Setting, most: Option<f64>) -> Option<Wa
     )))
 }
 
-/// Why a run has no answer, with what may be the reason.
+/// Converts an error of a run to a failure, with a possible reason.
 pub(crate) fn failure_of(
     error: RunError,
     (machine, model): (&MachineSetup, &Model),
@@ -336,7 +336,7 @@ pub(crate) fn failure_of(
     if !of_machine {
         return failure;
     }
-    // What is no warning without an answer may be the reason why there is none.
+    // A doubtful placement, which alone is no warning, may be the reason of the failure.
     let (place, is_unplaced) = (&machine.placement, machine.bounds.is_unplaced);
     let failure = match origin_in_metres(&machine.mechanism, place, path, is_unplaced) {
         Some(doubt) => failure.with_reason(&doubt.message),
@@ -345,8 +345,8 @@ pub(crate) fn failure_of(
     with_model_warning(failure, model)
 }
 
-/// Whether a wrong model, or a part at a wrong place, can be why a run ends: the machine does not get somewhere, gives way too much or
-/// not smoothly. Texts, options and files are wrong by themselves.
+/// True if a wrong model or a misplaced part can be the reason of the failure: places that cannot be reached, large or discontinuous
+/// deflections. Other errors are those of texts, options and files.
 fn may_come_from_machine(error: &RunError) -> bool {
     match error {
         RunError::Point { .. }

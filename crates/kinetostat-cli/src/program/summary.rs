@@ -168,7 +168,7 @@ fn figures(result: &RunResult) -> String {
     columns(&table.rows, 2)
 }
 
-/// How large corrections are, and what they leave.
+/// Adds rows of the corrections and their residuals.
 fn corrections(table: &mut Table, result: &RunResult, f: &Figures) {
     let s = &result.summary;
     table.row("of that by rounding", "", &f.rounding);
@@ -275,7 +275,7 @@ fn actuators(result: &RunResult) -> String {
     text
 }
 
-/// Where limits and ratings are nearest, and how an arm stands.
+/// Describes the nearest limits and ratings, and the configuration of an arm.
 fn joints(f: &Figures) -> String {
     let mut sentences = Vec::new();
     if f.nearest_limit.is_some() {
@@ -296,7 +296,7 @@ fn joints(f: &Figures) -> String {
     }
 }
 
-/// What a force that is computed from the cut rests on.
+/// Lists the assumptions of a force that is computed from the cut.
 fn cutting_force(result: &RunResult) -> String {
     let words = &result.run_inputs.cut;
     if words.is_empty() {

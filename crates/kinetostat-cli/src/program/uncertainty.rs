@@ -26,7 +26,7 @@ pub(crate) const PLACES: usize = 100;
 /// Parts of the force are varied by this share of them. The mean over a revolution is linear in them.
 const VARIED: f64 = 0.05;
 
-/// What is uncertain, read for a model; the places need it before the run.
+/// Reads the uncertainties for a model; the places need it before the run.
 pub(crate) fn read(
     uncertainty: &Uncertainty,
     model: &Model,
@@ -69,7 +69,7 @@ pub(crate) fn parts(
     let Some(name) = of_parts.next() else {
         return Ok(None);
     };
-    // While the load comes and goes less of it acts.
+    // The load that comes and goes acts in part.
     let whole = wrenches_at(task, places);
     let acts = |(place, whole): (&ProgramPlace, &Wrench)| match whole.0.norm_squared() {
         0.0 => 0.0,

@@ -12,25 +12,25 @@ use crate::place::query::AnswerHead;
 pub(crate) struct SharesAnswer {
     #[serde(flatten)]
     pub(crate) head: AnswerHead,
-    /// In words.
+    /// Direction in words.
     pub(crate) direction: String,
     /// Unit force (its first three) or moment, base axes, about the tool's tip.
     pub(crate) direction_components: [f64; 6],
     pub(crate) loaded: bool,
     pub(crate) force_n: [f64; 3],
     pub(crate) moment_n_m: [f64; 3],
-    /// Whether the machine stays there.
+    /// True if the equilibrium is stable.
     pub(crate) stable: bool,
     /// m/N, or rad/(N m) for a moment: that of the tangent.
     pub(crate) compliance_m_or_rad_per_n_or_n_m: f64,
     /// All shares of `parts` add to 1.
     pub(crate) parts: Vec<PartAnswer>,
     pub(crate) limbs: Vec<LimbAnswer>,
-    /// Of all loads that turn: geometric stiffness.
+    /// Share of all loads that turn: geometric stiffness.
     pub(crate) geometric_share: f64,
     /// Sum of all parts by the motion of the tool, less 1.
     pub(crate) rounding: f64,
-    /// They store nothing.
+    /// Joints that store no energy.
     pub(crate) passive_joints: Vec<String>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) stiffening: Option<StiffeningAnswer>,
@@ -60,7 +60,7 @@ impl PartAnswer {
 
 #[derive(Serialize)]
 pub(crate) struct LimbAnswer {
-    /// None for what acts on platforms.
+    /// Absent for loads on platforms.
     pub(crate) name: Option<String>,
     pub(crate) share: f64,
 }
@@ -106,7 +106,7 @@ impl StiffeningAnswer {
 
 #[derive(Serialize, Default)]
 pub(crate) struct SensitivitiesAnswer {
-    /// How derivatives are made.
+    /// Differentiation method.
     pub(crate) method: &'static str,
     pub(crate) deflection_m_or_rad: f64,
     pub(crate) stiffness_n_or_n_m_per_m_or_rad: f64,
@@ -129,7 +129,7 @@ pub(crate) struct SensitivityAnswer {
     /// Change by 1 % more of the number; of a number that is zero there is none.
     pub(crate) deflection_by_percent_m_or_rad: f64,
     pub(crate) stiffness_by_percent_relative: f64,
-    /// How far these derivatives of sixth order are from those of fourth: an estimate of what their differences leave open.
+    /// Difference of these derivatives of sixth order from those of fourth: an estimate of the discretisation error.
     pub(crate) estimated_errors: Option<DerivativesAnswer>,
 }
 
@@ -140,14 +140,14 @@ pub(crate) struct DerivativesAnswer {
     pub(crate) displacement: [f64; 6],
     pub(crate) compliance: f64,
     pub(crate) stiffness: f64,
-    /// None where two directions are equally soft and the number changes them differently.
+    /// Absent if two directions are equally soft and the number changes them differently.
     pub(crate) stiffness_against_force: Option<f64>,
-    /// None without a load that buckles, and where two limbs or shapes are equally near and the number changes them differently.
+    /// Absent without a load that buckles, and if two limbs or shapes are equally near and the number changes them differently.
     pub(crate) share_to_buckling: Option<f64>,
 }
 
 impl DerivativesAnswer {
-    /// None of what has no derivative.
+    /// Derivatives; absent where they do not exist.
     fn of(s: &Sensitivity, v: &Values) -> Self {
         Self {
             deflection: v.deflection,

@@ -64,7 +64,7 @@ pub(crate) enum Axis {
 }
 
 impl Axis {
-    /// Of size one.
+    /// Unit load.
     pub(crate) fn load(self) -> Wrench {
         let (force, moment) = match self {
             Self::X => (Vector3::x(), Vector3::zeros()),

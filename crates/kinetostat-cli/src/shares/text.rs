@@ -11,7 +11,7 @@ use crate::ui::layout::{columns, item, wrapped};
 use crate::ui::numbers::{fixed, load_triple, number};
 use crate::ui::warnings;
 
-/// Most numbers of the file that are shown to a person; JSON has all.
+/// Upper limit of the numbers of the file shown to a person; JSON has all.
 const SHOWN: usize = 25;
 
 pub(crate) fn answer_text(query: &PlaceQuery, a: &SharesAnswer) -> String {

@@ -19,7 +19,7 @@ pub(crate) struct Stiffness {
     pub(crate) head: AnswerHead,
     /// Commands of the actuators there.
     pub(crate) joints: Vec<JointValue>,
-    /// What the controller shows, in the order of its axes; empty without a section `controller`.
+    /// Displayed values of the controller, in the order of its axes; empty without a section `controller`.
     #[serde(rename = "pendant")]
     pub(crate) on_controller: Vec<JointValue>,
     pub(crate) loaded: bool,
@@ -28,23 +28,22 @@ pub(crate) struct Stiffness {
     /// Rows: force (N), moment (N m); columns: displacement (m), rotation (rad); null along axes that a rigid
     /// direction has a part in.
     pub(crate) stiffness_n_m_rad: [[f64; 6]; 6],
-    /// The same as the terminal shows it: rows N and N m, columns per mm and per rad.
+    /// Stiffness as the terminal shows it: rows N and N m, columns per mm and per rad.
     pub(crate) stiffness_n_n_m_per_mm_rad: [[f64; 6]; 6],
     /// Inverse, m and rad per N and N m, zero along rigid directions; none where a direction is free.
     pub(crate) compliance_m_rad_per_n: Option<[[f64; 6]; 6]>,
-    /// The same as the terminal shows it: micrometres and microradians per N and N m.
+    /// Compliance as the terminal shows it: micrometres and microradians per N and N m.
     pub(crate) compliance_um_urad_per_n_n_m: Option<[[f64; 6]; 6]>,
-    /// Where directions are free: the motion under a load that pushes along none of them, up to
-    /// motions along them.
+    /// Compliance with free directions: the motion under a load that pushes along none of them, up to motions along them.
     pub(crate) compliance_besides_free_motions_m_rad_per_n: Option<[[f64; 6]; 6]>,
     /// Smallest stiffness against a force: in its softest direction, the tool free to turn; null if no
     /// force moves the tool. As in `map`, `deflect` and along programs.
     pub(crate) smallest_stiffness_n_per_mm: f64,
-    /// What acts in the model and is not in the unloaded stiffness: springs and other loads between
+    /// Loads of the model that are not in the unloaded stiffness: springs and other loads between
     /// nodes and platforms, and weight.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub(crate) left_out: Vec<String>,
-    /// The same figures with what is left out: the tangent at rest, without a load on the tool.
+    /// Figures at rest, including the loads of `left_out`: the tangent without a load on the tool.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) at_rest: Option<AtRest>,
     pub(crate) rank: usize,
@@ -176,10 +175,10 @@ pub(crate) fn answer(
     }
 }
 
-/// From m and rad to micrometres and microradians.
+/// Factor from m and rad to micrometres and microradians.
 pub(crate) const MICRO: f64 = 1e6;
 
-/// From per m and per rad to per mm and per rad, as stiffness is shown.
+/// Factor from per m and per rad to per mm and per rad, as stiffness is shown.
 pub(crate) fn per_column(column: usize) -> f64 {
     if column < 3 { 1e-3 } else { 1.0 }
 }

@@ -217,7 +217,7 @@ fn rigid(a: &Stiffness) -> String {
     format!("\n{}", wrapped(&text, 0))
 }
 
-/// Under a moment the matrix is not symmetric, which surprises who compares it with a table.
+/// Explains the asymmetry of the matrix under a moment, which surprises beside a table.
 fn asymmetry(query: &PlaceQuery, a: &Stiffness) -> String {
     let moment = query.wrench.moment();
     if !a.loaded || moment.norm() == 0.0 {

@@ -14,13 +14,13 @@ pub(crate) struct ToleranceAnswer {
     pub(crate) moment_n_m: [f64; 3],
     pub(crate) machines: usize,
     pub(crate) seed: u64,
-    /// Of all bounds.
+    /// Confidence of all bounds.
     pub(crate) confidence: f64,
     pub(crate) uncertain: Vec<UncertainNumber>,
     pub(crate) correlated: bool,
     /// Draws without a whole answer.
     pub(crate) failures: Failures,
-    /// The same of the draws for Sobol indices.
+    /// Failures of the draws for Sobol indices.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) sobol_failures: Option<Failures>,
     pub(crate) places: Vec<PlaceResults>,
@@ -35,11 +35,11 @@ pub(crate) struct PlaceResults {
 
 #[derive(Serialize)]
 pub(crate) struct ColumnResult {
-    /// With its unit.
+    /// Name with its unit.
     pub(crate) name: &'static str,
     #[serde(flatten)]
     pub(crate) answer: OutputAnswer,
-    /// Of every uncertain number, in their order.
+    /// Sobol indices of every uncertain number, in their order.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) sobol: Option<Vec<SobolIndex>>,
 }

@@ -7,7 +7,7 @@ use kinetostat_tolerance::Quantity;
 
 use crate::options::{number, whole};
 
-/// What is asked at every place.
+/// Quantity requested at every place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Asked {
     /// Where the unloaded tool is, from where it is commanded

@@ -108,7 +108,7 @@ fn queries(args: &ToleranceArgs, model: &Model, path: Option<&PathBuf>) -> Answe
     each.into_iter().map(query).collect()
 }
 
-/// What is drawn, and how often.
+/// Uncertain machine and its draws.
 struct Study {
     file: UncertaintyFile,
     machine: UncertainMachine,
@@ -116,7 +116,7 @@ struct Study {
     for_sobol: Option<Draws>,
 }
 
-/// What was found of all machines.
+/// Results of all machines.
 struct Drawn {
     samples: Samples,
     /// Sobol indices of every result, and draws without a whole answer.

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use kinetostat::number::larger;
 use kinetostat_report::{Plot, PlotLine};
 
-/// How many times as high as the histogram a linear density is drawn at most.
+/// Largest height of a linear density in the drawing, in heights of the histogram.
 const NEEDLE: f64 = 5.0;
 
 /// Densities over the values: that of the draws in steps, and a normal one of the linear propagation.
@@ -23,7 +23,7 @@ pub(crate) fn histogram(
             ..Plot::default()
         };
     };
-    // As many bars as draws fill (a cube root of them), at least ten.
+    // The number of bars grows with the cube root of the draws, from ten to 80.
     let bars = ((2.0 * (known.len() as f64).cbrt()) as usize).clamp(10, 80);
     let width = (high - low) / bars as f64;
     let mut lines = Vec::new();
@@ -48,7 +48,7 @@ pub(crate) fn histogram(
         ));
     }
     let peak = 1.0 / (deviation * (2.0 * PI).sqrt());
-    // Where the linear scatter is next to nothing beside that of the machines, its needle would hide them.
+    // A linear scatter far below that of the machines would be a needle that hides them.
     if deviation > 0.0 && (highest == 0.0 || peak < NEEDLE * highest) {
         let at = |k: i32| {
             let z = f64::from(k) / 20.0;

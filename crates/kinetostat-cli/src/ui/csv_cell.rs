@@ -2,7 +2,7 @@
 
 use kinetostat_machining::number::{Rounding, fixed_and_short, significant, without_zeros};
 
-/// At most so many decimals, without zeros at the end.
+/// Formats with at most so many decimals, without zeros at the end.
 pub(crate) fn decimals(value: f64, most: usize) -> String {
     if !value.is_finite() {
         return String::new();

@@ -11,7 +11,7 @@ pub(crate) fn cell(x: f64) -> String {
     }
 }
 
-/// The same of a number that may be missing.
+/// Cell of a number that may be missing.
 pub(crate) fn cell_if_any(x: Option<f64>) -> String {
     x.map_or_else(String::new, cell)
 }

@@ -1,4 +1,4 @@
-//! Why a command ends without an answer, and its exit code.
+//! Failure of a command, and its exit code.
 
 use std::fmt::Display;
 use std::ops::Range;
@@ -26,17 +26,17 @@ pub(crate) enum Code {
     Stopped = 130,
 }
 
-/// What is reported before the program ends.
+/// Report before the program ends.
 #[derive(Clone, Debug)]
 pub(crate) struct Failure {
     pub(crate) code: Code,
     /// Plain text, safe for a terminal.
     pub(crate) plain: String,
-    /// The same with colours, where there are some.
+    /// Report with colours, if there are any.
     pub(crate) styled: Option<String>,
-    /// Where in the job file, bytes.
+    /// Position in the job file, bytes.
     pub(crate) place: Option<Range<usize>>,
-    /// What the program holds was refused: everything that says how to read it is right.
+    /// True if the content of the program was refused: the settings for reading it are right.
     pub(crate) is_of_program: bool,
 }
 
@@ -48,7 +48,7 @@ impl Failure {
         Self::new(Code::WrongInput, message)
     }
 
-    /// No answer exists or none was found.
+    /// Failure: no answer exists or none was found.
     pub(crate) fn unanswered(message: impl Display) -> Self {
         Self::new(Code::Unanswered, message)
     }
@@ -96,7 +96,7 @@ impl Failure {
         }
     }
 
-    /// The same failure, with what may be its reason.
+    /// Adds a possible reason.
     pub(crate) fn with_reason(mut self, reason: &str) -> Self {
         if self.code != Code::Stopped {
             self.plain = format!("{}. Perhaps the reason: {}", self.plain, safe(reason));
@@ -105,7 +105,7 @@ impl Failure {
         self
     }
 
-    /// The same failure, of what the program holds.
+    /// Marks it as a failure of the program's content.
     pub(crate) fn of_program(self) -> Self {
         Self {
             is_of_program: true,
@@ -113,7 +113,7 @@ impl Failure {
         }
     }
 
-    /// The same failure, reported to be in a file.
+    /// Puts the name of a file in front.
     pub(crate) fn within(mut self, place: &str) -> Self {
         self.plain = format!("{}: {}", safe(place), self.plain);
         self.styled = None;
@@ -135,7 +135,7 @@ impl From<ModelError> for Failure {
     }
 }
 
-/// What a run that Ctrl-C ended says.
+/// Message of a run that Ctrl-C ended.
 pub(crate) const STOPPED: &str = "stopped on request; nothing was written";
 
 impl From<RunError> for Failure {

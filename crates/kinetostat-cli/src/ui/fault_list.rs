@@ -57,7 +57,7 @@ pub(crate) fn fault_list_text<'f, F: Display>(
     lines.join("\n")
 }
 
-/// Where a fault is: what stands before its reason.
+/// Returns the place of a fault: the text before its reason.
 fn place_of(fault: &str, reason: &str) -> String {
     let before = fault.split_once(reason).map_or(fault, |(before, _)| before);
     before.trim_end().trim_end_matches(':').to_owned()

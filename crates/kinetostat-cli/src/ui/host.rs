@@ -8,7 +8,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use kinetostat_machining::Watch;
 
-/// Where the text for people goes.
+/// Stream of the text for people.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Stream {
     Out,
@@ -45,7 +45,7 @@ impl Host {
         to.extend_from_slice(bytes);
     }
 
-    /// What was printed to the standard output and to the standard error.
+    /// Takes the text printed to the standard output and to the standard error.
     pub(crate) fn printed(&self) -> (Vec<u8>, Vec<u8>) {
         let all = |from: &Mutex<Vec<u8>>| {
             std::mem::take(&mut *from.lock().unwrap_or_else(PoisonError::into_inner))

@@ -1,4 +1,4 @@
-//! How the command speaks: the screen, text at 80 columns, numbers, progress, Ctrl-C and exit codes.
+//! User interface of the command: the screen, text at 80 columns, numbers, progress, Ctrl-C and exit codes.
 //!
 //! It takes text, figures and errors of the libraries, and is the only folder that prints. It knows no command,
 //! no file format and no machine; everything else may use it.

@@ -36,7 +36,7 @@ pub(crate) fn catch_interrupts(remove_temporary: fn()) {
         signal_hook::consts::SIGXFSZ,
         Arc::new(AtomicBool::new(false)),
     );
-    // Without a handler Ctrl-C ends the program at once: worse, but no reason to refuse.
+    // Ctrl-C ends the program at once without a handler: worse, but no reason to refuse.
     let _ = ctrlc::set_handler(handler);
 }
 
@@ -199,7 +199,7 @@ impl Watch for AsOne<'_> {
     }
 }
 
-/// Whether the command is to end: its host says so, or without one Ctrl-C came.
+/// True if the command is to end: its host requests it, or without one Ctrl-C came.
 fn stopped(host: Option<&Host>) -> bool {
     match host {
         Some(host) => host.watch().cancelled(),
@@ -221,7 +221,7 @@ pub(crate) fn still_wanted() -> Answer<()> {
 
 impl Monitor for Progress {
     fn progress(&self, done: usize, _so_far: usize) {
-        // Every division asks for more points: nobody knows how many there will be.
+        // The number of points is not known in advance: every division adds some.
         self.stage("corrections", 0);
         self.advance(done);
     }

@@ -96,7 +96,7 @@ pub(crate) fn complain_of_line(error: &clap::Error) {
     };
 }
 
-/// Whether a person watches the standard error.
+/// True if a person watches the standard error.
 pub(crate) fn watched() -> bool {
     host::current().is_none() && std::io::stderr().is_terminal()
 }

@@ -1,4 +1,4 @@
-//! What was meant by a misspelt word.
+//! Suggestions for a misspelt word.
 
 /// The known word nearest to a misspelled one.
 pub(crate) fn nearest<'k>(given: &str, known: &[&'k str]) -> Option<&'k str> {

@@ -1,4 +1,4 @@
-//! What `verify` answers.
+//! Answer of `verify`.
 
 use kinetostat_machining::{
     Assessment, FeatureResult, FileRead, FlatProgram, MissedTolerance, PointResult, Verified,
@@ -21,10 +21,10 @@ pub(crate) struct VerifyAnswer {
     pub(crate) model: String,
     pub(crate) load: String,
     pub(crate) files: Vec<FileRead>,
-    /// What is allowed in all.
+    /// Total allowed error.
     pub(crate) allowed_mm: f64,
     pub(crate) held: bool,
-    /// Where it is missed most.
+    /// Place of the largest violation.
     pub(crate) missed: Option<MissedTolerance>,
     /// Largest distance of the tool from where it should be, along the program and along the original as it is.
     pub(crate) max_position_error_mm: f64,
@@ -34,15 +34,15 @@ pub(crate) struct VerifyAnswer {
     pub(crate) max_residual_rotation_deg: f64,
     pub(crate) stable: bool,
     pub(crate) points: usize,
-    /// How the program belongs to its original.
+    /// Match of the program with its original.
     pub(crate) matched: kinetostat_machining::Matched,
     /// The forces come from the cut, so that other feeds and speeds are other forces.
     pub(crate) forces_from_cut: bool,
     /// Words that one of both programs has and the other does not, by which the control moves its places.
     pub(crate) other_words: Vec<OtherWord>,
-    /// Where the tool stands otherwise than it should, if its orientation is corrected.
+    /// Place at which the tool is tilted, if its orientation is corrected.
     pub(crate) tilted: Option<Tilted>,
-    /// What the verdict rests on, as of a program that is compensated.
+    /// Basis of the verdict, as for a program that is compensated.
     pub(crate) assessment: Assessment,
     pub(crate) features: Vec<FeatureResult>,
     /// Places where the program is farthest off, worst first; at most ten.
@@ -120,13 +120,13 @@ impl VerifyAnswer {
         }
     }
 
-    /// What stands behind a line of the original: nothing, or where it came from.
+    /// Origin of a line of the original, as text; empty if it was not expanded.
     pub(crate) fn source(&self, line: usize) -> String {
         source_of(self.flat_original.as_ref(), line)
     }
 }
 
-/// Where a line of a program that was run came from.
+/// Origin of a line of a program that was run once, as text.
 pub(crate) fn source_of(flat: Option<&FlatProgram>, line: usize) -> String {
     let source = flat.and_then(|flat| flat.source_of(line));
     source.map_or_else(String::new, |(file, from)| {

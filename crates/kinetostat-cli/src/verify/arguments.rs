@@ -20,7 +20,7 @@ use crate::options::{EXIT_CODES, number, small};
     .value_name("ORIGINAL")
     .help("The original: the program as it is drawn; without it, the one that the job names")
     .long_help(None)))]
-// What other commands along a program take is refused here in words, and not offered.
+// Options of other commands along a program are hidden, and refused in words.
 #[command(mut_arg("report", |arg| arg.hide(true)))]
 #[command(mut_arg("restart", |arg| arg.hide(true)))]
 #[command(mut_arg("free_turn", |arg| arg.hide(true)))]

@@ -1,4 +1,4 @@
-//! Which marks the words of a block are: of G-code, SINUMERIK and Heidenhain.
+//! Marks of the words of a block: for G-code, SINUMERIK and Heidenhain.
 
 use kinetostat_formats::{BlockWord, Language, mode_of};
 
@@ -16,7 +16,7 @@ const IN_PATH: &[&str] = &[
 /// Words that are done behind the motion of their block.
 const BEHIND_MOTIONS: [&str; 9] = ["M0", "M1", "M2", "M5", "M9", "M17", "M30", "M60", "M99"];
 
-/// No word of a block that is left out.
+/// Value of a block without a slash.
 const NO_SLASH: &str = "no /";
 
 impl Marks<'_> {
@@ -53,7 +53,7 @@ fn with(words: &[BlockWord], names: &[&str]) -> String {
     names.iter().map(of).collect()
 }
 
-/// Those of G-code with the words that belong to them: `G64 P0.5 Q0.1`, `G43 H2`, `G4 P1`.
+/// Marks of G-code with the words that belong to them: `G64 P0.5 Q0.1`, `G43 H2`, `G4 P1`.
 fn of_gcode(words: &[BlockWord]) -> Vec<(Kind, String)> {
     let mark = |word: &BlockWord| {
         let number = word.text.get(1..).unwrap_or_default();
@@ -99,8 +99,8 @@ fn of_siemens(words: &[BlockWord]) -> Vec<(Kind, String)> {
     words.iter().filter_map(mark).collect()
 }
 
-/// What `TOOL CALL 1 Z DL+0.1` adds to a tool; words with M and `STOP`; `CYCL DEF 32.1 T0.5`: by how much corners may be left;
-/// `CYCL DEF 9.1 DWELL 2`.
+/// Marks of Heidenhain: additions to a tool in `TOOL CALL 1 Z DL+0.1`; words with M and `STOP`; the corner tolerance `CYCL DEF
+/// 32.1 T0.5`; `CYCL DEF 9.1 DWELL 2`.
 fn of_heidenhain(words: &[BlockWord]) -> Vec<(Kind, String)> {
     let texts: Vec<&str> = words.iter().map(|word| word.text.as_str()).collect();
     let mut found: Vec<(Kind, String)> = (words.iter())

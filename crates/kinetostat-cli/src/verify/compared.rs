@@ -12,13 +12,13 @@ const LISTED: usize = 5;
 /// Runs of cuts beyond these are not listed.
 const MOST: usize = 10;
 
-/// What is asked of the original: of frames whether their origin is stated, of lines where they came from.
+/// Queries to the original: stated origins of frames, and origins of lines.
 pub(crate) struct Original<'o> {
     pub(crate) is_stated: &'o dyn Fn(&str) -> bool,
     pub(crate) source: &'o dyn Fn(usize) -> String,
 }
 
-/// What both programs do not have alike: `cuts` are moves that both make, of the program verified and of the original.
+/// Differences of the programs: `cuts` are moves that both make, of the program verified and of the original.
 pub(crate) fn compared(
     both: &[Marks<'_>; 2],
     cuts: &[[usize; 2]],
@@ -64,7 +64,7 @@ pub(crate) fn compared(
 struct InForce<'m> {
     usual: Value<'static>,
     changes: Vec<&'m Mark<'m>>,
-    /// Those in force on moves.
+    /// Marks in force on moves.
     on_moves: Vec<&'m Mark<'m>>,
 }
 
@@ -96,7 +96,7 @@ impl<'m> InForce<'m> {
     }
 }
 
-/// Where cuts are made with another value than in the original; `moves` are those of both programs.
+/// Cuts made with another value than in the original; `moves` are those of both programs.
 fn elsewhere(
     kind: Kind,
     (both, [own, of_original]): (&[Marks<'_>; 2], &[InForce<'_>; 2]),
@@ -226,7 +226,7 @@ fn elsewhere_placed(
     let fault = |text: &str, mark: &Mark<'_>, of: usize| match mark.kind {
         kind if IN_FORCE.contains(&kind) => None,
         kind if moved.contains(text) => kind.fault().or(Some(FaultKind::Course)),
-        // What is said behind the last motion, or the last cut, changes none.
+        // Words after the last motion, or the last cut, change none.
         Kind::Stop if of == 1 || mark.at >= both[0].path.moves.len() => None,
         Kind::Unseen if of == 1 => None,
         Kind::Spindle if mark.at > cuts[of].last() => None,

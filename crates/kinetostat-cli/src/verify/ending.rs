@@ -1,10 +1,10 @@
-//! Where the tool is left behind the last cut.
+//! Position of the tool after the last cut.
 
 use kinetostat_program::{Move, MoveKind, Path};
 
 use crate::verify::other_word::{FaultKind, OtherWord};
 
-/// Nearer than this to the end of the last cut a tool has not left it, mm, beside what corrections shift that by.
+/// Distance from the end of the last cut at which a tool has left it, mm, beside the shift by corrections.
 const NEAR_MM: f64 = 1.0;
 
 /// A move at feed from a place that the program states to another one.

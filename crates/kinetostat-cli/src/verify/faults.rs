@@ -1,4 +1,4 @@
-//! What keeps a verified program from being as it should be.
+//! Faults of a verified program.
 
 use kinetostat_machining::FeatureResult;
 
@@ -7,7 +7,7 @@ use crate::verify::other_word::OtherWord;
 use crate::verify::tilted::Tilted;
 
 impl VerifyAnswer {
-    /// Everything that keeps the program from being as it should be, a sentence each.
+    /// Faults of the program, a sentence each.
     pub(crate) fn faults(&self) -> Vec<String> {
         let mut faults = Vec::new();
         if !self.stable {

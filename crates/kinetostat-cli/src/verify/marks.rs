@@ -1,4 +1,4 @@
-//! What a program says beside the places of its moves, in one form for all languages.
+//! Marks of a program, apart from the targets of its moves, in one form for all languages.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -27,13 +27,13 @@ pub(crate) enum Kind {
     Edge,
     /// Settings of how motions run, each by its name.
     PathMode,
-    /// How near the tool comes to the end of a motion.
+    /// Approximation at the end of a motion.
     Zone,
     /// Options in the statement of a motion.
     Options,
-    /// How often a motion runs.
+    /// Number of executions of a motion.
     Runs,
-    /// How the arm stands.
+    /// Configuration of the arm.
     Configuration,
     /// A block that a switch of the control leaves out.
     Optional,
@@ -41,7 +41,7 @@ pub(crate) enum Kind {
     Unseen,
     /// Statements of robots behind which somebody has to start again.
     Stop,
-    /// Those that say how fast all motions run.
+    /// Overrides of all motions.
     Override,
     /// Statements that name the spindle, by what they call or switch.
     Spindle,
@@ -69,12 +69,12 @@ pub(crate) const NOTHING_ADDED: &str = "no DL and DR";
 /// The frame of a program that names none.
 const NO_FRAME: &str = "no word for a frame";
 
-/// How often motions run.
+/// Value of motions that run once.
 pub(crate) const ONCE: &str = "statements that run once";
 pub(crate) const AGAIN: &str = "statements that run again";
 
 impl Kind {
-    /// In force without a mark.
+    /// Value in force without a mark.
     pub(crate) fn usual(self) -> Value<'static> {
         Value::Text(
             match self {
@@ -125,7 +125,7 @@ impl Kind {
     }
 }
 
-/// What a mark says.
+/// Value of a mark.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Value<'a> {
     Text(String),
@@ -154,14 +154,14 @@ impl fmt::Display for Value<'_> {
     }
 }
 
-/// How two values are not the same.
+/// Difference of two values.
 pub(crate) struct Apart {
     pub(crate) fault: Option<FaultKind>,
     pub(crate) follows: String,
 }
 
 impl Value<'_> {
-    /// How this is another value than the original has; places in frames with stated origins are compared as places.
+    /// Compares the value with that of the original; places in frames with stated origins are compared as places.
     pub(crate) fn apart(
         &self,
         of_original: &Self,
@@ -172,7 +172,7 @@ impl Value<'_> {
             (Self::Text(own), Self::Text(of_original)) => {
                 let texts = [own.as_str(), of_original.as_str()];
                 (!is_same_text(kind, texts, is_stated)).then(|| {
-                    // Whoever stops at corners follows the path no worse; how the tool turns on a circle is in the path.
+                    // An exact stop is at least as accurate; the orientation on a circle is in the path.
                     match own.starts_with("G61") || own == "CIRPATHMODE\\OBJECTFRAME" {
                         true => (None, String::new()),
                         false => (kind.fault(), kind.follows().to_owned()),
@@ -209,14 +209,14 @@ fn is_same_text(kind: Kind, [own, of]: [&str; 2], is_stated: &dyn Fn(&str) -> bo
         || match kind {
             Kind::Frame => both(&first) || both(&|word| word == NO_FRAME || is_stated(word)),
             Kind::Edge => both(&|word| matches!(word, "none" | "D1" | NOTHING_ADDED)),
-            // What runs again may be written one round after the other.
+            // Repeated motions may be written out, one round after the other.
             Kind::Runs => own == ONCE || own == AGAIN && of != ONCE,
             Kind::Optional => own != "/",
             _ => false,
         }
 }
 
-/// How far the end of a motion may be passed, in its unit; none where that is not known.
+/// Width of a zone, in its unit; none if it is unknown.
 fn width(zone: Zone) -> Option<f64> {
     match zone {
         Zone::Exact => Some(0.0),
@@ -225,13 +225,13 @@ fn width(zone: Zone) -> Option<f64> {
     }
 }
 
-/// Whether two names are one: robots and controls do not tell `tMill` from `TMILL`, nor tool 01 from tool 1.
+/// True for equal names: robots and controls treat `tMill` and `TMILL` as equal, and tools 01 and 1.
 fn is_same_name(a: &str, b: &str) -> bool {
     let numbers = [a, b].map(str::parse::<u64>);
     a.eq_ignore_ascii_case(b) || matches!(numbers, [Ok(a), Ok(b)] if a == b)
 }
 
-/// Why two frames are not one.
+/// Describes the difference of two frames.
 fn frames_apart(own: &FrameUse, of_original: &FrameUse) -> Option<String> {
     let (Some(a), Some(b)) = (own.known(), of_original.known()) else {
         let same = is_same_name(&own.name, &of_original.name);
@@ -259,14 +259,14 @@ pub(crate) struct Mark<'a> {
     /// The name of a setting, of kinds that have several.
     pub(crate) name: String,
     pub(crate) value: Value<'a>,
-    /// How many moves run before it.
+    /// Number of moves before it.
     pub(crate) at: usize,
 }
 
-/// How the tool goes along a move.
+/// Interpolation of a move.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Way {
-    /// As the joints turn.
+    /// Joint interpolation.
     Joints,
     Rapid,
     Feed,
@@ -299,7 +299,7 @@ impl<'a> Marks<'a> {
         }
     }
 
-    /// How many moves run before a line, or up to it (`is_behind`), of a program that runs line by line.
+    /// Number of moves before a line, or up to it (`is_behind`), of a program that runs line by line.
     pub(crate) fn before_line(&self, line: usize, is_behind: bool) -> usize {
         self.lines
             .partition_point(|own| *own < line + usize::from(is_behind))

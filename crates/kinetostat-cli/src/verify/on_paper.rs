@@ -30,13 +30,13 @@ impl VerifyAnswer {
         run
     }
 
-    /// Its paper.
+    /// Report on paper.
     pub(crate) fn paper<'a>(&self, run: &'a RunResult, language: Language) -> Paper<'a> {
         let uncut = self.matched.uncut.iter();
         let rapids = self.matched.rapids.iter();
         let extra = self.matched.extra_cuts.iter();
         let in_file = |line: usize| match &self.flat_original {
-            // Of files that are called the paper has the lines as they were run.
+            // Lines of called files are numbered as they were run.
             Some(flat) => match flat.source_of(line) {
                 Some((file, source)) if flat.files.first().is_some_and(|own| own == file) => source,
                 _ => line,

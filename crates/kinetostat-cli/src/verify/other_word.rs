@@ -1,4 +1,4 @@
-//! What one of both programs says and the other does not.
+//! Difference in a command of the two programs.
 
 use kinetostat_machining::{Condition, OtherCondition};
 use serde::Serialize;
@@ -11,15 +11,15 @@ pub(crate) struct OtherWord {
     pub(crate) line: Option<usize>,
     /// Line of the original; none where only the program has it.
     pub(crate) line_of_original: Option<usize>,
-    /// Whether it names a frame.
+    /// True if it names a frame.
     pub(crate) is_frame: bool,
-    /// What is wrong with the program by it; none where it is a warning, and the program may be right.
+    /// Fault of the program; none for a warning, if the program may be right.
     pub(crate) fault: Option<FaultKind>,
-    /// What is said of it.
+    /// Text of the message.
     pub(crate) text: String,
 }
 
-/// What is another one than in the original.
+/// Kind of difference from the original.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum FaultKind {
@@ -29,12 +29,12 @@ pub(crate) enum FaultKind {
     Rotation,
     Feed,
     PathMode,
-    /// Which motions are made.
+    /// Sequence of the motions.
     Course,
 }
 
 impl FaultKind {
-    /// As a fault begins.
+    /// Start of the text of a fault.
     pub(crate) fn words(self) -> &'static str {
         match self {
             Self::Frame => "ANOTHER FRAME",
@@ -48,10 +48,10 @@ impl FaultKind {
     }
 }
 
-/// What follows from another path mode.
+/// Consequence of another path mode.
 pub(crate) const OTHER_PATH_MODE: &str = ": the control follows the path otherwise, and leaves its corners by what that allows; nothing here has that in it";
 
-/// What follows from another feed or speed where forces are computed.
+/// Consequence of another feed or speed if forces are computed.
 const OTHER_FORCES: &str = ": the forces that the program is corrected for come from that cut";
 
 /// Line of the program and of the original; none of the one that does not have the word.
@@ -111,7 +111,7 @@ impl OtherWord {
         Self::at_cuts(lines, said, (Some(fault), follows), source)
     }
 
-    /// That only one of both programs has a word.
+    /// Text about a word in only one of the programs.
     pub(crate) fn only_in_one(word: &str, lines: Lines) -> String {
         match lines {
             [Some(line), _] => format!("{word} at line {line} is not in the original"),

@@ -43,7 +43,7 @@ impl<'r> Marks<'r> {
             let words: Vec<BlockWord> = slash.into_iter().chain(words).collect();
             marks.add_block(line, None, &words);
         }
-        // Behind a place that is known a shift is in the path that was read.
+        // A shift after a known position is already in the path that was read.
         let counts = |mark: &Mark<'_>| mark.kind != Kind::Shift || mark.at == 0;
         marks.all.retain(counts);
         marks

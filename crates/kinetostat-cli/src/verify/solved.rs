@@ -27,7 +27,7 @@ pub(crate) struct Solved {
     pub(crate) uncut: Vec<usize>,
     pub(crate) other_words: Vec<OtherWord>,
     pub(crate) corrected: Directions,
-    /// By how much the digits of a program written from the original may be off.
+    /// Rounding of the digits of a program written from the original.
     pub(crate) rounding_mm: f64,
     pub(crate) forces_from_cut: bool,
 }
@@ -96,12 +96,12 @@ pub(crate) fn solved(
 }
 
 impl Both<'_> {
-    /// Both are in G-code, or none is.
+    /// True if both programs are in G-code, or neither is.
     fn in_one_form(&self) -> bool {
         self.read.gcode().is_some() == self.other.gcode().is_some()
     }
 
-    /// That calls are taken not to move the tool: those of the original, or of the program verified where it makes others.
+    /// Assumption that calls do not move the tool: of the original, or of the program verified if it makes others.
     fn calls(&self) -> Option<Assumption> {
         let robots = [self.read, self.other].map(ReadProgram::robot);
         let names = robots.map(|robot| {
@@ -113,13 +113,13 @@ impl Both<'_> {
         robots[usize::from(makes_others)]?.assumed_of_calls()
     }
 
-    /// What stands behind a line of the original: nothing, or where it came from.
+    /// Origin of a line of the original, as text; empty if there is none.
     fn source(&self, line: usize) -> String {
         let flat = self.original.flat.as_ref();
         source_of(flat.filter(|_| self.original.robot.is_none()), line)
     }
 
-    /// Whether a frame of G-code has a stated origin.
+    /// True if a frame of G-code has a stated origin.
     fn is_stated(&self, frame: &str) -> bool {
         let offsets = &self.original.reading.work_offsets_mm;
         work_offset(frame).is_some_and(|index| offsets[index].is_some())
@@ -147,7 +147,7 @@ impl Both<'_> {
 
     /// A run that ended: a program that goes elsewhere is another one, unless its frames and tools send it there.
     fn failure(&self, error: RunError) -> Failure {
-        // Its line is one of the verified program; those of all others are the original's.
+        // This error has a line of the verified program; all others have one of the original.
         let RunError::Elsewhere { .. } = error else {
             return self.original.within(Failure::from(error));
         };

@@ -1,4 +1,4 @@
-//! What `verify` says to a person.
+//! Text output of `verify`.
 
 use kinetostat_machining::RunResult;
 use kinetostat_machining::number::{against, largest, largest_length, mean_length};

@@ -23,8 +23,8 @@ const SLACK: f64 = 2.0;
 const STATED_DEG: f64 = 0.02;
 
 impl Tilted {
-    /// Where the orientation is to be corrected too: a tilt that moves a point of the tool at a lever from its tip by more than is
-    /// allowed there. Where it is not, an orientation that the original does not state there.
+    /// Finds a tilt that moves a point of the tool at the lever from its tip by more than is allowed, if the orientation is
+    /// corrected; otherwise an orientation that differs from the original.
     pub(crate) fn of(
         points: &[PointResult],
         (corrected, turned): (Directions, Option<&Turned>),
@@ -53,7 +53,7 @@ impl Tilted {
         })
     }
 
-    /// As a fault.
+    /// Text of the fault.
     pub(crate) fn text(&self) -> String {
         if self.as_stated {
             return format!(

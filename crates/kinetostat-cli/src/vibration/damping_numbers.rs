@@ -7,7 +7,7 @@ use crate::ui::failure::{Answer, Failure};
 /// A number of a law.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct DampingNumber {
-    /// As it is named: `damping.ratio`.
+    /// Name, as in `damping.ratio`.
     pub(crate) path: String,
     pub(crate) unit: &'static str,
     pub(crate) value: f64,
@@ -16,7 +16,7 @@ pub(crate) struct DampingNumber {
 /// Beginning of the names of all of them.
 const DAMPING: &str = "damping.";
 
-/// Whether a name is that of a number of damping, and of no part of the machine.
+/// True if a name is that of a number of damping, and of no part of the machine.
 pub(crate) fn is_of_damping(path: &str) -> bool {
     path.starts_with(DAMPING)
 }

@@ -18,5 +18,5 @@ pub(crate) fn growth_per_s(pair: &ComplexMode) -> f64 {
     }
 }
 
-/// Below this share of critical damping a real part is rounding: the root of a double root's.
+/// Share of critical damping below which a real part is rounding: the root of a double root's.
 const ROUNDING: f64 = 1e-9;

@@ -1,4 +1,4 @@
-//! What `lobes` and `chatter` share: damping that there must be, modes that are left out, and how a cut becomes unstable, in a word.
+//! Common parts of `lobes` and `chatter`: the check for damping, modes that are left out, and the name of an instability.
 
 use kinetostat_chatter::{Instability, LeftOut, Swinging};
 use kinetostat_dynamics::Damping;
@@ -72,7 +72,7 @@ pub(crate) fn left_out_warning(
     )
 }
 
-/// How a cut becomes unstable; empty where it does not.
+/// Name of an instability; empty if there is none.
 pub(crate) fn instability(kind: Option<Instability>) -> &'static str {
     match kind {
         None => "",

@@ -87,7 +87,7 @@ fn line_of(error: &Error, query: &PlaceQuery) -> Option<String> {
     Some(format!("{}, line {line}", query.source))
 }
 
-/// Why there is no answer.
+/// Converts an error to a failure.
 pub(crate) fn refused(error: Error) -> Failure {
     match error {
         Error::Statics(error) => error.into(),
@@ -102,7 +102,7 @@ pub(crate) fn refused(error: Error) -> Failure {
 /// Largest share by which a response by modes may be off before it is said.
 const COUPLED: f64 = 0.02;
 
-/// What damping does that is not in the modes, where a cut is judged by them: on parts without mass, or by the material.
+/// Warning about damping that is not in the modes, if a cut is judged by them: on parts without mass, or by the material.
 pub(crate) fn lost_coupling(off: f64) -> Option<Warning> {
     (off > COUPLED).then(|| {
         Warning::new(
@@ -115,7 +115,7 @@ pub(crate) fn lost_coupling(off: f64) -> Option<Warning> {
     })
 }
 
-/// From this ratio of a frequency to the highest natural frequency on a machine hardly responds, and a warning says so.
+/// Ratio of a frequency to the highest natural frequency above which a machine hardly responds, and a warning says so.
 const BEYOND_MODES: f64 = 10.0;
 
 /// Frequency of the fastest mode, Hz, where a frequency lies far beyond it: the frequency is a slip, or the model has no modes of
@@ -125,7 +125,7 @@ pub(crate) fn far_below(machine: &VibratingMachine, hz: f64) -> Option<f64> {
     (hz > BEYOND_MODES * fastest_hz).then_some(fastest_hz)
 }
 
-/// Most bodies that a warning names.
+/// Upper limit of the bodies that a warning names.
 const NAMED: usize = 6;
 
 /// Bodies with mass and without inertia, which dynamics takes as points.
@@ -160,7 +160,7 @@ pub(crate) fn point_bodies(mechanism: &Mechanism) -> Option<Warning> {
     })
 }
 
-/// What limits the answer: loads without a potential, parts without mass.
+/// Limits of the answer: loads without a potential, parts without mass.
 pub(crate) fn limits(machine: &VibratingMachine, posture: &Posture) -> Vec<Warning> {
     let mut warnings = Vec::new();
     if machine.dynamics.is_circulatory() {

@@ -18,7 +18,7 @@ use crate::machine::instability;
 use crate::ui::layout::item;
 use crate::ui::numbers::{fixed, load_triple, number, short, triple};
 
-/// What was found about the assumptions, at home.
+/// Findings about the modelling assumptions at home.
 #[derive(Serialize)]
 pub(crate) struct AssumptionsFinding {
     /// Mean over the limbs, mm: deflections are compared with it.
@@ -26,17 +26,17 @@ pub(crate) struct AssumptionsFinding {
     /// Smallest and largest stiffness of the tool against a force, free to turn, N/mm; directions
     /// that are free or rigid left out. None where some force moves the tool against itself.
     pub(crate) against_force_n_per_mm: Option<[f64; 2]>,
-    /// The same against a moment, free to move, N m/rad.
+    /// Stiffness against a moment, free to move, N m/rad.
     pub(crate) against_moment_n_m_per_rad: Option<[f64; 2]>,
-    /// Without load on the tool: its shift as a share of the natural length, rotations counted.
+    /// Shift without load on the tool as a share of the natural length, rotations counted.
     pub(crate) share_without_load: f64,
     /// The reference load, base axes, N: that of `--force`, or the worst of 1 kN along the axes.
     pub(crate) reference_force_n: Option<[f64; 3]>,
-    /// What it does to the tool, mm.
+    /// Effect on the tool, mm.
     pub(crate) reference_deflection_mm: Option<f64>,
     /// The machine stays in its shape under it; none where there is no equilibrium.
     pub(crate) reference_stable: Option<bool>,
-    /// By how much the stiffness matrix at rest would tell a wrong deflection, percent.
+    /// Error of the deflection predicted by the stiffness matrix at rest, percent.
     pub(crate) linear_error_percent: Option<f64>,
     /// Force in the softest direction that moves the tool by 1 % of the natural length, N.
     pub(crate) small_up_to_n: Option<f64>,
@@ -45,14 +45,14 @@ pub(crate) struct AssumptionsFinding {
     pub(crate) largest_share_to_buckling: Option<f64>,
     /// Largest compression of a link as a share of its Euler load, then.
     pub(crate) largest_share_of_euler_load: Option<f64>,
-    /// How near it brings the machine with its tool free to instability, 1 is there; at least 1 or
-    /// none where it is not stable.
+    /// Share of the way to instability of the machine with its tool free, 1 at instability; at
+    /// least 1 or none if unstable.
     pub(crate) largest_share_to_instability_of_free_machine: Option<f64>,
     /// The nearest singular posture, where one is near.
     pub(crate) near_singularity: Option<NearSingular>,
     /// All of it in sentences.
     pub(crate) in_words: Vec<String>,
-    /// Those that deserve a warning.
+    /// Findings that deserve a warning.
     #[serde(skip)]
     pub(crate) warnings: Vec<Warning>,
 }
@@ -158,7 +158,7 @@ impl AssumptionsFinding {
         let mut worst: Option<(Vector3<f64>, CarriedLoad)> = None;
         let mut free = Vec::new();
         let mut unstable: Option<Vector3<f64>> = None;
-        // What was requested is answered by what `deflect` finds, whatever first order says.
+        // A requested load is answered by the result of `deflect`, not by first order.
         let from = match force {
             Some(_) => ForcesFrom::User,
             None => ForcesFrom::Assumption,
@@ -238,7 +238,7 @@ impl AssumptionsFinding {
             "under a load of {} N on the tool the machine does NOT stay in its shape: NOT STABLE; see `kinetostat deflect`",
             load_triple(case.into())
         );
-        // What moves freely is not meant to carry the example load.
+        // A free motion is not meant to carry the example load.
         if all_carried {
             let first = Warning::new(WarningCode::NotStable, said.clone());
             self.warnings.insert(0, first);
@@ -279,7 +279,7 @@ impl AssumptionsFinding {
                 number(n, 2)
             )
         });
-        // Less is rounding.
+        // A smaller error is rounding.
         let error = self.linear_error_percent.filter(|e| *e > 1e-9);
         let error = error.unwrap_or(0.0);
         let result = if share <= SMALL {
@@ -296,8 +296,8 @@ impl AssumptionsFinding {
         ));
     }
 
-    /// How near to buckling: under the load, if there is one and it is carried, and without it where
-    /// there is none or that is worse.
+    /// Share of the way to buckling, under the load if there is one and it is carried; without it
+    /// if there is none or that is worse.
     fn buckling(
         &mut self,
         posture: &Posture,

@@ -1,4 +1,4 @@
-//! Everything that is found of a model, with stable names.
+//! Findings about a model, with stable names.
 
 use kinetostat_machining::number::apart;
 use kinetostat_machining::{Warning, WarningCode};
@@ -37,7 +37,7 @@ pub(crate) struct Findings {
     pub(crate) reach: Option<ReachFinding>,
     /// Scale of stiffness, and whether the method's assumptions hold at home.
     pub(crate) assumptions: Option<AssumptionsFinding>,
-    /// Why nothing could be solved at home.
+    /// Reason for which no equilibrium was found at home.
     pub(crate) home_problem: Option<String>,
     pub(crate) warnings: Vec<Warning>,
 }

@@ -12,7 +12,7 @@ use crate::place::joints::{self, JointValue};
 use crate::ui::layout::{item, wrapped};
 use crate::ui::numbers::{fixed, short, triple};
 
-/// More actuators than this are not listed one by one.
+/// Upper limit of the actuators that are listed one by one.
 const MOST: usize = 40;
 
 /// Frames and directions, stable names with units.
@@ -25,10 +25,10 @@ pub(crate) struct Frames {
     zero_position_mm: Option<[f64; 3]>,
     zero_axes: Option<[[f64; 3]; 3]>,
     zero_outside_limits: bool,
-    /// Why the machine cannot stand with all joints at zero.
+    /// Reason for which the machine has no posture with all joints at zero.
     zero_problem: Option<String>,
     joints: Vec<JointDirection>,
-    /// What the controller shows at home, in the order of its axes.
+    /// Displayed values of the controller at home, in the order of its axes.
     #[serde(rename = "pendant_at_home")]
     on_controller_at_home: Vec<JointValue>,
     #[serde(rename = "pendant")]
@@ -42,11 +42,11 @@ struct JointDirection {
     unit: &'static str,
     home: f64,
     in_words: String,
-    /// Of the tool's point, mm per mm or mm per degree.
+    /// Motion of the tool's point, mm per mm or mm per degree.
     motion_mm: Option<[f64; 3]>,
     /// Degrees per mm or per degree.
     rotation_deg: Option<[f64; 3]>,
-    /// Of a joint that turns in a single chain: the point nearest to the base's origin.
+    /// Point on the axis nearest to the base's origin, for a revolute joint in a single chain.
     axis_through_mm: Option<[f64; 3]>,
 }
 

@@ -31,13 +31,13 @@ pub(crate) struct HomeFinding {
     pub(crate) rotation_without_load_deg: [f64; 3],
     pub(crate) largest_internal_force_n: f64,
     pub(crate) largest_internal_moment_n_m: f64,
-    /// Every limb keeps its shape while the tool is held.
+    /// True if every limb keeps its shape while the tool is held.
     pub(crate) shapes_stable: bool,
     /// The tool stays where it is.
     pub(crate) platform_stable: bool,
     /// Both.
     pub(crate) stable: bool,
-    /// Under loads without a potential it does not diverge, but may swing with growing amplitude.
+    /// True if it does not diverge without a potential, but may swing with growing amplitude.
     pub(crate) may_flutter: bool,
     /// Joints whose springs the loads beat; empty where it is stable.
     pub(crate) overcome_joints: Vec<UnstableJoint>,

@@ -61,7 +61,7 @@ pub(crate) fn home_text(f: &Findings, h: &HomeFinding) -> String {
     out
 }
 
-/// What springs hold, and what the actuators can correct.
+/// Describes the constraint by springs and the corrections by actuators.
 fn held(h: &HomeFinding) -> String {
     let mut out = String::new();
     let all_rigid = h
@@ -96,7 +96,7 @@ fn held(h: &HomeFinding) -> String {
     out
 }
 
-/// Where the tool is without a load on it.
+/// Describes the pose of the unloaded tool.
 fn at_rest(f: &Findings, h: &HomeFinding) -> String {
     let (shift, turn) = (h.shift_without_load_mm, h.rotation_without_load_deg);
     let moved = shift.iter().chain(&turn).any(|x| x.abs() > 1e-9);
@@ -119,7 +119,7 @@ fn at_rest(f: &Findings, h: &HomeFinding) -> String {
     text
 }
 
-/// What moves the tool without a load on it.
+/// Lists the causes of tool motion without a load on it.
 fn causes(f: &Findings) -> String {
     let causes: Vec<&str> = [
         ("its deviations", !f.deviations.is_empty()),
@@ -168,7 +168,7 @@ fn stability(h: &HomeFinding) -> String {
     }
 }
 
-/// Most sets of wrenches shown; the JSON has all.
+/// Upper limit of the sets of wrenches shown; the JSON has all.
 const MOST_OVER_CONSTRAINTS: usize = 6;
 
 fn over_constraints_text(list: &[String]) -> String {

@@ -1,4 +1,4 @@
-//! How far the tool gets, as `check` tells it.
+//! Reach of the tool as reported by `check`.
 
 use kinetostat::Posture;
 use kinetostat_analysis::reach::{ArmReach, Reach, ReachAlongAxes, ReachError, reach};
@@ -14,21 +14,20 @@ pub(crate) struct ReachFinding {
     /// Farthest the tool's reference point gets from the base's origin, mm: of an arm, and of a machine
     /// that moves only while its tool turns.
     pub(crate) from_base_mm: Option<f64>,
-    /// Of an arm whose first actuator turns: farthest it gets from that axis, mm.
+    /// Largest distance from the first axis, for an arm whose first actuator is revolute, mm.
     pub(crate) from_first_axis_mm: Option<f64>,
     /// The tool turns on these ways as the machine turns it, kept as near to its orientation at home as can be.
     pub(crate) orientation_follows: bool,
     /// Else: how far it gets from home along -x, +x, -y, +y, -z, +z of the base, mm; the tool does not turn
     /// where the machine can move it so.
     pub(crate) along_axes_mm: Option<[[f64; 2]; 3]>,
-    /// What ends these ways: an actuator at its limit, or the limbs themselves.
+    /// Cause of the ends of these ways: an actuator at its limit, or the limbs themselves.
     pub(crate) ends: Option<[[String; 2]; 3]>,
     /// A box around home of which corners, edges and faces were reached, mm.
     pub(crate) box_mm: Option<[[f64; 3]; 2]>,
-    /// Of a machine that moves only while its tool turns: smallest and largest coordinates of the
-    /// tool's reference point, mm.
+    /// Smallest and largest coordinates of the tool's reference point if it moves only while the tool turns, mm.
     pub(crate) positions_span_mm: Option<[[f64; 3]; 2]>,
-    /// How all this was found.
+    /// Method by which all this was found.
     pub(crate) how: String,
 }
 

@@ -127,7 +127,7 @@ fn alike(limbs: &[LimbFinding]) -> Vec<Vec<&LimbFinding>> {
     groups.into_iter().map(|(_, group)| group).collect()
 }
 
-/// Without the limb's name, numbers rounded as they are shown.
+/// Removes the limb's name, and rounds numbers as they are shown.
 fn plain(mut value: Value) -> Value {
     if let Value::Object(map) = &mut value {
         map.remove("name");
@@ -146,7 +146,7 @@ fn rounded(value: Value) -> Value {
     }
 }
 
-/// What to draw of a model, as the end of what `check` says.
+/// Suggests drawings of a model, at the end of the output of `check`.
 pub(crate) fn next(source: &str, free: bool) -> String {
     let model = source.strip_prefix("preset ").unwrap_or(source);
     let mut out = format!(

@@ -25,16 +25,16 @@ pub(crate) struct PoseComparison {
     pub(crate) model: String,
     pub(crate) model_source: String,
     pub(crate) poses_file: String,
-    /// Whether the joints of the file are those of the controller or of the model.
+    /// States whether the joints of the file are those of the controller or of the model.
     pub(crate) joints_are: &'static str,
     pub(crate) tolerance_mm: f64,
     pub(crate) tolerance_deg: f64,
     pub(crate) poses: Vec<PoseFinding>,
     pub(crate) agrees: bool,
-    /// What explains the differences within the tolerance, the simplest; several are equally good.
+    /// Simplest explanations of the differences within the tolerance; several are equally good.
     pub(crate) explanations: Vec<String>,
     pub(crate) ambiguous: bool,
-    /// What comes nearest where nothing explains them, and the largest differences that it leaves.
+    /// Nearest explanation if nothing explains them, and the largest differences that it leaves.
     pub(crate) nearest: Option<Nearest>,
 }
 
@@ -45,7 +45,7 @@ pub(crate) struct PoseFinding {
     pub(crate) measured_position_mm: [f64; 3],
     pub(crate) computed_position_mm: [f64; 3],
     pub(crate) difference_mm: f64,
-    /// None where no orientation was measured.
+    /// Absent if no orientation was measured.
     pub(crate) difference_deg: Option<f64>,
 }
 
@@ -148,7 +148,7 @@ fn findings(controller: &ControllerCoordinates<'_>, rows: &[PoseRow]) -> Answer<
     each.collect()
 }
 
-/// What comes nearest, if it is worth a word.
+/// Returns the nearest explanation if it reduces the differences noticeably.
 fn nearest(
     explained: &Explained,
     controller: &ControllerCoordinates<'_>,

@@ -12,7 +12,7 @@ use crate::place::orientation::{self, CONVENTIONS, NoOrientation};
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::spelling::nearest;
 
-/// What a column of a table holds.
+/// Content of a column of a table.
 enum Column {
     Name,
     Joint(usize),
@@ -127,7 +127,7 @@ fn column(head: &str, names: &[Named]) -> Answer<Column> {
     )))
 }
 
-/// Every joint and every coordinate once, one orientation at most.
+/// Requires every joint and every coordinate once, one orientation at most.
 fn complete(columns: &[Column], names: &[Named]) -> Answer<()> {
     let twice = |what: &str| Failure::input(format!("{what} appears in two columns"));
     for (i, (name, ..)) in names.iter().enumerate() {
@@ -188,7 +188,7 @@ fn complete(columns: &[Column], names: &[Named]) -> Answer<()> {
     Ok(())
 }
 
-/// What is wrong with a row of the file.
+/// Fault in a row of the file.
 #[derive(Debug, thiserror::Error)]
 enum RowFault {
     #[error("'{text}' in the column '{column}': a finite number with a decimal point is needed")]

@@ -8,7 +8,7 @@ use crate::machine::units::unit;
 use crate::place::joints::Named;
 use crate::ui::numbers::{fixed, short, triple};
 
-/// What the words of an explanation are made of: the axes, what the file says of them, and their joints in the model.
+/// Data for the words of an explanation: the axes, their values in the file, and their joints in the model.
 pub(crate) struct ExplanationText<'a> {
     pub(crate) names: &'a [Named],
     pub(crate) axes: &'a [Axis],
@@ -31,7 +31,7 @@ impl ExplanationText<'_> {
         }
         for &(i, by) in &e.offsets {
             let (unit, size) = unit(names[i].1);
-            // What has to be added to the shown value: the model's zero is there.
+            // The offset is added to the shown value: the model's zero is there.
             parts.push(format!(
                 "zero of {} is off: {} {unit} have to be added to what is shown",
                 name(i),

@@ -10,5 +10,5 @@ pub(crate) struct PoseRow {
     pub(crate) measured: MeasuredPose,
 }
 
-/// More rows are not measured by hand.
+/// Upper limit of the rows: more are not measured by hand.
 pub(crate) const MOST: usize = 10_000;

@@ -52,7 +52,7 @@ fn table(a: &PoseComparison) -> String {
     columns(&rows, 2)
 }
 
-/// Whether the model agrees, and what explains it if not.
+/// States whether the model agrees, and the explanation if not.
 fn result_text(a: &PoseComparison) -> String {
     let within = format!(
         "{} mm and {} deg",

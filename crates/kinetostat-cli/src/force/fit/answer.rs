@@ -14,9 +14,9 @@ pub(crate) struct FitAnswer {
     pub(crate) name: String,
     /// File of the means.
     pub(crate) file: String,
-    /// What its forces act on: `tool` or `part`.
+    /// Body that the forces act on: `tool` or `part`.
     pub(crate) acts_on: &'static str,
-    /// What the axes are, in words.
+    /// Definition of the axes in words.
     pub(crate) axes: String,
     pub(crate) tool: ToolAnswer,
     pub(crate) cut: FitCut,
@@ -29,7 +29,7 @@ pub(crate) struct FitAnswer {
     pub(crate) spread_from: Option<&'static str>,
     /// The material as a file; none where no material has such coefficients, or nothing states the spread.
     pub(crate) material_toml: Option<String>,
-    /// Why there is none.
+    /// Reason for a missing material.
     pub(crate) no_material: Option<String>,
     pub(crate) assumed: Vec<String>,
     pub(crate) warnings: Vec<Warning>,
@@ -51,7 +51,7 @@ pub(crate) struct FitCut {
     pub(crate) arc_to_deg: f64,
     pub(crate) rpm: Option<f64>,
     pub(crate) cutting_speed_m_per_min: Option<f64>,
-    /// From the mean chip at the smallest feed to the thickest at the largest.
+    /// Range from the mean chip at the smallest feed to the thickest at the largest.
     pub(crate) chip_from_mm: f64,
     pub(crate) chip_to_mm: f64,
 }
@@ -68,7 +68,7 @@ pub(crate) struct CoefficientAnswer {
     pub(crate) high_95: Option<f64>,
 }
 
-/// How well the force along an axis is fitted.
+/// Goodness of fit of the force along an axis.
 #[derive(Serialize)]
 pub(crate) struct Component {
     pub(crate) axis: &'static str,

@@ -1,4 +1,4 @@
-//! From the table of mean forces to the answer.
+//! Evaluation of the table of mean forces.
 
 use std::f64::consts::PI;
 use std::path::Path;
@@ -136,7 +136,7 @@ fn fitted(
     })
 }
 
-/// What the mirror image of a cut does to the force across the feed.
+/// Sign of the force across the feed in a mirrored cut.
 fn mirror(mirrored: bool) -> f64 {
     match mirrored {
         true => -1.0,
@@ -165,7 +165,7 @@ impl Fitted {
 fn rows(of: &Fitted) -> Vec<FitRow> {
     let row = |row: &MeanForce| {
         let at = of.at(row.feed_mm_per_tooth);
-        // Without one of the three nothing is determined, and the fit has been refused.
+        // A row without one of the three was refused by the fit.
         let [x, y, z] = row.force_n.map(|force| force.unwrap_or(f64::NAN));
         let force_n = [x, mirror(of.mirrored) * y, z];
         FitRow {

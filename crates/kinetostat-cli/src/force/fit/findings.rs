@@ -1,4 +1,4 @@
-//! What somebody should know who takes fitted coefficients for a cut.
+//! Warnings about fitted coefficients.
 
 use kinetostat::number::{larger, smaller};
 use kinetostat_machining::{Warning, WarningCode as Code};
@@ -50,7 +50,7 @@ pub(super) fn findings(a: &FitAnswer, diameter_mm: f64) -> Vec<Warning> {
     list
 }
 
-/// What speaks against a radial coefficient above the tangential one.
+/// Objection to a radial coefficient above the tangential one.
 pub(crate) fn radial_above_tangential([radial, tangential]: [f64; 2], unit: &str) -> String {
     format!(
         "K_rc = {} {unit} is above K_tc = {} {unit}, and no chip pushes the tooth more than it brakes it",

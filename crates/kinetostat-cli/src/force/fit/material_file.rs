@@ -61,7 +61,7 @@ pub(super) fn material_file(
         }
     };
     let text = written(a, args, spread);
-    // What is written is read again before it is handed out.
+    // The written text is parsed once before it is returned.
     match Materials::read("material", &text) {
         Ok(_) => Ok(text),
         Err(error) => Err(format!("{}: {}", error.quantity, error.found)),
@@ -70,7 +70,7 @@ pub(super) fn material_file(
 
 fn written(a: &FitAnswer, args: &ForceArgs, spread: f64) -> String {
     let c = &a.cut;
-    // Its directory is left out: a material may be passed on.
+    // The directory is omitted: a material may be passed on.
     let file = Path::new(&a.file).file_name();
     let file = file.map_or_else(|| a.file.clone().into(), OsStr::to_string_lossy);
     let source = format!(

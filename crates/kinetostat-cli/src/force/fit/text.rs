@@ -104,7 +104,7 @@ fn rows(a: &FitAnswer) -> String {
     out
 }
 
-/// With its sign, but for nothing.
+/// Formats with the sign, except for zero.
 fn signed(value: f64, decimals: usize) -> String {
     let text = fixed(value, decimals);
     match text.chars().any(|sign| ('1'..='9').contains(&sign)) && value > 0.0 {
@@ -122,7 +122,7 @@ fn fits(a: &FitAnswer) -> String {
     ];
     let sizes = a.rows.iter().map(|row| largest_size(row.force_n));
     let size = largest_size(sizes);
-    // What is rounding is nothing.
+    // Residuals at rounding level are shown as zero.
     let of_size = |residual: f64| match residual < 1e-9 * size {
         true => "0".to_owned(),
         false => number(residual, 3),

@@ -41,7 +41,7 @@ pub(crate) fn measured(
     })
 }
 
-/// Why a program has no cutting force, as a failure of the command.
+/// Converts a missing cutting force into a failure of the command.
 pub(crate) fn stopped_or_within(failure: CutFailure, setting: &Setting) -> Failure {
     match failure {
         CutFailure::Cancelled => Failure::new(Code::Stopped, failure),
@@ -77,7 +77,7 @@ pub(crate) fn refuse_what_breaks_the_tool(
     Err(setting.within(Failure::input(what)))
 }
 
-/// What was found on the worst line, and on how many.
+/// Text of the worst line, with the number of lines.
 fn text_of(finding: &CutFinding) -> String {
     match finding.lines {
         0 | 1 => finding.text.clone(),
@@ -85,14 +85,14 @@ fn text_of(finding: &CutFinding) -> String {
     }
 }
 
-/// What no such cut should be, as warnings.
+/// Warnings about cuts.
 pub(crate) fn warnings(forces: Option<&ForceAlongPath>) -> Vec<Warning> {
     let log = forces.and_then(|forces| forces.measured.as_ref());
     let of_moves = warnings_of_moves(forces);
     log.into_iter().flat_map(of_log).chain(of_moves).collect()
 }
 
-/// Those that name lines of the program.
+/// Warnings that name lines of the program.
 pub(crate) fn warnings_of_moves(forces: Option<&ForceAlongPath>) -> Vec<Warning> {
     let found = forces.iter().flat_map(|forces| &forces.findings);
     found
@@ -100,7 +100,7 @@ pub(crate) fn warnings_of_moves(forces: Option<&ForceAlongPath>) -> Vec<Warning>
         .collect()
 }
 
-/// What is wrong with a log as a whole.
+/// Warnings about a log as a whole.
 fn of_log(report: &MeasuredReport) -> Vec<Warning> {
     let done = &report.conditioning;
     let unit = done.by.unit();

@@ -139,7 +139,7 @@ fn stands_out_of_its_length(
 /// Lengths that differ by more than this, mm, are said.
 const SAME_LENGTH_MM: f64 = 1e-3;
 
-/// What is said where the table has another length of a tool than the job, on which the machine stands.
+/// Warning if the tool table has another length of a tool than the job, which the kinematics uses.
 fn other_length(j: &JobFile, number: u32, entry: &ToolEntry) -> Option<String> {
     let in_table = entry.length_mm?;
     let own = j.job.tools.iter().map(Spanned::get_ref);

@@ -22,7 +22,7 @@ pub(crate) struct MeasuredSetup {
 }
 
 impl MeasuredSetup {
-    /// Which log it is.
+    /// Names of the log's files.
     pub(crate) fn words(&self) -> String {
         let names = self.files.read.iter().map(|file| file.name.clone());
         format!("log of forces: {}", names.collect::<String>())

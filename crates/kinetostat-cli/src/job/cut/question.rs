@@ -1,4 +1,4 @@
-//! What a job says about its cuts, as one question.
+//! Cutting data of a job as one question.
 
 use kinetostat_cutting::{Engagement, SpindleCurve, Tool};
 use kinetostat_machining::{CutQuestion, EngagementSource, Placement};
@@ -23,7 +23,7 @@ pub(crate) struct CutSetup {
     /// Name of the material.
     pub(crate) material: String,
     pub(crate) question: CutQuestion,
-    /// What was assumed, one sentence each.
+    /// Assumptions, one sentence each.
     pub(crate) words: Vec<String>,
     pub(crate) files: FilesOfCut,
 }
@@ -53,7 +53,7 @@ pub(crate) fn cut_setup(
         tools.push(tool.map_err(|error| refused(j, &table.get_ref().name, &error))?);
     }
     let Some(extremes) = extremes(&cutters) else {
-        // What was wrong with it has been said.
+        // The fault of the cutter has been reported.
         if j.lacks("cutter") {
             return Ok(None);
         }
@@ -66,7 +66,7 @@ pub(crate) fn cut_setup(
     let source = where_it_cuts((files, &mut read), j, extremes)?;
     let (source, source_words) = match source {
         Some(source) => source,
-        // What was wrong with it has been said.
+        // The fault of the engagement has been reported.
         None if j.lacks("stock") || j.lacks("engagement") => {
             (EngagementSource::Constant(Engagement::air()), String::new())
         }
@@ -160,7 +160,7 @@ fn no_material(j: &JobFile) -> Answer<()> {
     Ok(())
 }
 
-/// Where the tools are in the material, and it in words; `None` where the job does not say it.
+/// Returns the source of the engagement, and its description; `None` if the job has neither stock nor engagement.
 pub(crate) fn where_it_cuts(
     (files, read): (&InputFiles, &mut FilesOfCut),
     j: &JobFile,
@@ -213,7 +213,7 @@ pub(crate) fn curve(j: &JobFile, table: &SpindleTable) -> Answer<Option<SpindleC
         };
     };
     let (Some(base), Some(most)) = (&table.base_rpm, &table.most_rpm) else {
-        // What was wrong with it has been said.
+        // The fault of the speed has been reported.
         if j.lacks("base_rpm") || j.lacks("most_rpm") {
             return Ok(None);
         }

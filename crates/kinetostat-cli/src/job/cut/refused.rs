@@ -1,4 +1,4 @@
-//! What the library refuses, said where the job states it.
+//! Errors of the library, reported at their place in the job.
 
 use kinetostat_cutting::CutError;
 use serde_spanned::Spanned;

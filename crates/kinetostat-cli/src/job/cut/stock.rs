@@ -17,7 +17,7 @@ const COARSEST: f64 = 0.1 + 1e-9;
 /// Smallest cell, as a share of the diameter of the largest tool: a rim of thousands of cells takes minutes and shows no more.
 const FINEST: f64 = 1e-3;
 
-/// What a fault of a stock's resolution is about.
+/// Subject of a fault of a stock's resolution.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum About {
     Cell,

@@ -7,11 +7,11 @@ use crate::job::format::LoadTable;
 use crate::job::job_file::JobFile;
 use crate::ui::failure::{Answer, Failure};
 
-/// What gives a force instead of a typed one, in words.
+/// Source of a computed force that excludes a typed one, in words.
 pub(super) struct OtherForce {
-    /// Beside "a force, and".
+    /// Text after "a force, and".
     what: &'static str,
-    /// Beside "on the command line, and by".
+    /// Text after "on the command line, and by".
     whose: &'static str,
     table: &'static str,
 }

@@ -1,4 +1,4 @@
-//! Whether an expansion would help a program that is refused as it stands.
+//! Advice to expand a program that is refused in its present form.
 
 use std::path::Path;
 
@@ -10,10 +10,10 @@ use crate::job::expansion::folders::Folders;
 /// Blocks of the program that is tried.
 const MOST_BLOCKS: usize = 500_000;
 
-/// What is to be done.
+/// Remedy.
 const ADD: &str = "add --expand (in a job file: a table [expand])";
 
-/// What to say first of a refused program, if its expansion gets past what is refused.
+/// Advice before the faults of a refused program, if its expansion passes them.
 pub(crate) fn advice(
     bytes: &[u8],
     program: &Path,
@@ -43,7 +43,7 @@ pub(crate) fn advice(
         );
         return follows(&add, expanded);
     }
-    // What is wrong with or without an expansion is no reason for one.
+    // A fault that remains after the expansion is no reason for one.
     if known(faults, &undecided) || undecided.line <= first.line {
         return None;
     }
@@ -53,7 +53,7 @@ pub(crate) fn advice(
     ))
 }
 
-/// None where nothing moves with an expansion, either.
+/// Absent if the expanded program has no motion, either.
 fn follows(add: &str, expanded: &Expanded) -> Option<String> {
     (!expanded.path.moves.is_empty()).then(|| {
         format!(

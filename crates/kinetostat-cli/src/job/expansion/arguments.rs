@@ -29,7 +29,7 @@ pub(crate) struct ExpansionArgs {
     pub(crate) goes_on: bool,
 }
 
-/// What `kinetostat expand` understands of every language.
+/// Option for the origin of flat lines, in `kinetostat expand` for every language.
 pub(crate) const NO_COMMENTS: &str = "--no-comments";
 
 impl ExpansionArgs {

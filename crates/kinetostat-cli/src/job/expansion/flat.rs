@@ -13,7 +13,7 @@ use crate::ui::fault_list::fault_list_text;
 /// A program that was run once and written flat.
 pub(crate) struct Flattened {
     pub(crate) expanded: Expanded,
-    /// Where its lines came from.
+    /// Origin of its lines.
     pub(crate) flat: FlatProgram,
     /// Files of subprograms that were read, with their hashes.
     pub(crate) read: Vec<FileRead>,
@@ -66,7 +66,7 @@ fn file_name(of: &str, program: &str, files: &[SubprogramFile]) -> String {
     }
 }
 
-/// Why a program is not expanded: with the file of the line, where that is one of a subprogram.
+/// Failure of an expansion: with the file of the line if it is in a subprogram.
 fn refused(error: &ProgramError, program: &str, files: &[SubprogramFile]) -> Failure {
     let within = error.reason.strip_prefix("in the subprogram '");
     match within.and_then(|text| text.split_once("': ")) {

@@ -29,7 +29,7 @@ pub(crate) struct Folders {
 }
 
 impl Folders {
-    /// That of the program, then the others.
+    /// Searches the folder of the program, then the others.
     pub(crate) fn new(program: &Path, others: &[PathBuf]) -> Self {
         let own = program.parent().map(Path::to_owned);
         Self {
@@ -38,7 +38,7 @@ impl Folders {
         }
     }
 
-    /// What was read so far.
+    /// Files that were read.
     pub(crate) fn into_read(self) -> Vec<SubprogramFile> {
         self.read.into_inner()
     }

@@ -1,4 +1,4 @@
-//! How a program is expanded, from options and the table `[expand]` of a job file; options go over the job file.
+//! Settings of an expansion, from options and the table `[expand]` of a job file; options have priority.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -11,14 +11,14 @@ use crate::job::expansion::values::{any, diameter, of_options, of_table};
 use crate::job::job_file::JobFile;
 use crate::ui::failure::{Answer, Failure};
 
-/// How a program is expanded.
+/// Settings of an expansion.
 pub(crate) struct ExpandSettings {
     pub(crate) options: ExpandOptions,
     /// Folders of subprograms beside that of the program.
     pub(crate) folders: Vec<PathBuf>,
     /// A job file asks for comments with the lines of flat blocks: programs of controls have them only then.
     pub(crate) comments_asked: bool,
-    /// The same in sentences, for results.
+    /// Description of the settings, for results.
     pub(crate) words: Vec<String>,
 }
 
@@ -56,7 +56,7 @@ pub(crate) fn wanted(
     }
 }
 
-/// What options and job file say of an expansion.
+/// Settings of an expansion, from options and job file.
 pub(crate) fn settings(
     job: Option<&JobFile>,
     args: &ExpansionArgs,
@@ -64,9 +64,9 @@ pub(crate) fn settings(
 ) -> Answer<ExpandSettings> {
     let mut options = ExpandOptions::default();
     options.reading = reading.clone();
-    // Which tools are there is asked of the flat program, as of any other.
+    // Missing tools are reported when the flat program is read.
     options.reading.tools = None;
-    // What rotary axes turn, the machine's model says when the flat program is read.
+    // The axes of rotary letters come from the model when the flat program is read.
     if options.reading.other_axes == OtherAxes::Refused {
         options.reading.other_axes = OtherAxes::Carried;
     }
@@ -137,7 +137,7 @@ fn words(options: &ExpandOptions, folders: &[PathBuf]) -> Vec<String> {
             .map(|(number, value)| format!("{before}{number} = {value}{unit}"));
         each.collect::<Vec<_>>().join(", ")
     };
-    // Without their place: a report may be passed on.
+    // Paths are omitted: a report may be passed on.
     let names: Vec<String> = folders
         .iter()
         .filter_map(|folder| Some(folder.file_name()?.to_string_lossy().into_owned()))

@@ -7,7 +7,7 @@ use crate::job::job_file::JobFile;
 use crate::job::values::NotAllowed;
 use crate::ui::failure::{Answer, Failure};
 
-/// Which values are allowed.
+/// Predicate for allowed values.
 pub(super) type Allowed = fn(f64) -> Result<f64, NotAllowed>;
 
 /// Diameters of tools: what would be larger is in another unit.

@@ -11,7 +11,7 @@ use crate::job::robot::folder::Folder;
 use crate::job::robot::source::RobotSource;
 use crate::ui::failure::{Answer, Failure};
 
-/// Most files of one program.
+/// Upper limit of the files of one program.
 const MOST_FILES: usize = 1000;
 
 /// Adds the files that a program calls, those that these call, and so on, as far as they are there: their places, and how they were

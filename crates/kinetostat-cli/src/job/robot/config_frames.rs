@@ -1,4 +1,4 @@
-//! What was found in the `$config.dat` of a controller.
+//! Frames found in the `$config.dat` of a controller.
 
 use std::path::PathBuf;
 

@@ -9,16 +9,16 @@ use crate::job::robot::joint_arm::ArmOfTable;
 use crate::job::robot::read_program::RobotRead;
 use crate::ui::numbers::fixed;
 
-/// Nearer to a singular posture than this, mm or deg, both sides are one.
+/// Distance to a singular posture, mm or deg, within which both sides are one.
 const ON_NEITHER_SIDE: f64 = 0.1;
 
-/// What helps, with the program that was written, ...
+/// Remedy, with the program that was written, ...
 const OF_PROGRAM: &str = "Give the model a home in the program's configuration, or run the parts with different configurations one by one";
 
 /// ... and with one that is made.
 const OF_MADE: &str = "State the configuration that was solved in the template (configuration), or give the model a home in the program's";
 
-/// What a program in a language would state of a posture: shoulder, elbow and wrist, each where it is on one of two sides.
+/// Posture that a program in a language would state: shoulder, elbow and wrist, each on one of two sides.
 ///
 /// Behind axis 1 is the same for all makers, and so is the elbow: KUKA sets bit 1 where axis 3 bends the forearm down from the upper
 /// arm (elbow up), ABB and FANUC say the other side (bit 1 of cfx: the wrist is behind the lower arm; D). The wrist of KUKA and ABB is the
@@ -42,7 +42,7 @@ pub(crate) fn as_stated(
     }
 }
 
-/// What the controller shows at a place, deg: of a model with `[controller]`.
+/// Displayed values of the controller at a place, deg: of a model with `[controller]`.
 pub(crate) fn shown_by_controller(
     arm: Option<&ArmOfTable>,
     point: &PointResult,
@@ -120,7 +120,7 @@ pub(crate) fn other_configuration(
     })
 }
 
-/// What is stated and is otherwise.
+/// Stated parts of the configuration that differ.
 fn others(stated: &StatedArm, own: &StatedArm) -> Vec<&'static str> {
     let parts = [
         ("shoulder", stated.is_back, own.is_back),

@@ -8,13 +8,13 @@ use kinetostat_program::COMPENSATED_MARK;
 
 use crate::ui::failure::{Answer, Failure};
 
-/// What stands between the files of a joined program, in front of their numbers; it is no line of a header.
+/// Marker line between the files of a joined program, in front of their numbers; it is no line of a header.
 const MARK: &str = "kinetostat, next file of the program,";
 
 /// The files of which a program was joined.
 #[derive(Clone, Debug)]
 pub(crate) struct Divided {
-    /// How comments begin.
+    /// Start of a comment.
     comment: &'static str,
     /// The word of the line below which they may stand.
     below: &'static [u8],
@@ -41,7 +41,7 @@ impl Divided {
         )
     }
 
-    /// Whether every file has routines of its own, and is no data for another one.
+    /// True if every file has routines of its own, and is no data for another one.
     pub(crate) fn are_programs(&self) -> bool {
         self.files.iter().all(|file| {
             let mut lines = file.bytes().split(|byte| *byte == b'\n');
@@ -84,7 +84,7 @@ impl Divided {
         Ok(SourceFile::new(name, bytes))
     }
 
-    /// Of every line of the joined program its file and its line there, from 1.
+    /// File and line (from 1) of every line of the joined program.
     pub(crate) fn sources(&self) -> Vec<(u32, u32)> {
         let number = |value: usize| u32::try_from(value).unwrap_or(u32::MAX);
         let mut all = Vec::new();

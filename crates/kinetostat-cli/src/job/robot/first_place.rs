@@ -10,7 +10,7 @@ use crate::job::robot::read_program::RobotRead;
 /// A joint that is farther than this from where it starts is on another turn, deg.
 const HALF_A_TURN: f64 = 180.0;
 
-/// Which configuration was solved, and whether the arm that starts at stated joints comes to it.
+/// Reports the configuration that was solved, and whether the arm comes to it from stated joints.
 pub(crate) fn of_first_place(
     read: &RobotRead<'_>,
     arm: Option<&ArmOfTable>,
@@ -61,13 +61,13 @@ pub(crate) fn of_first_place(
     found
 }
 
-/// What is otherwise, and what helps beside another start.
+/// Difference of the start, and a remedy other than another start.
 struct Otherwise {
     what: String,
     helps: &'static str,
 }
 
-/// What is otherwise at the joints with which the program starts.
+/// Compares the solved configuration with that at the start joints of the program.
 fn otherwise(
     arm: &ArmOfTable,
     start: &[f64],

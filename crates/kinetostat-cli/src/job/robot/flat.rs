@@ -30,7 +30,7 @@ pub(crate) fn flat_text(source: &RobotSource, comments: bool) -> Answer<(FlatTex
     Ok((text, flat))
 }
 
-/// What was taken in the run where the source is not certain, at the first flat line of each.
+/// Assumptions of the run at uncertain source lines, at the first flat line of each.
 pub(crate) fn notes_of(text: &FlatText) -> Vec<Warning> {
     let notes = text.findings.iter().map(|finding| {
         let of_it = |origin: &(usize, usize)| *origin == (finding.file, finding.line);

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-/// Most names of a folder that are looked at.
+/// Upper limit of the names of a folder that are searched.
 const MOST_NAMES: usize = 100_000;
 
 /// A folder with the names of its files: controls do not tell capitals from small letters.

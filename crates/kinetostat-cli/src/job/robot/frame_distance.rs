@@ -1,8 +1,8 @@
-//! How far two frames are apart.
+//! Distance between two frames.
 
 use nalgebra::Isometry3;
 
-/// How far one frame is from another, mm, and by how much it is turned from it, rad.
+/// Returns the distance of two frames, mm, and the angle between them, rad.
 pub(crate) fn distance(one: &Isometry3<f64>, other: &Isometry3<f64>) -> [f64; 2] {
     [
         (one.translation.vector - other.translation.vector).norm(),

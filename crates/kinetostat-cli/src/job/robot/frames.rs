@@ -7,7 +7,7 @@ use nalgebra::{Isometry3, Vector3};
 use crate::job::robot::own_angles::OwnAngles;
 use crate::job::robot::read_program::RobotRead;
 
-/// What the program states of tool and work object.
+/// Tool and work object as the program states them.
 #[derive(Clone, Debug)]
 pub(crate) struct RobotFrames {
     /// Number and name of every tool, and where it is in the flange, m.
@@ -15,15 +15,15 @@ pub(crate) struct RobotFrames {
     /// Name of the work object in whose axes the path is, and where it is in the robot's base, m; `None`: the path is in axes of
     /// the base.
     pub(crate) work_object: Option<(String, Option<Pose>)>,
-    /// From the tool's tip to its holder, in axes of the tool.
+    /// Direction from the tool's tip to its holder, in axes of the tool.
     pub(crate) tool_axis: Vector3<f64>,
-    /// That axis is a default, and the language has no convention for it.
+    /// True if that axis is a default, and the language has no convention for it.
     pub(crate) axis_is_open: bool,
     /// The program states how the tool stands.
     pub(crate) states_orientation: bool,
-    /// How the tool stands in the program, in the angles of its controller.
+    /// Orientation of the tool in the program, in the angles of its controller.
     pub(crate) own_angles: Option<OwnAngles>,
-    /// It was converted: what the job says of part and tool is in it already.
+    /// True for a converted program: it already contains the job's data on part and tool.
     pub(crate) converted: bool,
 }
 

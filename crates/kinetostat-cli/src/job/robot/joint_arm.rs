@@ -25,7 +25,7 @@ pub(crate) struct ArmOfTable {
 }
 
 impl ArmOfTable {
-    /// That of a model with a tool in its flange; none of a machine with other joints.
+    /// Returns the arm of a model with a tool in its flange; none for a machine with other joints.
     pub(crate) fn of(model: &Model, tool: &Pose) -> Option<Self> {
         Some(Self {
             arm: ArmJoints::of(&model.mechanism.with_tool(tool))?,
@@ -58,7 +58,7 @@ impl ArmOfTable {
         std::array::from_fn(|joint| joints.get(joint).copied().unwrap_or(f64::NAN))
     }
 
-    /// What stands in the table, deg.
+    /// Joint values as the table has them, deg.
     pub(crate) fn shown_deg(&self, joints: &[f64; 6]) -> Option<Vec<f64>> {
         let Some(controller) = &self.controller else {
             return Some(joints.map(f64::to_degrees).to_vec());
@@ -98,7 +98,7 @@ pub(crate) fn give_arm(
     let Some(source) = source.filter(|source| source.language.is_list()) else {
         return Ok(());
     };
-    // Its faults are reported where it is read.
+    // Faults of the program are reported by its own reader.
     let Ok(program) = read(
         source.language,
         source.files.clone(),

@@ -85,7 +85,7 @@ pub(crate) fn tool_of_robot(
     }
 }
 
-/// That a tool is stated nowhere, and where it can be.
+/// Message for a tool that is stated nowhere, with the remedy.
 fn not_stated(name: &str) -> String {
     let of_controller = match name.contains("_DATA[") {
         true => {
@@ -162,7 +162,7 @@ pub(crate) fn tools_of_converted(
     Ok(tools)
 }
 
-/// Where the path lies in the base.
+/// Placement of the path in the base.
 pub(crate) fn placement_of_robot(
     frames: &RobotFrames,
     job: Option<&JobFile>,

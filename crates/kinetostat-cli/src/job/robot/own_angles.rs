@@ -15,7 +15,7 @@ pub(crate) struct OwnAngles {
 }
 
 impl OwnAngles {
-    /// Those of a program in the language of a robot; others have none of their own.
+    /// Returns the angles of a program in the language of a robot; others have none of their own.
     pub(crate) fn of(read: &RobotRead<'_>) -> Option<Self> {
         let text = read.program.language.orientation_of_controller()?;
         let mut feeds = read.path.path.moves.iter().filter(|m| m.is_known_feed());
@@ -42,7 +42,7 @@ impl OwnAngles {
         }
     }
 
-    /// How the tool stands where the program first cuts; none where it does not say so.
+    /// Orientation of the tool at the first cut; none if the program does not state it.
     pub(crate) fn standing(&self) -> Option<String> {
         let (line, turn) = self.first.as_ref()?;
         Some(format!(

@@ -13,15 +13,15 @@ use crate::job::robot::read_program::refused;
 use crate::job::robot::source::RobotSource;
 use crate::ui::failure::Answer;
 
-/// Most parts of a program.
+/// Upper limit of the parts of a program.
 const MOST_PARTS: usize = 1000;
 
 /// A divided program that was joined.
 pub(crate) struct Joined {
     pub(crate) flat: FlatProgram,
-    /// Its further files.
+    /// Paths of the further files.
     pub(crate) paths: Vec<PathBuf>,
-    /// Those that were found beside the program.
+    /// Files that were found beside the program.
     pub(crate) read: Vec<FileRead>,
 }
 

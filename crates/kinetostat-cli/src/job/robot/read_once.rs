@@ -1,4 +1,4 @@
-//! What the one reading of a robot's program gave; a run asks for it several times.
+//! Cached reading of a robot's program; a run requests it several times.
 
 use std::sync::{Arc, OnceLock};
 

@@ -19,7 +19,7 @@ use crate::job::robot::system_frames::taken;
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::fault_list::fault_list_text;
 
-/// Most names of calls in one sentence.
+/// Upper limit of the call names in one sentence.
 const MOST_CALLS: usize = 5;
 
 /// A robot's program with its path.
@@ -31,7 +31,7 @@ pub(crate) struct RobotRead<'s> {
 }
 
 impl RobotRead<'_> {
-    /// What of the tool's pose is corrected.
+    /// Corrected directions of the tool's pose.
     pub(crate) fn corrected(&self) -> Directions {
         self.settings.corrected
     }
@@ -54,7 +54,7 @@ impl RobotRead<'_> {
         self.program.language.tool_axis_is_open() && !self.settings.axis_is_stated
     }
 
-    /// That what none of its files holds is taken not to move the tool.
+    /// Assumption that calls of unknown routines do not move the tool.
     pub(crate) fn assumed_of_calls(&self) -> Option<Assumption> {
         let calls = self.program.calls_taken_to_stay();
         let named = |(name, line): &(&str, usize)| format!("{name} (line {line})");
@@ -181,7 +181,7 @@ fn read_files(source: &RobotSource) -> Answer<ReadOnce> {
     Ok(ReadOnce { program, path })
 }
 
-/// What remedies speak of, and how a job file says it under `[robot]`.
+/// Words of remedies, and their keys in a job file under `[robot]`.
 const KEYS: [(&str, &str); 9] = [
     (
         "(`turn_about_axis`)",

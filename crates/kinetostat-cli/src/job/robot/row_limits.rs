@@ -10,7 +10,7 @@ use crate::ui::numbers::short;
 /// Stretches of rows that are named; further ones are counted.
 const MOST_NAMED: usize = 20;
 
-/// Beyond a limit by less than this is a matter of digits, rad.
+/// Excess over a limit that is a matter of digits, rad.
 const DIGITS: f64 = 1e-6;
 
 /// Rows one behind the other in which a joint is beyond the same limit.
@@ -27,8 +27,8 @@ struct Stretch {
     most: (usize, f64),
 }
 
-/// What is to be said of them, by line; `program` is the table with its joint values, `model_joints` makes those of the model of
-/// what stands in a row (deg), rad.
+/// Warnings about rows beyond limits; `program` is the table with its joint values, `model_joints` converts the values of a row
+/// (deg) to those of the model, rad.
 pub(crate) fn rows_beyond_limits(
     model: &Model,
     model_joints: impl Fn(&[f64]) -> [f64; 6],
@@ -41,7 +41,7 @@ pub(crate) fn rows_beyond_limits(
         };
         let commands = model_joints(values_deg);
         let posture = (model.mechanism).posture(PostureRequest::commands(&commands));
-        // What is no number is refused where the rows are read.
+        // Non-finite values are refused by the reader of the rows.
         let Ok(posture) = posture else { continue };
         for (joint, value, (low, high)) in posture.limit_violations() {
             let (limit, other) = match value < low {
@@ -100,7 +100,7 @@ impl Stretch {
                 self.last
             ),
         };
-        // The same place, whole turns away.
+        // Equivalent angle, whole turns away.
         let turn = std::f64::consts::TAU.copysign(self.other - self.limit);
         let turned = value + turn * ((self.limit - value) / turn).ceil();
         let (low, high) = (self.limit.min(self.other), self.limit.max(self.other));

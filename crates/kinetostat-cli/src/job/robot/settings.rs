@@ -1,4 +1,4 @@
-//! How a robot's program is read and written, from options and the table `[robot]` of a job file.
+//! Settings for reading and writing a robot's program, from options and the table `[robot]` of a job file.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -20,7 +20,7 @@ use crate::job::robot_table::{
 use crate::job::values::{above_zero, chosen};
 use crate::ui::failure::{Answer, Failure};
 
-/// How a robot's program is read and written.
+/// Settings for reading and writing a robot's program.
 #[derive(Clone, Debug)]
 pub(crate) struct RobotSettings {
     pub(crate) reading: ReadOptions,
@@ -29,26 +29,26 @@ pub(crate) struct RobotSettings {
     pub(crate) corrected: Directions,
     /// The axis of the tool is stated, and not the usual one of the language.
     pub(crate) axis_is_stated: bool,
-    /// How the controller moves between rows of joint values, where that is stated.
+    /// Interpolation of the controller between rows of joint values, if it is stated.
     pub(crate) joint_rows: Option<BetweenRows>,
-    /// What the joint values of a table are, in words.
+    /// Description of the joint values of a table.
     pub(crate) joints_are: Option<&'static str>,
-    /// Of a program that was converted, what its template says of the posture of the arm.
+    /// Posture of the arm by the template of a converted program.
     pub(crate) made_arm: Option<MadeArm>,
     /// Rows of a table of joint values that are beyond limits of the model.
     pub(crate) beyond_limits: Vec<Warning>,
 }
 
-/// What a template says of the posture of the arm.
+/// Posture of the arm by a template.
 #[derive(Clone, Debug)]
 pub(crate) struct MadeArm {
     /// The configuration is stated.
     pub(crate) states_configuration: bool,
-    /// Where the arm starts, as the controller shows it, deg.
+    /// Start joints of the arm as the controller shows them, deg.
     pub(crate) start_joints_deg: Option<Vec<f64>>,
 }
 
-/// What options and job file say of a program of a language; `usual_axis` is its own, from the tool's tip to its holder.
+/// Settings for a program of a language; `usual_axis` is its own, from the tool's tip to its holder.
 pub(crate) fn settings(
     job: Option<&JobFile>,
     flags: &RobotArgs,

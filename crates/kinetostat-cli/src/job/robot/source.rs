@@ -34,7 +34,7 @@ pub(crate) struct RobotSource {
     pub(crate) parquet: Option<Vec<u8>>,
     /// The files of which the program was joined.
     pub(crate) divided: Option<Divided>,
-    /// Of a program that was written flat, what it was before.
+    /// Original program, if it was written flat.
     pub(crate) before: Option<BeforeFlat>,
     /// Tools and bases of the controller that were found beside the program.
     pub(crate) system_frames: Option<SystemFrames>,
@@ -46,7 +46,7 @@ pub(crate) struct RobotSource {
 #[derive(Debug, Clone)]
 pub(crate) struct BeforeFlat {
     pub(crate) files: Vec<SourceFile>,
-    /// Of each flat line the file and the line there.
+    /// File and source line of each flat line.
     pub(crate) origins: Vec<(usize, usize)>,
 }
 
@@ -156,7 +156,7 @@ pub(crate) fn robot_source(
     Ok(Some((source, read)))
 }
 
-/// What becomes of blocks behind a slash, as options or the job file say.
+/// Treatment of blocks behind a slash, by options or job file.
 pub(crate) fn slash_blocks(job: Option<&JobFile>, flags: &ReadingArgs) -> SlashBlocks {
     let in_job = job.and_then(|j| j.job.reading.block_delete);
     match flags.block_delete.or(in_job) {

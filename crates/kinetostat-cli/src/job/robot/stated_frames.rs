@@ -54,7 +54,7 @@ fn frames(program: &RobotProgram) -> BTreeMap<String, (usize, &FrameUse)> {
     used
 }
 
-/// Whether a program may state a frame by itself: it gives the name a value, or the controller has it.
+/// True if a program may define a frame by itself: it assigns the name, or the controller has it.
 fn may_state(source: &RobotSource, name: &str) -> bool {
     let name = key(name);
     let is_first = ["TOOL0", "WOBJ0"].contains(&name.as_str())
@@ -72,7 +72,7 @@ fn may_state(source: &RobotSource, name: &str) -> bool {
             .any(|file| assigns(file.bytes(), name.as_bytes()))
 }
 
-/// Whether `name =` or `name :=` stands somewhere, in capitals or not, with blanks or without.
+/// True if the text contains `name =` or `name :=`, in capitals or not, with blanks or without.
 fn assigns(text: &[u8], name: &[u8]) -> bool {
     let Some(first) = name.first() else {
         return false;

@@ -17,7 +17,7 @@ use crate::ui::failure::Answer;
 const PROGRAMS: &str = "Program";
 const SYSTEM: &str = "System";
 
-/// Most folders above a program among which [`PROGRAMS`] is looked for.
+/// Upper limit of the folders above a program in which [`PROGRAMS`] is searched.
 const MOST_ABOVE: usize = 8;
 
 /// Adds the tools and bases of the controller to a program that names them and has none of its own files for them: their place, and how
@@ -35,7 +35,7 @@ pub(crate) fn with_system_frames(
     else {
         return Ok(None);
     };
-    // As it is seen from here.
+    // The path is shown relative to the working directory.
     let here = std::env::current_dir().unwrap_or_default();
     let path = path
         .strip_prefix(&here)
@@ -63,8 +63,8 @@ pub(crate) fn with_system_frames(
     Ok(Some((path, read)))
 }
 
-/// Where the file may lie: beside the program, in `../System`, in `System` beside a folder `Program` above it, and in `R1/System` and
-/// `KRC/R1/System` below its folder.
+/// Candidate folders of the file: beside the program, in `../System`, in `System` beside a folder `Program` above it, and in
+/// `R1/System` and `KRC/R1/System` below its folder.
 fn places(program: &Path) -> Vec<Folder> {
     let Ok(program) = std::path::absolute(program) else {
         return Vec::new();
@@ -89,7 +89,7 @@ fn places(program: &Path) -> Vec<Folder> {
     found
 }
 
-/// That tools and bases of motions are those that were found; the job's count before them.
+/// Warns that tools and bases of motions come from the file found; those of the job have priority.
 pub(crate) fn taken(source: &RobotSource, program: &RobotProgram) -> Option<Warning> {
     let found = source.system_frames.as_ref()?;
     let stated = &source.settings.reading.frames;
@@ -125,7 +125,7 @@ pub(crate) fn taken(source: &RobotSource, program: &RobotProgram) -> Option<Warn
     })
 }
 
-/// Without blanks, in capitals.
+/// Returns the name without blanks, in capitals.
 fn in_capitals(name: &str) -> String {
     let letters = name.chars().filter(|letter| !letter.is_whitespace());
     letters.collect::<String>().to_uppercase()

@@ -79,7 +79,7 @@ pub(crate) fn table(
     file.finish()
 }
 
-/// The same from the rows of a table of all points as CSV, of which a group is in memory at a time.
+/// Writes the rows of a table of all points as CSV, of which a group is in memory at a time.
 pub(crate) fn from_csv(
     run_inputs: &RunInputs,
     csv: impl Read,

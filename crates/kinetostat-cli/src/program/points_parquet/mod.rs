@@ -25,7 +25,7 @@ pub(crate) fn is_named(path: &Path) -> bool {
         .is_some_and(|ending| ending.eq_ignore_ascii_case("parquet"))
 }
 
-/// Without Parquet in this build it is said before the long work begins.
+/// Refuses a Parquet file that this build cannot write, before the long work begins.
 pub(crate) fn refuse_without_parquet(path: Option<&Path>) -> Answer<()> {
     match path.is_some_and(is_named) && !cfg!(feature = "parquet") {
         true => Err(none()),
