@@ -73,7 +73,7 @@ fn a_program_is_compensated_with_the_data_of_its_folder_and_verified() {
     let again = "  movej(pA,tMill,mCut)\n  for nI=0 to 1\n    movel(pB[nI],tMill,mCut)\n  endFor";
     put("part.pgx", &program(again));
     job("[expand]\n");
-    run(here, &["compensate", "job.toml"]).answered();
+    run(here, &["compensate", "job.toml", "--force-overwrite"]).answered();
     let output = read(here, "compensated/part.pgx");
     assert!(
         !output.contains("for ") && output.contains("nI=1"),
@@ -82,6 +82,7 @@ fn a_program_is_compensated_with_the_data_of_its_folder_and_verified() {
     let verified = run(here, &verify).answered();
     assert!(verified.out.contains("VERIFIED"), "{verified:?}");
     // Another language from it.
+    put("part.pgx", &program(statements));
     let line = "convert part.pgx --to krl --out part.src --rapid-from-mm-per-s 150";
     let words: Vec<&str> = line.split_whitespace().collect();
     run(here, &words).answered();
