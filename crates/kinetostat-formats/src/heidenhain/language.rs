@@ -107,6 +107,10 @@ impl ProgramLanguage for HeidenhainLanguage {
         is_numbered(program).then(|| numbered_again(program))?
     }
 
+    fn has_slash_switch(&self) -> bool {
+        true
+    }
+
     fn takes_values(&self) -> bool {
         true
     }

@@ -155,6 +155,7 @@ fn parse_blocks<D: BlockDialect>(files: Vec<SourceFile>, options: &ReadOptions) 
             declarations: run.targets.declarations,
             findings: run.findings,
             outside_calls: run.outside_calls,
+            ran: run.ran_beside,
             faults,
             external_axes_may_move: false,
             moving_calls: &options.moving_calls,

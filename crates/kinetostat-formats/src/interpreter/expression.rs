@@ -74,15 +74,20 @@ pub(crate) struct Expression {
 }
 
 impl Expression {
-    /// Arguments of a function with a name in capitals, if the expression is its call.
-    pub(crate) fn given_to(&self, name: &str) -> Option<Vec<&Self>> {
-        match &self.node {
-            Node::Call(own, arguments) if own.is(name) => {
-                let values = arguments.iter().filter_map(|own| own.value.as_ref());
-                Some(values.collect())
-            }
-            _ => None,
+    /// Arguments of a function, if the expression is its call with no others than these parameters, in their order; names in capitals.
+    pub(crate) fn given_to(&self, name: &str, parameters: &[&str]) -> Option<Vec<&Self>> {
+        let Node::Call(own, arguments) = &self.node else {
+            return None;
+        };
+        if !own.is(name) || arguments.len() > parameters.len() {
+            return None;
         }
+        let given = arguments.iter().zip(parameters);
+        let given = given.map(|(own, parameter)| {
+            let is_it = own.option.is_none_or(|name| name.is(parameter));
+            own.value.as_ref().filter(|_| is_it)
+        });
+        given.collect()
     }
 }
 

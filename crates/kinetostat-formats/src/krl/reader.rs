@@ -81,14 +81,13 @@ pub(crate) fn parse_krl(files: Vec<SourceFile>, options: &ReadOptions) -> Parsed
         declarations: run.targets.declarations,
         findings,
         outside_calls: run.outside_calls,
+        ran: run.ran_beside,
         faults,
         external_axes_may_move: options.external_axes != ExternalAxes::Refused,
         moving_calls: &options.moving_calls,
     };
-    let ran = run.ran_beside;
     let mut parsed = Parsed::of_robot(Language::Krl, files, read);
     parsed.program.values = options.values.clone();
-    parsed.program.ran = ran;
     parsed
 }
 

@@ -84,12 +84,10 @@ pub(crate) fn parse_ls(files: Vec<SourceFile>, options: &ReadOptions) -> Parsed 
         declarations: run.reader.declarations,
         findings: run.reader.findings,
         outside_calls: run.outside_calls,
+        ran: run.ran_beside,
         faults: run.reader.faults,
         external_axes_may_move: options.external_axes != ExternalAxes::Refused,
         moving_calls: &options.moving_calls,
     };
-    let ran = run.ran_beside;
-    let mut parsed = Parsed::of_robot(Language::FanucLs, files, read);
-    parsed.program.ran = ran;
-    parsed
+    Parsed::of_robot(Language::FanucLs, files, read)
 }

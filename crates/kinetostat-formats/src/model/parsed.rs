@@ -8,7 +8,7 @@ use crate::model::findings::{left_as_written, outside_calls as named_calls, unkn
 use crate::model::language::Language;
 use crate::model::motion::Motion;
 use crate::model::outside_call::{OutsideCall, stated_to_move};
-use crate::model::program::RobotProgram;
+use crate::model::program::{RanStatement, RobotProgram};
 use crate::model::site::Declaration;
 use crate::model::slash_blocks::SlashBlocks;
 use crate::model::stated_axes::StatedAxes;
@@ -30,6 +30,8 @@ pub(crate) struct Read<'o> {
     pub findings: Vec<Finding>,
     /// Calls that no file defines.
     pub outside_calls: Vec<OutsideCall>,
+    /// Statements beside the motions, in the order in which they ran.
+    pub ran: Vec<RanStatement>,
     pub faults: Vec<ProgramError>,
     /// Otherwise a motion of one is a fault.
     pub external_axes_may_move: bool,
@@ -75,6 +77,7 @@ impl Parsed {
             declarations,
             mut findings,
             outside_calls,
+            ran,
             mut faults,
             external_axes_may_move,
             moving_calls,
@@ -92,6 +95,7 @@ impl Parsed {
         parsed.faults.dedup();
         parsed.program.declarations = declarations;
         parsed.program.outside_calls = outside_calls;
+        parsed.program.ran = ran;
         parsed
     }
 

@@ -71,14 +71,12 @@ pub(crate) fn parse_rapid(files: Vec<SourceFile>, options: &ReadOptions) -> Pars
         declarations: run.targets.declarations,
         findings: run.findings,
         outside_calls: run.outside_calls,
+        ran: run.ran_beside,
         faults,
         external_axes_may_move: options.external_axes != ExternalAxes::Refused,
         moving_calls: &options.moving_calls,
     };
-    let ran = run.ran_beside;
-    let mut parsed = Parsed::of_robot(Language::Rapid, files, read);
-    parsed.program.ran = ran;
-    parsed
+    Parsed::of_robot(Language::Rapid, files, read)
 }
 
 /// Runs a program once and writes it flat: the statements of its run, one after the other, in place of those of `main`.

@@ -93,14 +93,21 @@ fn scan_once(
     out
 }
 
-/// True if the program has an M6: without it, T changes the tool.
+/// True if the program has an M6 outside of remarks and texts: without it, T changes the tool.
 pub(crate) fn has_change(bytes: &[u8]) -> bool {
-    bytes.windows(3).enumerate().any(|(at, part)| {
-        let is_m6 = matches!(part, [b'M' | b'm', b'6', _]) && !part[2].is_ascii_digit();
-        let is_m06 = matches!(part, [b'M' | b'm', b'0', b'6']);
-        let ends = !bytes.get(at + 3).is_some_and(u8::is_ascii_digit);
-        is_m6 || is_m06 && ends
-    }) || bytes.ends_with(b"M6")
+    let is_change = |part: &[u8], at: usize| {
+        let digits = part[at + 1..]
+            .iter()
+            .take_while(|byte| byte.is_ascii_digit());
+        let begins = !part[..at].last().is_some_and(u8::is_ascii_alphabetic);
+        let number: Vec<u8> = digits.copied().collect();
+        begins && part[at].eq_ignore_ascii_case(&b'M') && matches!(&number[..], b"6" | b"06")
+    };
+    bytes.split(|byte| *byte == b'\n').any(|line| {
+        let code = line.split(|byte| *byte == b';').next().unwrap_or_default();
+        let mut parts = code.split(|byte| *byte == b'"').step_by(2);
+        parts.any(|part| (0..part.len()).any(|at| is_change(part, at)))
+    })
 }
 
 impl Reader<'_> {

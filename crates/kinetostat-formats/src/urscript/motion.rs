@@ -40,14 +40,14 @@ impl<'e> End<'e> {
             pose: expression,
             others: Vec::new(),
         };
-        // A call with more arguments states the pose of another tool.
-        if let Some(given) = expression.given_to("GET_INVERSE_KIN")
+        // A call with further arguments states the pose of another tool.
+        if let Some(given) = expression.given_to("GET_INVERSE_KIN", &["X", "QNEAR"])
             && let [pose, others @ ..] = given.as_slice()
-            && others.len() < 2
         {
             (end.pose, end.others) = (pose, others.to_vec());
         }
-        if let Some([frame, pose]) = end.pose.given_to("POSE_TRANS").as_deref() {
+        let given = end.pose.given_to("POSE_TRANS", &["P_FROM", "P_FROM_TO"]);
+        if let Some([frame, pose]) = given.as_deref() {
             (end.frame, end.pose) = (Some(*frame), pose);
         }
         end

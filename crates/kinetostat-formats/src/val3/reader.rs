@@ -81,6 +81,7 @@ pub(crate) fn parse_val3(files: Vec<SourceFile>, options: &ReadOptions) -> Parse
         declarations: run.targets.declarations,
         findings,
         outside_calls: run.outside_calls,
+        ran: run.ran_beside,
         faults,
         external_axes_may_move: true,
         moving_calls: &options.moving_calls,

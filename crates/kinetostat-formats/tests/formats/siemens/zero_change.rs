@@ -99,3 +99,14 @@ fn the_language_is_known_by_ending_or_words() {
         );
     }
 }
+
+/// Without M6 a T changes the tool; an M6 in a remark or in a text is none.
+#[test]
+fn a_remark_on_m6_changes_no_tool() {
+    for (beside, second) in [("", "T2"), (" ;M6 by hand", "T2"), (" m6", "T1")] {
+        let text = format!(
+            "G17 G90 G94 F600\nT1{beside}\nMSG(\"M6 is next\")\nG1 X0 Y0 Z0\nT2\nG1 X5 Y0 Z0\n"
+        );
+        assert_eq!(program(&text).motions[1].tool.name, second, "{text}");
+    }
+}

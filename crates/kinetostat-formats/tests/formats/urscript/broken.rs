@@ -37,6 +37,10 @@ fn statements_that_move_the_tool_otherwise_are_refused_by_line() {
             "`get_inverse_kin` is computed",
         ),
         (
+            "movej(get_inverse_kin(p[0.1,0,0,0,0,0], tcp=p[0,0,0.3,0,0,0]))",
+            "`get_inverse_kin` is computed",
+        ),
+        (
             "movec(p[0.1,0,0,0,0,0],p[0.2,0,0,0,0,0],a=1,v=0.1,r=0,mode=1)",
             "turns with the path (mode=1)",
         ),
