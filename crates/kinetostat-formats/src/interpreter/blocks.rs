@@ -259,7 +259,9 @@ impl Parser<'_, '_> {
             let reason = "a bracket of the statement is not closed, or nothing opens it";
             self.fault(start..self.at, reason, MEND_IT);
         }
-        self.at = self.at.max(start + 1);
+        if self.at <= start {
+            self.at = start + 1;
+        }
         self.at
     }
 

@@ -118,7 +118,9 @@ pub fn options_of_motion(program: &RobotProgram, motion: &Motion) -> String {
     let mut at = site.keyword.start;
     for span in parts {
         rest.extend_from_slice(file.part(&(at..span.start.max(at))));
-        at = at.max(span.end);
+        if span.end > at {
+            at = span.end;
+        }
     }
     rest.extend_from_slice(file.part(&(at..motion.span.end.max(at))));
     let mut text = plain(program.language, &String::from_utf8_lossy(&rest)).replace(' ', "");
