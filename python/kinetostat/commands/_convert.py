@@ -40,6 +40,8 @@ def convert(
     g30_mm: Sequence[float] | None = None,
     rapid_from_mm_per_s: float | None = None,
     tool_axis: Literal["x", "y", "z", "-x", "-y", "-z"] | None = None,
+    call: str | float | Sequence[str | float] | None = None,
+    set: str | float | Sequence[str | float] | None = None,
     expand: bool = False,
     subprograms: _Path | Sequence[_Path] | None = None,
     tool_diameter_mm: str | float | Sequence[str | float] | None = None,
@@ -119,6 +121,13 @@ def convert(
     tool_axis : Literal["x", "y", "z", "-x", "-y", "-z"]
         Axis of the tool of a robot's program from its tip to its holder, in axes of its frame
         [default: -z; of KRL -x]
+    call : str | float | Sequence[str | float]
+        What the program calls by this name, and none of its files holds, moves the tool: NAME=moves
+        (repeat for more). Such a call is refused by line; others are taken not to move the tool and
+        not to change speed, tool or frame
+    set : str | float | Sequence[str | float]
+        Value of a name that only the controller knows (a signal, an input, a register), as in di1=1
+        (repeat for more)
     expand : bool
         Run the program once and go on with its flat form: subprograms, variables, cycles, G41 and
         G42 as plain blocks (`kinetostat expand` shows them)
@@ -184,6 +193,8 @@ def convert(
         ("--g30-mm", g30_mm),
         ("--rapid-from-mm-per-s", rapid_from_mm_per_s),
         ("--tool-axis", tool_axis),
+        ("--call", call),
+        ("--set", set),
         ("--expand", expand),
         ("--subprograms", subprograms),
         ("--tool-diameter-mm", tool_diameter_mm),

@@ -21,6 +21,8 @@ def expand(
     parameter: str | float | Sequence[str | float] | None = None,
     dialect: Literal["linuxcnc", "fanuc"] | None = None,
     no_comments: bool = False,
+    call: str | float | Sequence[str | float] | None = None,
+    set: str | float | Sequence[str | float] | None = None,
     force_overwrite: bool = False,
     units: Literal["mm", "inch"] | None = None,
     arc_tolerance: float | None = None,
@@ -43,7 +45,8 @@ def expand(
     Parameters
     ----------
     program : path
-        Program in G-code, of SINUMERIK (.mpf) or Heidenhain (.h), or in APT (.apt, .cls)
+        Program in G-code, of SINUMERIK (.mpf) or Heidenhain (.h), in APT (.apt, .cls), KRL (.src)
+        or RAPID (.mod)
     out : path
         File for the flat program; without it, it is printed
     subprograms : path | Sequence[path]
@@ -57,6 +60,13 @@ def expand(
         without it
     no_comments : bool
         Leave out the comments that say the line of each flat block
+    call : str | float | Sequence[str | float]
+        What the program calls by this name, and none of its files holds, moves the tool: NAME=moves
+        (repeat for more). Such a call is refused by line; others are taken not to move the tool and
+        not to change speed, tool or frame
+    set : str | float | Sequence[str | float]
+        Value of a name that only the controller knows (a signal, an input, a register), as in di1=1
+        (repeat for more)
     force_overwrite : bool
         Overwrite the output if it exists (never the input)
     units : Literal["mm", "inch"]
@@ -109,6 +119,8 @@ def expand(
         ("--parameter", parameter),
         ("--dialect", dialect),
         ("--no-comments", no_comments),
+        ("--call", call),
+        ("--set", set),
         ("--force-overwrite", force_overwrite),
         ("--units", units),
         ("--arc-tolerance", arc_tolerance),
