@@ -5,6 +5,7 @@ use nalgebra::Vector3;
 
 use crate::error::{ProgramError, WriteError};
 use crate::file_form::FileForm;
+use crate::model::motion::Motion;
 use crate::model::orientation::OrientationText;
 use crate::model::parsed::Parsed;
 use crate::model::program::RobotProgram;
@@ -293,11 +294,6 @@ pub trait ProgramLanguage: Sync {
         false
     }
 
-    /// True where the pieces of a motion that stops pass their ends within the distance in force.
-    fn pieces_pass_their_ends(&self) -> bool {
-        false
-    }
-
     /// Words for the direction of a tool that a motion leaves out; `None` where no direction has a meaning of its own.
     fn words_of_direction(&self) -> Option<&'static str> {
         None
@@ -313,12 +309,37 @@ pub trait ProgramLanguage: Sync {
         Vec::new()
     }
 
-    /// Statement without its end, and without the comment behind it where one is told apart.
-    fn code_of<'t>(&self, statement: &'t str) -> &'t str {
-        statement.trim_end().trim_end_matches(';')
+    /// A line without the comment at its end, where one is told apart.
+    fn code_of<'t>(&self, line: &'t str) -> &'t str {
+        line
     }
 
-    /// Words with which statements begin that only order a program, in capitals: nothing of it is lost without them.
+    /// Words in capitals that set how motions run, in groups of which one is in force.
+    fn modes(&self) -> &'static [&'static [&'static str]] {
+        &[]
+    }
+
+    /// True where members of such a setting are settings of their own.
+    fn modes_have_members(&self) -> bool {
+        false
+    }
+
+    /// Beginnings of statements in capitals whose effect is in the places, frames, tools, speeds and zones of the motions.
+    fn settings_in_motions(&self) -> &'static [&'static str] {
+        &[]
+    }
+
+    /// Signs in a statement that declares a place, a frame or a tool by its value.
+    fn sign_of_declaration(&self) -> Option<&'static str> {
+        None
+    }
+
+    /// Words in the statement of a motion that state its zone, work object and tool; `None` where its other words are not compared.
+    fn words_of_motion(&self, _motion: &Motion) -> Option<Vec<String>> {
+        None
+    }
+
+    /// First words, in capitals, of statements that only structure a program.
     fn order_words(&self) -> &'static [&'static str] {
         &[]
     }

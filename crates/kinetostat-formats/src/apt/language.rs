@@ -111,8 +111,8 @@ impl ProgramLanguage for AptLanguage {
         spindle_changes(file)
     }
 
-    fn code_of<'t>(&self, statement: &'t str) -> &'t str {
-        statement.split("$$").next().unwrap_or_default()
+    fn code_of<'t>(&self, line: &'t str) -> &'t str {
+        line.split("$$").next().unwrap_or_default()
     }
 
     fn order_words(&self) -> &'static [&'static str] {

@@ -3,8 +3,9 @@
 use crate::error::WriteError;
 use crate::krl::reader::{expand_krl, is_data_list, parse_krl};
 use crate::krl::system_frames::krl_needs_config;
-use crate::krl::table::KRL_STATEMENTS;
+use crate::krl::table::{IN_MOTIONS, KRL_STATEMENTS, MODES, MOTIONS};
 use crate::krl::writing::write::write_krl;
+use crate::model::motion::Motion;
 use crate::model::orientation::OrientationText;
 use crate::model::parsed::Parsed;
 use crate::model::program::RobotProgram;
@@ -157,12 +158,29 @@ impl ProgramLanguage for KrlLanguage {
         ", or how motions behind it go (`$ORI_TYPE`, `$CIRC_TYPE`, `$ACC`, `$APO`)"
     }
 
-    fn pieces_pass_their_ends(&self) -> bool {
+    fn code_of<'t>(&self, line: &'t str) -> &'t str {
+        line.split(';').next().unwrap_or_default()
+    }
+
+    fn modes(&self) -> &'static [&'static [&'static str]] {
+        MODES
+    }
+
+    fn modes_have_members(&self) -> bool {
         true
     }
 
-    fn code_of<'t>(&self, statement: &'t str) -> &'t str {
-        statement.split(';').next().unwrap_or_default()
+    fn settings_in_motions(&self) -> &'static [&'static str] {
+        IN_MOTIONS
+    }
+
+    fn sign_of_declaration(&self) -> Option<&'static str> {
+        Some("={")
+    }
+
+    fn words_of_motion(&self, _motion: &Motion) -> Option<Vec<String>> {
+        let passes = MOTIONS.iter().map(|row| row.pass.to_owned());
+        Some(passes.collect())
     }
 
     fn order_words(&self) -> &'static [&'static str] {

@@ -2,8 +2,9 @@
 
 use crate::error::WriteError;
 use crate::ls::reader::parse_ls;
-use crate::ls::table::LS_STATEMENTS;
+use crate::ls::table::{IN_MOTIONS, LS_STATEMENTS, MODES};
 use crate::ls::write::{numbered_again, write_ls};
+use crate::model::motion::Motion;
 use crate::model::orientation::OrientationText;
 use crate::model::parsed::Parsed;
 use crate::model::program::RobotProgram;
@@ -129,6 +130,18 @@ impl ProgramLanguage for LsLanguage {
 
     fn name_of_external_axis(&self, axis: usize) -> String {
         format!("external axis or group axis {}", axis + 1)
+    }
+
+    fn modes(&self) -> &'static [&'static [&'static str]] {
+        MODES
+    }
+
+    fn settings_in_motions(&self) -> &'static [&'static str] {
+        IN_MOTIONS
+    }
+
+    fn words_of_motion(&self, _motion: &Motion) -> Option<Vec<String>> {
+        Some(Vec::new())
     }
 
     fn order_words(&self) -> &'static [&'static str] {

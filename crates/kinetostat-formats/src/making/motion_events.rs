@@ -11,6 +11,7 @@ use crate::making::statements::of_line;
 use crate::model::language::Language;
 use crate::model::motion::Motion;
 use crate::model::program::RobotProgram;
+use crate::rapid::lex::code_of;
 use crate::text::source::SourceFile;
 
 /// The events of all motions of a file.
@@ -146,17 +147,6 @@ fn comments_inside(source: &SourceFile, motion: &Motion) -> Vec<(usize, String)>
         (comment.len() > 1).then(|| (first + index, comment.to_owned()))
     });
     comments.collect()
-}
-
-/// A line of RAPID up to its comment.
-pub(crate) fn code_of(line: &str) -> &str {
-    let mut in_text = false;
-    let begins = |(_, letter): &(usize, char)| {
-        in_text ^= *letter == '"';
-        !in_text && *letter == '!'
-    };
-    let at = line.char_indices().find(begins);
-    &line[..at.map_or(line.len(), |(at, _)| at)]
 }
 
 /// Action of a RAPID motion instruction beside its motion, and true if it acts after the motion.

@@ -4,13 +4,12 @@ use std::ops::Range;
 
 use crate::making::event_kind::EventKind;
 use crate::making::events::SourceEvent;
-use crate::making::motion_events::{code_of, done_in_motion};
+use crate::making::motion_events::done_in_motion;
 use crate::making::robot_actions::kind_of;
 use crate::making::robot_events::events_of_robot;
 use crate::model::language::Language;
 use crate::model::motion::Motion;
 use crate::model::program::RobotProgram;
-use crate::{krl, ls, rapid, siemens};
 
 /// A statement that runs beside the motions of a program.
 #[derive(Debug, Clone, PartialEq)]
@@ -43,21 +42,25 @@ pub struct RunStatement {
 /// ```
 #[must_use]
 pub fn statements_of_run(program: &RobotProgram) -> Vec<RunStatement> {
+    let language = program.language;
     let statement = |line: usize, text: &str, motions_before: usize| {
-        let text = plain(program.language, text);
-        let kind = kind_of(program.language, &text);
+        let text = plain(language, text);
+        let kind = kind_of(language, &text);
         let is_said = matches!(kind, EventKind::Comment | EventKind::End) || text.is_empty();
-        (!is_said && !is_in_motions(program.language, &text)).then(|| RunStatement {
+        (!is_said && !is_in_motions(language, &text)).then(|| RunStatement {
             line,
             kind,
-            mode: mode_of(program.language, &text),
+            mode: mode_of(language, &text),
             text,
             motions_before,
         })
     };
     let main = program.motions.first().map_or(0, |motion| motion.file);
-    let mut found: Vec<RunStatement> = match program.language {
-        Language::Apt => {
+    // A file that runs line by line (APT) has no list of the statements that ran.
+    let is_file_of_lines =
+        !language.is_of_robot() && !language.is_list() && !language.is_in_blocks();
+    let mut found: Vec<RunStatement> = match is_file_of_lines {
+        true => {
             let lines: Vec<usize> = program.motions.iter().map(|motion| motion.line).collect();
             let of_event = |event: &SourceEvent| {
                 let before = lines.partition_point(|line| *line < event.line);
@@ -67,7 +70,7 @@ pub fn statements_of_run(program: &RobotProgram) -> Vec<RunStatement> {
                 .filter_map(of_event)
                 .collect()
         }
-        _ => {
+        false => {
             let of_ran = program.ran.iter().filter_map(|ran| {
                 let file = program.files.get(ran.file)?;
                 let bytes = ran.text.as_deref().unwrap_or_else(|| file.part(&ran.span));
@@ -83,7 +86,7 @@ pub fn statements_of_run(program: &RobotProgram) -> Vec<RunStatement> {
     };
     for (index, motion) in program.motions.iter().enumerate() {
         let file = program.files.get(motion.file);
-        let done = file.and_then(|file| done_in_motion(program.language, file, motion));
+        let done = file.and_then(|file| done_in_motion(language, file, motion));
         let done = done.and_then(|(text, is_behind)| {
             statement(motion.line, &text, index + usize::from(is_behind))
         });
@@ -97,12 +100,8 @@ pub fn statements_of_run(program: &RobotProgram) -> Vec<RunStatement> {
 /// object. Of other languages there are none.
 #[must_use]
 pub fn options_of_motion(program: &RobotProgram, motion: &Motion) -> String {
-    let arms = [Language::Krl, Language::Rapid, Language::FanucLs];
-    let Some(file) = program
-        .files
-        .get(motion.file)
-        .filter(|_| arms.contains(&program.language))
-    else {
+    let told = program.language.words_of_motion(motion);
+    let Some((file, told)) = program.files.get(motion.file).zip(told) else {
         return String::new();
     };
     let site = &motion.site;
@@ -126,16 +125,7 @@ pub fn options_of_motion(program: &RobotProgram, motion: &Motion) -> String {
     let mut text = plain(program.language, &String::from_utf8_lossy(&rest)).replace(' ', "");
     let done = done_in_motion(program.language, file, motion);
     let done = done.map(|(done, _)| plain(program.language, &done).replace(' ', ""));
-    let frames = match program.language {
-        Language::Rapid => vec![
-            format!("\\WOBJ:={}", motion.work_object.name),
-            motion.tool.name.clone(),
-        ],
-        _ => Vec::new(),
-    };
-    let passes = krl::table::MOTIONS.iter().map(|row| row.pass.to_owned());
-    let passes = passes.filter(|_| program.language == Language::Krl);
-    for part in done.into_iter().chain(frames).chain(passes) {
+    for part in done.into_iter().chain(told) {
         text = text.replace(&part.to_ascii_uppercase(), "");
     }
     // Separators of arguments say nothing by themselves.
@@ -144,22 +134,8 @@ pub fn options_of_motion(program: &RobotProgram, motion: &Motion) -> String {
 
 /// A statement in capitals without its comment, with a blank between words alone.
 fn plain(language: Language, text: &str) -> String {
-    let sign = match language {
-        Language::Krl => ";",
-        Language::Apt => "$$",
-        _ => "",
-    };
-    let code = |line: &str| match (language, sign) {
-        (Language::Rapid, _) => code_of(line).trim().to_owned(),
-        (_, "") => line.trim().to_owned(),
-        _ => line
-            .split(sign)
-            .next()
-            .unwrap_or_default()
-            .trim()
-            .to_owned(),
-    };
-    let lines: Vec<String> = text.lines().map(code).collect();
+    let lines = text.lines().map(|line| language.code_of(line).trim());
+    let lines: Vec<&str> = lines.collect();
     let joined = lines.join(" ").to_ascii_uppercase();
     let joined = joined.trim().trim_end_matches(';');
     let words: Vec<&str> = joined.split_whitespace().collect();
@@ -176,20 +152,18 @@ fn plain(language: Language, text: &str) -> String {
 }
 
 fn is_in_motions(language: Language, text: &str) -> bool {
-    let (settings, declares): (&[&str], &[&str]) = match language {
-        Language::Krl => (krl::table::IN_MOTIONS, &["={"]),
-        Language::Rapid => (&[], &[":=["]),
-        Language::FanucLs => (ls::table::IN_MOTIONS, &[]),
-        _ => (&[], &[]),
-    };
     let is_mode = || mode_of(language, text).is_some();
     let is_letter = |c: char| c.is_ascii_alphanumeric();
     let is_set = |word: &str| {
         let behind = text.strip_prefix(word);
         behind.is_some_and(|rest| !(word.ends_with(is_letter) && rest.starts_with(is_letter)))
     };
-    settings.iter().any(|word| is_set(word))
-        || declares.iter().any(|sign| text.contains(sign)) && !is_mode()
+    let declares = language.sign_of_declaration();
+    language
+        .settings_in_motions()
+        .iter()
+        .any(|word| is_set(word))
+        || declares.is_some_and(|sign| text.contains(sign)) && !is_mode()
 }
 
 /// The setting that a statement or a word of a block changes, of how motions behind it run; none of one that changes none.
@@ -202,25 +176,18 @@ fn is_in_motions(language: Language, text: &str) -> bool {
 /// ```
 #[must_use]
 pub fn mode_of(language: Language, text: &str) -> Option<String> {
-    let modes: &[&[&str]] = match language {
-        Language::Krl => krl::table::MODES,
-        Language::Rapid => rapid::table::MODES,
-        Language::FanucLs => ls::table::MODES,
-        Language::Siemens => siemens::table::MODES,
-        _ => &[],
-    };
     let is_part = |c: char| c.is_ascii_alphanumeric() || c == '_';
     let is = |word: &str| {
         let behind = text.strip_prefix(word);
         behind.is_some_and(|behind| !behind.starts_with(is_part))
     };
-    let group = modes
+    let group = language
+        .modes()
         .iter()
         .find(|group| group.iter().any(|word| is(word)))?;
     let own = text.split(['=', ',', '\\', ' ', ')']).next();
-    Some(match (language, group) {
-        // Members of a setting are settings of their own.
-        (Language::Krl, _) => own.unwrap_or_default().to_owned(),
-        (_, group) => group[0].to_owned(),
+    Some(match language.modes_have_members() {
+        true => own.unwrap_or_default().to_owned(),
+        false => group[0].to_owned(),
     })
 }

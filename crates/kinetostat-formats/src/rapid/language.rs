@@ -1,6 +1,7 @@
 //! Facts and acts of RAPID that files outside this folder ask for.
 
 use crate::error::WriteError;
+use crate::model::motion::Motion;
 use crate::model::orientation::OrientationText;
 use crate::model::parsed::Parsed;
 use crate::model::program::RobotProgram;
@@ -8,8 +9,9 @@ use crate::model::stated_arm::StatedArm;
 use crate::model::target::Configuration;
 use crate::options::{ReadOptions, WriteOptions};
 use crate::program_language::{ProgramLanguage, WrittenFile, of_run};
+use crate::rapid::lex::code_of;
 use crate::rapid::reader::{expand_rapid, parse_rapid};
-use crate::rapid::table::RAPID_STATEMENTS;
+use crate::rapid::table::{MODES, RAPID_STATEMENTS};
 use crate::rapid::write::RapidSyntax;
 use crate::refused_run::RefusedRun;
 use crate::table::StatementRow;
@@ -138,6 +140,23 @@ impl ProgramLanguage for RapidLanguage {
     /// A `;` begins no comment.
     fn takes_origin(&self, _line: &[u8]) -> bool {
         false
+    }
+
+    fn code_of<'t>(&self, line: &'t str) -> &'t str {
+        code_of(line)
+    }
+
+    fn modes(&self) -> &'static [&'static [&'static str]] {
+        MODES
+    }
+
+    fn sign_of_declaration(&self) -> Option<&'static str> {
+        Some(":=[")
+    }
+
+    fn words_of_motion(&self, motion: &Motion) -> Option<Vec<String>> {
+        let work_object = format!("\\WOBJ:={}", motion.work_object.name);
+        Some(vec![work_object, motion.tool.name.clone()])
     }
 
     fn order_words(&self) -> &'static [&'static str] {

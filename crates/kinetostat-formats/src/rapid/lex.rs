@@ -32,6 +32,17 @@ pub(crate) fn tokens_of(bytes: &[u8]) -> Vec<Token> {
     tokens
 }
 
+/// A line of RAPID up to its comment.
+pub(crate) fn code_of(line: &str) -> &str {
+    let mut in_text = false;
+    let begins = |(_, letter): &(usize, char)| {
+        in_text ^= *letter == '"';
+        !in_text && *letter == '!'
+    };
+    let at = line.char_indices().find(begins);
+    &line[..at.map_or(line.len(), |(at, _)| at)]
+}
+
 /// `%%%`, version and language, `%%%`: controllers write it before a module.
 fn header(input: &mut Input<'_>) -> Result<(), Nothing> {
     ("%%%", take_till(0.., b'%'), "%%%")

@@ -10,7 +10,7 @@ use crate::refused_run::RefusedRun;
 use crate::siemens::flat::run_or_refused;
 use crate::siemens::flat::unresolved::called;
 use crate::siemens::reader::parse_siemens;
-use crate::siemens::table::SIEMENS_STATEMENTS;
+use crate::siemens::table::{MODES, SIEMENS_STATEMENTS};
 use crate::siemens::writing::write::write_siemens;
 use crate::table::StatementRow;
 use crate::text::flat::FlatText;
@@ -104,6 +104,10 @@ impl ProgramLanguage for SiemensLanguage {
 
     fn is_of_robot(&self) -> bool {
         false
+    }
+
+    fn modes(&self) -> &'static [&'static [&'static str]] {
+        MODES
     }
 
     fn is_in_blocks(&self) -> bool {
