@@ -4,6 +4,8 @@
 //! (`RESUME` of KRL and `ClearPath` of RAPID leave motions before their ends); what holds it on the path, after which it goes on there,
 //! is carried (`BRAKE` and `HALT`, `StopMove` with `StartMove`, `Stop`, `PAUSE` of TP programs): the tool cuts where it would have cut.
 
+use crate::text::name::Name;
+
 /// Treatment of a statement.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Treatment {
@@ -117,6 +119,17 @@ pub(crate) const fn sorted<const N: usize>(mut all: [StatementRow; N]) -> [State
         filled += 1;
     }
     all
+}
+
+/// The row of a statement in a table that is sorted by names in capitals.
+pub(crate) fn row_of(
+    sorted: &'static [StatementRow],
+    name: &Name,
+) -> Option<&'static StatementRow> {
+    let letters = name.letters();
+    let key = |row: &StatementRow| row.name.bytes().map(|byte| byte.to_ascii_uppercase());
+    let found = sorted.binary_search_by(|row| key(row).cmp(letters.iter().copied()));
+    found.ok().map(|index| &sorted[index])
 }
 
 /// True if a name precedes another one alphabetically, ignoring case.

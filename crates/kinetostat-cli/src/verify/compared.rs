@@ -32,7 +32,7 @@ pub(crate) fn compared(
         let names = marks.filter(|mark| mark.kind == kind);
         let names: BTreeSet<&str> = names.map(|mark| mark.name.as_str()).collect();
         for name in names {
-            let in_force = both.each_ref().map(|own| InForce::of(own, (kind, name)));
+            let in_force = both.each_ref().map(|own| InForce::of(own, kind, name));
             let at_cuts = match kind {
                 // Pieces of a motion may state how the arm stands where the whole does not.
                 Kind::Configuration => Vec::new(),
@@ -69,7 +69,7 @@ struct InForce<'m> {
 }
 
 impl<'m> InForce<'m> {
-    fn of(marks: &'m Marks<'m>, (kind, name): (Kind, &str)) -> Self {
+    fn of(marks: &'m Marks<'m>, kind: Kind, name: &str) -> Self {
         let own = marks.all.iter();
         let own = own.filter(|mark| mark.kind == kind && mark.name == name);
         let changes: Vec<_> = own.collect();

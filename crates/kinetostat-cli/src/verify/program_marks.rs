@@ -62,7 +62,7 @@ impl<'r> Marks<'r> {
         });
         for index in 0..path.moves.len() {
             if let Some(motion) = motion_of(index) {
-                marks.add_motion(index, (program, motion));
+                marks.add_motion(index, program, motion);
             }
         }
         let language = program.language;
@@ -75,7 +75,7 @@ impl<'r> Marks<'r> {
         marks
     }
 
-    fn add_motion(&mut self, index: usize, (program, motion): (&RobotProgram, &'r Motion)) {
+    fn add_motion(&mut self, index: usize, program: &RobotProgram, motion: &'r Motion) {
         let mut add = |kind: Kind, value: Value<'r>| {
             self.add([index, motion.line], (kind, String::new()), value);
         };

@@ -1,34 +1,34 @@
-//! What PLANE leaves in force: how the rotary axes stand, and where the datum is.
+//! Modal state of tilted working planes (PLANE): rotary axes and datum.
 
 use nalgebra::Vector3;
 
 use crate::heidenhain::words::{Value, Word};
 
-/// How the rotary axes stand.
+/// Position of the rotary axes.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) enum Stands {
-    /// As their words say.
+    /// Angles of their words.
     #[default]
     AsWords,
-    /// So that the tool lies along a direction, in the axes of the preset.
+    /// Angles at which the tool lies along a direction, in the axes of the preset.
     Along(Vector3<f64>),
-    /// Words turned them from there, and there is no model of them.
+    /// Words turned them from such angles, and the model has no rotary axes.
     Unknown,
 }
 
-/// What PLANE has left behind.
+/// State that PLANE leaves in force.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct Tilt {
-    /// Across the plane of the last PLANE, in the axes of the preset; none behind a reset.
+    /// Normal of the last plane, in the axes of the preset; `None` after a reset.
     pub across: Option<Vector3<f64>>,
     pub stands: Stands,
-    /// Axes whose datum a cycle shifted while the plane was tilted, and none since.
+    /// Axes whose datum a cycle shifted while the plane was tilted.
     pub shifted: [bool; 3],
     /// A cut was refused since the plane or the axes changed.
     pub told: bool,
 }
 
-/// Whether a word turns a rotary axis to its angle of the plane: `A+Q120`, `B+Q121`, `C+Q122`.
+/// True for a word that turns a rotary axis to its angle of the plane: `A+Q120`, `B+Q121`, `C+Q122`.
 pub(crate) fn is_of_plane(word: &Word, bytes: &[u8]) -> bool {
     let name = match word.letters.letters() {
         b"A" => b"Q120",

@@ -92,7 +92,7 @@ pub(crate) fn symbols_of<'p>(
         for node in &content.data {
             all.add_datum(file, module, node, faults);
         }
-        // Of a name that is none the fault is noted; the first stands for the statements that stand in no other.
+        // The parser has noted faults of names; the first routine has the statements outside all others.
         let is_named =
             |(index, own): &(usize, &'p Routine)| *index == 0 || own.name != Name::empty();
         let routines = content.routines.iter().enumerate().filter(is_named);

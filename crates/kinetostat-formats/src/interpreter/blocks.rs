@@ -265,7 +265,7 @@ impl Parser<'_, '_> {
         self.at
     }
 
-    /// An identifier; of one that is none, the fault is noted.
+    /// Returns the identifier, or notes that there is none.
     fn name(&mut self, at: usize) -> Option<Name> {
         let name = self.file.name(at);
         if name.is_none() {

@@ -115,7 +115,7 @@ impl<D: Dialect> Run<'_, '_, D> {
         Ok((Target::Pose(pose), site))
     }
 
-    /// A motion of a statement, with tool and work object, that stops at its end; of its speed nothing is said.
+    /// A motion of a statement, with tool and work object, that stops at its end, without a speed.
     pub(crate) fn made_motion(
         &self,
         tokens: &Range<usize>,

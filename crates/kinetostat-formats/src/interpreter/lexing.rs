@@ -1,25 +1,22 @@
-//! Tokens of a language in which a statement is a line, with their places; blanks and comments are none.
+//! Tokens of a language in which a statement is a line, with their places; blanks and comments have no token.
 //!
 //! A line that ends outside brackets is a token: it ends the statement.
 
 use crate::interpreter::token::{Kind, Token};
-use crate::text::source::BYTE_ORDER_MARK;
+use crate::text::source::beginning;
 
 /// Marks of a language.
 pub(crate) struct Marks {
     /// Byte before a comment that ends with its line.
     pub comment: u8,
-    /// Before a line that is none of the program.
+    /// Byte before a line that does not belong to the program.
     pub aside: u8,
 }
 
 /// The tokens of a file shorter than 4 GiB.
 pub(crate) fn tokens_of(marks: &Marks, bytes: &[u8]) -> Vec<Token> {
     let mut tokens: Vec<Token> = Vec::with_capacity(bytes.len() / 3);
-    let mut at = match bytes.starts_with(BYTE_ORDER_MARK) {
-        true => BYTE_ORDER_MARK.len(),
-        false => 0,
-    };
+    let mut at = beginning(bytes);
     let (mut open, mut begins_line) = (0_usize, true);
     while let Some(first) = bytes.get(at) {
         let rest = &bytes[at..];
@@ -40,17 +37,7 @@ pub(crate) fn tokens_of(marks: &Marks, bytes: &[u8]) -> Vec<Token> {
                 None => (Some(Kind::OpenText), line()),
             },
             byte if is_part(*byte) => (Some(Kind::Word), run(&is_part)),
-            // `==`, `<=`, `>=` and `!=` are operators.
-            b'=' => {
-                let compares = |token: &Token| {
-                    matches!(token.kind, Kind::Symbol(b'=' | b'<' | b'>' | b'!'))
-                        && token.bytes().end == at
-                };
-                match rest.get(1) == Some(&b'=') || tokens.last().is_some_and(compares) {
-                    true => (Some(Kind::Symbol(b'=')), 1),
-                    false => (Some(Kind::Assign), 1),
-                }
-            }
+            b'=' => (Some(equals(&tokens, at, rest)), 1),
             byte => (Some(Kind::Symbol(*byte)), 1),
         };
         match first {
@@ -71,8 +58,19 @@ fn is_part(byte: u8) -> bool {
     byte.is_ascii_alphanumeric() || byte == b'_' || byte >= 0x80
 }
 
+/// The token of `=`: a part of `==`, `<=`, `>=` or `!=`, or an assignment.
+pub(crate) fn equals(tokens: &[Token], at: usize, rest: &[u8]) -> Kind {
+    let before = tokens.last().filter(|token| token.bytes().end == at);
+    let compares =
+        before.is_some_and(|token| matches!(token.kind, Kind::Symbol(b'=' | b'<' | b'>' | b'!')));
+    match compares || rest.get(1) == Some(&b'=') {
+        true => Kind::Symbol(b'='),
+        false => Kind::Assign,
+    }
+}
+
 /// Bytes of the number that begins here; 0 where none does.
-fn number(text: &[u8]) -> usize {
+pub(crate) fn number(text: &[u8]) -> usize {
     let digits = |from: usize| {
         text[from..]
             .iter()

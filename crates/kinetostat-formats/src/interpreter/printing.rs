@@ -3,7 +3,7 @@
 use crate::interpreter::reading::Grammar;
 use crate::interpreter::value::{Datum, Value};
 
-/// A value by the grammar of a language; none where a part of it is not known.
+/// A value by the grammar of a language; `None` if a part of it is unknown.
 pub(crate) fn printed(grammar: &Grammar, datum: &Datum) -> Option<String> {
     let list = |before: &str, parts: &mut dyn Iterator<Item = &Datum>| {
         let [open, close] = grammar.list?.map(char::from);

@@ -450,16 +450,22 @@ impl<'r, 'p, D: Dialect> Run<'r, 'p, D> {
             }
             Some(_) => {}
             None => {
-                let file = self.file();
-                let call = OutsideCall {
-                    file: file.index,
-                    line: file.line_of(tokens.start),
-                    name: Some(excerpt(file.word(tokens.start))),
-                };
-                if !self.outside_calls.contains(&call) {
-                    self.outside_calls.push(call);
-                }
+                let name = excerpt(self.file().word(tokens.start));
+                self.note_outside_call(Some(name), tokens);
             }
+        }
+    }
+
+    /// Notes a call that no file defines, by its name where it is not computed.
+    pub(crate) fn note_outside_call(&mut self, name: Option<String>, tokens: &Range<usize>) {
+        let file = self.file();
+        let call = OutsideCall {
+            file: file.index,
+            line: file.line_of(tokens.start),
+            name,
+        };
+        if !self.outside_calls.contains(&call) {
+            self.outside_calls.push(call);
         }
     }
 

@@ -1,7 +1,7 @@
 //! Treatment of each statement of KRL.
 
 use crate::table::Treatment::{Carried, Refused, Understood};
-use crate::table::{Alike, StatementRow, Treatment, alike, count, line, rows, sorted};
+use crate::table::{Alike, StatementRow, Treatment, alike, count, line, row_of, rows, sorted};
 use crate::text::name::Name;
 
 const KSS: &str =
@@ -169,9 +169,7 @@ pub(crate) fn motion_row(name: &Name) -> Option<&'static MotionRow> {
 
 /// The row of a statement by its name.
 pub(crate) fn row(name: &Name) -> Option<&'static StatementRow> {
-    let letters = name.letters();
-    let found = SORTED.binary_search_by(|row| row.name.as_bytes().cmp(letters));
-    found.ok().map(|index| &SORTED[index])
+    row_of(&SORTED, name)
 }
 
 /// Treatment of each statement of KRL, in alphabetical order. Routines that are neither in a file nor listed are carried with a finding; any other

@@ -1,8 +1,8 @@
-//! Statements that only order a program: nothing of it is lost without them.
+//! Statements that only structure a program; a converted program does not need them.
 
 use crate::model::language::Language;
 
-/// True if a statement only structures its program: nothing of it is lost.
+/// True if a statement only structures its program.
 pub(crate) fn orders_only(language: Language, statement: &str) -> bool {
     let upper = statement.to_ascii_uppercase();
     (language.order_words().iter()).any(|word| begins(&upper, word))

@@ -8,7 +8,6 @@ use crate::interpreter::symbols::Scope;
 use crate::interpreter::token::Kind;
 use crate::interpreter::tree::Choice;
 use crate::interpreter::value::Datum;
-use crate::model::outside_call::OutsideCall;
 use crate::options::ExternalAxes;
 use crate::rapid::arguments::Arguments;
 use crate::rapid::expression::{arguments_of, expression_of};
@@ -221,13 +220,6 @@ impl Run<'_, '_> {
             self.here = None;
         }
         let called = crate::error::excerpt(file.word(tokens.start));
-        let call = OutsideCall {
-            file: file.index,
-            line: file.source.line_of(file.span(tokens).start),
-            name: (!is_computed).then_some(called),
-        };
-        if !self.outside_calls.contains(&call) {
-            self.outside_calls.push(call);
-        }
+        self.note_outside_call((!is_computed).then_some(called), tokens);
     }
 }

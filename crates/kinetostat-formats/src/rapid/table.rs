@@ -1,7 +1,7 @@
 //! Treatment of each statement of RAPID.
 
 use crate::table::Treatment::{Carried, Refused, Understood};
-use crate::table::{Alike, StatementRow, Treatment, alike, count, line, rows, sorted};
+use crate::table::{Alike, StatementRow, Treatment, alike, count, line, row_of, rows, sorted};
 use crate::text::name::Name;
 
 const KERNEL: &str = "ABB, Technical reference manual - RAPID kernel";
@@ -159,10 +159,7 @@ pub(crate) fn motion_row(name: &Name) -> Option<&'static MotionRow> {
 
 /// The row of a statement by its name.
 pub(crate) fn row(name: &Name) -> Option<&'static StatementRow> {
-    let letters = name.letters();
-    let key = |row: &StatementRow| row.name.bytes().map(|byte| byte.to_ascii_uppercase());
-    let found = SORTED.binary_search_by(|row| key(row).cmp(letters.iter().copied()));
-    found.ok().map(|index| &SORTED[index])
+    row_of(&SORTED, name)
 }
 
 /// Treatment of each statement of RAPID, in alphabetical order. Procedures that are neither in a file nor listed are carried with a finding.

@@ -32,10 +32,6 @@ impl Dialect for Val3 {
         expression::expression_of(file, tokens)
     }
 
-    fn arguments_of(file: &TokenFile<'_>, tokens: Range<usize>) -> Vec<Argument> {
-        expression::arguments_of(file, tokens)
-    }
-
     fn component(of: &Datum, name: &Name) -> Option<Step> {
         let place = |names: [&str; 6]| names.iter().position(|own| name.is(own));
         match of.parts().len() {
@@ -74,10 +70,6 @@ impl Dialect for Val3 {
             b"TRSF" => Some(Datum::numbers([0.0; 6])),
             _ => None,
         }
-    }
-
-    fn kept(_: &Run<'_, '_>, _: usize) -> Option<String> {
-        None
     }
 
     /// Data of the application keep what a run gives them until it is loaded again.
@@ -213,7 +205,7 @@ impl Dialect for Val3 {
     }
 
     fn motion_parts(file: &TokenFile<'_>, tokens: &Range<usize>) -> MotionParts {
-        let arguments = expression::arguments_of(file, tokens.start + 1..tokens.end);
+        let arguments = Self::arguments_of(file, tokens.start + 1..tokens.end);
         // A point has no text of its own: what names it stays.
         let others = arguments
             .into_iter()

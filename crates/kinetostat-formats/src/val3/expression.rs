@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use crate::interpreter::expression::{Argument, Expression, Node, Operator};
+use crate::interpreter::expression::{Expression, Node, Operator};
 use crate::interpreter::reading::{self, Grammar};
 use crate::interpreter::token::{Kind, TokenFile};
 use crate::text::name::Name;
@@ -51,15 +51,6 @@ pub(super) fn expression_of(file: &TokenFile<'_>, tokens: Range<usize>) -> Expre
     match file.is(tokens.start, b'<') {
         true => datum(file, tokens),
         false => reading::expression_of(&GRAMMAR, file, tokens),
-    }
-}
-
-/// The arguments of a call: those in the brackets with which the tokens begin.
-pub(super) fn arguments_of(file: &TokenFile<'_>, tokens: Range<usize>) -> Vec<Argument> {
-    let close = file.find(tokens.start + 1..tokens.end, b')');
-    match close.filter(|_| file.is(tokens.start, b'(')) {
-        Some(close) => reading::arguments_of(&GRAMMAR, file, tokens.start + 1..close),
-        None => reading::arguments_of(&GRAMMAR, file, tokens),
     }
 }
 

@@ -4,13 +4,13 @@ use std::ops::Range;
 
 use crate::interpreter::expression::{Argument, Expression, Node};
 use crate::interpreter::flow::Flow;
+use crate::interpreter::run::Dialect;
 use crate::interpreter::symbols::Scope;
 use crate::interpreter::token::Kind;
-use crate::model::outside_call::OutsideCall;
 use crate::table::Treatment;
 use crate::text::name::Name;
-use crate::val3::expression::{arguments_of, expression_of};
-use crate::val3::state::Run;
+use crate::val3::expression::expression_of;
+use crate::val3::state::{Run, Val3};
 use crate::val3::table::{CHANGE_THEIRS, is_motion, is_one_of, row};
 
 impl Run<'_, '_> {
@@ -41,7 +41,7 @@ impl Run<'_, '_> {
             let inner = tokens.start + 1..tokens.end;
             return match self.routine(inner.start) {
                 Some(called) => {
-                    let arguments = arguments_of(file, inner.start + 1..inner.end);
+                    let arguments = Val3::arguments_of(file, inner.start + 1..inner.end);
                     match self.call_with(called, &arguments, tokens) {
                         Flow::Ends => Flow::Ends,
                         _ => Flow::Next,
@@ -114,7 +114,7 @@ impl Run<'_, '_> {
             _ => {}
         }
         if is_one_of(name, &CHANGE_THEIRS) {
-            self.lose_arguments(&arguments_of(file, tokens.start + 1..tokens.end));
+            self.lose_arguments(&Val3::arguments_of(file, tokens.start + 1..tokens.end));
         }
         Flow::Next
     }
@@ -146,7 +146,7 @@ impl Run<'_, '_> {
     /// A call of what is in none of the files: it is taken not to move the tool.
     fn call_outside(&mut self, call: &Range<usize>, tokens: &Range<usize>) -> Flow {
         let file = self.file();
-        let arguments = arguments_of(file, call.start + 1..call.end);
+        let arguments = Val3::arguments_of(file, call.start + 1..call.end);
         for Argument { value, .. } in &arguments {
             if let Some(value) = value
                 .as_ref()
@@ -156,14 +156,7 @@ impl Run<'_, '_> {
             }
         }
         self.lose_arguments(&arguments);
-        let call = OutsideCall {
-            file: file.index,
-            line: file.line_of(tokens.start),
-            name: Some(file.text(&(call.start..call.start + 1))),
-        };
-        if !self.outside_calls.contains(&call) {
-            self.outside_calls.push(call);
-        }
+        self.note_outside_call(Some(file.text(&(call.start..call.start + 1))), tokens);
         Flow::Next
     }
 }

@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use crate::interpreter::lexing::{equals, number};
 use crate::interpreter::token::{Kind, Token};
 
 /// Bytes of entities and what they stand for, where the text is not in CDATA.
@@ -42,16 +43,7 @@ pub(super) fn add_tokens(
             b'0'..=b'9' => (Kind::Number, number(rest)),
             b'.' if rest.get(1).is_some_and(u8::is_ascii_digit) => (Kind::Number, number(rest)),
             _ if is_letter(first) => (Kind::Word, word(rest)),
-            b'=' => {
-                let before = tokens.last().filter(|token| token.bytes().end == at);
-                let compares = before.is_some_and(|token| {
-                    matches!(token.kind, Kind::Symbol(b'=' | b'<' | b'>' | b'!'))
-                });
-                match compares || rest.get(1) == Some(&b'=') {
-                    true => (Kind::Symbol(b'='), 1),
-                    false => (Kind::Assign, 1),
-                }
-            }
+            b'=' => (equals(tokens, at, rest), 1),
             byte => (Kind::Symbol(byte), width),
         };
         tokens.push(Token::new(kind, &(at..at + length)));
@@ -77,25 +69,6 @@ fn word(rest: &[u8]) -> usize {
             _ => return end,
         }
     }
-}
-
-fn number(rest: &[u8]) -> usize {
-    let digits = |from: usize| {
-        rest[from..]
-            .iter()
-            .take_while(|byte| byte.is_ascii_digit())
-            .count()
-    };
-    let mut end = digits(0);
-    if rest.get(end) == Some(&b'.') {
-        end += 1 + digits(end + 1);
-    }
-    if matches!(rest.get(end), Some(b'e' | b'E')) {
-        let sign = usize::from(matches!(rest.get(end + 1), Some(b'+' | b'-')));
-        let exponent = digits((end + 1 + sign).min(rest.len()));
-        end += if exponent > 0 { 1 + sign + exponent } else { 0 };
-    }
-    end
 }
 
 /// Reads a text up to its closing mark on the line.

@@ -6,18 +6,17 @@ use nalgebra::Vector3;
 
 use crate::interpreter::declared::Around;
 use crate::interpreter::expression::{Argument, Expression, Node};
-use crate::interpreter::run::Reason;
+use crate::interpreter::run::{Dialect, Reason};
 use crate::interpreter::value::{Datum, Value};
 use crate::model::frame::{Frame, FrameUse};
-use crate::model::motion::{Motion, MotionKind, Runs, Speed, Zone};
+use crate::model::motion::{Motion, MotionKind, Speed, Zone};
 use crate::model::orientation::OrientationText;
 use crate::model::site::{MotionSite, PoseText, ReplacedText, TargetSite};
 use crate::model::target::{Configuration, PoseTarget, Target};
 use crate::options::UnknownTargets;
 use crate::text::number::{NumberText, Width};
-use crate::val3::expression::arguments_of;
 use crate::val3::frames::{own_trsf, single};
-use crate::val3::state::Run;
+use crate::val3::state::{Run, Val3};
 
 /// A further point like an element of an array.
 const AROUND: Around = Around {
@@ -52,7 +51,7 @@ impl Run<'_, '_> {
     /// The motion of an instruction, or why it is refused.
     pub(super) fn motion(&mut self, tokens: &Range<usize>) -> Result<Motion, Reason> {
         let file = self.file();
-        let arguments = arguments_of(file, tokens.start + 1..tokens.end);
+        let arguments = Val3::arguments_of(file, tokens.start + 1..tokens.end);
         let arguments: Vec<Expression> = arguments
             .into_iter()
             .filter_map(|Argument { value, .. }| value)
@@ -72,7 +71,6 @@ impl Run<'_, '_> {
             }
         };
         let tool = self.tool(tool)?;
-        let span = file.span(tokens);
         let own = self.end(end, is("MOVEJ"))?;
         let (kind, via_site) = match via {
             None if is("MOVEJ") => (MotionKind::Joint, None),
@@ -93,33 +91,15 @@ impl Run<'_, '_> {
                 )
             }
         };
-        let (speed, zone) = self.described(description, kind == MotionKind::Joint);
-        Ok(Motion {
-            file: file.index,
-            line: file.source.line_of(span.start),
-            target: own.target,
-            speed,
-            zone,
-            tool,
-            work_object: own.frame,
-            runs: Runs::Once,
-            follows: None,
-            site: MotionSite {
-                keyword: file.span(&(tokens.start..tokens.start + 1)),
-                target_span: file.span(&end.tokens),
-                target: own.site,
-                via: via_site,
-                speed: None,
-                zone: None,
-                external: Vec::new(),
-                other_speeds: None,
-                external_moved_behind: false,
-                indivisible: (kind == MotionKind::Joint).then_some("this motion cannot be divided"),
-                turns_otherwise: None,
-            },
-            kind,
-            span,
-        })
+        let keyword = file.span(&(tokens.start..tokens.start + 1));
+        let mut site = MotionSite::of(keyword, file.span(&end.tokens), own.site);
+        site.via = via_site;
+        site.indivisible = (kind == MotionKind::Joint).then_some("this motion cannot be divided");
+        let described = self.described(description, kind == MotionKind::Joint);
+        let frames = [tool, own.frame];
+        let mut motion = self.made_motion(tokens, kind, (own.target, site), frames);
+        (motion.speed, motion.zone) = described;
+        Ok(motion)
     }
 
     /// The end that an argument is: a point, or joints where the motion takes them.

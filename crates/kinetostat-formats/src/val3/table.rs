@@ -1,7 +1,7 @@
 //! Treatment of each statement of VAL3, as data.
 
 use crate::table::Treatment::{Carried, Refused, Understood};
-use crate::table::{Alike, StatementRow, Treatment, alike, count, rows, sorted};
+use crate::table::{Alike, StatementRow, Treatment, alike, count, row_of, rows, sorted};
 use crate::text::name::Name;
 
 const MANUAL: &str = "Staubli, VAL3 Reference Manual";
@@ -31,10 +31,7 @@ const OWN_WAY: Treatment = Refused {
 
 /// The row of a statement by its name.
 pub(super) fn row(name: &Name) -> Option<&'static StatementRow> {
-    let letters = name.letters();
-    let key = |row: &StatementRow| row.name.bytes().map(|byte| byte.to_ascii_uppercase());
-    let found = SORTED.binary_search_by(|row| key(row).cmp(letters.iter().copied()));
-    found.ok().map(|index| &SORTED[index])
+    row_of(&SORTED, name)
 }
 
 /// True for the word of a motion.

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use nalgebra::Isometry3;
 
-use crate::interpreter::token::Kind;
+use crate::interpreter::token::words_of;
 use crate::model::motion::Motion;
 use crate::model::program::RobotProgram;
 use crate::model::site::ReplacedText;
@@ -25,12 +25,8 @@ impl Syntax for Val3Syntax {
         let mut names = BTreeSet::new();
         for file in program.files.iter().enumerate() {
             let content = content_of(file, &mut BTreeSet::new(), &mut Vec::new());
-            let words = content
-                .file
-                .tokens
-                .iter()
-                .filter(|token| token.kind == Kind::Word);
-            names.extend(words.map(|token| file.1.part(&token.bytes()).to_ascii_uppercase()));
+            let words = words_of(&content.file.tokens).into_iter();
+            names.extend(words.map(|word| file.1.part(&word).to_ascii_uppercase()));
         }
         names
     }
